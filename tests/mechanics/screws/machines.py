@@ -196,6 +196,33 @@ def bennett(a=2.0, alpha=0.7, beta=1.1, turn=1.0, error=0.0):
     return planar("spatial: R(0-1) R(1-2) R(2-3) R(0-3)", dict(enumerate(places))), frame
 
 
+def goldberg(bars, turn=1.1):
+    """Five or six bars: Bennett linkages in a row, each on a link of the one before, which is left out, and the links
+    beside it in one (M. Goldberg, Trans. ASME 65 (1943) 649-661).
+    """
+
+    def axes(a, alpha, b, turn):
+        beta = np.arcsin(b / a * sin(alpha))
+        other = 2 * np.arctan2(sin((alpha + beta) / 2), sin((beta - alpha) / 2) * np.tan(turn / 2))
+        rows = [(turn, 0, a, alpha), (other, 0, b, beta), (-turn, 0, a, alpha), (-other, 0, b, beta)]
+        frames = [np.eye(4)]
+        for t, _, length, twist in rows[:3]:
+            frames.append(frames[-1] @ exponential([0, 0, t, 0, 0, 0]) @ exponential([twist, 0, 0, length, 0, 0]))
+        return [np.linalg.inv(frames[1]) @ frame for frame in frames], beta
+
+    (one, _), (two, beta) = axes(1.2, 1.0, 0.9, turn), axes(1.2, 1.0, 0.6, turn)
+    frames = [one[2], one[3], two[3], two[2], one[1]]
+    if (
+        bars == 6
+    ):  # a third on the link from 1 to 2 of the second; its own angle at 1 is there -turn, that of the second
+        beyond = np.arcsin(0.8 / 0.6 * sin(beta))
+        start = 2 * np.arctan2(sin((beta + beyond) / 2), sin((beyond - beta) / 2) * np.tan(-turn / 2))
+        three = [two[2] @ frame for frame in axes(0.6, beta, 0.8, start)[0]]
+        frames[3:4] = three[2:]
+    places = {k: {"at": tuple(g[:3, 3]), "z": tuple(g[:3, 2])} for k, g in enumerate(frames)}
+    return planar("spatial: " + " ".join(f"R({k}-{(k + 1) % bars})" for k in range(bars)), places)
+
+
 def bricard(kind, error=0.0, seed=3):
     """Three axes at random and their images by a half-turn about z; or two axes in a mirror, two beside it."""
     random = np.random.default_rng(seed)

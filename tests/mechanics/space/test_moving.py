@@ -126,15 +126,11 @@ def test_bennett_keeps_its_rank_over_a_turn():
 @pytest.mark.parametrize(
     ("make", "drive", "reach", "repeated"),
     [
-        (machines.sarrus, 0, 0.5, 1),
-        (lambda: machines.bricard("line"), 1, 0.15, 1),
-        (lambda: machines.bricard("plane"), 1, 0.15, 1),
         (machines.oldham, 0, 2 * pi, 3),
         (lambda: machines.oldham("planar"), 0, 2 * pi, 0),
-        (lambda: machines.locomotive(3), 0, 2 * pi, 1),
         (machines.winch, 0, 6.0, 4),
     ],
-    ids=["sarrus", "bricard line", "bricard plane", "oldham", "oldham in a plane", "locomotive", "winch"],
+    ids=["oldham", "oldham in a plane", "winch"],
 )
 def test_overconstrained_linkages_move_as_link_poses_do(make, drive, reach, repeated):
     """The other solver has the poses of links as unknowns, and closes them all by least squares (`Closing`)."""
@@ -148,28 +144,6 @@ def test_overconstrained_linkages_move_as_link_poses_do(make, drive, reach, repe
     poses[..., :3, 3] *= linkage.size
     poses[..., :3, 3] += linkage.centre - poses[..., :3, :3] @ linkage.centre
     assert abs(motion.poses[0] - poses).max() < 1e-9 * linkage.size
-
-
-def test_goldbergs_five_bar_turns_fully():
-    """Two Bennett linkages on a common link, which is left out: M. Goldberg, Trans. ASME 65 (1943) 649-661."""
-
-    def axes(a, alpha, b, turn):
-        beta = np.arcsin(b / a * sin(alpha))
-        other = 2 * np.arctan2(sin((alpha + beta) / 2), sin((beta - alpha) / 2) * tan(turn / 2))
-        rows = [(turn, 0, a, alpha), (other, 0, b, beta), (-turn, 0, a, alpha), (-other, 0, b, beta)]
-        frames = [np.eye(4)]
-        for t, _, length, twist in rows[:3]:
-            frames.append(frames[-1] @ exponential([0, 0, t, 0, 0, 0]) @ exponential([twist, 0, 0, length, 0, 0]))
-        return [np.linalg.inv(frames[1]) @ frame for frame in frames]
-
-    one, two = axes(1.2, 1.0, 0.9, 1.1), axes(1.2, 1.0, 0.6, 0.7)
-    frames = [one[2], one[3], two[3], two[2], one[1]]
-    places = {k: {"at": tuple(g[:3, 3]), "z": tuple(g[:3, 2])} for k, g in enumerate(frames)}
-    text = "spatial: R(0-1) R(1-2) R(2-3) R(3-4) R(4-0); drive=R(0-1)"
-    motion = move(SpatialLinkage(Mechanism.parse(text), places), TURN)
-    assert motion.complete
-    assert motion.rank == 3
-    assert motion.gap < 1e-12
 
 
 def test_rates_against_differences_of_higher_order():

@@ -1,4 +1,4 @@
-"""Loops of six turning joints that the count holds and that move: Schatz's and Bricard's trihedral one."""
+"""Linkages that the count holds, or holds too often, and that move: closed to rounding as far as they go."""
 
 from math import pi, sqrt
 
@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.screws import SpatialLinkage, exponential, follow_joint
+from gruebler.mechanics.screws import SpatialLinkage, exponential, follow_joint, freedoms
 from gruebler.mechanics.space import move
+from gruebler.mechanics.space.drive_range import followed, spatial_range
+from tests.mechanics.screws import machines
 
 QUARTER = pi / 2
 
@@ -44,19 +46,55 @@ def trihedral():
     return closed(rows, [1.0, 2.1442, 0.8442, 1.7121, 0.7952, 2.067])
 
 
-@pytest.mark.parametrize(("make", "reach"), [(schatz, 2 * pi), (trihedral, 0.9)], ids=["schatz", "trihedral"])
-def test_it_moves_closed_and_with_constant_rank(make, reach):
-    linkage = make()
-    motion = move(linkage, np.linspace(0, reach, 37))
-    assert motion.complete
+@pytest.mark.parametrize(
+    ("make", "drive", "counted", "full"),
+    [
+        (lambda: machines.bennett()[0], 0, -2, True),
+        (lambda: machines.goldberg(5), 0, -1, True),
+        (lambda: machines.goldberg(6), 0, 0, True),
+        (machines.sarrus, 0, 0, True),
+        (lambda: machines.bricard("line"), 1, 0, False),
+        (lambda: machines.bricard("plane"), 1, 0, False),
+        (trihedral, 0, 0, False),
+        (schatz, 0, 0, True),
+        (machines.strut, 0, 0, True),
+        (lambda: machines.locomotive(4), 0, -1, True),
+    ],
+    ids=["bennett", "goldberg 5R", "goldberg 6R", "sarrus", "bricard line", "bricard plane", "bricard trihedral",
+         "schatz", "parallelogram with a strut", "four cranks on a rod"],
+)  # fmt: skip
+def test_it_moves_closed_with_one_freedom_and_constant_rank_as_far_as_it_goes(make, drive, counted, full):
+    linkage = make().with_drives([drive])
+    mobility = freedoms(linkage)
+    assert (mobility.counted, mobility.instant.mobility, mobility.finite.mobility) == (counted, 1, 1)
+    reach = spatial_range(linkage)
+    assert reach.full is full
+    assert all((stop is None) is full for stop in reach.stops)
+    motion = followed(linkage, reach.inside(73)[:, None])
     assert motion.gap < 1e-12
-    assert (motion.conditions, motion.rank) == (5, 4)
-    assert motion.smallest.min() > 1e-3
-    turns = np.linspace(0, min(reach, 1.0), 4)[1:]
-    poses = follow_joint(linkage, 0, turns)  # the other solver: poses of links, all joints closed by least squares
+    assert motion.conditions - motion.rank == 1 - counted
+    chain = linkage.mechanism.chain
+    places, ways = np.array([p.at for p in linkage.places]), linkage.frames[:, :3, 2]
+    screws = np.zeros((73, 6, len(places)))
+    for k, joint in enumerate(chain.joints):
+        first, second = (motion.pose(link) for link in joint.links)
+        z = first[:, :3, :3] @ ways[k]
+        at = first[:, :3, :3] @ places[k] + first[:, :3, 3]
+        # the joint is closed, by the poses of both its links
+        assert abs(at - second[:, :3, :3] @ places[k] - second[:, :3, 3]).max() < 1e-12 * linkage.size
+        assert abs(z - second[:, :3, :3] @ ways[k]).max() < 1e-12
+        screws[:, :3, k], screws[:, 3:, k] = z, np.cross((at - linkage.centre) / linkage.size, z)
+    if len(places) == chain.n:  # one loop: its screws have one relation, in every pose
+        singular = np.linalg.svd(screws, compute_uv=False)
+        assert singular[:, -1].max() < 1e-12
+        assert singular[:, -2].min() > 1e-4
+    if full:
+        assert abs(motion.poses[0, -1] - motion.poses[0, 0]).max() < 1e-11 * linkage.size
+    turns = np.linspace(0, min(reach.high, 1.0), 4)[1:-1]
+    poses = follow_joint(linkage, drive, turns)  # the other solver: poses of links, all joints closed by least squares
     poses[..., :3, 3] *= linkage.size
     poses[..., :3, 3] += linkage.centre - poses[..., :3, :3] @ linkage.centre
-    assert abs(move(linkage, turns).poses[0] - poses).max() < 1e-9
+    assert abs(move(linkage, turns).poses[0] - poses).max() < 1e-9 * linkage.size
 
 
 def test_schatzs_shafts_turn_fully_and_come_back():
