@@ -17,6 +17,7 @@ _ENOUGH = 7.0  # pixels around a text; more does not improve a place
 _LEAST = 1.5
 _CLEAR = BAR / 2 + 4.0  # pixels from the middle of a link to outside of it
 _BESIDE = 4.0  # pixels between a link and its name
+_APART = 12.0  # pixels to any other link, so that a name is read as that of its own
 _OUTSIDE = 5.0  # pixels of free space that a place far from the middle is worth
 _PARTS = (0.5, 0.4, 0.6, 0.3, 0.7)  # of an edge
 _FARTHER = (12.0, 22.0, 34.0, 48.0, 64.0, 82.0, 102.0)  # pixels between a link and its number at the end of a line
@@ -116,14 +117,16 @@ def _placed(
     texts: list[Shape] = []
     for link in sorted(outlines, key=lambda link: -len(names[link])):
         wide = text_width(names[link], STYLES["name"].size)
-        free, place = _best(room, points, outlines[link], closed[link], wide, (0.0,))
+        others = Obstacles([_edges(outlines[other], closed[other]) for other in outlines if other != link])
+        own = (outlines[link], closed[link], others)
+        free, place = _best(room, points, *own, wide, (0.0,))
         if free < _LEAST:
             long = len(names[link]) > _SHORT
-            farther = _best(room, points, outlines[link], closed[link], wide, _FARTHER[: _NEAR if long else None])
+            farther = _best(room, points, *own, wide, _FARTHER[: _NEAR if long else None])
             if farther[0] < _LEAST and long:
                 return None
             if farther[0] < _LEAST:  # of a number: on a wheel, if that is free
-                farther = _best(inside, points, outlines[link], closed[link], wide, (0.0, *_FARTHER))
+                farther = _best(inside, points, *own, wide, (0.0, *_FARTHER))
             place = farther[1] if farther[0] >= _LEAST else place
         leader = _leader(place, wide)
         for obstacles in (room, inside):
@@ -133,11 +136,16 @@ def _placed(
     return texts
 
 
+def _edges(outline: Sequence[Point], closed: bool) -> Polylines:
+    return Polylines((tuple(outline),), "outline-bar", closed=closed)
+
+
 def _best(
     room: Obstacles,
     points: Sequence[Point],
     outline: Sequence[Point],
     closed: bool,
+    others: Obstacles,
     wide: float,
     farther: Sequence[float],
 ) -> tuple[float, _LabelPlace]:
@@ -145,7 +153,7 @@ def _best(
     places = list(_candidates(outline, closed, wide, farther))
     at = complexes([place.at for place in places])
     beside, directions = complexes([place.beside for place in places]), complexes([place.normal for place in places])
-    free, rim = room.free(at, wide), room.open(at, directions)
+    free, rim, apart = room.free(at, wide), room.open(at, directions), others.free(at, wide)
     crossed, written = (lines.crossed(at, beside + _CLEAR * directions) for lines in (room.lines, room.texts))
     free = np.where((written > 0) | (crossed > 0) & (wide > _WIDE), np.minimum(free, 0.0), free)
     middle = Point(*(sum(axis) / len(points) for axis in zip(*points, strict=True)))
@@ -154,7 +162,7 @@ def _best(
     def worth(k: int) -> tuple[bool, int, float, bool, float]:
         outside = _OUTSIDE * min(1.2, places[k].at.minus(middle).length / most)
         is_free = bool(free[k] >= _LEAST)
-        quality = min(float(free[k]), _ENOUGH) + outside - 6 * places[k].away
+        quality = min(float(free[k]), _ENOUGH) + min(float(apart[k]), _APART) + outside - 6 * places[k].away
         return is_free, -int(crossed[k]), -places[k].farther if is_free else 0.0, bool(rim[k]), quality
 
     best = max(range(len(places)), key=worth)
