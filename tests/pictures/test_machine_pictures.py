@@ -13,12 +13,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler.base.errors import GrueblerError
+from gruebler.cli import main
 from gruebler.machines.cams import Cam, CamError, Flat, Lift, Roller, read_lift
 from gruebler.machines.gears import GearError, read_train
 from gruebler.machines.geneva import Geneva, GenevaError
 from gruebler.pictures.canvas.moving_files import moving_bytes, moving_page
 from gruebler.pictures.canvas.moving_picture import Body, Shift, Turn, at_time, figure_at, moving_svg
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, TextShape
+from gruebler.pictures.machines.bevel_views import bevel_shapes
 from gruebler.pictures.machines.cam_follower import follower_body
 from gruebler.pictures.machines.cam_picture import animate_cam, draw_cam
 from gruebler.pictures.machines.geneva_picture import animate_geneva, draw_geneva
@@ -433,3 +435,44 @@ def test_numbers_in_german_pictures_have_a_decimal_comma(machine):
     words = [figure.description, *(shape.text for shape in figure.shapes if isinstance(shape, TextShape))]
     assert any(re.search(r"\d,\d", text) for text in words)
     assert [text for text in words if re.search(r"\d\.\d", text)] == []
+
+
+def trapezoids(shapes):
+    """The wheels of a view, by their corners, in half the size of a wheel with so many teeth."""
+    return [shape.parts[0] for shape in shapes if isinstance(shape, Polylines) and shape.style == "area"]
+
+
+@pytest.mark.parametrize(("copies", "above", "before"), [(1, 1, 1), (2, 2, 2), (3, 1, 3)])
+def test_bevel_wheels_touch_along_their_pitch_cones(copies, above, before):
+    train = read_train("bevel left:16 star:10 right:-16 on case").train
+    (stage,) = gear_stages(train, {"star": copies})
+    shapes = bevel_shapes(stage)
+    left, right, *planets = trapezoids(shapes)[: 2 + above]
+    assert len(trapezoids(shapes)) == 2 + above + before
+    assert min(p.x for p in left) > 0 > max(p.x for p in right)  # by the sign of their teeth
+    for planet in planets:
+        for central in (left, right):
+            common = {(round(p.x, 6), round(p.y, 6)) for p in planet} & {
+                (round(p.x, 6), round(p.y, 6)) for p in central
+            }
+            assert len(common) == 2  # the ends of the teeth
+            for x, y in common:  # on the line through the tips: radii and distances are as the teeth
+                assert abs(y / x) == pytest.approx(16 / 10, abs=1e-5)
+    circles = [shape.radius for shape in shapes if isinstance(shape, CircleShape) and shape.style == "area"]
+    assert max(circles) == pytest.approx(max(p.y for p in right))
+
+
+def test_which_bevel_wheels_are_unfolded():
+    figure = draw_train(read_train("bevel a:20 b:40; bevel b:30 c:10").train)
+    assert "unfolded" in figure.description
+    assert "unfolded" not in draw_train(read_train("bevel a:20 b:40").train).description
+    assert "unfolded" in animate_train(read_train("bevel a:20 b:40; a=1").train).page.description
+
+
+def test_differentials_of_the_catalog_from_the_side(capsys):
+    assert main(["draw", "diff_bevel2p", "--side", "--lang", "de"]) == 0
+    svg = capsys.readouterr().out
+    assert "Kegelräder von der Seite" in svg
+    assert all(link in svg for link in ("Achswellenrad 1", "Ausgleichskegelrad 2", "Steg"))
+    assert main(["draw", "wiper_rssr", "--side"]) == 2
+    assert "no wheels" in capsys.readouterr().err

@@ -112,7 +112,7 @@ def add(parser: Parser) -> None:
         --graph  draw the link graph instead
         --contracted  draw the contracted graph instead
         --loops  draw the independent loops instead
-        --side  draw a gear train from the side, its axes as lines
+        --side  draw a gear train from the side, its axes as lines; bevel wheels also from the front
         --block  draw drive, mechanism and output as blocks instead
         """,
     )
@@ -190,10 +190,11 @@ def _figure(arguments: argparse.Namespace) -> Figure:
         )
     if moving["output"] is not None and view is not draw_block and not set(moving["show"]) & set(_OF_A_LINK):
         raise GrueblerError("--output needs --show {views} or --block", views=joined(_OF_A_LINK, ", "))
-    if view is None and not arguments.structure and not (arguments.space or arguments.frame or arguments.drive):
+    as_it_is = not (arguments.structure or arguments.space or arguments.frame or arguments.drive)
+    if as_it_is and view in (None, draw_side_view):
         spatial = spatial_of_word(arguments.chain, arguments.lang)
         if spatial is not None:
-            return _in_space(arguments, spatial, moving)
+            return _in_space(arguments, spatial, moving) if view is None else _bevel_train(arguments, spatial)
     if arguments.view:
         raise GrueblerError("--view needs a linkage in space or on the sphere with the screws of its joints")
     has_sizes = _has_sizes(arguments.chain)
@@ -309,6 +310,15 @@ def _in_space(arguments: argparse.Namespace, spatial: SpatialWord, moving: Mappi
         name=name,
         names=names,
     )
+
+
+def _bevel_train(arguments: argparse.Namespace, spatial: SpatialWord) -> Figure:
+    """Bevel wheels from the side and along their axis."""
+    from gruebler.mechanics.screws.wheels import bevel_train
+    from gruebler.pictures.machines.train_picture import draw_train
+
+    name, _ = called(entry_of(arguments.chain, arguments.lang), arguments.lang)
+    return draw_train(bevel_train(spatial.linkage), lang=arguments.lang, name=name)
 
 
 def linkage_and_range(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float] | None]:

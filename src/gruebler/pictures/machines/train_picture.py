@@ -24,6 +24,7 @@ from gruebler.pictures.canvas.moving_picture import (
     still_picture,
 )
 from gruebler.pictures.canvas.shapes import Point, Shape, TextShape, bounds
+from gruebler.pictures.machines.bevel_views import bevel_shapes
 from gruebler.pictures.machines.train_layout import GearStage, gear_stages
 from gruebler.pictures.machines.train_motion import TrainMotion, train_motion
 from gruebler.pictures.machines.train_shapes import PaintOptions, stage_bodies
@@ -100,7 +101,7 @@ def animate_train(
     """
     shown = gear_stages(train, planets or {})
     motion = train_motion(train, drives or {}, always(seconds), most)
-    sentences = [_about(train, shown, lang), _cycle(motion, lang)]
+    sentences = [_about(train, shown, lang, still=False), _cycle(motion, lang)]
     if motion.chosen:
         sentences.insert(1, translate("Driven: {links}.", lang, links=", ".join(motion.chosen)))
     clock = Clock(
@@ -111,16 +112,27 @@ def animate_train(
     )
 
 
-def _about(train: Train, shown: list[GearStage], lang: str) -> str:
-    about = translate(
-        "A gear train with {links} moving links, to scale by tooth numbers or radii; directions are chosen.",
-        lang,
-        links=len(train.links),
-    )
-    if not any(stage.is_bevel for stage in shown):
-        return about
-    bevel = translate("Bevel wheels are unfolded into the plane, as their carrier sees them.", lang)
-    return f"{about} {bevel}"
+def _about(train: Train, shown: list[GearStage], lang: str, *, still: bool = True) -> str:
+    sentences = [
+        translate(
+            "A gear train with {links} moving links, to scale by tooth numbers or radii; directions are chosen.",
+            lang,
+            links=len(train.links),
+        )
+    ]
+    bevel = [stage for stage in shown if stage.is_bevel]
+    in_views = [stage for stage in bevel if still and bevel_shapes(stage)]
+    if in_views:
+        sentences.append(
+            translate(
+                "Bevel wheels from the side, and along the axis of the central wheels without the near one; their axes "
+                "are drawn at right angles.",
+                lang,
+            )
+        )
+    if len(in_views) < len(bevel):
+        sentences.append(translate("Bevel wheels are unfolded into the plane, as their carrier sees them.", lang))
+    return " ".join(sentences)
 
 
 def _cycle(motion: TrainMotion, lang: str) -> str:
@@ -148,13 +160,18 @@ def _cycle(motion: TrainMotion, lang: str) -> str:
 
 def _bodies(shown: list[GearStage], motion: TrainMotion | None, teeth: bool, lang: str) -> list[Body]:
     """All stages side by side, each with the list of its links beneath."""
-    plain = [stage_bodies(stage, PaintOptions(1.0, False), None) for stage in shown]
-    sizes = [bounds(at_time(part, 0.0), 0.0)[1] for part in plain]
+    views = [_views(stage, motion) for stage in shown]
+    plain = [
+        stage_bodies(stage, PaintOptions(1.0, False), None)
+        for stage, view in zip(shown, views, strict=True)
+        if not view
+    ]
+    sizes = [bounds(at_time(part, 0.0), 0.0)[1] for part in plain] or [_SIZE]
     wide, high = sum(size.x for size in sizes), max(size.y for size in sizes)
     scale = min(_SIZE.x / wide, _SIZE.y / high, _LARGEST)
     left, all_bodies = 0.0, []
-    for stage in shown:
-        bodies = stage_bodies(stage, PaintOptions(scale, teeth), motion)
+    for stage, view in zip(shown, views, strict=True):
+        bodies = view or stage_bodies(stage, PaintOptions(scale, teeth), motion)
         corner, size = bounds(at_time(bodies, 0.0), 0.0)
         shift = Point(left - corner.x, -(corner.y + size.y / 2))
         texts = _listed(stage, Point(left, size.y / 2 + 22.0), lang)
@@ -163,6 +180,12 @@ def _bodies(shown: list[GearStage], motion: TrainMotion | None, teeth: bool, lan
         text = bounds(texts, 0.0)[1].x
         left += max(size.x, text) + _GAP
     return all_bodies
+
+
+def _views(stage: GearStage, motion: TrainMotion | None) -> list[Body]:
+    """Bevel wheels that stand still, in two views; empty for all others."""
+    views = bevel_shapes(stage) if stage.is_bevel and motion is None else None
+    return [Body(tuple(views))] if views else []
 
 
 def _listed(stage: GearStage, at: Point, lang: str) -> list[Shape]:
