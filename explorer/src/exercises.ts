@@ -18,8 +18,17 @@ interface Task {
   id: string;
   name: string;
   task: string;
-  figure: string;
+  remark: string;
+  /** Pictures of what can be tried, each with a name where there are several. */
+  figures: { name: string; picture: string }[];
   asked: Asked[];
+}
+
+/** A kind of fresh tasks, or the exercises of the text. */
+interface Kind {
+  kind: string;
+  name: string;
+  tasks: { id: string; name: string }[];
 }
 
 interface Mark {
@@ -42,12 +51,15 @@ interface Tried {
 export class ExercisesView implements View {
   readonly element = h("div.view", { "data-page": "exercises" });
   private kind = "mobility";
+  private listed: Kind[] = [];
+  private chosen = "exercise-1";
   private level = 1;
   private seed = 1 + Math.floor(Math.random() * 9999);
   private task: Task | null = null;
   private marked: Marked | null = null;
   private readonly place = h("div", {});
   private readonly kinds = h("div", {});
+  private readonly tasks = h("div", {});
   private readonly score = h("span.score", { role: "status" });
   private answers: Record<string, string> = {};
   /** The tasks that were marked, and whether all their answers were right. */
@@ -60,13 +72,7 @@ export class ExercisesView implements View {
   }
 
   arrange(): void {
-    const levels = [1, 2, 3].map((k): [string, string] => [String(k), t("Level {level}", { level: k })]);
-    const level = choice(t("Level"), levels, String(this.level), (value) => {
-      this.level = Number(value);
-      void this.fresh();
-    });
-    const next = h("button.plain", { "data-act": "fresh", onclick: () => this.next() }, t("A fresh task"));
-    const form = h("div.form", {}, level, next, this.score);
+    const form = h("div.form", {}, this.tasks, this.score);
     renew(this.element, h("div.page", {}, h("h2", {}, t("Exercises")), this.kinds, form, this.place));
     this.showScore();
     if (this.task) void this.fillKinds().then(() => this.fresh());
@@ -74,8 +80,8 @@ export class ExercisesView implements View {
 
   private async fillKinds(): Promise<void> {
     if (!this.task) renew(this.place, moment());
-    const kinds = await this.page.ask<{ kind: string; name: string }[]>("exercise_kinds", {});
-    const options = kinds.map(({ kind, name }): [string, string] => [kind, name]);
+    this.listed = await this.page.ask<Kind[]>("exercise_kinds", {});
+    const options = this.listed.map(({ kind, name }): [string, string] => [kind, name]);
     const choose = (kind: string) => {
       this.kind = kind;
       void this.fresh();
@@ -83,15 +89,50 @@ export class ExercisesView implements View {
     renew(this.kinds, choice(t("Theory"), options, this.kind, choose));
   }
 
+  /** The exercises of the text; none for a kind of fresh tasks. */
+  private numbered(): Kind["tasks"] {
+    return this.listed.find(({ kind }) => kind === this.kind)?.tasks ?? [];
+  }
+
   private next(): void {
+    const tasks = this.numbered();
     this.seed += 1;
+    this.chosen = tasks[(tasks.findIndex(({ id }) => id === this.chosen) + 1) % tasks.length]?.id ?? this.chosen;
     void this.fresh();
   }
 
-  /** The task of this kind, level and number; of the one that is shown the answers stay. */
+  /** Between which tasks of a kind one chooses: levels, or exercises of the text. */
+  private showTasks(): void {
+    const tasks = this.numbered();
+    if (tasks.length) {
+      const field = h(
+        "select",
+        {
+          "aria-label": t("Exercises"),
+          onchange: () => {
+            this.chosen = field.value;
+            void this.fresh();
+          },
+        },
+        ...tasks.map(({ id, name }) => h("option", { value: id, selected: id === this.chosen }, name)),
+      );
+      return renew(this.tasks, field);
+    }
+    const levels = [1, 2, 3].map((k): [string, string] => [String(k), t("Level {level}", { level: k })]);
+    const level = choice(t("Level"), levels, String(this.level), (value) => {
+      this.level = Number(value);
+      void this.fresh();
+    });
+    const next = h("button.plain", { "data-act": "fresh", onclick: () => this.next() }, t("A fresh task"));
+    renew(this.tasks, h("div.form", {}, level, next));
+  }
+
+  /** The task that is chosen; of the one that is shown the answers stay. */
   private async fresh(): Promise<void> {
+    this.showTasks();
+    const id = this.numbered().length ? this.chosen : `${this.kind}-${this.level}-${this.seed}`;
     try {
-      const task = await this.page.ask<Task>("exercise", { kind: this.kind, level: this.level, seed: this.seed });
+      const task = await this.page.ask<Task>("exercise", { id });
       if (task.id !== this.task?.id) this.answers = {};
       this.task = task;
       this.marked = null;
@@ -118,8 +159,19 @@ export class ExercisesView implements View {
       h(
         "div.task",
         {},
-        h("div", {}, h("h2", {}, task.name), h("p", {}, task.task)),
-        task.figure ? h("div.chain-picture", {}, picture(task.figure, t("The figure of the task"))) : "",
+        h("div", {}, h("h2", {}, task.name), h("p", {}, task.task), task.remark ? h("p.note", {}, task.remark) : null),
+        h(
+          "div",
+          {},
+          ...task.figures.map(({ name, picture: drawn }) =>
+            h(
+              "figure.chain-picture",
+              {},
+              picture(drawn, name || t("The figure of the task")),
+              name ? h("figcaption", {}, name) : null,
+            ),
+          ),
+        ),
         h(
           "form",
           { onsubmit: submit },
@@ -136,7 +188,9 @@ export class ExercisesView implements View {
             {},
             act("mark", t("Mark my answers"), !solved, () => undefined, "submit"),
             marked ? act("next", t("Next task"), solved, () => this.next()) : null,
-            marked ? act("try", t("Try it"), false, () => void this.tryIt()) : null,
+            ...(marked ? task.figures : []).map(({ name }, k) =>
+              act("try", [t("Try it"), name].filter(Boolean).join(": "), false, () => void this.tryIt(k)),
+            ),
           ),
           marked ? h("details", {}, h("summary", {}, t("The solution")), h("pre", {}, marked.solution)) : null,
         ),
@@ -209,9 +263,9 @@ export class ExercisesView implements View {
     );
   }
 
-  private async tryIt(): Promise<void> {
+  private async tryIt(part: number): Promise<void> {
     try {
-      const { model, text, drive } = await this.page.ask<Tried>("try", { id: this.task!.id });
+      const { model, text, drive } = await this.page.ask<Tried>("try", { id: this.task!.id, part });
       if (model) this.page.open(model, drive ?? undefined);
       else this.page.describe(text!);
     } catch (error) {

@@ -4,8 +4,9 @@ import re
 
 import pytest
 
-from gruebler.page.tasks import marked_task, task_record
-from gruebler.teaching.exercises import KINDS
+from gruebler.base.text import Readable
+from gruebler.page.tasks import marked_task, task_kinds, task_record, tried_task
+from gruebler.teaching.exercises import KINDS, ascii_key, exercise, solve
 
 KIND = "gruebler.views.exercises"
 
@@ -37,8 +38,8 @@ def size_of(svg: str) -> tuple[float, float]:
 @pytest.mark.parametrize("level", [1, 2, 3])
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_kind_has_a_figure_and_wrong_answers_a_hint(kind, level):
-    task = task_record(kind, level, 5, "en")
-    assert min(size_of(task["figure"])) > 60
+    task = task_record(f"{kind}-{level}-5", "en")
+    assert min(size_of(task["figures"][0]["picture"])) > 60
     numbers = [one["key"] for one in task["asked"] if not one["choices"]]
     marks = marked_task(task["id"], dict.fromkeys(numbers, "123456.789"), "en")["marks"]
     assert numbers
@@ -49,7 +50,7 @@ def test_every_kind_has_a_figure_and_wrong_answers_a_hint(kind, level):
 def test_the_page_shows_kinds_figure_and_hints(exercises):
     page = exercises()
     kinds = page.page.locator('[aria-label="Theory"] button')
-    assert kinds.count() == len(KINDS) == 6
+    assert kinds.count() == len(KINDS) + 1 == 7
     page.page.locator('[aria-label="Level"] button').nth(1).click()
     kinds.nth(5).click()
     page.until(f"{KIND}.task.id.startsWith({KIND}.kind + '-2-')")
@@ -62,6 +63,53 @@ def test_the_page_shows_kinds_figure_and_hints(exercises):
     wrong.first.wait_for()
     assert page.page.locator("[id^=hint-]").count() == wrong.count() == page.page.locator("input[data-answer]").count()
     assert page.page.locator(".score").text_content().endswith("0 of 1 solved")
+
+
+OF_THE_TEXT = [task["id"] for task in task_kinds("en")[-1]["tasks"]]
+
+
+@pytest.mark.parametrize("id", OF_THE_TEXT)
+def test_every_exercise_of_the_text_has_figures_to_try_and_hints_by_the_likely_mistake(id):
+    """All that it asks has a likely mistake of its own, which is marked wrong and named by its hint."""
+    task, solution = task_record(id, "en"), solve(exercise(id))
+    assert len(OF_THE_TEXT) == 22
+    assert len(task["figures"]) == len(tried_task(id)) >= 1
+    for asked in task["asked"]:
+        mistakes = [one for one in solution.mistakes if ascii_key(one.key) == asked["key"].partition(" ")[0]]
+        assert mistakes, asked["key"]
+        for mistake in mistakes:
+            said = mistake.value.in_language("en") if isinstance(mistake.value, Readable) else repr(mistake.value)
+            if asked["choices"] and isinstance(mistake.value, bool):
+                said = "yes" if mistake.value else "no"
+            (mark,) = marked_task(id, {asked["key"]: said}, "en")["marks"]
+            hints = [one.hint.in_language("en") for one in mistakes]
+            assert mark["mark"] == "wrong", (asked["key"], said)
+            assert mark["hint"] in hints, (asked["key"], said, mark["hint"])
+
+
+def test_an_exercise_of_the_text_is_chosen_and_each_of_its_machines_tried(exercises):
+    """Exercise 5: F = 1 for all five; with n = 4 instead of n - 1 = 3 free links it would be 4."""
+    page = exercises(locale="de-DE")
+    view = page.page
+    view.locator('[data-value="exercise"]').click()
+    view.locator('[data-page="exercises"] select').select_option("exercise-5")
+    page.until(f"{KIND}.task.id === 'exercise-5'")
+    assert view.locator(".task figcaption").all_text_contents()[2:4] == ["Hubpodium", "Filmgreifer"]
+    fields = view.locator("input[data-answer]")
+    for k, answer in enumerate("11114"):
+        fields.nth(k).fill(answer)
+    view.click('[data-act="mark"]')
+    view.locator("[data-result]").wait_for()
+    assert view.locator("[data-result]").inner_text() == "4 von 5 richtig"
+    assert "Das Gestell bewegt sich nicht" in view.locator("[id^=hint-]").inner_text()
+    tries = view.locator('[data-act="try"]')
+    assert tries.count() == 5
+    tries.nth(3).click()
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'filmclaw'")
+    view.go_back()
+    page.until("gruebler.view === 'exercises'")
+    view.click('[data-act="next"]')
+    page.until(f"{KIND}.task.id === 'exercise-5b'")
 
 
 def test_a_task_is_chosen_marked_mended_and_tried(exercises):

@@ -15,9 +15,7 @@ interface Params {
   links: number;
   mobility: number;
   start: number;
-  kind: string;
-  level: number;
-  seed: number;
+  part: number;
   answers: Record<string, string>;
 }
 
@@ -32,7 +30,7 @@ interface TaskPack extends Tolerances {
     records: Record<Language, { id: string; asked: { key: string; choices: string[] }[] }>;
     solutions: Said;
     answers: Record<string, Asked | Record<Language, Record<string, Answer>>>;
-    try: object;
+    try: object[];
   }[];
 }
 
@@ -98,14 +96,12 @@ class SiteModel extends StillModel {
       case "exercise_kinds":
         return (await pack<Record<Language, unknown>>("kinds"))[lang];
       case "exercise": {
-        const { kind, level, seed } = params;
-        const { tasks } = await pack<TaskPack>(`tasks-${kind}-${level}`);
-        return tasks[seed % tasks.length]!.records[lang];
+        return (await this.task(id)).task.records[lang];
       }
       case "mark":
         return await this.marks(id, params.answers, lang);
       case "try":
-        return (await this.task(id)).task.try;
+        return (await this.task(id)).task.try[params.part];
     }
     throw this.library();
   }
@@ -155,8 +151,10 @@ class SiteModel extends StillModel {
   }
 
   private async task(id: string): Promise<{ task: TaskPack["tasks"][number]; tolerances: Tolerances }> {
-    const { tasks, ...tolerances } = await pack<TaskPack>(`tasks-${id.replace(/-\d+$/, "")}`);
-    return { task: tasks.find(({ records }) => records.en.id === id)!, tolerances };
+    const [, kind, number] = /^(.*)-(\w+)$/.exec(id)!;
+    const { tasks, ...tolerances } = await pack<TaskPack>(`tasks-${kind}`);
+    const task = tasks.find(({ records }) => records.en.id === id) ?? tasks[Number(number) % tasks.length]!;
+    return { task, tolerances };
   }
 
   private async marks(id: string, answers: Record<string, string>, lang: Language): Promise<unknown> {

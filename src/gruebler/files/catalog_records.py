@@ -7,6 +7,7 @@ here, so that an entry is sound or does not exist.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -219,6 +220,20 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         chain = self.chain()
         mechanism = Mechanism(chain, self.frame or chain.links[0], self.dimensions.shown_drives or self.drives)
         return linkage_from_record(self.dimensions, mechanism, self.outputs)
+
+    @property
+    def between(self) -> tuple[float, float] | None:
+        """The drive values between which the machine is shown: radians where the drive turns; None for all.
+
+        >>> from gruebler.teaching.catalog import entry
+        >>> [round(value, 6) for value in entry("crane").between]  # 60° to 80°
+        [1.047198, 1.396263]
+        """
+        if self.dimensions is None or self.dimensions.range is None:
+            return None
+        low, high = self.dimensions.range
+        drives = self.linkage().mechanism.drives
+        return (math.radians(low), math.radians(high)) if drives and drives[0].turning else (low, high)
 
     def loaded(self) -> tuple[Linkage, Loads, float | None]:
         """The machine, what acts on it, and the speed of its drive if one is usual.

@@ -189,12 +189,11 @@ class OpenFile(Params):
     base64: Annotated[str, msgspec.Meta(max_length=400_000)]
 
 
-class NewExercise(Params):
-    """A fresh task."""
+class TryExercise(Params):
+    """One of the linkages of an exercise."""
 
-    kind: Word
-    level: Annotated[int, msgspec.Meta(ge=1, le=3)] = 1
-    seed: Annotated[int, msgspec.Meta(ge=0, le=10**9)] = 0
+    id: Word
+    part: Annotated[int, msgspec.Meta(ge=0, le=20)] = 0
 
 
 class MarkAnswers(Params):

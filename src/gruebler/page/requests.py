@@ -21,13 +21,13 @@ from gruebler.page.params import (
     ListModes,
     LoadedLinkage,
     MarkAnswers,
-    NewExercise,
     Nothing,
     OpenDocument,
     OpenFile,
     Params,
     Realise,
     SynthesiseTask,
+    TryExercise,
 )
 
 Progress = Callable[[str], None]
@@ -103,7 +103,7 @@ def _catalog_picture(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]
     record = entry(asked.id)
     name = record.name.in_language(lang)
     if record.dimensions is not None and record.space == "planar":
-        figure = draw_linkage(record.linkage(), between=_between(asked.id), lang=lang, name=name)
+        figure = draw_linkage(record.linkage(), between=record.between, lang=lang, name=name)
     else:
         chain = record.chain()
         figure = draw_structure(Mechanism(chain, record.frame or chain.links[0], record.drives), lang=lang, name=name)
@@ -115,22 +115,8 @@ def _moving(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
     from gruebler.teaching.catalog import entry
 
     record = entry(asked.id)
-    shown = scene(record.linkage(), between=_between(asked.id), lang=lang, name=record.name.in_language(lang))
+    shown = scene(record.linkage(), between=record.between, lang=lang, name=record.name.in_language(lang))
     return {"picture": svg_of(shown, styled=False)}
-
-
-def _between(id: str) -> tuple[float, float] | None:
-    """The drive values between which a machine is shown, in radians where the drive turns."""
-    from math import radians
-
-    from gruebler.teaching.catalog import entry
-
-    record = entry(id)
-    assert record.dimensions is not None
-    shown, drives = record.dimensions.range, record.linkage().mechanism.drives
-    if shown is None or not drives or not drives[0].turning:
-        return shown
-    return radians(shown[0]), radians(shown[1])
 
 
 def _open(asked: CatalogId, _: str, __: Progress) -> dict[str, Any]:
@@ -139,7 +125,7 @@ def _open(asked: CatalogId, _: str, __: Progress) -> dict[str, Any]:
 
     record = entry(asked.id)
     linkage = record.linkage()  # an entry without dimensions is refused in one sentence
-    return model_of(linkage, name=record.name, source=record.id, between=_between(asked.id))
+    return model_of(linkage, name=record.name, source=record.id, between=record.between)
 
 
 def _open_document(asked: OpenDocument, _: str, __: Progress) -> dict[str, Any]:
@@ -279,10 +265,10 @@ def _task_kinds(_: Nothing, lang: str, __: Progress) -> list[dict[str, str]]:
     return task_kinds(lang)
 
 
-def _task(asked: NewExercise, lang: str, _: Progress) -> dict[str, Any]:
+def _task(asked: CatalogId, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.page.tasks import task_record
 
-    return task_record(asked.kind, asked.level, asked.seed, lang)
+    return task_record(asked.id, lang)
 
 
 def _marked_task(asked: MarkAnswers, lang: str, _: Progress) -> dict[str, Any]:
@@ -291,10 +277,10 @@ def _marked_task(asked: MarkAnswers, lang: str, _: Progress) -> dict[str, Any]:
     return marked_task(asked.id, asked.answers, lang)
 
 
-def _tried_task(asked: CatalogId, lang: str, _: Progress) -> dict[str, Any]:
+def _tried_task(asked: TryExercise, _: str, __: Progress) -> dict[str, Any]:
     from gruebler.page.tasks import tried_task
 
-    return tried_task(asked.id, lang)
+    return tried_task(asked.id)[asked.part]
 
 
 REQUESTS: dict[str, tuple[type[Params], Callable[[Any, str, Progress], Any]]] = {
@@ -316,8 +302,8 @@ REQUESTS: dict[str, tuple[type[Params], Callable[[Any, str, Progress], Any]]] = 
     "open_file": (OpenFile, _open_file),
     "saved_kinds": (Nothing, _saved_kinds),
     "exercise_kinds": (Nothing, _task_kinds),
-    "exercise": (NewExercise, _task),
+    "exercise": (CatalogId, _task),
     "mark": (MarkAnswers, _marked_task),
-    "try": (CatalogId, _tried_task),
+    "try": (TryExercise, _tried_task),
 }
 """Name, parameters, work."""

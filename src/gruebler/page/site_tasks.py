@@ -12,7 +12,7 @@ from typing import Any
 from gruebler.base.text import Readable
 from gruebler.files import Exercise
 from gruebler.page.tasks import marked_task, task_record, tried_task, way
-from gruebler.teaching.exercises import Result, ascii_key, generate, solution_text, solve
+from gruebler.teaching.exercises import Result, ascii_key, exercise, solution_text, solve
 from gruebler.teaching.exercises.answers import units_for
 from gruebler.teaching.exercises.grading import FINE, NEARLY, NEARLY_RIGHT, common_mistakes
 from gruebler.teaching.exercises.solution import Value
@@ -21,19 +21,16 @@ TOLERANCES = {"fine": FINE, "nearly": NEARLY}
 """Relative differences of right and of nearly right answers."""
 
 
-def task_pack(kind: str, level: int, seed: int, langs: Sequence[str]) -> dict[str, Any]:
-    """A fresh task, its solution, what is right and what is wrong in which way, and its linkage to try.
+def task_pack(id: str, langs: Sequence[str]) -> dict[str, Any]:
+    """A task, its solution, what is right and what is wrong in which way, and its linkages to try.
 
-    >>> answers = task_pack("grashof", 1, 3, ["en"])["answers"]
+    >>> answers = task_pack("grashof-1-3", ["en"])["answers"]
     >>> answers["turns"]["en"]["no"]["mark"], answers["sum_ends"]["value"]
     ('wrong', 110.0)
     """
-    task = generate(kind, seed, level)
+    task = exercise(id)
     solution = solve(task)
-    records = {lang: task_record(kind, level, seed, lang) for lang in langs}
-    tried = tried_task(task.id, langs[0])
-    if "model" in tried:
-        tried["model"]["names"] = {lang: task.name.in_language(lang) for lang in langs}
+    records = {lang: task_record(id, lang) for lang in langs}
     answers = {}
     for question in task.asked:
         result = solution.results[question.key]
@@ -51,7 +48,7 @@ def task_pack(kind: str, level: int, seed: int, langs: Sequence[str]) -> dict[st
         "records": records,
         "solutions": {lang: solution_text(task, solution, lang) for lang in langs},
         "answers": answers,
-        "try": tried,
+        "try": tried_task(id),
     }
 
 

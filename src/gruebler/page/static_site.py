@@ -94,6 +94,7 @@ def _all_groups() -> Iterator[FileGroup]:
     yield from (FileGroup("machine", (id,)) for id in ids)
     yield FileGroup("catalog", ids)
     yield from (FileGroup("tasks", (kind, level, TASKS)) for kind in KINDS for level in (1, 2, 3))
+    yield FileGroup("exercises")
     yield FileGroup("common")
 
 
@@ -205,8 +206,17 @@ def _catalog_packs(*ids: str) -> _Packs:
 def _task_packs(kind: str, level: int, number: int) -> _Packs:
     from gruebler.page.site_tasks import TOLERANCES, task_pack
 
-    tasks = [task_pack(kind, level, seed, LANGUAGES) for seed in range(1, number + 1)]
+    tasks = [task_pack(f"{kind}-{level}-{seed}", LANGUAGES) for seed in range(1, number + 1)]
     yield f"tasks-{kind}-{level}", {"tasks": tasks, **TOLERANCES}
+
+
+def _exercise_packs() -> _Packs:
+    """The exercises of the text."""
+    from gruebler.page.site_tasks import TOLERANCES, task_pack
+    from gruebler.page.tasks import task_kinds
+
+    *_, text = task_kinds(LANGUAGES[0])
+    yield "tasks-exercise", {"tasks": [task_pack(task["id"], LANGUAGES) for task in text["tasks"]], **TOLERANCES}
 
 
 def _common_packs() -> _Packs:
@@ -233,6 +243,7 @@ _PACKS: dict[str, Callable[..., _Packs]] = {
     "machine": _machine_packs,
     "catalog": _catalog_packs,
     "tasks": _task_packs,
+    "exercises": _exercise_packs,
     "common": _common_packs,
 }
 """What each kind of work writes: names of files with their contents."""

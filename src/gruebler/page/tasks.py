@@ -14,17 +14,19 @@ from gruebler.teaching.exercises import (
     Result,
     Solution,
     SolutionStep,
+    all_exercises,
     ascii_key,
     exercise,
-    generate,
     grade,
     plain_name,
     solution_text,
     solve,
 )
-from gruebler.teaching.worksheets.exercise_figures import exercise_linkage
+from gruebler.teaching.exercises.dyads import CHANGES
+from gruebler.teaching.worksheets.exercise_figures import exercise_linkages
 from gruebler.teaching.worksheets.tasks import exercise_figure
 
+_OF_THE_TEXT = "exercise"
 _COUNTED = {
     "n": message("Every link counts once, the frame too."),
     "g1": message("A joint of k links counts k - 1 times; sliding joints are counted as well."),
@@ -33,26 +35,36 @@ _COUNTED = {
 _OTHERWISE = message("See the steps of the solution.")
 
 
-def task_kinds(lang: str) -> list[dict[str, str]]:
-    """The kinds of fresh tasks with their names."""
-    return [{"kind": kind, "name": name.in_language(lang)} for kind, (name, _) in KINDS.items()]
+def task_kinds(lang: str) -> list[dict[str, Any]]:
+    """The kinds of fresh tasks with their names, and the exercises of the text.
+
+    >>> [(kind["kind"], len(kind["tasks"])) for kind in task_kinds("en")][-2:]
+    [('velocity', 0), ('exercise', 22)]
+    """
+    fresh = [{"kind": kind, "name": name.in_language(lang), "tasks": []} for kind, (name, _) in KINDS.items()]
+    tasks = [
+        {"id": task.id, "name": f"{task.id.partition('-')[2]}: {task.name.in_language(lang)}"}
+        for task in all_exercises().values()
+        if task.id.startswith(_OF_THE_TEXT)
+    ]
+    return [*fresh, {"kind": _OF_THE_TEXT, "name": translate("Exercises of the text", lang), "tasks": tasks}]
 
 
-def task_record(kind: str, level: int, seed: int, lang: str) -> dict[str, Any]:
-    """A fresh task as plain data: its text, its figure, what is asked and between which words one chooses.
+def task_record(id: str, lang: str) -> dict[str, Any]:
+    """A task as plain data: its text, its figures, what is asked and between which words one chooses.
 
-    >>> task = task_record("grashof", 1, 3, "en")
-    >>> [(one["key"], len(one["choices"])) for one in task["asked"]], task["figure"][:4]
+    >>> task = task_record("grashof-1-3", "en")
+    >>> [(one["key"], len(one["choices"])) for one in task["asked"]], task["figures"][0]["picture"][:4]
     ([('sum_ends', 0), ('sum_others', 0), ('turns', 2), ('type', 9)], '<svg')
     """
-    task = generate(kind, seed, level)
+    task = exercise(id)
     results = solve(task).results
-    figure = exercise_figure(task, lang)
     return {
         "id": task.id,
         "name": task.name.in_language(lang),
         "task": task.task.in_language(lang),
-        "figure": figure.svg(styled=False) if figure else "",
+        "remark": task.remark.in_language(lang) if task.remark else "",
+        "figures": _figures(task, lang),
         "asked": [
             {
                 "key": ascii_key(result.key),
@@ -68,16 +80,30 @@ def task_record(kind: str, level: int, seed: int, lang: str) -> dict[str, Any]:
     }
 
 
+def _figures(task: Exercise, lang: str) -> list[dict[str, str]]:
+    """The pictures of a task, each with its name where there are several."""
+    if isinstance(task.given.get("chain"), str):
+        figure = exercise_figure(task, lang)
+        assert figure is not None
+        return [{"name": "", "picture": figure.svg(styled=False)}]
+    return [
+        {"name": drawn.name.in_language(lang) if drawn.name else "", "picture": drawn.figure(lang).svg(styled=False)}
+        for drawn in exercise_linkages(task)
+    ]
+
+
 def _is_choice(result: Result) -> bool:
     return isinstance(result.value, bool | Readable)
 
 
 def _choices(result: Result, lang: str) -> list[str]:
-    """Yes and no, or the types of four-bars without equal links; none for a number."""
+    """Yes and no, the changes of F, or the types of four-bars without equal links; none for a number."""
     if isinstance(result.value, bool):
         return [translate("yes", lang), translate("no", lang)]
     if not _is_choice(result):
         return []
+    if result.key == "change":
+        return [change.in_language(lang) for change in CHANGES.values()]
     places = (place for place in FOUR_BAR_TYPES if place[0] in "<=>" and len(place[1]) <= 1)
     return [FOUR_BAR_TYPES[place].name(lang).partition(" (")[0] for place in places]
 
@@ -113,19 +139,21 @@ def way(solution: Solution, result: Result) -> Message:
     return _COUNTED.get(result.key, _OTHERWISE)
 
 
-def tried_task(id: str, lang: str) -> dict[str, Any]:
-    """The linkage of a task as a model of the page; for a task about a chain its text.
+def tried_task(id: str) -> list[dict[str, Any]]:
+    """The linkages of a task, one for each figure, as models of the page; for a task about a chain its text.
 
-    >>> tried_task("mobility-1-3", "en")["text"][:2], tried_task("grashof-2-3", "en")["model"]["links"][:2]
+    >>> tried_task("mobility-1-3")[0]["text"][:2], tried_task("grashof-2-3")[0]["model"]["links"][:2]
     ('R(', ['frame', 'crank'])
     """
     from gruebler.page.model import model_of
 
     task = exercise(id)
     if isinstance(chain := task.given.get("chain"), str):
-        return {"text": chain}
-    drawn = exercise_linkage(task)
-    if drawn is None:
-        raise GrueblerError("{id} has no linkage that moves", id=id)
-    name = task.name.in_language(lang)
-    return {"model": model_of(drawn.linkage, name=name, between=drawn.between), "drive": drawn.drive}
+        return [{"text": chain}]
+    return [
+        {
+            "model": model_of(drawn.linkage, name=drawn.name or task.name, source=drawn.source, between=drawn.between),
+            "drive": drawn.drive,
+        }
+        for drawn in exercise_linkages(task)
+    ]

@@ -212,8 +212,8 @@ def test_the_task_tells_the_unit():
     assert "(in °)" in task_text(exercise("11"), "de", solve(exercise("11")))
 
 
-def test_a_table_is_no_answer():
-    with pytest.raises(GrueblerError, match="exercise-16 is answered by a table"):
+def test_of_a_table_one_place_is_asked():
+    with pytest.raises(GrueblerError, match=r"exercise-16 does not ask for 'K'.*; it asks for K1_x, K1_y"):
         grade(exercise("16"), {"K": "1"})
 
 

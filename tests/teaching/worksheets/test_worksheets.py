@@ -401,7 +401,7 @@ def test_exercise_12_has_its_graphical_way(tmp_path):
     assert main(["exercise", "solve", "12", "15", "8", "--lang", "de", "-o", str(file)]) == 0
     text = file.read_text(encoding="utf-8")
     assert "91,24" in text  # the frame, measured in the construction
-    assert text.count("<svg") == 6  # three constructions, the linkages of 8 and 15, s(φ) of 15
+    assert text.count("<svg") == 7  # three constructions, the linkages of 8, 12 and 15, s(φ) of 15
     assert "55 &lt; d &lt; 85" in text
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import cmath
-from math import acos, asin, degrees, isclose, pi
+from math import acos, asin, atan, degrees, isclose, pi
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.fourbar import InvertedSliderCrank
+from gruebler.mechanics.fourbar.crank_motion import CrankMotion
 from gruebler.mechanics.geometry import Path, coupler_path, linkage_path, path_piece
 from gruebler.mechanics.geometry.sizing import longest_in_band
 from gruebler.mechanics.kinematics import from_degrees
@@ -22,6 +23,7 @@ from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angl
 STRIP = 1e-6
 """Tolerance of the width of a strip: its direction comes from samples."""
 PATH = message("Path of the coupler point")
+_RIGHT_ANGLE = message("The right angle lies at A, between crank and coupler: d is the hypotenuse.")
 BY_SOLVER = message("Largest distance of the path from that of the general solver")
 
 
@@ -76,9 +78,22 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
     columns = ["φ [°]", *(f"{name}_{axis}" for name in names for axis in "xy")]
     rows = [(round(degrees(phi), 9), *(float(x) for path in paths for x in path[k])) for k, phi in enumerate(drives)]
     builder.table(PATH, columns, rows)
-    for (u, v), path in zip(chosen, paths, strict=True):
+    upright = size.motion([pi / 2])
+    for name, (u, v), path in zip(names, chosen, paths, strict=True):
+        _add_upright(builder, name, upright, u, v)
         check_path(builder, size.linkage({"C": (u, v)}), drives, path, "+")
     return builder.done()
+
+
+def _add_upright(builder: SolutionBuilder, name: str, motion: CrankMotion, u: float, v: float) -> None:
+    """One place of the path: with the crank at right angles to the frame."""
+    places = [[float(x) for x in motion.point(*where).value[0]] for where in ((u, v), (u, -v), (0.0, 0.0))]
+    for axis, right, other_side, joint in zip("xy", *places, strict=True):
+        key = f"{name}_{axis}"
+        quantity = message("{axis} of {name} at φ = 90°", axis=axis, name=name)
+        builder.keep(key, quantity, right, unit=builder.unit)
+        builder.mistake(key, other_side, message("That lies on the other side of A-B: v counts to the left of it."))
+        builder.mistake(key, right - joint, message("That is counted from A; the path is counted from A0."))
 
 
 def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -> Solution:
@@ -148,6 +163,11 @@ def _add_swing(builder: SolutionBuilder, size: InvertedSliderCrank) -> None:
     builder.find(
         "time_ratio", name, "(360° - 2·φ_T)/(2·φ_T)", (180 - dead) / dead, unit="", symbol="k", φ_T=angle(dead)
     )
+    builder.mistake("swing", 2 * degrees(atan(a / d)), _RIGHT_ANGLE)
+    builder.mistake("swing", swing / 2, message("That is the swing to one side of the frame line only."))
+    builder.mistake("φ_T", 90 - dead, message("That is the angle of the coupler; the crank is at right angles to it."))
+    builder.mistake("φ_T", degrees(atan(d / a)), _RIGHT_ANGLE)
+    builder.mistake("time_ratio", dead / (180 - dead), message("The longer time is divided by the shorter."))
     measured = measures(size.linkage())
 
     def between(quantity: Message) -> Message:

@@ -18,6 +18,8 @@ FLAT = 1e-7
 _OUTER = message("outer dead centre, crank and connecting rod stretched")
 _INNER = message("inner dead centre, crank and connecting rod overlapping")
 _STROKE = message("stroke, the distance of the dead centres")
+_NOT_ONCE = message("The stroke is twice the crank, not once.")
+_ONE_CENTRE = message("That is the distance in one dead centre; the stroke is the difference of both.")
 _RATIO = message("crank-conrod ratio")
 _LONGER = message("larger crank angle between the dead centres")
 _SHORTER = message("smaller crank angle between the dead centres")
@@ -54,7 +56,8 @@ def _add_dead_centres(builder: SolutionBuilder, size: SliderCrank) -> None:
     for key, centre in (("l_a", measured.outer), ("l_i", measured.inner)):
         position = abs(centre.output) if centre else 0.0
         builder.check(message("{key} of the solved motion", key=key), builder.number(key), position)
-    builder.mistake("H", a, message("The stroke is twice the crank, not once."))
+    builder.mistake("H", a, _NOT_ONCE)
+    builder.mistake("H", outer, _ONE_CENTRE)
     builder.mistake("H", 2 * a, message("H = 2a holds for a central slider-crank only; this one is eccentric."))
     builder.mistake(
         "H",
@@ -220,6 +223,8 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
     rod_angle = degrees(abs(float(moved.angle("coupler")[0])))
     builder.check(message("s at this angle, by the general solver"), rod, slide)
     builder.check(message("α there, by the general solver"), alpha, rod_angle, "°")
+    builder.mistake("H", a, _NOT_ONCE)
+    builder.mistake("H", rod + a, _ONE_CENTRE)
     _add_middle_mistakes(builder, phi, alpha)
     return builder.done()
 

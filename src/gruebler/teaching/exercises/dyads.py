@@ -11,12 +11,14 @@ from gruebler.structure.mechanism import Mechanism
 from gruebler.structure.mechanism.inversion import family
 from gruebler.structure.mobility import count_freedoms, counted, mobility_report
 from gruebler.structure.transformations import Extension, extend
+from gruebler.teaching.exercises.mobility import add_frame_mistakes
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, SolutionStep, Value
 
 _BEFORE = message("degree of freedom before")
 _AFTER = message("degree of freedom after")
 
-_CHANGES = {0: message("unchanged"), -1: message("lowered by one")}
+CHANGES = {0: message("unchanged"), -1: message("lowered by one"), 1: message("raised by one")}
+"""What may become of F."""
 
 
 def dyad(chain: str, form: str = "RRR") -> Solution:
@@ -40,6 +42,8 @@ def dyad(chain: str, form: str = "RRR") -> Solution:
     )
     builder.mistake("F_after", before + 2, hint)
     builder.mistake("F_after", before + 6, hint)
+    builder.mistake("change", CHANGES[-1], message("That holds for a coupler: one link, two joints, 3 - 4 = -1."))
+    builder.mistake("change", CHANGES[1], hint)
     _add_places(builder, extensions)
     return builder.done()
 
@@ -62,10 +66,9 @@ def coupler(chain: str) -> Solution:
         if extension not in sound:
             links = joined_by_and(extension.places[0])
             builder.say(message("Between {links} it makes a rigid triangle: these links become one.", links=links))
-    builder.mistake("F_after", before, message("That holds for a dyad; a coupler takes one away."))
-    builder.mistake(
-        "F_after", before + 1, message("The coupler has two joints, and each removes two freedoms: 3 - 4 = -1.")
-    )
+    for key, by_dyad, more in (("F_after", before, before + 1), ("change", CHANGES[0], CHANGES[1])):
+        builder.mistake(key, by_dyad, message("That holds for a dyad; a coupler takes one away."))
+        builder.mistake(key, more, message("The coupler has two joints, and each removes two freedoms: 3 - 4 = -1."))
     _add_places(builder, sound)
     return builder.done()
 
@@ -84,6 +87,7 @@ def _add_before(builder: SolutionBuilder, start: Chain) -> int:
     before = message("Before: {chain}", chain=in_alphabets(start.text))
     builder.parts.append(SolutionStep(text=before, formula=f"F = {parts[0]}", numbers=parts[1], value=counted(start)))
     builder.keep("F_before", _BEFORE, counted(start), symbol="F")
+    add_frame_mistakes(builder, "F_before", start)
     return counted(start)
 
 
@@ -93,7 +97,7 @@ def _add_after(builder: SolutionBuilder, start: Chain, extensions: list[Extensio
     builder.parts.append(SolutionStep(text=_AFTER, formula=f"F = {parts[0]}", numbers=parts[1], value=counted(first)))
     builder.keep("F_after", _AFTER, counted(first), symbol="F'")
     change = counted(first) - counted(start)
-    builder.keep("change", message("change of F"), _CHANGES.get(change, str(change)), symbol="ΔF")
+    builder.keep("change", message("change of F"), CHANGES.get(change, str(change)), symbol="ΔF")
     builder.keep("n", message("links after"), first.n)
     builder.keep("g1", message("joints with f = 1 after"), first.joints_by_freedom.get(1, 0))
     builder.keep("chains", message("essentially different chains"), len(extensions), symbol="k")

@@ -58,6 +58,7 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
 _WRONG_SUMS = message(
     "Compare s1 and s2 again: the type depends on which of them is larger, or whether they are equal."
 )
+_NOT_ENOUGH = message("Being shorter than the crank is not enough: the sums decide.")
 _WRONG_PLACE = message("The sums allow that; but which link is the shortest, and where is it?")
 
 
@@ -192,6 +193,12 @@ def _add_shortest(
     )
     values = {"a": crank, longer: long, shorter: short}
     builder.find("shortest_upper", name, f"a + {shorter} - {longer}", upper, symbol=symbol, text=text, values=values)
+    builder.mistake("shortest_upper", crank, _NOT_ENOUGH)
+    builder.mistake(
+        "shortest_upper",
+        crank + long - short,
+        message("That is where a crank-rocker begins; as the shortest link d stands beside the longest in the sum."),
+    )
 
 
 def _check_range(builder: SolutionBuilder, free: str, lengths: dict[str, float], low: float, high: float) -> None:

@@ -21,6 +21,7 @@ _CRITERION = {
     True: message("Criterion of constrained motion holds (0)"),
     False: message("Criterion of constrained motion does not hold (not 0)"),
 }
+_FRAME_COUNTS = message("The frame is a link too: n counts it.")
 _TIMES = {2: message("twice"), 3: message("three times")}
 
 
@@ -141,14 +142,17 @@ def _add_mistakes(builder: SolutionBuilder, structure: Chain, mark: _Mark) -> No
         builder.mistake(f"F{mark}", correct + lost, hint)
         simple = sum(1 for joint in structure.joints if joint.pair.f(structure.space) == 1)
         builder.mistake(f"g1{mark}", simple, hint)
-    frame = message("The frame is a link too: n counts it.")
-    builder.mistake(f"n{mark}", n - 1, frame)
-    builder.mistake(f"F{mark}", correct - b, frame)
-    builder.mistake(
-        f"F{mark}", correct + b, message("The frame does not move: the formula has n - 1 free links, not n.")
-    )
+    builder.mistake(f"n{mark}", n - 1, _FRAME_COUNTS)
+    add_frame_mistakes(builder, f"F{mark}", structure)
     higher = structure.joints_by_freedom.get(2, 0)
     if b == 3 and higher:
         hint = message("A joint that rolls and slides has f = 2 and takes away one motion only.")
         builder.mistake(f"F{mark}", correct - higher, hint)
         builder.mistake(f"g2{mark}", 0, hint)
+
+
+def add_frame_mistakes(builder: SolutionBuilder, key: str, structure: Chain) -> None:
+    """What F becomes if the frame is left out of n, or counted as a link that moves."""
+    correct, b = count_freedoms(structure).value, structure.space.b
+    builder.mistake(key, correct - b, _FRAME_COUNTS)
+    builder.mistake(key, correct + b, message("The frame does not move: the formula has n - 1 free links, not n."))

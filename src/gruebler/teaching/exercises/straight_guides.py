@@ -81,6 +81,11 @@ def _add_straight(builder: SolutionBuilder, size: FourBar, reach: float) -> None
     builder.find("band", name, "max C_y - min C_y", half.band, symbol="Δ")
     name = message("deviation by length")
     builder.find("ratio", name, "Δ/L", half.ratio, unit="", symbol="Q", Δ=half.band, L=half.length)
+    turn = coupler_path(size, reach, 0)(from_degrees(0, 360, 1))
+    whole = message("That holds for the whole turn; the straight part takes half of it, from φ = 90° to 270°.")
+    builder.mistake("length", float(np.ptp(turn.real)), whole)
+    builder.mistake("band", float(np.ptp(turn.imag)), whole)
+    builder.mistake("length", 2 * size.a, message("C does not follow A: read its own coordinates at φ = 90° and 270°."))
 
 
 def watt_linkage(
@@ -149,6 +154,7 @@ def _add_watt_stroke(builder: SolutionBuilder, size: FourBar, tilt: float, left_
     builder.find("stroke", name, "F_y2 - F_y1", high - low, symbol="H", F_y1=low, F_y2=high)
     builder.keep("t_low", message("rocker at the lower end"), degrees(ends[0]), unit="°")
     builder.keep("t_high", message("rocker at the upper end"), degrees(ends[1]), unit="°")
+    builder.mistake("stroke", high, message("That is the way from the middle to one end only."))
     contact = lever_contact(size, coupler / 2, 0, -tilt, branch="-")
     name = message("points that path and tangent have in common in the middle")
     builder.keep("n", name, contact.points)
@@ -244,6 +250,13 @@ def _add_strip(builder: SolutionBuilder, size: FourBar, path: Path, ends: tuple[
     builder.keep("band", name, piece.band, unit=unit, symbol="Δ")
     builder.keep("length", message("length of the path along it"), piece.length, unit=unit, symbol="L")
     direction = (degrees(piece.direction) + frame) % 180
+    run = path(np.linspace(*ends, 201)) * cmath.exp(1j * radians(frame))
+    for extent in (float(np.ptp(run.real)), float(np.ptp(run.imag))):
+        builder.mistake(
+            "band", extent, message("The width is measured at right angles to the strip, not along x or y.")
+        )
+    chord = 2 * size.a * abs(sin((ends[1] - ends[0]) / 2))
+    builder.mistake("length", chord, message("That is how far the joint D comes; C lies beyond it."))
     builder.keep("direction", message("direction of the strip"), direction, unit="°")
     builder.say(
         message(

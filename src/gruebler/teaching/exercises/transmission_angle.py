@@ -154,6 +154,10 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
     else:
         largest = message("largest transmission angle, in the dead centres")
         builder.keep(f"μ_max{mark}", largest, 90.0, unit="°")
+    along = message("μ is largest where the rod lies along the slider's line: α = 0° there, and μ = 90° - α.")
+    for value in (0.0, 180.0, 90 - degrees(asin(abs(a - off) / b))):
+        if value < 90 or not off or a >= off:
+            builder.mistake(f"μ_max{mark}", value, along)
     extremes = measures(size.linkage()).transmission
     builder.check(
         message("Largest transmission angle, from the solved motion"),

@@ -7,12 +7,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import pi, radians
 
+from gruebler.base.text import Text
 from gruebler.files import Exercise
+from gruebler.machines.gears import read_train
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages.gear_trains import linkage_of_train
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.structure.mechanism import Mechanism
+from gruebler.teaching.catalog import entry
 from gruebler.teaching.exercises import solve
 from gruebler.teaching.exercises.coupler_points import read_points
 
@@ -28,22 +32,57 @@ class DrawnLinkage:
     drive: float | None = None
     between: tuple[float, float] | None = None
     curves: tuple[str, ...] = ()
+    name: Text | None = None
+    """What distinguishes it from the other linkages of the exercise."""
+    source: str = ""
+    """The machine of the catalog that it is."""
+
+    def figure(self, lang: str) -> Figure:
+        """Its picture, to scale."""
+        return draw_linkage(
+            self.linkage,
+            at=self.drive,
+            between=self.between,
+            curves=self.curves,
+            labels=bool(self.letters),
+            lang=lang,
+            names=self.letters,
+        )
 
 
 def linkage_figure(exercise: Exercise, lang: str) -> Figure | None:
     """The linkage of an exercise to scale; None if its lengths are not all given or cannot be assembled."""
     drawn = exercise_linkage(exercise)
-    if drawn is None:
-        return None
-    return draw_linkage(
-        drawn.linkage,
-        at=drawn.drive,
-        between=drawn.between,
-        curves=drawn.curves,
-        labels=True,
-        lang=lang,
-        names=drawn.letters,
-    )
+    return None if drawn is None else drawn.figure(lang)
+
+
+def exercise_linkages(exercise: Exercise) -> list[DrawnLinkage]:
+    """All linkages of which an exercise speaks.
+
+    >>> from gruebler.teaching.exercises import exercise
+    >>> [drawn.name.in_language("en") for drawn in exercise_linkages(exercise("13"))]
+    ['b = 37.5', 'b = 75']
+    """
+    if exercise.method == "mobility.machines":
+        several = len(exercise.cases) > 1
+        machines = [(case.name if several else None, entry(case.machine)) for case in exercise.cases]
+        return [
+            DrawnLinkage(linkage=machine.linkage(), letters={}, between=machine.between, name=name, source=machine.id)
+            for name, machine in machines
+            if machine.dimensions is not None
+        ]
+    if exercise.method == "transmission_angle.compare_rods":
+        number = _numbers(exercise)
+        return [
+            DrawnLinkage(
+                linkage=SliderCrank(number["a"], number[b]).linkage(),
+                letters=_LETTERS | {"frame": " "},
+                name=Text(f"b = {number[b]:g}", f"b = {number[b]:g}".replace(".", ",")),
+            )
+            for b in ("b1", "b2")
+        ]
+    drawn = exercise_linkage(exercise)
+    return [drawn] if drawn else []
 
 
 def exercise_linkage(exercise: Exercise) -> DrawnLinkage | None:
@@ -152,12 +191,26 @@ def _coupler_points(exercise: Exercise) -> DrawnLinkage:
     )
 
 
+def _gear_pair(exercise: Exercise) -> DrawnLinkage:
+    """A small wheel that drives a larger one with i times its teeth."""
+    train = read_train(f"drive:20 wheel:{20 * _numbers(exercise)['i']:g}; drive=1").train
+    return DrawnLinkage(linkage=linkage_of_train(train, ["drive"]), letters={})
+
+
+def _central_crank_rocker(exercise: Exercise) -> DrawnLinkage:
+    """With the frame that is asked for."""
+    a, b, c = (_numbers(exercise)[key] for key in "abc")
+    return DrawnLinkage(linkage=FourBar.central(a=a, b=b, c=c).linkage(), letters=_LETTERS)
+
+
 _OWN: Mapping[str, Callable[[Exercise], DrawnLinkage]] = {
     "coupler_points.conchoid": _conchoid,
     "coupler_points.four_bar": _coupler_points,
+    "dead_centres.central_crank_rocker": _central_crank_rocker,
     "straight_guides.double_rocker": _double_rocker,
     "straight_guides.lambda_linkage": _lambda,
     "straight_guides.scott_russell": _scott_russell,
     "straight_guides.watt_linkage": _watt,
+    "transfer.gear_pair": _gear_pair,
 }
 """Methods whose letters mean something else than those of `_of_lengths`, or that ask for paths of points."""
