@@ -67,6 +67,8 @@ def add(parser: Parser) -> None:
         --branch
         --point POINT ...  a named point, a joint, or LINK:X,Y: its position and derivatives (repeatable)
         --output LINK ...  the output: a link or a sliding joint (repeatable)
+        --wheel C,A,T  in space: camber, toe, half track and wheelbase of a wheel by its centre, an outer point of its
+            axis and its contact with the ground; x points outwards, y forwards, z upwards
         --poles  the instant centres of all pairs of links; with --at as a list
         --curvature  radius and centre of curvature of each --point; inflection circles
         --planes  the planes in which the links, as plates, do not collide over the whole motion, or over the rows of
@@ -83,7 +85,7 @@ def run(arguments: argparse.Namespace) -> int:
         from gruebler.cli.analyse_space import analyse_in_space
 
         return analyse_in_space(arguments, spatial)
-    linkage, shown_range = linkage_of_word(arguments.linkage, language_of_names(arguments))
+    linkage, shown_range = _in_plane(arguments)
     size = size_of(arguments.linkage)
     if size is not None and not arguments.json:  # the linkage as JSON must have a unit, these lengths have none
         linkage = linkage_of_lengths(size, language_of_names(arguments), unit="")
@@ -147,6 +149,13 @@ def run(arguments: argparse.Namespace) -> int:
         )
         columns = [*table, *_geometry(motion, outputs, arguments)]
     return _report(linkage, measures, motion, [column.without(before) for column in columns], arguments)
+
+
+def _in_plane(arguments: argparse.Namespace) -> tuple[Linkage, tuple[float, float] | None]:
+    """The linkage and the drive values between which it is shown."""
+    if arguments.wheel is not None:
+        raise GrueblerError("--wheel goes with a linkage in space")
+    return linkage_of_word(arguments.linkage, language_of_names(arguments))
 
 
 # --- what was asked for ----------------------------------------------------------------------------

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from gruebler.base.arrays import Reals
 from gruebler.base.columns import Table, shown
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import error_in_language, translate
@@ -20,6 +21,7 @@ from gruebler.mechanics.screws import SpatialLinkage, freedoms
 from gruebler.mechanics.space import SpatialMeasures, SpatialModes, assembly_modes, measures
 from gruebler.mechanics.space.drive_range import followed
 from gruebler.mechanics.space.measuring import spatial_table
+from gruebler.mechanics.space.wheel_alignment import wheel_alignment
 
 _ONLY_IN_PLANE = ("speed", "acceleration", "jerk", "branch", "poles", "curvature", "planes")
 _ROWS = 25  # of the table, where no rows are given
@@ -34,13 +36,10 @@ def analyse_in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> int
     drives = linkage.mechanism.drives
     rows = given_rows(arguments.range, arguments.at, [drive.turning for drive in drives])
     measured: SpatialMeasures | None = None
-    table = None
     if len(drives) == 1:
         measured = measures(linkage, output=arguments.output[0] if arguments.output else None)
         rows = measured.rows(_ROWS) if rows is None else rows
-    if rows is not None:
-        motion = followed(linkage, np.asarray(rows), order=2 if len(drives) == 1 else 0)
-        table = spatial_table(motion, arguments.output, arguments.point, arguments.lang)
+    table = _table(linkage, rows, arguments)
     if table is not None and is_table(arguments.out):
         write_table(arguments.out, table.columns, arguments.lang, decimal_comma=arguments.decimal_comma)
     freedom = freedoms(linkage)
@@ -65,6 +64,31 @@ def analyse_in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> int
             [column.header for column in table], shown(table.columns, arguments.lang), numbers=range(len(table.columns))
         )
     return 0
+
+
+def _table(linkage: SpatialLinkage, rows: Reals | None, arguments: argparse.Namespace) -> Table | None:
+    """The motion over the rows, with the columns of a wheel; None without rows."""
+    if rows is None:
+        if arguments.wheel is not None:
+            raise GrueblerError("--wheel needs rows: give --range FROM:TO:STEP for each drive, or --at VALUE,VALUE")
+        return None
+    motion = followed(linkage, np.asarray(rows), order=2 if len(linkage.mechanism.drives) == 1 else 0)
+    table = spatial_table(motion, arguments.output, arguments.point, arguments.lang)
+    if arguments.wheel is None:
+        return table
+    return Table((*table, *wheel_alignment(motion, *_wheel_points(arguments.wheel), lang=arguments.lang)))
+
+
+def _wheel_points(text: str) -> tuple[str, ...]:
+    """Centre, point of the axis, and contact if it is given."""
+    names = tuple(name.strip() for name in text.split(","))
+    if len(names) not in (2, 3) or not all(names):
+        raise GrueblerError(
+            "--wheel {found!r}: expected the names of two or three points such as C,A,T: centre, outer point of the "
+            "axis, contact with the ground",
+            found=text[:40],
+        )
+    return names
 
 
 def _modes(linkage: SpatialLinkage) -> SpatialModes | LinkageError | None:
