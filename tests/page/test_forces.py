@@ -1,13 +1,18 @@
 """The panel of forces: efforts and joint forces against velocities of the page's own kernel, and a free motion."""
 
+import base64
 import math
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from gruebler.base.errors import GrueblerError
 from gruebler.files import linkage_to_json
 from gruebler.mechanics.analysis import drive_cycle
+from gruebler.mechanics.dynamics import inverse_dynamics
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
+from gruebler.mechanics.kinematics import move
 from gruebler.page.requests import answer
 from gruebler.teaching.catalog import entries
 
@@ -79,6 +84,65 @@ def test_the_springs_of_the_catalog_are_told_and_changed():
     assert [tuple(again["springs"][0][key]) for key in ("ends",)] == [tuple(gas["ends"])]
     without = answer("forces", {**question, "springs": []}, "en", print)
     assert without["effort"] != told["effort"]
+
+
+ENGINE = Path(__file__).parents[1] / "cli" / "engine.toml"
+PRESS = """
+unit = "cm"
+joints = "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker)"
+drives = ["R(frame-crank)"]
+points.P = { link = "coupler", at = [4, 3] }
+
+[places]
+"R(frame-crank)" = [0, 0]
+"R(crank-coupler)" = [0, 2.5]
+"R(coupler-rocker)" = [6, 5]
+"R(frame-rocker)" = [7, 0]
+
+[loads]
+speed = "60 rpm"
+bodies = { coupler = { mass = "300 g", bar = [[0, 2.5], [6, 5]] } }
+masses = { "rocker:1,0" = "50 g" }
+forces = { P = ["0 N", { formula = "-20*cos(drive)", unit = "N" }] }
+springs = [{ between = ["frame:0,5", "P"], stiffness = "1 N/cm", free_length = 2 }]
+"""
+
+
+@pytest.mark.parametrize("lang", ["en", "de"])
+def test_loads_of_a_file_act_on_the_page(lang, tmp_path):
+    """As `dynamics` has them, whatever the links are called; places of the drawing become those of links."""
+    from gruebler.cli.explore import _model
+    from gruebler.files.linkages import read_loaded
+
+    file = tmp_path / "press.toml"
+    file.write_text(PRESS)
+    document = _model(str(file), lang)["document"]
+    told = answer("forces", {"document": document, "drives": [0.0], "source": str(file)}, lang, print)
+    linkage, loads, speed = read_loaded(file)
+    assert told["speed"] == speed == pytest.approx(2 * math.pi)
+    assert (told["masses"], len(told["springs"])) == ([0, 0, pytest.approx(0.3), 0], 1)
+    motion = move(linkage, told["drives"], speed=speed, order=2)
+    wanted = inverse_dynamics(motion, loads).drive[:, 0]
+    assert told["effort"] == pytest.approx(wanted.tolist(), abs=1e-6 * abs(wanted).max())
+    assert ("rocker:1,0" if lang == "en" else "Schwinge:1,0") in told["lines"][-1]
+    # the reader's masses and springs stand in their place
+    more = {"masses": [0, 0, 0, 0], "springs": []}
+    other = answer("forces", {"document": document, "drives": [0.0], **more}, lang, print)
+    rest = replace(loads, bodies={}, springs=())
+    assert other["effort"] == pytest.approx(inverse_dynamics(motion, rest).drive[:, 0].tolist(), abs=1e-4)
+    assert answer("fall", {"document": document, "drives": [1.0], "until": 0.1}, lang, print)["lines"]
+
+
+@pytest.mark.parametrize("kind", ["toml", "json", "pmks"])
+def test_the_loads_of_a_file_that_is_opened_are_saved_with_it(kind):
+    content = base64.b64encode(ENGINE.read_bytes()).decode()
+    opened = answer("open_file", {"name": "engine.toml", "base64": content}, "en", print)
+    assert opened["note"] == ""
+    document = opened["model"]["document"]
+    saved = answer("export", {"document": document, "kind": kind}, "en", print)
+    assert ("loads and masses" in saved["note"]) == (kind == "pmks")
+    again = answer("open_file", {"name": f"x{saved['ending']}", "base64": saved["base64"]}, "en", print)
+    assert again["model"]["document"].get("loads") == (None if kind == "pmks" else document["loads"])
 
 
 def test_a_spring_on_one_link_is_refused():

@@ -15,7 +15,7 @@ from gruebler.cli.long_work import progress
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
 from gruebler.page.exchange import own_document
-from gruebler.page.model import model_of, with_page
+from gruebler.page.model import model_of, with_document
 
 _PORT = 8117
 _FIRST = "lambda"
@@ -110,8 +110,8 @@ def _model(word: str, lang: str) -> dict[str, Any]:
         from gruebler.page.links import read_link
 
         shared = read_link(word)
-        model = model_of(linkage_from_json(shared.document), name=shared.name, source=shared.source)
-        return with_page(model, shared.document)
+        linkage = linkage_from_json(shared.document)
+        return with_document(model_of(linkage, name=shared.name, source=shared.source), linkage, shared.document)
     if "(" in word and not Path(word).is_file():
         from gruebler.design.realisation.realising import realise
         from gruebler.page.structures import mechanism_of_text
@@ -123,7 +123,7 @@ def _model(word: str, lang: str) -> dict[str, Any]:
     linkage, between = linkage_and_range(word)
     record = entry_of(word)
     model = model_of(linkage, name=word if record is None else record.name, source=word, between=between)
-    return with_page(model, own_document(Path(word))) if record is None and Path(word).is_file() else model
+    return with_document(model, linkage, own_document(Path(word))) if Path(word).is_file() else model
 
 
 def _serve(model: dict[str, Any], arguments: argparse.Namespace) -> int:

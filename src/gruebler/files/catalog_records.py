@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
@@ -303,26 +303,37 @@ _NAME_LINKS: Mapping[str, tuple[str, ...]] = {
 }
 
 
+def _renamed(value: Any, names: Mapping[str, str]) -> Any:
+    """Plain data with these names of links and points wherever they stand in it."""
+    if isinstance(value, str):
+        return renamed_links(value, names)
+    if isinstance(value, Mapping) and "at" in value:  # a wheel, cam or point with keys of its own
+        return {key: _renamed(item, names) if key == "link" else item for key, item in value.items()}
+    if isinstance(value, Mapping):
+        return {_renamed(key, names): _renamed(item, names) for key, item in value.items()}
+    return [_renamed(item, names) for item in value] if isinstance(value, list | tuple) else value
+
+
+def _with_keys(table: Mapping[str, Any], keys: Iterable[str], names: Mapping[str, str]) -> dict[str, Any]:
+    return {key: _renamed(value, names) if key in keys else value for key, value in table.items()}
+
+
+def renamed_loads(table: Mapping[str, Any], names: Mapping[str, str]) -> dict[str, Any]:
+    """The table ``[loads]`` with these names of links.
+
+    >>> renamed_loads({"masses": {"bar:5,0": "1 kg"}, "speed": "60 rpm"}, {"bar": "beam"})
+    {'masses': {'beam:5,0': '1 kg'}, 'speed': '60 rpm'}
+    """
+    return _with_keys(table, _NAME_LINKS["loads"], names)
+
+
 def _with_names(entry: Entry, names: Mapping[str, str]) -> Entry:
     """The record with these names of its links and points wherever they stand in it."""
-
-    def renamed(value: Any) -> Any:
-        if isinstance(value, str):
-            return renamed_links(value, names)
-        if isinstance(value, Mapping) and "at" in value:  # a wheel, cam or point with keys of its own
-            return {key: renamed(item) if key == "link" else item for key, item in value.items()}
-        if isinstance(value, Mapping):
-            return {renamed(key): renamed(item) for key, item in value.items()}
-        return [renamed(item) for item in value] if isinstance(value, list | tuple) else value
-
-    plain = msgspec.to_builtins(entry)
-    for key in ("joints", "frame", "drives", "outputs"):
-        plain[key] = renamed(plain[key])
+    plain = _with_keys(msgspec.to_builtins(entry), ("joints", "frame", "drives", "outputs"), names)
     for part, keys in _NAME_LINKS.items():
         if plain[part] is not None:
-            plain[part] |= {key: renamed(plain[part][key]) for key in keys if key in plain[part]}
-    for claim in plain["quantities"]:
-        claim |= {key: renamed(claim[key]) for key in ("of", "drive")}
+            plain[part] = _with_keys(plain[part], keys, names)
+    plain["quantities"] = [_with_keys(claim, ("of", "drive"), names) for claim in plain["quantities"]]
     for key in ("links", "points"):
         plain[key] = {names[each]: name for each, name in plain[key].items()}
     return msgspec.convert(plain, Entry)

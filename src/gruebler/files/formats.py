@@ -57,6 +57,9 @@ class Format:
     """What the numbers of lengths are; None if there are none."""
 
 
+LOADS = message("loads and masses")
+"""What is left out of a linkage by those who want the linkage alone."""
+
 _WITH_UNIT = message("with their unit")
 _AS_MILLIMETRES = message("mm (the format has no unit)")
 _HEADER = message("the unit of the linkage, in the header")
@@ -88,7 +91,7 @@ def _own_document(path: Path, left_out: list[Message]) -> Value:
 
     value = read_any_linkage(path)
     if data.get("loads"):
-        left_out.append(message("loads and masses"))
+        left_out.append(LOADS)
     return value
 
 

@@ -72,13 +72,12 @@ def read_loads(path: Path | str) -> Loads:
 
 def read_loaded(path: Path | str) -> tuple[Linkage, Loads, float | None]:
     """The linkage in a file, its loads, and the speed at which its drive usually runs, as for `read_loads`."""
-    from gruebler.files.load_reading import loads_from_json, usual_speed
+    from gruebler.files.load_reading import loads_of_document
 
     linkage, path = read_linkage(path), Path(path)
     data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
-    table, drawn = data.get("loads", {}), "places" in data
     try:
-        return linkage, loads_from_json(table, linkage, drawn=drawn), usual_speed(table, linkage)
+        return linkage, *loads_of_document(data, linkage)
     except LinkageError as error:
         raise LinkageError("{path}: {error}", path=path, error=error) from None
 

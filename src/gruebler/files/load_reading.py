@@ -308,6 +308,12 @@ def loads_from_json(data: Any, linkage: Linkage, *, drawn: bool = False) -> Load
     )
 
 
+def loads_of_document(document: Mapping[str, Any], linkage: Linkage) -> tuple[Loads, float | None]:
+    """The loads in the document of a linkage, none without ``loads``, and the speed at which its drive usually runs."""
+    table = document.get("loads", {})
+    return loads_from_json(table, linkage, drawn="places" in document), usual_speed(table, linkage)
+
+
 def usual_speed(data: Any, linkage: Linkage) -> float | None:
     """The speed in ``[loads]`` of the only drive, in radians or the linkage's unit a second; None without one.
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from gruebler.base.doors import door
 from gruebler.base.errors import GrueblerError, nearest, warn
 from gruebler.base.text import Message, joined, joined_by_or, message
-from gruebler.files.formats import FORMATS, Format, json_of_another_program
+from gruebler.files.formats import FORMATS, LOADS, Format, json_of_another_program
 
 if TYPE_CHECKING:
     from gruebler.files.formats import Value
@@ -240,4 +240,4 @@ def write_loaded(
         write_linkage(path, linkage, loads, speed)
     else:
         write(linkage, path, format_name=format_name, left_out=left_out)
-        left_out.append(message("loads and masses"))
+        left_out.append(LOADS)

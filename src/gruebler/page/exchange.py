@@ -7,6 +7,7 @@ import binascii
 import json
 import os
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +15,10 @@ from gruebler.base.atomic_files import atomic_file, temporary_directory
 from gruebler.base.documents import load_document
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, error_in_language, joined, translate
-from gruebler.files.formats import FORMATS, Format
+from gruebler.files.formats import FORMATS, LOADS, Format
 from gruebler.files.linkages import toml_key, toml_value
-from gruebler.files.values import format_of, read, write
+from gruebler.files.load_reading import loads_of_document
+from gruebler.files.values import format_of, read, write, write_loaded
 from gruebler.mechanics.linkages import Linkage
 
 _OWN = ("toml", "json")
@@ -43,7 +45,7 @@ def opened_file(name: str, content: str, lang: str) -> dict[str, Any]:
     Raises `GrueblerError` that names the file for what cannot be read or shown.
     """
     from gruebler.design.synthesis import PathTask
-    from gruebler.page.model import model_of, with_page
+    from gruebler.page.model import model_of, with_document
     from gruebler.structure.chain import Chain
 
     try:
@@ -64,7 +66,8 @@ def opened_file(name: str, content: str, lang: str) -> dict[str, Any]:
     chains = value if isinstance(value, list) else [value]
     shown: dict[str, Any]
     if isinstance(value, Linkage):
-        shown = {"model": with_page(model_of(value, name=Path(name).stem), document)}
+        shown = {"model": with_document(model_of(value, name=Path(name).stem), value, document)}
+        notes = [note for note in notes if note != LOADS]
     elif chains and isinstance(chains[0], Chain):
         shown = {"text": chains[0].text()}
     elif isinstance(value, PathTask):
@@ -92,10 +95,10 @@ def own_document(file: Path) -> dict[str, Any]:
     return document if isinstance(document, dict) else {}
 
 
-def saved_file(linkage: Linkage, kind: str, lang: str, page: dict[str, Any] | None = None) -> dict[str, str]:
+def saved_file(linkage: Linkage, kind: str, lang: str, document: Mapping[str, Any]) -> dict[str, str]:
     """A linkage in a format as base64, the ending of the file, and what was left out.
 
-    Our own formats keep what the page shows beside it.
+    Our own formats keep its loads and what the page shows beside it.
     """
     form = format_of("", kind)
     if form.name in _NO_LINKAGES:
@@ -104,13 +107,16 @@ def saved_file(linkage: Linkage, kind: str, lang: str, page: dict[str, Any] | No
     with temporary_directory() as folder:
         file = folder / f"linkage{_ending(form)}"
         try:
-            write(linkage, file, format_name=kind, left_out=notes)
+            if document.get("loads"):
+                write_loaded(linkage, *loads_of_document(document, linkage), file, kind, notes)
+            else:
+                write(linkage, file, format_name=kind, left_out=notes)
         except GrueblerError as error:
             text = error_in_language(error, lang).replace(f"{folder}{os.sep}", "")
             raise GrueblerError("{message}", message=text) from None
         data = file.read_bytes()
-        if page and form.name in _OWN:
-            data = _with_page(data, form.name, page)
+        if document.get("page") and form.name in _OWN:
+            data = _with_page(data, form.name, document["page"])
         content = base64.b64encode(data).decode("ascii")
     return {"base64": content, "type": "application/octet-stream", "ending": _ending(form), "note": _note(notes, lang)}
 

@@ -11,8 +11,11 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import GrueblerError
+from gruebler.base.text import joined, message
 from gruebler.base.units import metres_of
 from gruebler.files import linkage_from_json
+from gruebler.files.catalog_records import renamed_loads
+from gruebler.files.load_reading import loads_of_document
 from gruebler.mechanics.dynamics import inverse_dynamics, simulate
 from gruebler.mechanics.forces import Loads, RigidBody, Spring, TorsionSpring
 from gruebler.mechanics.forces.springs import check_between_links
@@ -22,6 +25,7 @@ from gruebler.page.model import link_names
 from gruebler.page.params import LoadedLinkage, OuterLoad, OwnSpring
 from gruebler.teaching.catalog import entries
 
+_BESIDES = message("Besides, loads or masses as they stand in the file or the catalog act on {places}.")
 _STEEL_BAR = 7850 * 0.020 * 0.005  # kg/m: a cross-section of 20 mm by 5 mm
 _ROWS = 180  # of a turn
 _MOST_ROWS = 1080
@@ -37,6 +41,8 @@ class _Laden(NamedTuple):
     linkage: Linkage
     loads: Loads
     speed: float | None
+    besides: tuple[str, ...]
+    """On what loads and masses act that the reader has not given, and the form does not show."""
 
 
 def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
@@ -44,7 +50,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
 
     Without anything that acts only masses are there, and those that could be assumed, of bars of steel.
     """
-    linkage, loads, usual = _laden(asked, lang)
+    linkage, loads, usual, besides = _laden(asked, lang)
     record: dict[str, Any] = {"masses": _masses(linkage, loads), "assumed": _assumed(linkage)}
     own = asked.springs
     record["springs"] = _springs(linkage, loads) if own is None else msgspec.to_builtins(own)
@@ -70,18 +76,21 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         for number, each in enumerate(chain.joints)
         for link in (each.links if len(each.links) > 2 else each.links[1:])
     ]
+    lines = run.explain(lang).splitlines()
+    if besides:
+        lines.append(_BESIDES.filled(places=joined(besides)).in_language(lang))
     return record | {
         "speed": speed,
         "drives": motion.drives[:, active].tolist(),
         "effort": _short(run.drive[:, active]).tolist(),
         "forces": forces,
-        "lines": run.explain(lang).splitlines(),
+        "lines": lines,
     }
 
 
 def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     """Poses of all links, sixty a second, when only weights and springs act; why they end if they do too soon."""
-    linkage, loads, _ = _laden(asked, lang)
+    linkage, loads, *_ = _laden(asked, lang)
     free = replace(loads, forces={}, moments={}, motors={})
     times = np.arange(round(asked.until * _A_SECOND) + 1) / _A_SECOND
     run = simulate(linkage, free, at=asked.drives, until=asked.until, times=times, tolerance=_ENOUGH)
@@ -96,12 +105,15 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
 
 
 def _laden(asked: LoadedLinkage, lang: str) -> _Laden:
-    """Loads of the catalog entry while its links are there; masses and the load that the reader gave in their place."""
+    """Loads of the document, or of the catalog entry while its links are there; in their place what the reader gave."""
     plain = linkage_from_json(asked.document)
-    linkage = plain.renamed(link_names(plain, asked.source, lang))
+    names_in = link_names(plain, asked.source, lang)
+    linkage = plain.renamed(names_in)
     links, loads, speed = linkage.mechanism.chain.links, Loads(), None
     entry = entries().get(asked.source)
-    if entry is not None and entry.loads is not None and entry.chain().links == plain.mechanism.chain.links:
+    if table := asked.document.get("loads"):
+        loads, speed = loads_of_document({"loads": renamed_loads(table, names_in)}, linkage)
+    elif entry is not None and entry.loads is not None and entry.chain().links == plain.mechanism.chain.links:
         _, loads, speed = entry.in_language(lang).loaded()
     bodies = dict(loads.bodies)
     for link, mass in zip(links, asked.masses, strict=False):
@@ -112,13 +124,14 @@ def _laden(asked: LoadedLinkage, lang: str) -> _Laden:
             bodies[link] = RigidBody(mass, known.centre, known.inertia * mass / known.mass)
         elif mass:
             bodies[link] = _spread(mass, linkage, link)
-    forces, moments = dict(loads.forces), dict(loads.moments)
+    forces, moments, weights = dict(loads.forces), dict(loads.moments), loads.masses
     names = {"point": [*linkage.points], "joint": linkage.mechanism.chain.joint_names(), "link": links}
     placed: dict[str, list[OuterLoad]] = {}
     for own in asked.loads:
         if own.number >= len(names[own.on]):
             raise GrueblerError("load: there is no {what} {number}", what=own.on, number=own.number)
         placed.setdefault(names[own.on][own.number], []).append(own)
+    besides = tuple(str(each) for each in dict.fromkeys((*forces, *moments, *weights)) if each not in placed)
     for name, together in placed.items():
         if together[0].on == "link":
             moments[name] = sum(own.x for own in together)
@@ -127,7 +140,8 @@ def _laden(asked: LoadedLinkage, lang: str) -> _Laden:
     gravity = loads.gravity if asked.gravity else (0.0, 0.0)
     if asked.springs is not None:
         loads = _own_springs(linkage, loads, asked.springs)
-    return _Laden(linkage, replace(loads, forces=forces, moments=moments, gravity=gravity, bodies=bodies), speed)
+    acting = replace(loads, forces=forces, moments=moments, gravity=gravity, bodies=bodies)
+    return _Laden(linkage, acting, speed, besides)
 
 
 def _all_springs(loads: Loads) -> tuple[Spring | TorsionSpring, ...]:

@@ -15,6 +15,8 @@ import numpy as np
 from gruebler.base.arrays import Complexes
 from gruebler.base.text import LANGUAGES, Text, error_in_language, translate
 from gruebler.files import linkage_to_json
+from gruebler.files.load_reading import loads_of_document
+from gruebler.files.load_writing import loads_to_json
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
 from gruebler.mechanics.kinematics.branches import labelled_groups
@@ -32,9 +34,13 @@ _COMMON = ("frame", "crank", "coupler", "rocker", "slider")  # links of four-bar
 _SAME = 1e-12  # sizes: elements of the plan are copies of the linkage's, but for rounding of turned ones
 
 
-def with_page(model: dict[str, Any], document: Mapping[str, Any]) -> dict[str, Any]:
-    """A model that keeps what the document of its linkage has for the page alone, under the key ``page``."""
-    return model | {"document": model["document"] | {"page": document["page"]}} if document.get("page") else model
+def with_document(model: dict[str, Any], linkage: Linkage, document: Mapping[str, Any]) -> dict[str, Any]:
+    """A model that keeps what the document of its linkage has besides: ``loads``, and ``page`` for the page alone."""
+    kept = {"page": document["page"]} if document.get("page") else {}
+    if document.get("loads"):
+        loads, speed = loads_of_document(document, linkage)
+        kept["loads"] = loads_to_json(loads, linkage, speed)
+    return model | {"document": model["document"] | kept}
 
 
 def model_of(

@@ -123,7 +123,7 @@ class OwnSpring(Params):
     preload: Amount = 0.0
     damping: Rate = 0.0
     known: Number | None = None
-    """The number of the spring of the catalog entry of which it has the law."""
+    """The number of the spring of the document or the catalog entry of which it has the law."""
 
 
 class LoadedLinkage(Params):
@@ -133,12 +133,12 @@ class LoadedLinkage(Params):
     drives: Annotated[list[float], msgspec.Meta(min_length=1, max_length=20)]
     source: Word = ""
     masses: Annotated[list[Annotated[float, msgspec.Meta(ge=0, le=1e9)] | None], msgspec.Meta(max_length=200)] = []
-    """Of each link, in kilograms; without one those of the catalog entry."""
+    """Of each link, in kilograms; without one those of the document or the catalog entry."""
     gravity: bool = True
     loads: Annotated[list[OuterLoad], msgspec.Meta(max_length=20)] = []
     """Forces on one place add up, as do moments on one link."""
     springs: Annotated[list[OwnSpring], msgspec.Meta(max_length=20)] | None = None
-    """Without any those of the catalog entry."""
+    """Without any those of the document or the catalog entry."""
     active: Number = 0
     """The drive that runs at constant speed."""
     range: tuple[float, float] = (0.0, 2 * pi)

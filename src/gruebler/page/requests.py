@@ -130,10 +130,10 @@ def _open(asked: CatalogId, _: str, __: Progress) -> dict[str, Any]:
 
 def _open_document(asked: OpenDocument, _: str, __: Progress) -> dict[str, Any]:
     from gruebler.files import linkage_from_json
-    from gruebler.page.model import model_of, with_page
+    from gruebler.page.model import model_of, with_document
 
-    model = model_of(linkage_from_json(asked.document), name=asked.name, source=asked.source)
-    return with_page(model, asked.document)
+    linkage = linkage_from_json(asked.document)
+    return with_document(model_of(linkage, name=asked.name, source=asked.source), linkage, asked.document)
 
 
 def _structure(asked: DescribeStructure, lang: str, _: Progress) -> dict[str, Any]:
@@ -224,10 +224,10 @@ def _export(asked: Export, lang: str, _: Progress) -> dict[str, str]:
 
     linkage = linkage_from_json(asked.document)
     if asked.kind == "html":
-        from gruebler.page.model import model_of, with_page
+        from gruebler.page.model import model_of, with_document
         from gruebler.page.page import single_file
 
-        model = with_page(model_of(linkage, name=asked.name), asked.document)
+        model = with_document(model_of(linkage, name=asked.name), linkage, asked.document)
         return _file(single_file(model, lang).encode("utf-8"), "text/html")
     if asked.kind == "gif":
         from gruebler.pictures.linkage.animation_frames import animated_frames
@@ -236,7 +236,7 @@ def _export(asked: Export, lang: str, _: Progress) -> dict[str, str]:
     if asked.kind != "pdf":
         from gruebler.page.exchange import saved_file
 
-        return saved_file(linkage, asked.kind, lang, page=asked.document.get("page"))
+        return saved_file(linkage, asked.kind, lang, asked.document)
     from gruebler.pictures.canvas.files import picture_bytes
     from gruebler.pictures.linkage.picture import draw_linkage
 
