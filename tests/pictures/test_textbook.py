@@ -3,6 +3,7 @@
 import re
 from itertools import combinations
 from math import hypot
+from xml.etree import ElementTree
 
 import pytest
 
@@ -110,7 +111,7 @@ def test_command(tmp_path, capsys):
     assert main(["draw", "wiper", "--structure", "-o", str(chain)]) == 0
     assert "To scale" in machine.read_text(encoding="utf-8")
     assert "To scale" not in chain.read_text(encoding="utf-8")
-    assert "textbook-outline-bar" in machine.read_text(encoding="utf-8")
+    assert 'stroke-width="2.64567"' in machine.read_text(encoding="utf-8")
     capsys.readouterr()
 
 
@@ -127,3 +128,28 @@ def test_letters_of_joints_stay_beside_them(lengths):
     assert max(far.values()) < 36, far  # B stood 60 pixels off its joint
     lines = Obstacles([shape for shape in figure.shapes if not isinstance(shape, TextShape)])
     assert [name for name, text in letters.items() if lines.free(complexes([text.at]), text_width(name))[0] < 0] == []
+
+
+def test_own_names_of_joints(capsys):
+    """O2 and O4 are the fixed pivots in Norton's books."""
+    figure = gr.draw(FOUR_BAR, show=["joints"], letters=["O2", "A", "B", "O4"]).figure
+    own = {shape.text: shape.at for shape in figure.shapes if isinstance(shape, TextShape)}
+    usual = {shape.text: shape.at for shape in shapes_of(FOUR_BAR, show=["joints"]) if isinstance(shape, TextShape)}
+    assert set(own) == {"O_2", "A", "B", "O_4"}
+    for name, known in (("O_2", "A_0"), ("A", "A"), ("B", "B"), ("O_4", "B_0")):
+        assert abs(own[name].x - usual[known].x) + abs(own[name].y - usual[known].y) < 20
+    assert main(["draw", "four-bar:30,70,50,80", "--names", "O2,A"]) == 2
+    assert "expected 4 names of joints, in the order R(frame-crank), R(crank-coupler), " in capsys.readouterr().err
+
+
+def test_svg_for_word_has_attributes_and_no_style_rules():
+    """Every fill and width is where a reader of SVG 1.1 without style sheets finds it."""
+    picture = gr.draw(FOUR_BAR, show=LETTERS).textbook().figure
+    root = ElementTree.fromstring(picture.svg())
+    elements = [element for element in root.iter() if element.tag.endswith(("path", "circle", "rect", "text"))]
+    assert len(elements) > len(picture.shapes)
+    assert all(element.get("fill") for element in elements)
+    assert all(element.get("font-size") for element in elements if element.tag.endswith("text"))
+    widths = {float(width) / MILLIMETRE for element in elements if (width := element.get("stroke-width"))}
+    assert sorted(widths) == pytest.approx([0.35, 0.7], rel=1e-5)
+    assert not [element for element in root.iter() if element.get("class") or element.tag.endswith("style")]

@@ -97,7 +97,8 @@ def add(parser: Parser) -> None:
         --frame
         --drive
         --labels
-        --names {joints}  joints: letters A₀, A, B, B₀ at the joints of a linkage
+        --names joints|NAME,...  joints: letters A₀, A, B, B₀ at the joints of a linkage; or own names of its turning
+            joints in their order, such as O2,A,B,O4
         --angles  mark the angles φ, ψ and μ of a linkage
         --lengths {letters,values}  write the lengths of a linkage as letters or as dimensions
         --style {colour,textbook} =colour  textbook: black, lines of 0.7 and 0.35 mm
@@ -222,7 +223,7 @@ def _letters(arguments: argparse.Namespace) -> list[str]:
     """The layers that --names, --angles and --lengths stand for."""
     lengths = {"letters": ["lengths"], "values": ["dimensions"]}.get(arguments.lengths, [])
     angles = ["angles", "transmission"] if arguments.angles else []
-    return [*angles, *lengths, *["joints"] * (arguments.names == "joints")]
+    return [*angles, *lengths, *["joints"] * bool(arguments.names)]
 
 
 def _is_sized_entry(arguments: argparse.Namespace) -> bool:
@@ -288,6 +289,7 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
         lang=arguments.lang,
         name=name,
         names=names,
+        letters=[] if arguments.names in (None, "joints") else [name.strip() for name in arguments.names.split(",")],
     )
 
 

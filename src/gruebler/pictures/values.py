@@ -161,6 +161,7 @@ def draw(
     plot: bool | None = None,
     view: str | None = None,
     names: Mapping[str, str] | None = None,
+    letters: Sequence[str] | None = None,
     name: str | None = None,
     lang: str | None = None,
 ) -> Picture:
@@ -193,6 +194,7 @@ def draw(
         plot: of a cam or Geneva drive: whether diagrams stand below.
         view: of a `SpatialLinkage`: ``isometric`` or ``oblique``.
         names: of a chain, mechanism or linkage: other names for links in the picture.
+        letters: of a linkage: names of its turning joints in their order, for ``joints``; by default A₀, A, B, B₀.
         name: the title; by default the kind.
         lang: language of title and description, ``en`` or ``de``.
 

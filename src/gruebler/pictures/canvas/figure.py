@@ -10,8 +10,8 @@ from dataclasses import KW_ONLY, dataclass
 
 from gruebler.base.notebook import brief
 from gruebler.pictures.canvas.shapes import Point, Shape, bounds, moved_shape
-from gruebler.pictures.canvas.styles import STYLES
-from gruebler.pictures.canvas.svg import style_sheet, svg_element, svg_number, xml_text
+from gruebler.pictures.canvas.styles import STYLES, TEXTBOOK
+from gruebler.pictures.canvas.svg import style_sheet, svg_element, svg_number, with_attributes, xml_text
 
 
 @brief
@@ -53,11 +53,15 @@ def figure_of(
 def svg(figure: Figure, *, styled: bool = True) -> str:
     """The document; with ``styled`` it includes the rules of its styles, so it does not depend on the page.
 
+    A figure in the style of a textbook, which is for paper, has them as attributes, which Word takes as well.
+
     >>> from gruebler.pictures.canvas.shapes import CircleShape, Point
     >>> svg(figure_of([CircleShape(Point(0, 0), 5, "joint")], "one < two", "a circle"), styled=False).splitlines()[1]
     '<title>one &lt; two</title><desc>a circle</desc>'
     """
     used = [shape.style for shape in figure.shapes]
+    if styled and any(style.startswith(TEXTBOOK) for style in used):
+        return with_attributes(svg_document(figure, None, map(svg_element, figure.shapes)))
     return svg_document(figure, used if styled else None, map(svg_element, figure.shapes))
 
 

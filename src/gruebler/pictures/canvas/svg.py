@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from xml.sax.saxutils import escape
 
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, split_subscripts
@@ -31,6 +32,25 @@ def _declarations(style: Style, ground: int) -> str:
     if ground == 0 and style.size:
         parts.append(f"font-size:{style.size:g}px")
     return ";".join(parts if ground == 0 else [p for p in parts if p != "fill:none"])
+
+
+_CLASS = re.compile(r' class="gr(?:-([\w-]+))?"')
+
+
+def with_attributes(document: str) -> str:
+    """A document with the look of each class in attributes, on light ground: for programs that read no style rules.
+
+    >>> with_attributes('<path class="gr-dot" d="M0 0"/>')
+    '<path fill="#22262b" d="M0 0"/>'
+    """
+
+    def look(match: re.Match[str]) -> str:
+        if match[1] is None:
+            return ' stroke-linecap="round" stroke-linejoin="round" font-family="Arial, Helvetica, sans-serif"'
+        declared = (part.split(":") for part in _declarations(STYLES[match[1]], 0).split(";"))
+        return "".join(f' {name}="{value}"' for name, value in declared)
+
+    return _CLASS.sub(look, document)
 
 
 def svg_element(shape: Shape) -> str:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from string import ascii_lowercase, ascii_uppercase
 
+from gruebler.base.errors import LinkageError
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.pictures.canvas.labels import note_near
@@ -14,6 +16,7 @@ from gruebler.pictures.canvas.shapes import ArcShape, Point, Polylines, Shape
 from gruebler.pictures.canvas.symbols import RADIUS, arrow_head
 from gruebler.pictures.linkage.layer_context import LayerContext
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
+from gruebler.structure.chain.pairs import Alphabet
 
 _ARCS = (30.0, 38.0)  # pixels of the radius of an angle of the drive and of the output
 _BEYOND = 14.0  # pixels by which the line from which an angle is measured extends beyond its arc
@@ -46,13 +49,32 @@ def joint_letters(posed: PosedLinkage) -> dict[int, str]:
     return letters | {k: next(spare) for k in free if k not in letters}
 
 
-def joint_names(context: LayerContext) -> list[Shape]:
-    """The letters beside their joints."""
+def joint_names(context: LayerContext, letters: Sequence[str] = ()) -> list[Shape]:
+    """The letters beside their joints, or the names that are given for them."""
     posed, shapes = context.posed, list(context.drawn)
     texts: list[Shape] = []
-    for number, letter in joint_letters(posed).items():
+    for number, letter in (_given(context, letters) or joint_letters(posed)).items():
         texts.append(note_near(_pin(posed, number), letter, "name", [*shapes, *texts]))
     return texts
+
+
+_INDEX = re.compile(r"([^\W\d_])(\d+)")
+
+
+def _given(context: LayerContext, letters: Sequence[str]) -> dict[int, str]:
+    """A name for each turning joint, in the order of the joints; figures behind a letter become an index."""
+    chain = context.posed.lower.mechanism.chain
+    turning = [k for k, joint in enumerate(chain.joints) if joint.pair.is_turning]
+    if letters and len(letters) != len(turning):
+        names = chain.joint_names(Alphabet.of_language(context.lang))
+        raise LinkageError(
+            "expected {count} names of joints, in the order {joints}, but found {found}",
+            count=len(turning),
+            joints=", ".join(names[k] for k in turning),
+            found=len(letters),
+        )
+    written = (_INDEX.sub(r"\1_\2", letter) if _INDEX.fullmatch(letter) else letter for letter in letters)
+    return dict(zip(turning, written, strict=False))
 
 
 def length_letters(context: LayerContext) -> list[Shape]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 from math import cos, degrees, pi, sin
 from typing import TYPE_CHECKING
@@ -40,6 +41,7 @@ from gruebler.pictures.linkage.bodies import (
 from gruebler.pictures.linkage.instant_centres import pole_numbers
 from gruebler.pictures.linkage.layer_context import LayerContext
 from gruebler.pictures.linkage.layers import BELOW, coupler_curve_lines, drive_arrows, ghosts, layer, point_names
+from gruebler.pictures.linkage.letters import joint_names
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.pictures.structure.messages import describe, title
 from gruebler.pictures.structure.picture import draw_structure
@@ -91,6 +93,7 @@ def draw_linkage(
     lang: str = "en",
     name: str = "",
     names: Mapping[str, str] | None = None,
+    letters: Sequence[str] = (),
     outlines: Sequence[CarriedLine] = (),
 ) -> Figure:
     """The picture of a linkage in one pose.
@@ -112,6 +115,7 @@ def draw_linkage(
         lang: language of title and description, ``en`` or ``de``.
         name: the title; by default the kind of mechanism.
         names: other names for links in the picture.
+        letters: names of the turning joints in their order, for ``joints``; by default A₀, A, B, B₀ and so on.
         outlines: lines that links carry, in coordinates of the links.
 
     Raises `gruebler.LinkageError` for unreachable poses, unknown names, and layers that need a single drive.
@@ -124,6 +128,8 @@ def draw_linkage(
     linkage = as_linkage(linkage)
     posed = room_for(posed_linkage(linkage, at, branch=branch, between=between), outlines)
     layers = {key: layer(key) for key in dict.fromkeys(show)}
+    if letters and "joints" in layers:
+        layers["joints"] = partial(joint_names, letters=letters)
     curve = [shape for point in each_point(curves).values() for shape in coupler_curve_lines(posed, point)]
     pieces = (*body_parts(posed), *outline_parts(posed, outlines))
     frame = layered(posed, pieces, FRAME, FRAME)
