@@ -18,7 +18,7 @@ from gruebler.mechanics.forces import Loads, RigidBody
 from gruebler.mechanics.kinematics import Motion, move
 from gruebler.mechanics.linkages import Linkage
 
-SECONDS = 2.0
+SPANS = 2.0, 20.0  # seconds: a fall from the start, and one that has become usual
 WANTED, OURS, REFERENCE = 1e-5, 1e-9, 1e-12
 STEPS = tuple(1e-2 / 2**k for k in range(15))
 PATIENCE = 20.0  # processor seconds for one machine
@@ -99,8 +99,8 @@ def contacts(name: str) -> list[Contact]:
     ]
 
 
-Run = Callable[[float], tuple[float, float]]
-"""From the step to how far the crank has turned after `SECONDS`, and the processor seconds."""
+Run = Callable[[float, float], tuple[float, float]]
+"""From the step and a span to how far the crank has turned after it, and the processor seconds."""
 
 
 def in_mujoco(name: str, bodies: dict[str, Body]) -> Run:
@@ -134,7 +134,7 @@ def in_mujoco(name: str, bodies: dict[str, Body]) -> Run:
     def origin_of(link: str) -> complex:
         return next((c.at for children in inner.values() for child, c in children if child == link), 0j)
 
-    def run(step: float) -> tuple[float, float]:
+    def run(step: float, span: float) -> tuple[float, float]:
         pins = ""
         for contact in loops:
             first, second = contact.links if contact.links[0] != "0" else contact.links[::-1]
@@ -154,7 +154,7 @@ def in_mujoco(name: str, bodies: dict[str, Body]) -> Run:
                 way = None if contact.along is None else (contact.along.conjugate() * body.speed).real
                 data.joint(f"J{child}").qvel = body.rate - rate if way is None else way
         begin = time.process_time()
-        mujoco.mj_step(model, data, round(SECONDS / step))
+        mujoco.mj_step(model, data, round(span / step))
         return float(data.joint("J1").qpos[0]), time.process_time() - begin
 
     return run
@@ -163,7 +163,7 @@ def in_mujoco(name: str, bodies: dict[str, Body]) -> Run:
 def in_exudyn(name: str, bodies: dict[str, Body]) -> Run:
     exu, item = import_module("exudyn"), import_module("exudyn.itemInterface")
 
-    def run(step: float) -> tuple[float, float]:
+    def run(step: float, span: float) -> tuple[float, float]:
         system = exu.SystemContainer().AddSystem()
         objects, nodes = {"0": system.AddObject(item.ObjectGround(referencePosition=[0, 0, 0]))}, {}
         for link, body in bodies.items():
@@ -198,8 +198,8 @@ def in_exudyn(name: str, bodies: dict[str, Body]) -> Run:
                 )
         system.Assemble()
         settings = exu.SimulationSettings()
-        settings.timeIntegration.numberOfSteps = round(SECONDS / step)
-        settings.timeIntegration.endTime = SECONDS
+        settings.timeIntegration.numberOfSteps = round(span / step)
+        settings.timeIntegration.endTime = span
         settings.timeIntegration.verboseMode = 0
         settings.solutionSettings.writeSolutionToFile = False
         begin = time.process_time()
@@ -210,41 +210,43 @@ def in_exudyn(name: str, bodies: dict[str, Body]) -> Run:
     return run
 
 
-def until_near(run: Run, wanted: float) -> tuple[float, float, float] | None:
+def until_near(run: Run, wanted: float, span: float) -> tuple[float, float, float] | None:
     """The first step that is near enough: the step, how far it is off, its processor seconds for a second."""
     begin = time.process_time()
     for step in STEPS:
         try:
-            angle, took = run(step)
+            angle, took = run(step, span)
         except (ValueError, RuntimeError):  # Newton's method does not converge: the step is too long
             continue
         if abs(angle - wanted) < WANTED:
-            return step, abs(angle - wanted), took / SECONDS
+            return step, abs(angle - wanted), took / span
         if time.process_time() - begin > PATIENCE:
             return None
     return None
 
 
-def free(given: Machine, tolerance: float) -> tuple[Simulation, float]:
+def free(given: Machine, tolerance: float, span: float) -> tuple[Simulation, float]:
     begin = time.process_time()
-    run = simulate(given.linkage, given.loads, speed=3.0, until=SECONDS, times=[0, SECONDS], tolerance=tolerance)
-    return run, (time.process_time() - begin) / SECONDS
+    run = simulate(given.linkage, given.loads, speed=3.0, until=span, times=[0, span], tolerance=tolerance)
+    return run, (time.process_time() - begin) / span
 
 
-def compare(name: str) -> None:
+def compare(name: str, span: float) -> None:
     given = machine(name)
-    exact, _ = free(given, REFERENCE)
+    exact, _ = free(given, REFERENCE, span)
     turned = float(exact.drives[-1, 0] - exact.drives[0, 0])
     seconds = np.inf
     for _ in range(3):
-        rough, took = free(given, OURS)
+        rough, took = free(given, OURS, span)
         seconds = min(seconds, took)
     off = abs(rough.drives[-1, 0] - exact.drives[-1, 0])
-    print(f"{name:15} ours: {off:7.0e} rad, energy {rough.defect:7.0e}, {1e3 * seconds:7.1f} ms a second")
+    print(
+        f"{name:15} {span:3.0f} s, ours: {off:7.0e} rad, energy {rough.defect:7.0e}, {1e3 * seconds:7.1f} ms a second"
+    )
     bodies = bodies_at_start(given, exact)
     for program, model in (("mujoco", in_mujoco), ("exudyn", in_exudyn)):
         try:
-            found = until_near(model(name, bodies), turned)
+            found = until_near(model(name, bodies), turned, span)
         except ImportError:
             print(f"{'':15} {program}: not installed")
             continue
@@ -282,7 +284,8 @@ def inverse_beside_kinematics(name: str, rows: int = 2000) -> None:
 
 def main() -> None:
     for name in PLACES:
-        compare(name)
+        for span in SPANS:
+            compare(name, span)
     for name in ("four-bar", "eight-bar"):
         inverse_beside_kinematics(name)
 

@@ -23,11 +23,25 @@ int main() {
 
     // Euler's method with a wished error: one stage counts, so the step is as long as it likes.
     double a[stages * stages] = {}, b[stages] = {1}, e[stages + 1] = {};
-    const Method method{a, b, e, e};
+    double further[further_stages * all_stages] = {}, bend[bends * all_stages] = {};
+    const Method method{a, b, e, e, further, bend};
     Step taken;
     const Ended ended = step(series, method, 0, {0.5, 0, 0}, {0, -2, 0}, 0.1, 1, 1e-9, {1e-9, 1e-9, 1e-9}, taken);
     expect(ended == Ended::stepped && std::abs(taken.state[1] + 0.2) < 1e-15, "another step");
     expect(step(series, method, 0, {0.9, 9, 0}, {9, -2, 0}, 0.5, 1, 1e-9, {1e-9, 1e-9, 1e-9}, taken) == Ended::outside,
            "a step leaves its piece");
+
+    // Many such steps, each at most the rest of the time; the stop lies in the first one, on the polynomial of its ends.
+    const std::uint8_t calm[] = {1}, wild[] = {0};
+    const double stop[] = {0.05, 0.7};
+    for (const std::uint8_t* flags : {calm, wild}) {
+        Run run{0, 0.1, {0.5, 0, 0}, {0, -2, 0}};
+        int steps = 0, stops = 0;
+        advance(
+            series, method, flags, run, 0.15, 1e-9, {1e-9, 1e-9, 1e-9}, 9, stop, stop + 2,
+            [&](const Run&, std::int64_t) { ++steps; }, [&](const State& at) { stops += std::abs(at[1] + 0.1) < 1e-15; });
+        expect(stops == 1 && steps == (flags == calm ? 2 : 1), "another run of steps");
+        expect(run.time == (flags == calm ? 0.15 : 0.1), "a run ends elsewhere");
+    }
     std::puts("dynamics: all as it should be");
 }

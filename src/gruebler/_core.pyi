@@ -164,6 +164,27 @@ def free_step(
     relative: float,
     absolute: NDArray[np.float64],
 ) -> tuple[float, float, NDArray[np.float64], NDArray[np.float64], int] | None: ...
+def free_run(
+    ends: NDArray[np.float64],
+    coefficients: NDArray[np.float64],
+    closed: float,
+    a: NDArray[np.float64],
+    b: NDArray[np.float64],
+    e3: NDArray[np.float64],
+    e5: NDArray[np.float64],
+    further: NDArray[np.float64],
+    bend: NDArray[np.float64],
+    calm: NDArray[np.uint8],
+    time: float,
+    state: NDArray[np.float64],
+    rate: NDArray[np.float64],
+    length: float,
+    until: float,
+    relative: float,
+    absolute: NDArray[np.float64],
+    most: int,
+    stops: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], float, int]: ...
 
 # layout
 def relax(

@@ -111,6 +111,8 @@ def good_calls():
     method = np.tri(12) / 12, np.full(12, 1 / 12), np.full(13, 1e-3), np.full(13, 1e-3)
     state = np.array([0.5, 0.1, 0.0])
     yield "free_step", (*series, *method, 0.0, state, state, 0.01, 1.0, 1e-9, state)
+    many = (*method, np.full((3, 16), 0.01), np.full((4, 16), 0.01), np.ones(2, np.uint8))
+    yield "free_run", (*series, *many, 0.0, state, state, 0.01, 1.0, 1e-9, state, 100, np.array([0.3, 0.7]))
     layout = np.array([[0.0, 0], [1, 0], [0, 1]]), RING[:2], np.ones(2), np.array([[0, 2], [1, 0]])
     yield "relax", (*layout, np.arange(3)[None], np.eye(2)[None], 2, 5)
     yield "closest", (*layout[:2], layout[3])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from numpy.polynomial import chebyshev
-from scipy.integrate import DOP853
+from scipy.integrate import DOP853, solve_ivp
 
 ENDS = np.array([[-1.0, 0.5, -0.25, 0.75], [0.5, 2.5, 1.5, 1.0], [3.0, 4.0, 3.5, 0.5]])
 SERIES = np.random.default_rng(0).normal(size=(3, 9, 6)) / np.arange(1, 10)[:, None] ** 3
@@ -58,6 +58,61 @@ def test_a_step_is_that_of_scipy(core, length):
 def test_a_step_that_leaves_the_pieces(core):
     leaving = np.array([2.4, 50.0, 0.0])
     assert core.free_step(ENDS, SERIES, np.nan, *METHOD, 0.0, leaving, leaving, *LENGTHS, *ERRORS) is None
+
+
+BETWEEN = (DOP853.A_EXTRA, DOP853.D)
+CALM = np.ones(3, np.uint8)
+
+
+def run_of(core, calm=CALM, until=0.6, stops=(), most=1000, start=(0.55, 2.0, 0.0)):
+    start = np.array(start)
+    mass, force, power = by_numpy(0 if start[0] <= 0.5 else 1, *start[:2])
+    rate = np.array([start[1], force / mass, power * start[1]])
+    stops = np.array(stops, np.float64)
+    return core.free_run(
+        ENDS, SERIES, np.nan, *METHOD, *BETWEEN, calm, 0.0, start, rate, 0.05, until, *ERRORS, most, stops
+    )
+
+
+def test_a_run_is_the_steps_of_scipy_and_its_rows_those_of_the_dense_output(core):
+    def rate(_, y):
+        mass, force, power = by_numpy(0 if y[0] <= 0.5 else 1, y[0], y[1])
+        return [y[1], force / mass, power * y[1]]
+
+    stops = [0.01, 0.012, 0.3, 0.6]
+    expected = solve_ivp(rate, (0.0, 0.6), [0.55, 2.0, 0.0], "DOP853", stops, rtol=1e-12, atol=1e-12)
+    steps, passed, _, _, evaluations = run_of(core, stops=stops)
+    assert passed == pytest.approx(expected.y.T, rel=1e-9, abs=1e-9)
+    assert steps[-1] == pytest.approx([0.6, *expected.y[:, -1]], rel=1e-9)
+    assert (np.diff(steps[:, 0]) > 0).all()
+    assert evaluations >= 12 * len(steps)
+
+
+def test_a_run_ends_after_so_many_steps_after_one_that_is_not_calm_and_before_one_that_leaves_the_pieces(core):
+    assert len(run_of(core, most=2)[0]) == 2
+    wild = CALM.copy()
+    wild[1] = 0
+    assert len(run_of(core, calm=wild)[0]) == 1
+    steps, _, _, _, _ = run_of(core, until=9.0, start=(1.0, 5.0, 0.0))
+    assert steps[-1, 0] < 9.0
+    assert steps[-1, 1] < 2.5
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        ({"calm": CALM[:2]}, "calm must have a flag for each piece"),
+        ({"stops": (0.3, 0.1)}, "stops are in order"),
+        ({"stops": (0.0,)}, "stops are in order"),
+        ({"stops": (0.7,)}, "stops are in order"),
+        ({"until": np.nan}, "the time ends after it begins"),
+        ({"most": -1}, "at most a million steps"),
+    ],
+    ids=str,
+)
+def test_wrong_numbers_of_a_run(core, wrong, words):
+    with pytest.raises(ValueError, match=words):
+        run_of(core, **wrong)
 
 
 @pytest.mark.parametrize(

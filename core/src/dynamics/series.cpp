@@ -51,15 +51,21 @@ double eighth_root(double x) { return std::sqrt(std::sqrt(std::sqrt(x))); }
 
 }  // namespace
 
-bool reduce(const Series& series, double q, double speed, Reduced& reduced) {
-    if (!std::isfinite(q)) return false;
+std::int64_t piece_at(const Series& series, double& q) {
+    if (!std::isfinite(q)) return -1;
     if (!std::isnan(series.closed)) q -= turn * std::floor((q - series.closed) / turn);
     const Piece* end = series.piece + series.pieces;
     const Piece* piece = std::lower_bound(series.piece, end, q, [](const Piece& p, double at) { return p.high < at; });
-    if (piece == end || !(piece->low <= q)) return false;
-    const double x = std::clamp((q - piece->middle) / piece->half, -1.0, 1.0);
+    return piece == end || !(piece->low <= q) ? -1 : piece - series.piece;
+}
+
+bool reduce(const Series& series, double q, double speed, Reduced& reduced) {
+    const std::int64_t number = piece_at(series, q);
+    if (number < 0) return false;
+    const Piece& piece = series.piece[number];
+    const double x = std::clamp((q - piece.middle) / piece.half, -1.0, 1.0);
     // Clenshaw's recurrence, for all quantities side by side.
-    const double* coefficient = series.coefficient + (piece - series.piece) * series.orders * quantities;
+    const double* coefficient = series.coefficient + number * series.orders * quantities;
     double above[quantities] = {}, further[quantities] = {};
     for (std::int64_t order = series.orders - 1; order > 0; --order)
         for (int k = 0; k < quantities; ++k) {
@@ -101,6 +107,32 @@ Ended step(const Series& series, const Method& method, double time, const State&
         }
         length *= factor > least_factor ? factor : least_factor;  // also if it is not a number
     }
+}
+
+bool bent(const Series& series, const Method& method, const State& state, Step& taken, Bend& bend) {
+    const double length = taken.length;
+    State* rates = taken.rates.data();
+    for (int s = stages + 1; s < all_stages; ++s) {
+        const double* weight = method.further + (s - stages - 1) * all_stages;
+        if (!rate_of(series, moved(state, length, weight, rates, s), rates[s])) return false;
+    }
+    taken.evaluations += further_stages;
+    for (int k = 0; k < width; ++k) {
+        const double way = taken.state[k] - state[k];
+        bend[0][k] = way;
+        bend[1][k] = length * rates[0][k] - way;
+        bend[2][k] = 2 * way - length * (rates[0][k] + rates[stages][k]);
+    }
+    for (int n = 0; n < bends; ++n) bend[3 + n] = moved({}, length, method.bend + n * all_stages, rates, all_stages);
+    return true;
+}
+
+State within(const Bend& bend, const State& state, double part) {
+    State value{};
+    for (std::size_t n = bend.size(); n-- > 0;)
+        for (int k = 0; k < width; ++k) value[k] = (value[k] + bend[n][k]) * (n % 2 ? 1 - part : part);
+    for (int k = 0; k < width; ++k) value[k] += state[k];
+    return value;
 }
 
 }  // namespace gruebler::dynamics

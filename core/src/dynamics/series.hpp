@@ -34,12 +34,14 @@ inline constexpr int width = 3;
 using State = std::array<double, width>;
 
 // An explicit method of Runge and Kutta of order 8 with estimates of orders 5 and 3: its coefficients, as in scipy.
-inline constexpr int stages = 12;
+inline constexpr int stages = 12, further_stages = 3, all_stages = stages + 1 + further_stages, bends = 4;
 struct Method {
     const double* a;  // [stages, stages]
     const double* b;  // [stages]
     const double* e3;
-    const double* e5;  // [stages + 1]
+    const double* e5;       // [stages + 1]
+    const double* further;  // [further_stages, all_stages]: stages that only values within a step need
+    const double* bend;     // [bends, all_stages]: the higher coefficients of a step's polynomial
 };
 
 enum class Ended { stepped, outside, too_small };
@@ -47,7 +49,7 @@ enum class Ended { stepped, outside, too_small };
 struct Step {
     double time, length, next;  // where it ends, its length, and the one to try next
     State state;
-    std::array<State, stages + 1> rates;  // of all stages, last of the new state
+    std::array<State, all_stages> rates;  // of all stages, then of the new state; the further ones only where asked for
     std::int64_t evaluations;
 };
 
@@ -55,5 +57,45 @@ struct Step {
 // `outside` if a stage lies on no piece.
 Ended step(const Series& series, const Method& method, double time, const State& state, const State& rate,
            double length, double until, double relative, const State& absolute, Step& taken);
+
+// What a run of steps begins with, and where the last one left it.
+struct Run {
+    double time, length;  // of the step to try next
+    State state, rate;
+};
+
+// On which piece a value lies, -1 if on none; the value less whole turns.
+std::int64_t piece_at(const Series& series, double& q);
+
+// The polynomials of a step; false where a further stage lies on no piece.
+using Bend = std::array<State, 3 + bends>;
+bool bent(const Series& series, const Method& method, const State& state, Step& taken, Bend& bend);
+State within(const Bend& bend, const State& state, double part);  // of the step
+
+// Many steps, at most `most`, to `until`: after each its end is told, and the state at each of the stops it passes,
+// which are in order. Ends early after a step to a piece that is not calm (one flag each), and before one that leaves
+// the pieces.
+template <typename Ends, typename Stops>
+void advance(const Series& series, const Method& method, const std::uint8_t* calm, Run& run, double until,
+             double relative, const State& absolute, std::int64_t most, const double* stop, const double* last_stop,
+             Ends&& ends, Stops&& stops) {
+    Step taken;
+    Bend bend;
+    for (; most > 0 && run.time < until; --most) {
+        const double begin = run.time;
+        const State old = run.state;
+        if (step(series, method, begin, old, run.rate, run.length, until, relative, absolute, taken) != Ended::stepped)
+            return;
+        const bool passes = stop != last_stop && *stop <= taken.time;
+        if (passes && !bent(series, method, old, taken, bend)) return;
+        run = {taken.time, taken.next, taken.state, taken.rates[stages]};
+        for (; stop != last_stop && *stop <= taken.time; ++stop)
+            stops(within(bend, old, (*stop - begin) / taken.length));
+        ends(run, taken.evaluations);
+        double q = run.state[0];
+        const std::int64_t piece = piece_at(series, q);
+        if (piece < 0 || !calm[piece]) return;
+    }
+}
 
 }  // namespace gruebler::dynamics

@@ -409,3 +409,18 @@ def test_four_bar_with_diagonal_spring_by_two_ways():
 
 def test_a_balanced_slider_crank_rests_everywhere():
     assert equilibria(SliderCrank(20, 50), Loads(bodies={"slider": RigidBody(1.0)})).everywhere
+
+
+@pytest.mark.parametrize("times", [None, [0.0, 3.0], [0.7, 0.701, 2.9]])
+def test_many_steps_at_once_are_the_single_ones(times):
+    """A range that is never left is looked at in each step, so that the kernel does not take several at once."""
+    weights = Loads(bodies={"coupler": RigidBody(1.0, (35, 0), 400.0)})
+    fall = {"at": 1.0, "speed": 60.0, "branch": "+", "until": 3.0, "times": times}
+    at_once = simulate(FourBar(25, 70, 40, 70), weights, **fall)
+    singly = simulate(FourBar(25, 70, 40, 70), weights, **fall, ends={"R(frame-crank)": (0.9, 1e6)})
+    assert at_once.steps == singly.steps
+    for name in ("times", "drives", "speeds", "accelerations", "places", "rates", "kinetic", "potential"):
+        values = getattr(singly, name)
+        np.testing.assert_allclose(getattr(at_once, name), values, rtol=1e-8, atol=1e-8 * np.abs(values).max())
+    assert (at_once.whole == singly.whole).all()
+    assert at_once.whole.max() > 1

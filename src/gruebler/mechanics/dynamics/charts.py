@@ -109,6 +109,17 @@ class Charts:
         six = numbers.view(np.complex128).reshape(len(x), 6, self.links).swapaxes(0, 1)
         return Jets(six[:3] * self.plan.lower.size, six[3] / np.abs(six[3]), six[4:].real)
 
+    def jets_at(self, q: Reals) -> Jets:
+        """Poses and derivatives by the drive at many values, a row each; turns are (rows, links)."""
+        rows = dict[Chart, list[tuple[int, float]]]()
+        for row, value in enumerate(q.tolist()):
+            chart, x = self.chart(value)
+            rows.setdefault(chart, []).append((row, x))
+        parts = [self.jets_on(chart, np.array([x for _, x in at])) for chart, at in rows.items()]
+        order = np.argsort([row for at in rows.values() for row, _ in at])
+        places, turns, rates = (np.concatenate(all_, axis=-2)[..., order, :] for all_ in zip(*parts, strict=True))
+        return Jets(places, turns, rates)
+
     def _reduced(self, q: float) -> float:
         """The drive less whole turns, if a turn leads back to the same pose."""
         return q if self.closed is None else self.closed + (q - self.closed) % _PERIOD

@@ -69,6 +69,14 @@ class Coordinates:
             self._state = ReferencePose(q.copy(), np.where(rows.roots[1] < 0, -1.0, 1.0), rows.unknowns[1])
         return Jets(rows.places[:, 1:], rows.turns[1], rows.rates[:, 1:])
 
+    def jets_at(self, q: Reals, v: Reals) -> Jets:
+        """The same at many values (rows, drives): (3, speeds, rows, links), (rows, links), (2, speeds, rows, links)."""
+        if self.charts is not None:
+            places, turns, rates = self.charts.jets_at(q[:, 0])
+            return Jets(places[:, None], turns, rates[:, None])
+        places_, turns_, rates_ = zip(*map(self.jets, q, v), strict=True)
+        return Jets(np.stack(places_, axis=2), np.array(turns_), np.stack(rates_, axis=2))
+
 
 @dataclass(frozen=True, slots=True)
 class JointFreedom:
@@ -84,11 +92,11 @@ class JointFreedom:
     far: complex = 0j
     """Of a slide the points on the first link and on the second."""
 
-    def value(self, jets: Jets) -> float:
+    def value(self, jets: Jets) -> Any:
         """Angle in (-pi, pi], or way along the line."""
         if not self.line:
-            return float(np.angle(jets.turns[self.second] / jets.turns[self.first]))
-        return float(self.derivative(jets.places[:, 0], jets.turns, jets.rates[:, 0], 0))
+            return np.angle(jets.turns[..., self.second] / jets.turns[..., self.first])
+        return self.derivative(jets.places[:, 0], jets.turns, jets.rates[:, 0], 0)
 
     def speeds(self, jets: Jets) -> Reals:
         """The speed in each row; (rows,)."""
@@ -137,7 +145,8 @@ class CoordinateSets:
 
     def exchanged(self, now: Coordinates, jets: Jets, v: Reals) -> tuple[Coordinates, Reals, Reals] | None:
         """Other coordinates for the same motion if the present ones move little beside other joints, else None."""
-        if now.charts is not None and self._is_calm(now.charts):
+        charts = now.charts
+        if charts is not None and charts.current is not None and self.is_calm(charts, charts.current):
             return None
         ways = self._ways(jets)[:, : now.count]
         alone = now.count == 1  # then the pivot is the largest
@@ -154,11 +163,8 @@ class CoordinateSets:
         """(freedoms, rows): how fast each moves, slides in sizes."""
         return np.array([f.speeds(jets) / (self._size if f.line else 1.0) for f in self._freedoms])
 
-    def _is_calm(self, charts: Charts) -> bool:
-        """Whether no joint moves so fast beside the drive on the chart asked for last that drives are exchanged."""
-        chart = charts.current
-        if chart is None:
-            return False
+    def is_calm(self, charts: Charts, chart: Chart) -> bool:
+        """Whether no joint moves so fast beside the drive on a chart that drives are exchanged."""
         if chart not in self._calm:
             fastest = np.abs(self._ways(charts.jets_on(chart, np.linspace(-1, 1, _LOOKS)))).max()
             self._calm[chart] = bool(fastest * charts.scale * _SLOW < _CALM)

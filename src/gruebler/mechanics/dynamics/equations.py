@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gruebler.base.arrays import Complexes, Reals, compared_by_value
+from gruebler.base.arrays import Complexes, Flags, Reals, compared_by_value
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.units import metres_of
@@ -38,6 +38,12 @@ class Influences:
     """(rows, links): accelerations of the origins at the speeds of the drives, without acceleration of the drives."""
     drift_rates: Reals
     """(rows, links): angular accelerations likewise."""
+
+    def picked(self, rows: Flags) -> Influences:
+        """Those rows that are asked for."""
+        of_drives = ("unit_places", "unit_rates")
+        columns = {f.name: getattr(self, f.name) for f in fields(self)}
+        return Influences(**{name: c[:, rows] if name in of_drives else c[rows] for name, c in columns.items()})
 
     def moving(self, time: ArrayLike, drives: Reals, speeds: Reals) -> MovingLinks:
         """The links with the velocities that the drives' speeds give."""

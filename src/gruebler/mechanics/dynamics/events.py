@@ -11,7 +11,7 @@ from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.dynamics.coordinates import JointFreedom, freedom_of
-from gruebler.mechanics.dynamics.free_linkage import FreeLinkage, Instant
+from gruebler.mechanics.dynamics.free_linkage import FreeLinkage, Instants
 from gruebler.mechanics.kinematics.messages import drive_values
 from gruebler.structure.mechanism import Mechanism
 
@@ -33,13 +33,13 @@ _TO_AND_FRO = 8  # such changes from one step to the next: an oscillation is res
 class Watch(NamedTuple):
     """Something that ends the motion."""
 
-    gap: Callable[[Instant], float]
+    gap: Callable[[Instants], float]
     """Negative once it has happened."""
-    met: Callable[[Instant], Message]
+    met: Callable[[Instants], Message]
     """What is said then."""
 
 
-def watched_ends(free: FreeLinkage, first: Instant, ends: Mapping[str, tuple[float, float]]) -> Iterator[Watch]:
+def watched_ends(free: FreeLinkage, first: Instants, ends: Mapping[str, tuple[float, float]]) -> Iterator[Watch]:
     """The ranges of joints, by name."""
     linkage = free.plan.linkage
     for name, given in ends.items():
@@ -59,44 +59,44 @@ def watched_ends(free: FreeLinkage, first: Instant, ends: Mapping[str, tuple[flo
         yield _watched_end(free, name, freedom, low, high, start - _way(freedom, first))
 
 
-def _way(freedom: JointFreedom, now: Instant) -> float:
+def _way(freedom: JointFreedom, now: Instants) -> float:
     """The value of a joint, of a turning one continuous and up to a constant."""
     if freedom.line:
-        return freedom.value(now.jets)
+        return float(freedom.value(now.jets))
     return float(now.angles[freedom.second] - now.angles[freedom.first])
 
 
 def _watched_end(free: FreeLinkage, name: str, freedom: JointFreedom, low: float, high: float, shift: float) -> Watch:
-    def gap(now: Instant) -> float:
+    def gap(now: Instants) -> float:
         value = _way(freedom, now) + shift
         return min(value - low, high - value)
 
-    def met(now: Instant) -> Message:
+    def met(now: Instants) -> Message:
         return _AT_END.filled(joint=name, time=now.time, values=_values(free, now))
 
     return Watch(gap, met)
 
 
-def watched_motors(free: FreeLinkage, first: Instant) -> Iterator[Watch]:
+def watched_motors(free: FreeLinkage, first: Instants) -> Iterator[Watch]:
     """Motors that may be turned back by the loads, of those that begin at rest."""
     for k, sense in _motors_at_rest(free, first):
         name = free.plan.linkage.mechanism.drive_names()[k]
         fastest = [0.0]
 
-        def gap(now: Instant, k: int = k, sense: float = sense, fastest: list[float] = fastest) -> float:
+        def gap(now: Instants, k: int = k, sense: float = sense, fastest: list[float] = fastest) -> float:
             speed = sense * float(now.moving.speeds[0, k])
             fastest[0] = max(fastest[0], speed)
             return speed + _STILL * fastest[0]
 
-        def met(now: Instant, name: str = name) -> Message:
+        def met(now: Instants, name: str = name) -> Message:
             return _STALLED.filled(joint=name, time=now.time, values=_values(free, now))
 
         yield Watch(gap, met)
 
 
-def why_not_started(free: FreeLinkage, first: Instant, acceleration: Reals) -> Message | None:
+def why_not_started(free: FreeLinkage, first: Instants, acceleration: Reals) -> Message | None:
     """The reason if a motor at rest is not accelerated in its own sense."""
-    own = free.own_acceleration(first, acceleration)
+    own = free.own_acceleration(first, acceleration)[0]
     for k, sense in _motors_at_rest(free, first):
         if own[k] * sense <= 0:
             mechanism = free.plan.linkage.mechanism
@@ -112,7 +112,7 @@ def why_not_started(free: FreeLinkage, first: Instant, acceleration: Reals) -> M
     return None
 
 
-def held_on_a_jump(free: FreeLinkage, recent: Sequence[Instant]) -> Message | None:
+def held_on_a_jump(free: FreeLinkage, recent: Sequence[Instants]) -> Message | None:
     """The reason if a load jumps to and fro among instants that are one place, one speed and one time."""
     named = list[tuple[Message, Complexes]]()
     for now in recent:
@@ -127,7 +127,7 @@ def held_on_a_jump(free: FreeLinkage, recent: Sequence[Instant]) -> Message | No
     return _HELD.filled(time=recent[0].time, values=_values(free, recent[0]), load=named[int(held.argmax())][0])
 
 
-def _motors_at_rest(free: FreeLinkage, first: Instant) -> Iterator[tuple[int, float]]:
+def _motors_at_rest(free: FreeLinkage, first: Instants) -> Iterator[tuple[int, float]]:
     """Drives with a motor that stand still, and the sense in which it pulls."""
     efforts = free.equations.acting.motor_efforts(first.moving)[0] if free.loads.motors else np.zeros(0)
     for k, effort in enumerate(efforts.tolist()):
@@ -135,5 +135,5 @@ def _motors_at_rest(free: FreeLinkage, first: Instant) -> Iterator[tuple[int, fl
             yield k, float(np.sign(effort))
 
 
-def _values(free: FreeLinkage, now: Instant) -> Message:
+def _values(free: FreeLinkage, now: Instants) -> Message:
     return drive_values(free.plan.linkage, tuple(now.moving.drives[0].tolist()))

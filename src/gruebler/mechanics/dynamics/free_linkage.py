@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Complexes, Reals
+from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.dynamics.charts import Jets
 from gruebler.mechanics.dynamics.coordinates import Coordinates, CoordinateSets
@@ -19,28 +20,63 @@ from gruebler.mechanics.kinematics.reference_pose import ReferencePose
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Instant:
-    """A pose with speeds."""
+class Instants:
+    """Poses with speeds, a row each."""
 
-    time: float
-    jets: Jets
     influences: Influences
     moving: MovingLinks
     """With values and speeds of the linkage's own drives."""
     speeds: Reals
-    """(coordinates,)."""
+    """(rows, coordinates)."""
+
+    def derivatives(self, acceleration: Reals) -> tuple[Complexes, Reals]:
+        """(3, rows, links) origins, velocities, accelerations; (2, rows, links) rates.
+
+        Taken at accelerations of the coordinates, (rows, coordinates).
+        """
+        its, moving = self.influences, self.moving
+        places = its.drift_places + np.einsum("rc,crl->rl", acceleration, its.unit_places)
+        rates = its.drift_rates + np.einsum("rc,crl->rl", acceleration, its.unit_rates)
+        return np.array([its.places, moving.velocities, places]), np.array([moving.rates, rates])
+
+    @property
+    def time(self) -> float:
+        """Of the first."""
+        return float(self.moving.time[0])
 
     @property
     def angles(self) -> Reals:
-        """(links,): continuous."""
+        """(links,): of the first, continuous."""
         return np.asarray(self.influences.angles[0])
 
-    def derivatives(self, acceleration: Reals) -> tuple[Complexes, Reals]:
-        """(3, links) origins, velocities, accelerations; (2, links) rates, at an acceleration of the coordinates."""
-        its, moving = self.influences, self.moving
-        places = [its.places[0], moving.velocities[0], its.drift_places[0] + acceleration @ its.unit_places[:, 0]]
-        rates = [moving.rates[0], its.drift_rates[0] + acceleration @ its.unit_rates[:, 0]]
-        return np.array(places), np.array(rates)
+    @property
+    def units(self) -> Jets:
+        """Poses and speeds for unit speeds of each coordinate: (2, coordinates, rows, links)."""
+        its = self.influences
+        places = np.broadcast_to(its.places, its.unit_places.shape)
+        return Jets(np.array([places, its.unit_places]), its.turns, its.unit_rates[None])
+
+    @property
+    def jets(self) -> Jets:
+        """The same of the first."""
+        places, turns, rates = self.units
+        return Jets(places[:, :, 0], turns[0], rates[:, :, 0])
+
+    def picked(self, rows: Flags) -> Instants:
+        """Those that are asked for."""
+        return Instants(
+            influences=self.influences.picked(rows), moving=self.moving.picked(rows), speeds=self.speeds[rows]
+        )
+
+
+class Kept(NamedTuple):
+    """What angles are counted on from."""
+
+    time: float
+    angles: tuple[Reals, Reals]
+    """(links,), and their rates."""
+    drives: tuple[Reals, Reals]
+    """(drives,), and their speeds."""
 
 
 class FreeLinkage:
@@ -54,55 +90,58 @@ class FreeLinkage:
         self.conservative = self.equations.acting.conservative
         self._lossy = EquationsOfMotion(plan.linkage, self.coordinates.links, _without_potential(loads))
         self._series = dict[Coordinates, ReducedSeries]()
-        self.last: Instant | None = None
+        self.last: Kept | None = None
         self.evaluations = 0
 
-    def instant(self, time: float, q: Reals, v: Reals) -> Instant:
+    def instant(self, time: float, q: Reals, v: Reals) -> Instants:
         """The pose and speeds at values of the coordinates. Raises `Blocked` where these do not lead."""
         jets = self.coordinates.jets(q, v)
-        count = self.coordinates.count
-        rates = jets.rates[0, :count]
-        if count == 1:
-            square = float(v[0]) ** 2
-            drift_places, drift_rates = jets.places[2] * square, jets.rates[1] * square
-        else:
-            drift_places, drift_rates = jets.places[2, -1:], jets.rates[1, -1:]
+        several = Jets(jets.places[:, :, None], jets.turns[None], jets.rates[:, :, None])
+        influences, moving = self._moving(np.array([time]), several, q[None], v[None])
+        return Instants(influences=influences, moving=moving, speeds=v[None])
+
+    def instants(self, times: Reals, q: Reals, v: Reals) -> Instants:
+        """Those at increasing times after the one that was kept last; q and v are (rows, coordinates)."""
+        influences, moving = self._moving(times, self.coordinates.jets_at(q, v), q, v)
+        return Instants(influences=influences, moving=moving, speeds=v)
+
+    def keep(self, instants: Instants) -> None:
+        """Angles near the last of these instants are counted on from it."""
+        moving = instants.moving
+        angles, drives = (moving.angles[-1], moving.rates[-1]), (moving.drives[-1], moving.speeds[-1])
+        self.last = Kept(float(moving.time[-1]), angles, drives)
+
+    def _moving(self, times: Reals, jets: Jets, q: Reals, v: Reals) -> tuple[Influences, MovingLinks]:
+        """At poses (3, speeds, rows, links) for unit speeds of each drive, and of several for their speeds at the end.
+
+        Angles and drives go on from those kept: with the whole turns that the rates make likely.
+        """
+        count, last = self.coordinates.count, self.last
+        places, turns, rates = jets
+        square = v**2 if count == 1 else 1.0
         influences = Influences(
-            places=jets.places[0, :1],
-            turns=jets.turns[None],
-            angles=self._continuous(time, np.angle(jets.turns), v @ rates)[None],
-            unit_places=jets.places[1, :count, None],
-            unit_rates=rates[:, None],
-            drift_places=drift_places,
-            drift_rates=drift_rates,
+            places=places[0, 0],
+            turns=turns,
+            angles=np.angle(turns),
+            unit_places=places[1, :count],
+            unit_rates=rates[0, :count],
+            drift_places=places[2, -1] * square,
+            drift_rates=rates[1, -1] * square,
         )
-        moving = influences.moving(time, q[None], v[None])
+        moving = influences.moving(times, q, v)
+        if last is not None:
+            angles = _continued(times, moving.angles, moving.rates, last.time, last.angles)
+            influences, moving = replace(influences, angles=angles), replace(moving, angles=angles)
         if self.coordinates is not self._own:
-            speeds = np.array([freedom.speeds(jets)[:count] @ v for freedom in self.sets.drives])
-            moving = replace(moving, drives=self._drives(time, jets, speeds)[None], speeds=speeds[None])
-        return Instant(time=time, jets=jets, influences=influences, moving=moving, speeds=v)
-
-    def keep(self, instant: Instant) -> None:
-        """Angles near this instant are counted on from it."""
-        self.last = instant
-
-    def _continuous(self, time: float, angles: Reals, rates: Reals) -> Reals:
-        """The angles with those whole turns that the rates since the last instant kept make likely."""
-        if self.last is None:
-            return angles
-        last = self.last
-        likely = last.angles + (time - last.time) * (last.moving.rates[0] + rates) / 2
-        return np.asarray(angles + 2 * np.pi * np.round((likely - angles) / (2 * np.pi)))
-
-    def _drives(self, time: float, jets: Jets, speeds: Reals) -> Reals:
-        """The values of the linkage's own drives, where others are coordinates."""
-        values = np.array([freedom.value(jets) for freedom in self.sets.drives])
-        if self.last is not None:
-            turns = np.array([freedom.drive.turning for freedom in self.sets.drives])
-            last = self.last
-            likely = last.moving.drives[0] + (time - last.time) * (last.moving.speeds[0] + speeds) / 2
-            values = values + turns * 2 * np.pi * np.round((likely - values) / (2 * np.pi))
-        return values
+            freedoms = self.sets.drives
+            moved = Jets(np.array([moving.places, moving.velocities])[:, None], turns, moving.rates[None, None])
+            speeds = np.stack([freedom.speeds(moved)[0] for freedom in freedoms], axis=1)
+            drives = np.stack([freedom.value(moved) for freedom in freedoms], axis=1)
+            if last is not None:
+                turning = np.array([freedom.drive.turning for freedom in freedoms])
+                drives = _continued(times, drives, speeds, last.time, last.drives, turning)
+            moving = replace(moving, drives=drives, speeds=speeds)
+        return influences, moving
 
     # --- what acts -----------------------------------------------------------------------------------
 
@@ -112,7 +151,7 @@ class FreeLinkage:
         reduced = None if series is None else series.at(float(q[0]), float(v[0]))
         if reduced is None:
             now = self.instant(time, q, v)
-            return self.acceleration(now), self.power(now)
+            return self.acceleration(now)[0], self.power(now)
         mass, force, power = reduced
         self.evaluations += 1
         return np.array([force / mass]), power * float(v[0])
@@ -124,54 +163,67 @@ class FreeLinkage:
         if charts is None or not self.equations.acting.of_the_pose:
             return None
         if self.coordinates not in self._series:
-            self._series[self.coordinates] = ReducedSeries(charts, self.equations, self._lossy)
+            self._series[self.coordinates] = ReducedSeries(charts, self.equations, self._lossy, self.sets.is_calm)
         return self._series[self.coordinates]
 
-    def acceleration(self, instant: Instant) -> Reals:
-        """Q'' of the coordinates."""
-        self.evaluations += 1
-        mass, bias = self.equations.inertia(instant.influences, instant.moving)
-        force = self.force(instant)
-        if len(mass[0]) == 1:
-            return np.asarray((force - bias[0]) / mass[0, 0])
-        return np.asarray(np.linalg.solve(mass[0], force - bias[0]))
+    def acceleration(self, instants: Instants) -> Reals:
+        """Q'' of the coordinates; (rows, coordinates)."""
+        self.evaluations += len(instants.speeds)
+        mass, bias = self.equations.inertia(instants.influences, instants.moving)
+        excess = self.force(instants) - bias
+        if excess.shape[1] == 1:
+            return np.asarray(excess / mass[:, 0])
+        return np.asarray(np.linalg.solve(mass, excess[..., None])[..., 0])
 
-    def force(self, instant: Instant) -> Reals:
-        """Q of all loads and motors; (coordinates,)."""
-        return np.asarray(self.equations.generalised(instant.influences, instant.moving)[0] + self.motors(instant))
+    def force(self, instants: Instants) -> Reals:
+        """Q of all loads and motors; (rows, coordinates)."""
+        return np.asarray(self.equations.generalised(instants.influences, instants.moving) + self.motors(instants))
 
-    def motors(self, instant: Instant) -> Reals:
-        """What motors do in the coordinates; (coordinates,)."""
+    def motors(self, instants: Instants) -> Reals:
+        """What motors do in the coordinates; (rows, coordinates)."""
         if not self.loads.motors:
-            return np.zeros(self.coordinates.count)
-        efforts = self.equations.acting.motor_efforts(instant.moving)[0]
+            return np.zeros(instants.speeds.shape)
+        efforts = self.equations.acting.motor_efforts(instants.moving)
         if self.coordinates is self._own:
             return np.asarray(efforts)
-        count = self.coordinates.count
-        return np.asarray(efforts @ np.array([f.speeds(instant.jets)[:count] for f in self.sets.drives]))
+        speeds = np.array([freedom.speeds(instants.units) for freedom in self.sets.drives])
+        return np.asarray(np.einsum("rd,dcr->rc", efforts, speeds))
 
-    def power(self, instant: Instant) -> float:
+    def power(self, instant: Instants) -> float:
         """What loads and motors without potential, and dampers, give in a second."""
         if self.conservative:
             return 0.0
-        force = self._lossy.generalised(instant.influences, instant.moving)[0] + self.motors(instant)
-        return float(force @ instant.speeds)
+        force = self._lossy.generalised(instant.influences, instant.moving) + self.motors(instant)
+        return float(force[0] @ instant.speeds[0])
 
-    def own_acceleration(self, instant: Instant, acceleration: Reals) -> Reals:
-        """Q'' of the linkage's own drives, from places and rates; (drives,)."""
-        places, rates = instant.derivatives(acceleration)
-        return np.array([freedom.derivative(places, instant.jets.turns, rates, 2) for freedom in self.sets.drives])
+    def own_acceleration(self, instants: Instants, acceleration: Reals) -> Reals:
+        """Q'' of the linkage's own drives, from places and rates; (rows, drives)."""
+        places, rates = instants.derivatives(acceleration)
+        turns = instants.influences.turns
+        return np.stack([freedom.derivative(places, turns, rates, 2) for freedom in self.sets.drives], axis=1)
 
-    def energies(self, instant: Instant) -> tuple[float, float]:
-        """Kinetic and potential."""
-        kinetic = self.equations.kinetic(instant.influences, instant.speeds[None])
-        return float(kinetic[0]), float(self.equations.potential(instant.influences, instant.moving.drives)[0])
+    def energies(self, instants: Instants) -> tuple[Reals, Reals]:
+        """Kinetic and potential; (rows,) each."""
+        kinetic = self.equations.kinetic(instants.influences, instants.speeds)
+        return kinetic, self.equations.potential(instants.influences, instants.moving.drives)
 
-    def check(self, instant: Instant) -> None:
+    def check(self, instant: Instants) -> None:
         """`LinkageError` unless every coordinate moves something that has mass."""
         mass = self.equations.inertia(instant.influences, instant.moving)[0][0]
         if not np.linalg.eigvalsh(mass)[0] > 1e-14 * np.abs(mass).max():
             raise LinkageError("a free motion needs masses that each drive moves: give bodies or masses in the loads")
+
+
+def _continued(
+    times: Reals, values: Reals, rates: Reals, begin: float, before: tuple[Reals, Reals], turning: Flags | float = 1.0
+) -> Reals:
+    """Angles (rows, ...) with those whole turns that the rates make likely, on from angles and rates at a time."""
+    first, rate = before
+    steps = np.diff(times, prepend=begin)[:, None]
+    means = (rates + np.concatenate([rate[None], rates[:-1]])) / 2
+    moved = np.diff(values, axis=0, prepend=first[None])
+    whole = turning * np.round((steps * means - moved) / (2 * np.pi))
+    return np.asarray(values + 2 * np.pi * np.cumsum(whole, axis=0))
 
 
 def _without_potential(loads: Loads) -> Loads:

@@ -5,10 +5,12 @@ docs/theory/free-motion.md.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
 
 from gruebler._core import reduced_forces
 from gruebler.base.arrays import Reals
@@ -37,8 +39,14 @@ class SeriesTable(NamedTuple):
 class ReducedSeries:
     """M, dM/dq / 2, Q and the power by speed of one freedom, without the poses."""
 
-    def __init__(self, charts: Charts, equations: EquationsOfMotion, lossy: EquationsOfMotion) -> None:
-        self.charts, self._equations, self._lossy = charts, equations, lossy
+    def __init__(
+        self,
+        charts: Charts,
+        equations: EquationsOfMotion,
+        lossy: EquationsOfMotion,
+        is_calm: Callable[[Charts, Chart], bool],
+    ) -> None:
+        self.charts, self._equations, self._lossy, self._is_calm = charts, equations, lossy, is_calm
         self._known = dict[Chart, Reals | None]()
         self.table = self._tabled()
 
@@ -58,6 +66,8 @@ class ReducedSeries:
 
     def _tabled(self) -> SeriesTable:
         known = [(chart, series) for chart in self.charts.known if (series := self._known.get(chart)) is not None]
+        self.calm: NDArray[np.uint8] = np.array([self._is_calm(self.charts, chart) for chart, _ in known], np.uint8)
+        """Of each chart in the table, whether coordinates are never exchanged there."""
         return SeriesTable(
             np.array([(chart.low, chart.high, chart.middle, chart.half) for chart, _ in known]).reshape(-1, 4),
             np.array([series for _, series in known]).reshape(-1, _NODES, 6),

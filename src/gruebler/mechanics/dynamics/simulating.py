@@ -7,21 +7,21 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import DOP853, Radau
 from scipy.optimize import brentq
 
-from gruebler._core import free_step
+from gruebler._core import free_run, free_step
 from gruebler.base.arrays import Reals
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.dynamics.charts import Blocked
 from gruebler.mechanics.dynamics.events import Watch, held_on_a_jump, watched_ends, watched_motors, why_not_started
-from gruebler.mechanics.dynamics.free_linkage import FreeLinkage, Instant
+from gruebler.mechanics.dynamics.free_linkage import FreeLinkage, Instants, Kept
 from gruebler.mechanics.dynamics.simulation import Simulation
 from gruebler.mechanics.dynamics.starts import starting_pose
 from gruebler.mechanics.forces.loads import Loads
@@ -35,6 +35,8 @@ _ROWS = 401
 _ABSOLUTE = 0.1  # of the tolerance: what is allowed of values near zero, in their usual size
 _FINEST, _COARSEST = 1e-13, 1e-2
 _SHORT, _PATIENCE = 1e-4, 50  # of the time that is followed: so many steps that are shorter together look for a jump
+_BY_ORDER = ("places", "rates")  # columns whose rows are their second axis
+_MOST = 10_000  # steps at once, between which Ctrl-C is heard
 _LOOKS = 4  # in each step, at what may end the motion
 
 
@@ -77,7 +79,8 @@ def simulate(
 
     Cost:
         12 evaluations of the forces a step, 20 to 100 steps a turn of a crank. For one freedom and loads that are
-        numbers a step costs 0.1 ms and each half radian, when it is first met, 1 ms; else an evaluation some 0.2 ms.
+        numbers a step costs 5 us, a row as much, and each half radian, when it is first met, 0.5 ms; else, or where
+        ends are watched, an evaluation some 0.2 ms.
 
     Example:
         >>> from gruebler.mechanics.forces import RigidBody
@@ -140,6 +143,7 @@ class ChartedSteps(DOP853):  # type: ignore[misc]  # scipy has no types
     y: Reals
     f: Reals
     _METHOD = (np.ascontiguousarray(DOP853.A), DOP853.B, DOP853.E3, DOP853.E5)
+    _BETWEEN = (DOP853.A_EXTRA, DOP853.D)
 
     def __init__(self, free: FreeLinkage, *given: Any, **named: Any) -> None:
         self._free = free
@@ -162,6 +166,27 @@ class ChartedSteps(DOP853):  # type: ignore[misc]  # scipy has no types
         self.K_extended[: len(rates)] = rates
         return True, None
 
+    def leap(self, stops: Reals) -> tuple[Reals, Reals] | None:
+        """Steps on charts that are known: times and states after each (n, 4), states at the stops passed (m, 3).
+
+        The last one ends where others than these steps must be looked for, or coordinates may be exchanged. None if
+        there is no such step.
+        """
+        series = self._free.series
+        if series is None or not len(series.table.ends):
+            return None
+        method, lengths, errors = (*self._METHOD, *self._BETWEEN), (self.h_abs, self.t_bound), (self.rtol, self.atol)
+        steps, passed, rate, self.h_abs, evaluations = free_run(
+            *series.table, *method, series.calm, self.t, self.y, self.f, *lengths, *errors, _MOST, stops
+        )
+        self._free.evaluations += evaluations
+        if not len(steps):
+            return None
+        self.t_old, self.t, self.y, self.f = self.t, float(steps[-1, 0]), steps[-1, 1:], rate
+        if self.t >= self.t_bound:
+            self.status = "finished"
+        return steps, passed
+
     def _by_kernel(self) -> tuple[float, float, Reals, Reals, int] | None:
         series = self._free.series
         if series is None or not len(series.table.ends):
@@ -170,21 +195,17 @@ class ChartedSteps(DOP853):  # type: ignore[misc]  # scipy has no types
         return free_step(*series.table, *self._METHOD, *start, *lengths, *errors)
 
 
-class _Row(NamedTuple):
-    instant: Instant
-    acceleration: Reals
-    work: float
-
-
 class _Run:
     """A free motion while it is followed."""
 
     def __init__(self, free: FreeLinkage, until: float, times: Reals, tolerance: float, stiff: bool) -> None:
         self.free, self.until, self.times, self.tolerance = free, until, times, tolerance
         self.method = Radau if stiff else partial(ChartedSteps, free)
-        self.rows: list[_Row] = []
+        self.written = list[dict[str, Any]]()  # the columns of `Simulation`, of rows in the same coordinates
+        self.points = list[tuple[float, Reals, bool]]()  # not written yet: time, state, whether it is a row
+        self.since: Kept | None = None  # what their angles are counted on from
         self.steps = 0
-        self.recent = deque[Instant](maxlen=_PATIENCE)
+        self.recent = deque[Instants](maxlen=_PATIENCE)
         self.reason: Message | None = None
         self.count = free.coordinates.count
         self.watched: list[Watch] = []
@@ -208,43 +229,74 @@ class _Run:
             self._follow(first, np.concatenate([q, v, [0.0]]))
         return self._simulation()
 
-    def _follow(self, first: Instant, y: Reals) -> None:
+    def _follow(self, first: Instants, y: Reals) -> None:
         acceleration = self.free.acceleration(first)
-        if self.times[0] == 0:
-            self.rows.append(_Row(first, acceleration, 0.0))
+        self._note([(0.0, y, bool(self.times[0] == 0))])
         self.reason = why_not_started(self.free, first, acceleration)
         if self.reason is not None:
             return
-        solver = self._solver(0.0, y, acceleration)
+        solver = self._solver(0.0, y, acceleration[0])
         while solver.status == "running":
-            solver.step()
-            self.steps += 1
-            if solver.status == "failed" or not np.isfinite(solver.y).all():
-                self.reason = self._no_way(solver.t_old or 0.0)
+            self._step(solver)
+            if self.reason is not None:
                 return
-            stops = [t for t in self.times.tolist() if solver.t_old < t <= solver.t]
-            if stops or self.watched:
-                path = solver.dense_output()
-                end = self._event(path, solver.t_old, solver.t)
-                self._write(path, [t for t in stops if end is None or t <= end[0]])
-                if end:
-                    self.reason = end[1]
-                    return
             now = self._at(solver.t, solver.y)
             self.reason = self._held(now)
             if self.reason is not None:
                 return
             other = self.free.sets.exchanged(self.free.coordinates, now.jets, self._parts(solver.y)[1])
             if other is not None:
+                self._write()
                 self.free.coordinates, q, v = other
                 self.used.append((solver.t, self.free.coordinates.plan.linkage.mechanism.drive_names()))
                 y = np.concatenate([q, v, solver.y[-1:]])
                 now = self._at(solver.t, y)
+                self._note([(solver.t, y, False)])
                 if solver.t < self.until:
-                    solver = self._solver(solver.t, y, self.free.acceleration(now), solver.h_abs)
+                    solver = self._solver(solver.t, y, self.free.acceleration(now)[0], solver.h_abs)
             self.free.keep(now)
 
-    def _held(self, now: Instant) -> Message | None:
+    def _step(self, solver: DOP853 | Radau) -> None:
+        """One step, or many where nothing happens between them; what it passes is noted."""
+        begin = solver.t
+        if isinstance(solver, ChartedSteps) and not self.watched:
+            leapt = solver.leap(self._stops(begin, self.until))
+            if leapt is not None:
+                steps, passed = leapt
+                self.steps += len(steps)
+                stops = self._stops(begin, solver.t)
+                ends = [(t, state, False) for t, state in zip(steps[:, 0].tolist(), steps[:, 1:], strict=True)]
+                rows = [(t, state, True) for t, state in zip(stops.tolist(), passed, strict=True)]
+                self._note(sorted([*rows, *ends], key=lambda point: point[0]))
+                if len(steps) > 1:
+                    self.free.keep(self.free.instants(steps[:-1, 0], *self._parts(steps[:-1, 1:])))
+                return
+        solver.step()
+        self.steps += 1
+        if solver.status == "failed" or not np.isfinite(solver.y).all():
+            self.reason = self._no_way(solver.t_old or 0.0)
+            return
+        stops = self._stops(begin, solver.t)
+        if len(stops) or self.watched:
+            path = solver.dense_output()
+            event = self._event(path, begin, solver.t)
+            if event:
+                end, self.reason = event
+                stops = stops[stops <= end]
+            self._note([(t, path(t), True) for t in stops.tolist()])
+        self._note([(solver.t, solver.y, False)])
+
+    def _stops(self, begin: float, end: float) -> Reals:
+        """The rows that are asked for after one time and up to another."""
+        first, last = np.searchsorted(self.times, [begin, end], side="right")
+        return self.times[first:last]
+
+    def _note(self, points: list[tuple[float, Reals, bool]]) -> None:
+        if not self.points:
+            self.since = self.free.last
+        self.points += points
+
+    def _held(self, now: Instants) -> Message | None:
         """The reason if the steps do not get on because a load jumps."""
         self.recent.append(now)
         if len(self.recent) < _PATIENCE or now.time - self.recent[0].time > _SHORT * self.until:
@@ -259,16 +311,16 @@ class _Run:
         usual = free.coordinates.scale
         speeds = np.abs(y[count : 2 * count]) + np.sqrt(np.abs(acceleration) * usual) + usual / self.until
         kinetic, _ = free.energies(self._at(t, y))
-        least = np.concatenate([usual, speeds, [kinetic + float(np.abs(acceleration) @ usual) or 1.0]])
+        least = np.concatenate([usual, speeds, [float(kinetic[0]) + float(np.abs(acceleration) @ usual) or 1.0]])
         options = {} if step is None else {"first_step": min(step, self.until - t)}
         return self.method(
             self._rate, t, y, self.until, rtol=self.tolerance, atol=_ABSOLUTE * self.tolerance * least, **options
         )
 
     def _parts(self, y: Reals) -> tuple[Reals, Reals]:
-        return y[: self.count], y[self.count : 2 * self.count]
+        return y[..., : self.count], y[..., self.count : 2 * self.count]
 
-    def _at(self, t: float, y: Reals) -> Instant:
+    def _at(self, t: float, y: Reals) -> Instants:
         return self.free.instant(t, *self._parts(y))
 
     def _rate(self, t: float, y: Reals) -> Reals:
@@ -280,44 +332,59 @@ class _Run:
         except (Blocked, np.linalg.LinAlgError):
             return np.full(len(y), np.nan)
 
-    def _write(self, path: Callable[[float], Reals], stops: list[float]) -> None:
-        """The rows asked for in a step; the last one of a motion that ends is where it ends."""
-        for t in stops:
-            y = path(t)
-            now = self._at(t, y)
-            self.rows.append(_Row(now, self.free.acceleration(now), float(y[-1])))
+    def _write(self) -> None:
+        """What the rows noted are, in the coordinates of the moment."""
+        free, points = self.free, self.points
+        asked = np.array([is_row for _, _, is_row in points], bool)
+        if asked.any():
+            now, free.last = free.last, self.since
+            states = np.array([y for _, y, _ in points])
+            rows = free.instants(np.array([t for t, _, _ in points]), *self._parts(states)).picked(asked)
+            self.written.append(self._columns(rows, states[asked, -1]))
+            free.last = now
+        self.points = []
+
+    def _columns(self, rows: Instants, work: Reals) -> dict[str, Any]:
+        free, moving = self.free, rows.moving
+        acceleration = free.acceleration(rows)
+        places, rates = rows.derivatives(acceleration)
+        kinetic, potential = free.energies(rows)
+        return {
+            "times": moving.time,
+            "drives": moving.drives,
+            "speeds": moving.speeds,
+            "accelerations": free.own_acceleration(rows, acceleration),
+            "places": places,
+            "turns": moving.turns,
+            "rates": rates,
+            "whole": np.round((moving.angles - np.angle(moving.turns)) / (2 * np.pi)).astype(np.int32),
+            "kinetic": kinetic,
+            "potential": potential,
+            "work": work,
+        }
 
     def _simulation(self) -> Simulation:
-        """The rows as arrays."""
-        free, rows = self.free, self.rows
-        instants = [row.instant for row in rows]
-        moved = [row.instant.derivatives(row.acceleration) for row in rows]
-        turns = np.array([now.jets.turns for now in instants])
-        angles = np.array([now.angles for now in instants])
-        energies = np.array([free.energies(now) for now in instants])
+        """The rows as arrays; at least the last instant."""
+        if not self.written and not any(is_row for _, _, is_row in self.points):
+            self.points[-1] = (*self.points[-1][:2], True)
+        self._write()
+        columns = {
+            name: np.concatenate([part[name] for part in self.written], axis=int(name in _BY_ORDER))
+            for name in self.written[0]
+        }
         return Simulation(
-            linkage=free.plan.linkage,
-            plan=free.plan,
-            times=np.array([now.time for now in instants]),
-            drives=np.array([now.moving.drives[0] for now in instants]),
-            speeds=np.array([now.moving.speeds[0] for now in instants]),
-            accelerations=np.array([free.own_acceleration(row.instant, row.acceleration) for row in rows]),
-            places=np.stack([places for places, _ in moved], axis=1),
-            turns=turns,
-            rates=np.stack([rates for _, rates in moved], axis=1),
-            whole=np.round((angles - np.angle(turns)) / (2 * np.pi)).astype(np.int32),
-            kinetic=energies[:, 0],
-            potential=energies[:, 1],
-            work=np.array([row.work for row in rows]),
+            **columns,
+            linkage=self.free.plan.linkage,
+            plan=self.free.plan,
             coordinates=tuple(self.used),
             steps=self.steps,
-            evaluations=free.evaluations,
+            evaluations=self.free.evaluations,
             reason=self.reason,
         )
 
     def _no_way(self, t: float) -> Message:
         last = self.free.last
-        drives = last.moving.drives[0] if last is not None else self.free.coordinates.near
+        drives = last.drives[0] if last is not None else self.free.coordinates.near
         return _NO_WAY.filled(time=t, values=drive_values(self.free.plan.linkage, tuple(drives.tolist())))
 
     # --- events --------------------------------------------------------------------------------------

@@ -278,15 +278,15 @@ def linearised(linkage: LinkageLike, loads: Loads, *, branch: Branch = None, at:
         here = free.instant(0.0, q, still)
         free.check(here)
         scale = free.coordinates.scale
-        stiffness = -_slopes(lambda x: free.force(free.instant(0.0, x, still)), q, scale)
-        damping = -_slopes(lambda v: free.force(free.instant(0.0, q, v)), still, scale)
+        stiffness = -_slopes(lambda x: free.force(free.instant(0.0, x, still))[0], q, scale)
+        damping = -_slopes(lambda v: free.force(free.instant(0.0, q, v))[0], still, scale)
     except Blocked:
         values = drive_values(solving.linkage, tuple(drives.tolist()))
         raise LinkageError(
             "at {values} the linkage branches, so it has no small motions there", values=values
         ) from None
     mass = free.equations.inertia(here.influences, here.moving)[0][0]
-    return _linearised(solving.linkage, drives, mass, damping, stiffness, free.force(here))
+    return _linearised(solving.linkage, drives, mass, damping, stiffness, free.force(here)[0])
 
 
 def _slopes(function: Callable[[Reals], Reals], at: Reals, scale: Reals) -> Reals:

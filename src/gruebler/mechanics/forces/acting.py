@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gruebler.base.arrays import Complexes, Reals, compared_by_value
+from gruebler.base.arrays import Complexes, Flags, Reals, compared_by_value
 from gruebler.base.errors import LinkageError, nearest
 from gruebler.base.text import Message, message
 from gruebler.mechanics.forces.laws import Law, LoadFormula, State
@@ -58,6 +58,10 @@ class MovingLinks:
         """Place and velocity of a point of a link; (rows,) each."""
         turned = self.turns[:, link] * arm
         return self.places[:, link] + turned, self.velocities[:, link] + 1j * self.rates[:, link] * turned
+
+    def picked(self, rows: Flags) -> MovingLinks:
+        """Those rows that are asked for."""
+        return MovingLinks(**{f.name: getattr(self, f.name)[rows] for f in fields(self)})
 
     def state(self, link: int, arm: complex) -> State:
         """What a load at a point of a link may depend on."""
