@@ -69,7 +69,7 @@ def print_designs(result: SynthesisResult, shown: SynthesisResult, rejected: boo
                 real=count.real,
             )
         )
-    for note in result.notes:
+    for note in result.remarks:
         print(note.in_language(lang))
     totals = {"accepted": len(result.designs), "rejected": len(result.rejected)}
     print(translate("Designs: {accepted} accepted, {rejected} rejected.", lang, **totals))

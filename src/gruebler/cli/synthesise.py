@@ -162,7 +162,7 @@ def add(parser: Parser) -> None:
             --scheduler ADDRESS  with --structure: send the work to a Dask scheduler, such as tcp://host:8786
             --crank  only designs whose drive turns fully
             --transmission DEG float =0  minimum transmission angle on the way through the targets
-            --size-ratio R float =10000  limit of longest to shortest length
+            --size-ratio R float =20  limit of longest to shortest length
             --sort KEY[,KEY] =  sort the designs by error, transmission, range-transmission, size, size-ratio,
                 sensitivity, links, full-turn; of equal ones the second key decides
             --clearance C float  print how far targets move, lengths wrong by a thousandth and pins C beside their holes

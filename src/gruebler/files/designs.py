@@ -21,7 +21,7 @@ def design_to_json(design: Design) -> dict[str, Any]:
     """
     drives, verdict = design.linkage.mechanism.drives, design.verdict
     turning = bool(drives) and drives[0].turning
-    keys = "accepted reasons assembles one_circuit one_branch in_order turns_fully size_ratio inside error"
+    keys = "accepted reasons assembles one_circuit one_branch in_order turns_fully size_ratio inside error between"
     sensitivity = design.sensitivity if verdict.accepted else None
     over_range = plain(design, "transmission_over_range", units=_ANGLES) if verdict.accepted else {}
     return {
@@ -64,7 +64,7 @@ def result_to_json(result: SynthesisResult) -> dict[str, Any]:
     return {
         "task": task_to_json(result.task),
         "count": plain(result.count, "what theorem found infinite real"),
-        "notes": [str(note) for note in result.notes],
+        "notes": [str(note) for note in result.remarks],
         "designs": [design_to_json(each) for each in result.designs],
         "pareto": rows,
         "rejected": [design_to_json(each) for each in result.rejected],

@@ -15,7 +15,6 @@ import msgspec
 from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis.judging import Demands
-from gruebler.design.synthesis.pair_search import BUILDABLE
 from gruebler.design.synthesis.specification import Clearance, Specification
 from gruebler.files.tasks import read_task, task_from_json
 
@@ -23,7 +22,7 @@ from gruebler.files.tasks import read_task, task_from_json
 class _Demands(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     crank: bool = False
     transmission: float = 0.0
-    size_ratio: float = BUILDABLE
+    size_ratio: float = Demands.size_ratio
     region: tuple[float, float, float, float] | None = None
     lengths: dict[str, float] = {}
     tolerance: float = Demands.tolerance

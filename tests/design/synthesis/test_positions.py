@@ -367,3 +367,17 @@ def test_demands_at_their_bounds():
     """A right angle, links of one length, no miss at all, a region that is one point."""
     made = Demands(transmission=np.pi / 2, size_ratio=1, tolerance=0, region=(2, 3, 2, 3))
     assert (made.size_ratio, made.region) == (1, (2, 3, 2, 3))
+
+
+def test_designs_beyond_the_usual_size_ratio_are_rejected_and_counted():
+    """The list stays whole; with a wider limit those that fail by nothing else are accepted. The pivots lie close."""
+    pivots = [(2.35, -0.57), (2.38, -0.48), (0.69, -0.28), (0.65, -0.32)]
+    task = PositionTask([(0, 0, 0), (2, 1, 0.4), (3, 1, 0.9)], moving_pivots=pivots)
+    usual, wide = (synthesise_positions(task, demands) for demands in (None, Demands(size_ratio=1e4)))
+    beyond = [design for design in wide.designs if design.verdict.size_ratio > 20]
+    assert len(beyond) > 0
+    assert len(usual.designs) + len(usual.rejected) == len(wide.designs) + len(wide.rejected)
+    assert len(usual.designs) == len(wide.designs) - len(beyond)
+    said = [str(remark) for remark in usual.remarks if "differ too much" in str(remark)]
+    assert said == [f"Designs rejected only because their lengths differ too much: {len(beyond)}."]
+    assert wide.remarks == wide.notes

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from gruebler.base.errors import SynthesisError
-from gruebler.design.synthesis import PositionTask, synthesise_positions
+from gruebler.design.synthesis import Demands, PositionTask, synthesise_positions
+
+_RATIO = 50
 
 STEP = np.radians(0.05)
 """Of the crank; shorter where its pin would go by more than `SHARE` of coupler or rocker, so that no fold is jumped."""
@@ -100,12 +102,13 @@ def _verdicts(seeds):
         elif count == 4:
             chosen["curve_parameters"] = tuple(rng.uniform(0, 1, 3))
         try:
-            found = synthesise_positions(PositionTask(list(zip(z.real, z.imag, angles, strict=True)), **chosen))
+            task = PositionTask(list(zip(z.real, z.imag, angles, strict=True)), **chosen)
+            found = synthesise_positions(task, Demands(size_ratio=_RATIO))
         except SynthesisError:
             continue
         tasks += 1
         for design in (*found.designs, *found.rejected):
-            if design.form == "RR-RR" and design.verdict.size_ratio < 50:
+            if design.form == "RR-RR" and design.verdict.size_ratio < _RATIO:
                 pivots = np.array(_pivots(design))
                 moved = z + (pivots[1:3, None] - z[0]) * np.exp(1j * (angles - angles[0]))
                 rows.append((seed, pivots, moved, design.verdict.accepted))

@@ -1,5 +1,6 @@
 """Verdicts against the motion itself: accepted designs carry out their task, rejected ones fail as is said of them."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -22,7 +23,7 @@ from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.positions import linkage_of_dyads
 from gruebler.design.synthesis.results import Design, DesignVerdict
-from gruebler.design.synthesis.targets import point_targets
+from gruebler.design.synthesis.targets import GuidedCurve, point_targets
 from gruebler.mechanics.analysis.transmission import transmission_angle
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.geometry.roberts import cognates
@@ -316,6 +317,31 @@ def test_a_task_far_from_the_origin_is_judged_all_the_same():
     assert len(near.designs) >= 9
     ratios = [sorted(design.verdict.size_ratio for design in result.designs) for result in (middle, near)]
     assert ratios[0] == pytest.approx(ratios[1], rel=1e-6)
+
+
+def test_a_curve_that_leaves_its_targets_between_two_of_them_is_rejected():
+    """Targets on one loop of a figure eight: from the last to the first the point draws the other loop.
+
+    The crossing by a search over all pairs of places of the curve, the distance of the other loop by hand.
+    """
+    four_bar = FourBar(1, 1.34, 3.5, 3.76).linkage({"P": (1.64, 1.38)})
+    motion = move(four_bar, np.radians(np.arange(0, 361, 3)))
+    z = motion.complex_point("P")
+    line = z[85] + (z[1] - z[85]) * np.linspace(0, 1, 50)
+    other_loop = np.abs(np.append(z[85:], z[:1])[:, None] - line).min(axis=1).max()
+    task = PathTask([(w.real, w.imag) for w in z[1:86]])
+    verdicts = {}
+    for closed in (False, True):
+        curve = GuidedCurve.of(replace(task, closed=closed))
+        targets = point_targets("P", task.z, 3.0)._replace(curve=curve)
+        start = four_bar.with_reference_pose(motion.pose(1))
+        verdicts[closed] = judge_design(start, targets, Demands(tolerance=0.05), "four-bar").verdict
+    assert verdicts[False].accepted
+    assert not verdicts[True].accepted
+    assert verdicts[True].error < 1e-9
+    assert "between targets 85 and 1 the point leaves the curve" in str(verdicts[True].reasons[0])
+    assert verdicts[True].between * 3 == pytest.approx(other_loop, rel=1e-3)
+    assert verdicts[False].between < 1e-3
 
 
 @pytest.mark.parametrize(("order", "expected"), [([0, 1, 2, 3, 4, 5], True), ([0, 3, 1, 4, 2, 5], False)])

@@ -24,7 +24,7 @@ from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK, Fou
 from gruebler.design.synthesis.judging import Demands, best_of
 from gruebler.design.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
-from gruebler.design.synthesis.targets import Probe, Targets
+from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask
 from gruebler.mechanics.linkages import Linkage
 
@@ -103,7 +103,7 @@ def fit_curve(
         placed += [(fit, limits) for fit in _improved(reduced, begins, timing, limits)]
     chosen = _different(placed, number)
     if power > 2:
-        chosen = _evened(reduced, timing, power, chosen)
+        chosen = _different(_evened(reduced, timing, power, chosen), number)  # some of them end at the same linkage
     return [replace(fit, row=transformed(fit.kind, fit.row, complex(size), complex(middle))) for fit, _ in chosen]
 
 
@@ -365,11 +365,11 @@ def _judged(task: PathTask, demands: Demands, fit: Fit) -> list[Design]:
         return []
 
     def targets(linkage: Linkage) -> Targets:
-        size = _extent(task.z)
+        size, curve = _extent(task.z), GuidedCurve.of(task)
         if not task.crank_angles:
-            return Targets((Probe("P"),), task.z[:, None], size)
+            return Targets((Probe("P"),), task.z[:, None], size, curve)
         timing = np.array(task.crank_angles)
         crank = size * np.exp(1j * (linkage.required_pose["crank"].angle + timing - timing[0]))
-        return Targets((Probe("P"), Probe(link="crank", length=size)), np.stack([task.z, crank], axis=1), size)
+        return Targets((Probe("P"), Probe(link="crank", length=size)), np.stack([task.z, crank], axis=1), size, curve)
 
     return [best_of(linkages[:1] if task.crank_angles else linkages, targets, demands, fit.kind.name)]

@@ -215,7 +215,8 @@ def synthesise_dead_centres(
         )
     ]
     chosen = _spread(family.members, family.best, number)
-    if wanted.limits_of_size or wanted.size_ratio < Demands().size_ratio or orders:
+    lengths = _named_lengths(family.best.linkage).values()
+    if wanted.limits_of_size or orders or max(lengths) > wanted.size_ratio * min(lengths):
         chosen = _searched(family, wanted, orders, number, notes)
     designs = [_design(task, member, wanted) for member in chosen]
     accepted = in_order_of((d for d in designs if d.verdict.accepted), (*orders, "transmission"))

@@ -14,6 +14,7 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis.closure import DesignClosure, PoseDerivatives
+from gruebler.design.synthesis.targets import GuidedCurve
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.structure.mechanism import Mechanism
 
@@ -46,7 +47,12 @@ class FitTargets:
     outputs: Reals | None = None
     """(targets,) the angle of the output link, or its travel, up to a constant."""
     travel: bool = False
-    closed: bool = False
+    curve: GuidedCurve = GuidedCurve.NONE
+
+    @property
+    def closed(self) -> bool:
+        """Whether a curve returns to its begin."""
+        return self.curve is GuidedCurve.CLOSED
 
     def __len__(self) -> int:
         return len(next(v for v in (self.z, self.outputs) if v is not None))
@@ -80,7 +86,7 @@ def fit_targets(task: Task, aside: float = _ASIDE[-1]) -> FitTargets:
             extent = float(max(np.ptp(task.z.real), np.ptp(task.z.imag)))
             angles = np.array([np.nan if a is None else a for a in task.angles]) if task.angles else None
             timing = np.array(task.crank_angles) if task.crank_angles else None
-            return FitTargets(size=extent, z=task.z, angles=angles, inputs=timing, closed=task.closed)
+            return FitTargets(size=extent, z=task.z, angles=angles, inputs=timing, curve=GuidedCurve.of(task))
         case FunctionTask():
             outputs = np.array(task.outputs)
             travel = task.output == "travel"

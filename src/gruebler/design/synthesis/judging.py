@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,10 +18,10 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.immutable import settle
 from gruebler.base.text import Message, joined, message
-from gruebler.design.synthesis.results import EXACT, Design, DesignVerdict
+from gruebler.design.synthesis.results import EXACT, TOO_SLENDER, Design, DesignVerdict
 from gruebler.design.synthesis.target_paths import TargetPath, limit_before, path_through
 from gruebler.design.synthesis.target_places import places_approached, places_met
-from gruebler.design.synthesis.targets import Targets
+from gruebler.design.synthesis.targets import GuidedCurve, Targets
 from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.kinematics import Circuit, circuit
 from gruebler.mechanics.kinematics.motion import Motion
@@ -31,6 +32,8 @@ _ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage fo
 _ROWS = 16  # poses from one target to the next, with several drives
 
 
+BUILDABLE = 20.0
+"""The longest length by the shortest, as a workshop accepts it; other ratios can be demanded."""
 EXACT_AT_MOST = 1e-6
 """With larger tolerances targets are approached, not met: the whole curve within the tolerance counts."""
 
@@ -50,7 +53,7 @@ class Demands:
     """The drive turns fully."""
     transmission: float = 0.0
     """The transmission angle does not fall below, in radians."""
-    size_ratio: float = 1e4
+    size_ratio: float = BUILDABLE
     """The longest length of a link is at most so many times the shortest."""
     region: tuple[float, float, float, float] | None = None
     """The fixed pivots lie in this rectangle: least x, least y, greatest x, greatest y."""
@@ -229,6 +232,17 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         reasons.append(message("the drive does not turn fully"))
     if demands.transmission > 0 and not transmission >= demands.transmission:
         reasons.append(transmission_fault(float(transmission)))
+    piece = _way_between(course, path, targets)
+    if piece.excess > limit:
+        reasons.append(
+            message(
+                "between targets {first} and {second} the point leaves the curve: it goes {distance:.3g} of the size "
+                "from the line between them",
+                first=piece.target + 1,
+                second=(piece.target + 1) % len(targets.values) + 1,
+                distance=piece.distance,
+            )
+        )
     verdict = DesignVerdict(
         assembles=True,
         one_circuit=True,
@@ -239,9 +253,45 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         size_ratio=ratio,
         inside=inside,
         error=float(missed_by),
+        between=piece.distance,
         reasons=tuple(reasons),
     )
     return Design(linkage=linkage, verdict=verdict, form=form, drives=drives, targets=targets)
+
+
+class _WayBetween(NamedTuple):
+    """Where the way between two neighbouring targets lies worst."""
+
+    target: int
+    distance: float
+    """From the line between them, relative to the size."""
+    excess: float
+    """Beyond half that line: an arc up to a half circle is as good as any other between two points of a curve."""
+
+
+def _way_between(course: Circuit, path: TargetPath, targets: Targets) -> _WayBetween:
+    """The worst piece of the way along a curve, at the samples of the circuit; nothing where the way is free."""
+    if targets.curve is GuidedCurve.NONE or not path.in_order:
+        return _WayBetween(0, np.nan, 0.0)
+    sense = 1.0 if path.arcs[-1] >= path.arcs[0] else -1.0
+    arcs, places = sense * path.arcs, targets.values[:, 0]
+    if targets.curve is GuidedCurve.CLOSED and course.closed:
+        arcs, places = np.append(arcs, arcs[0] + course.length), np.append(places, places[0])
+    laps = (-2, -1, 0, 1, 2) if course.closed else (0,)
+    between = np.sort(np.concatenate([sense * course.arcs + k * course.length for k in laps]))
+    between = between[(between > arcs[0]) & (between < arcs[-1])]
+    if not len(between):
+        return _WayBetween(0, 0.0, 0.0)
+    target = np.clip(np.searchsorted(arcs, between, side="right") - 1, 0, len(places) - 2)
+    start, line = places[target], (places[1:] - places[:-1])[target]
+    gone = targets.probes[0].value(course.at(sense * between), 0) - start
+    share = np.clip(np.real(gone * np.conj(line)) / np.maximum(np.abs(line) ** 2, 1e-300), 0, 1)
+    distance = np.abs(gone - share * line)
+    excess = distance - np.abs(line) / 2
+    worst = int(excess.argmax())
+    return _WayBetween(
+        int(target[worst]), float(distance[worst]) / targets.size, max(0.0, float(excess[worst]) / targets.size)
+    )
 
 
 def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form: str, drives: Reals) -> Design:
@@ -313,7 +363,7 @@ def faults_of_size(linkage: Linkage, ratio: float, inside: bool, demands: Demand
     if not inside:
         faults.append(message("a fixed pivot lies outside the region"))
     if ratio > demands.size_ratio:
-        faults.append(message("its lengths differ too much (ratio {ratio:.3g})", ratio=ratio))
+        faults.append(TOO_SLENDER.filled(ratio=ratio))
     return faults
 
 

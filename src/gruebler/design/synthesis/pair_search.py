@@ -7,7 +7,7 @@ transmission angle of each pair follow from its lengths and crank angles. docs/t
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import degrees
 
 import numpy as np
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, DyadKind, GuidingDyad
-from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.judging import BUILDABLE, Demands
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
 
@@ -29,8 +29,6 @@ _APART = 4  # places in the sample: designs nearer to a better one are not liste
 _LOOKED_AT = 2000  # pairs for each design that is wanted
 _ALIKE = 0.05  # sizes: pivots of two designs that are improved differ by more
 _BITS = 30  # costs that differ behind them are equal: a tie is not decided by how a machine rounds
-BUILDABLE = 20.0
-"""The longest length by the shortest, as a workshop accepts it; other ratios can be demanded."""
 USUAL = ("full-turn", "transmission", "size-ratio")
 """By what designs are sorted unless the caller says otherwise."""
 
@@ -282,8 +280,6 @@ def best_pairs(
 
     Cost: 2 us for each pair of the sample, 10 ms for each one that is made better.
     """
-    if demands.size_ratio == Demands().size_ratio:
-        demands = replace(demands, size_ratio=BUILDABLE)
     others = second or dyads
     facts = pair_facts(task, dyads, others, demands)
     met = facts.met(demands)
@@ -333,8 +329,6 @@ def best_dyads(
     number: int = 16,
 ) -> tuple[list[GuidingDyad], list[Message]]:
     """The best of a family with one dyad to choose, as `best_pairs`, and notes on it; none if none meets all."""
-    if demands.size_ratio == Demands().size_ratio:
-        demands = replace(demands, size_ratio=BUILDABLE)
 
     def ranked(some: Sequence[GuidingDyad]) -> tuple[NDArray[np.intp], Flags, list[tuple[Message, Flags]]]:
         facts = facts_of(some)

@@ -48,6 +48,8 @@ class DesignVerdict:
     """Whether the fixed pivots lie in the region."""
     error: float = float("nan")
     """The largest deviation from a target, relative to the size of the task."""
+    between: float = float("nan")
+    """Of a curve: how far its point lies from the line between two targets on the way, relative to the size."""
     reasons: tuple[Message, ...] = ()
 
     @property
@@ -77,6 +79,7 @@ class DesignVerdict:
 
 
 _TRANSMISSION = message("Smallest transmission angle on the way: {angle:.4g}°.")
+TOO_SLENDER = message("its lengths differ too much (ratio {ratio:.3g})")
 Progress = Callable[[int, int], None]
 """Called with how much is done, and of how much."""
 FITTED = "fitted structure"
@@ -267,6 +270,13 @@ class SynthesisResult:
     def __getitem__(self, number: int) -> Design:
         return self.designs[number]
 
+    @property
+    def remarks(self) -> tuple[Message, ...]:
+        """The notes, and how many designs would be accepted if their lengths were allowed to differ more."""
+        beyond = sum([reason.text for reason in each.verdict.reasons] == [TOO_SLENDER.text] for each in self.rejected)
+        more = message("Designs rejected only because their lengths differ too much: {count}.", count=beyond)
+        return (*self.notes, more) if beyond else self.notes
+
     def sorted_by(self, *orders: str) -> SynthesisResult:
         """The same result with its designs, accepted and rejected, in another order: the names of `ORDERS`.
 
@@ -285,7 +295,7 @@ class SynthesisResult:
         'Designs: 2 accepted, 0 rejected.'
         """
         totals = {"accepted": len(self.designs), "rejected": len(self.rejected)}
-        lines = [message("Designs: {accepted} accepted, {rejected} rejected.", **totals), *self.notes]
+        lines = [message("Designs: {accepted} accepted, {rejected} rejected.", **totals), *self.remarks]
         lines += [each.verdict.reasons[0] for each in self.rejected[:1] if not self.designs]
         table = [text_table(*self._rows(lang), len(self))] if self.designs else []
         return "\n".join([*(line.in_language(lang) for line in lines), *table])

@@ -13,13 +13,11 @@ from gruebler.base.arrays import Complexes
 from gruebler.base.errors import SynthesisError
 from gruebler.base.immutable import settle
 from gruebler.design.synthesis.judging import Demands
-from gruebler.design.synthesis.pair_search import BUILDABLE
 from gruebler.design.synthesis.tasks import Pair, PathTask, PositionTask, Task, number_rows, output_travels
 
 LINKS = (4, 6)
 """Numbers of links of the mechanisms with one drive that are made: an even number, by Grübler's equation."""
-
-_USUAL = Demands(size_ratio=BUILDABLE)
+_USUAL = Demands()
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.judging import Demands, transmission_fault
 from gruebler.design.synthesis.pair_search import PairClosure, motion_of_pairs
-from gruebler.design.synthesis.results import DesignVerdict, SolutionCount
+from gruebler.design.synthesis.results import TOO_SLENDER, DesignVerdict, SolutionCount
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.spherical_four_bar import SphericalFourBar
 from gruebler.structure.mechanism import Mechanism
@@ -468,7 +468,7 @@ def _verdict(bar: SphericalFourBar, pins: Reals, demands: Demands) -> SphericalD
     arcs = [bar.a, bar.b, bar.c, bar.d]
     ratio = max(arcs) / min(arcs)
     if ratio > demands.size_ratio:
-        reasons.append(message("its lengths differ too much (ratio {ratio:.3g})", ratio=ratio))
+        reasons.append(TOO_SLENDER.filled(ratio=ratio))
     return SphericalDesign(
         four_bar=bar,
         axes=pins[0],

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from enum import Enum
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes
+from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask
 from gruebler.mechanics.kinematics import Poses
 from gruebler.mechanics.kinematics.motion import Motion
 
@@ -44,6 +46,21 @@ class Probe:
         return value
 
 
+class GuidedCurve(Enum):
+    """Whether targets are places along a curve, so that what lies between two of them counts, too."""
+
+    NONE = "none"
+    OPEN = "open"
+    """From the first to the last; the first probe is the point that draws it."""
+    CLOSED = "closed"
+    """From the last on to the first, too."""
+
+    @classmethod
+    def of(cls, task: PathTask) -> GuidedCurve:
+        """Along a whole curve; points that a four-bar meets exactly tell little of the way between them."""
+        return cls.CLOSED if task.closed else cls.OPEN if len(task) > MOST_POINTS else cls.NONE
+
+
 class Targets(NamedTuple):
     """What is to be met: for each probe its value at each target; NaN where it is free."""
 
@@ -52,6 +69,7 @@ class Targets(NamedTuple):
     """(targets, probes)"""
     size: float
     """The size of the task: errors are relative to it."""
+    curve: GuidedCurve = GuidedCurve.NONE
 
     def gaps(self, poses: Poses, which: NDArray[np.int64]) -> tuple[Complexes, Complexes]:
         """How far each row is from its target, and the derivatives by the arc; (rows, probes)."""
