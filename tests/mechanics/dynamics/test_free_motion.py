@@ -10,7 +10,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.mechanics.dynamics import EquationsOfMotion, equilibria, influences_of, linearised, simulate
 from gruebler.mechanics.forces import Loads, Motor, RigidBody, Spring
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
-from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.mechanics.linkages import Linkage, LinkPoint, Wheel
 from gruebler.structure.mechanism import Mechanism
 
 

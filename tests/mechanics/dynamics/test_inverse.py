@@ -35,6 +35,13 @@ def five_bar():
     return Linkage.from_drawing(mechanism, places)
 
 
+def test_a_drive_behind_pins_in_slots():
+    """Blocks stand for such pins when the linkage is solved, so that its drive is another joint there."""
+    linkage = entry("scissor2_cyl").linkage()
+    motion = move(linkage, np.linspace(25, 60, 8), speed=30.0)
+    assert inverse_dynamics(motion, Loads(bodies=bodies_of(linkage))).disagreement < ROUNDING
+
+
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "wiper", "five-bar"])
 def test_two_methods_agree(name):
     linkage = {

@@ -33,13 +33,3 @@ def with_velocities(motion: Motion, speed: Reals, order: int = 1) -> Iterator[tu
         own = speed[rows] if speed.ndim == 2 else speed
         moved = move_quietly(motion.plan, motion.drives[rows], speed=own, order=order, branch=branch)
         yield rows[: len(moved)], moved
-
-
-def drive_speed(motion: Motion) -> Reals:
-    """The speed of the only drive in a motion with velocities; (rows,)."""
-    drive = motion.lower_linkage.mechanism.drives[0]
-    if not drive.turning:
-        return motion.displacement(drive.joint, order=1)
-    first, second = motion.lower_linkage.reference(0)
-    speed: Reals = motion.angular(second) - motion.angular(first)
-    return speed

@@ -26,7 +26,7 @@ from gruebler.mechanics.forces.equilibrium import (
 )
 from gruebler.mechanics.forces.friction import Friction, FrictionForces, PerJoint, as_friction, with_friction
 from gruebler.mechanics.forces.loads import Loads
-from gruebler.mechanics.forces.motion_rates import drive_speed, with_velocities
+from gruebler.mechanics.forces.motion_rates import with_velocities
 from gruebler.mechanics.forces.taking_apart import LinkLoads
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage
@@ -407,7 +407,7 @@ def _virtual_work(motion: Motion, loads: LinkLoads) -> Reals:
     """The efforts whose work on a small motion of each drive is that of the loads with the other sign."""
     drives = len(motion.linkage.mechanism.drives)
     work = np.full((len(motion), drives), np.nan)
-    if drives == 1 and motion.order and (speed := drive_speed(motion)).all():
+    if drives == 1 and motion.speeds is not None and (speed := motion.speeds[0, :, 0]).all():
         work[:, 0] = -_power(loads, motion) / speed
         return np.where(np.isfinite(work), work, np.nan)
     for k in range(drives):
