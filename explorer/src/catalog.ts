@@ -2,7 +2,7 @@
 
 import { choice, h, renew, thumbnail } from "./dom";
 import { movesOnHover } from "./hover";
-import { t } from "./language";
+import { currentLanguage, t } from "./language";
 import type { Model } from "./model";
 import type { Page, View } from "./view";
 import { moment } from "./waiting";
@@ -13,6 +13,8 @@ interface Entry {
   links: number;
   counted: number;
   moves: boolean;
+  /** Whether it has a page of its own, on which it moves in space. */
+  space: boolean;
   text: string;
 }
 
@@ -139,14 +141,15 @@ export class CatalogView implements View {
   }
 
   private card(entry: Entry): HTMLElement {
-    const { id, links, counted, moves } = entry;
+    const { id, links, counted, moves, space } = entry;
     const sizes = t("{links} links, F = {counted}", { links, counted });
+    const kinds = space ? [t("in space")] : [t("structure only")].slice(Number(moves));
     const card = h(
       "button.card",
       { "data-id": id, onclick: () => void this.choose(entry) },
       h("div", { "data-place": "" }),
       h("b", {}, entry.name),
-      h("span", {}, sizes + (moves ? "" : ` · ${t("structure only")}`)),
+      h("span", {}, [sizes, ...kinds].join(" · ")),
     );
     if (moves) movesOnHover(card, id, () => this.page.ask("moving", { id }));
     return card;
@@ -163,6 +166,8 @@ export class CatalogView implements View {
   }
 
   private async choose(entry: Entry): Promise<void> {
+    if (entry.space && document.querySelector("[data-gruebler]"))
+      return void window.open(`space/${entry.id}.html#${currentLanguage()}`, "_blank", "noopener");
     if (!entry.moves) return this.page.describe(entry.text);
     try {
       this.page.open(await this.page.ask<Model>("open", { id: entry.id }));

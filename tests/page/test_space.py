@@ -1,29 +1,36 @@
 """The page of a linkage in space: it moves, is gone round and pulled, without a server and without the network."""
 
+from urllib.error import HTTPError
+from urllib.request import urlopen
+
 import numpy as np
 import pytest
 
+from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
 from gruebler.mechanics.space import move
-from gruebler.page.space_page import space_file, space_model
+from gruebler.page.requests import answer
+from gruebler.page.space_page import machine_model, space_file, space_model
+from gruebler.page.static_site import FileGroup, write_site
 from gruebler.teaching.catalog import entry
 
 
 def test_poses_of_the_page_are_those_of_the_motion():
     linkage = entry("sarrus").placed()
-    model = space_model(linkage, between=(-0.5, 0.6), lang="de")
+    model = space_model(linkage, between=(-0.5, 0.6))
     (motion,) = model["motions"]
-    assert (motion["name"], motion["round"], motion["unit"]) == ("R(base-arm1)", False, "°")
+    assert (motion["drive"], motion["round"], motion["unit"]) == (0, False, "°")
     assert motion["values"] == pytest.approx(np.degrees(np.linspace(-0.5, 0.6, 73)), rel=1e-5)
     poses = np.array(motion["poses"]).reshape(73, 6, 3, 4)
     there = move(linkage, [0.0, 0.6]).poses[0, -1, :, :3]
     assert poses[-1] == pytest.approx(there, abs=1e-3)
     assert model["points"] == [{"name": "C", "link": 5, "at": (0.0, 0.0, 96.0)}]
-    assert model["words"]["play"] == "Abspielen"
+    assert model["texts"]["de"]["words"]["play"] == "Abspielen"
 
 
 def test_every_drive_of_a_delta_robot_has_a_motion():
-    assert [each["name"] for each in space_model(entry("delta").placed())["motions"]] == list(entry("delta").drives)
+    model = space_model(entry("delta").placed())
+    assert [model["texts"]["en"]["drives"][each["drive"]] for each in model["motions"]] == list(entry("delta").drives)
 
 
 def test_the_file_loads_nothing():
@@ -32,9 +39,40 @@ def test_the_file_loads_nothing():
     assert "http" not in text.replace('http-equiv="Content-Security-Policy"', "")
 
 
-def test_in_space_a_file_is_asked_for(capsys):
-    assert main(["explore", "gough", "--no-browser"]) == 2
-    assert "give it by -o FILE.html" in capsys.readouterr().err
+def test_a_machine_of_the_catalog_has_its_names_in_both_languages():
+    texts = machine_model("wiper_rssr")["texts"]
+    assert texts["de"]["title"].startswith("Scheibenwischerantrieb")
+    assert texts["de"]["drives"] == ["D(Karosserie-Motorkurbel)"]
+    assert texts["en"]["drives"] == ["R(body-crank)"]
+    with pytest.raises(GrueblerError, match="no linkage in space"):
+        machine_model("quad")
+
+
+def test_the_server_has_a_page_for_each_machine_in_space(server):
+    with urlopen(server.address + "space/universal_joint.html", timeout=60) as page:
+        assert "Kreuzgelenk" in page.read().decode("utf-8")
+        assert "script-src" not in page.headers["Content-Security-Policy"]  # the page brings its own policy
+    for name in ("quad", "opened", "../ws"):
+        with pytest.raises(HTTPError, match="404"):
+            urlopen(f"{server.address}space/{name}.html", timeout=60)
+
+
+def test_a_site_has_the_machines_in_space(tmp_path):
+    write_site(tmp_path / "site", {"name": ""}, groups=[FileGroup("space", ("universal_joint",))])
+    assert "default-src 'none'" in (tmp_path / "site" / "space" / "universal_joint.html").read_text(encoding="utf-8")
+
+
+def test_a_site_opens_in_the_plane(capsys, tmp_path):
+    assert main(["explore", "gough", "--site", str(tmp_path / "site")]) == 2
+    assert "opens with a linkage in the plane" in capsys.readouterr().err
+
+
+def test_the_list_of_machines_says_which_move_in_space():
+    by_id = {each["id"]: each for each in answer("catalog", {}, "en", print)}
+    assert by_id["gough"]["space"]
+    assert not by_id["quad"]["space"]
+    picture = answer("picture", {"id": "wiper_rssr"}, "de", print)["picture"]
+    assert "Isometri" in picture
 
 
 def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):

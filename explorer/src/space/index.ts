@@ -4,7 +4,8 @@ import { axes, before, type Camera, meeting, moved, projection, ray, seen, type 
 import { type Body, Painter } from "./painter";
 
 interface Motion {
-  name: string;
+  /** Its number. */
+  drive: number;
   round: boolean;
   unit: string;
   /** (rows) of the drive. */
@@ -13,9 +14,14 @@ interface Motion {
   poses: number[][][];
 }
 
-interface Model {
+interface Texts {
   title: string;
+  drives: string[];
   words: { play: string; stop: string; drive: string; help: string; none: string };
+}
+
+interface Model {
+  texts: Record<string, Texts>;
   middle: Vector;
   size: number;
   bodies: Body[];
@@ -28,6 +34,8 @@ const NEAR = 8; // rows before and behind among which a pulled link looks for it
 const STILL = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 
 const model: Model = JSON.parse(document.getElementById("gruebler-model")!.textContent!);
+const { title, drives, words } = (model.texts[location.hash.slice(1)] ?? model.texts[document.documentElement.lang])!;
+document.title = title;
 const dark = matchMedia("(prefers-color-scheme: dark)").matches;
 const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
 
@@ -49,12 +57,12 @@ Object.assign(document.body.style, { margin: "0", font: "16px system-ui, sans-se
 Object.assign(document.body.style, { display: "flex", flexDirection: "column", height: "100dvh" });
 document.body.style.background = dark ? "#171717" : "#fff";
 const bar = element("header", document.body, { display: "flex", flexWrap: "wrap", gap: "0.8em", padding: "0.6em 1em" });
-element("h1", bar, { font: "600 1em system-ui, sans-serif", margin: "0.3em 0" }, model.title);
+element("h1", bar, { font: "600 1em system-ui, sans-serif", margin: "0.3em 0" }, title);
 const canvas = element("canvas", document.body, { flex: "1", minHeight: "0", touchAction: "none", cursor: "grab" });
 canvas.tabIndex = 0;
 canvas.setAttribute("role", "img");
-canvas.setAttribute("aria-label", `${model.title}. ${model.words.help}`);
-element("p", document.body, { margin: "0", padding: "0.5em 1em", fontSize: "0.85em" }, model.words.help);
+canvas.setAttribute("aria-label", `${title}. ${words.help}`);
+element("p", document.body, { margin: "0", padding: "0.5em 1em", fontSize: "0.85em" }, words.help);
 
 const camera: Camera = { turn: 0.9, lift: 0.55, distance: 3.1 * model.size, middle: model.middle };
 let motion = model.motions[0];
@@ -63,7 +71,6 @@ let playing = motion !== undefined && !calm;
 let pulled: { link: number; at: Vector } | undefined;
 let traced: { link: number; at: Vector } | undefined;
 
-const words = model.words;
 const button = element("button", bar, { minWidth: "5em" });
 const label = element("label", bar, { display: "flex", gap: "0.5em", alignItems: "center", flex: "1" });
 const choice = element("select", label);
@@ -73,7 +80,7 @@ slider.type = "range";
 slider.step = "any";
 slider.setAttribute("aria-label", words.drive);
 choice.setAttribute("aria-label", words.drive);
-for (const each of model.motions) element("option", choice, {}, each.name);
+for (const each of model.motions) element("option", choice, {}, drives[each.drive]);
 if (!motion) label.replaceChildren(words.none);
 
 /** The poses of all links between two rows. */

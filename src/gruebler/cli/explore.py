@@ -67,16 +67,22 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _in_space(spatial: SpatialWord, arguments: argparse.Namespace) -> int:
-    """Write the file of a linkage in space, which needs no server."""
-    from gruebler.page.space_page import space_file, space_model
+    """The page of a linkage in space, as a file or beside the others of the server."""
+    from gruebler.page.space_page import machine_model, space_file, space_model
 
+    word = arguments.linkage
+    if arguments.site is not None:
+        raise GrueblerError("a site opens with a linkage in the plane; it has the machines in space beside it")
+    record = entry_of(word)
+    if record is None:
+        between = spatial.range if len(spatial.linkage.mechanism.drives) == 1 else None
+        model = space_model(spatial.linkage, titles=dict.fromkeys(LANGUAGES, word), between=between)
+    else:
+        model = machine_model(word)
+    page = space_file(model, arguments.lang)
     if arguments.out is None:
-        raise GrueblerError("the page of a linkage in space is one file: give it by -o FILE.html")
-    record = entry_of(arguments.linkage)
-    name = arguments.linkage if record is None else record.name.in_language(arguments.lang)
-    between = spatial.range if len(spatial.linkage.mechanism.drives) == 1 else None
-    model = space_model(spatial.linkage, name=name, lang=arguments.lang, between=between)
-    write_file(arguments.out, space_file(model, arguments.lang).encode("utf-8"), arguments.lang)
+        return _serve(_model(_FIRST, arguments.lang), arguments, in_space=page)
+    write_file(arguments.out, page.encode("utf-8"), arguments.lang)
     return 0
 
 
@@ -126,7 +132,7 @@ def _model(word: str, lang: str) -> dict[str, Any]:
     return with_document(model, linkage, own_document(Path(word))) if Path(word).is_file() else model
 
 
-def _serve(model: dict[str, Any], arguments: argparse.Namespace) -> int:
+def _serve(model: dict[str, Any], arguments: argparse.Namespace, *, in_space: str = "") -> int:
     try:
         from gruebler.page import server
     except ImportError:
@@ -139,7 +145,7 @@ def _serve(model: dict[str, Any], arguments: argparse.Namespace) -> int:
     host, port = listening.getsockname()[:2]
     shown = f"[{host}]" if ":" in host else host
     token = server.kept_token()
-    address = f"http://{shown}:{port}/{token}/"
+    address = f"http://{shown}:{port}/{token}/" + (f"space/{server.OPENED}.html" if in_space else "")
     print(translate("The page is at {address}", arguments.lang, address=address))
     print(translate("Stop it with Ctrl+C.", arguments.lang), flush=True)
     if not arguments.no_browser and sys.stdout.isatty():
@@ -148,7 +154,7 @@ def _serve(model: dict[str, Any], arguments: argparse.Namespace) -> int:
         webbrowser.open(address)
     lang = _page_language(arguments.lang)
     names = frozenset() if host in ("127.0.0.1", "::1") else frozenset({arguments.host, shown})
-    server.run_server(server.ExplorerServer(model, token, lang=lang, names=names), listening)
+    server.run_server(server.ExplorerServer(model, token, lang=lang, names=names, in_space=in_space), listening)
     return 0
 
 

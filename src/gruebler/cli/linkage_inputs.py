@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -16,7 +15,6 @@ from gruebler.mechanics.fourbar.length_texts import LENGTH_FORMS, LENGTH_KINDS, 
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.structure.chain import Chain
-from gruebler.structure.chain.spaces import Space
 
 if TYPE_CHECKING:
     from gruebler.mechanics.forces import Loads
@@ -84,7 +82,7 @@ def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, 
         raise GrueblerError(
             "{word!r} has the screws of its joints in one position, not the dimensions of its links: `gruebler check "
             "{word} --explain` shows how it moves"
-            if record.chain().space is Space.PLANAR
+            if not record.in_space
             else "{word!r} does not move in a plane, and this command takes linkages in the plane alone: `gruebler "
             "analyse {word}` shows how it moves",
             word=word,
@@ -115,15 +113,11 @@ def spatial_of_word(word: str, lang: str = "en") -> SpatialWord | None:
     from gruebler.teaching.catalog import entries
 
     record = entries().get(word)
-    if record is None or record.screws is None or record.chain().space is Space.PLANAR:
+    if record is None or not record.in_space:
         return None
     placed = record.in_language(lang).placed()
     assert isinstance(placed, SpatialLinkage)
-    shown = record.screws.range
-    drives = placed.mechanism.drives
-    if shown is not None and drives and drives[0].turning:
-        shown = (math.radians(shown[0]), math.radians(shown[1]))
-    return SpatialWord(placed, shown)
+    return SpatialWord(placed, record.between)
 
 
 class Loaded(NamedTuple):

@@ -229,10 +229,12 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         >>> [round(value, 6) for value in entry("crane").between]  # 60° to 80°
         [1.047198, 1.396263]
         """
-        if self.dimensions is None or self.dimensions.range is None:
+        sizes = self.dimensions or self.screws
+        linkage = self.placed() if self.dimensions is None else self.linkage()
+        if sizes is None or linkage is None or sizes.range is None:
             return None
-        low, high = self.dimensions.range
-        drives = self.linkage().mechanism.drives
+        low, high = sizes.range
+        drives = linkage.mechanism.drives
         return (math.radians(low), math.radians(high)) if drives and drives[0].turning else (low, high)
 
     def loaded(self) -> tuple[Linkage, Loads, float | None]:
@@ -274,6 +276,11 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         'coupler'
         """
         return {link: link for link in self.links} if lang == LANGUAGES[0] else dict(self.links)
+
+    @property
+    def in_space(self) -> bool:
+        """Whether it is a machine in space or on the sphere whose joints have places."""
+        return self.screws is not None and self.space != "planar"
 
     def placed(self) -> Linkage | SpatialLinkage | None:
         """The machine with what dimensions it has: the screws of its joints, else the sizes of its links, else None."""

@@ -86,6 +86,7 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
             "links": candidate.chain().n,
             "counted": counted(candidate.chain()),
             "moves": candidate.dimensions is not None and candidate.space == "planar",
+            "space": candidate.in_space,
             "text": Mechanism(
                 candidate.chain(), candidate.frame or candidate.chain().links[0], candidate.drives
             ).text(),
@@ -95,7 +96,9 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
 
 
 def _catalog_picture(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
+    from gruebler.mechanics.screws import SpatialLinkage
     from gruebler.pictures.linkage.picture import draw_linkage
+    from gruebler.pictures.space import draw_spatial
     from gruebler.pictures.structure import draw_structure
     from gruebler.structure.mechanism import Mechanism
     from gruebler.teaching.catalog import entry
@@ -104,6 +107,8 @@ def _catalog_picture(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]
     name = record.name.in_language(lang)
     if record.dimensions is not None and record.space == "planar":
         figure = draw_linkage(record.linkage(), between=record.between, lang=lang, name=name)
+    elif isinstance(placed := record.placed() if record.in_space else None, SpatialLinkage):
+        figure = draw_spatial(placed, symbols=False, lang=lang, name=name)
     else:
         chain = record.chain()
         figure = draw_structure(Mechanism(chain, record.frame or chain.links[0], record.drives), lang=lang, name=name)
@@ -117,6 +122,12 @@ def _moving(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
     record = entry(asked.id)
     shown = scene(record.linkage(), between=record.between, lang=lang, name=record.name.in_language(lang))
     return {"picture": svg_of(shown, styled=False)}
+
+
+def _in_space(asked: CatalogId, lang: str, _: Progress) -> str:
+    from gruebler.page.space_page import machine_model, space_file
+
+    return space_file(machine_model(asked.id), lang)
 
 
 def _open(asked: CatalogId, _: str, __: Progress) -> dict[str, Any]:
@@ -286,6 +297,7 @@ def _tried_task(asked: TryExercise, _: str, __: Progress) -> dict[str, Any]:
 REQUESTS: dict[str, tuple[type[Params], Callable[[Any, str, Progress], Any]]] = {
     "catalog": (ListCatalog, _list_catalog),
     "picture": (CatalogId, _catalog_picture),
+    "space": (CatalogId, _in_space),
     "moving": (CatalogId, _moving),
     "open": (CatalogId, _open),
     "open_document": (OpenDocument, _open_document),

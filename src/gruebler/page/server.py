@@ -35,6 +35,8 @@ from gruebler.page.workers import CancelledError, Workers
 
 LARGEST = 400_000
 """Characters of a message; the document of a linkage of a hundred links has a tenth of it."""
+OPENED = "opened"
+"""The page of a linkage in space that is no machine of the catalog."""
 MOST_WAITING = 200
 """Requests of one page that may wait; more are refused."""
 _FRAME = 4_000_000  # bytes of a frame: beyond it the connection is closed by the protocol itself
@@ -71,18 +73,26 @@ class ExplorerServer:
         token: the first part of every path.
         lang: the language of the page; that of the browser if empty.
         names: what a Host may be beside the loopback names.
+        in_space: a page of a linkage in space that is no machine of the catalog, served as ``space/opened.html``.
     """
 
     def __init__(
-        self, model: Mapping[str, Any], token: str, *, lang: str = "", names: frozenset[str] = frozenset()
+        self,
+        model: Mapping[str, Any],
+        token: str,
+        *,
+        lang: str = "",
+        names: frozenset[str] = frozenset(),
+        in_space: str = "",
     ) -> None:
-        self.model, self.token, self.lang = model, token, lang
+        self.model, self.token, self.lang, self.in_space = model, token, lang, in_space
         self.names = names | {"127.0.0.1", "localhost", "[::1]"}
         self._workers: Workers | None = None
         self.application = Starlette(
             routes=[
                 Route("/{token}/", self._page),
                 Route("/{token}/explorer.js", self._module),
+                Route("/{token}/space/{id}.html", self._machine_in_space),
                 WebSocketRoute("/{token}/ws", self._socket),
                 Route("/{path:path}", self._nothing),
             ],
@@ -115,6 +125,21 @@ class ExplorerServer:
         if not self._known(request):
             return self._refusal()
         return Response(module_text(), media_type="text/javascript", headers=_HEADERS)
+
+    async def _machine_in_space(self, request: Request) -> Response:
+        """A page of its own, whose policy stands in it."""
+        id = str(request.path_params["id"])
+        if not self._known(request):
+            return self._refusal()
+        text = self.in_space
+        if id != OPENED:
+            assert self._workers is not None
+            try:
+                text = await self._workers.ask("space", {"id": id}, self.lang or "en", lambda _: None, asyncio.Event())
+            except GrueblerError:
+                return self._refusal()
+        headers = _HEADERS | {"Content-Security-Policy": "frame-ancestors 'none'"}
+        return Response(text, media_type="text/html", headers=headers) if text else self._refusal()
 
     async def _nothing(self, _: Request) -> Response:
         return self._refusal()

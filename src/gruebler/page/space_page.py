@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from gruebler.base.text import message
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import LANGUAGES, message
 from gruebler.files.gltf import link_colour, moving_solids, united
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.page.page import data_page, module_text
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
+from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.chain.spaces import Space
+from gruebler.teaching.catalog import entry
 
 _WORDS = {
     "play": message("Play"),
@@ -26,45 +30,75 @@ _WORDS = {
 
 
 def space_model(
-    linkage: SpatialLinkage, *, name: str = "", lang: str = "en", between: tuple[float, float] | None = None
+    linkage: SpatialLinkage,
+    *,
+    titles: Mapping[str, str] | None = None,
+    drives: Mapping[str, Sequence[str]] | None = None,
+    between: tuple[float, float] | None = None,
 ) -> dict[str, Any]:
-    """What the page shows: bodies, the poses of all links over the range of each drive, named points."""
+    """What the page shows: bodies, the poses of all links over the range of each drive, named points.
+
+    ``titles`` and names of ``drives`` by language are those of the linkage unless they are given.
+    """
     moving = moving_solids(linkage, between=between)
-    chain = linkage.mechanism.chain
+    chain, mechanism = linkage.mechanism.chain, linkage.mechanism
     bodies = []
     for number, link in enumerate(chain.links):
         solids = moving.solids[link]
         whole = united(solids) if solids else None
         bodies.append(
             {
-                "name": link,
                 "colour": link_colour(number),
                 "vertices": [] if whole is None else _numbers(whole.vertices),
                 "triangles": [] if whole is None else whole.triangles.ravel().tolist(),
             }
         )
-    drives = dict(zip(linkage.mechanism.drive_names(), linkage.mechanism.drives, strict=True))
     spherical = chain.space is Space.SPHERICAL
+    turning = [drive.turning for drive in mechanism.drives]
     return {
-        "title": name or str(chain),
-        "words": {key: text.in_language(lang) for key, text in _WORDS.items()},
+        "texts": {
+            lang: {
+                "title": (titles or {}).get(lang, str(chain)),
+                "drives": [*(drives or {}).get(lang, mechanism.drive_names(Alphabet.of_language(lang)))],
+                "words": {key: text.in_language(lang) for key, text in _WORDS.items()},
+            }
+            for lang in LANGUAGES
+        },
         "middle": [0.0, 0.0, 0.0] if spherical else linkage.centre.tolist(),
         "size": 1.0 if spherical else linkage.size,
         "bodies": bodies,
         "points": [{"name": key, "link": chain.index(link), "at": at} for key, (link, at) in linkage.points.items()],
         "motions": [
             {
-                "name": drive,
+                "drive": k,
                 "round": full,
-                "unit": "°" if drives[drive].turning else f" {linkage.unit}",
-                "values": _numbers(
-                    np.degrees(motion.drives[:, k]) if drives[drive].turning else motion.drives[:, k],
-                ),
+                "unit": "°" if turning[k] else f" {linkage.unit}",
+                "values": _numbers(np.degrees(motion.drives[:, k]) if turning[k] else motion.drives[:, k]),
                 "poses": [[_numbers(pose[:3]) for pose in row] for row in motion.poses[0]],
             }
-            for drive, k, motion, full in moving.named()
+            for _, k, motion, full in moving.named()
         ],
     }
+
+
+def machine_model(id: str) -> dict[str, Any]:
+    """The model of a machine of the catalog in space; `GrueblerError` for another one."""
+    record = entry(id)
+    if not record.in_space:
+        raise GrueblerError("the catalog entry {id!r} has no linkage in space", id=id)
+    placed = {lang: record.in_language(lang).placed() for lang in LANGUAGES}
+    linkage = placed[LANGUAGES[0]]
+    assert isinstance(linkage, SpatialLinkage)
+    return space_model(
+        linkage,
+        titles={lang: record.name.in_language(lang) for lang in LANGUAGES},
+        drives={
+            lang: each.mechanism.drive_names(Alphabet.of_language(lang))
+            for lang, each in placed.items()
+            if each is not None
+        },
+        between=record.between if len(linkage.mechanism.drives) == 1 else None,
+    )
 
 
 def _numbers(values: Any) -> list[float]:
@@ -73,7 +107,10 @@ def _numbers(values: Any) -> list[float]:
 
 
 def space_file(model: dict[str, Any], lang: str = "en") -> str:
-    """One HTML file that loads nothing: its policy allows its own script only."""
+    """One HTML file that loads nothing: its policy allows its own script only.
+
+    It opens in the language, or in the one that an address names behind ``#``.
+    """
     script = module_text("space")
     policy = policy_element(script, styles=False)
-    return data_page(str(model["title"]), lang, model, script_element(script, "module"), policy)
+    return data_page(str(model["texts"][lang]["title"]), lang, model, script_element(script, "module"), policy)

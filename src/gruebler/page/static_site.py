@@ -91,6 +91,7 @@ def _all_groups() -> Iterator[FileGroup]:
             yield FileGroup("structures", (links, mobility, first))
         yield FileGroup("chains", (links, mobility))
     ids = tuple(sorted(entries()))
+    yield FileGroup("space", tuple(id for id in ids if entries()[id].in_space))
     yield from (FileGroup("machine", (id,)) for id in ids)
     yield FileGroup("catalog", ids)
     yield from (FileGroup("tasks", (kind, level, TASKS)) for kind in KINDS for level in (1, 2, 3))
@@ -101,7 +102,15 @@ def _all_groups() -> Iterator[FileGroup]:
 def _written(work: tuple[str, FileGroup]) -> int:
     """Write the files of a group; how many bytes they have."""
     folder, group = work
+    if group.kind == "space":
+        return sum(_write_in_space(Path(folder).parent, id) for id in group.given)
     return sum(_write_pack(Path(folder), name, content) for name, content in _PACKS[group.kind](*group.given))
+
+
+def _write_in_space(folder: Path, id: str) -> int:
+    """The page of a machine in space."""
+    (folder / "space").mkdir(exist_ok=True)
+    return _write(folder / "space" / f"{id}.html", answer("space", {"id": id}, LANGUAGES[0], _nothing).encode("utf-8"))
 
 
 def _write_pack(folder: Path, name: str, content: Any) -> int:

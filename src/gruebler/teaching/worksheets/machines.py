@@ -22,7 +22,6 @@ from gruebler.pictures.linkage.posed_linkage import posed_linkage
 from gruebler.pictures.space import draw_spatial
 from gruebler.pictures.structure import draw_structure
 from gruebler.structure.chain.pairs import Alphabet
-from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
 from gruebler.structure.mechanism.inversion import family
 from gruebler.structure.mobility import mobility_report
@@ -70,7 +69,7 @@ def _entry_blocks(entry: Entry, lang: str) -> Iterator[Block]:
     source = source_text(entry.source, lang)
     yield Paragraph(translate("Source: {source}", lang, source=source), small=True)
     linkage: Linkage | SpatialLinkage | None = None if shown.dimensions is None else shown.linkage()
-    if shown.chain().space is not Space.PLANAR:
+    if shown.in_space:
         linkage = shown.placed()
     sizes = shown.dimensions or shown.screws
     mechanism = entry_mechanism(shown) if linkage is None else linkage.mechanism
