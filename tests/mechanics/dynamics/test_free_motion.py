@@ -159,6 +159,16 @@ def test_two_freedoms_exchange_their_coordinates_at_stretched_limits():
     assert np.abs(fine.turns[-1] - coarse.turns[-1]).max() < 1e-6
 
 
+def test_wheels_turn_freely():
+    """Nothing of a pair of gears has second derivatives: J q'' = M with J = J1 + (30/20)² J2, by hand."""
+    at = {"R(0-1)": (0, 0), "R(0-2)": (50, 0), "G(1-2)": {"1": Wheel(0, 0, 30.0), "2": Wheel(50, 0, 20.0)}}
+    pair = Linkage.from_drawing(Mechanism.parse("R(0-1) R(0-2) G(1-2); frame=0; drive=R(0-1)"), at)
+    inertia = 5.0 + 1.5**2 * 3.0
+    loads = Loads(moments={"1": 7.0}, bodies={"1": RigidBody(1.0, inertia=5.0), "2": RigidBody(1.0, inertia=3.0)})
+    run = simulate(pair, loads, at=0.5, speed=2.0, until=3.0, times=[0.0, 1.0, 3.0])
+    np.testing.assert_allclose(run.drives[:, 0], 0.5 + 2 * run.times + 7 / inertia * run.times**2 / 2, rtol=1e-12)
+
+
 def test_double_pendulum():
     # two unit masses on rods of 1 m: the equations in absolute angles, by hand
     mechanism = Mechanism.parse("R(0-1) R(1-2); frame=0; drive=R(0-1); drive=R(1-2)")

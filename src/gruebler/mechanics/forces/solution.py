@@ -407,7 +407,7 @@ def _virtual_work(motion: Motion, loads: LinkLoads) -> Reals:
     """The efforts whose work on a small motion of each drive is that of the loads with the other sign."""
     drives = len(motion.linkage.mechanism.drives)
     work = np.full((len(motion), drives), np.nan)
-    if drives == 1 and motion.speeds is not None and (speed := motion.speeds[0, :, 0]).all():
+    if drives == 1 and motion.order and motion.speeds is not None and (speed := motion.speeds[0, :, 0]).all():
         work[:, 0] = -_power(loads, motion) / speed
         return np.where(np.isfinite(work), work, np.nan)
     for k in range(drives):
