@@ -94,6 +94,7 @@ def add(parser: Parser) -> None:
         """
         --count K int =6  number of tasks (default: 6)
         --heading TEXT =  heading of the sheet, such as that of the course
+        --logo FILE path  a PNG picture in the head of every page
         """
     )
     sheet.add_out(
@@ -181,6 +182,7 @@ def _sheet(arguments: argparse.Namespace) -> None:
         seed=arguments.seed,
         lang=arguments.lang,
         heading=arguments.heading,
+        logo=arguments.logo,
     )
     path = arguments.out
     suffix = path.suffix.lower().removeprefix(".")

@@ -21,7 +21,7 @@ from gruebler.structure.enumeration import count_chains
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entries
 from gruebler.teaching.exercises import KINDS, exercise, grade, solve
-from gruebler.teaching.sheets.page import TextLine
+from gruebler.teaching.sheets.page import HorizontalRule, PlacedLogo, TextLine
 from gruebler.teaching.worksheets import (
     catalog_book,
     document_bytes,
@@ -76,6 +76,29 @@ def test_no_two_tasks_have_the_same_answers_and_ids_stand_on_the_solutions():
     assert "seed" not in text
     assert all(id in solved for id in chosen.ids)
     assert "seed 7" in solved
+
+
+def test_a_logo_stands_on_every_page_and_in_every_format(tmp_path, capsys):
+    """A PNG that matplotlib writes, 60 by 20 pixels; at most 26 high in the head, never across the line below it."""
+    pytest.importorskip("matplotlib.image").imsave(tmp_path / "own.png", [[[0.0, 0.3, 0.6]] * 60] * 20)
+    chosen = worksheet(["mobility"], 3, seed=7, logo=tmp_path / "own.png")
+    for document in (chosen.tasks, chosen.solutions):
+        for page in document_pages(document):
+            (logo,) = (item for item in page.items if isinstance(item, PlacedLogo))
+            rule = min(item.y for item in page.items if isinstance(item, HorizontalRule))
+            assert (logo.width, logo.height) == pytest.approx((78, 26))
+            assert logo.y + logo.height < rule
+            assert ElementTree.fromstring(page.svg()).find("{http://www.w3.org/2000/svg}image") is not None
+    data = base64.b64encode((tmp_path / "own.png").read_bytes()).decode("ascii")
+    assert all(data in document_bytes(chosen.tasks, ending).decode("utf-8") for ending in ("html", "md"))
+    assert r"\includegraphics[height=10mm]{own.png}" in document_bytes(chosen.tasks, "tex").decode("utf-8")
+    assert document_bytes(chosen.tasks, "pdf").count(b"/Subtype /Image") >= 1
+    (tmp_path / "own.svg").write_text("<svg/>", encoding="utf-8")
+    sheet_of = ["exercise", "sheet", "--kind", "mobility", "-o", str(tmp_path / "x.md"), "--logo"]
+    assert main([*sheet_of, str(tmp_path / "own.svg")]) == 2
+    assert "own.svg: expected a logo as a PNG picture" in capsys.readouterr().err
+    assert main([*sheet_of, str(tmp_path / "none.png")]) == 2
+    assert "cannot be read" in capsys.readouterr().err
 
 
 def test_moodle_marks_as_grade_does(sheet):
@@ -223,7 +246,7 @@ def test_latex_knows_every_sign_of_the_texts():
     for pattern in ("src/gruebler/**/*.py", "src/gruebler/base/locale/**/*.po", "catalogs/**/*.toml"):
         for path in ROOT.glob(pattern):
             signs |= set(path.read_text(encoding="utf-8"))
-    written = document_bytes(Document("x", "", (Paragraph("".join(sorted(signs - {"_", chr(10)}))),)), "tex").decode()
+    written = document_bytes(Document("x", (Paragraph("".join(sorted(signs - {"_", chr(10)}))),)), "tex").decode()
     known = set("–—„“”‚‘’" + "".join(chr(k) for k in range(0xC0, 0x180)))  # letters and quotation marks of T1
     assert {sign for sign in written if ord(sign) > 0x7E} <= known
 
@@ -384,7 +407,7 @@ def test_a_table_is_divided_between_its_rows_only():
         filling = tuple(Paragraph(f"line {k}") for k in range(before))
         for count in (1, 5, 40):
             rows = Rows(("letter", "number"), tuple((f"row{k}", str(k)) for k in range(count)))
-            pages = document_pages(Document("a table", "", (*filling, rows)))
+            pages = document_pages(Document("a table", (*filling, rows)))
             texts = [[item.text for item in page.items if isinstance(item, TextLine)] for page in pages]
             parts = [sum(text.startswith("row") for text in page) for page in texts]
             assert sum(parts) == count
@@ -393,7 +416,7 @@ def test_a_table_is_divided_between_its_rows_only():
 
 
 def test_an_empty_document_has_a_page():
-    assert len(document_pages(Document("a", "b", ()))) == 1
+    assert len(document_pages(Document("a", (), subtitle="b"))) == 1
 
 
 def test_exercise_12_has_its_graphical_way(tmp_path):

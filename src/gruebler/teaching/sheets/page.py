@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import base64
 import io
 from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import escape
 
+from gruebler.base.errors import GrueblerError
+from gruebler.base.text import reason_of
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.page_policy import policy_element
 from gruebler.pictures.canvas.styles import COLOURS
@@ -53,10 +57,59 @@ class PlacedPicture:
 
 
 @dataclass(frozen=True, slots=True)
+class Logo:
+    """A picture of somebody's own, as a PNG file."""
+
+    name: str
+    """Of the file."""
+    png: bytes
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in its own pixels."""
+        return int.from_bytes(self.png[16:20]), int.from_bytes(self.png[20:24])
+
+    @property
+    def link(self) -> str:
+        """The picture itself as an address."""
+        return f"data:image/png;base64,{base64.b64encode(self.png).decode('ascii')}"
+
+
+def read_logo(path: str | Path) -> Logo:
+    """The logo in a file; `GrueblerError` if it cannot be read or is no PNG."""
+    try:
+        png = Path(path).read_bytes()
+    except OSError as error:
+        raise GrueblerError("{path}: cannot be read ({reason})", path=path, reason=reason_of(error)) from None
+    if not png.startswith(_PNG) or 0 in Logo("", png).size:
+        raise GrueblerError("{path}: expected a logo as a PNG picture", path=path)
+    return Logo(Path(path).name, png)
+
+
+_PNG = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedLogo:
+    """A logo with the place of its upper right corner."""
+
+    x: float
+    y: float
+    height: float
+    logo: Logo
+
+    @property
+    def width(self) -> float:
+        """On the page."""
+        wide, high = self.logo.size
+        return self.height * wide / high
+
+
+@dataclass(frozen=True, slots=True)
 class Page:
     """Items on a page of A4."""
 
-    items: tuple[TextLine | HorizontalRule | PlacedPicture, ...]
+    items: tuple[TextLine | HorizontalRule | PlacedPicture | PlacedLogo, ...]
     title: str
     description: str
     lang: str
@@ -124,7 +177,18 @@ def _placed_svg(item: PlacedPicture) -> str:
     return f'<g transform="{place}"><title>{escape(item.figure.title)}</title>\n{shapes}\n</g>'
 
 
-_SVG: dict[type, Any] = {TextLine: _words_svg, HorizontalRule: _rule_svg, PlacedPicture: _placed_svg}
+def _logo_svg(item: PlacedLogo) -> str:
+    place = f'x="{svg_number(item.x - item.width)}" y="{svg_number(item.y)}"'
+    size = f'width="{svg_number(item.width)}" height="{svg_number(item.height)}"'
+    return f'<image {place} {size} href="{item.logo.link}"/>'
+
+
+_SVG: dict[type, Any] = {
+    TextLine: _words_svg,
+    HorizontalRule: _rule_svg,
+    PlacedPicture: _placed_svg,
+    PlacedLogo: _logo_svg,
+}
 
 
 # --- matplotlib -------------------------------------------------------------------------------------
@@ -172,4 +236,18 @@ def _paint_placed(canvas: Any, item: PlacedPicture) -> None:
     paint_shapes(axes, item.figure, scale=item.scale)
 
 
-_PAINT: dict[type, Any] = {TextLine: _paint_words, HorizontalRule: _paint_rule, PlacedPicture: _paint_placed}
+def _paint_logo(canvas: Any, item: PlacedLogo) -> None:
+    from matplotlib.image import imread
+
+    left, low = (item.x - item.width) / WIDTH, 1 - (item.y + item.height) / HEIGHT
+    axes = canvas.add_axes((left, low, item.width / WIDTH, item.height / HEIGHT))
+    axes.imshow(imread(io.BytesIO(item.logo.png)), aspect="auto", cmap="gray")
+    axes.set_axis_off()
+
+
+_PAINT: dict[type, Any] = {
+    TextLine: _paint_words,
+    HorizontalRule: _paint_rule,
+    PlacedPicture: _paint_placed,
+    PlacedLogo: _paint_logo,
+}

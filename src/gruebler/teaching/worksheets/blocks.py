@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 
 from gruebler.pictures.canvas.figure import Figure
+from gruebler.teaching.sheets.page import Logo
 
 _LEGIBLE = 0.8  # names of 13 pixels are then printed with 7.8 points, the smallest texts with 6.6
 
@@ -102,9 +103,12 @@ class Document:
     """Blocks under a title."""
 
     title: str
-    subtitle: str
     blocks: tuple[Block, ...]
+    _: KW_ONLY
+    subtitle: str = ""
     lang: str = "en"
+    logo: Logo | None = None
+    """In the head of each page, or above the title where there are none."""
 
     def typeset(self) -> Document:
         """With indices and minus signs as in print."""

@@ -47,6 +47,7 @@ _HTML_WIDTH = 740.0
 _HTML_STYLE = (
     "body{max-width:50rem;margin:1rem auto;padding:0 1rem;font:15px/1.45 sans-serif;color:#22262b;background:#fff}"
     "h1{font-size:1.5rem}h2{font-size:1.15rem;break-after:avoid}h3{font-size:1rem;break-after:avoid}"
+    ".logo{float:right;height:2.2rem}"
     ".row{display:flex;gap:1rem;align-items:end;break-inside:avoid}figure{margin:.3rem 0;flex:1 1 0}"
     "figcaption,.small{font-size:.82rem;color:#5c636b}svg{max-width:100%;height:auto}"
     "table{border-collapse:collapse;margin:.5rem 0}th,td{padding:.1rem .8rem .1rem "
@@ -68,10 +69,11 @@ def _html(document: Document) -> bytes:
     rules = style_sheet(sorted({"ground", *used})).partition("@media")[0]
     body = "\n".join(part for block in document.blocks for part in _html_block(block))
     title = escape(document.title)
+    logo = f'<img class="logo" alt="" src="{document.logo.link}">' if document.logo else ""
     return (
         f'<!doctype html>\n<html lang="{document.lang}"><head><meta charset="utf-8">{policy_element()}'
         f"<title>{title}</title>"
-        f"<style>{rules}{_HTML_STYLE}</style></head><body>\n<h1>{title}</h1>\n"
+        f"<style>{rules}{_HTML_STYLE}</style></head><body>\n{logo}<h1>{title}</h1>\n"
         f'<p class="small">{escape(document.subtitle)}</p>\n{body}\n</body></html>\n'
     ).encode()
 
@@ -116,7 +118,8 @@ def _html_block(block: Block) -> Iterator[str]:
 
 
 def _markdown(document: Document) -> bytes:
-    lines = [f"# {document.title}", "", *([document.subtitle, ""] if document.subtitle else [])]
+    lines = [f"![]({document.logo.link})", ""] if document.logo else []
+    lines += [f"# {document.title}", "", *([document.subtitle, ""] if document.subtitle else [])]
     for block in document.blocks:
         lines += [*_markdown_block(block), ""]
     return ("\n".join(lines).rstrip() + "\n").encode()
@@ -160,12 +163,14 @@ def _latex(document: Document) -> bytes:
     babel = {"de": "ngerman"}.get(document.lang, "english")
     colours = "\n".join(colour_definitions())
     body = "\n".join(part for block in document.blocks for part in _latex_block(block))
+    name = document.logo.name if document.logo else ""  # a file beside this one
+    logo = f"\\IfFileExists{{{name}}}{{\\hfill\\includegraphics[height=10mm]{{{name}}}\\par}}{{}}\n" if name else ""
     return (
         "\\documentclass[a4paper,11pt]{article}\n\\usepackage[T1]{fontenc}\n\\usepackage[utf8]{inputenc}\n"
         "\\IfFileExists{lmodern.sty}{\\usepackage{lmodern}}{}\n"
         f"\\usepackage[{babel}]{{babel}}\n\\usepackage[margin=20mm]{{geometry}}\n\\usepackage{{tikz}}\n"
         "\\usepackage{longtable}\n\\setlength{\\parindent}{0pt}\n\\setlength{\\parskip}{6pt}\n"
-        f"{colours}\n\\begin{{document}}\n\\section*{{{latex_text(document.title)}}}\n"
+        f"{colours}\n\\begin{{document}}\n{logo}\\section*{{{latex_text(document.title)}}}\n"
         f"{{\\small {latex_text(document.subtitle)}\\par}}\n\n{body}\n\\end{{document}}\n"
     ).encode()
 

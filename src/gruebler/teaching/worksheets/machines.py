@@ -53,12 +53,12 @@ def machine_document(
     """
     if isinstance(machine, Entry):
         title = machine.name.in_language(lang)
-        return Document(title, machine.id, tuple(_entry_blocks(machine, lang)), lang)
+        return Document(title, tuple(_entry_blocks(machine, lang)), subtitle=machine.id, lang=lang)
     linkage = None if isinstance(machine, Mechanism) else machine
     mechanism = machine if isinstance(machine, Mechanism) else machine.mechanism
     title = name or family(mechanism, lang) or translate("mechanism", lang)
     blocks = _machine_blocks(mechanism, linkage, lang, between, () if linkage is None else linkage.outputs)
-    return Document(title, "", (Heading(title, 1), *blocks), lang)
+    return Document(title, (Heading(title, 1), *blocks), lang=lang)
 
 
 def _entry_blocks(entry: Entry, lang: str) -> Iterator[Block]:
@@ -226,7 +226,8 @@ def catalog_book(*, lang: str = "en", ids: Sequence[str] = ()) -> Document:
         blocks += [PageBreak(), *_entry_blocks(entry, lang)]
     blocks += [PageBreak(), *_index(chosen, lang)]
     title = translate("Collection of mechanisms", lang)
-    return Document(title, translate("{count} machines", lang, count=len(chosen)), tuple(blocks), lang)
+    counted = translate("{count} machines", lang, count=len(chosen))
+    return Document(title, tuple(blocks), subtitle=counted, lang=lang)
 
 
 def _index(chosen: Mapping[str, Entry], lang: str) -> Iterator[Block]:

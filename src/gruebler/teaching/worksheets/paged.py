@@ -10,7 +10,7 @@ from itertools import takewhile
 from gruebler.base.text import translate
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.shapes import text_width, wrapped_text
-from gruebler.teaching.sheets.page import HEIGHT, WIDTH, HorizontalRule, Page, PlacedPicture, TextLine
+from gruebler.teaching.sheets.page import HEIGHT, WIDTH, HorizontalRule, Page, PlacedLogo, PlacedPicture, TextLine
 from gruebler.teaching.worksheets.blocks import (
     AnswerLines,
     Block,
@@ -28,6 +28,7 @@ _BODY, _LEAD = 11.5, 16.0
 _SIZES = {1: 17.0, 2: 13.5, 3: 12.0}
 _GAP = 12.0
 _HEAD = 10.0
+_LOGO, _LOGO_WIDTH = 26.0, 220.0  # at most, above the head of a page
 _KEPT = 0.45 * HEIGHT  # what is higher than that may be divided
 _WHOLE_TABLE = 0.2 * HEIGHT
 _PASSES = 4
@@ -232,8 +233,8 @@ def _shortened(document: Document) -> str:
 
 
 def _page(document: Document, items: list[Item], number: int, count: int) -> Page:
-    lang = document.lang
-    head: list[Item] = [
+    lang, logo = document.lang, document.logo
+    head: list[Item | PlacedLogo] = [
         TextLine(x=_LEFT, y=50, text=_shortened(document), size=_HEAD, role="faint"),
         TextLine(x=_RIGHT, y=50, text=document.subtitle, size=_HEAD, role="faint", anchor="end"),
         HorizontalRule(_LEFT, 57, _RIGHT - _LEFT),
@@ -246,6 +247,9 @@ def _page(document: Document, items: list[Item], number: int, count: int) -> Pag
             anchor="middle",
         ),
     ]
+    if logo is not None:
+        wide, high = logo.size
+        head.append(PlacedLogo(_RIGHT, 10.0, min(_LOGO, _LOGO_WIDTH * high / wide), logo))
     return Page((*head, *items), document.title, document.subtitle, lang)
 
 

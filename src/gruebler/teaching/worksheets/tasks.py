@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import cycle, islice
+from pathlib import Path
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import joined, message, plural, translate
@@ -38,6 +39,7 @@ from gruebler.teaching.exercises.messages import (
     result_text,
     step_lines,
 )
+from gruebler.teaching.sheets.page import read_logo
 from gruebler.teaching.worksheets.blocks import (
     AnswerLines,
     Block,
@@ -80,13 +82,22 @@ class TaskSheet:
 
 
 def worksheet(
-    kinds: Sequence[str], count: int, *, level: int = 1, seed: int = 0, lang: str = "en", heading: str = ""
+    kinds: Sequence[str],
+    count: int,
+    *,
+    level: int = 1,
+    seed: int = 0,
+    heading: str = "",
+    logo: str | Path | None = None,
+    lang: str = "en",
 ) -> TaskSheet:
     """So many tasks of the kinds in turn, with seeds from ``seed`` on; kinds may stand in the plural.
 
-    No two tasks have the same answers as long as there are others. Seeds and ids stand on the solutions only.
+    No two tasks have the same answers as long as there are others. Seeds and ids stand on the solutions only. The
+    heading is that of the tasks, such as the name of a course; ``logo`` is a PNG file for the heads of all pages.
 
-    Cost: some tenths of a second a task. Raises `GrueblerError` for unknown kinds, levels and counts.
+    Cost: some tenths of a second a task. Raises `GrueblerError` for unknown kinds, levels and counts, and a logo that
+    cannot be read.
 
     >>> worksheet(["grashof", "dead-centres"], 3, seed=7).ids
     ('grashof-1-7', 'dead-centre-1-8', 'grashof-1-9')
@@ -106,8 +117,11 @@ def worksheet(
     for k, each in enumerate(exercises, 1):
         solutions += _solution_blocks(each, k, lang)
     solutions += [PageBreak(), *_marking_key(exercises, lang)]
-    sheet = Document(title, translate("level {level}", lang, level=level), (Paragraph(name_line), *tasks), lang)
-    solved = Document(translate("Solutions: {kinds}", lang, kinds=names), subtitle, tuple(solutions), lang)
+    own = None if logo is None else read_logo(logo)
+    easy = translate("level {level}", lang, level=level)
+    sheet = Document(title, (Paragraph(name_line), *tasks), subtitle=easy, lang=lang, logo=own)
+    solved_title = translate("Solutions: {kinds}", lang, kinds=names)
+    solved = Document(solved_title, tuple(solutions), subtitle=subtitle, lang=lang, logo=own)
     return TaskSheet(
         sheet.typeset(),
         solved.typeset(),
@@ -228,7 +242,7 @@ def solution_document(exercises: Sequence[Exercise], *, lang: str = "en") -> Doc
     """
     blocks = [block for each in exercises for block in _solution_blocks(each, 0, lang)]
     title = plural("Solution", "Solutions of {count} exercises", len(exercises), lang)
-    return Document(title, "", tuple(blocks), lang).typeset()
+    return Document(title, tuple(blocks), lang=lang).typeset()
 
 
 def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Block]:
