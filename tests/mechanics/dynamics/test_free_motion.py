@@ -1,5 +1,7 @@
 """Free motion: against exact forms, other formulations and published benchmarks; energy is a witness everywhere."""
 
+import itertools
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -7,11 +9,14 @@ from scipy.optimize import brentq
 from scipy.special import ellipk
 
 from gruebler.base.errors import LinkageError
+from gruebler.machines.cams import read_lift
+from gruebler.machines.geneva import Geneva
 from gruebler.mechanics.dynamics import EquationsOfMotion, equilibria, influences_of, linearised, simulate
 from gruebler.mechanics.forces import Loads, Motor, RigidBody, Spring
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.linkages import Linkage, LinkPoint, Wheel
 from gruebler.structure.mechanism import Mechanism
+from tests.mechanics.kinematics import test_cams_in_linkages as cams
 
 
 def turned(angle):
@@ -303,6 +308,47 @@ def test_motors_that_do_not_start_and_ends_that_are_reached():
     assert swing.times[-1] < 0.2
     assert "end of its range" in swing.message()
     assert swing.explain().splitlines()[0].startswith("From R(frame-crank) = 17.19° at 0 s")
+
+
+@pytest.mark.parametrize("follower", [cams.flat_follower, cams.roller_follower])
+def test_a_cam_swings_over_the_joints_of_its_lift_as_a_scalar_equation(follower):
+    """By hand: (J + m s'²) q'²/2 + m g s is constant, and the time is the integral of dq/q'."""
+    linkage, lift = follower(), read_lift(cams.LIFT)
+    loads = Loads(
+        bodies={"cam": RigidBody(0, (0, 0), 100.0), linkage.mechanism.chain.links[2]: RigidBody(0.5)},
+        gravity=(0, -9.81),
+    )
+    turn = simulate(linkage, loads, at=1.0, speed=20.0, until=0.25, tolerance=1e-10)
+
+    def speed(q):
+        energy = (100 + 0.5 * lift.at(1.0, 1) ** 2) * 200 + 4905 * (lift.at(1.0) - lift.at(q))
+        return np.sqrt(2 * energy / (100 + 0.5 * lift.at(q, 1) ** 2))
+
+    assert turn.complete
+    assert turn.speeds[:, 0] == pytest.approx(speed(turn.drives[:, 0]), rel=1e-7)
+    joints = [1.0, *cams.JOINTS[1:], cams.JOINTS[1] + 2 * np.pi, turn.drives[-1, 0]]
+    assert joints == sorted(joints)  # all are passed
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    ways = [((a + b) / 2 + (b - a) / 2 * nodes, (b - a) / 2 * weights) for a, b in itertools.pairwise(joints)]
+    assert sum(float(w @ (1 / speed(q))) for q, w in ways) == pytest.approx(0.25, rel=1e-8)
+    assert turn.defect < 1e-7
+
+
+def test_a_geneva_wheel_takes_its_energy_and_gives_it_back():
+    """By hand: (J1 + J2 u²) q'² is constant, u the ratio of the speeds, 1 + sqrt 2 in the middle of a step."""
+    bodies = {"driver": RigidBody(0, (0, 0), 50.0), "cross": RigidBody(0, (0, 0), 30.0)}
+    run = simulate(cams.geneva(), Loads(bodies=bodies, gravity=(0, 0)), at=-2.0, speed=10.0, until=1.0, tolerance=1e-9)
+    ratio = Geneva(4).move(run.drives[:, 0]).ratio
+    assert np.abs(ratio).max() == pytest.approx(1 + np.sqrt(2), rel=1e-2)
+    assert run.speeds[:, 0] == pytest.approx(10 / np.sqrt(1 + 0.6 * ratio**2), rel=1e-6)
+
+
+def test_a_cam_whose_lift_jumps_in_its_speed_ends_the_motion():
+    linkage = cams.flat_follower("rise 20 90 v0=10 v1=5; dwell 60; fall 20 120; dwell")
+    loads = Loads(bodies={"cam": RigidBody(0, (0, 0), 100.0), "valve": RigidBody(0.5)}, gravity=(0, 0))
+    run = simulate(linkage, loads, at=1.0, speed=20.0, until=0.2)
+    assert "jumps in its speed" in run.message()
+    assert run.drives[-1, 0] == pytest.approx(np.pi / 2, abs=0.02)
 
 
 SLIDE = Linkage.from_drawing(  # with a disc that rests on it

@@ -14,8 +14,10 @@ from numpy.polynomial import chebyshev, polynomial
 
 from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.mechanics.kinematics.kernel_calls import SolvedRows, run_rows
+from gruebler.mechanics.kinematics.law_directions import law_direction
 from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.kinematics.reference_pose import ReferencePose
+from gruebler.mechanics.kinematics.root_finding import bracketed_root
 
 _DEGREE = 17
 _NODES = 24  # of an ordinary chart
@@ -25,12 +27,16 @@ _WIDTHS = (0.5, 0.25, 0.12, 0.06, 0.03, 0.015, 0.007, 0.003)  # radians or sizes
 _HALF_WIDTHS = (1.0, 0.5, 0.25, 0.12, 0.06)  # of charts round a change point
 _USED = 0.7  # the part of a chart round a change point that is used: beyond it ordinary charts go on
 _FIT = 1e-11  # of the largest value: an ordinary chart must fit all its poses and derivatives so well
+_FIT_OF_LAWS = 1e-9  # likewise with cams and the like, whose accelerations are those of polynomials
 _FIT_AT_CHANGE = 1e-10  # likewise round a change point: that both sides lie on one polynomial is the proof
 _SOUND = 1e-2  # a pose with a smaller root is not walked on from: signs read next to a change point lose the branch
 _FLIPS = 1e-2  # a root that comes so near to zero in the change point goes through it
 _LOOKED = 0.05  # radians or sizes between the poses from which a zero of a root is foretold
 _FORETOLD = 0.6  # so far it is
+_AT_JOINT = 1e-9  # radians: a law so near to the end of one of its pieces is at it
+_KINK = 1e-7  # of the speeds: where they jump by more at such an end there is an impact
 _PERIOD = 2 * np.pi
+_FAR = 2 * _PERIOD  # radians or sizes: a trial step that leads farther beyond all charts is to be taken shorter
 _SAME = 1e-9  # in sizes: poses that differ by less are one
 
 _ORDERS = np.arange(_DEGREE + 1)
@@ -79,6 +85,8 @@ class Charts:
         self.links = len(plan.lower.mechanism.chain.links)
         self.scale = 1.0 if plan.linkage.mechanism.drives[0].turning else plan.lower.size
         self._branching = plan.branching
+        self._laws = [c for group in plan.conditions for c in group if c.law.pieces]
+        self._joints = [(c, joint) for c in self._laws for joint in c.law.joints]
         self.known: list[Chart] = []
         """Side by side along the drive."""
         self.current: Chart | None = None
@@ -135,7 +143,8 @@ class Charts:
                 if chart.low <= at <= chart.high:
                     return chart
             side = 1 if at > self.known[-1].high else -1
-            if side in self._blocked:
+            edge = self.known[-1].high if side > 0 else self.known[0].low
+            if side in self._blocked or abs(at - edge) > _FAR * self.scale:
                 raise Blocked
             self.known.insert(len(self.known) if side > 0 else 0, self._next(side))
             if self.closed is None and self._comes_back():
@@ -179,7 +188,9 @@ class Charts:
         beside = self._rows(np.array([q]), start)
         if beside is not None and self._least(beside)[0] > _SOUND:
             for width in _WIDTHS:
-                chart = self._ordinary(q - width * self.scale / 2, q + width * self.scale / 2, start)
+                high = self._smooth(q, q + width * self.scale / 2, start)
+                low = q if self._at_joint(q, start) else self._smooth(q, q - width * self.scale / 2, start)
+                chart = self._ordinary(low, high, start)
                 if chart is not None:
                     return chart
         chart = self._round_change(start, q, 1.0)  # the signs are those on the way forward
@@ -192,8 +203,10 @@ class Charts:
         last = self.known[-1 if side > 0 else 0]
         edge, start = (last.high, last.starts[1]) if side > 0 else (last.low, last.starts[0])
         for tried, width in enumerate(_WIDTHS):
-            low, high = sorted((edge, edge + side * width * self.scale))
+            low, high = sorted((edge, self._smooth(edge, edge + side * width * self.scale, start)))
             chart = self._ordinary(low, high, start)
+            if chart is not None and self._joints and _kink(last, chart, edge) > _KINK:
+                break
             if chart is not None:
                 return chart
             if tried == 0:
@@ -202,6 +215,40 @@ class Charts:
                     return replace(chart, low=edge) if side > 0 else replace(chart, high=edge)
         self._blocked.add(side)
         raise Blocked
+
+    def _past_joints(self, path: Reals, start: ReferencePose) -> Complexes | None:
+        """(rows, joints of laws): where the laws are looked up, as directions against the ends of their pieces."""
+        rows = self._rows(path, start)
+        if rows is None:
+            return None
+        places, turns = rows.places[0, 1:], rows.turns[1:]
+        seen = {c: law_direction(self.plan, places, turns, c) for c, _ in self._joints}
+        return np.stack([seen[c] * np.exp(-1j * joint) for c, joint in self._joints], axis=1)
+
+    def _at_joint(self, q: float, start: ReferencePose) -> bool:
+        """Whether a law passes from one piece to the next there."""
+        seen = self._past_joints(np.array([q]), start) if self._joints else None
+        return seen is not None and bool((np.abs(seen - 1) < _AT_JOINT).any())
+
+    def _smooth(self, edge: float, far: float, start: ReferencePose) -> float:
+        """So far towards another value of the drive as no law of a cam passes from one piece to the next."""
+        path = np.linspace(edge, far, _NODES)
+        seen = self._past_joints(path, start) if self._joints else None
+        if seen is None:
+            return far
+        above = np.where(np.abs(seen - 1) < _AT_JOINT, np.roll(seen, -1, axis=0).imag, seen.imag) >= 0
+        passed = (above[:-1] != above[1:]) & (seen.real[:-1] > 0)
+        if not passed.any():
+            return far
+        row = int(passed.any(axis=1).argmax())
+        columns = np.flatnonzero(passed[row])
+
+        def off(q: Reals) -> Reals:
+            there = [self._past_joints(np.array([value]), start) for value in q]
+            return np.array([np.nan if z is None else z[0, k].imag for z, k in zip(there, columns, strict=True)])
+
+        ends = bracketed_root(off, np.full(len(columns), path[row]), np.full(len(columns), path[row + 1]))
+        return float(ends[np.abs(ends - edge).argmin()])
 
     def _ordinary(self, low: float, high: float, start: ReferencePose) -> Chart | None:
         """A chart of poses that the kernel walks to without passing a change point."""
@@ -216,7 +263,7 @@ class Charts:
             return None
         values = self._numbers(rows)
         basis: Reals = _AT_ZEROS if down else _AT_ZEROS * _SIGNS
-        series = _that_fits(basis, (basis * _WEIGHTS).T @ values, values, _FIT)
+        series = _that_fits(basis, (basis * _WEIGHTS).T @ values, values, _FIT_OF_LAWS if self._laws else _FIT)
         if series is None:
             return None
         ends = [self._state(rows, row, middle + half * nodes[row - 1]) for row in (1, len(nodes))]
@@ -295,6 +342,15 @@ def _pose_on(chart: Chart, q: float) -> Complexes:
     """Origins and turns."""
     six = chebyshev.chebval((q - chart.middle) / chart.half, chart.series).reshape(6, -1)
     return np.concatenate([six[0], six[3]])
+
+
+def _kink(before: Chart, behind: Chart, q: float) -> float:
+    """By how much the speeds at unit speed of the drive jump, as a part of the largest."""
+    slow, fast = (
+        chebyshev.chebval((q - chart.middle) / chart.half, chart.series).reshape(6, -1)[[1, 4]]
+        for chart in (before, behind)
+    )
+    return float(np.abs(fast - slow).max() / np.abs([fast, slow]).max())
 
 
 def _fitted(nodes: Reals, values: Complexes, within: float) -> Complexes | None:

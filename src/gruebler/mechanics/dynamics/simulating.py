@@ -130,8 +130,8 @@ def _times(times: ArrayLike | None, until: float) -> Reals:
 
 
 _NO_WAY = message(
-    "The motion cannot be followed beyond {time:n} s, {values}: there the linkage branches, whatever has mass "
-    "stands still at any speed of the drives, or nothing serves as a coordinate."
+    "The motion cannot be followed beyond {time:n} s, {values}: there the linkage branches, the law of a cam jumps in "
+    "its speed, whatever has mass stands still at any speed of the drives, or nothing serves as a coordinate."
 )
 
 
