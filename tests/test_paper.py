@@ -1,10 +1,15 @@
 """The paper: all its numbers come from docs/tables, its figures from a command."""
 
 import re
+import tomllib
+from pathlib import Path
 
 import pytest
 
+import gruebler
 from paper import fill
+
+ROOT = Path(__file__).parents[1]
 
 
 def test_no_number_of_a_table_is_typed():
@@ -30,3 +35,33 @@ def test_the_paper_is_made_with_its_figures(tmp_path):
     named = re.findall(r"\]\((\d\.svg)\)", text)
     assert named == sorted(path.name for path in tmp_path.glob("*.svg")) == ["1.svg", "2.svg"]
     assert all((tmp_path / name).read_text(encoding="utf-8").startswith("<svg") for name in named)
+
+
+JOSS = ROOT / "paper" / "joss"
+
+
+def test_the_paper_for_joss_cites_what_it_lists():
+    """Every reference is cited and has its doi; the length is what the journal asks for, 750 to 1750 words."""
+    head, text = (JOSS / "paper.md").read_text(encoding="utf-8").split("\n---\n")
+    listed = re.findall(r"^@\w+\{(\w+),\n(.*?)^\}", (JOSS / "paper.bib").read_text(encoding="utf-8"), re.M | re.S)
+    assert {key for key, _ in listed} == set(re.findall(r"@(\w+)", text))
+    assert [key for key, record in listed if not re.search(r"doi\s+= \{10\.\d{4,}/\S+\}", record)] == []
+    assert 750 <= len(text.split()) <= 1750
+    assert "bibliography: paper.bib" in head
+    sections = [line.removeprefix("# ") for line in text.splitlines() if line.startswith("# ")]
+    assert {"Summary", "Statement of need", "State of the field", "Software design"} <= set(sections)
+
+
+def test_the_recipe_for_conda_asks_for_what_the_package_asks_for():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    recipe = (ROOT / "recipe" / "meta.yaml").read_text(encoding="utf-8")
+    asked = {line.strip().removeprefix("- ").replace(" ", "") for line in recipe.splitlines() if " >=" in line}
+    needed = {*project["project"]["dependencies"], *project["build-system"]["requires"]}
+    needed |= {need for need in project["project"]["optional-dependencies"]["core"] if not need.startswith("nanobind")}
+    plots = {
+        need.replace("matplotlib", "matplotlib-base") for need in project["project"]["optional-dependencies"]["plot"]
+    }
+    assert asked == needed | plots
+    assert f'{{% set version = "{gruebler.__version__}" %}}' in recipe
+    assert project["project"]["description"] in recipe
+    assert f"- gruebler = {project['project']['scripts']['gruebler']}" in recipe

@@ -38,6 +38,9 @@ def test_the_saved_notebook_shows_what_its_cells_give():
     for cell in cells():
         if cell["cell_type"] != "code":
             continue
+        if cell["id"] == "install":
+            assert cell["outputs"] == []
+            continue
         *lines, last = ast.parse(text(cell)).body
         exec(compile(ast.Module(lines, []), "cell", "exec"), names)
         with redirect_stdout(io.StringIO()) as printed:
