@@ -37,7 +37,17 @@ _MOST = 1000
 
 
 _DOCUMENTS = (".pdf", ".html", ".tex", ".md")
-_KINDS = ("mobility", "grashof", "dead-centre", "transmission-angle", "dyad", "velocity")
+_KINDS = (
+    "mobility",
+    "grashof",
+    "dead-centre",
+    "transmission-angle",
+    "dyad",
+    "velocity",
+    "universal-joint",
+    "spherical-grashof",
+    "differential",
+)
 
 
 def add(parser: Parser) -> None:

@@ -82,13 +82,13 @@ def task_record(id: str, lang: str) -> dict[str, Any]:
 
 def _figures(task: Exercise, lang: str) -> list[dict[str, str]]:
     """The pictures of a task, each with its name where there are several."""
-    if isinstance(task.given.get("chain"), str):
+    linkages = exercise_linkages(task)
+    if not linkages:
         figure = exercise_figure(task, lang)
-        assert figure is not None
-        return [{"name": "", "picture": figure.svg(styled=False)}]
+        return [] if figure is None else [{"name": "", "picture": figure.svg(styled=False)}]
     return [
         {"name": drawn.name.in_language(lang) if drawn.name else "", "picture": drawn.figure(lang).svg(styled=False)}
-        for drawn in exercise_linkages(task)
+        for drawn in linkages
     ]
 
 

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterator
 from functools import lru_cache
 from itertools import count as counting
+from math import degrees, radians
 from random import Random
 from typing import NamedTuple
 
@@ -14,6 +15,7 @@ from gruebler.base.text import Message, in_every_language, joined, joined_by_and
 from gruebler.files import Exercise
 from gruebler.files.catalog_records import Question
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
+from gruebler.mechanics.space import SphericalFourBar
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import in_alphabets, pair
 from gruebler.structure.enumeration import chains
@@ -62,7 +64,7 @@ def generate(kind: str, seed: int, level: int = 1) -> Exercise:
             return task
 
 
-_MEASURED = ("dead-centre", "transmission-angle", "velocity")
+_MEASURED = ("dead-centre", "transmission-angle", "velocity", "universal-joint", "differential")
 _APART = 5e-3  # relative, of a likely mistake from the right answer
 
 
@@ -362,6 +364,102 @@ def _velocity(random: Random, level: int) -> _Draft:
     return _Draft("velocities.four_bar", given | {"phi": phi, "omega": omega, "unit": "mm"}, ("v_B", "i", "a_B"), task)
 
 
+# --- in space ---------------------------------------------------------------------------------------
+
+
+def _universal_joint(random: Random, level: int) -> _Draft:
+    beta, n = random.choice((15, 18, 20, 24, 25, 28, 30, 32, 35, 40)), 50 * random.randint(6, 40)
+    given: Given = {"beta": beta, "n": n}
+    task = message(
+        "Two shafts at an angle of β = {beta}° are joined by a universal joint; the input turns evenly at n_1 = {n} "
+        "1/min. Between which speeds does the output turn?",
+        beta=beta,
+        n=n,
+    )
+    if level == 1:
+        return _Draft("in_space.universal_joint", given, ("n_min", "n_max"), task)
+    more = message(
+        "How large is the irregularity U = (n_max - n_min)/n_1, and by how much does the output lead at most?"
+    )
+    if level == 2:
+        keys: tuple[str, ...] = ("n_min", "n_max", "U", "ε_max")
+        return _Draft("in_space.universal_joint", given, keys, joined([task, more], " "))
+    phi = 5 * random.randint(4, 14)
+    more = message(
+        "Find the angle and the speed of the output where the input has turned by φ = {phi}° from the position in "
+        "which its fork lies in the plane of both shafts.",
+        phi=phi,
+    )
+    keys = ("n_min", "n_max", "ψ", "n_2")
+    return _Draft("in_space.universal_joint", given | {"phi": phi}, keys, joined([task, more], " "))
+
+
+def _arcs(given: Given) -> SphericalFourBar:
+    return SphericalFourBar(*(radians(float(given[name])) for name in "abcd"))
+
+
+def _spherical_grashof(random: Random, level: int) -> _Draft:
+    wanted = "crank_rocker" if level == 3 else random.choice(_TYPES[:5])
+    highest = 17 if level == 1 else 30
+
+    def is_good(given: Given) -> bool:
+        size, total = _arcs(given), sum(float(given[name]) for name in "abcd")
+        long_enough = (total > 360) == (level == 2)
+        if not long_enough or size.type.key != wanted or len({given[name] for name in "abcd"}) < 4:
+            return False
+        return level < 3 or degrees(size.transmission_angle.smallest.mu) > 20
+
+    given = _until(
+        lambda: dict(_lengths(random, a=(4, highest), b=(4, highest), c=(4, highest), d=(4, highest))), is_good
+    )
+    task = message(
+        "The axes of a four-bar meet in one point. Crank, coupler, rocker and frame have the arcs {arcs}. Does the "
+        "crank a turn fully, and what kind of mechanism is it?",
+        arcs=joined_by_and([message("{name} = {arc}°", name=k, arc=figure(float(given[k]))) for k in "abcd"]),
+    )
+    keys: tuple[str, ...] = ("sum_ends", "sum_others", "turns", "type") if level == 1 else ("turns", "type")
+    if level == 3:
+        more = message("Find the swing of the rocker and the smallest transmission angle.")
+        task, keys = joined([task, more], " "), ("turns", "type", "ψ_H", "μ_min")
+    return _Draft("in_space.spherical_grashof", given, keys, task)
+
+
+def _differential(random: Random, level: int) -> _Draft:
+    if level == 3:
+        v, radius = 5 * random.randint(3, 10), random.choice((6, 8, 9, 10, 12, 15, 20))
+        diameter, track = 10 * random.randint(52, 70), random.randint(130, 165) / 100
+        task = message(
+            "A car goes at v = {v} km/h through a curve whose radius is R = {radius} m in the middle of the driven "
+            "axle; the track is s = {track} m, the wheels have the diameter D = {diameter} mm. Find the speeds of the "
+            "carrier of the differential and of both axle shafts.",
+            v=v,
+            radius=radius,
+            track=figure(track),
+            diameter=diameter,
+        )
+        given: Given = {"v": v, "diameter": diameter, "radius": radius, "track": track}
+        return _Draft("in_space.differential_in_a_curve", given, ("n_C", "n_1", "n_2"), task)
+    n_c = 10 * random.randint(10, 60)
+    n_1 = 0 if level == 2 and random.random() < 0.3 else n_c + 5 * random.choice((-9, -7, -5, -3, 3, 5, 7, 9))
+    given = {"n_C": n_c, "n_1": n_1}
+    task = message(
+        "The carrier of a bevel differential turns at n_C = {carrier} 1/min, one axle shaft at n_1 = {shaft} 1/min. "
+        "Find the speed n_2 of the other one.",
+        carrier=n_c,
+        shaft=n_1,
+    )
+    if level == 1:
+        return _Draft("in_space.differential", given, ("n_2",), task)
+    teeth: Given = {"z_s": random.choice((14, 16, 18, 20)), "z_p": random.choice((9, 10, 11, 12))}
+    more = message(
+        "The axle wheels have z_s = {sun} teeth, the planets z_p = {planet}. How fast do the planets turn against the "
+        "carrier?",
+        sun=teeth["z_s"],
+        planet=teeth["z_p"],
+    )
+    return _Draft("in_space.differential", given | teeth, ("n_2", "n_p"), joined([task, more], " "))
+
+
 KINDS: dict[str, tuple[Message, Callable[[Random, int], _Draft]]] = {
     "mobility": (message("Degree of freedom"), _mobility),
     "grashof": (message("Grashof's theorem"), _grashof),
@@ -369,5 +467,8 @@ KINDS: dict[str, tuple[Message, Callable[[Random, int], _Draft]]] = {
     "transmission-angle": (message("Transmission angle"), _transmission),
     "dyad": (message("Dyad and coupler"), _dyad),
     "velocity": (message("Velocities"), _velocity),
+    "universal-joint": (message("Universal joint"), _universal_joint),
+    "spherical-grashof": (message("Grashof on the sphere"), _spherical_grashof),
+    "differential": (message("Bevel differential"), _differential),
 }
 """Name and generator of each kind."""

@@ -28,6 +28,7 @@ _THEORIES = (
     "straight_guides",
     "velocities",
     "transfer",
+    "in_space",
 )
 
 

@@ -5,16 +5,20 @@ from __future__ import annotations
 from cmath import rect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from math import pi, radians
+from math import cos, pi, radians, sin
 
-from gruebler.base.text import Text
+from gruebler.base.text import Text, message
 from gruebler.files import Exercise
 from gruebler.machines.gears import read_train
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.gear_trains import linkage_of_train
+from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.mechanics.space import SphericalFourBar
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.linkage.picture import draw_linkage
+from gruebler.pictures.machines.train_picture import draw_train
+from gruebler.pictures.space import draw_spatial
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 from gruebler.teaching.exercises import solve
@@ -52,6 +56,9 @@ class DrawnLinkage:
 
 def linkage_figure(exercise: Exercise, lang: str) -> Figure | None:
     """The linkage of an exercise to scale; None if its lengths are not all given or cannot be assembled."""
+    in_space = _IN_SPACE.get(exercise.method or "")
+    if in_space is not None:
+        return in_space(exercise, lang)
     drawn = exercise_linkage(exercise)
     return None if drawn is None else drawn.figure(lang)
 
@@ -87,6 +94,8 @@ def exercise_linkages(exercise: Exercise) -> list[DrawnLinkage]:
 
 def exercise_linkage(exercise: Exercise) -> DrawnLinkage | None:
     """The linkage that the text of an exercise describes, from its given quantities."""
+    if exercise.method in _IN_SPACE:
+        return None
     own = _OWN.get(exercise.method or "")
     return _of_lengths(exercise) if own is None else own(exercise)
 
@@ -214,3 +223,41 @@ _OWN: Mapping[str, Callable[[Exercise], DrawnLinkage]] = {
     "transfer.gear_pair": _gear_pair,
 }
 """Methods whose letters mean something else than those of `_of_lengths`, or that ask for paths of points."""
+
+
+# --- in space ---------------------------------------------------------------------------------------
+
+
+def _universal_joint(exercise: Exercise, lang: str) -> Figure:
+    """Both shafts and the cross, the output turned by the angle between the shafts."""
+    beta = radians(_numbers(exercise)["beta"])
+    axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (cos(beta), sin(beta), 0.0))
+    joint = entry("universal_joint").placed()
+    assert joint is not None
+    return draw_spatial(SpatialLinkage(joint.mechanism, {k: {"z": z} for k, z in enumerate(axes)}), lang=lang)
+
+
+def _spherical_four_bar(exercise: Exercise, lang: str) -> Figure:
+    size = SphericalFourBar(*(radians(_numbers(exercise)[key]) for key in "abcd"))
+    arc = size.limits[0]
+    names = {link: letter for link, letter in _LETTERS.items() if letter.strip()}
+    return draw_spatial(size.linkage(arc.start + 0.3 * (arc.end - arc.start)), labels=True, names=names, lang=lang)
+
+
+def _differential(exercise: Exercise, lang: str) -> Figure:
+    """From the side and the front, with the teeth of the task or equal wheels."""
+    number = _numbers(exercise)
+    sun, planet = number.get("z_s", 16.0), number.get("z_p", 10.0)
+    first, star, second, carrier = (word.in_language(lang) for word in _WHEELS)
+    text = f"bevel {first}:{sun:g} {star}:{planet:g} {second}:-{sun:g} on {carrier}"
+    return draw_train(read_train(text).train, planets={star: 2}, lang=lang)
+
+
+_WHEELS = message("shaft1"), message("planet"), message("shaft2"), message("carrier")
+_IN_SPACE: Mapping[str, Callable[[Exercise, str], Figure]] = {
+    "in_space.universal_joint": _universal_joint,
+    "in_space.spherical_grashof": _spherical_four_bar,
+    "in_space.differential": _differential,
+    "in_space.differential_in_a_curve": _differential,
+}
+"""Methods whose machines do not lie in a plane."""
