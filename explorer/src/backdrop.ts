@@ -1,6 +1,8 @@
 /** A picture behind the plane: read from a file, made small, put where it is wanted. */
 
 import { h, svg } from "./dom";
+import { toHull } from "./hull";
+import type { Pair } from "./rows";
 import type { Viewport } from "./viewport";
 
 export interface Backdrop {
@@ -32,6 +34,53 @@ export function backdropElement({ at, high, href }: Backdrop): SVGImageElement {
   const [, , wide] = at as [number, number, number];
   const [x, y] = [-wide / 2, (-wide * high) / 2];
   return svg("image.backdrop", { href, x, y, width: wide, height: wide * high, opacity: 0.5 });
+}
+
+/** A place of the picture, in parts of its half width and half height from its middle. */
+function placeOn({ at, high }: Backdrop, part: Pair): Pair {
+  const [x, y, wide, turned] = at as [number, number, number, number];
+  const [u, v] = [(part[0] * wide) / 2, (part[1] * wide * high) / 2];
+  const [c, s] = [Math.cos((turned * Math.PI) / 180), Math.sin((turned * Math.PI) / 180)];
+  return [x + c * u - s * v, y + s * u + c * v];
+}
+
+export function cornersOf(picture: Backdrop): Pair[] {
+  const parts: Pair[] = [
+    [-1, -1],
+    [1, -1],
+    [1, 1],
+    [-1, 1],
+  ];
+  return parts.map((part) => placeOn(picture, part));
+}
+
+/** What is dragged to size it, and to turn it. */
+export function gripsOf(picture: Backdrop): { size: Pair; turn: Pair } {
+  return { size: placeOn(picture, [1, -1]), turn: placeOn(picture, [1, 0]) };
+}
+
+export type Grip = "size" | "turn" | "move";
+
+/** What of the picture is within reach of a place; null beside it. */
+export function gripAt(picture: Backdrop, place: Pair, reach: number): Grip | null {
+  const near = (at: Pair) => Math.hypot(at[0] - place[0], at[1] - place[1]) < reach;
+  const { size, turn } = gripsOf(picture);
+  if (near(size)) return "size";
+  if (near(turn)) return "turn";
+  return toHull(cornersOf(picture), ...place) === 0 ? "move" : null;
+}
+
+/** The picture after a grip was dragged from a place to another: moved, sized about its middle, turned by whole degrees. */
+export function gripped(picture: Backdrop, grip: Grip, from: Pair, to: Pair): Backdrop {
+  const [x, y, wide, turned] = picture.at as [number, number, number, number];
+  const away = ([px, py]: Pair) => Math.hypot(px - x, py - y);
+  const degrees = Math.round((Math.atan2(to[1] - y, to[0] - x) * 180) / Math.PI);
+  const at = {
+    move: [x + to[0] - from[0], y + to[1] - from[1], wide, turned],
+    size: [x, y, Math.max(wide / 100, (wide * away(to)) / away(from)), turned],
+    turn: [x, y, wide, degrees],
+  };
+  return { ...picture, at: at[grip] };
 }
 
 /** Put it where a viewport has it. */

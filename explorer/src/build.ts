@@ -1,5 +1,6 @@
 /** The view in which a mechanism is drawn on an empty plane; its mobility is told while it grows. */
 
+import { gripAt, gripped } from "./backdrop";
 import { gridStep } from "./canvas";
 import { h, renew, svg } from "./dom";
 import {
@@ -30,7 +31,7 @@ import { t } from "./language";
 import { type Drawn, MobilityPanel } from "./mobility";
 import type { Model } from "./model";
 import { placesPanel } from "./places";
-import { outlineOf, type Plane, planePicture } from "./plane";
+import { type Chosen, outlineOf, type Plane, planePicture } from "./plane";
 import type { Pair } from "./rows";
 import { snapped } from "./snapping";
 import type { Page, View } from "./view";
@@ -58,7 +59,7 @@ export class BuildView implements View, Plane, Drawn {
   readonly viewport = new Viewport();
   private tool: Tool = "link";
   spots: Spot[] = [];
-  chosen: { knot: number } | { link: string } | null = null;
+  chosen: Chosen | null = null;
   cursor: Pair = [0, 0];
   private snapping = true;
   private readonly history = new History<Drawing>();
@@ -139,7 +140,7 @@ export class BuildView implements View, Plane, Drawn {
           {},
           t(
             "Ground, slider: one click. Link, cylinder: two clicks. Dyad: end, middle, end. Gear pair: both centres, " +
-              "then where they touch. Ends meet what is near them, and stop in line with others, at round angles and " +
+              "then where they touch; beyond a centre the other wheel has internal teeth. Ends meet what is near them, and stop in line with others, at round angles and " +
               "at lengths of other links. With Shift links are level or upright. Keys: arrows and Enter.",
           ),
         ),
@@ -277,13 +278,20 @@ export class BuildView implements View, Plane, Drawn {
     this.root.focus({ preventScroll: true });
     const spot = this.spot(this.pixel(event), event.shiftKey);
     if (this.tool !== "move") return this.put(spot);
-    this.choose(spot);
-    this.root.setPointerCapture(event.pointerId);
     const before = this.drawing;
+    const { picture } = before;
     let last = this.pixel(event);
+    const start = this.viewport.world(...last);
+    const held = picture && this.chosen && "picture" in this.chosen;
+    const grip = held && spot.knot === null ? gripAt(picture, start, GRIP / this.viewport.scale) : null;
+    if (!grip) this.choose(spot, start);
+    this.root.setPointerCapture(event.pointerId);
     const moves = (next: PointerEvent) => {
       const now = this.pixel(next);
-      if (spot.knot === null) this.viewport.pan(now[0] - last[0], now[1] - last[1]);
+      if (grip) {
+        const place = this.viewport.world(...now);
+        this.drawing = { ...before, picture: gripped(picture!, grip, start, place) };
+      } else if (spot.knot === null) this.viewport.pan(now[0] - last[0], now[1] - last[1]);
       else this.drawing = moved(before, spot.knot, this.spot(now, false, spot.knot).at);
       last = now;
       this.draw();
@@ -292,19 +300,21 @@ export class BuildView implements View, Plane, Drawn {
       this.root.removeEventListener("pointermove", moves);
       this.root.removeEventListener("pointerup", up);
       this.root.removeEventListener("pointercancel", up);
-      if (spot.knot === null || this.drawing === before) return;
-      const target = this.spot(this.pixel(next), false, spot.knot).knot;
+      if (this.drawing === before) return;
       const placed = this.drawing;
+      const target = spot.knot === null ? null : this.spot(this.pixel(next), false, spot.knot).knot;
       this.drawing = before;
-      this.change((target !== null && joined(before, spot.knot, target)) || placed);
+      this.change((target !== null && joined(before, spot.knot!, target)) || placed);
+      if (grip) this.choose(spot, this.viewport.world(...last));
     };
     this.root.addEventListener("pointermove", moves);
     this.root.addEventListener("pointerup", up);
     this.root.addEventListener("pointercancel", up);
   }
 
-  private choose(spot: Spot): void {
-    this.chosen = null;
+  private choose(spot: Spot, place = spot.at): void {
+    const { picture } = this.drawing;
+    this.chosen = picture && gripAt(picture, place, GRIP / this.viewport.scale) ? { picture: true } : null;
     if (spot.knot !== null) this.chosen = { knot: spot.knot };
     else if (spot.link !== null) this.chosen = { link: spot.link };
     this.draw();
@@ -336,10 +346,9 @@ export class BuildView implements View, Plane, Drawn {
   private remove(): void {
     const { chosen, drawing } = this;
     if (!chosen) return;
-    this.change("knot" in chosen ? without(drawing, chosen.knot) : withoutLink(drawing, chosen.link));
+    if ("picture" in chosen) this.change({ ...drawing, picture: undefined });
+    else this.change("knot" in chosen ? without(drawing, chosen.knot) : withoutLink(drawing, chosen.link));
   }
-
-  // --- the picture ---------------------------------------------------------------------------------------------------
 
   // --- beside it -----------------------------------------------------------------------------------------------------
 
@@ -349,6 +358,10 @@ export class BuildView implements View, Plane, Drawn {
       h("button.plain", { "data-act": key, onclick: act }, text);
     const removing = button("remove", t("Remove"), () => this.remove());
     if (!chosen) return renew(this.choice, h("p.note", {}, t("Nothing. Take Move and click on a joint or a link.")));
+    if ("picture" in chosen) {
+      const how = t("The picture: drag it; its corner sizes it, the grip on its side turns it.");
+      return renew(this.choice, h("p.note", {}, how), h("div.form", {}, removing));
+    }
     if ("link" in chosen) {
       const { link } = chosen;
       const name = h("input", {

@@ -14,7 +14,8 @@ export interface Knot {
   readonly slide?: number;
   /** Of a cylinder the ends of its two links, of gears their centres. */
   readonly between?: readonly [Pair, Pair];
-  /** Of gears: where between the centres they touch, as a part of the distance. */
+  /** Of gears: where on the line of centres they touch, as a part of the distance; beyond a centre the teeth of the
+   * other wheel are internal. */
   readonly part?: number;
 }
 
@@ -154,7 +155,8 @@ function placed(knot: Knot): Knot {
 
 function partOf([[x, y], [u, v]]: readonly [Pair, Pair], [px, py]: Pair): number {
   const part = ((px - x) * (u - x) + (py - y) * (v - y)) / ((u - x) ** 2 + (v - y) ** 2);
-  return Math.min(0.95, Math.max(0.05, part));
+  if (part < 0) return Math.min(-0.05, part);
+  return part > 1 ? Math.max(1.05, part) : Math.min(0.95, Math.max(0.05, part));
 }
 
 /** Move a knot, and what lies at the same place, such as the slide of a block; gears get another ratio. */
@@ -271,6 +273,7 @@ function placeOf({ at, between, links, part, slide }: Knot): unknown {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
   if (part === undefined) return [...from, (Math.atan2(dy, dx) * 180) / Math.PI];
   const far = Math.hypot(dx, dy);
-  const radii = [part * far, far - part * far];
+  const side = part < 0 || part > 1 ? -far : far; // the larger of two wheels on one side is internal, with a negative radius
+  const radii = [part * side, side - part * side];
   return Object.fromEntries(links.map((link, k) => [link, { at: [...between[k]!], radius: radii[k] }]));
 }

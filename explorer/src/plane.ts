@@ -1,6 +1,6 @@
 /** The plane on which a mechanism is drawn: its picture, with a grid. */
 
-import { backdropElement, putBackdrop } from "./backdrop";
+import { type Backdrop, backdropElement, cornersOf, gripsOf, putBackdrop } from "./backdrop";
 import { svg } from "./dom";
 import { type Drawing, isPin, type Knot, linksOf, type Spot } from "./drawing";
 import { convexHull } from "./hull";
@@ -9,10 +9,12 @@ import type { Pair } from "./rows";
 import { guidelines } from "./snapping";
 import type { Viewport } from "./viewport";
 
+export type Chosen = { knot: number } | { link: string } | { picture: true };
+
 export interface Plane {
   readonly drawing: Drawing;
   readonly viewport: Viewport;
-  readonly chosen: { knot: number } | { link: string } | null;
+  readonly chosen: Chosen | null;
   /** What the tool has got already. */
   readonly spots: readonly Spot[];
   readonly cursor: Pair;
@@ -63,7 +65,20 @@ export function planePicture(plane: Plane): SVGElement[] {
     ...knots.filter((_, k) => isPin(drawing.knots[k]!)),
     ...(waiting.length > 1 ? [svg("path.pending", { d: path(waiting) })] : []),
     svg("text.tick", { x: cx + 12, y: cy + 18 }, read),
+    ...(picture && chosen && "picture" in chosen ? grips(plane, picture) : []),
     svg("path.crosshair", { d: `M${cx - 7} ${cy}h14M${cx} ${cy - 7}v14` }),
+  ];
+}
+
+/** The edge of a chosen picture, and what is dragged to size and to turn it. */
+function grips({ viewport }: Plane, picture: Backdrop): SVGElement[] {
+  const edge = cornersOf(picture).map((at) => viewport.screen(...at));
+  return [
+    svg("path.edge", { d: `M${edge.join("L")}Z` }),
+    ...Object.entries(gripsOf(picture)).map(([grip, at]) => {
+      const [cx, cy] = viewport.screen(...at);
+      return svg("circle.grip", { cx, cy, r: 8, "data-grip": grip });
+    }),
   ];
 }
 
@@ -78,12 +93,7 @@ function alongEnds({ between, part }: Knot, scale: number): SVGElement {
       svg("path.bar", { d: `M0 0H${long / 2}` }),
       svg("rect.block", { x: -long / 2, y: -7, width: 0.6 * long, height: 14, rx: 3 }),
     );
-  else
-    for (const [r, side] of [
-      [part * long, -1],
-      [(1 - part) * long, 1],
-    ] as const)
-      turned.append(svg("circle.wheel", { cx: side * r, r }));
+  else for (const cx of [-part * long, (1 - part) * long]) turned.append(svg("circle.wheel", { cx, r: Math.abs(cx) }));
   return turned;
 }
 

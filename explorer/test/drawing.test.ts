@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { gripAt, gripped, gripsOf } from "../src/backdrop";
 import {
   counted,
   type Drawing,
@@ -150,6 +151,23 @@ test("gears touch where they are put: 20 and 40 of 60", () => {
   const wider = moved(touching, 1, [90, 0]); // the ratio stays
   assert.deepEqual(wheels(wider), { "1": { at: [0, 0], radius: 30 }, "2": { at: [90, 0], radius: 60 } });
   assert.equal(withGears(drawing, knot(drawing, 0), knot(drawing, 0), [1, 0]), null);
+  const ring = moved(touching, jointsOf(drawing).at(-1)!, [90, 4]); // beyond the second centre: 90 about 30
+  assert.deepEqual(wheels(ring), { "1": { at: [0, 0], radius: -90 }, "2": { at: [60, 0], radius: 30 } });
+  const other = moved(touching, jointsOf(drawing).at(-1)!, [-30, 4]);
+  assert.deepEqual(wheels(other), { "1": { at: [0, 0], radius: 30 }, "2": { at: [60, 0], radius: -90 } });
+});
+
+test("a picture is moved, sized about its middle and turned by its grips", () => {
+  const picture = { href: "data:,", high: 0.5, at: [10, 20, 40, 90] }; // 40 wide, upright: its right side is above
+  near(gripsOf(picture).turn, [10, 40]);
+  near(gripsOf(picture).size, [20, 40]); // its lower right corner
+  assert.equal(gripAt(picture, [20, 41], 3), "size");
+  assert.equal(gripAt(picture, [10, 38], 3), "turn");
+  assert.equal(gripAt(picture, [19, 5], 3), "move");
+  assert.equal(gripAt(picture, [24, 20], 3), null); // 14 beside the middle, 10 is the edge
+  near(gripped(picture, "move", [0, 0], [3, -4]).at as number[], [13, 16, 40, 90]);
+  near(gripped(picture, "size", [20, 40], [30, 60]).at as number[], [10, 20, 80, 90]);
+  near(gripped(picture, "turn", [10, 40], [50, 20.1]).at as number[], [10, 20, 40, 0]);
 });
 
 test("a place snaps to what is in line, to round angles and known lengths, else to the grid", () => {

@@ -146,6 +146,9 @@ def test_the_library_takes_cylinders_and_gears_as_they_are_drawn():
     }
     turns = move(linkage_from_json(gears), [0.0, 1.0]).angle("2")
     assert turns[1] - turns[0] == pytest.approx(-0.5, abs=1e-12)
+    gears["places"]["G(1-2)"] = {"1": {"at": [0, 0], "radius": -90}, "2": {"at": [60, 0], "radius": 30}}
+    turns = move(linkage_from_json(gears), [0.0, 1.0]).angle("2")  # in a ring both turn in one sense
+    assert turns[1] - turns[0] == pytest.approx(3, abs=1e-12)
 
 
 def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
@@ -179,6 +182,23 @@ def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
     ends = view.locator("td input").evaluate_all("all => all.map(field => field.getBoundingClientRect().right)")
     assert max(ends) < view.viewport_size["width"]  # the fields stay within the panel
     assert "rotate(-30)" in view.locator(".drawing .backdrop").get_attribute("transform")
+    left, top, wide, turned = view.evaluate("gruebler.views.build.drawing.picture.at")
+    screen = "gruebler.views.build.viewport.screen"
+    spot = view.evaluate(f"{screen}({left} + 20, {top} - 30)")  # on the picture, beside all else
+    box = view.locator(".drawing").bounding_box()
+    spot = (box["x"] + spot[0], box["y"] + spot[1])
+    view.mouse.click(*spot)
+    plane.drag(spot, (30, 20))
+    moved = view.evaluate("gruebler.views.build.drawing.picture.at")
+    scale = view.evaluate("gruebler.views.build.viewport.scale")
+    assert moved == pytest.approx([left + 30 / scale, top - 20 / scale, wide, turned], abs=1e-9)
+    plane.drag(plane.middle('[data-grip="turn"]'), (-40, 90))
+    assert view.evaluate("gruebler.views.build.drawing.picture.at[3]") < turned
+    plane.drag(plane.middle('[data-grip="size"]'), (-20, -10))
+    assert view.evaluate("gruebler.views.build.drawing.picture.at[2]") < wide
+    view.screenshot(path=tmp_path / "grips.png")
+    view.locator('[aria-label="Picture 1 φ [°]"]').fill("30")
+    view.locator('[aria-label="Picture 1 φ [°]"]').press("Enter")
     view.locator('[data-act="move"]').click()
     plane.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.drives[0]?.name === 'P(2-3)'")
     assert view.evaluate("gruebler.motion.linkage.drive.turning") is False
