@@ -13,8 +13,21 @@ function filled<E extends Element>(element: E, classes: string[], attributes: At
     if (typeof value === "function") element.addEventListener(name.slice(2), value as unknown as EventListener);
     else element.setAttribute(name, value === true ? "" : String(value));
   }
-  for (const child of children) if (child !== null && child !== false && child !== undefined) element.append(child);
+  const exact = element.tagName === "pre" || element.tagName === "PRE"; // may be a command
+  for (const child of children)
+    if (child !== null && child !== false && child !== undefined)
+      element.append(typeof child === "string" && !exact ? withMinus(child) : child);
   return element;
+}
+
+/** A text with minus signs as long as the plus. */
+export function withMinus(text: string): string {
+  return text.replace(/(^|[\s(=])-(?=[\s\d(])/g, "$1−");
+}
+
+/** A text in which what follows an underscore is an index: l_a. */
+export function indexed(text: string): (string | Node)[] {
+  return text.split(/(?<=[\p{L}\d])_([\p{L}\d]+)/u).map((part, k) => (k % 2 ? h("sub", {}, part) : part));
 }
 
 export function h<K extends keyof HTMLElementTagNameMap>(
@@ -85,6 +98,8 @@ export function picture(text: string, label: string): Element {
   for (const script of parsed.querySelectorAll("script, foreignObject")) script.remove();
   for (const element of [parsed, ...parsed.querySelectorAll("*")])
     for (const { name } of [...element.attributes]) if (/^on/i.test(name)) element.removeAttribute(name);
+  for (const element of parsed.querySelectorAll("text, tspan"))
+    if (!element.children.length) element.textContent = withMinus(element.textContent ?? "");
   parsed.setAttribute("role", "img");
   parsed.setAttribute("aria-label", label);
   return document.importNode(parsed, true);

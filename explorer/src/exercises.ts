@@ -1,6 +1,6 @@
 /** Exercises: a fresh task with its figure, answers marked with hints, its linkage to try, the solution, the score. */
 
-import { choice, h, picture, renew } from "./dom";
+import { choice, h, indexed, picture, renew, withMinus } from "./dom";
 import { t } from "./language";
 import type { Model } from "./model";
 import type { Page, View } from "./view";
@@ -192,7 +192,9 @@ export class ExercisesView implements View {
               act("try", [t("Try it"), name].filter(Boolean).join(": "), false, () => void this.tryIt(k)),
             ),
           ),
-          marked ? h("details", {}, h("summary", {}, t("The solution")), h("pre", {}, marked.solution)) : null,
+          marked
+            ? h("details", {}, h("summary", {}, t("The solution")), h("pre", {}, withMinus(marked.solution)))
+            : null,
         ),
       ),
     );
@@ -223,14 +225,14 @@ export class ExercisesView implements View {
           set,
           { "data-answer": key },
         )
-      : h("span", {}, symbol ? h("i.symbol", {}, ...signs(symbol), " = ") : null, input, ` ${unit}`);
+      : h("span", {}, symbol ? h("i.symbol", {}, ...indexed(symbol), " = ") : null, input, ` ${unit}`);
     return h(
       "div.answer",
       { "data-state": mark?.mark },
       choices.length ? h("span", {}, name) : h("label", { for: id }, name),
       field,
       mark ? h("b", { "data-mark": mark.mark }, words[mark.mark]) : null,
-      mark?.hint ? h("div", { id: hint }, mark.hint) : null,
+      mark?.hint ? h("div", { id: hint }, ...indexed(mark.hint)) : null,
     );
   }
 
@@ -272,10 +274,4 @@ export class ExercisesView implements View {
       this.page.say((error as Error).message);
     }
   }
-}
-
-/** A symbol with its index: l_a. */
-function signs(symbol: string): (string | Node)[] {
-  const [base, ...index] = symbol.split("_");
-  return index.length ? [base!, h("sub", {}, index.join("_"))] : [base!];
 }

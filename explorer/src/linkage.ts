@@ -86,6 +86,11 @@ export class Linkage {
     return this.model.linkNames[currentLanguage()]?.[link] ?? this.model.links[link]!;
   }
 
+  /** What a point is called in the reader's language. */
+  pointName(name: string): string {
+    return this.model.pointNames?.[currentLanguage()]?.[name] ?? name;
+  }
+
   /** Links by their names in the linkage, as the reader calls them. */
   linkList(links: readonly string[]): string {
     return links.map((name) => this.linkName(this.model.links.indexOf(name)) ?? name).join(", ");

@@ -64,7 +64,7 @@ export class LoadForm {
       );
     const places = [
       ["", t("none")],
-      ...sizes.points.map(({ name }, k) => [`point ${k}`, name]),
+      ...sizes.points.map(({ name }, k) => [`point ${k}`, linkage.pointName(name)]),
       ...model.joints.map(({ name }, k) => [`joint ${k}`, name]),
       ...links.map((link) => [`link ${link}`, linkage.linkName(link)]),
     ];

@@ -96,6 +96,8 @@ export interface Model {
   links: string[];
   /** The names of the links of the linkage by languages. */
   linkNames: Record<string, string[]>;
+  /** The names of points that are words, by languages. */
+  pointNames?: Record<string, Record<string, string>>;
   own: number;
   frame: number;
   unit: string;

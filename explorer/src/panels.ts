@@ -202,7 +202,7 @@ function pointRow(editor: Editor, k: number): HTMLElement {
     "div.point-row",
     {},
     h("i", {}),
-    typed("point-name", t("Name"), point.name, rename),
+    typed("point-name", t("Name"), linkage.pointName(point.name), rename),
     h("span.unit", {}, linkage.linkName(point.link)),
     h("button.quiet", { "aria-label": t("Remove {name}", { name: point.name }), onclick: remove }, "×"),
     h("span.unit", {}, "x"),

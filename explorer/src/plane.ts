@@ -39,10 +39,13 @@ export function planePicture(plane: Plane): SVGElement[] {
     const mark = chosen && "link" in chosen && chosen.link === link ? " chosen" : "";
     const d = path(hull) + (hull.length > 2 ? "Z" : "");
     const [x, y] = [0, 1].map((axis) => hull.reduce((sum, p) => sum + p[axis]!, 0) / hull.length) as Pair;
+    const [one, two, three] = hull;
+    const across = one && two && !three ? Math.atan2(two[0] - one[0], one[1] - two[1]) : 0; // beside a bar
+    const far = one && two && !three ? 15 : 0;
     return [
       svg("path", { class: `outline${mark}`, d, "data-link": link }),
       svg("path.bar", { d }),
-      svg("text", { x: x + 9, y: y - 9 }, link),
+      svg("text", { x: x + far * Math.cos(across), y: y + far * Math.sin(across) + 4, "text-anchor": "middle" }, link),
     ];
   });
   const knots = drawing.knots.map((knot, k) => knotElement(plane, k, knot.at));

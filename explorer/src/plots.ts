@@ -48,7 +48,7 @@ export class Plots {
     const series = record ? outputSeries(linkage, record) : [];
     for (const { name, link, at } of sizes.points)
       series.push(({ rows }) => ({
-        title: t("Speed of {name} by the drive", { name }) + rateUnit(linkage, 1, false),
+        title: t("Speed of {name} by the drive", { name: linkage.pointName(name) }) + rateUnit(linkage, 1, false),
         colour: "--ink",
         values: along(rows, (row) => Math.hypot(...place(linkage.cycle.rows, row, link, ...at, 1))),
       }));

@@ -16,6 +16,7 @@ const SUPPORT = "M0 0 L-11 17 H11 Z M-17 17 H17 M-14 23 l5 -6 M-5 23 l5 -6 M4 23
 const DRIVEN = "M9.5 -9.5 A13.4 13.4 0 0 0 -12.5 -5 M-12.5 -5 l6 -1.5 M-12.5 -5 l-0.6 -6";
 const LONGEST_ARROW = 70; // pixels
 const HALF_LETTER = 3.4; // pixels
+const LINE = 15; // pixels that names are apart
 
 export class Scene {
   private links: SVGGElement[] = [];
@@ -69,7 +70,7 @@ export class Scene {
           "data-mark": name,
           tabindex: 0,
           role: "button",
-          "aria-label": name,
+          "aria-label": linkage.pointName(name),
           onkeydown: (event: KeyboardEvent) => this.keys.point(event, number),
         },
         svg("circle.halo", { r: 13 }),
@@ -138,10 +139,18 @@ export class Scene {
       const record = sizes.points[point];
       if (record) put(element, viewport.screen(...place(pose, 0, record.link, ...record.at)));
     }
-    for (const { element, at, beside } of this.labels) {
-      const [x, y] = viewport.screen(...at());
+    const taken: { x: number; y: number; half: number }[] = [];
+    for (const { element, at, beside, half, begins } of this.labels) {
+      const [px, py] = viewport.screen(...at());
       const [u, v] = beside();
-      put(element, [x + u, y + v]);
+      const x = px + u + (begins ? half : 0);
+      let y = py + v;
+      for (const other of taken) {
+        const high = LINE - Math.abs(y - other.y);
+        if (high > 0 && half + other.half > Math.abs(x - other.x)) y += y < other.y ? -high : high;
+      }
+      taken.push({ x, y, half });
+      put(element, [px + u, y]);
     }
     this.arrows.setAttribute("d", shown.velocities ? this.vectors(linkage, 1) : "");
     this.changes.setAttribute("d", shown.accelerations ? this.vectors(linkage, 2) : "");
@@ -203,6 +212,9 @@ interface Label {
   element: SVGTextElement;
   at: () => Pair;
   beside: () => Pair;
+  /** Half its width, in pixels, and whether it begins at its place instead of having its middle there. */
+  half: number;
+  begins: boolean;
 }
 
 /** The names of links beside the middle of their elements, and of points. */
@@ -235,12 +247,14 @@ function labelsOf(linkage: Linkage): Label[] {
       const far = 9 + HALF_LETTER * name.length * Math.abs(u) + 6 * Math.abs(v);
       return [far * u, far * v + 4];
     };
-    return { element, at, beside };
+    return { element, at, beside, half: HALF_LETTER * name.length, begins: false };
   });
   const marks = sizes.points.map((point) => ({
-    element: svg("text.mark", {}, point.name),
+    element: svg("text.mark", {}, linkage.pointName(point.name)),
     at: () => place(linkage.pose, 0, point.link, ...point.at),
     beside: (): Pair => [9, -9],
+    half: HALF_LETTER * linkage.pointName(point.name).length,
+    begins: true,
   }));
   return [...names, ...marks];
 }

@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { deflateRawSync } from "node:zlib";
 import german from "../src/de.json";
+import { withMinus } from "../src/dom";
 import { factsOf } from "../src/facts";
 import { History } from "../src/history";
 import { Backend, Cancelled, RequestError, StillModel } from "../src/host";
@@ -202,4 +203,9 @@ test("requests are answered, refused, cancelled", async () => {
   await assert.rejects(second, (error) => error instanceof RequestError && error.message === "no");
   await assert.rejects(third, (error) => error instanceof Cancelled);
   assert.equal(new Backend(new StillModel({ host: "file" })).present, false);
+});
+
+test("texts of the library get a minus sign as long as the plus; names and words keep their hyphens", () => {
+  assert.equal(withMinus("F = 3(n - 1) - 2 g1 = -2"), "F = 3(n − 1) − 2 g1 = −2");
+  assert.equal(withMinus("R(1-2) crank-rocker, 0-1"), "R(1-2) crank-rocker, 0-1");
 });

@@ -106,6 +106,7 @@ def test_an_exercise_of_the_text_is_chosen_and_each_of_its_machines_tried(exerci
     assert tries.count() == 5
     tries.nth(3).click()
     page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'filmclaw'")
+    assert view.locator(".stage text.mark").last.text_content() == "Spitze"  # the point "tip" of the catalog
     view.go_back()
     page.until("gruebler.view === 'exercises'")
     view.click('[data-act="next"]')

@@ -131,3 +131,39 @@ def test_the_header_of_a_phone_is_not_cut(tab, server):
         assert page.page.locator(f"header {part}").evaluate(cut) is False
     assert page.page.locator("header h1").inner_text().split() == ["gruebler", "Kurbelschwinge"]
     assert page.page.locator("header").bounding_box()["height"] < 110
+
+
+def test_names_of_a_six_bar_do_not_lie_on_each_other(tab, server):
+    page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-id="klann"]').click()
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'klann'")
+    overlaps = """(() => {
+        const boxes = [...gruebler.motion.stage.root.querySelectorAll("text.name")].map((one) => {
+            const { left, right, top, bottom } = one.getBoundingClientRect();
+            return { left, right, top: top + 3, bottom: bottom - 3 };
+        });
+        const over = (a, b, low, high) => Math.min(a[high], b[high]) - Math.max(a[low], b[low]);
+        return boxes.flatMap((a, k) => boxes.slice(k + 1).map((b) =>
+            Math.min(over(a, b, "left", "right"), over(a, b, "top", "bottom")))).filter((one) => one > 0.5);
+    })()"""
+    for drive in np.linspace(0, 6, 13):
+        page.page.evaluate(f"gruebler.motion.transport.pick({drive})")
+        assert page.page.evaluate(overlaps) == [], drive
+
+
+def test_tabs_of_a_phone_show_that_they_scroll_and_cards_have_one_height(tab, server):
+    page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
+    nav = page.page.locator("header nav")
+    assert nav.evaluate("(e) => e.scrollWidth > e.clientWidth")  # six tabs do not fit
+    assert nav.evaluate("(e) => getComputedStyle(e).backgroundAttachment").startswith("local, local, scroll")
+    wide = tab(width=1440, height=900).open(server.address)
+    wide.page.click('[data-view="catalog"]')
+    wide.page.locator('[data-list="catalog"] .card svg').first.wait_for()
+    rows = wide.page.locator('[data-list="catalog"] .card').evaluate_all(
+        "all => all.slice(0, 28).map((e) => e.querySelector('b').getBoundingClientRect().height)"
+    )
+    assert max(rows) - min(rows) < 1
+    wide.page.click('[data-view="synthesis"]')
+    plane = wide.page.locator(".page .plane").bounding_box()
+    assert plane["width"] > 850  # of 1440

@@ -75,6 +75,7 @@ def model_of(
         "document": linkage_to_json(linkage),
         "links": list(lower.mechanism.chain.links),
         "linkNames": {lang: list(link_names(linkage, source, lang).values()) for lang in LANGUAGES},
+        "pointNames": {lang: point_names(linkage, source, lang) for lang in LANGUAGES},
         "own": len(chain.links),
         "frame": lower.mechanism.chain.index(mechanism.frame),
         "unit": linkage.unit,
@@ -133,6 +134,21 @@ def link_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
     if record is not None and record.chain().links == links:
         return dict(zip(links, record.in_language(lang).chain().links, strict=True))
     return {link: translate(link, lang) if link in _COMMON else link for link in links}
+
+
+def point_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
+    """The names of the points in a language, where they have others: words, of machines of the catalog.
+
+    >>> from gruebler.teaching.catalog import entry
+    >>> point_names(entry("filmclaw").linkage(), "filmclaw", "de")
+    {'tip': 'Spitze'}
+    """
+    record = entries().get(source)
+    if record is None or record.dimensions is None:
+        return {}
+    said = record.in_language(lang).dimensions
+    pairs = zip(record.dimensions.points, said.points if said else (), strict=True)
+    return {name: called for name, called in pairs if name in linkage.points and called != name}
 
 
 def _pair_record(pair: Pair) -> dict[str, Any]:
