@@ -1,6 +1,8 @@
+#include <cmath>
 #include <complex>
 
 #include "doors.hpp"
+#include "space/following.hpp"
 #include "space/modes.hpp"
 
 namespace gruebler::doors {
@@ -16,7 +18,8 @@ algebra::Complex* parts(std::vector<Number>& numbers) { return reinterpret_cast<
 bool within(std::int64_t number, std::int64_t least, std::int64_t most) { return number >= least && number < most; }
 
 // Each unknown belongs to one node, each ball to three nodes with unknowns in a row.
-void check_nodes(const Array<std::int64_t, -1, node_fields>& nodes, std::int64_t unknowns, std::int64_t balls) {
+void check_nodes(const Array<std::int64_t, -1, node_fields>& nodes, std::int64_t unknowns, std::int64_t balls,
+                 std::int64_t kinds) {
     const auto count = static_cast<std::int64_t>(nodes.shape(0));
     expect(within(count, 1, most_nodes + 1), "there are 1 to " + std::to_string(most_nodes) + " nodes");
     expect(unknowns <= most_unknowns, "there are at most " + std::to_string(most_unknowns) + " unknowns");
@@ -24,7 +27,7 @@ void check_nodes(const Array<std::int64_t, -1, node_fields>& nodes, std::int64_t
     for (std::int64_t k = 0; k < count; ++k) {
         const std::int64_t* own = nodes.data() + k * node_fields;
         const bool is_still = own[1] == static_cast<std::int64_t>(Kind::still);
-        bool sound = within(own[0], -1, k) && within(own[1], 0, 3) && within(own[2], 0, 3) && (own[3] == 1 || own[3] == -1) &&
+        bool sound = within(own[0], -1, k) && within(own[1], 0, kinds) && within(own[2], 0, 3) && (own[3] == 1 || own[3] == -1) &&
                      within(own[4], -1, unknowns) && within(own[5], -1, balls) && (own[0] >= 0 || is_still) &&
                      !(is_still && (own[4] >= 0 || own[5] >= 0)) && (own[5] < 0 || (own[4] >= 0 && own[4] + 3 <= unknowns));
         if (sound && own[4] >= 0) sound = uses[static_cast<std::size_t>(own[4])]++ == 0;
@@ -35,24 +38,27 @@ void check_nodes(const Array<std::int64_t, -1, node_fields>& nodes, std::int64_t
     for (const int start : starts) expect(start == 1, "each ball begins at a node");
 }
 
+void check_rows(const Array<std::int64_t, -1, row_fields>& rows, std::int64_t nodes) {
+    for (std::size_t r = 0; r < rows.shape(0); ++r) {
+        const std::int64_t* own = rows.data() + r * row_fields;
+        expect(within(own[0], 0, 3) && within(own[1], 0, nodes) && within(own[2], 0, nodes) && within(own[3], 0, 3) &&
+                   within(own[4], 0, 3),
+               "row " + std::to_string(r) + " is none");
+    }
+}
+
 nb::tuple follow_modes(const Array<std::int64_t, -1, node_fields>& nodes, const Array<std::int64_t, -1, row_fields>& rows,
                        const Array<Number, -1, 4, 4>& frames, const Array<Number, -1, twist_size>& twists,
                        const Array<Number, 2, -1>& lengths, const Array<Number, 2, -1>& given,
                        const Array<Number, -1, -1>& starts, const Array<Number, -1, -1, 3, 3>& turns, double loose) {
     const std::size_t many = nodes.shape(0), count = starts.shape(0), unknowns = starts.shape(1), balls = turns.shape(1);
     expect(turns.shape(0) == count, "each path has its turns of balls");
-    check_nodes(nodes, static_cast<std::int64_t>(unknowns), static_cast<std::int64_t>(balls));
+    check_nodes(nodes, static_cast<std::int64_t>(unknowns), static_cast<std::int64_t>(balls), 3);
+    check_rows(rows, static_cast<std::int64_t>(many));
     expect(rows.shape(0) == unknowns, "there are as many rows as unknowns");
     expect(frames.shape(0) == many && twists.shape(0) == many && given.shape(1) == many,
            "each node has a frame, a twist and a value");
     expect(lengths.shape(1) == unknowns, "each row has a length");
-    for (std::size_t r = 0; r < unknowns; ++r) {
-        const std::int64_t* own = rows.data() + r * row_fields;
-        const auto last = static_cast<std::int64_t>(many);
-        expect(within(own[0], 0, 3) && within(own[1], 0, last) && within(own[2], 0, last) && within(own[3], 0, 3) &&
-                   within(own[4], 0, 3),
-               "row " + std::to_string(r) + " is none");
-    }
     expect(loose > 0, "loose must be positive");
     std::vector<Number> ends(count * unknowns), end_turns(count * balls * turn_size), places(count * many * frame_size);
     std::vector<double> times(count);
@@ -70,6 +76,79 @@ nb::tuple follow_modes(const Array<std::int64_t, -1, node_fields>& nodes, const 
                           hand_over<std::int64_t>(std::move(steps), {count}));
 }
 
+using Nodes = Array<std::int64_t, -1, node_fields>;
+using Rows = Array<std::int64_t, -1, row_fields>;
+
+Linkage linkage_of(const Nodes& nodes, const Rows& rows, const Array<double, -1, 4, 4>& frames,
+                   const Array<double, -1>& pitches, const Array<double, -1>& lengths, const Array<double, -1, -1>& gears,
+                   std::size_t balls) {
+    const std::size_t many = nodes.shape(0), unknowns = gears.shape(1);
+    check_nodes(nodes, static_cast<std::int64_t>(unknowns), static_cast<std::int64_t>(balls), 4);
+    check_rows(rows, static_cast<std::int64_t>(many));
+    expect(frames.shape(0) == many && pitches.shape(0) == many, "each node has a frame and a pitch");
+    expect(lengths.shape(0) == rows.shape(0), "each row has a length");
+    const Structure structure{static_cast<int>(many),  static_cast<int>(rows.shape(0)), static_cast<int>(unknowns),
+                              static_cast<int>(balls), nodes.data(),                    rows.data()};
+    return {structure, frames.data(), pitches.data(), lengths.data(), gears.data(), static_cast<int>(gears.shape(0))};
+}
+
+void check_numbers(const Array<std::int64_t, -1>& numbers, std::int64_t least, std::size_t most, const char* what) {
+    for (std::size_t k = 0; k < numbers.shape(0); ++k)
+        expect(within(numbers.data()[k], least, static_cast<std::int64_t>(most)), what);
+}
+
+nb::tuple open_linkage(const Nodes& nodes, const Rows& rows, const Array<double, -1, 4, 4>& frames,
+                       const Array<double, -1>& pitches, const Array<double, -1>& lengths,
+                       const Array<double, -1, -1>& gears, const Array<double, -1>& at, const Array<double, -1, 3, 3>& turns) {
+    Conditions conditions(linkage_of(nodes, rows, frames, pitches, lengths, gears, turns.shape(0)));
+    const std::size_t unknowns = gears.shape(1), count = conditions.values.size();
+    expect(at.shape(0) == unknowns, "each unknown has a value");
+    conditions.turns.assign(turns.data(), turns.data() + turns.size());
+    conditions.evaluate(at.data());
+    return nb::make_tuple(hand_over<double>(std::move(conditions.values), {count}),
+                          hand_over<double>(std::move(conditions.derivatives), {count, unknowns}));
+}
+
+nb::tuple follow_linkage(const Nodes& nodes, const Rows& rows, const Array<double, -1, 4, 4>& frames,
+                         const Array<double, -1>& pitches, const Array<double, -1>& lengths,
+                         const Array<double, -1, -1>& gears, std::size_t balls, const Array<std::int64_t, -1>& passive,
+                         const Array<std::int64_t, -1>& drives, const Array<std::int64_t, -1>& links,
+                         const Array<double, -1, -1>& values, const Array<double, -1, -1, -1>& rates) {
+    const std::size_t unknowns = gears.shape(1), count = values.shape(0), orders = rates.shape(0);
+    expect(balls <= unknowns, "there are fewer balls than unknowns");
+    const Linkage linkage = linkage_of(nodes, rows, frames, pitches, lengths, gears, balls);
+    const std::size_t conditions = static_cast<std::size_t>(linkage.conditions()), passives = passive.shape(0);
+    check_numbers(passive, 0, unknowns, "passive: the numbers of unknowns");
+    check_numbers(drives, 0, unknowns, "drives: the numbers of unknowns");
+    check_numbers(links, -1, nodes.shape(0), "links: the numbers of nodes, or -1");
+    expect(passives <= conditions, "there are no more passive unknowns than conditions");
+    expect(orders <= static_cast<std::size_t>(most_orders), "there are rates up to the third order");
+    expect(values.shape(1) == drives.shape(0) && rates.shape(1) == count && rates.shape(2) == drives.shape(0),
+           "each row has a value and rates of each drive");
+    const std::size_t each = values.shape(1);
+    for (std::size_t k = 0; k < values.size(); ++k)
+        expect(std::fabs(values.data()[k] - (k < each ? 0 : values.data()[k - each])) <= longest_way,
+               "values: no row lies farther than 1e9 from the one before");
+    std::vector<double> found((orders + 1) * count * unknowns), derivatives(count * conditions * passives);
+    std::vector<double> poses((orders + 1) * count * links.shape(0) * frame_size);
+    std::vector<std::uint8_t> passed(count);
+    Followed followed;
+    const Path path{static_cast<std::int64_t>(count),      static_cast<int>(drives.shape(0)),
+                    static_cast<int>(passives),            static_cast<int>(links.shape(0)),
+                    static_cast<int>(orders),              drives.data(),
+                    passive.data(),                        links.data(),
+                    values.data(),                         rates.data(),
+                    found.data(),                          poses.data(),
+                    derivatives.data(),                    passed.data()};
+    run([&](Watch& watch) { return space::follow(linkage, path, followed, watch); });
+    return nb::make_tuple(hand_over<double>(std::move(found), {orders + 1, count, unknowns}),
+                          hand_over<double>(std::move(poses), {orders + 1, count, links.shape(0), 4, 4}),
+                          hand_over<double>(std::move(derivatives), {count, conditions, passives}),
+                          hand_over<std::uint8_t>(std::move(passed), {count}), followed.rows, followed.part, followed.gap,
+                          hand_over<double>(std::move(followed.place), {unknowns}),
+                          hand_over<double>(std::move(followed.turns), {balls, 3, 3}));
+}
+
 }  // namespace
 
 void add_space(nb::module_& module) {
@@ -83,6 +162,24 @@ void add_space(nb::module_& module) {
                "int64[unknowns, 5]: 0 offset, 1 across, 2 length, first and second node, axis, other axis; frames: "
                "complex[nodes, 4, 4] at the beginning, twists: complex[nodes, 6] of their change; lengths: complex[2, "
                "unknowns] and given: complex[2, nodes], at the beginning and their change.");
+    module.def("open_linkage", open_linkage, nb::arg("nodes").noconvert(), nb::arg("rows").noconvert(),
+               nb::arg("frames").noconvert(), nb::arg("pitches").noconvert(), nb::arg("lengths").noconvert(),
+               nb::arg("gears").noconvert(), nb::arg("at").noconvert(), nb::arg("turns").noconvert(),
+               "By how much a linkage is open at a position, and the derivatives: float[conditions], float[conditions, "
+               "unknowns].\n\nNodes, rows as for `follow_modes`, 3 also shifts by its pitch while it turns; gears: "
+               "float[gears, unknowns], conditions behind those of the rows; turns: float[balls, 3, 3].");
+    module.def("follow_linkage", follow_linkage, nb::arg("nodes").noconvert(), nb::arg("rows").noconvert(),
+               nb::arg("frames").noconvert(), nb::arg("pitches").noconvert(), nb::arg("lengths").noconvert(),
+               nb::arg("gears").noconvert(), nb::arg("balls"), nb::arg("passive").noconvert(),
+               nb::arg("drives").noconvert(), nb::arg("links").noconvert(), nb::arg("values").noconvert(),
+               nb::arg("rates").noconvert(),
+               "A linkage followed along values of its drives from where all unknowns are 0: coefficients of the unknowns "
+               "float[orders + 1, rows, unknowns] and of the frames of links float[orders + 1, rows, links, 4, 4] as power "
+               "series in time, derivatives by the passive unknowns float[rows, conditions, passive], whether a change of "
+               "mode was passed before a row uint8[rows], how many rows were reached, what part of the way to the next, by "
+               "how much it is open at most, the last position float[unknowns] and its turns float[balls, 3, 3].\n\n"
+               "passive, drives: int64, numbers of unknowns; links: int64, their nodes or -1; values: float[rows, drives]; "
+               "rates: float[orders, rows, drives], coefficients of t, t**2, t**3. The rest as for `open_linkage`.");
 }
 
 }  // namespace gruebler::doors

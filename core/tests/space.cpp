@@ -1,11 +1,13 @@
-// Modes in space without Python, for sanitizers: a hand that turns by the law of cosines, a body on a ball whose points
-// end at the distances that were asked for, numbers that are none, and work that is ended.
+// Modes and motions in space without Python, for sanitizers: a hand that turns by the law of cosines, a body on a ball
+// whose points end at the distances that were asked for, a body on a ball that a crank turns round, a screw, wheels,
+// numbers that are none, and work that is ended.
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <vector>
 
 #include "check.hpp"
+#include "space/following.hpp"
 #include "space/modes.hpp"
 
 using namespace gruebler;
@@ -13,18 +15,18 @@ using namespace gruebler::space;
 
 namespace {
 
-constexpr std::int64_t still = 0, turns = 1, length = 2, none = -1;
+constexpr std::int64_t still = 0, turns = 1, shifts = 2, screws = 3, offset = 0, length = 2, none = -1;
 
 struct Point {
     double x, y, z;
 };
 
 // A linkage with all that its paths need, nodes that stand still shifted so far from their parents.
-struct Linkage {
+struct Dimensioned {
     std::vector<std::int64_t> nodes, rows;
     std::vector<Complex> frames, twists, lengths, given;
 
-    Linkage(std::vector<std::int64_t> all_nodes, std::vector<std::int64_t> all_rows, const std::vector<Point>& shifts)
+    Dimensioned(std::vector<std::int64_t> all_nodes, std::vector<std::int64_t> all_rows, const std::vector<Point>& shifts)
         : nodes(all_nodes),
           rows(all_rows),
           frames(shifts.size() * frame_size),
@@ -51,7 +53,7 @@ struct Ends {
     }
 };
 
-Ends follow_all(const Linkage& linkage, const std::vector<Complex>& starts, const std::vector<Complex>& balls,
+Ends follow_all(const Dimensioned& linkage, const std::vector<Complex>& starts, const std::vector<Complex>& balls,
                 std::size_t count, Watch& watch) {
     const std::size_t nodes = linkage.given.size() / 2, unknowns = linkage.lengths.size() / 2;
     Ends ends{false,
@@ -79,13 +81,98 @@ Ends follow_all(const Linkage& linkage, const std::vector<Complex>& starts, cons
 
 double distance(Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
+struct Driven {
+    bool done;
+    Followed followed;
+    std::vector<double> unknowns, poses;
+};
+
+// The first unknown is the drive, of speed 1 and acceleration and jerk 0; all others follow.
+Driven drive(const Dimensioned& of, const std::vector<double>& lengths, const std::vector<double>& pitches,
+             const std::vector<double>& gears, int unknowns, int balls, const std::vector<std::int64_t>& links,
+             const std::vector<double>& values, Watch& watch) {
+    std::vector<double> frames;
+    for (const Complex& entry : of.frames) frames.push_back(entry.re);
+    const int nodes = static_cast<int>(pitches.size()), rows = static_cast<int>(of.rows.size() / row_fields);
+    const int wheels = static_cast<int>(gears.size()) / unknowns, orders = 3;
+    const Structure structure{nodes, rows, unknowns, balls, of.nodes.data(), of.rows.data()};
+    const Linkage linkage{structure, frames.data(), pitches.data(), lengths.data(), gears.data(), wheels};
+    std::vector<std::int64_t> passive;
+    for (int k = 1; k < unknowns; ++k) passive.push_back(k);
+    const std::int64_t first = 0;
+    const std::size_t many = values.size();
+    std::vector<double> rates(many * orders), derivatives(many * static_cast<std::size_t>((rows + wheels) * unknowns));
+    std::vector<std::uint8_t> passed(many);
+    for (std::size_t row = 0; row < many; ++row) rates[row] = 1;
+    Driven driven{};
+    driven.unknowns.resize((orders + 1) * many * static_cast<std::size_t>(unknowns));
+    driven.poses.resize((orders + 1) * many * links.size() * frame_size);
+    const Path path{static_cast<std::int64_t>(many), 1,
+                    unknowns - 1,                    static_cast<int>(links.size()),
+                    orders,                          &first,
+                    passive.data(),                  links.data(),
+                    values.data(),                   rates.data(),
+                    driven.unknowns.data(),          driven.poses.data(),
+                    derivatives.data(),              passed.data()};
+    driven.done = follow(linkage, path, driven.followed, watch);
+    return driven;
+}
+
+// A crank turns about z; a body on a ball at the same place is tied to it by three rods, and so turns as it does.
+void check_motions(Watch& watch) {
+    const std::vector<Point> places{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0},
+                                    {1, 0, 0}, {0, 1, 0}, {2, 1, 1}, {1, -1, 2}};
+    const Dimensioned round({-1, still, 0, 1, none, none, 0, turns, 2, 1, 0,    none, 0, turns, 0, 1, 1,    0,
+                             2,  turns, 1, 1, 2,    none, 3, turns, 2, 1, 3,    none, 4, still, 0, 1, none, none,
+                             4,  still, 0, 1, none, none, 1, still, 0, 1, none, none, 1, still, 0, 1, none, none},
+                            {length, 5, 7, 0, 0, length, 5, 8, 0, 0, length, 6, 7, 0, 0}, places);
+    const std::vector<double> lengths{distance(places[5], places[7]), distance(places[5], places[8]),
+                                      distance(places[6], places[7])};
+    const std::vector<double> turned{0, 1.3, 2.6, 3.9, 5.2};
+    const Driven body = drive(round, lengths, std::vector<double>(9), {}, 4, 1, {4, -1}, turned, watch);
+    expect(body.done && body.followed.rows == 5 && body.followed.gap < 1e-12, "the ball did not go round");
+    for (std::size_t row = 0; row < 5; ++row) {
+        const double c = std::cos(turned[row]), s = std::sin(turned[row]);
+        const double rates[4][2] = {{c, s}, {-s, c}, {-c / 2, -s / 2}, {s / 6, -c / 6}};
+        for (std::size_t order = 0; order < 4; ++order) {
+            const double* pose = body.poses.data() + (order * 5 + row) * 2 * frame_size;
+            expect(std::abs(pose[0] - rates[order][0]) < 1e-11 && std::abs(pose[4] - rates[order][1]) < 1e-11,
+                   "the body does not turn as the crank does");
+        }
+    }
+
+    // A spindle with the pitch 0.5, its nut held by a slide, and a wheel three times as large beside it.
+    const Dimensioned spindle({-1, still, 0, 1, none, none, 0, screws, 2, 1, 0, none, 0, shifts, 2, 1, 1, none,
+                               0, turns, 2, 1, 2, none},
+                              {offset, 1, 2, 2, 0}, std::vector<Point>(4));
+    const Driven nut = drive(spindle, {0}, {0, 0.5, 0, 0}, {1, 0, 3}, 3, 0, {2}, {0.5, 40}, watch);
+    expect(nut.done && nut.followed.rows == 2 && std::abs(nut.unknowns[3 + 1] - 20) < 1e-11 &&
+               std::abs(nut.unknowns[3 + 2] + 40.0 / 3) < 1e-11 && std::abs(nut.unknowns[6 + 1] - 0.5) < 1e-12,
+           "the nut or the wheel went elsewhere");
+
+    // |(-sin q, cos q, 0) - (1 + h, 0, 0)| = sqrt 2 with the drive h, up to where the two lie in line, at sqrt 2.
+    const Dimensioned rod({-1, still, 0, 1, none, none, 0, still, 0, 1, none, none, 1, shifts, 0, 1, 0, none,
+                           0, turns, 2, 1, 1, none, 3, still, 0, 1, none, none},
+                          {length, 2, 4, 0, 0}, {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 1, 0}});
+    const std::vector<double> whole{std::sqrt(2.0)}, none_of_screws(5);
+    const Driven limit = drive(rod, whole, none_of_screws, {}, 2, 0, {4}, {0, 0.3, 2.5, 3}, watch);
+    expect(limit.done && limit.followed.rows == 2 && std::abs(limit.followed.part - (std::sqrt(2.0) - 0.3) / 2.2) < 1e-5,
+           "the rod did not stop where it must");
+    for (const double odd : {1e300, std::numeric_limits<double>::infinity(), std::nan("")})
+        expect(drive(rod, whole, none_of_screws, {}, 2, 0, {4}, {odd}, watch).followed.rows == 0,
+               "numbers that are none arrived");
+    Watch tired{never, nullptr, 1};
+    expect(!drive(rod, whole, none_of_screws, {}, 2, 0, {4}, {0.3}, tired).done, "nobody ended the motion");
+}
+
 }  // namespace
 
 int main() {
     Watch watch{always, nullptr};
+    check_motions(watch);
     const double quarter = std::acos(0.0);
     // |(cos q, sin q, 0) - (2, 0, 0)| from the root of 5 to 1.2.
-    Linkage hand(
+    Dimensioned hand(
         {-1, still, 0, 1, none, none, 0, turns, 2, 1, 0, none, 1, still, 0, 1, none, none, 0, still, 0, 1, none, none},
         {length, 2, 3, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
     hand.lengths = {{std::sqrt(5.0), 0}, {1.2 - std::sqrt(5.0), 0}};
@@ -98,7 +185,7 @@ int main() {
     // A body that turns about the origin, two of its points at three distances from two fixed ones.
     const std::vector<Point> places{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0},
                                     {1, 0, 0}, {0, 1, 0}, {2, 1, 1}, {1, -1, 2}};
-    Linkage body({-1, still, 0,    1,     none, none,  0, turns, 0,    1,     0, 0,     1,    turns, 1,    1,
+    Dimensioned body({-1, still, 0,    1,     none, none,  0, turns, 0,    1,     0, 0,     1,    turns, 1,    1,
                   1,  none,  2,    turns, 2,    1,     2, none,  3,    still, 0, 1,     none, none,  3,    still,
                   0,  1,     none, none,  0,    still, 0, 1,     none, none,  0, still, 0,    1,     none, none},
                  {length, 4, 6, 0, 0, length, 4, 7, 0, 0, length, 5, 6, 0, 0}, places);

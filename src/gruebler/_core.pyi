@@ -143,6 +143,40 @@ def follow_modes(
 ) -> tuple[
     NDArray[np.complex128], NDArray[np.complex128], NDArray[np.complex128], NDArray[np.float64], NDArray[np.int64]
 ]: ...
+def open_linkage(
+    nodes: NDArray[np.int64],
+    rows: NDArray[np.int64],
+    frames: NDArray[np.float64],
+    pitches: NDArray[np.float64],
+    lengths: NDArray[np.float64],
+    gears: NDArray[np.float64],
+    at: NDArray[np.float64],
+    turns: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+def follow_linkage(
+    nodes: NDArray[np.int64],
+    rows: NDArray[np.int64],
+    frames: NDArray[np.float64],
+    pitches: NDArray[np.float64],
+    lengths: NDArray[np.float64],
+    gears: NDArray[np.float64],
+    balls: int,
+    passive: NDArray[np.int64],
+    drives: NDArray[np.int64],
+    links: NDArray[np.int64],
+    values: NDArray[np.float64],
+    rates: NDArray[np.float64],
+) -> tuple[
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.uint8],
+    int,
+    float,
+    float,
+    NDArray[np.float64],
+    NDArray[np.float64],
+]: ...
 
 # dynamics
 def reduced_forces(

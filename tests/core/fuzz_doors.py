@@ -45,6 +45,20 @@ MODES = (
     np.full((3, 6), 0.1, complex), np.zeros((2, 1), complex), np.zeros((2, 3), complex), np.zeros((1, 1), complex),
     np.zeros((1, 0, 3, 3), complex), 1e-3,
 )  # fmt: skip
+# A crank that turns about z, and a body on a ball that three rods tie to it.
+BODY = (
+    np.array([[-1, 0, 0, 1, -1, -1], [0, 1, 2, 1, 0, -1], [0, 1, 0, 1, 1, 0], [2, 1, 1, 1, 2, -1], [3, 1, 2, 1, 3, -1],
+              *([k, 0, 0, 1, -1, -1] for k in (4, 4, 1, 1))]),
+    np.array([[2, 5, 7, 0, 0], [2, 5, 8, 0, 0], [2, 6, 7, 0, 0]]), np.tile(np.eye(4), (9, 1, 1)), np.zeros(9),
+    np.sqrt([3, 5, 5]), np.zeros((0, 4)),
+)  # fmt: skip
+BODY[2][5:, :3, 3] = [1, 0, 0], [0, 1, 0], [2, 1, 1], [1, -1, 2]
+CALLS_IN_SPACE = (
+    ("follow_modes", MODES),
+    ("open_linkage", (*BODY, np.zeros(4), np.eye(3)[None])),
+    ("follow_linkage", (*BODY, 1, np.array([1, 2, 3]), np.zeros(1, np.int64), np.array([4, -1]),
+                        np.array([[0.0], [0.3]]), np.ones((3, 2, 1)))),
+)  # fmt: skip
 ROWS = np.array([0, 2, 3]), np.array([0, 1, 1]), np.array([1, 2, 3])
 UNKNOWNS, TASK = np.ones((3, 8), complex), np.ones((4, 8), complex)
 
@@ -105,7 +119,7 @@ def good_calls():
     yield "eliminate", (*ROWS, 2, 1e9, 1e9)
     yield "solve_back", (np.array([0]), np.array([0, 1]), np.array([1]), np.array([5]), np.ones((2, 1), np.int64))
     yield "reduce", (np.arange(6).reshape(2, 3),)
-    yield "follow_modes", MODES
+    yield from CALLS_IN_SPACE
     series = np.array([[-1.0, 1, 0, 1], [1, 3, 2, 1]]), np.arange(1.0, 25).reshape(2, 2, 6), -1.0
     yield "reduced_forces", (*series, 0.5, 2.0)
     method = np.tri(12) / 12, np.full(12, 1 / 12), np.full(13, 1e-3), np.full(13, 1e-3)

@@ -1,4 +1,4 @@
-"""Paths of modes: a hand by hand; wrong calls raise."""
+"""Paths of modes and motions: a hand and a rod by hand; wrong calls raise."""
 
 import numpy as np
 import pytest
@@ -85,3 +85,101 @@ def test_wrong_calls_raise(wrong):
 def test_numbers_that_are_none_end():
     *_, times, _ = hand(starts=np.full((2, 1), np.nan, complex))
     assert (times < 1).all()
+
+
+# A slide along x at 1 + h, tied by a rod of the length sqrt(2) to a hand (0, 1, 0) that turns about z.
+ROD = {
+    "nodes": np.array(
+        [[-1, 0, 0, 1, -1, -1], [0, 0, 0, 1, -1, -1], [1, 2, 0, 1, 0, -1], [0, 1, 2, 1, 1, -1], [3, 0, 0, 1, -1, -1]]
+    ),
+    "rows": np.array([[2, 2, 4, 0, 0]]),
+    "frames": np.tile(np.eye(4), (5, 1, 1)),
+    "pitches": np.zeros(5),
+    "lengths": np.array([np.sqrt(2)]),
+    "gears": np.zeros((0, 2)),
+}
+ROD["frames"][1, 0, 3] = ROD["frames"][4, 1, 3] = 1
+DRIVEN = {
+    "balls": 0,
+    "passive": np.array([1]),
+    "drives": np.array([0]),
+    "links": np.array([4, -1]),
+    "values": np.array([[0.0], [0.5], [1.0]]),
+    "rates": np.array([[[1.0]], [[0.3]], [[-0.1]]]).repeat(3, axis=1),
+}
+
+
+def turn_of_the_hand(h):
+    """sin q = (1 - (1 + h)^2) / 2 (1 + h)"""
+    return np.arcsin((1 - (1 + h) ** 2) / (2 * (1 + h)))
+
+
+def test_the_rod_turns_the_hand_by_the_law_of_cosines_with_its_rates():
+    series, poses, derivatives, passed, rows, part, gap, last, turns = _core.follow_linkage(**ROD | DRIVEN)
+    assert (rows, part) == (3, 1)
+    assert gap < 1e-14
+    q = turn_of_the_hand(DRIVEN["values"][:, 0])
+    np.testing.assert_allclose(series[0, :, 1], q, atol=1e-14)
+    np.testing.assert_allclose(poses[0, :, 0, :2, 3], np.array([-np.sin(q), np.cos(q)]).T, atol=1e-14)
+    assert not poses[:, :, 1].any()
+    assert not passed.any()
+    assert derivatives.shape == (3, 1, 1)
+    assert last.tolist() == series[0, -1].tolist()
+    assert turns.shape == (0, 3, 3)
+    # Cauchy's integral around the row by 32 points: the coefficients of Taylor without differences.
+    t = 0.1 * np.exp(2j * np.pi * np.arange(32) / 32)
+    for row, h in enumerate(DRIVEN["values"][:, 0]):
+        taylor = np.fft.fft(turn_of_the_hand(h + t + 0.3 * t**2 - 0.1 * t**3)).real / 32 / 0.1 ** np.arange(32)
+        np.testing.assert_allclose(series[:, row, 1], taylor[:4], atol=1e-11)
+
+
+def test_the_rod_is_open_by_what_it_misses():
+    place = np.array([0.2, 0.1]), np.zeros((0, 3, 3))
+    value, derivative = _core.open_linkage(**ROD, at=place[0], turns=place[1])
+
+    def square(h, q):
+        return (1 + h + np.sin(q)) ** 2 + np.cos(q) ** 2
+
+    length = np.sqrt(2)
+    np.testing.assert_allclose(value, [(square(0.2, 0.1) - 2) / (2 * length)], atol=1e-15)
+    wanted = [(square(0.2 + 1e-20j, 0.1)).imag, (square(0.2, 0.1 + 1e-20j)).imag]
+    np.testing.assert_allclose(derivative, [np.array(wanted) / (2 * length * 1e-20)], atol=1e-15)
+
+
+def test_the_rod_ends_where_it_lies_in_line():
+    *_, rows, part, _, last, _ = _core.follow_linkage(**ROD | DRIVEN | {"values": np.array([[0.0], [0.3], [2.5]])})
+    assert rows == 2
+    assert part == pytest.approx((np.sqrt(2) - 0.3) / 2.2, abs=1e-5)
+    assert last[0] == pytest.approx(np.sqrt(2), abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"nodes": ROD["nodes"] + np.eye(6, dtype=np.int64)[0]},
+        {"nodes": ROD["nodes"] * 4},
+        {"rows": np.array([[2, 2, 5, 0, 0]])},
+        {"rows": np.array([[3, 2, 4, 0, 0]])},
+        {"frames": np.zeros((4, 4, 4))},
+        {"pitches": np.zeros(4)},
+        {"lengths": np.zeros(2)},
+        {"gears": np.zeros((0, 3))},
+        {"balls": 1},
+        {"balls": -1},
+        {"passive": np.array([2])},
+        {"passive": np.array([1, 1])},
+        {"drives": np.array([-1])},
+        {"drives": np.array([0, 1])},
+        {"links": np.array([5])},
+        {"values": np.zeros((3, 2))},
+        {"values": np.zeros((2, 1))},
+        {"values": np.full((3, 1), np.nan)},
+        {"values": np.full((3, 1), np.inf)},
+        {"values": np.full((3, 1), 1e300)},
+        {"rates": np.zeros((4, 3, 1))},
+        {"rates": np.zeros((1, 3, 1), complex)},
+    ],
+)
+def test_wrong_calls_of_motions_raise(wrong):
+    with pytest.raises((TypeError, ValueError)):
+        _core.follow_linkage(**ROD | DRIVEN | wrong)

@@ -5,31 +5,10 @@
 
 #include <cstdint>
 
-#include "algebra/complex.hpp"
 #include "base/watch.hpp"
+#include "space/frames.hpp"
 
 namespace gruebler::space {
-
-using algebra::Complex;
-
-// What a node of the tree does: it stands still on its parent, which is a dimension; it turns, or shifts, along an axis.
-enum class Kind : std::int64_t { still, turns, shifts };
-
-// What a row asks: an offset along an axis of the first frame that is 0; an axis of the second frame at right angles to
-// one of the first; a distance.
-enum class RowKind : std::int64_t { offset, across, length };
-
-inline constexpr int node_fields = 6, row_fields = 5, frame_size = 16, twist_size = 6, turn_size = 9;
-inline constexpr int most_nodes = 512, most_unknowns = 64;  // more than linkages need; the dense Jacobian stays small
-
-struct Structure {
-    int nodes, rows, unknowns, balls;
-    // [nodes, 6]: parent (one before, -1 for none), Kind, axis, sign, unknown (-1: its value is given), ball (-1: none).
-    // At the first of the three turns of a ball stands where they are counted from.
-    const std::int64_t* node;
-    // [rows, 5]: RowKind, first and second node, axis, other axis.
-    const std::int64_t* row;
-};
 
 // The way of the dimensions in a time from 0 to 1.
 struct Way {

@@ -84,6 +84,6 @@ def followed(linkage: SpatialLinkage, values: Reals, order: int = 0, speed: Arra
         drives=motion.drives[1:],
         poses=motion.poses[:, 1:],
         unknowns={key: each[:, 1:] for key, each in motion.unknowns.items()},
-        smallest=motion.smallest[1:],
+        derivatives=motion.derivatives[1:],
         passed=tuple(row - 1 for row in motion.passed if row),
     )

@@ -15,7 +15,8 @@ from gruebler import _core
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.space.following import RANK
-from gruebler.mechanics.space.tree import ACROSS, LENGTH, OFFSET, ClosureTree, Dimension, FrameOn
+from gruebler.mechanics.space.tables import tables_of
+from gruebler.mechanics.space.tree import ACROSS, LENGTH, ClosureTree, Dimension
 from gruebler.structure.chain.spaces import Space
 
 Complexes = NDArray[np.complex128]
@@ -117,55 +118,18 @@ class ClosureStructure:
 
 def structure_of(tree: ClosureTree, held: frozenset[int]) -> tuple[ClosureStructure, ComplexDimensions]:
     """The structure of a tree and its dimensions; the unknowns that are held keep the value 0."""
-    passive = [k for k in range(tree.unknowns) if k not in held]
-    column = {k: i for i, k in enumerate(passive)}
-    rows: list[tuple[int, ...]] = []
-    nodes: list[tuple[int, ...]] = [(-1, 0, 0, 1, -1, -1)]
-    frames: list[Reals] = [np.eye(4)]
-    dimension: list[Dimension | None] = [None]
-    node_of, balls = [0], 0
-    marks: dict[tuple[int, Dimension], int] = {}
-
-    def still(parent: int, at: Reals, what: Dimension | None) -> int:
-        if what is None:
-            return parent
-        nodes.append((parent, 0, 0, 1, -1, -1))
-        frames.append(at)
-        dimension.append(what)
-        return len(nodes) - 1
-
-    for k, node in enumerate(tree.nodes[1:], 1):
-        parent = still(node_of[node.parent], node.still, node.dimension)
-        begins_ball = k in tree.folds and all(j in column for j in range(k - 1, k + 2))
-        kind = 1 if node.turn else 2
-        nodes.append((parent, kind, node.axis, int(node.sign), column.get(k - 1, -1), balls if begins_ball else -1))
-        frames.append(np.eye(4))
-        dimension.append(None)
-        balls += begins_ball
-        node_of.append(len(nodes) - 1)
-
-    def mark(frame: FrameOn) -> int:
-        if frame.dimension is None:
-            return node_of[frame.node]
-        key = (frame.node, frame.dimension)
-        if key not in marks:
-            marks[key] = still(node_of[frame.node], frame.at, frame.dimension)
-        return marks[key]
-
-    kinds = {OFFSET: 0, ACROSS: 1, LENGTH: 2}
-    for row in tree.rows:
-        rows.append((kinds[row.kind], mark(row.first), mark(row.second), row.axis, row.other))
+    tables = tables_of(tree, held)
     structure = ClosureStructure(
-        nodes=np.array(nodes, np.int64),
-        rows=np.array(rows, np.int64).reshape(-1, 5),
-        dimension=tuple(dimension),
+        nodes=tables.nodes,
+        rows=tables.rows,
+        dimension=tables.dimension,
         space=tree.linkage.mechanism.chain.space,
-        unknowns=len(passive),
-        balls=balls,
-        node_of=tuple(node_of),
+        unknowns=tree.unknowns - len(held),
+        balls=tables.balls,
+        node_of=tables.node_of,
     )
-    lengths = np.array([row.length for row in tree.rows], complex)
-    return structure, ComplexDimensions(np.array(frames, complex), lengths, np.zeros(len(nodes), complex))
+    given = np.zeros(len(tables.nodes), complex)
+    return structure, ComplexDimensions(tables.frames.astype(complex), tables.lengths.astype(complex), given)
 
 
 # --- motions with complex entries ------------------------------------------------------------------------------------

@@ -228,7 +228,7 @@ def _held(linkage: SpatialLinkage, row: Reals) -> tuple[ClosureTree, frozenset[i
             rows=len(tree.rows),
             unknowns=len(passive),
         )
-    by_unknown = closure.linearised(np.zeros(tree.unknowns), closure.still)[1]
+    by_unknown = closure.linearised(closure.reference)[1]
     held = most_idle(by_unknown[:, passive], passive, free) if free else []
     values = dict(zip(tree.drives, (np.array(others) * tree.signs).tolist(), strict=True))
     return tree, frozenset({*held, *tree.drives}), values

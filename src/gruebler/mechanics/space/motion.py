@@ -78,10 +78,8 @@ class SpatialMotion:
     """(order + 1, rows): the values of the freedoms (joint, direction) that were solved for, with whole turns."""
     rank: int
     """Of the closing conditions without the drives; constant along the motion."""
-    conditions: int
-    """How many closing conditions there are."""
-    smallest: Reals
-    """(rows,): the smallest singular value that counts, of the largest; 0 where assembly modes meet."""
+    derivatives: Reals
+    """(rows, conditions, freedoms): of the closing conditions by the freedoms solved for, lengths in sizes."""
     gap: float
     """The largest distance by which a joint is open, of the size."""
     idle: tuple[str, ...]
@@ -97,6 +95,19 @@ class SpatialMotion:
     def complete(self) -> bool:
         """Whether the whole path was followed."""
         return self.stop is None
+
+    @property
+    def conditions(self) -> int:
+        """How many closing conditions there are."""
+        return int(self.derivatives.shape[1])
+
+    @cached_property
+    def smallest(self) -> Reals:
+        """(rows,): the smallest singular value of the derivatives, of the largest; 0 where assembly modes meet."""
+        if not self.rank:
+            return np.ones(len(self))
+        values = np.linalg.svd(self.derivatives, compute_uv=False)
+        return np.asarray(values[:, self.rank - 1] / values[:, 0])
 
     @property
     def order(self) -> int:

@@ -18,9 +18,10 @@ from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike
 from gruebler.mechanics.screws.model import SpatialLinkage
-from gruebler.mechanics.space.following import Followed, Setting, follow, setting
+from gruebler.mechanics.space.closure import Place
+from gruebler.mechanics.space.following import Setting, is_limit, setting
 from gruebler.mechanics.space.motion import SpatialMotion, SpatialStop
-from gruebler.mechanics.space.series import poses_of_series, series_of_motion
+from gruebler.mechanics.space.rods import place_rods_of_series
 
 _FAST = 0.5  # of the fastest joint: joints that move so fast in a last position are named
 
@@ -88,7 +89,7 @@ def move(
 
     Cost:
         In the plane 10 to 30 ns a pose of a dyad where rows are taken in sweeps, 0.1 to 0.3 us where each is walked
-        to, 1 to 3 us of a group of four links. In space about a millisecond a pose.
+        to, 1 to 3 us of a group of four links. In space 1 to 15 us a pose, and up to a millisecond for each motion.
 
     Example:
         >>> from gruebler.mechanics.kinematics import from_degrees
@@ -122,77 +123,54 @@ def move(
 def moved(set_up: Setting, path: Reals, speeds: Reals) -> SpatialMotion:
     """The motion along drive values (rows, drives), with rates (order, rows, drives)."""
     tree = set_up.closure.tree
-    unit = _units(set_up)
+    unit = set_up.closure.units
     sides = np.array([tree.signs[tree.drives.index(k)] for k in set_up.drives.tolist()])
     order = [tree.drives.index(k) for k in set_up.drives.tolist()]
-    own = path[:, order] * sides / unit[set_up.drives]
-    followed = follow(set_up, own)
-    rows = len(followed.places)
-    poses, values, gap = _solved(set_up, followed, speeds[:, :rows, order] * sides / unit[set_up.drives])
+    scale = sides / unit[set_up.drives]
+    own = path[:, order] * scale
+    factors = np.array([float(factorial(k)) for k in range(len(speeds) + 1)])
+    rates = speeds[:, :, order] * scale / factors[1:, None, None]
+    rows = set_up.closure.follow(set_up.passive, set_up.drives, own, rates)
+    count = len(rows.derivatives)
+    poses = rows.poses
+    if tree.rods:
+        place_rods_of_series(tree, poses)
+    poses *= factors[:, None, None, None, None]
+    poses[..., :3, 3] *= tree.scale
+    poses[..., :3, 3] -= poses[..., :3, :3] @ tree.linkage.centre
+    poses[0, ..., :3, 3] += tree.linkage.centre
+    balls = {start + k for start in tree.folds for k in (-1, 0, 1)}
+    stop = None if rows.end is None else _stop(set_up, rows.last, rows.end, own[count] - own[count - 1] * (count > 0))
     return SpatialMotion(
         linkage=tree.linkage,
-        drives=path[:rows],
+        drives=path[:count],
         poses=poses,
-        unknowns=values,
-        gap=gap,
+        unknowns={
+            key: rows.series[:, :, k] * factors[:, None] * unit[k] for key, k in tree.unknown.items() if k not in balls
+        },
+        derivatives=rows.derivatives,
+        gap=rows.gap,
         rank=set_up.rank,
-        conditions=len(tree.rows) + len(tree.gears),
-        smallest=followed.smallest,
         idle=tuple(tree.linkage.mechanism.chain.links[rod.link] for rod in tree.rods),
-        stop=_stop(set_up, followed),
-        passed=tuple(followed.passed),
+        stop=stop,
+        passed=tuple(rows.passed),
     )
 
 
-def _units(set_up: Setting) -> Reals:
-    """What a unit of each unknown is: a radian, or the size."""
-    closure = set_up.closure
-    return np.where(closure.turn[1:] > 0, 1.0, closure.tree.scale)
-
-
-def _solved(set_up: Setting, followed: Followed, rates: Reals) -> tuple[Reals, dict[tuple[int, str], Reals], float]:
-    """Poses, joint values and openings of the rows that were reached."""
-    closure, tree = set_up.closure, set_up.closure.tree
-    rows, orders = len(followed.places), len(rates) + 1
-    given = np.zeros((orders, rows, closure.unknowns))
-    for k in range(1, orders):
-        given[k][:, set_up.drives] = rates[k - 1] / factorial(k)
-    if not rows:
-        links = len(tree.links)
-        return np.zeros((orders, 0, links, 4, 4)), {}, 0.0
-    q = np.array([place.q for place in followed.places])
-    still = np.array([place.still for place in followed.places])
-    series = series_of_motion(closure, q, still, given, np.array(followed.inverses), set_up.passive)
-    poses = poses_of_series(closure, series, still)
-    scale, centre = tree.scale, tree.linkage.centre
-    poses[..., :3, 3] *= scale
-    poses[..., :3, 3] -= poses[..., :3, :3] @ centre
-    poses[0, ..., :3, 3] += centre
-    unit = _units(set_up)
-    factors = np.array([float(factorial(k)) for k in range(orders)])[:, None]
-    balls = {start + k for start in tree.folds for k in (-1, 0, 1)}
-    values = {key: series[:, :, k] * factors * unit[k] for key, k in tree.unknown.items() if k not in balls}
-    gap = max(float(abs(closure.linearised(place.q, place.still)[0]).max(initial=0.0)) for place in followed.places)
-    return poses, values, gap
-
-
-def _stop(set_up: Setting, followed: Followed) -> SpatialStop | None:
-    met = followed.met
-    if met is None:
-        return None
+def _stop(set_up: Setting, last: Place, row: float, change: Reals) -> SpatialStop:
     tree = set_up.closure.tree
     chain = tree.linkage.mechanism.chain
-    _, by_unknown, _ = set_up.closure.linearised(met.place.q, met.place.still)
+    by_unknown = set_up.closure.linearised(last)[1]
     fast = np.linalg.svd(by_unknown[:, set_up.passive])[2][set_up.rank - 1]
     share = dict(zip(set_up.passive.tolist(), abs(fast), strict=True))
     names = chain.joint_names()
     joints = {names[joint]: share.get(k, 0.0) for (joint, _), k in tree.unknown.items()}
     most = max(joints.values(), default=0.0)
-    values = met.place.q[list(tree.drives)] * _units(set_up)[list(tree.drives)] * tree.signs
+    values = last.q[list(tree.drives)] * set_up.closure.units[list(tree.drives)] * tree.signs
     return SpatialStop(
-        row=max(met.row, 0.0),
+        row=max(row, 0.0),
         drives=tuple(map(float, values)),
         joints=tuple(name for name, value in joints.items() if value > _FAST * most > 0),
-        reason="limit" if met.is_limit else "singular",
+        reason="limit" if is_limit(set_up, last, change) else "singular",
         linkage=tree.linkage,
     )
