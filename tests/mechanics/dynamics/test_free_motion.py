@@ -64,6 +64,60 @@ def test_windows_pass_their_change_points_as_one_pendulum(n, time):
     assert fall.defect < 1e-10
 
 
+SIX_BARS = {"Watt": ("3-4", (1.8, 1.3), (2, 0)), "Stephenson": ("2-4", (1.2, 1.5), (1.2, 0.5))}
+"""Which link of a parallelogram drives a dyad, from where, and about which pivot that place turns."""
+CRANK = RigidBody(1.0, (0.5, 0), 1 / 12)
+DYAD = {"4": RigidBody(0.7, (0.5, 0.1), 0.2), "5": RigidBody(0.8, (0.3, 0), 0.1)}
+
+
+def six_bar(kind):
+    """A parallelogram of 2 m and 1 m, cranks upright, with a dyad."""
+    driven, place, _ = SIX_BARS[kind]
+    joints = f"R(0-1) R(1-2) R(2-3) R(0-3) R({driven}) R(4-5) R(0-5)"
+    places = dict(zip(joints.split(), [(0, 0), (0, 1), (2, 1), (2, 0), place, (3.8, 2.0), (4.2, 0.3)], strict=True))
+    linkage = Linkage.from_drawing(
+        Mechanism.parse(f"{joints}; frame=0; drive=R(0-1)"), places, points={"C": ("2", 1.0, 1.0)}, unit="m"
+    )
+    return linkage, Loads(bodies={"1": CRANK, "3": CRANK, **DYAD}, masses={"C": 1.0}, gravity=(0, -9.81))
+
+
+def its_four_bar(kind):
+    """The coupler of the parallelogram only shifts: one crank with both inertias, and the coupler's mass at its end."""
+    _, place, pivot = SIX_BARS[kind]
+    joints = "R(0-3) R(3-4) R(4-5) R(0-5)"
+    places = dict(zip(joints.split(), [pivot, place, (3.8, 2.0), (4.2, 0.3)], strict=True))
+    end = (pivot[0], pivot[1] + 1.0)
+    linkage = Linkage.from_drawing(
+        Mechanism.parse(f"{joints}; frame=0; drive=R(0-3)"), places, points={"E": ("3", *end)}, unit="m"
+    )
+    pose = linkage.required_pose["3"]
+    middle = pose.to_local(pivot[0], pivot[1] + 0.5)
+    both = RigidBody(2.0, middle, 2 / 12)
+    return linkage, Loads(bodies={"3": both, **DYAD}, masses={"E": 1.0}, gravity=(0, -9.81))
+
+
+@pytest.mark.parametrize(
+    ("kind", "drive"),
+    [("Watt", "R(0-1)"), ("Watt", "R(3-4)"), ("Watt", "R(0-5)"), ("Stephenson", "R(0-1)"), ("Stephenson", "R(0-5)")],
+)
+def test_six_bars_pass_the_change_points_of_their_parallelogram_as_a_four_bar(kind, drive):
+    """Any joint may be the coordinate; of Stephenson's chain R(0-5) asks for a group of four links, until exchanged."""
+    linkage, loads = six_bar(kind)
+    mechanism = linkage.mechanism
+    driven = linkage.with_mechanism(Mechanism(mechanism.chain, mechanism.frame, [drive]))
+    ratio = simulate(driven, loads, speed=1.0, until=1e-6, times=[0]).angular("1")[0]
+    fall = simulate(driven, loads, speed=-1.0 / ratio, until=2.0, times=[0, 1.0, 2.0], tolerance=1e-11)
+    single, its = its_four_bar(kind)
+    wanted = simulate(single, its, speed=-1.0, until=2.0, times=[0, 1.0, 2.0], tolerance=1e-11)
+    for link in ("4", "5"):
+        gaps = [np.diff(run.angle(link)) for run in (fall, wanted)]
+        assert gaps[0] == pytest.approx(gaps[1], abs=1e-8)
+    turned = fall.angle("1") - fall.angle("1")[0]
+    assert turned[-1] < -np.pi  # past both change points, at 0 and 180°
+    assert turned == pytest.approx(wanted.angle("3") - wanted.angle("3")[0], abs=1e-8)
+    assert fall.defect < 1e-9
+
+
 def test_windows_at_ten_seconds_as_printed():
     # the scalar form gives what Exudyn's example prints at h = 1.25e-4: (0.3284573768, 0.9445187937), to its 7e-7
     angle, _ = exact_windows(2, 10.0)

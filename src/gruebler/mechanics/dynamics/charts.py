@@ -34,7 +34,8 @@ _FLIPS = 1e-2  # a root that comes so near to zero in the change point goes thro
 _LOOKED = 0.05  # radians or sizes between the poses from which a zero of a root is foretold
 _FORETOLD = 0.6  # so far it is
 _AT_JOINT = 1e-9  # radians: a law so near to the end of one of its pieces is at it
-_KINK = 1e-7  # of the speeds: where they jump by more at such an end there is an impact
+_SEAM = 1e-7  # charts that differ by more where they meet are not one branch, or there is an impact
+_ONWARD = 0.1  # of the half width: so far a chart round a change point leads on at least
 _PERIOD = 2 * np.pi
 _FAR = 2 * _PERIOD  # radians or sizes: a trial step that leads farther beyond all charts is to be taken shorter
 _SAME = 1e-9  # in sizes: poses that differ by less are one
@@ -205,16 +206,22 @@ class Charts:
         for tried, width in enumerate(_WIDTHS):
             low, high = sorted((edge, self._smooth(edge, edge + side * width * self.scale, start)))
             chart = self._ordinary(low, high, start)
-            if chart is not None and self._joints and _kink(last, chart, edge) > _KINK:
-                break
-            if chart is not None:
+            if chart is None and tried == 0:
+                chart = self._beside_change(start, edge, side)
+            if chart is not None and _mismatch(last, chart, edge) < _SEAM:
                 return chart
-            if tried == 0:
-                chart = self._round_change(start, edge, -float(side))
-                if chart is not None and (chart.high if side > 0 else -chart.low) > side * edge:
-                    return replace(chart, low=edge) if side > 0 else replace(chart, high=edge)
         self._blocked.add(side)
         raise Blocked
+
+    def _beside_change(self, start: ReferencePose, edge: float, side: int) -> Chart | None:
+        """A chart round a change point that reaches from here to its other side."""
+        chart = self._round_change(start, edge, -float(side))
+        if chart is None or abs(edge - chart.middle) > chart.half:
+            return None
+        beyond = chart.high - edge if side > 0 else edge - chart.low
+        if beyond < _ONWARD * chart.half:
+            return None
+        return replace(chart, low=edge) if side > 0 else replace(chart, high=edge)
 
     def _past_joints(self, path: Reals, start: ReferencePose) -> Complexes | None:
         """(rows, joints of laws): where the laws are looked up, as directions against the ends of their pieces."""
@@ -344,13 +351,14 @@ def _pose_on(chart: Chart, q: float) -> Complexes:
     return np.concatenate([six[0], six[3]])
 
 
-def _kink(before: Chart, behind: Chart, q: float) -> float:
-    """By how much the speeds at unit speed of the drive jump, as a part of the largest."""
-    slow, fast = (
-        chebyshev.chebval((q - chart.middle) / chart.half, chart.series).reshape(6, -1)[[1, 4]]
+def _mismatch(before: Chart, behind: Chart, q: float) -> float:
+    """By how much two charts differ where they meet: places in sizes, turns, and speeds by the largest."""
+    first, second = (
+        chebyshev.chebval((q - chart.middle) / chart.half, chart.series).reshape(6, -1)[[0, 3, 1, 4]]
         for chart in (before, behind)
     )
-    return float(np.abs(fast - slow).max() / np.abs([fast, slow]).max())
+    gaps = np.abs(first - second).max(axis=1)
+    return float(max(gaps[0], gaps[1], *(gaps[2:] / np.abs(second[2:]).max())))
 
 
 def _fitted(nodes: Reals, values: Complexes, within: float) -> Complexes | None:
