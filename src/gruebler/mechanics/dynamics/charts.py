@@ -6,6 +6,7 @@ round a change point from poses on both sides, behind it with the other signs. d
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -24,6 +25,7 @@ _NODES = 24  # of an ordinary chart
 _BOTH_SIDES = 48  # of a chart round a change point, less those in its middle
 _GAP = 0.25  # of the half width: so near to a change point no pose is taken
 _WIDTHS = (0.5, 0.25, 0.12, 0.06, 0.03, 0.015, 0.007, 0.003)  # radians or sizes: of ordinary charts, tried in turn
+_WIDE = (4.0, 2.0, 1.0)  # of wheels, which turn many times and never come back
 _HALF_WIDTHS = (1.0, 0.5, 0.25, 0.12, 0.06)  # of charts round a change point
 _USED = 0.7  # the part of a chart round a change point that is used: beyond it ordinary charts go on
 _FIT = 1e-11  # of the largest value: an ordinary chart must fit all its poses and derivatives so well
@@ -140,9 +142,9 @@ class Charts:
         self.known = self.known or [self._first()]
         while True:
             at = self._reduced(q)
-            for chart in self.known:
-                if chart.low <= at <= chart.high:
-                    return chart
+            place = bisect_right(self.known, at, key=lambda chart: chart.low) - 1
+            if place >= 0 and at <= self.known[place].high:
+                return self.known[place]
             side = 1 if at > self.known[-1].high else -1
             edge = self.known[-1].high if side > 0 else self.known[0].low
             if side in self._blocked or abs(at - edge) > _FAR * self.scale:
@@ -203,10 +205,10 @@ class Charts:
         """The chart beside the last one on a side."""
         last = self.known[-1 if side > 0 else 0]
         edge, start = (last.high, last.starts[1]) if side > 0 else (last.low, last.starts[0])
-        for tried, width in enumerate(_WIDTHS):
+        for width in _WIDE + _WIDTHS if self.plan.wheels else _WIDTHS:
             low, high = sorted((edge, self._smooth(edge, edge + side * width * self.scale, start)))
             chart = self._ordinary(low, high, start)
-            if chart is None and tried == 0:
+            if chart is None and width == _WIDTHS[0]:
                 chart = self._beside_change(start, edge, side)
             if chart is not None and _mismatch(last, chart, edge) < _SEAM:
                 return chart
