@@ -70,7 +70,8 @@ export function gripAt(picture: Backdrop, place: Pair, reach: number): Grip | nu
   return toHull(cornersOf(picture), ...place) === 0 ? "move" : null;
 }
 
-/** The picture after a grip was dragged from a place to another: moved, sized about its middle, turned by whole degrees. */
+/** The picture after a grip was dragged from a place to another: moved, sized about its middle, turned by whole
+ * degrees. */
 export function gripped(picture: Backdrop, grip: Grip, from: Pair, to: Pair): Backdrop {
   const [x, y, wide, turned] = picture.at as [number, number, number, number];
   const away = ([px, py]: Pair) => Math.hypot(px - x, py - y);

@@ -140,7 +140,8 @@ export class BuildView implements View, Plane, Drawn {
           {},
           t(
             "Ground, slider: one click. Link, cylinder: two clicks. Dyad: end, middle, end. Gear pair: both centres, " +
-              "then where they touch; beyond a centre the other wheel has internal teeth. Ends meet what is near them, and stop in line with others, at round angles and " +
+              "then where they touch; beyond a centre the other wheel has internal teeth. Ends meet what is near " +
+              "them, and stop in line with others, at round angles and " +
               "at lengths of other links. With Shift links are level or upright. Keys: arrows and Enter.",
           ),
         ),

@@ -273,7 +273,7 @@ function placeOf({ at, between, links, part, slide }: Knot): unknown {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
   if (part === undefined) return [...from, (Math.atan2(dy, dx) * 180) / Math.PI];
   const far = Math.hypot(dx, dy);
-  const side = part < 0 || part > 1 ? -far : far; // the larger of two wheels on one side is internal, with a negative radius
+  const side = part < 0 || part > 1 ? -far : far; // the larger of two on one side is internal: a negative radius
   const radii = [part * side, side - part * side];
   return Object.fromEntries(links.map((link, k) => [link, { at: [...between[k]!], radius: radii[k] }]));
 }
