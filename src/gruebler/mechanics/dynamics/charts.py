@@ -205,7 +205,7 @@ class Charts:
         """The chart beside the last one on a side."""
         last = self.known[-1 if side > 0 else 0]
         edge, start = (last.high, last.starts[1]) if side > 0 else (last.low, last.starts[0])
-        for width in _WIDE + _WIDTHS if self.plan.wheels else _WIDTHS:
+        for width in _WIDE + _WIDTHS if self.plan.wheels and not self._laws else _WIDTHS:
             low, high = sorted((edge, self._smooth(edge, edge + side * width * self.scale, start)))
             chart = self._ordinary(low, high, start)
             if chart is None and width == _WIDTHS[0]:
