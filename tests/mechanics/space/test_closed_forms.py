@@ -304,3 +304,19 @@ def test_types_by_hand():
     assert str(RSSR(a=30, b=140, c=80, d=100).type) == str(FourBar(30, 140, 80, 100).type)
     assert UniversalJoint(acos(0.8)).speed_ratios == pytest.approx((0.8, 1.25))
     assert tan(UniversalJoint(0.7).phase_error_at) ** 2 == pytest.approx(cos(0.7))
+
+
+def test_a_dead_centre_of_an_rssr_may_lie_at_the_start():
+    """The rocker's plane holds the crank's axis: dead centres at 0 and half a turn; by rounding beyond the arcs."""
+    size = RSSR(
+        a=27.109852694106195,
+        b=123.22329955787785,
+        c=79.02023159299641,
+        d=24.956176900171034,
+        twist=np.pi / 2,
+        crank_offset=104.74179584111512,
+    )
+    drives = [centre.drive for centre in size.dead_centres()]
+    assert np.cos(drives) == pytest.approx([1, -1], abs=1e-9) or np.cos(drives) == pytest.approx([-1, 1], abs=1e-9)
+    psi = size.motion([0.0, np.pi]).output.value
+    assert size.swing() == pytest.approx(abs(psi[1] - psi[0]))

@@ -17,6 +17,7 @@ from gruebler.mechanics.fourbar import turning_ranges
 from gruebler.mechanics.geometry import cognates, inflection_circle, path_curvature, poles
 from gruebler.mechanics.geometry.meyer_zur_capellen import symmetric_rocker
 from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.mechanics.space import RSSR, UniversalJoint
 from gruebler.pictures.canvas.construction_files import construction_bytes
 from gruebler.pictures.canvas.shapes import ArcShape, Polylines, TextShape, text_width
 from gruebler.pictures.canvas.styles import STYLES
@@ -477,3 +478,57 @@ def test_a_length_that_is_not_positive_is_refused(name, form, key):
     """It was drawn: circles of the radii b and -b are the same."""
     with pytest.raises(GrueblerError, match=f"{key} must be positive, not -71"):
         construction(name, form, **{key: -71.0})
+
+
+def test_universal_joints_in_two_views():
+    random = Random(31)
+    for _ in range(MANY):
+        beta, phi = random.uniform(5, 70), random.uniform(5, 85)
+        made = construction("universal-joint", beta=beta, phi=phi).values
+        psi = degrees(float(UniversalJoint(radians(beta)).motion(radians(phi)).output.value))
+        assert made["psi"] == pytest.approx(psi, **CLOSE)
+        assert made["lead"] == pytest.approx(psi - phi, **CLOSE)
+
+
+def test_positions_of_rssr_in_two_views():
+    """Against the closed form, wherever the linkage can be assembled."""
+    random, compared = Random(32), 0
+    while compared < MANY:
+        lengths = {key: random.uniform(30, 120) for key in "abcd"}
+        offsets = {key: random.uniform(-40, 40) for key in ("crank_offset", "rocker_offset")}
+        twist, phi = random.uniform(-150, 150), random.uniform(-180, 180)
+        size = RSSR(**lengths, **offsets, twist=radians(twist))
+        psi = size.motion(radians(phi)).output.value if size.limits else np.nan
+        if np.isfinite(psi):
+            made = construction("rssr", **lengths, **offsets, twist=twist, phi=phi).values
+            assert np.exp(1j * radians(made["psi"])) == pytest.approx(np.exp(1j * psi), abs=1e-6)
+            compared += 1
+
+
+def test_dead_centres_of_rssr_in_two_views():
+    random, compared = Random(33), 0
+    while compared < 30:
+        a, b, c = random.uniform(10, 40), random.uniform(60, 160), random.uniform(30, 90)
+        d, height = random.uniform(0, 90), random.uniform(20, 150)
+        size = RSSR(a=a, b=b, c=c, d=d, twist=np.pi / 2, crank_offset=height)
+        if size.type.key != "crank_rocker":
+            continue
+        made = construction("rssr-dead-centres", a=a, b=b, c=c, d=d, crank_offset=height).values
+        at = {round(degrees(centre.drive)) % 360: centre.output for centre in size.dead_centres()}
+        assert set(at) == {0, 180}
+        for key, drive in (("psi_0", 0), ("psi_180", 180)):
+            assert np.exp(1j * radians(made[key])) == pytest.approx(np.exp(1j * at[drive]), abs=1e-6)
+        assert made["swing"] == pytest.approx(degrees(size.swing()), **CLOSE)
+        compared += 1
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "words"),
+    [
+        ("universal-joint", {"beta": 90}, "between 0 and 90"),
+        ("rssr-dead-centres", {"b": 60}, "no crank-rocker"),
+    ],
+)
+def test_what_two_views_do_not_show(name, values, words):
+    with pytest.raises(LinkageError, match=words):
+        construction(name, **values)

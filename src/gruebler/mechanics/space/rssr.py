@@ -112,7 +112,11 @@ class RSSR:
             return None
         back = self.reversed()
         at = float(self.motion(0.0, branch=branch).output.value)
-        (arc,) = [arc for arc in back.limits if (math.pi - at) in arc]
+        # A dead centre at phi = 0 lies at the end of its arc, and by rounding beyond it: the arc that comes nearest.
+        arc = min(
+            back.limits,
+            key=lambda arc: abs(math.remainder(math.pi - at - (arc.start + arc.end) / 2, TURN)) - arc.width / 2,
+        )
         centres = []
         for psi, kind in ((math.pi - arc.end, "minimum"), (math.pi - arc.start, "maximum")):
             cosine, sine = (np.array([part(math.pi - psi)]) for part in (np.cos, np.sin))

@@ -39,6 +39,11 @@ from gruebler.teaching.constructions.dead_centres import (
 from gruebler.teaching.constructions.instant_centres import instant_centres_of_four_bar, instant_centres_of_slider_crank
 from gruebler.teaching.constructions.machines import cam_profile, geneva_drive
 from gruebler.teaching.constructions.positions import three_positions, two_positions
+from gruebler.teaching.constructions.two_views import (
+    dead_centres_of_rssr,
+    rssr_in_two_views,
+    universal_joint_in_two_views,
+)
 from gruebler.teaching.constructions.velocities import (
     velocities_of_four_bar,
     velocities_of_inverted_slider_crank,
@@ -133,6 +138,13 @@ _ROWS = (
     ),
     ConstructionRow("two-positions", message("linkage for two positions of a body"), "", {"": two_positions}),
     ConstructionRow("three-positions", message("linkage for three positions of a body"), "", {"": three_positions}),
+    ConstructionRow(
+        "universal-joint", message("angle of a universal joint in two views"), "", {"": universal_joint_in_two_views}
+    ),
+    ConstructionRow("rssr", message("position of an RSSR linkage in two views"), "", {"": rssr_in_two_views}),
+    ConstructionRow(
+        "rssr-dead-centres", message("dead centres of an RSSR linkage in two views"), "", {"": dead_centres_of_rssr}
+    ),
     ConstructionRow("geneva", message("Geneva drive"), "1", {"": geneva_drive}),
     ConstructionRow("cam", message("cam profile from its lift diagram"), "1", {"": cam_profile}),
 )
