@@ -123,11 +123,12 @@ def add(parser: Parser) -> None:
         "path",
         help="guide a coupler point through points or along a curve",
         description="Four-bars whose coupler point passes through points: nine points, five points and both fixed "
-        "pivots, five points with crank angles, mixed tasks, each with all solutions; whole curves by least squares.",
+        "pivots, five points with crank angles, mixed tasks, each with all solutions; whole curves, and targets of "
+        "several kinds with tolerances, by least squares.",
     )
     path.take(
         """
-        task TASK  a .toml, .json or .csv file; CSV columns x,y or x,y,crank or x,y,angle
+        task TASK  a .toml, .json or .csv file; CSV columns x,y and angle, crank, output, tolerance, weight where wanted
         --closed  the points are a closed curve
         --fixed-pivot X Y float ...  a given pivot on the frame; give it twice for both
         """

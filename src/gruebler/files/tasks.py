@@ -10,6 +10,7 @@ import io
 import json
 import warnings
 from collections.abc import Iterable, Mapping
+from itertools import compress
 from pathlib import Path
 from typing import Any
 
@@ -36,11 +37,14 @@ class _Positions(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True)
 
 
 class _Path(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    points: list[list[float]]
+    points: list[list[float] | None]
     angles: list[Any] = []
     crank_angles: list[Any] = []
     fixed_pivots: list[list[float]] = []
     closed: bool = False
+    output_angles: list[Any] = []
+    tolerances: list[float | None] = []
+    weights: list[float] = []
 
 
 class _Function(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -105,9 +109,9 @@ def task_from_json(document: Mapping[str, Any]) -> Task:
             "a task has positions, points, inputs and outputs, a function, or a swing or stroke; found none of them"
         )
     given = dict(document)
-    for key, short in (("angles", None), ("crank_angles", None)):  # null stands for a free angle in JSON, "" in TOML
+    for key in ("points", *_TURNED, "tolerances"):  # null stands for what is free in JSON, "" in TOML
         if isinstance(given.get(key), list):
-            given[key] = [short if value == "" else value for value in given[key]]
+            given[key] = [None if value == "" else value for value in given[key]]
     record = convert_document(given, kind, SynthesisError)
     with warnings.catch_warnings(action="ignore", category=UnitWarning):  # these are degrees
         return _task(record)
@@ -128,9 +132,9 @@ def _task(record: Any) -> Task:
             rows = [(row[0], row[1], _radians(row[2], f"positions {k + 1}")) for k, row in enumerate(record.positions)]
             return PositionTask(**{**data, "positions": rows})
         case _Path():
-            angles = [None if a is None else _radians(a, f"angles {k + 1}") for k, a in enumerate(record.angles)]
-            timing = [_radians(a, f"crank_angles {k + 1}") for k, a in enumerate(record.crank_angles)]
-            return PathTask(**{**data, "angles": tuple(angles), "crank_angles": tuple(timing)})
+            for key in _TURNED:
+                data[key] = [None if a is None else _radians(a, f"{key} {k + 1}") for k, a in enumerate(data[key])]
+            return PathTask(**data)
         case _Function():
             inputs = [_radians(a, f"inputs {k + 1}") for k, a in enumerate(record.inputs)]
             turning = record.output == "angle"
@@ -174,12 +178,13 @@ def task_to_json(task: Task) -> dict[str, Any]:
             more: dict[str, Any] = {name: [list(p) for p in getattr(task, name)] for name in _PIVOTS}
             more["curve_parameters"] = list(task.curve_parameters)
         case PathTask():
-            document["points"] = [list(point) for point in task.points]
-            more = {
-                "angles": [None if a is None else in_degrees(a) for a in task.angles],
-                "crank_angles": [in_degrees(a) for a in task.crank_angles],
+            document["points"] = [None if point is None else list(point) for point in task.points]
+            more = {key: [None if a is None else in_degrees(a) for a in getattr(task, key)] for key in _TURNED}
+            more |= {
                 "fixed_pivots": [list(p) for p in task.fixed_pivots],
                 "closed": task.closed,
+                "tolerances": list(task.tolerances),
+                "weights": list(task.weights),
             }
         case FunctionTask(law=FunctionLaw() as law):
 
@@ -215,14 +220,22 @@ def task_to_json(task: Task) -> dict[str, Any]:
 
 
 _PIVOTS = ("moving_pivots", "fixed_pivots")
+_TURNED = ("angles", "crank_angles", "output_angles")
+"""The angles that a path gives for its targets."""
+_COLUMNS_OF = {"angles": "angle", "crank_angles": "crank", "output_angles": "output"} | {
+    "tolerances": "tolerance",
+    "weights": "weight",
+}
+"""The columns of a CSV file beside x and y for what a path gives for its targets."""
 
 
 def read_task(path: Path | str) -> Task:
     """The task in a ``.toml``, ``.json`` or ``.csv`` file.
 
     The columns of a CSV file say what it is: ``x,y,angle`` positions (an empty angle is free: a mixed task), ``x,y``
-    points, ``x,y,crank`` points with crank angles, ``input,output`` or ``input,travel`` a function, ``swing`` or
-    ``stroke`` with ``crank_angle`` or ``time_ratio`` dead centres. Without a header two columns are points, three
+    points, perhaps with ``angle``, ``crank``, ``output``, ``tolerance``, ``weight`` (empty cells are free),
+    ``input,output`` or ``input,travel`` a function, ``swing`` or ``stroke`` with ``crank_angle`` or ``time_ratio`` dead
+    centres. Without a header two columns are points, three
     positions. With semicolons between the columns a comma is the decimal sign.
 
     Raises `SynthesisError` with file and key or line of the first thing that does not fit.
@@ -290,15 +303,16 @@ def _from_csv(text: str) -> Task:
         return [_angle(cell) for cell in columns[name]]
 
     match frozenset(header):
-        case names if names == {"x", "y", "angle"}:
-            x, y, turned = numbers("x"), numbers("y"), angles("angle")
-            if None in turned:
-                return task_from_json({"points": [list(p) for p in zip(x, y, strict=True)], "angles": turned})
-            return task_from_json({"positions": [list(p) for p in zip(x, y, turned, strict=True)]})
-        case names if names in ({"x", "y"}, {"x", "y", "crank"}):
-            points = [list(p) for p in zip(numbers("x"), numbers("y"), strict=True)]
-            timing = {"crank_angles": angles("crank")} if "crank" in names else {}
-            return task_from_json({"points": points, **timing})
+        case names if names == {"x", "y", "angle"} and all(columns["angle"]):
+            rows_of_numbers = zip(numbers("x"), numbers("y"), angles("angle"), strict=True)
+            return task_from_json({"positions": [list(row) for row in rows_of_numbers]})
+        case names if {"x", "y"} <= names <= {"x", "y", *_COLUMNS_OF.values()}:
+            placed = [bool(x or y) for x, y in zip(columns["x"], columns["y"], strict=True)]
+            for name in ("x", "y"):
+                columns[name] = list(compress(columns[name], placed))
+            places = map(list, zip(numbers("x"), numbers("y"), strict=True))
+            given: dict[str, Any] = {"points": [next(places) if there else None for there in placed]}
+            return task_from_json(given | {key: angles(name) for key, name in _COLUMNS_OF.items() if name in names})
         case names if names == {"input", "output"}:
             return task_from_json({"inputs": angles("input"), "outputs": angles("output")})
         case names if names == {"input", "travel"}:
@@ -382,12 +396,11 @@ def _to_csv(document: Mapping[str, Any]) -> str:
             header, rows = ["x", "y", "angle"], document["positions"]
         case _ if keys == {"points"}:
             header, rows = ["x", "y"], document["points"]
-        case _ if keys == {"points", "angles"}:
-            header = ["x", "y", "angle"]
-            rows = [[*p, "" if a is None else a] for p, a in zip(document["points"], document["angles"], strict=True)]
-        case _ if keys == {"points", "crank_angles"}:
-            header = ["x", "y", "crank"]
-            rows = [[*p, a] for p, a in zip(document["points"], document["crank_angles"], strict=True)]
+        case _ if {"points"} < keys <= {"points", *_COLUMNS_OF}:
+            more = [key for key in _COLUMNS_OF if key in keys]
+            header = ["x", "y", *(_COLUMNS_OF[key] for key in more)]
+            lists = [[p or ["", ""] for p in document["points"]], *(document[key] for key in more)]
+            rows = [[*p, *("" if v is None else v for v in rest)] for p, *rest in zip(*lists, strict=True)]
         case _ if keys == {"inputs", "outputs", "output", "start_input", "start_output"} and (
             document["start_input"] and document["start_output"]
         ):

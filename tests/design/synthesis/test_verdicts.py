@@ -333,7 +333,7 @@ def test_a_curve_that_leaves_its_targets_between_two_of_them_is_rejected():
     verdicts = {}
     for closed in (False, True):
         curve = GuidedCurve.of(replace(task, closed=closed))
-        targets = point_targets("P", task.z, 3.0)._replace(curve=curve)
+        targets = replace(point_targets("P", task.z, 3.0), curve=curve)
         start = four_bar.with_reference_pose(motion.pose(1))
         verdicts[closed] = judge_design(start, targets, Demands(tolerance=0.05), "four-bar").verdict
     assert verdicts[False].accepted

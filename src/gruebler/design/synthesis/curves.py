@@ -94,7 +94,7 @@ def fit_curve(
     middle = z.mean()
     reduced = (z - middle) / size
     placed: list[tuple[Fit, FitLimits]] = []
-    for limits in _limits(demands, pivots, kinds, closed, (complex(middle), size)):
+    for limits in limits_of(demands, pivots, kinds, closed, (complex(middle), size)):
         begins = (
             neighbours(reduced, limits, closed=closed, number=starts)
             if timing is None
@@ -145,7 +145,7 @@ _LENGTHS = {"crank": "a", "coupler": "b", "rocker": "c", "frame": "frame"}
 """The names of lengths that a demand may give, as the numbers of a fit."""
 
 
-def _limits(
+def limits_of(
     demands: Demands | None,
     pivots: Sequence[complex],
     kinds: Iterable[FourBarKind],
@@ -367,9 +367,11 @@ def _judged(task: PathTask, demands: Demands, fit: Fit) -> list[Design]:
     def targets(linkage: Linkage) -> Targets:
         size, curve = _extent(task.z), GuidedCurve.of(task)
         if not task.crank_angles:
-            return Targets((Probe("P"),), task.z[:, None], size, curve)
+            return Targets((Probe("P"),), task.z[:, None], size, curve=curve)
         timing = np.array(task.crank_angles)
         crank = size * np.exp(1j * (linkage.required_pose["crank"].angle + timing - timing[0]))
-        return Targets((Probe("P"), Probe(link="crank", length=size)), np.stack([task.z, crank], axis=1), size, curve)
+        return Targets(
+            (Probe("P"), Probe(link="crank", length=size)), np.stack([task.z, crank], axis=1), size, curve=curve
+        )
 
     return [best_of(linkages[:1] if task.crank_angles else linkages, targets, demands, fit.kind.name)]

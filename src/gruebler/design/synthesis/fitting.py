@@ -83,9 +83,11 @@ def fit_targets(task: Task, aside: float = _ASIDE[-1]) -> FitTargets:
         case PositionTask():
             return FitTargets(size=task.size, z=task.origins, angles=task.angles)
         case PathTask():
+            if task.mixed:
+                raise SynthesisError("targets of several kinds are met by four-bars, not by given structures")
             extent = float(max(np.ptp(task.z.real), np.ptp(task.z.imag)))
             angles = np.array([np.nan if a is None else a for a in task.angles]) if task.angles else None
-            timing = np.array(task.crank_angles) if task.crank_angles else None
+            timing = np.array(task.crank_angles, np.float64) if task.crank_angles else None
             return FitTargets(size=extent, z=task.z, angles=angles, inputs=timing, curve=GuidedCurve.of(task))
         case FunctionTask():
             outputs = np.array(task.outputs)

@@ -7,7 +7,7 @@ the linkage's reference pose without regard to the drive, the places where it me
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -210,10 +210,12 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         path, full = path_through(course, met, limit), _turns_fully(course)
         drives: tuple[float, ...] = ()
         missed_by, transmission = met.error if path.in_order else path.error, np.nan
+        misses = np.full(len(targets.values), np.nan)
         if path.one_branch:
             if limit_before(course, float(path.arcs[0])):
                 linkage = linkage.with_reference_pose(course.at(path.arcs[:1]).pose(0))
-            drives, missed_by, transmission = _carried(linkage, course, path, targets)
+            drives, misses, transmission = _carried(linkage, course, path, targets)
+            missed_by = float(misses.max())
     except LinkageError as error:
         reasons.append(message("it cannot be followed from its first position: {error}", error=error))
         return Design(
@@ -228,10 +230,8 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         reasons.append(message("`move` does not lead through all targets"))
     elif path.one_branch and not missed_by <= limit:
         reasons.append(message("a target is missed by {error:.3g} of the size", error=missed_by))
-    if demands.crank and not full:
-        reasons.append(message("the drive does not turn fully"))
-    if demands.transmission > 0 and not transmission >= demands.transmission:
-        reasons.append(transmission_fault(float(transmission)))
+    elif path.one_branch and targets.allowed is not None:
+        reasons += _beyond_tolerance(misses, targets.allowed, limit - demands.tolerance)
     piece = _way_between(course, path, targets)
     if piece.excess > limit:
         reasons.append(
@@ -243,6 +243,7 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
                 distance=piece.distance,
             )
         )
+    reasons += _faults_of_drive(demands, full=full, transmission=float(transmission))
     verdict = DesignVerdict(
         assembles=True,
         one_circuit=True,
@@ -367,6 +368,27 @@ def faults_of_size(linkage: Linkage, ratio: float, inside: bool, demands: Demand
     return faults
 
 
+def _faults_of_drive(demands: Demands, *, full: bool, transmission: float) -> Iterator[Message]:
+    """A drive that does not turn although it should, a transmission angle that is too small."""
+    if demands.crank and not full:
+        yield message("the drive does not turn fully")
+    if demands.transmission > 0 and not transmission >= demands.transmission:
+        yield transmission_fault(transmission)
+
+
+def _beyond_tolerance(misses: Reals, allowed: Reals, rounding: float) -> Iterator[Message]:
+    """Which target is missed by more than its own tolerance, and by how much."""
+    over = misses - allowed - EXACT - rounding
+    worst = int(over.argmax())
+    if over[worst] > 0:
+        yield message(
+            "target {number} is missed by {error:.3g} of the size, its tolerance is {tolerance:.3g}",
+            number=worst + 1,
+            error=float(misses[worst]),
+            tolerance=float(allowed[worst]),
+        )
+
+
 def transmission_fault(transmission: float) -> Message:
     """That a transmission angle, in radians, is too small, or that there is none: NaN."""
     if np.isnan(transmission):
@@ -432,8 +454,8 @@ def _turns_fully(course: Circuit) -> bool:
 
 def _carried(
     linkage: Linkage, course: Circuit, path: TargetPath, targets: Targets
-) -> tuple[tuple[float, ...], float, float]:
-    """`move` through the targets: drive values, the largest error, the smallest transmission angle."""
+) -> tuple[tuple[float, ...], Reals, float]:
+    """`move` through the targets: drive values, how far each is missed, the smallest transmission angle."""
     order = np.argsort(path.arcs, kind="stable")
     low, high = path.arcs[order[0]], path.arcs[order[-1]]
     laps = (-1, 0, 1) if course.closed else (0,)
@@ -445,26 +467,27 @@ def _carried(
     rows = np.empty(len(arcs), np.int64)
     rows[ranks] = np.arange(len(arcs))
     begin = int(rows[0])
-    worst, least = 0.0, np.inf
+    misses, least = np.zeros(len(path.arcs)), np.inf
     values = tuple(float(drive[rows[k]]) for k in range(len(path.arcs)))
     # From target 1, where the reference pose is, to both ends.
     for part, forward in ((drive[begin:], True), (drive[: begin + 1][::-1], False)):
         motion = move_quietly(linkage, part, order=2)
         if not motion.complete:
-            return values, float("inf"), float("nan")
+            return values, np.full(len(misses), np.inf), float("nan")
         least = min(least, _least_transmission(motion))
-        worst = max(worst, _error(motion, targets, rows, begin, forward=forward))
-    return values, worst, least if np.isfinite(least) else np.nan
+        misses = np.maximum(misses, _misses(motion, targets, rows, begin, forward=forward))
+    return values, misses, least if np.isfinite(least) else np.nan
 
 
-def _error(motion: Motion, targets: Targets, rows: NDArray[np.int64], begin: int, *, forward: bool) -> float:
-    """The largest deviation of the targets that lie on this part of the way, relative to the size."""
+def _misses(motion: Motion, targets: Targets, rows: NDArray[np.int64], begin: int, *, forward: bool) -> Reals:
+    """How far each target that lies on this part of the way is missed, relative to the size; 0 for the others."""
+    misses = np.zeros(len(targets.values))
     reached = [k for k in range(len(targets.values)) if (rows[k] >= begin if forward else rows[k] <= begin)]
     at = [int(rows[k]) - begin if forward else begin - int(rows[k]) for k in reached]
-    if not reached:
-        return 0.0
-    misses = np.stack([probe.of_motion(motion)[at] for probe in targets.probes], axis=1) - targets.values[reached]
-    return float(np.sqrt(np.nansum(np.abs(misses) ** 2, axis=1)).max() / targets.size)
+    if reached:
+        gaps = np.stack([probe.of_motion(motion)[at] for probe in targets.probes], axis=1) - targets.values[reached]
+        misses[reached] = np.sqrt(np.nansum(np.abs(gaps) ** 2, axis=1)) / targets.size
+    return misses
 
 
 def _least_transmission(motion: Motion) -> float:

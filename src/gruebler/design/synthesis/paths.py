@@ -79,8 +79,6 @@ def synthesise_path(
     ('four-bars', 36, 36, 14)
     """
     run = _Run(task=task, demands=demands or Demands(), number=number, threads=threads, progress=progress)
-    if task.fixed_pivots and len(run.oriented) > 1 and not task.crank_angles:
-        raise SynthesisError("fixed pivots go with points alone, without coupler angles")
     return next((method.solve for method in _METHODS if method.suits(run)), _finite)(run)
 
 
@@ -127,11 +125,6 @@ class _Run:
 def _with_crank_angles(run: _Run) -> SynthesisResult:
     if len(run.oriented) == len(run.task) == TIMED_POSITIONS and not run.task.fixed_pivots:
         return _timed_positions(run)
-    if run.oriented or run.task.fixed_pivots:
-        raise SynthesisError(
-            "crank angles go with points alone, or with {count} points that have coupler angles, without fixed pivots",
-            count=TIMED_POSITIONS,
-        )
     return _timed(run.task, run.demands, run.number)
 
 
@@ -229,7 +222,7 @@ def _with_exact(fitted: SynthesisResult, through: Sequence[Design], number: int)
 def _as_positions(run: _Run) -> SynthesisResult:
     """Every point has its coupler angle: positions."""
     task = run.task
-    rows = [(*p, a) for p, a in zip(task.points, task.angles, strict=True) if a is not None]
+    rows = [(p.real, p.imag, a) for p, a in zip(task.z, task.angles, strict=True) if a is not None]
     result = synthesise_positions(PositionTask(tuple(rows), unit=task.unit), run.demands, progress=run.progress)
     return SynthesisResult(
         task=task, designs=result.designs, rejected=result.rejected, count=result.count, notes=result.notes
@@ -542,7 +535,22 @@ class _Method(NamedTuple):
     solve: Callable[[_Run], SynthesisResult]
 
 
+def _mixed(run: _Run) -> SynthesisResult:
+    from gruebler.design.synthesis.mixed_targets import synthesise_mixed
+
+    return synthesise_mixed(run.task, run.demands, number=run.number, progress=run.progress)
+
+
+def _needs_least_squares(run: _Run) -> bool:
+    """Whether targets are of several kinds that no exact method takes together."""
+    timed = bool(run.task.crank_angles) and bool(run.oriented or run.task.fixed_pivots)
+    three = len(run.oriented) == len(run.task) == TIMED_POSITIONS and not run.task.fixed_pivots
+    pivots = bool(run.task.fixed_pivots) and len(run.oriented) > 1
+    return run.task.mixed or (timed and not three) or pivots
+
+
 _METHODS = (
+    _Method(_needs_least_squares, _mixed),
     _Method(lambda run: bool(run.task.crank_angles), _with_crank_angles),
     _Method(lambda run: len(run.oriented) == len(run.task) > 1 and not run.task.closed, _as_positions),
     _Method(lambda run: run.sought, _open_points),

@@ -169,7 +169,7 @@ def _fitted(task: Task, demands: Demands, link: str, job: _Job) -> list[Design]:
     fits = fit_drawings(structure, job.drawn_link, task.z, closed=task.closed, number=_NEIGHBOURS * job.kept)
     names = job.mechanism.chain.joint_names()
     fitted = fit_targets(task)
-    targets = point_targets("P", task.z, fitted.size)._replace(curve=fitted.curve)
+    targets = replace(point_targets("P", task.z, fitted.size), curve=fitted.curve)
     designs = []
     for *joints, point in fits.places[: job.kept]:
         drawing: dict[str | int, object] = {name: (z.real, z.imag) for name, z in zip(names, joints, strict=True)}
@@ -252,4 +252,4 @@ def _wanted(closure: DesignClosure, targets: FitTargets, state: FitState) -> Tar
         between = float(np.real(np.conj(along) * (arm - complex(state.p[own], state.p[own + 1]))))
         probes.append(Probe(joint=joint))
         values.append((targets.outputs + free.pop(0) + between).astype(np.complex128))
-    return Targets(tuple(probes), np.stack(values, axis=1), size, targets.curve)
+    return Targets(tuple(probes), np.stack(values, axis=1), size, curve=targets.curve)

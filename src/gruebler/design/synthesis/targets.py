@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from enum import Enum
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.base.arrays import Complexes
+from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask
 from gruebler.mechanics.kinematics import Poses
 from gruebler.mechanics.kinematics.motion import Motion
@@ -61,7 +60,9 @@ class GuidedCurve(Enum):
         return cls.CLOSED if task.closed else cls.OPEN if len(task) > MOST_POINTS else cls.NONE
 
 
-class Targets(NamedTuple):
+@compared_by_value
+@dataclass(frozen=True, eq=False)
+class Targets:
     """What is to be met: for each probe its value at each target; NaN where it is free."""
 
     probes: tuple[Probe, ...]
@@ -69,7 +70,10 @@ class Targets(NamedTuple):
     """(targets, probes)"""
     size: float
     """The size of the task: errors are relative to it."""
+    _: KW_ONLY
     curve: GuidedCurve = GuidedCurve.NONE
+    allowed: Reals | None = None
+    """(targets,) how far each may be missed, an unlimited one as the demands say; None if this holds for all."""
 
     def gaps(self, poses: Poses, which: NDArray[np.int64]) -> tuple[Complexes, Complexes]:
         """How far each row is from its target, and the derivatives by the arc; (rows, probes)."""

@@ -156,41 +156,52 @@ class PositionTask:
         return _size(self.origins) or 1.0
 
 
+_FREE_FOR_SOME = ("angles", "crank_angles", "output_angles", "tolerances")
+"""What a path gives for each target, or None where it is free."""
+
+
 @dataclass(frozen=True)
 class PathTask:
     """Points through which a point of the coupler is to pass, in this order.
 
     Args of the constructor, all but the first optional: ``angles`` of the coupler, one for each point or None where it
     is free (mixed tasks); ``crank_angles`` for prescribed timing, one for each point, only their differences count;
-    ``fixed_pivots``, one or two of them; ``closed`` for a whole curve of many points.
+    ``output_angles`` of the rocker likewise; ``fixed_pivots``, one or two of them; ``closed`` for a whole curve of many
+    points. A point is None where only angles are given. ``tolerances`` say how far each target may be missed, angles as
+    arcs of the task's size: 0 exactly, None as near as possible, which ``weights`` weigh.
 
-    Raises `SynthesisError` for two equal points and for angles or pivots that do not fit.
+    Raises `SynthesisError` for two equal points and for angles, pivots or tolerances that do not fit.
 
     >>> len(PathTask([(0, 0), (1, 2), (3, 3)]))
     3
     """
 
-    points: tuple[Pair, ...]
+    points: tuple[Pair | None, ...]
     _: KW_ONLY
     angles: tuple[float | None, ...] = ()
-    crank_angles: tuple[float, ...] = ()
+    crank_angles: tuple[float | None, ...] = ()
     fixed_pivots: tuple[Pair, ...] = ()
     closed: bool = False
     unit: str = "mm"
+    output_angles: tuple[float | None, ...] = ()
+    tolerances: tuple[float | None, ...] = ()
+    weights: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        rows = number_rows(self, "points", 2)
+        given = enumerate(_entries(self, "points"))
+        rows = tuple(None if row is None else _row(row, _numbered("points", k), 2) for k, row in given)
         settle(self, points=rows)
         pivots = number_rows(self, "fixed_pivots", 2)
         settle(self, fixed_pivots=pivots)
-        free = enumerate(_entries(self, "angles"))
-        angles = tuple(None if a is None else _number(a, _numbered("angles", k)) for k, a in free)
-        settle(self, angles=angles)
-        timing = _numbers(self, "crank_angles")
-        settle(self, crank_angles=timing)
-        if len(rows) < 2:
-            raise SynthesisError("points: expected at least two, but found {count}", count=len(rows))
-        for name, values in (("angles", angles), ("crank_angles", timing)):
+        for name in _FREE_FOR_SOME:
+            free = enumerate(_entries(self, name))
+            settle(self, **{name: tuple(None if a is None else _number(a, _numbered(name, k)) for k, a in free)})
+        settle(self, weights=_numbers(self, "weights"))
+        placed = sum(row is not None for row in rows)
+        if placed < 2:
+            raise SynthesisError("points: expected at least two, but found {count}", count=placed)
+        for name in (*_FREE_FOR_SOME, "weights"):
+            values = getattr(self, name)
             if values and len(values) != len(rows):
                 raise SynthesisError(
                     "{name}: expected one for each of the {points} points, but found {count}",
@@ -202,9 +213,15 @@ class PathTask:
             raise SynthesisError("fixed_pivots: expected one or two, but found {count}", count=len(pivots))
         if len(pivots) == 2 and abs(complex(*pivots[0]) - complex(*pivots[1])) <= SAME * self.size:
             raise SynthesisError("fixed_pivots: the two pivots coincide")
+        for name in ("tolerances", "weights"):
+            for k, value in enumerate(getattr(self, name)):
+                if value is not None and value < 0:
+                    raise SynthesisError(
+                        "{where}: expected at least 0, but found {value:g}", where=_numbered(name, k), value=value
+                    )
         self._check_distinct()
         self._check_timing()
-        warn_of_degrees("angles", [angle for angle in angles if angle is not None], once=True)
+        warn_of_degrees("angles", [angle for angle in self.angles if angle is not None], once=True)
 
     def _check_distinct(self) -> None:
         z = self.z
@@ -225,10 +242,11 @@ class PathTask:
         return first is not None and second is not None and abs(np.exp(1j * first) - np.exp(1j * second)) > SAME
 
     def _check_timing(self) -> None:
-        steps = np.diff(self.crank_angles)
+        timing = [angle for angle in self.crank_angles if angle is not None]
+        steps = np.diff(timing)
         if len(steps) and not ((steps > 0).all() or (steps < 0).all()):
             raise SynthesisError("crank_angles: the timing is contradictory, the crank has to turn one way throughout")
-        if len(steps) and abs(self.crank_angles[-1] - self.crank_angles[0]) >= 2 * pi:
+        if len(steps) and abs(timing[-1] - timing[0]) >= 2 * pi:
             raise SynthesisError("crank_angles: the timing is contradictory, all points lie within one turn of 2 pi")
 
     def __len__(self) -> int:
@@ -236,13 +254,19 @@ class PathTask:
 
     @property
     def z(self) -> Complexes:
-        """(points,) as x + iy."""
-        return np.array([complex(*point) for point in self.points])
+        """(points,) as x + iy; NaN where no point is given."""
+        return np.array([complex(*point) if point else complex(np.nan, np.nan) for point in self.points])
 
     @property
     def size(self) -> float:
         """The largest distance of a point from the first."""
-        return _size(self.z) or 1.0
+        return _size(self.z[~np.isnan(self.z)]) or 1.0
+
+    @property
+    def mixed(self) -> bool:
+        """Whether targets are of several kinds, or not all to be met alike."""
+        holes = None in self.points or None in self.crank_angles
+        return holes or bool(self.output_angles or self.tolerances or self.weights)
 
 
 @dataclass(frozen=True)

@@ -50,7 +50,8 @@ def _marked(task: Task, design: Design) -> Linkage:
     points = {}
     for prime, places in marks.items():
         for k in range(0, len(places), -(-len(places) // _MOST_MARKS)):
-            points[f"{letter}{k + 1}{prime}"] = (frame, places[k].real, places[k].imag)
+            if not np.isnan(places[k]):  # else its angles alone are given
+                points[f"{letter}{k + 1}{prime}"] = (frame, places[k].real, places[k].imag)
     return linkage.with_points(points)
 
 
