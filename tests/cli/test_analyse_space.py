@@ -36,9 +36,9 @@ def test_json_has_all_digits(capsys, hooke):
 
 def test_the_assembly_modes_are_shown_or_why_there_is_no_list(capsys):
     _, text, _ = run_command(capsys, "analyse", "wiper_rssr", "--range", "0:10:10")
-    assert "At R(body-crank) = 0°: 2 assembly modes, 2 of them real; these are all." in text
+    assert "In the reference pose: 2 assembly modes, 2 of them real; these are all." in text
     _, text, _ = run_command(capsys, "analyse", "wiper_rssr", "--range", "0:10:10", "--json")
-    assert json.loads(text)["assembly_modes"] == {"found": 2, "real": 2, "exact": True, "generic": 2}
+    assert json.loads(text)["assembly_modes"] == {"found": 2, "real": 2, "exact": True, "generic": 2, "far": 0}
     _, text, _ = run_command(capsys, "analyse", "bennett", "--range", "0:10:10", "--lang", "de")
     assert "Einbaulagen sind nicht bekannt: " in text
 

@@ -50,7 +50,7 @@ def analyse_in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> int
             document["measures"] = measured.to_json()
         if isinstance(modes, SpatialModes):
             document["assembly_modes"] = {"found": modes.number, "real": len(modes), "exact": modes.exact}
-            document["assembly_modes"]["generic"] = modes.generic
+            document["assembly_modes"] |= {"generic": modes.generic, "far": modes.far}
         print_json(document | (Table(()) if table is None else table).to_json())
         return 0
     print_text(freedom.summary(arguments.lang))

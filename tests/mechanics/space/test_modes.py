@@ -12,6 +12,7 @@ from gruebler.mechanics.space import RSSR, Bennett, SphericalFourBar, assembly_m
 from gruebler.structure.assur.modes import count_modes
 from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
+from gruebler.teaching.catalog import entry
 
 # P. Dietmaier, The Stewart-Gough platform of general geometry can have 40 real postures, 1998; figures and three of the
 # forty places of the platform's first ball as PHCpack prints them (src/Demo/stewgou40).
@@ -133,7 +134,7 @@ def test_planar_bases_have_forty_modes_and_pairs_of_balls_sixteen():
     flat = platform(base * (1, 1, 0), body * (1, 1, 0) + (0, 0, 2), "SSSSSS")[0]
     assert assembly_modes(flat, [0.1 * np.arange(6)]).number == 40
     modes = assembly_modes(platform(base, body[[2, 0, 0, 1, 1, 2]], "SSSSSS")[0], [np.zeros(6)])
-    assert (modes.number, modes.generic, modes.exact) == (16, 40, False)
+    assert (modes.number, modes.far, modes.generic, modes.exact) == (16, 24, 40, True)
 
 
 @pytest.mark.slow
@@ -254,8 +255,29 @@ def test_special_dimensions_are_told_from_general_ones():
     general = loop("RRRRRRR")
     places = [place if k < 4 else replace(place, at=general.places[4].at) for k, place in enumerate(general.places)]
     modes = assembly_modes(SpatialLinkage(general.mechanism, tuple(places)), 0.0)
-    assert (modes.number, modes.generic, modes.exact) == (8, 16, False)
-    assert "almost all dimensions have 16" in modes.explain()
+    assert (modes.number, modes.far, modes.generic, modes.exact) == (8, 8, 16, True)
+    assert "8 assembly modes" in modes.explain()
+    assert "the others of the 16 that almost all dimensions have lie at infinity" in modes.explain()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("id", ["gough", "delta"])
+def test_twelve_of_forty_modes_of_machines_with_planes_of_symmetry_lie_far_out(id):
+    """In other poses, too: it is their dimensions that send them there, or (eight of the Delta robot's) nearly so."""
+    linkage = entry(id).placed()
+    for values in (np.zeros(len(linkage.mechanism.drives)), 0.1 * np.arange(len(linkage.mechanism.drives))):
+        modes = assembly_modes(linkage, [values])
+        assert (modes.number, modes.far, modes.exact) == (28, 12, True)
+
+
+def test_where_two_modes_meet_it_says_that_some_may_lie_together():
+    rssr = RSSR(a=60, b=90, c=50, d=70, crank_offset=10, rocker_offset=15, twist=0.9)
+    start, end = rssr.limits[0]
+    modes = assembly_modes(rssr.linkage((start + end) / 2), (end - start) / 2)
+    assert (modes.far, modes.generic, modes.exact) == (0, 2, False)
+    assert (
+        "0 lie at infinity or beyond a thousand sizes, the others together, or they were not found" in modes.explain()
+    )
 
 
 @pytest.mark.parametrize(

@@ -28,6 +28,10 @@ _LENGTHS = 0.7  # of a length, for the corners of a loop
 QUICK, CAREFUL = 1e-3, 1e-6  # how far the corrector may change a prediction
 _SAME = 1e-6  # of the largest entry: poses of all links that differ by less are one mode
 _CLOSED = 1e-8  # residuals, of the square of the largest entry
+_BEFORE = 0.5 * 0.6 ** np.arange(13)  # of the way, before its end: there the growth of paths shows
+_NEARLY = 0.1  # of the way: growth counts from there on only, since before it paths may come back
+_POWER = 0.6  # of what is left of the way: poles have 1 at least
+_FAR = 1e3  # of the largest entry: no real pose has such, and beyond it paths lose their digits
 QUIET = 15  # loops in vain that end a search
 MOST_MODES = 400  # of a structure: a search for more takes minutes
 
@@ -257,8 +261,6 @@ class GenericModes:
     positions: Positions
     loops: int
     """How many loops of the dimensions the search took; the last `QUIET` found nothing, unless the number was known."""
-    lost: int
-    """Paths that did not arrive."""
 
 
 def generic_modes(structure: ClosureStructure, known: int | None) -> GenericModes:
@@ -273,13 +275,12 @@ def generic_modes(structure: ClosureStructure, known: int | None) -> GenericMode
             "the closing conditions repeat each other with almost all dimensions: in such a structure assembly modes "
             "are not isolated, or not counted"
         )
-    loops = lost = quiet = 0
+    loops = quiet = 0
     while quiet < QUIET and modes.number != known:
         here, at = modes, dimensions
         for corner in range(3):
             there = dimensions if corner == 2 else shifted(structure, dimensions, rng, _LOOP)
-            here, missed = arrived(structure, at, there, here)
-            at, lost = there, lost + missed
+            here, at = arrived(structure, at, there, here), there
         loops += 1
         here = here.at(structure.openings(dimensions, here.frames) < _CLOSED)
         new = structure.new_among(modes, here)
@@ -291,20 +292,62 @@ def generic_modes(structure: ClosureStructure, known: int | None) -> GenericMode
                 "listed",
                 most=MOST_MODES,
             )
-    return GenericModes(dimensions=dimensions, positions=modes, loops=loops, lost=lost)
+    return GenericModes(dimensions=dimensions, positions=modes, loops=loops)
 
 
 def arrived(
     structure: ClosureStructure, begin: ComplexDimensions, end: ComplexDimensions, starts: Positions
-) -> tuple[Positions, int]:
-    """Where those paths end that arrive, lost ones followed again in finer steps; how many do not."""
+) -> Positions:
+    """Where those paths end that arrive, lost ones followed again in finer steps."""
+    ends, arrives = _followed(structure, begin, end, starts)
+    return ends.at(arrives)
+
+
+def _followed(
+    structure: ClosureStructure, begin: ComplexDimensions, end: ComplexDimensions, starts: Positions
+) -> tuple[Positions, NDArray[np.bool_]]:
     ends, times, _ = structure.follow(begin, end, starts, QUICK)
     late = np.flatnonzero(times < 1)
     if len(late):
         again, when, _ = structure.follow(begin, end, starts.at(late), CAREFUL)
         ends = Positions(*(_replaced(a, late, b) for a, b in zip(ends, again, strict=True)))
         times = _replaced(times, late, when)
-    return ends.at(times == 1), int((times < 1).sum())
+    return ends, times == 1
+
+
+def arrived_or_far(
+    structure: ClosureStructure, begin: ComplexDimensions, end: ComplexDimensions, starts: Positions
+) -> tuple[Positions, int]:
+    """Where those paths end that arrive, and how many of the others go far out, to infinity or short of it.
+
+    They end there, or the largest entry of their frames grows like a negative power of what is left of the way.
+    """
+    ends, arrives = _followed(structure, begin, end, starts)
+    here, at = starts.at(~arrives), begin
+    left = np.arange(here.number)
+    sizes = np.zeros((len(_BEFORE), here.number))
+    twists = twists_between(begin.frames, end.frames)
+    for place, before in enumerate(_BEFORE):
+        share = 1 - before
+        there = ComplexDimensions(
+            begin.frames @ exponentials(share * twists),
+            begin.lengths + share * (end.lengths - begin.lengths),
+            begin.given + share * (end.given - begin.given),
+        )
+        here, times, _ = structure.follow(at, there, here, QUICK)
+        here, left, at = here.at(times == 1), left[times == 1], there
+        sizes[place, left] = abs(here.frames).max(axis=(1, 2, 3), initial=0.0)
+    near = abs(ends.frames).max(axis=(1, 2, 3), initial=0.0) < _FAR
+    return ends.at(arrives & near), int((arrives & ~near).sum()) + sum(map(_goes_far, sizes.T))
+
+
+def _goes_far(sizes: Reals) -> bool:
+    """Whether a path goes far out, by its sizes at the places before the end of its way; 0 where it was lost before."""
+    known = sizes[sizes > 0]
+    count = len(known)
+    if count < 3 or (count < len(sizes) and (known[-1] < _FAR or _BEFORE[count - 1] > _NEARLY)):
+        return False
+    return bool(np.log(known[-1] / known[-3]) > _POWER * np.log(_BEFORE[count - 3] / _BEFORE[count - 1]))
 
 
 def _replaced(a: NDArray, rows: NDArray[np.intp], b: NDArray) -> NDArray:  # type: ignore[type-arg]

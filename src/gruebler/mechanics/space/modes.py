@@ -28,6 +28,7 @@ from gruebler.mechanics.space.generic_modes import (
     GenericModes,
     Positions,
     arrived,
+    arrived_or_far,
     generic_modes,
     shifted,
     structure_of,
@@ -37,19 +38,26 @@ from gruebler.mechanics.space.rods import place_rods
 from gruebler.mechanics.space.tree import ClosureTree, locked_tree
 from gruebler.structure.chain.spaces import Space
 
-_TRIES = 6  # ways of the dimensions, until all paths have arrived
-_DETOUR = 0.3  # sizes and radians
+_WAYS = 20  # of the dimensions, for paths that are missing
+_VAIN = 3  # of them that show nothing new end the search
+_NEXT = 0.3  # sizes and radians: how far dimensions next to the target lie from it
 _REAL = 1e-7  # of the largest entry: imaginary parts that are rounding
 _CLOSED = 1e-9
 
-_ALL = message("At {drives}: {found} assembly modes, {real} of them real; these are all.")
+_REFERENCE = message("In the reference pose")
+_AT = message("At {drives}")
+_ALL = message("{where}: {found} assembly modes, {real} of them real; these are all.")
+_OTHERS_FAR = message(
+    "{where}: {found} assembly modes, {real} of them real; these are all: the others of the {generic} that almost all "
+    "dimensions have lie at infinity for these, or beyond a thousand sizes."
+)
 _FOUND = message(
-    "At {drives}: {found} assembly modes were found, {real} of them real; no theorem says how many there are, and "
+    "{where}: {found} assembly modes were found, {real} of them real; no theorem says how many there are, and "
     "{loops} loops of the dimensions found {generic} for almost all of them."
 )
 _SPECIAL = message(
-    "At {drives}: {found} assembly modes, {real} of them real, where almost all dimensions have {generic}: for these, "
-    "the others lie at infinity or together, or were not found."
+    "{where}: {found} assembly modes, {real} of them real, where almost all dimensions have {generic}: for these, "
+    "{far} lie at infinity or beyond a thousand sizes, the others together, or they were not found."
 )
 
 
@@ -69,6 +77,9 @@ class SpatialModes:
     """How many modes were found, complex ones included."""
     generic: int
     """How many almost all dimensions of this structure have, complex ones included; none have more isolated ones."""
+    far: int
+    """How many of these lie at infinity for the linkage's own dimensions, or entries of their frames are beyond 1000:
+    paths lead there. None of them is real, unless parts shift so far."""
     known: bool
     """Whether a theorem says so; else loops of the dimensions in vain ended a search, which may have missed some."""
     loops: int
@@ -81,8 +92,8 @@ class SpatialModes:
 
     @property
     def exact(self) -> bool:
-        """Whether these are all: as many as the theorem says were found."""
-        return self.known and self.number == self.generic
+        """Whether these are all: with those far out as many as the theorem says."""
+        return self.known and self.number + self.far == self.generic
 
     def pose(self, link: str) -> Reals:
         """Where a link is, (modes, 4, 4), against the reference pose."""
@@ -119,9 +130,14 @@ class SpatialModes:
 
     def explain(self, lang: str = "en") -> str:
         """How many modes there are and were found, a sentence in English or German (``de``)."""
-        text = _ALL if self.exact else _FOUND if self.number == self.generic else _SPECIAL
+        if self.exact:
+            text = _OTHERS_FAR if self.far else _ALL
+        else:
+            text = _FOUND if self.number == self.generic else _SPECIAL
+        at = _AT.filled(drives=drive_values(self.linkage, self.drives)) if any(self.drives) else _REFERENCE
         return text.filled(
-            drives=drive_values(self.linkage, self.drives),
+            where=at,
+            far=self.far,
             found=self.number,
             real=len(self),
             generic=self.generic,
@@ -182,8 +198,8 @@ def assembly_modes(linkage: LinkageLike | SpatialLinkage, drives: float | ArrayL
         target.given[structure.node_of[unknown + 1]] = value
     known = known_number(tree)
     generic = _generic(structure, known)
-    ends = _all_ends(structure, generic, target)
-    return _modes(linkage, tuple(map(float, row[0])), tree, structure, target, generic, known, ends)
+    ends, far = _all_ends(structure, generic, target)
+    return _modes(linkage, tuple(map(float, row[0])), tree, structure, target, generic, known, ends, far)
 
 
 def _check(linkage: SpatialLinkage) -> None:
@@ -239,24 +255,30 @@ def _generic(structure: ClosureStructure, known: int | None) -> GenericModes:
     return generic_modes(structure, known)
 
 
-def _all_ends(structure: ClosureStructure, generic: GenericModes, target: ComplexDimensions) -> Positions:
-    """Where the paths from the generic modes end: by other ways again while some are missing."""
+def _all_ends(structure: ClosureStructure, generic: GenericModes, target: ComplexDimensions) -> tuple[Positions, int]:
+    """Where the paths from the generic modes end, and how many go far out.
+
+    If some do not arrive straight on, ways over dimensions next to the target follow, until on one of them every path
+    has arrived or goes far out, or a few have shown nothing new.
+    """
     rng = np.random.default_rng(7)
-    starts = generic.positions
-    distinct = starts.at([])
-    for attempt in range(_TRIES):
-        at, here = generic.dimensions, starts
-        if attempt:
-            middle = shifted(structure, at, rng, _DETOUR)
-            here, _ = arrived(structure, at, middle, here)
-            at = middle
-        ends, _ = arrived(structure, at, target, here)
-        ends = ends.at(structure.openings(target, ends.frames) < _CLOSED)
-        new = structure.new_among(distinct, ends)
-        distinct = distinct.joined(ends.at(new))
-        if distinct.number >= starts.number or (attempt > 1 and not new):
-            break
-    return distinct
+    begin, starts = generic.dimensions, generic.positions
+    distinct, far = starts.at([]), 0
+    here, at, vain = starts, begin, 0
+    for _ in range(_WAYS):
+        if here.number == starts.number:
+            ends, beyond = arrived_or_far(structure, at, target, here)
+            ends = ends.at(structure.openings(target, ends.frames) < _CLOSED)
+            new = structure.new_among(distinct, ends)
+            vain = 0 if new or beyond > far else vain + 1
+            distinct, far = distinct.joined(ends.at(new)), max(far, beyond)
+            if len(structure.new_among(starts.at([]), ends)) + beyond == starts.number:
+                return distinct, starts.number - distinct.number
+            if vain == _VAIN:
+                break
+        at = shifted(structure, target, rng, _NEXT)
+        here = arrived(structure, begin, at, starts)
+    return distinct, min(far, starts.number - distinct.number)
 
 
 def _modes(
@@ -268,6 +290,7 @@ def _modes(
     generic: GenericModes,
     known: int | None,
     ends: Positions,
+    far: int,
 ) -> SpatialModes:
     places = structure.nodes[:, 1] == 0
     size = 1 + abs(ends.frames).max(axis=(1, 2, 3), initial=0.0)
@@ -285,6 +308,7 @@ def _modes(
         poses=poses,
         number=ends.number,
         generic=generic.positions.number,
+        far=far,
         known=known is not None and generic.positions.number == known,
         loops=generic.loops,
         gap=float(structure.openings(target, ends.frames).max(initial=0.0)),
