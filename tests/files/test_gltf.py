@@ -90,6 +90,24 @@ def test_keys_of_the_animation_are_the_poses_of_the_links(tmp_path):
             assert 2 * (x * z + y * w) == pytest.approx(pose[:, 0, 2], abs=1e-6)
 
 
+def test_a_machine_of_the_catalog_moves_over_its_range(tmp_path):
+    path = tmp_path / "suspension.glb"
+    assert main(["convert", "susp_spatial", str(path)]) == 0
+    document, binary = glb(path)
+    (animation,) = document["animations"]
+    node = next(k for k, each in enumerate(document["nodes"]) if each["name"] == "lower_wishbone")
+    channel = next(
+        each
+        for each in animation["channels"]
+        if each["target"]["node"] == node and each["target"]["path"] == "rotation"
+    )
+    accessor = document["accessors"][animation["samplers"][channel["sampler"]]["output"]]
+    view = document["bufferViews"][accessor["bufferView"]]
+    start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+    turns = np.frombuffer(binary, "<f4", 4 * accessor["count"], start).reshape(-1, 4)
+    assert 2 * np.degrees(np.arccos(abs(turns[:, 3]))).max() == pytest.approx(10, abs=0.01)  # -10 to 10 degrees
+
+
 def test_a_machine_with_several_drives_has_an_animation_for_each(tmp_path):
     document, _ = glb(files.write(entry("delta").placed(), tmp_path / "a.glb"))
     assert [each["name"] for each in document["animations"]] == list(entry("delta").drives)

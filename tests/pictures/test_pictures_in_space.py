@@ -16,6 +16,7 @@ from gruebler.mechanics.space.drive_range import spatial_range
 from gruebler.pictures.canvas.panels import draw_panels
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, TextShape
 from gruebler.pictures.space import animate_spatial, draw_spatial, plots
+from gruebler.pictures.space import scene as scenes
 from gruebler.pictures.space.painting import covering_order
 from gruebler.pictures.space.parts import LOOKS, link_bar, sleeve
 from gruebler.pictures.space.scene import scene_of
@@ -319,3 +320,15 @@ def test_one_of_several_drives_moves_in_a_diagram(plotted, drive, rate):
 def test_why_there_is_no_diagram(id, drive, words):
     with pytest.raises(LinkageError, match=words):
         plots.plot_spatial(entry(id).placed(), drive=drive)
+
+
+def test_a_place_inside_a_ring_does_not_bend_it():
+    angles = np.radians([10, 60, 130, 190, 250, 310])
+    rim = np.column_stack([np.cos(angles), np.sin(angles), 0 * angles])
+    ring, spurs = scenes._round_trip(np.vstack([rim[:2], [[0.05, 0.02, 0.0]], rim[2:]]))
+    assert ring[0] == ring[-1]
+    assert sorted(ring[:-1]) == [0, 1, 3, 4, 5, 6]
+    assert spurs in ([(2, 0)], [(2, 1)])
+    steps = np.diff([ring.index(k) for k in (0, 1, 3, 4, 5, 6)])
+    assert {abs(step) for step in steps} <= {1, 5}  # in their order round the middle
+    assert scenes._round_trip(np.eye(3)) == ([*scenes._round_trip(np.eye(3))[0]], [])

@@ -121,11 +121,16 @@ def united(solids: Sequence[Solid]) -> Solid:
 # --- glTF --------------------------------------------------------------------------------------------
 
 
-def glb_from_linkage(linkage: SpatialLinkage, left_out: list[Message]) -> bytes:
-    """The bytes of a ``.glb`` file: bodies of links in metres, an animation for each drive."""
+def glb_from_linkage(
+    linkage: SpatialLinkage, left_out: list[Message], between: tuple[float, float] | None = None
+) -> bytes:
+    """The bytes of a ``.glb`` file: bodies of links in metres, an animation for each drive.
+
+    ``between`` are values of the one drive over which it moves, in place of all that it can reach.
+    """
     if linkage.unit not in MILLIMETRES and linkage.mechanism.chain.space is not Space.SPHERICAL:
         left_out.append(message("the unit {unit}", unit=linkage.unit))
-    moving = moving_solids(linkage)
+    moving = moving_solids(linkage, between=between)
     if not moving.motions:
         left_out.append(message("a motion: the drives do not move the linkage"))
     document = _Document(metres_a_unit(linkage))

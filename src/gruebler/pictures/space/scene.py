@@ -25,6 +25,7 @@ _STEP = 42.0  # pixels by which a symbol is shifted along its axis
 _SUPPORT = 26.0
 _SHORT = 1.0  # pixels: shorter bars are left out
 _FLAT = 1e-6  # of the extent: points nearer to a line lie on it
+_INSIDE = 0.25  # of the farthest place from the middle: nearer ones lie inside a ring
 _PIECES = 8  # of the arc of a link on a sphere
 _POINT = 2.6
 
@@ -109,9 +110,9 @@ def scene_of(linkage: SpatialLinkage, view: View, poses: Reals | None = None) ->
             outlines[link] = supports[0].points if supports else np.zeros((0, 3))
             continue
         ends += [(scale * (np.array(at) - middle), 0.0) for of, at in linkage.points.values() if of == link]
-        order = _round_trip(np.array([place for place, _ in ends]))
+        order, spurs = _round_trip(np.array([place for place, _ in ends]))
         outlines[link] = np.array([ends[k][0] for k in dict.fromkeys(order)])
-        for first, second in pairwise(order):
+        for first, second in [*pairwise(order), *spurs]:
             parts += _bars(link, *ends[first], *ends[second], spherical)
     lines = [(joint.links[0], "pitch", np.array(s.axis)) for joint, s in zip(joints, symbols, strict=True) if s.axis]
     for number in {drive.joint for drive in linkage.mechanism.drives}:
@@ -240,17 +241,24 @@ def _support(joint: PlacedJoint, hold: Reals) -> SpatialPart:
     return ground_support(frame, hold, hold + _SUPPORT * heading / size)
 
 
-def _round_trip(places: Reals) -> list[int]:
-    """Places in the order of the bars between them: there and back for two, in a ring around their middle for more."""
+def _round_trip(places: Reals) -> tuple[list[int], list[tuple[int, int]]]:
+    """Places in the order of the bars between them: there and back for two, in a ring around their middle for more.
+
+    With it bars from places well inside the ring, which would bend it, to the nearest ones on it.
+    """
     if len(places) < 3:
-        return list(range(len(places)))
+        return list(range(len(places))), []
     centred = places - places.mean(axis=0)
     axes = np.linalg.svd(centred)[2]
     x, y = centred @ axes[0], centred @ axes[1]
     if abs(y).max() < _FLAT * abs(x).max():
-        return list(np.argsort(np.round(x, 6), kind="stable").tolist())
-    ring: list[int] = np.argsort(np.round(np.arctan2(y, x), 9), kind="stable").tolist()
-    return [*ring, ring[0]]
+        return list(np.argsort(np.round(x, 6), kind="stable").tolist()), []
+    out = np.linalg.norm(centred, axis=1)
+    inside = out < _INSIDE * out.max() if len(places) > 3 else np.zeros(len(places), bool)
+    every = np.argsort(np.round(np.arctan2(y, x), 9), kind="stable").tolist()
+    ring = [k for k in every if not inside[k]]
+    spurs = [(k, min(ring, key=lambda n: float(np.linalg.norm(places[n] - places[k])))) for k in every if inside[k]]
+    return [*ring, ring[0]], spurs
 
 
 def _bars(link: str, start: Reals, clear: float, end: Reals, other: float, spherical: bool) -> list[SpatialPart]:
