@@ -97,6 +97,30 @@ void check_numbers(const Array<std::int64_t, -1>& numbers, std::int64_t least, s
         expect(within(numbers.data()[k], least, static_cast<std::int64_t>(most)), what);
 }
 
+void check_rods(const Array<std::int64_t, -1, rod_fields>& rods, const Array<double, -1, rod_vectors, 3>& balls,
+                std::size_t links) {
+    expect(balls.shape(0) == rods.shape(0), "each rod has five vectors");
+    for (std::size_t k = 0; k < rods.size(); ++k)
+        expect(within(rods.data()[k], 0, static_cast<std::int64_t>(links)), "rods: the numbers of links");
+}
+
+void place_rods(const Array<std::int64_t, -1, rod_fields>& rods, const Array<double, -1, rod_vectors, 3>& balls,
+                const Room<double, -1, -1, 4, 4>& poses) {
+    const std::size_t links = poses.shape(1);
+    check_rods(rods, balls, links);
+    for (std::size_t row = 0; row < poses.shape(0); ++row)
+        for (std::size_t k = 0; k < rods.shape(0); ++k) {
+            const std::int64_t* own = rods.data() + k * rod_fields;
+            const auto pose = [&](std::int64_t link) {
+                return poses.data() + (row * links + static_cast<std::size_t>(link)) * frame_size;
+            };
+            const Frame<double> first = read_frame(pose(own[1])), second = read_frame(pose(own[2]));
+            Frame<double> rod;
+            place_rod(balls.data() + k * rod_vectors * 3, &first, &second, &rod, 0);
+            write_frame(rod, pose(own[0]));
+        }
+}
+
 nb::tuple open_linkage(const Nodes& nodes, const Rows& rows, const Array<double, -1, 4, 4>& frames,
                        const Array<double, -1>& pitches, const Array<double, -1>& lengths,
                        const Array<double, -1, -1>& gears, const Array<double, -1>& at, const Array<double, -1, 3, 3>& turns) {
@@ -113,6 +137,8 @@ nb::tuple follow_linkage(const Nodes& nodes, const Rows& rows, const Array<doubl
                          const Array<double, -1>& pitches, const Array<double, -1>& lengths,
                          const Array<double, -1, -1>& gears, std::size_t balls, const Array<std::int64_t, -1>& passive,
                          const Array<std::int64_t, -1>& drives, const Array<std::int64_t, -1>& links,
+                         const Array<std::int64_t, -1, rod_fields>& rods, const Array<double, -1, rod_vectors, 3>& balls_of_rods,
+                         const Array<double, 4>& unit,
                          const Array<double, -1, -1>& values, const Array<double, -1, -1, -1>& rates) {
     const std::size_t unknowns = gears.shape(1), count = values.shape(0), orders = rates.shape(0);
     expect(balls <= unknowns, "there are fewer balls than unknowns");
@@ -121,6 +147,7 @@ nb::tuple follow_linkage(const Nodes& nodes, const Rows& rows, const Array<doubl
     check_numbers(passive, 0, unknowns, "passive: the numbers of unknowns");
     check_numbers(drives, 0, unknowns, "drives: the numbers of unknowns");
     check_numbers(links, -1, nodes.shape(0), "links: the numbers of nodes, or -1");
+    check_rods(rods, balls_of_rods, links.shape(0));
     expect(passives <= conditions, "there are no more passive unknowns than conditions");
     expect(orders <= static_cast<std::size_t>(most_orders), "there are rates up to the third order");
     expect(values.shape(1) == drives.shape(0) && rates.shape(1) == count && rates.shape(2) == drives.shape(0),
@@ -135,8 +162,10 @@ nb::tuple follow_linkage(const Nodes& nodes, const Rows& rows, const Array<doubl
     Followed followed;
     const Path path{static_cast<std::int64_t>(count),      static_cast<int>(drives.shape(0)),
                     static_cast<int>(passives),            static_cast<int>(links.shape(0)),
-                    static_cast<int>(orders),              drives.data(),
-                    passive.data(),                        links.data(),
+                    static_cast<int>(rods.shape(0)),       static_cast<int>(orders),
+                    drives.data(),                         passive.data(),
+                    links.data(),                          rods.data(),
+                    balls_of_rods.data(),                  unit.data(),
                     values.data(),                         rates.data(),
                     found.data(),                          poses.data(),
                     derivatives.data(),                    passed.data()};
@@ -171,15 +200,22 @@ void add_space(nb::module_& module) {
     module.def("follow_linkage", follow_linkage, nb::arg("nodes").noconvert(), nb::arg("rows").noconvert(),
                nb::arg("frames").noconvert(), nb::arg("pitches").noconvert(), nb::arg("lengths").noconvert(),
                nb::arg("gears").noconvert(), nb::arg("balls"), nb::arg("passive").noconvert(),
-               nb::arg("drives").noconvert(), nb::arg("links").noconvert(), nb::arg("values").noconvert(),
+               nb::arg("drives").noconvert(), nb::arg("links").noconvert(), nb::arg("rods").noconvert(),
+               nb::arg("balls_of_rods").noconvert(), nb::arg("unit").noconvert(), nb::arg("values").noconvert(),
                nb::arg("rates").noconvert(),
-               "A linkage followed along values of its drives from where all unknowns are 0: coefficients of the unknowns "
-               "float[orders + 1, rows, unknowns] and of the frames of links float[orders + 1, rows, links, 4, 4] as power "
-               "series in time, derivatives by the passive unknowns float[rows, conditions, passive], whether a change of "
+               "A linkage followed along values of its drives from where all unknowns are 0: the unknowns as power series in "
+               "time float[orders + 1, rows, unknowns], poses of links and their time derivatives float[orders + 1, rows, "
+               "links, 4, 4], derivatives by the passive unknowns float[rows, conditions, passive], whether a change of "
                "mode was passed before a row uint8[rows], how many rows were reached, what part of the way to the next, by "
                "how much it is open at most, the last position float[unknowns] and its turns float[balls, 3, 3].\n\n"
-               "passive, drives: int64, numbers of unknowns; links: int64, their nodes or -1; values: float[rows, drives]; "
-               "rates: float[orders, rows, drives], coefficients of t, t**2, t**3. The rest as for `open_linkage`.");
+               "passive, drives: int64, numbers of unknowns; links: int64, their nodes, -1 for rods; unit: "
+               "float[4], the size of the linkage and its centre; values: float[rows, drives]; "
+               "rates: float[orders, rows, drives], coefficients of t, t**2, t**3. The rest as for `open_linkage` "
+               "and `place_rods`.");
+    module.def("place_rods", place_rods, nb::arg("rods").noconvert(), nb::arg("balls").noconvert(),
+               nb::arg("poses").noconvert(),
+               "Writes the poses of rods between two balls into float[rows, links, 4, 4].\n\nrods: int64[rods, 3]: the rod, the "
+               "links of its balls; balls: float[rods, 5, 3]: the balls on those links, the balls on the rod, across it.");
 }
 
 }  // namespace gruebler::doors

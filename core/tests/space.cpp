@@ -107,10 +107,15 @@ Driven drive(const Dimensioned& of, const std::vector<double>& lengths, const st
     Driven driven{};
     driven.unknowns.resize((orders + 1) * many * static_cast<std::size_t>(unknowns));
     driven.poses.resize((orders + 1) * many * links.size() * frame_size);
+    // A rod between the points (1, 0, 0) of the links in front of and behind it, if it is one.
+    const std::int64_t rod[] = {1, 0, 2};
+    const double vectors[] = {1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 1}, unit[] = {1, 0, 0, 0};
     const Path path{static_cast<std::int64_t>(many), 1,
                     unknowns - 1,                    static_cast<int>(links.size()),
-                    orders,                          &first,
-                    passive.data(),                  links.data(),
+                    links.size() == 3,               orders,
+                    &first,                          passive.data(),
+                    links.data(),                    rod,
+                    vectors,                         unit,
                     values.data(),                   rates.data(),
                     driven.unknowns.data(),          driven.poses.data(),
                     derivatives.data(),              passed.data()};
@@ -129,13 +134,13 @@ void check_motions(Watch& watch) {
     const std::vector<double> lengths{distance(places[5], places[7]), distance(places[5], places[8]),
                                       distance(places[6], places[7])};
     const std::vector<double> turned{0, 1.3, 2.6, 3.9, 5.2};
-    const Driven body = drive(round, lengths, std::vector<double>(9), {}, 4, 1, {4, -1}, turned, watch);
+    const Driven body = drive(round, lengths, std::vector<double>(9), {}, 4, 1, {4, -1, 0}, turned, watch);
     expect(body.done && body.followed.rows == 5 && body.followed.gap < 1e-12, "the ball did not go round");
     for (std::size_t row = 0; row < 5; ++row) {
         const double c = std::cos(turned[row]), s = std::sin(turned[row]);
-        const double rates[4][2] = {{c, s}, {-s, c}, {-c / 2, -s / 2}, {s / 6, -c / 6}};
+        const double rates[4][2] = {{c, s}, {-s, c}, {-c, -s}, {s, -c}};
         for (std::size_t order = 0; order < 4; ++order) {
-            const double* pose = body.poses.data() + (order * 5 + row) * 2 * frame_size;
+            const double* pose = body.poses.data() + (order * 5 + row) * 3 * frame_size;
             expect(std::abs(pose[0] - rates[order][0]) < 1e-11 && std::abs(pose[4] - rates[order][1]) < 1e-11,
                    "the body does not turn as the crank does");
         }

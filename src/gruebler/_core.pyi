@@ -164,6 +164,9 @@ def follow_linkage(
     passive: NDArray[np.int64],
     drives: NDArray[np.int64],
     links: NDArray[np.int64],
+    rods: NDArray[np.int64],
+    balls_of_rods: NDArray[np.float64],
+    unit: NDArray[np.float64],
     values: NDArray[np.float64],
     rates: NDArray[np.float64],
 ) -> tuple[
@@ -177,6 +180,7 @@ def follow_linkage(
     NDArray[np.float64],
     NDArray[np.float64],
 ]: ...
+def place_rods(rods: NDArray[np.int64], balls: NDArray[np.float64], poses: NDArray[np.float64]) -> None: ...
 
 # dynamics
 def reduced_forces(

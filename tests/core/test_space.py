@@ -103,7 +103,10 @@ DRIVEN = {
     "balls": 0,
     "passive": np.array([1]),
     "drives": np.array([0]),
-    "links": np.array([4, -1]),
+    "links": np.array([4, -1, 2]),
+    "rods": np.array([[1, 2, 0]]),  # between the origins of the slide and of the hand: it is seen along x at first
+    "balls_of_rods": np.array([[[0, 0, 0], [0, 0, 0], [0, 0, 0], [np.sqrt(2), 0, 0], [0, 1.0, 0]]]),
+    "unit": np.array([1.0, 0, 0, 0]),
     "values": np.array([[0.0], [0.5], [1.0]]),
     "rates": np.array([[[1.0]], [[0.3]], [[-0.1]]]).repeat(3, axis=1),
 }
@@ -121,7 +124,11 @@ def test_the_rod_turns_the_hand_by_the_law_of_cosines_with_its_rates():
     q = turn_of_the_hand(DRIVEN["values"][:, 0])
     np.testing.assert_allclose(series[0, :, 1], q, atol=1e-14)
     np.testing.assert_allclose(poses[0, :, 0, :2, 3], np.array([-np.sin(q), np.cos(q)]).T, atol=1e-14)
-    assert not poses[:, :, 1].any()
+    slide = np.array([1 + DRIVEN["values"][:, 0], 0 * q]).T
+    np.testing.assert_allclose(poses[0, :, 1, :2, 3], slide, atol=1e-14)
+    rod = (poses[0, :, 0, :2, 3] - slide) / np.sqrt(2)
+    np.testing.assert_allclose(poses[0, :, 1, :2, 0], rod, atol=1e-14)
+    np.testing.assert_allclose(poses[0, :, 1, 2, :3], np.tile([0, 0, 1], (3, 1)), atol=1e-14)  # it turns about z
     assert not passed.any()
     assert derivatives.shape == (3, 1, 1)
     assert last.tolist() == series[0, -1].tolist()
@@ -171,6 +178,10 @@ def test_the_rod_ends_where_it_lies_in_line():
         {"drives": np.array([-1])},
         {"drives": np.array([0, 1])},
         {"links": np.array([5])},
+        {"rods": np.array([[1, 3, 0]])},
+        {"rods": np.zeros((0, 3), np.int64)},
+        {"balls_of_rods": np.zeros((1, 4, 3))},
+        {"unit": np.zeros(3)},
         {"values": np.zeros((3, 2))},
         {"values": np.zeros((2, 1))},
         {"values": np.full((3, 1), np.nan)},

@@ -215,7 +215,8 @@ public:
           predicted_(q_),
           begin_(static_cast<std::size_t>(path.drives)),
           change_(static_cast<std::size_t>(path.passives)),
-          passive_(path.passive, path.passive + path.passives) {}
+          passive_(path.passive, path.passive + path.passives),
+          placed_(static_cast<std::size_t>(path.links * terms)) {}
 
     bool follow(Followed& followed, Watch& watch) {
         conditions_.evaluate(q_.data());
@@ -242,6 +243,8 @@ private:
     LeastSquares here_, there_;  // where the path is, where the step leads
     std::vector<double> q_, guess_, predicted_, begin_, change_;
     std::vector<int> passive_;
+    static constexpr int terms = most_orders + 1;
+    std::vector<Frame<double>> placed_;  // [links, terms]
 
     // Of the position that was evaluated last; false if the rank is not full.
     bool factor(LeastSquares& matrix) {
@@ -358,21 +361,37 @@ private:
                 derivatives[i * passives + k] = conditions_.derivatives[i * unknowns + static_cast<std::size_t>(passive_[k])];
         conditions_.move(q_.data(), conditions_.nodes_of_rows(), conditions_.structure.nodes);
         for (int order = 0; order <= path_.orders; ++order) {
-            const std::int64_t place = order * path_.rows + row;
-            double* values = path_.unknowns + place * conditions_.structure.unknowns;
+            double* values = path_.unknowns + (order * path_.rows + row) * conditions_.structure.unknowns;
             for (std::size_t k = 0; k < unknowns; ++k) values[k] = series_.q[static_cast<std::size_t>(order) * unknowns + k];
             for (int link = 0; link < path_.links; ++link) {
-                double* pose = path_.poses + (place * path_.links + link) * frame_size;
                 if (path_.link[link] < 0) continue;
                 const int node = static_cast<int>(path_.link[link]);
                 if (order) series_.set_frame(node, order);
-                const Frame<double>& f = series_.frame(node, order);
-                for (int i = 0; i < 3; ++i) {
-                    for (int j = 0; j < 3; ++j) pose[4 * i + j] = f.r[3 * i + j];
-                    pose[4 * i + 3] = f.p[i];
-                }
-                pose[15] = order == 0;
+                placed(link)[order] = series_.frame(node, order);
             }
+        }
+        for (int k = 0; k < path_.rods; ++k) {
+            const std::int64_t* own = path_.rod + k * rod_fields;
+            place_rod(path_.balls + k * rod_vectors * 3, placed(own[1]), placed(own[2]), placed(own[0]), path_.orders);
+        }
+        for (int link = 0; link < path_.links; ++link) write_poses(row, link);
+    }
+
+    Frame<double>* placed(std::int64_t link) { return placed_.data() + link * terms; }
+
+    void write_poses(std::int64_t row, int link) {
+        const double scale = path_.unit[0], *centre = path_.unit + 1;
+        double factorial = 1;
+        for (int order = 0; order <= path_.orders; ++order) {
+            const Frame<double>& f = placed(link)[order];
+            const Vector<double> arm = f.turned({{centre[0], centre[1], centre[2]}});
+            factorial *= order ? order : 1;
+            double* pose = path_.poses + ((order * path_.rows + row) * path_.links + link) * frame_size;
+            for (int i = 0; i < 3; ++i) {
+                for (int j = 0; j < 3; ++j) pose[4 * i + j] = factorial * f.r[3 * i + j];
+                pose[4 * i + 3] = factorial * (scale * f.p[i] - arm.x[i] + (order ? 0 : centre[i]));
+            }
+            pose[15] = order == 0;
         }
     }
 };

@@ -9,6 +9,7 @@
 #include "base/watch.hpp"
 #include "space/frames.hpp"
 #include "space/least_squares.hpp"
+#include "space/rods.hpp"
 
 namespace gruebler::space {
 
@@ -77,15 +78,18 @@ private:
 
 struct Path {
     std::int64_t rows;
-    int drives, passives, links, orders;
+    int drives, passives, links, rods, orders;
     const std::int64_t* drive;    // [drives] unknowns
     const std::int64_t* passive;  // [passives] unknowns; all others keep the value 0
-    const std::int64_t* link;     // [links] nodes; -1 for a link that the caller places
+    const std::int64_t* link;     // [links] nodes; -1 for a rod
+    const std::int64_t* rod;      // [rods, 3] links
+    const double* balls;          // [rods, 5, 3] their vectors
+    const double* unit;           // the size of the linkage and its centre: poses are in its unit
     const double* values;         // [rows, drives]
     const double* rates;          // [orders, rows, drives] coefficients of t, t², t³
     // Written:
     double* unknowns;     // [orders + 1, rows, unknowns] coefficients
-    double* poses;        // [orders + 1, rows, links, 4, 4] coefficients
+    double* poses;        // [orders + 1, rows, links, 4, 4] derivatives
     double* derivatives;  // [rows, conditions, passives]
     std::uint8_t* passed;  // [rows] whether a change of mode was passed before the row
 };

@@ -109,6 +109,16 @@ Frame<Number> read_frame(const Number* matrix) {
     return f;
 }
 
+template <class Number>
+void write_frame(const Frame<Number>& f, Number* matrix) {
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) matrix[4 * i + j] = f.r[3 * i + j];
+        matrix[4 * i + 3] = f.p[i];
+        matrix[12 + i] = Number{};
+    }
+    matrix[15] = Number{1};
+}
+
 // --- turns -------------------------------------------------------------------------------------------------------------
 
 template <class Number>

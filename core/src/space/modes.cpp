@@ -74,16 +74,8 @@ public:
         closing_.evaluate(place_.data(), time);
         for (std::size_t i = 0; i < size(); ++i) end[i] = place_[i];
         for (std::size_t i = 0; i < closing_.turns.size(); ++i) turns[i] = closing_.turns[i];
-        for (int k = 0; k < structure_.nodes; ++k) {
-            const Frame<Complex>& f = closing_.frame(k);
-            Complex* out = frames + k * frame_size;
-            for (int i = 0; i < 3; ++i) {
-                for (int j = 0; j < 3; ++j) out[4 * i + j] = f.r[3 * i + j];
-                out[4 * i + 3] = f.p[i];
-                out[12 + i] = {0, 0};
-            }
-            out[15] = {1, 0};
-        }
+        for (int k = 0; k < structure_.nodes; ++k)
+            write_frame(closing_.frame(k), frames + k * frame_size);
     }
 
 private:

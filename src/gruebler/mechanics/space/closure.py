@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from gruebler import _core
 from gruebler.base.arrays import Reals
+from gruebler.mechanics.space.rods import rod_tables
 from gruebler.mechanics.space.tables import tables_of
 from gruebler.mechanics.space.tree import ClosureTree
 
@@ -34,7 +35,7 @@ class FollowedRows:
     series: Reals
     """(orders + 1, rows, unknowns) of the unknowns, power series in time."""
     poses: Reals
-    """(orders + 1, rows, links, 4, 4) of the links, 0 of rods."""
+    """(orders + 1, rows, links, 4, 4) and their time derivatives."""
     derivatives: Reals
     """(rows, conditions, passive unknowns)"""
     passed: list[int]
@@ -95,6 +96,8 @@ class ClosingConditions:
             passive.astype(np.int64),
             drives.astype(np.int64),
             self.links,
+            *rod_tables(self.tree),
+            np.array([self.tree.scale, *self.tree.linkage.centre]),
             np.ascontiguousarray(values),
             np.ascontiguousarray(rates),
         )

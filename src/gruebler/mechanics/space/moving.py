@@ -21,7 +21,6 @@ from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.closure import Place
 from gruebler.mechanics.space.following import Setting, is_limit, setting
 from gruebler.mechanics.space.motion import SpatialMotion, SpatialStop
-from gruebler.mechanics.space.rods import place_rods_of_series
 
 _FAST = 0.5  # of the fastest joint: joints that move so fast in a last position are named
 
@@ -132,19 +131,12 @@ def moved(set_up: Setting, path: Reals, speeds: Reals) -> SpatialMotion:
     rates = speeds[:, :, order] * scale / factors[1:, None, None]
     rows = set_up.closure.follow(set_up.passive, set_up.drives, own, rates)
     count = len(rows.derivatives)
-    poses = rows.poses
-    if tree.rods:
-        place_rods_of_series(tree, poses)
-    poses *= factors[:, None, None, None, None]
-    poses[..., :3, 3] *= tree.scale
-    poses[..., :3, 3] -= poses[..., :3, :3] @ tree.linkage.centre
-    poses[0, ..., :3, 3] += tree.linkage.centre
     balls = {start + k for start in tree.folds for k in (-1, 0, 1)}
     stop = None if rows.end is None else _stop(set_up, rows.last, rows.end, own[count] - own[count - 1] * (count > 0))
     return SpatialMotion(
         linkage=tree.linkage,
         drives=path[:count],
-        poses=poses,
+        poses=rows.poses,
         unknowns={
             key: rows.series[:, :, k] * factors[:, None] * unit[k] for key, k in tree.unknown.items() if k not in balls
         },

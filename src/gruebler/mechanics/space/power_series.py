@@ -24,17 +24,6 @@ def product(a: Reals, b: Reals, times: Callable[[Reals, Reals], Reals]) -> Reals
     return np.array(terms)
 
 
-def vector_product(a: Reals, b: Reals) -> Reals:
-    """The vector product along the last axis; `numpy.cross` takes many times as long for few vectors.
-
-    >>> vector_product(np.array([1.0, 0, 0]), np.array([0.0, 1, 0])).tolist()
-    [0.0, 0.0, 1.0]
-    """
-    x, y, z = a[..., 0], a[..., 1], a[..., 2]
-    u, v, w = b[..., 0], b[..., 1], b[..., 2]
-    return np.stack([y * w - z * v, z * u - x * w, x * v - y * u], axis=-1)
-
-
 def reciprocal(a: Reals) -> Reals:
     """One over a series.
 

@@ -1,78 +1,59 @@
 """Rods between two balls: their spin is idle, and is fixed by a rule, the shortest turn from the reference pose.
 
-With the directions u of the rod in the reference pose and v now, s = u + v, that turn is two half turns, about u and
-then about s. It depends on v alone, not on the way there. Where the rod points back, s is nearly 0, and the way leads
-by a direction across u.
+The core places them (`core/src/space/rods.hpp`). A leg between a cross joint and a ball, which counts as a rod where
+positions are counted, is placed here.
 """
 
 from __future__ import annotations
 
-import numpy as np
+from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler import _core
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws.joint_places import JointPlace, joint_axes
 from gruebler.mechanics.screws.rigid_motions import exponential, inverse_motion
 from gruebler.mechanics.space.bodies import Cross
-from gruebler.mechanics.space.power_series import product, reciprocal
 from gruebler.mechanics.space.tree import ClosureTree
 from gruebler.structure.chain.spaces import Space
 
-_OPPOSITE = 0.03  # radians: the nearer, the faster the shortest turn spins, and the fewer digits its rates have
+
+class RodTables(NamedTuple):
+    """Rods between two balls as the core takes them."""
+
+    links: NDArray[np.int64]
+    """(rods, 3): the rod, the links of its balls."""
+    vectors: Reals
+    """(rods, 5, 3): the balls on those links, the balls on the rod, a unit vector across it."""
+
+
+def rod_tables(tree: ClosureTree) -> RodTables:
+    """The rods of a tree, legs on cross joints left out."""
+    rods = [rod for rod in tree.rods if rod.cross is None]
+    vectors = np.zeros((len(rods), 5, 3))
+    for own, rod in zip(vectors, rods, strict=True):
+        along = tuple(np.subtract(rod.balls[1], rod.balls[0]).tolist())
+        own[:4] = *(_ball(tree, joint) for joint in rod.joints), *rod.balls
+        own[4] = joint_axes(JointPlace(x=along), Space.SPATIAL)[:, 1]
+    links = np.array([(rod.link, rod.first, rod.second) for rod in rods], np.int64)
+    return RodTables(links.reshape(-1, 3), vectors)
 
 
 def place_rods(tree: ClosureTree, poses: Reals) -> None:
-    """Put the rods into poses (..., links, 4, 4) of the other links."""
-    place_rods_of_series(tree, poses[None])
-
-
-def place_rods_of_series(tree: ClosureTree, poses: Reals) -> None:
-    """Put the rods into power series of poses, (orders, ..., links, 4, 4)."""
+    """Put the rods into poses (rows, links, 4, 4) of the other links."""
+    _core.place_rods(*rod_tables(tree), poses)
     for rod in tree.rods:
-        a, b = _ball(tree, rod.joints[0]), _ball(tree, rod.joints[1])
-        now = [_seen(poses[..., link, :, :], p) for link, p in ((rod.first, a), (rod.second, b))]
         if rod.cross is not None:
-            poses[0, ..., rod.link, :, :] = _at_cross(
-                rod.cross, rod.balls[1], poses[0, ..., rod.first, :, :], now[1][0]
-            )
-        else:
-            poses[..., rod.link, :, :] = _turned(*rod.balls, now[0], now[1])
+            other = poses[:, rod.second]
+            now = other[:, :3, :3] @ _ball(tree, rod.joints[1]) + other[:, :3, 3]
+            poses[:, rod.link] = _at_cross(rod.cross, rod.balls[1], poses[:, rod.first], now)
 
 
 def _ball(tree: ClosureTree, joint: int) -> Reals:
     at = (np.array(tree.linkage.places[joint].at) - tree.linkage.centre) / tree.linkage.size
     return np.asarray(at)
-
-
-def _seen(poses: Reals, point: Reals) -> Reals:
-    return np.asarray(poses[..., :3, :3] @ point + poses[..., :3, 3])
-
-
-def _turned(a: Reals, b: Reals, first: Reals, second: Reals) -> Reals:
-    """The series of poses that takes a and b to these points, (orders, ..., 3) each."""
-    length = float(np.linalg.norm(b - a))
-    u, v = (b - a) / length, (second - first) / length
-    back = np.linalg.norm(u + v[0], axis=-1) < _OPPOSITE
-    across = joint_axes(JointPlace(x=tuple(u.tolist())), Space.SPATIAL)[:, 1]
-    turn = _shortest(np.where(back[..., None], across, u), v)
-    if back.any():
-        turn = np.where(back[..., None, None], turn @ _shortest(u, across[None])[0], turn)
-    pose = np.zeros((*v.shape[:-1], 4, 4))
-    pose[..., :3, :3] = turn
-    pose[..., :3, 3] = first - turn @ a
-    pose[0, ..., 3, 3] = 1
-    return pose
-
-
-def _shortest(u: Reals, v: Reals) -> Reals:
-    """The series of the shortest turn from a direction to a series of directions: half turns about u and u + v."""
-    s = v.copy()
-    s[0] += u
-    square = product(s[..., None, :], s[..., :, None], np.matmul)[..., 0, 0]
-    turn = 2 * product(
-        product(s[..., :, None], s[..., None, :], np.multiply), reciprocal(square)[..., None, None], np.multiply
-    )
-    turn[0] -= np.eye(3)
-    return np.asarray(turn @ (2 * u[..., :, None] * u[..., None, :] - np.eye(3)))
 
 
 def _at_cross(cross: Cross, ball: Reals, body: Reals, now: Reals) -> Reals:
