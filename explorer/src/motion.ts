@@ -238,8 +238,8 @@ export class MotionView implements View, Editor, Driven {
   private followed(): void {
     this.stage.sized();
     this.transport.showRange(this.found);
+    if (this.opened.has("plots")) this.plots.follow(this.linkage);
     this.showPose();
-    if (this.opened.has("plots")) this.plots.draw(this.linkage);
   }
 
   timed(start: number): void {

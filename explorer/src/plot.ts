@@ -131,8 +131,8 @@ export class Plot {
     );
   }
 
-  show(drives: Float64Array, series: Series, range: Pair): void {
-    Object.assign(this, { drives, series, range });
+  show(drives: Float64Array, series: Series, range: Pair, drive = this.drive): void {
+    Object.assign(this, { drives, series, range, drive });
     this.redraw();
   }
 

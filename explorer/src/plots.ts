@@ -35,6 +35,7 @@ export class Plots {
   /** In place of the plots of an output that does not turn or travel. */
   private readonly still = h("p.note", { "data-note": "still" });
   private last: Plotted | null = null;
+  private turn = 0;
   private readonly span = new Span(() => {
     for (const { plot } of this.parts) plot.redraw();
   });
@@ -85,7 +86,13 @@ export class Plots {
     this.draw(linkage);
   }
 
-  draw(linkage: Linkage): void {
+  /** While sizes are dragged: one plot a frame by turns. */
+  follow(linkage: Linkage): void {
+    this.turn = (this.turn + 1) % (this.parts.length || 1);
+    this.draw(linkage, this.parts.slice(this.turn, this.turn + 1));
+  }
+
+  draw(linkage: Linkage, parts = this.parts): void {
     const { active, cycle, drives, model } = linkage;
     if (cycle.values.length < 2) return;
     const plotted = this.plotted(linkage);
@@ -94,10 +101,8 @@ export class Plots {
     this.still.hidden = !still;
     for (const { plot } of record ? this.parts.slice(0, OF_OUTPUT) : [])
       plot.element.style.display = still ? "none" : "";
-    for (const { plot, make } of this.parts) {
-      plot.show(plotted.drives, make(plotted), rangeOf(cycle));
-      plot.at(wrapped(cycle, drives[active]!));
-    }
+    for (const { plot, make } of parts)
+      plot.show(plotted.drives, make(plotted), rangeOf(cycle), wrapped(cycle, drives[active]!));
   }
 
   private zoom({ active, cycle, drives }: Linkage, factor: number): void {

@@ -118,7 +118,15 @@ export class Scene {
   /** Draw the bodies of the links after their sizes or the scale changed. */
   sized(linkage: Linkage): void {
     const bodies = new Bodies(linkage, this.viewport.scale);
-    for (const [link, group] of this.links.entries()) group.replaceChildren(...bodies.of(link));
+    for (const [link, group] of this.links.entries()) {
+      const made = bodies.of(link);
+      while (group.childElementCount > made.length) group.lastChild!.remove();
+      made.forEach((element, k) => {
+        const old = group.children[k];
+        if (!old) group.append(element);
+        else if (!old.isEqualNode(element)) old.replaceWith(element); // most links stay as they are
+      });
+    }
   }
 
   // --- the pose ------------------------------------------------------------------------------------------------------

@@ -47,8 +47,9 @@ export class Track {
     unit: string,
   ): void {
     this.cycle = cycle;
-    const { full, turns, low: from, high: to, stops } = cycle;
-    const told = JSON.stringify([turning, between, dead, least, unit, full, turns, from, to, stops, currentLanguage()]);
+    const { full, turns, low: from, high: to } = cycle;
+    const reached = full ? [] : [from, to, ...cycle.stops.map(Boolean)]; // full turns go from 0 on wherever they began
+    const told = JSON.stringify([turning, between, dead, least, unit, turns, reached, currentLanguage()]);
     if (told === this.told) return;
     this.told = told;
     this.unit = turning ? TURN / 360 : 1;
