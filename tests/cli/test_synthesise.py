@@ -2,11 +2,14 @@
 
 import json
 import re
+import tomllib
 from dataclasses import astuple
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
+import gruebler as gr
 from gruebler.cli import main
 from gruebler.design.synthesis.positions import guiding_dyads
 from gruebler.files import linkage_from_json, read_linkage
@@ -384,3 +387,61 @@ def test_clearance_moves_the_targets_further(five, capsys):
     assert 0 < worst("0") < worst("0.01") < worst("0.02")
     assert main(["synthesise", "positions", str(five), "--clearance", "-1"]) == 2
     assert "--clearance: expected at least 0, but found -1" in capsys.readouterr().err
+
+
+TURNS = "orientations = [[0, 0, 1, 0], [1, 0.5, 2, 20], [0.4, 0.2, 1, 45], [0, -0.3, 1, 70]]"
+
+
+def test_orientations_give_a_four_bar_on_the_sphere(tmp_path, capsys):
+    """Its coupler takes the orientations, by `move` and by rotations of another library."""
+    task, best, picture = tmp_path / "turns.toml", tmp_path / "best.toml", tmp_path / "best.svg"
+    task.write_text(TURNS, encoding="utf-8")
+    options = ["--crank", "--transmission", "30", "--number", "2"]
+    files = ["-o", str(best), "--design", "2", "--draw", str(picture)]
+    assert main(["synthesise", "orientations", str(task), *options, *files]) == 0
+    out = capsys.readouterr().out
+    assert "Designs: 2 accepted, 0 rejected." in out
+    assert "°" in picture.read_text(encoding="utf-8")
+    assert main(["synthesise", "orientations", str(task), *options, "--json"]) == 0
+    design = json.loads(capsys.readouterr().out)["designs"][1]
+    assert design["transmission_through_targets"] >= 30
+    drives = np.radians(design["drives"])
+    steps = np.interp(np.arange(25) / 8, np.arange(4), drives - drives[0])
+    turns = gr.move(gr.read(best), steps).pose("coupler")[::8, :3, :3]
+    rows = np.array(tomllib.loads(TURNS)["orientations"])
+    axes = rows[:, :3] / np.linalg.norm(rows[:, :3], axis=1, keepdims=True)
+    wanted = Rotation.from_rotvec(np.radians(rows[:, 3:]) * axes).as_matrix()
+    assert turns == pytest.approx(wanted @ wanted[0].T, abs=1e-7)
+
+
+def test_orientations_without_a_design_say_why(tmp_path, capsys):
+    task = tmp_path / "turns.toml"
+    task.write_text(TURNS, encoding="utf-8")
+    assert main(["--lang", "de", "synthesise", "orientations", str(task), "--transmission", "89.9"]) == 1
+    out = capsys.readouterr().out
+    assert "Keiner der untersuchten Entwürfe erfüllt die Aufgabe." in out
+    assert "der Übertragungswinkel sinkt auf" in out
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "sentence"),
+    [
+        (
+            "orientations = [[0, 0, 0, 5], [1, 0, 0, 9], [0, 1, 0, 9]]",
+            [],
+            "orientation 1: expected an axis and an angle",
+        ),
+        ("orientations = [[0, 0, 1], [1, 0, 0, 9], [0, 1, 0, 9]]", [], "orientation 1: expected an axis"),
+        ("orientations = [[0, 0, 1, 0], [1, 0, 0, 9]]", [], "expected three to five matrices"),
+        ("positions = [[0, 0, 1]]", [], "positions"),
+        (TURNS, ["--transmission", "91"], "--transmission: expected 0 to 90 degrees"),
+        (TURNS, ["--number", "0"], "--number: expected at least 1"),
+    ],
+)
+def test_bad_orientations_are_told_in_a_sentence(tmp_path, capsys, text, options, sentence):
+    task = tmp_path / "turns.toml"
+    task.write_text(text, encoding="utf-8")
+    assert main(["synthesise", "orientations", str(task), *options]) == 2
+    error = capsys.readouterr().err
+    assert sentence in error
+    assert error.count("\n") == 1

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from math import degrees, isnan
 
 import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.events import GOOD
-from gruebler.base.text import joined, message, number, number_separator, numbers, plural, translate
+from gruebler.base.text import Message, joined, message, number, number_separator, numbers, plural, translate
 from gruebler.cli.tables import Cell, print_table, print_text
 from gruebler.design.synthesis import Design, PathTask, PositionTask, SynthesisResult, pareto
 from gruebler.design.synthesis.coordination import Minimax
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.minimax_search import digits_for_error
-from gruebler.design.synthesis.results import EXACT, FITTED
+from gruebler.design.synthesis.results import EXACT, FITTED, SolutionCount
 from gruebler.design.synthesis.tasks import gives_lengths
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain.pairs import Alphabet
@@ -50,7 +51,28 @@ def print_designs(result: SynthesisResult, shown: SynthesisResult, rejected: boo
 
     Rejected designs are all listed if asked for, otherwise only where there are no others, and some of them.
     """
-    count = result.count
+    print_solutions(result.count, result.remarks, (len(result.designs), len(result.rejected)), lang)
+    if result.designs:
+        headers, rows = [*_COLUMNS], [_row(k, design, lang) for k, design in enumerate(shown.designs, 1)]
+        if isinstance(result.task, PositionTask | PathTask):  # they stand in the plane of the task
+            headers.append(message("fixed pivots"))
+            rows = [[*row, _pivots(design, lang)] for row, design in zip(rows, shown.designs, strict=True)]
+        print_table(headers, rows, lang=lang)
+        more = len(result.designs) - len(shown.designs)
+        if more:
+            print(plural("and {count} more", "and {count} more", more, lang))
+        print_notes(shown, lang)
+        _print_missing_optima(shown, lang)
+        if any(design.form == FITTED for design in shown.designs):
+            print_pareto(shown, lang)
+    else:
+        print(translate("None of the designs examined meets the task.", lang))
+    reasons = [(design.form_in_language(lang), design.verdict.reasons) for design in result.rejected]
+    print_rejected(reasons, not result.designs, rejected, lang)
+
+
+def print_solutions(count: SolutionCount, notes: Iterable[Message], judged: tuple[int, int], lang: str) -> None:
+    """Print how many solutions there are, what has to be known, and how many were accepted and rejected."""
     if count.theorem is None:
         print(translate("Solutions: infinitely many ({kind}), {real} taken.", lang, kind=count.what, real=count.real))
     elif count.theorem:  # 0: nothing exact is to be had, the notes say so
@@ -69,39 +91,25 @@ def print_designs(result: SynthesisResult, shown: SynthesisResult, rejected: boo
                 real=count.real,
             )
         )
-    for note in result.remarks:
+    for note in notes:
         print(note.in_language(lang))
-    totals = {"accepted": len(result.designs), "rejected": len(result.rejected)}
-    print(translate("Designs: {accepted} accepted, {rejected} rejected.", lang, **totals))
-    if result.designs:
-        headers, rows = [*_COLUMNS], [_row(k, design, lang) for k, design in enumerate(shown.designs, 1)]
-        if isinstance(result.task, PositionTask | PathTask):  # they stand in the plane of the task
-            headers.append(message("fixed pivots"))
-            rows = [[*row, _pivots(design, lang)] for row, design in zip(rows, shown.designs, strict=True)]
-        print_table(headers, rows, lang=lang)
-        more = len(result.designs) - len(shown.designs)
-        if more:
-            print(plural("and {count} more", "and {count} more", more, lang))
-        print_notes(shown, lang)
-        _print_missing_optima(shown, lang)
-        if any(design.form == FITTED for design in shown.designs):
-            print_pareto(shown, lang)
-    else:
-        print(translate("None of the designs examined meets the task.", lang))
-    if (rejected or not result.designs) and result.rejected:
-        print()
-        designs = result.rejected if rejected else result.rejected[:_REJECTED]
-        reasons: list[list[Cell]] = [
-            [design.form_in_language(lang), joined(design.verdict.reasons, "; ")] for design in designs
-        ]
-        print_table((message("rejected"), message("reason")), reasons, lang=lang)
-        more = len(result.rejected) - len(designs)
-        if more:
-            print(
-                plural(
-                    "and {count} more, which --rejected lists", "and {count} more, which --rejected lists", more, lang
-                )
-            )
+    accepted, rejected = judged
+    print(translate("Designs: {accepted} accepted, {rejected} rejected.", lang, accepted=accepted, rejected=rejected))
+
+
+def print_rejected(designs: Sequence[tuple[str, Iterable[Message]]], only: bool, asked_for: bool, lang: str) -> None:
+    """Print rejected designs with their reasons: all if asked for, some where there are no others."""
+    if not designs or not (only or asked_for):
+        return
+    print()
+    shown = designs if asked_for else designs[:_REJECTED]
+    rows: list[list[Cell]] = [[form, joined(reasons, "; ")] for form, reasons in shown]
+    print_table((message("rejected"), message("reason")), rows, lang=lang)
+    more = len(designs) - len(shown)
+    if more:
+        print(
+            plural("and {count} more, which --rejected lists", "and {count} more, which --rejected lists", more, lang)
+        )
 
 
 def print_notes(shown: SynthesisResult, lang: str) -> None:
@@ -120,8 +128,8 @@ def print_pareto(result: SynthesisResult, lang: str) -> None:
         [
             str(numbers_of[id(row.design)]),
             number(row.error, lang, ".1e"),
-            _transmission(row.transmission, lang),
-            _transmission(row.design.transmission_over_range, lang),
+            transmission_text(row.transmission, lang),
+            transmission_text(row.design.transmission_over_range, lang),
             number(row.size, lang, "n"),
             str(row.links),
             _shift(row.design, lang),
@@ -142,7 +150,7 @@ def _row(position: int, design: Design, lang: str) -> list[Cell]:
         f"{position} {design.form_in_language(lang)}",
         ", ".join(_named(design.linkage, lang).mechanism.drive_names(Alphabet.of_language(lang))),
         message("yes") if verdict.turns_fully else message("no"),
-        *(_transmission(mu, lang) for mu in (verdict.transmission, design.transmission_over_range)),
+        *(transmission_text(mu, lang) for mu in (verdict.transmission, design.transmission_over_range)),
         _lengths(design.linkage, lang),
         _error(design, lang),
         _shift(design, lang),
@@ -181,7 +189,7 @@ def print_clearance(shown: SynthesisResult, clearance: float, lang: str) -> None
         print_text(_PLAY.filled(clearance=clearance).in_language(lang))
 
 
-def _transmission(mu: float, lang: str) -> str:
+def transmission_text(mu: float, lang: str) -> str:
     """A minimum transmission angle, marked where the motion passes badly; nothing where there is none."""
     return "" if isnan(mu) else f"{number(degrees(mu), lang, '.1f')}°{' !' if mu < GOOD else ''}"
 

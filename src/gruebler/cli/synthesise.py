@@ -13,7 +13,8 @@ from typing import Any
 
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, joined_by_and, translate
-from gruebler.cli.design_files import check_picture, design_to_write, draw_designs
+from gruebler.cli import synthesise_orientations
+from gruebler.cli.design_files import check_demands, check_picture, design_to_write, draw_designs
 from gruebler.cli.design_tables import print_clearance, print_designs, print_optimum
 from gruebler.cli.executors import executor_of
 from gruebler.cli.long_work import count_line
@@ -149,6 +150,14 @@ def add(parser: Parser) -> None:
         --time-ratio K float  time ratio of slow to quick travel
         """
     )
+    sphere = parser.add_command(
+        "orientations",
+        help="turn a body about a point through orientations",
+        description="Four-bars on the sphere whose coupler takes three to five orientations: all of five, the best of "
+        "the families of three and four.",
+        epilog="Example: gruebler synthesise orientations turns.toml --crank -o best.toml",
+    )
+    synthesise_orientations.add(sphere)
     for kind in (positions, function, path, dead):
         kind.take(
             """
@@ -184,6 +193,8 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Solve the task, print designs, write and draw the best. Status 1: no design was accepted."""
+    if arguments.action == "orientations":
+        return synthesise_orientations.run(arguments)
     if arguments.draw is not None:
         check_picture(arguments.draw)
     demands = _demands(arguments)
@@ -230,24 +241,11 @@ def _demands(arguments: argparse.Namespace) -> Demands:
     if arguments.region is not None:
         x1, y1, x2, y2 = arguments.region
         region = (min(x1, x2), min(y1, y2), max(x1, x2), max(y1, y2))
-    if not 0 <= arguments.transmission <= 90:
-        raise SynthesisError(
-            "--transmission: expected 0 to 90 degrees, but found {transmission:g}", transmission=arguments.transmission
-        )
-    if not arguments.size_ratio >= 1:
-        raise SynthesisError(
-            "--size-ratio: expected at least 1, but found {size_ratio:g}", size_ratio=arguments.size_ratio
-        )
+    check_demands(arguments)
     if not arguments.structure and (idle := _given(arguments, _STRUCTURE_OPTIONS)):
         raise SynthesisError("{options}: only with --structure", options=joined_by_and(idle))
     if arguments.clearance is not None and not 0 <= arguments.clearance < math.inf:
         raise SynthesisError("--clearance: expected at least 0, but found {clearance:g}", clearance=arguments.clearance)
-    if arguments.design is not None and arguments.out is None:
-        raise SynthesisError("--design: only with -o")
-    for option in ("--number", "--initial-designs", "--design"):
-        count = getattr(arguments, option.removeprefix("--").replace("-", "_"))
-        if count is not None and count < 1:
-            raise SynthesisError("{option}: expected at least 1, but found {count}", option=option, count=count)
     with _keys_as_options():
         return Demands(
             lengths=_lengths(arguments.length),

@@ -433,7 +433,7 @@ def _verdict(bar: SphericalFourBar, pins: Reals, demands: Demands) -> SphericalD
     sides = np.sign(np.einsum("nx,nx->n", np.cross(first, b0), pins[:, 2]))
     reasons: list[Message] = []
     ranges = [arc for arc in bar.limits if all(float(angle) in arc for angle in phi)]
-    one_branch = bool(ranges) and bool((sides == sides[0]).all()) and sides[0] != 0
+    one_branch = bool(ranges) and bool((sides == sides[0]).all() and sides[0] != 0)
     full = bool(bar.limits) and bar.limits[0].full
     path = phi
     in_order, error, transmission = False, np.inf, np.nan

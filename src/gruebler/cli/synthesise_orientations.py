@@ -1,0 +1,134 @@
+"""`gruebler synthesise orientations`: four-bars on the sphere that turn a body through orientations."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from math import degrees, radians
+from typing import Any
+
+from gruebler.base.plain_data import plain
+from gruebler.base.text import joined, message, number, translate
+from gruebler.cli.design_files import check_demands, check_picture, chosen_design
+from gruebler.cli.design_tables import print_rejected, print_solutions, transmission_text
+from gruebler.cli.output import print_json, say_written, write_file
+from gruebler.cli.parser import Parser
+from gruebler.cli.tables import Cell, print_table
+from gruebler.design.synthesis import Demands
+from gruebler.design.synthesis.spherical import SphericalDesign, SphericalResult, synthesise_orientations
+from gruebler.files.orientations import read_orientations
+from gruebler.files.screws import screws_to_json, write_screws
+from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
+
+_DRAWN = 6
+_COLUMNS = (
+    message("design"),
+    message("full turn"),
+    message("µ at targets"),
+    message("arcs"),
+    message("error"),
+    message("crank angles"),
+)
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.take(
+        """
+        task TASK  a .toml or .json file: orientations = [[x, y, z, angle], ...], axis and angle in degrees
+        --crank  only designs whose drive turns fully
+        --transmission DEG float =0  minimum transmission angle on the way through the targets
+        --size-ratio R float =20  limit of longest to shortest length
+        --number N int =16  give the N best designs only, where there are infinitely many or targets are approached
+        --rejected  also list the rejected designs with their reasons
+        """
+    )
+    parser.add_json(help="print an object with all linkages")
+    parser.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
+    parser.take(
+        """
+        --design K int  with -o: write design K of the list (default: 1)
+        --draw FILE path  draw the best six designs: .svg, .png or .pdf
+        """
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print the designs, write and draw the best. Status 1: no design was accepted."""
+    if arguments.draw is not None:
+        check_picture(arguments.draw, SUFFIXES)
+    check_demands(arguments)
+    demands = Demands(
+        crank=arguments.crank, transmission=radians(arguments.transmission), size_ratio=arguments.size_ratio
+    )
+    result = synthesise_orientations(read_orientations(arguments.task), demands, number=arguments.number)
+    written = chosen_design(arguments, result.designs)
+    if written is not None:
+        write_screws(arguments.out, written.linkage)
+        say_written(arguments.out, arguments.lang)
+    if arguments.draw is not None and (shown := (result.designs or result.rejected)[:_DRAWN]):
+        _draw(arguments, shown)
+    if arguments.json:
+        print_json(_document(result))
+    else:
+        _print(result, arguments.rejected, arguments.lang)
+    return 0 if result.designs else 1
+
+
+def _draw(arguments: argparse.Namespace, shown: Sequence[SphericalDesign]) -> None:
+    from gruebler.pictures.canvas.arrangement import captioned, pictures_in_one
+    from gruebler.pictures.space import draw_spatial
+
+    lang = arguments.lang
+    figures = [
+        captioned(draw_spatial(design.linkage, lang=lang), f"{k}: {_arcs(design, lang)}")
+        for k, design in enumerate(shown, 1)
+    ]
+    figure = pictures_in_one(figures, translate("Designs", lang), min(3, len(figures)))
+    write_file(arguments.draw, picture_bytes(figure, suffix_of(arguments.draw, SUFFIXES)), lang)
+
+
+def _arcs(design: SphericalDesign, lang: str) -> str:
+    return ", ".join(f"{arc} = {number(degrees(getattr(design.four_bar, arc)), lang, 'n')}°" for arc in "abcd")
+
+
+def _document(result: SphericalResult) -> dict[str, Any]:
+    def listed(designs: Sequence[SphericalDesign]) -> list[dict[str, Any]]:
+        return [
+            {
+                **plain(design.verdict, "accepted reasons one_branch in_order turns_fully size_ratio error"),
+                "transmission_through_targets": degrees(design.verdict.transmission),
+                "arcs": {arc: degrees(getattr(design.four_bar, arc)) for arc in "abcd"},
+                "branch": design.branch,
+                "drives": [degrees(value) for value in design.drives],
+                "linkage": screws_to_json(design.linkage),
+            }
+            for design in designs
+        ]
+
+    return {
+        "count": plain(result.count, "what theorem found infinite real"),
+        "notes": [str(note) for note in result.notes],
+        "designs": listed(result.designs),
+        "rejected": listed(result.rejected),
+    }
+
+
+def _print(result: SphericalResult, rejected: bool, lang: str) -> None:
+    print_solutions(result.count, result.notes, (len(result.designs), len(result.rejected)), lang)
+    rows: list[list[Cell]] = [
+        [
+            str(k),
+            message("yes") if design.verdict.turns_fully else message("no"),
+            transmission_text(design.verdict.transmission, lang),
+            _arcs(design, lang),
+            "< 1e-9" if design.verdict.error < 1e-9 else number(design.verdict.error, lang, ".1e"),
+            joined((f"{number(degrees(value), lang, '.1f')}°" for value in design.drives), " "),
+        ]
+        for k, design in enumerate(result.designs, 1)
+    ]
+    if rows:
+        print_table(_COLUMNS, rows, lang=lang)
+    else:
+        print(translate("None of the designs examined meets the task.", lang))
+    print_rejected([(f"RR-RR {_arcs(d, lang)}", d.verdict.reasons) for d in result.rejected], not rows, rejected, lang)
