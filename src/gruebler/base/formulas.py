@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -134,11 +135,56 @@ class Formula:
     def __str__(self) -> str:
         return self.text
 
+    @cached_property
+    def switches(self) -> tuple[ast.expr, ...]:
+        """The comparisons and signs in it: where one of them turns over it may jump."""
+        return tuple(
+            node
+            for node in ast.walk(self.tree)
+            if isinstance(node, ast.Compare) or (isinstance(node, ast.Call) and ast.unparse(node.func) == "sign")
+        )
+
+    @property
+    def at_equality(self) -> list[bool]:
+        """For each switch whether it holds where both sides are equal; a sign is taken for positive."""
+        return [not (isinstance(s, ast.Compare) and isinstance(s.ops[0], ast.Lt | ast.Gt)) for s in self.switches]
+
+    def gaps(self, **values: ArrayLike) -> list[Reals]:
+        """For each switch a difference that is positive where it holds, or where the sign is positive.
+
+        >>> Formula("where(v < 2, 1, 0)*sign(x)", ("v", "x")).gaps(v=1.5, x=-3.0)
+        [array(0.5), array(-3.)]
+        """
+        gaps = []
+        for node in self.switches:
+            parts = [self._value(part, values, {}) for part in _parts(node)]
+            turned = isinstance(node, ast.Compare) and isinstance(node.ops[0], ast.Lt | ast.LtE)
+            gaps.append(np.asarray((parts[0] - parts[1] if len(parts) > 1 else parts[0]) * (-1.0 if turned else 1.0)))
+        return gaps
+
     def __call__(self, **values: ArrayLike) -> Reals:
         """Its values, in the shape of those of the variables together; NaN or infinity where it has none."""
+        return self.on_sides((), **values)
 
+    def on_sides(self, sides: Sequence[bool], **values: ArrayLike) -> Reals:
+        """Its values if its switches hold or not as given, whatever the variables are; without sides as it is written.
+
+        >>> float(Formula("where(v < 2, 10, 20) + v", ("v",)).on_sides([False], v=1.5))
+        21.5
+        """
+        with np.errstate(all="ignore"):
+            result = np.asarray(
+                self._value(self.tree, values, dict(zip(self.switches, sides, strict=False))), np.float64
+            )
+        return np.array(np.broadcast_to(result, np.broadcast_shapes(*map(np.shape, values.values()))))
+
+    def _value(self, tree: ast.expr, values: Mapping[str, ArrayLike], sides: Mapping[ast.expr, bool]) -> Any:
         def value(node: ast.AST) -> Any:
             match node:
+                case ast.Call() if node in sides:
+                    return np.float64(1.0 if sides[node] else -1.0)
+                case ast.Compare() if node in sides:
+                    return np.float64(sides[node])
                 case ast.Constant(value=number):
                     return np.float64(number)  # type: ignore[arg-type]
                 case ast.Name(id=name):
@@ -150,9 +196,7 @@ class Formula:
                     return np.asarray(_OPERATORS[type(op)](*map(value, _parts(node))), np.float64)
             raise AssertionError(node)
 
-        with np.errstate(all="ignore"):
-            result = np.asarray(value(self.tree), np.float64)
-        return np.array(np.broadcast_to(result, np.broadcast_shapes(*map(np.shape, values.values()))))
+        return value(tree)
 
 
 def _parts(node: ast.AST) -> list[ast.expr]:

@@ -1,17 +1,20 @@
-"""What ends a free motion before its time: ends of joints, motors that do not start or stall."""
+"""What happens to a free motion: ends of joints, motors that do not start or stall, jumps of loads."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Complexes, Reals
+from gruebler.base.arrays import Flags, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.dynamics.coordinates import JointFreedom, freedom_of
 from gruebler.mechanics.dynamics.free_linkage import FreeLinkage, Instants
+from gruebler.mechanics.forces.acting import MovingLinks
+from gruebler.mechanics.forces.laws import SwitchedLaw
 from gruebler.mechanics.kinematics.messages import drive_values
 from gruebler.structure.mechanism import Mechanism
 
@@ -26,17 +29,20 @@ _HELD = message(
 _STALLED = message("The motor at {joint} stalls at {time:n} s, {values}: the loads turn it back.")
 
 
-_JUMPS = 1e-3  # of all loads: what changes by more while the state does not is a jump
-_TO_AND_FRO = 8  # such changes from one step to the next: an oscillation is resolved by more steps than that
+_ON_JUMP = 1e-11  # of the largest value so far of what a load looks at: nearer to its jump it is on it
+_TOGETHER = 1e-9  # likewise: what is so near to its own jump turns over with it
+_AHEAD = 1e-7  # of the time that is followed: so far it is looked ahead on which side of a jump the motion goes
 
 
 class Watch(NamedTuple):
-    """Something that ends the motion."""
+    """Something that ends the motion, or changes what acts."""
 
     gap: Callable[[Instants], float]
     """Negative once it has happened."""
-    met: Callable[[Instants], Message]
-    """What is said then."""
+    met: Callable[[Instants], Message | None]
+    """What is said then; nothing if the motion goes on."""
+    passed: Callable[[Instants], None] = lambda _: None
+    """What happens where it goes on."""
 
 
 def watched_ends(free: FreeLinkage, first: Instants, ends: Mapping[str, tuple[float, float]]) -> Iterator[Watch]:
@@ -112,19 +118,86 @@ def why_not_started(free: FreeLinkage, first: Instants, acceleration: Reals) -> 
     return None
 
 
-def held_on_a_jump(free: FreeLinkage, recent: Sequence[Instants]) -> Message | None:
-    """The reason if a load jumps to and fro among instants that are one place, one speed and one time."""
-    named = list[tuple[Message, Complexes]]()
-    for now in recent:
-        named += free.equations.acting.named_values(now.moving)
-    loads = len(named) // len(recent)
-    values = np.array([value[0] for _, value in named]).reshape(len(recent), loads)
-    ranges = np.abs(values - values[0]).max(axis=0, initial=0.0)
-    turns = (np.abs(np.diff(values, axis=0)) > ranges / 2).sum(axis=0)
-    held = (ranges > _JUMPS * np.abs(values).max(initial=0.0)) & (turns > _TO_AND_FRO)
-    if not held.any():
-        return None
-    return _HELD.filled(time=recent[0].time, values=_values(free, recent[0]), load=named[int(held.argmax())][0])
+class Jumps:
+    """The comparisons and signs in the loads, each held on one side; turned over where the motion passes its jump."""
+
+    def __init__(self, free: FreeLinkage, first: Instants, until: float) -> None:
+        self._free, self._ahead = free, _AHEAD * until
+        self._switches = [
+            (what, law, k)
+            for what, law, _ in free.equations.acting.laws(first.moving)
+            if isinstance(law, SwitchedLaw)
+            for k in range(len(law.sides))
+        ]
+        gaps = self._gaps(first.moving)
+        self._largest = np.maximum(np.abs(gaps), 1e-300)
+        self._turn(self._senses * gaps < 0)
+        self.held: Message | None = None
+        """The reason why it does not start, on a jump."""
+        if (gaps == 0).any():
+            here, there = self._ways(first, gaps == 0)
+            self.held = self._met(first)
+            self._turn((gaps == 0) & (here < 0 <= there))
+
+    def watched(self) -> list[Watch]:
+        """What is looked at: the nearest of all jumps, if there are any."""
+        return [Watch(self._nearest, self._met, self._turned)] if self._switches else []
+
+    @property
+    def _senses(self) -> Reals:
+        return np.array([1.0 if law.sides[k] else -1.0 for _, law, k in self._switches])
+
+    def _turn(self, which: Flags) -> None:
+        for (_, law, k), turns in zip(self._switches, which.tolist(), strict=True):
+            law.sides[k] ^= turns
+
+    def _gaps(self, moving: MovingLinks) -> Reals:
+        laws = self._free.equations.acting.laws(moving)
+        return np.array([gap for _, law, at in laws if isinstance(law, SwitchedLaw) for gap in law.gaps(at)])
+
+    def _nearest(self, now: Instants) -> float:
+        gaps = self._gaps(now.moving)
+        self._largest = np.maximum(self._largest, np.abs(gaps))
+        return float((self._senses * gaps / self._largest).min()) + _ON_JUMP
+
+    def _touched(self, now: Instants) -> Flags:
+        return np.asarray(self._senses * self._gaps(now.moving) / self._largest < _TOGETHER)
+
+    def _met(self, now: Instants) -> Message | None:
+        which = self._touched(now)
+        here, there = self._ways(now, which)
+        if here >= 0 or there >= 0:
+            return None
+        load = self._switches[int(np.argmax(which))][0]
+        return _HELD.filled(time=now.time, values=_values(self._free, now), load=load)
+
+    def _turned(self, now: Instants) -> None:
+        self._turn(self._touched(now))
+
+    def _ways(self, now: Instants, which: Flags) -> tuple[float, float]:
+        """How fast the motion leaves the jump on its own side, and on the other one; negative: back to it."""
+        first, ways = int(np.argmax(which)), []
+        for _ in range(2):
+            ways.append(float(self._senses[first] * self._slopes(now)[first]))
+            self._turn(which)
+        return ways[0], ways[1]
+
+    def _slopes(self, now: Instants) -> Reals:
+        """How fast what the loads look at grows, by a small step along the motion."""
+        acceleration, step, moving = self._free.acceleration(now), self._ahead, now.moving
+        places, rates = now.derivatives(acceleration)
+        ahead = replace(
+            moving,
+            places=moving.places + step * moving.velocities,
+            turns=moving.turns * np.exp(1j * step * moving.rates),
+            angles=moving.angles + step * moving.rates,
+            velocities=moving.velocities + step * places[2],
+            rates=moving.rates + step * rates[1],
+            time=moving.time + step,
+            drives=moving.drives + step * moving.speeds,
+            speeds=moving.speeds + step * self._free.own_acceleration(now, acceleration),
+        )
+        return (self._gaps(ahead) - self._gaps(moving)) / step
 
 
 def _motors_at_rest(free: FreeLinkage, first: Instants) -> Iterator[tuple[int, float]]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from collections import deque
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import partial
@@ -20,7 +19,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.dynamics.charts import Blocked
-from gruebler.mechanics.dynamics.events import Watch, held_on_a_jump, watched_ends, watched_motors, why_not_started
+from gruebler.mechanics.dynamics.events import Jumps, Watch, watched_ends, watched_motors, why_not_started
 from gruebler.mechanics.dynamics.free_linkage import FreeLinkage, Instants, Kept
 from gruebler.mechanics.dynamics.simulation import Simulation
 from gruebler.mechanics.dynamics.starts import starting_pose
@@ -34,7 +33,7 @@ from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 _ROWS = 401
 _ABSOLUTE = 0.1  # of the tolerance: what is allowed of values near zero, in their usual size
 _FINEST, _COARSEST = 1e-13, 1e-2
-_SHORT, _PATIENCE = 1e-4, 50  # of the time that is followed: so many steps that are shorter together look for a jump
+_SHORT, _MANY = 2.5e-4, 500  # of the time that is followed: so many steps that are shorter together lead nowhere
 _BY_ORDER = ("places", "rates")  # columns whose rows are their second axis
 _MOST = 10_000  # steps at once, between which Ctrl-C is heard
 _LOOKS = 4  # in each step, at what may end the motion
@@ -102,7 +101,7 @@ def simulate(
     if not _FINEST <= tolerance <= _COARSEST:
         raise LinkageError("a tolerance lies between 1e-13 and 0.01; this one is {tolerance!r}", tolerance=tolerance)
     drives, start = starting_pose(solving, branch, at)
-    free = FreeLinkage(solving, loads, start)
+    free = FreeLinkage(solving, loads.switched(), start)
     run = _Run(free, until, _times(times, until), tolerance, stiff)
     return run.followed(drives, _speeds(solving, speed), ends or {})
 
@@ -132,6 +131,12 @@ def _times(times: ArrayLike | None, until: float) -> Reals:
 _NO_WAY = message(
     "The motion cannot be followed beyond {time:n} s, {values}: there the linkage branches, the law of a cam jumps in "
     "its speed, whatever has mass stands still at any speed of the drives, or nothing serves as a coordinate."
+)
+
+
+_NO_END = message(
+    "At {time:n} s, {values}, steps get too short for an end to come: a load that is given as a function jumps there, "
+    "or something changes far faster than the motion."
 )
 
 
@@ -205,7 +210,7 @@ class _Run:
         self.points = list[tuple[float, Reals, bool]]()  # not written yet: time, state, whether it is a row
         self.since: Kept | None = None  # what their angles are counted on from
         self.steps = 0
-        self.recent = deque[Instants](maxlen=_PATIENCE)
+        self.ahead = (0, 0.0)  # after so many steps it was so far
         self.reason: Message | None = None
         self.count = free.coordinates.count
         self.watched: list[Watch] = []
@@ -223,7 +228,9 @@ class _Run:
             ) from None
         free.keep(first)
         free.check(first)
-        self.watched = [*watched_ends(free, first, ends), *watched_motors(free, first)]
+        jumps = Jumps(free, first, self.until)
+        self.reason = jumps.held
+        self.watched = [*watched_ends(free, first, ends), *watched_motors(free, first), *jumps.watched()]
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # of steps that lead where the linkage cannot be assembled
             self._follow(first, np.concatenate([q, v, [0.0]]))
@@ -232,18 +239,16 @@ class _Run:
     def _follow(self, first: Instants, y: Reals) -> None:
         acceleration = self.free.acceleration(first)
         self._note([(0.0, y, bool(self.times[0] == 0))])
-        self.reason = why_not_started(self.free, first, acceleration)
+        self.reason = self.reason or why_not_started(self.free, first, acceleration)
         if self.reason is not None:
             return
         solver = self._solver(0.0, y, acceleration[0])
         while solver.status == "running":
-            self._step(solver)
+            solver = self._step(solver)
+            self.reason = self.reason or self._no_end(solver)
             if self.reason is not None:
                 return
             now = self._at(solver.t, solver.y)
-            self.reason = self._held(now)
-            if self.reason is not None:
-                return
             other = self.free.sets.exchanged(self.free.coordinates, now.jets, self._parts(solver.y)[1])
             if other is not None:
                 self._write()
@@ -256,8 +261,8 @@ class _Run:
                     solver = self._solver(solver.t, y, self.free.acceleration(now)[0], solver.h_abs)
             self.free.keep(now)
 
-    def _step(self, solver: DOP853 | Radau) -> None:
-        """One step, or many where nothing happens between them; what it passes is noted."""
+    def _step(self, solver: DOP853 | Radau) -> DOP853 | Radau:
+        """One step, or many where nothing happens between them; what it passes is noted. Who takes the next one."""
         begin = solver.t
         if isinstance(solver, ChartedSteps) and not self.watched:
             leapt = solver.leap(self._stops(begin, self.until))
@@ -270,21 +275,49 @@ class _Run:
                 self._note(sorted([*rows, *ends], key=lambda point: point[0]))
                 if len(steps) > 1:
                     self.free.keep(self.free.instants(steps[:-1, 0], *self._parts(steps[:-1, 1:])))
-                return
+                return solver
         solver.step()
         self.steps += 1
         if solver.status == "failed" or not np.isfinite(solver.y).all():
             self.reason = self._no_way(solver.t_old or 0.0)
-            return
+            return solver
         stops = self._stops(begin, solver.t)
         if len(stops) or self.watched:
             path = solver.dense_output()
             event = self._event(path, begin, solver.t)
-            if event:
-                end, self.reason = event
-                stops = stops[stops <= end]
+            if event is not None:
+                return self._after(event, path, solver)
             self._note([(t, path(t), True) for t in stops.tolist()])
         self._note([(solver.t, solver.y, False)])
+        return solver
+
+    def _after(
+        self, event: tuple[float, Watch], path: Callable[[float], Reals], solver: DOP853 | Radau
+    ) -> DOP853 | Radau:
+        """What goes on where an event ends a step, if it does not end the motion."""
+        (end, watch), begin = event, solver.t_old
+        self._note([(t, path(t), True) for t in self._stops(begin, end).tolist()])
+        y = path(end)
+        self._note([(end, y, False)])
+        now = self._at(end, y)
+        self.reason = watch.met(now)
+        if self.reason is not None or end >= self.until:
+            return solver
+        self._write()
+        watch.passed(now)
+        self.free.keep(now)
+        self._note([(end, y, False)])
+        return self._solver(end, y, self.free.acceleration(now)[0], solver.h_abs)
+
+    def _no_end(self, solver: DOP853 | Radau) -> Message | None:
+        """The reason if so many steps are so short that there is no end of them."""
+        if self.steps - self.ahead[0] < _MANY or self.free.equations.acting.of_the_pose:
+            return None
+        last, self.ahead = self.ahead[1], (self.steps, solver.t)
+        if solver.t - last > _SHORT * self.until:
+            return None
+        values = drive_values(self.free.plan.linkage, tuple(self._at(solver.t, solver.y).moving.drives[0].tolist()))
+        return _NO_END.filled(time=solver.t, values=values)
 
     def _stops(self, begin: float, end: float) -> Reals:
         """The rows that are asked for after one time and up to another."""
@@ -295,15 +328,6 @@ class _Run:
         if not self.points:
             self.since = self.free.last
         self.points += points
-
-    def _held(self, now: Instants) -> Message | None:
-        """The reason if the steps do not get on because a load jumps."""
-        self.recent.append(now)
-        if len(self.recent) < _PATIENCE or now.time - self.recent[0].time > _SHORT * self.until:
-            return None
-        held = held_on_a_jump(self.free, self.recent)
-        self.recent.clear()
-        return held
 
     def _solver(self, t: float, y: Reals, acceleration: Reals, step: float | None = None) -> DOP853 | Radau:
         """An integrator; what is small is measured by the size of the coordinates and the time the motion takes."""
@@ -389,8 +413,8 @@ class _Run:
 
     # --- events --------------------------------------------------------------------------------------
 
-    def _event(self, path: Callable[[float], Reals], begin: float, end: float) -> tuple[float, Message] | None:
-        """The first event in a step: when, and what it means for the motion."""
+    def _event(self, path: Callable[[float], Reals], begin: float, end: float) -> tuple[float, Watch] | None:
+        """The first event in a step: when, and what was looked at."""
         events = []
         for watch in self.watched:
 
@@ -402,5 +426,5 @@ class _Run:
             if min(gaps) < 0:
                 k = int(np.argmax(np.array(gaps) < 0))
                 t = float(looks[0]) if k == 0 else float(brentq(gap, looks[k - 1], looks[k], xtol=1e-14 * self.until))
-                events.append((t, watch.met(self._at(t, path(t)))))
+                events.append((t, watch))
         return min(events, key=lambda event: event[0], default=None)

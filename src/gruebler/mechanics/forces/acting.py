@@ -186,27 +186,31 @@ class ActingLoads:
 
     def motor_efforts(self, moving: MovingLinks) -> Reals:
         """(rows, drives): what motors give at the speeds of their drives."""
-        mechanism = self.linkage.mechanism
         efforts = np.zeros(moving.speeds.shape)
-        driven = [drive.joint for drive in mechanism.drives]
         for joint, law in self.loads.motors.items():
-            number = mechanism.chain.joint_number(joint, error=LinkageError)
-            if number not in driven:
-                raise LinkageError("{joint} has a motor, but is not driven", joint=mechanism.chain.joint_title(number))
-            k = driven.index(number)
-            own = State(
-                time=moving.time,
-                drives=moving.drives[:, k:],
-                speeds=moving.speeds[:, k:],
-                x=moving.time * 0,
-                y=moving.time * 0,
-                vx=moving.time * 0,
-                vy=moving.time * 0,
-                angle=moving.drives[:, k],
-                omega=moving.speeds[:, k],
-            )
-            efforts[:, k] += _of_law(message("the motor of {joint}", joint=joint), law, own)
+            k, state = self._of_motor(joint, moving)
+            efforts[:, k] += _of_law(message("the motor of {joint}", joint=joint), law, state)
         return efforts
+
+    def _of_motor(self, joint: str, moving: MovingLinks) -> tuple[int, State]:
+        """The drive that a motor drives, and what its law may depend on."""
+        mechanism = self.linkage.mechanism
+        number = mechanism.chain.joint_number(joint, error=LinkageError)
+        driven = [drive.joint for drive in mechanism.drives]
+        if number not in driven:
+            raise LinkageError("{joint} has a motor, but is not driven", joint=mechanism.chain.joint_title(number))
+        k, none = driven.index(number), moving.time * 0
+        return k, State(
+            time=moving.time,
+            drives=moving.drives[:, k:],
+            speeds=moving.speeds[:, k:],
+            x=none,
+            y=none,
+            vx=none,
+            vy=none,
+            angle=moving.drives[:, k],
+            omega=moving.speeds[:, k],
+        )
 
     def potential(self, moving: MovingLinks) -> Reals:
         """(rows,): the energy of weights and springs; that of other loads is not counted."""
@@ -243,16 +247,16 @@ class ActingLoads:
         ]
         return not (loads.motors or loads.torsion_springs or any(map(_varies, [*parts, *loads.moments.values()])))
 
-    def named_values(self, moving: MovingLinks) -> Iterator[tuple[Message, Complexes]]:
-        """Forces, moments, motors that may vary, each with its name and its values, (rows,)."""
+    def laws(self, moving: MovingLinks) -> Iterator[tuple[Message, Any, State]]:
+        """The laws of forces, moments, motors: the name of the load, the law, and what it depends on now."""
         for k, (name, given) in enumerate(self.loads.forces.items()):
-            yield message("the force at {point}", point=_point_text(name)), self._force(moving, k, name, given)
+            for part in given if isinstance(given, tuple | list) else (given,):
+                what = message("the force at {point}", point=_point_text(name))
+                yield what, part, moving.state(int(self.of[k]), complex(self.arms[k]))
         for link, given in self.loads.moments.items():
-            what, k = message("the moment on {link!r}", link=link), self.links.index(link)
-            yield what, self._amount(what, given, moving, k, 0j).astype(np.complex128)
-        efforts = self.motor_efforts(moving).sum(axis=1).astype(np.complex128)
-        for joint in self.loads.motors:
-            yield message("the motor of {joint}", joint=joint), efforts
+            yield message("the moment on {link!r}", link=link), given, moving.state(self.links.index(link), 0j)
+        for joint, law in self.loads.motors.items():
+            yield message("the motor of {joint}", joint=joint), law, self._of_motor(joint, moving)[1]
 
     # --- parts ---------------------------------------------------------------------------------------
 

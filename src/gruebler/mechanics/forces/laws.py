@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any, Protocol, final
 
 import numpy as np
 
@@ -85,6 +85,30 @@ class LoadFormula:
     @cached_property
     def _formula(self) -> Formula:
         return Formula(self.text, VARIABLES, LinkageError)
+
+    def switched(self) -> SwitchedLaw:
+        """The same with its comparisons and signs held on one side each."""
+        return SwitchedLaw(self._formula)
+
+
+@final
+class SwitchedLaw:
+    """A formula whose comparisons and signs stay as they are until they are turned over: smooth between two jumps."""
+
+    def __init__(self, formula: Formula) -> None:
+        self._formula = formula
+        self.sides = formula.at_equality
+
+    def __call__(self, state: State, /) -> Reals:
+        """Its value, (), or one for each row, (rows,)."""
+        return self._formula.on_sides(self.sides, **self._of(state))
+
+    def gaps(self, state: State) -> list[float]:
+        """For each comparison or sign a difference that is positive where it holds, in the first row."""
+        return [float(gap.ravel()[0]) for gap in self._formula.gaps(**self._of(state))]
+
+    def _of(self, state: State) -> dict[str, Reals]:
+        return {name: getattr(state, name) for name in self._formula.names}
 
 
 @door_that_raises(LinkageError)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import KW_ONLY, dataclass, field, replace
 from typing import Any
 
 from numpy.typing import ArrayLike
@@ -65,3 +65,18 @@ class Loads:
             if isinstance(text, str):
                 LoadFormula(text)
         settle(self, springs=tuple(self.springs), torsion_springs=tuple(self.torsion_springs))
+
+    def switched(self) -> Loads:
+        """The same with every text a `SwitchedLaw`."""
+
+        def held(given: Any) -> Any:
+            if isinstance(given, tuple | list):
+                return tuple(map(held, given))
+            law = LoadFormula(given) if isinstance(given, str) else given
+            return law.switched() if isinstance(law, LoadFormula) else law
+
+        forces = {
+            name: held(given) if isinstance(given, tuple | list) else given for name, given in self.forces.items()
+        }
+        moments, motors = ({name: held(law) for name, law in part.items()} for part in (self.moments, self.motors))
+        return replace(self, forces=forces, moments=moments, motors=motors)
