@@ -153,7 +153,7 @@ class Formula:
         """For each switch a difference that is positive where it holds, or where the sign is positive.
 
         >>> Formula("where(v < 2, 1, 0)*sign(x)", ("v", "x")).gaps(v=1.5, x=-3.0)
-        [array(0.5), array(-3.)]
+        [array(-3.), array(0.5)]
         """
         gaps = []
         for node in self.switches:
