@@ -13,6 +13,7 @@ import pytest
 from gruebler import FourBar
 from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
+from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.shapes import TextShape
 from gruebler.structure.assur import assur_groups
 from gruebler.structure.chain.pairs import PAIRS
@@ -21,7 +22,7 @@ from gruebler.structure.enumeration import count_chains
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entries
 from gruebler.teaching.exercises import KINDS, exercise, grade, solve
-from gruebler.teaching.sheets.page import HorizontalRule, PlacedLogo, TextLine
+from gruebler.teaching.sheets.page import HorizontalRule, PlacedLogo, PlacedPicture, TextLine
 from gruebler.teaching.worksheets import (
     catalog_book,
     document_bytes,
@@ -99,6 +100,23 @@ def test_a_logo_stands_on_every_page_and_in_every_format(tmp_path, capsys):
     assert "own.svg: expected a logo as a PNG picture" in capsys.readouterr().err
     assert main([*sheet_of, str(tmp_path / "none.png")]) == 2
     assert "cannot be read" in capsys.readouterr().err
+
+
+def test_a_picture_that_nearly_fits_is_made_smaller_but_stays_legible():
+    """Half a page is full; a picture a little too high for the rest stands there, one far too high begins a page."""
+    lines = (Paragraph("line\n" * 30),)
+
+    def pages(height):
+        picture = Pictures((Figure((), width=500, height=height, title="", description=""),), height=height)
+        return [
+            [(k, item.scale) for item in page.items if isinstance(item, PlacedPicture)]
+            for k, page in enumerate(document_pages(Document("x", (*lines, picture))))
+        ]
+
+    assert pages(400)[0] == [(0, 1.0)]
+    (little,) = pages(500)
+    assert 0.62 < little[0][1] < 1.0
+    assert pages(900)[0] == []
 
 
 def test_moodle_marks_as_grade_does(sheet):
@@ -431,7 +449,7 @@ def test_exercise_12_has_its_graphical_way(tmp_path):
 def test_a_sheet_shows_every_output_and_the_machine_to_scale():
     """Both pistons of the compressor, each with its diagram; an arm with three drives."""
     pictures = blocks_of(machine_document(entries()["vcomp"], lang="de"), Pictures)
-    assert [block.captions for block in pictures[1:]] == [("Kolben 1",), ("Kolben 2",)]
+    assert [block.captions for block in pictures[1:]] == [("Kolben 1", "Kolben 2")]
     arm = blocks_of(machine_document(entries()["excavator"], lang="de"), Pictures)
     assert len(arm[0].figures) == 2
     assert "Zähne" in [shape.text for shape in arm[0].figures[0].shapes if isinstance(shape, TextShape)]

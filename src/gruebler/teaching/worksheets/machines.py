@@ -117,8 +117,9 @@ def _blocks_in_plane(
     diagrams = _diagrams(linkage, outputs, lang, shown)
     if diagrams:
         yield Heading(translate("Main diagram", lang))
-        for output, diagram in diagrams.items():
-            yield Pictures((diagram,), (output,) if len(diagrams) > 1 else (), 420.0)
+        names, figures = tuple(diagrams), tuple(diagrams.values())
+        for k in range(0, len(names), 2):  # two side by side
+            yield Pictures(figures[k : k + 2], names[k : k + 2] if len(names) > 1 else (), 420.0)
 
 
 def _pictures(

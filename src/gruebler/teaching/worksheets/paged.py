@@ -32,6 +32,7 @@ _LOGO, _LOGO_WIDTH = 26.0, 220.0  # at most, above the head of a page
 _KEPT = 0.45 * HEIGHT  # what is higher than that may be divided
 _WHOLE_TABLE = 0.2 * HEIGHT
 _PASSES = 4
+_SMALLEST = 0.62  # scale of a picture that would else begin a page: names of 13 pixels are then 6 points high
 _FILL = 1.04  # texts are set a little wider than estimated
 
 Item = TextLine | HorizontalRule | PlacedPicture
@@ -66,7 +67,10 @@ def _divided(document: Document, numbers: Mapping[str, int]) -> tuple[list[list[
             continue
         # A heading stays with all that it heads, or with the beginning if that is much.
         more = _headed(blocks[number:]) if isinstance(block, Heading) else 0.0
-        for part, (items, high) in enumerate(_parts(block)):
+        for part, whole in enumerate(_parts(block)):
+            items, high = whole
+            if isinstance(block, Pictures) and y + high > _BOTTOM and pages[-1]:
+                items, high = _smaller(block, whole, _BOTTOM - y)
             if y + high + more > _BOTTOM and pages[-1]:
                 pages.append([])
                 y = _TOP
@@ -140,8 +144,8 @@ def _heading(text: str, size: float) -> Part:
     return items, _GAP + 1.25 * size * len(lines) + 6
 
 
-def _pictures(block: Pictures) -> Part:
-    scales = block.scales(_RIGHT - _LEFT - _GAP * (len(block.figures) - 1))
+def _pictures(block: Pictures, part: float = 1.0) -> Part:
+    scales = [part * scale for scale in block.scales(_RIGHT - _LEFT - _GAP * (len(block.figures) - 1))]
     sizes = [(scale * figure.width, scale * figure.height) for scale, figure in zip(scales, block.figures, strict=True)]
     spare = (_RIGHT - _LEFT - sum(wide for wide, _ in sizes)) / len(sizes) - _GAP  # given to all captions alike
     high = max(height for _, height in sizes)
@@ -158,6 +162,14 @@ def _pictures(block: Pictures) -> Part:
             below = max(below, 12.5 * len(lines) + 4)
         left += wide + _GAP + max(spare, 0.0)
     return items, high + below + _GAP
+
+
+def _smaller(block: Pictures, whole: Part, room: float) -> Part:
+    """Pictures made a little smaller where that lets them stand on the page; else as they are."""
+    scales = block.scales(_RIGHT - _LEFT - _GAP * (len(block.figures) - 1))
+    tall = max(scale * figure.height for scale, figure in zip(scales, block.figures, strict=True))
+    part = 1 - (whole[1] - room) / tall
+    return _pictures(block, part) if part * min(scales) >= _SMALLEST else whole
 
 
 def _table(block: Rows) -> Iterator[Part]:
