@@ -10,6 +10,7 @@ from typing import Any
 
 from docutils import nodes
 from docutils.parsers.rst import directives
+from sphinx.addnodes import download_reference
 from sphinx.util.docutils import SphinxDirective
 
 from builder.session import Session
@@ -116,6 +117,8 @@ class PictureBlock(_Running):
             whole += nodes.raw("", '<details class="code-of-picture"><summary>Python</summary>', format="html")
             whole += nodes.literal_block(shown, shown, language="python")
             whole += nodes.raw("", "</details>", format="html")
+            saved = download_reference("", "SVG", refdoc=self.env.docname, reftarget=image["uri"])
+            whole += nodes.paragraph("", "", saved, classes=["picture-file"])
         return [whole]
 
 

@@ -23,6 +23,7 @@ import gruebler
 _STUB = Path(gruebler.__file__).with_suffix(".pyi")
 _STABILITY = Path(__file__).parents[1] / "reference" / "stability.md"
 _DOCSTRING_SECTIONS = {"Args:": "Arguments", "Returns:": "Returns", "Raises:": "Raises", "Yields:": "Yields"}
+_UNLISTED = ":no-contents-entry:"  # members: the contents of a page list classes and functions
 _FURTHER = {  # modules whose names are public though no room lists them
     "pictures": (
         "structure.picture",
@@ -181,13 +182,14 @@ def _class(name: str, kind: type) -> Iterator[str]:
     body = [*_markdown(inspect.getdoc(kind) or ""), ""]
     fields = {field: (text, type_) for field, text, type_ in _fields(kind)}
     for field, (text, type_) in fields.items():
-        body += _directive("py:attribute", field, [f":type: {type_}", "", *_markdown(text)], ":::::")
+        body += _directive("py:attribute", field, [_UNLISTED, f":type: {type_}", "", *_markdown(text)], ":::::")
     if not error:
         for member, value in _members(kind):
             if member in fields:
                 continue
             if isinstance(value, property):
-                body += _directive("py:property", member, _markdown(inspect.getdoc(value) or ""), ":::::")
+                text = _markdown(inspect.getdoc(value) or "")
+                body += _directive("py:property", member, [_UNLISTED, "", *text], ":::::")
             else:
                 body += _method(kind, member, value)
     yield from _directive("py:exception" if error else "py:class", name + signature, body)
@@ -196,7 +198,7 @@ def _class(name: str, kind: type) -> Iterator[str]:
 def _method(kind: type, name: str, value: Any) -> Iterator[str]:
     option = {classmethod: [":classmethod:"], staticmethod: [":staticmethod:"]}.get(type(value), [])
     text = _markdown(inspect.getdoc(getattr(kind, name)) or "")
-    yield from _directive("py:method", name + _signature(getattr(kind, name)), [*option, "", *text], ":::::")
+    yield from _directive("py:method", name + _signature(getattr(kind, name)), [*option, _UNLISTED, "", *text], ":::::")
 
 
 def _members(kind: type) -> Iterator[tuple[str, Any]]:
@@ -309,9 +311,13 @@ def _arguments(rows: Iterator[str]) -> list[str]:
 
 def _markdown_line(text: str) -> str:
     """A line of a docstring: code stays, other signs of Markdown are made plain."""
-    parts = re.split(r"(`+[^`]*`+)", text)
+    parts = re.split(r"(`+[^`]*`+|`?docs/[\w/-]+\.md`?)", text)
     return "".join(
-        part if k % 2 else re.sub(r"([*\[\]{}<>$|~]|(?<=\w)_(?=\W|$)|(?<!\w)_)", r"\\\1", part)
+        f"[](/{part.strip('`').removeprefix('docs/')})"
+        if part.strip("`").startswith("docs/") and part.strip("`").endswith(".md")
+        else part
+        if k % 2
+        else re.sub(r"([*\[\]{}<>$|~]|(?<=\w)_(?=\W|$)|(?<!\w)_)", r"\\\1", part)
         for k, part in enumerate(parts)
     )
 
