@@ -75,11 +75,10 @@ def test_the_list_of_machines_says_which_move_in_space():
     assert "Isometri" in picture
 
 
-def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):
+def browsed(chromium, path):
+    """A page of a machine in space, and what went wrong on it."""
     from tests.page.conftest import find_browser
 
-    path = tmp_path / "wiper.html"
-    assert main(["explore", "wiper_rssr", "-o", str(path)]) == 0
     if not (found := find_browser(chromium)):
         pytest.skip("no browser")
     options = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
@@ -90,6 +89,37 @@ def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):
     page.on("console", lambda line: errors.append(line.text) if line.type == "error" else None)
     page.goto(path.as_uri())
     page.wait_for_selector("canvas")
+    return browser, page, errors
+
+
+@pytest.mark.parametrize("id", ["gough", "diff_bevel2p"])
+def test_several_drives_move_together(tmp_path, chromium, id):
+    """The page's own solver against that of the library, along the same ways; rods may spin as they like."""
+    path = tmp_path / "machine.html"
+    assert main(["explore", id, "-o", str(path)]) == 0
+    browser, page, errors = browsed(chromium, path)
+    page.get_by_role("button", name="Stop").click()
+    sliders = page.get_by_role("slider").all()
+    linkage = entry(id).placed()
+    drives = linkage.mechanism.drives
+    assert len(sliders) == len(drives)
+    values = [(0.2 if drive.turning else 12.0) * (-1) ** k for k, drive in enumerate(drives)]
+    for slider, value in zip(sliders, values, strict=True):
+        slider.fill(str(value))
+    assert page.evaluate("gruebler.values()") == pytest.approx(values)
+    motion = move(linkage, [np.zeros(len(drives)), values])
+    poses = np.array(page.evaluate("gruebler.poses()")).reshape(-1, 3, 4)
+    for k, link in enumerate(linkage.mechanism.chain.links):
+        if link not in motion.idle:
+            assert poses[k] == pytest.approx(motion.poses[0, -1, k, :3], abs=1e-6 * linkage.size)
+    assert errors == []
+    browser.close()
+
+
+def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):
+    path = tmp_path / "wiper.html"
+    assert main(["explore", "wiper_rssr", "-o", str(path)]) == 0
+    browser, page, errors = browsed(chromium, path)
     output = page.locator("output")
     first = output.inner_text()
     page.wait_for_function("old => document.querySelector('output').textContent !== old", arg=first)

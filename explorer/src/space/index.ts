@@ -2,6 +2,7 @@
 
 import { axes, before, type Camera, meeting, moved, projection, ray, seen, type Vector } from "./algebra";
 import { type Body, Painter } from "./painter";
+import { type Live, Solver } from "./solver";
 
 interface Motion {
   /** Its number. */
@@ -27,6 +28,8 @@ interface Model {
   bodies: Body[];
   points: { name: string; link: number; at: Vector }[];
   motions: Motion[];
+  /** What moves several drives together; with one drive its motion is there. */
+  live: Live | null;
 }
 
 const SECONDS = 4;
@@ -83,8 +86,47 @@ choice.setAttribute("aria-label", words.drive);
 for (const each of model.motions) element("option", choice, {}, drives[each.drive]);
 if (!motion) label.replaceChildren(words.none);
 
+// --- several drives ---
+
+const { live } = model;
+const solver = live ? new Solver(live, model.size, model.middle, model.bodies.length) : undefined;
+const TRAIL = 600; // places of a point that are remembered
+let trails: Vector[][] = [];
+let chosen = 0;
+const sliders: { input: HTMLInputElement; output: HTMLOutputElement }[] = [];
+if (solver && live) {
+  label.remove();
+  const all = element("div", bar, { display: "flex", flexWrap: "wrap", gap: "0.2em 1em", flex: "1 1 100%" });
+  live.drives.forEach(({ low, high }, k) => {
+    const own = element("label", all, { display: "flex", gap: "0.4em", alignItems: "center", fontSize: "0.85em" });
+    element("span", own, {}, drives[k]);
+    const input = element("input", own, { width: "9em" });
+    Object.assign(input, { type: "range", min: String(low), max: String(high), step: "any", value: "0" });
+    input.addEventListener("input", () => {
+      chosen = k;
+      playing = false;
+      together(k, Number(input.value));
+    });
+    sliders.push({ input, output: element("output", own, { minWidth: "4.5em" }) });
+  });
+}
+
+/** Move one of the drives, the others staying where they are. */
+function together(number: number, to: number): void {
+  if (!solver!.drive(solver!.values.map((v, k) => (k === number ? to : v)))) playing = false;
+  leave();
+}
+
+/** Remember where the points are. */
+function leave(): void {
+  const points = [...model.points, ...(traced ? [traced] : [])];
+  trails = points.map(({ link, at }, k) => [...(trails[k] ?? []), moved(solver!.poses[link]!, at)].slice(-TRAIL));
+  paint();
+}
+
 /** The poses of all links between two rows. */
 function posesAt(at: number): ArrayLike<number>[] {
+  if (solver) return solver.poses;
   if (!motion) return model.bodies.map(() => STILL);
   const low = Math.min(Math.floor(at), motion.poses.length - 2);
   const part = at - low;
@@ -106,10 +148,18 @@ function paint(): void {
   const [width, height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
   if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
   const points = [...model.points, ...(traced ? [traced] : [])];
-  const paths = motion ? points.map(({ link, at }) => motion!.poses.flatMap((poses) => moved(poses[link]!, at))) : [];
+  let paths = trails.map((trail) => trail.flat());
+  if (motion && !solver)
+    paths = points.map(({ link, at }) => motion!.poses.flatMap((poses) => moved(poses[link]!, at)));
   painter?.paint(projection(camera, wide()), axes(camera).eye, posesAt(row), paths, dark);
   button.textContent = playing ? words.stop : words.play;
-  if (!motion) return;
+  sliders.forEach(({ input, output }, k) => {
+    const at = solver!.values[k]!;
+    const unit = model.motions.find((each) => each.drive === k)?.unit ?? "";
+    input.value = String(at);
+    output.textContent = `${(live!.drives[k]!.turns ? (at * 180) / Math.PI : at).toFixed(1)}${unit}`;
+  });
+  if (!motion || solver) return;
   const low = Math.min(Math.floor(row), motion.values.length - 2);
   const shown = motion.values[low]! + (row - low) * (motion.values[low + 1]! - motion.values[low]!);
   slider.max = String(motion.values.length - 1);
@@ -122,7 +172,15 @@ let phase = 0;
 function tick(now: number): void {
   const passed = Math.min(now - last, 100) / 1000;
   last = now;
-  if (playing && motion) {
+  if (playing && solver) {
+    const { low, high } = live!.drives[chosen]!;
+    const [mid, half] = [(low + high) / 2, (high - low) / 2];
+    // On from where it stands, in the sense of the phase: a swing to and fro.
+    const part = Math.asin(Math.min(Math.max((solver.values[chosen]! - mid) / half, -1), 1));
+    const turn = (Math.cos(phase) < 0 ? Math.PI - part : part) + (2 * Math.PI * passed) / SECONDS;
+    phase = turn;
+    together(chosen, mid + half * Math.sin(turn));
+  } else if (playing && motion) {
     phase = (phase + passed / SECONDS) % 1;
     const part = motion.round ? phase : 1 - Math.abs(1 - 2 * phase);
     row = part * (motion.values.length - 1);
@@ -167,6 +225,13 @@ function pull(x: number, y: number): void {
   if (!pulled || !motion) return;
   const { link, at } = pulled;
   const view = projection(camera, wide());
+  if (solver) {
+    solver.pull(link, (pose) => {
+      const [u, v] = seen(view, moved(pose, at));
+      return [wide() * (u - x), v - y];
+    });
+    return leave();
+  }
   const count = motion.values.length - 1;
   let [best, nearest] = [row, Infinity];
   for (let step = -NEAR; step <= NEAR; step += 0.25) {
@@ -181,6 +246,7 @@ function pull(x: number, y: number): void {
 canvas.addEventListener("pointerdown", (event) => {
   canvas.setPointerCapture(event.pointerId);
   pulled = hit(...placed(event));
+  if (pulled) trails = trails.slice(0, model.points.length);
   traced = pulled ?? traced;
   canvas.style.cursor = "grabbing";
   if (pulled) stopAt(row);
@@ -230,3 +296,4 @@ button.addEventListener("click", () => {
 });
 new ResizeObserver(paint).observe(canvas);
 requestAnimationFrame(tick);
+Object.assign(window, { gruebler: { poses: () => posesAt(row), values: () => solver?.values ?? [] } });

@@ -3,7 +3,6 @@
 import type { Vector } from "./algebra";
 
 export interface Body {
-  name: string;
   colour: Vector;
   vertices: number[];
   triangles: number[];

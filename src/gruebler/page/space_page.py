@@ -9,8 +9,10 @@ import numpy as np
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import LANGUAGES, message
-from gruebler.files.gltf import link_colour, moving_solids, united
+from gruebler.files.gltf import MovingSolids, link_colour, moving_solids, united
 from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.mechanics.screws.wheels import gear_rows
+from gruebler.mechanics.space.measuring import against_frame
 from gruebler.page.page import data_page, module_text
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
 from gruebler.structure.chain.pairs import Alphabet
@@ -36,11 +38,14 @@ def space_model(
     drives: Mapping[str, Sequence[str]] | None = None,
     between: tuple[float, float] | None = None,
 ) -> dict[str, Any]:
-    """What the page shows: bodies, the poses of all links over the range of each drive, named points.
+    """What the page shows: bodies, named points, and the poses of all links over the range of the one drive.
+
+    With several drives the page moves them itself, from joints, ranges of the drives and rows of wheels.
 
     ``titles`` and names of ``drives`` by language are those of the linkage unless they are given.
     """
     moving = moving_solids(linkage, between=between)
+    live = _live(moving)
     chain, mechanism = linkage.mechanism.chain, linkage.mechanism
     bodies = []
     for number, link in enumerate(chain.links):
@@ -74,10 +79,53 @@ def space_model(
                 "round": full,
                 "unit": "°" if turning[k] else f" {linkage.unit}",
                 "values": _numbers(np.degrees(motion.drives[:, k]) if turning[k] else motion.drives[:, k]),
-                "poses": [[_numbers(pose[:3]) for pose in row] for row in motion.poses[0]],
+                "poses": [] if live else [[_numbers(pose[:3]) for pose in row] for row in motion.poses[0]],
             }
             for _, k, motion, full in moving.named()
         ],
+        "live": live,
+    }
+
+
+def _live(moving: MovingSolids) -> dict[str, Any] | None:
+    """What moves several drives together: joints with frames and freedoms, ranges of the drives, rows of wheels.
+
+    None for one drive, whose motion is there already, and for joints that the page does not solve.
+    """
+    linkage, mechanism = moving.linkage, moving.linkage.mechanism
+    chain = mechanism.chain
+    ranges = {k: (float(m.drives[:, k].min()), float(m.drives[:, k].max())) for _, k, m, _ in moving.named()}
+    solved = [joint for joint in chain.joints if not joint.pair.has_contours]
+    if len(ranges) < 2 or any(joint.pair.has_body_between or len(joint.links) > 2 for joint in solved):
+        return None
+    numbers = [k for k, joint in enumerate(chain.joints) if not joint.pair.has_contours]
+    joints = []
+    for k, joint in zip(numbers, solved, strict=True):
+        freedoms = joint.pair.freedoms[chain.space]
+        joints.append(
+            {
+                "links": [chain.index(link) for link in joint.links],
+                "frame": linkage.frames[k, :3].ravel().tolist(),
+                "turns": "".join(sorted(f.axis for f in freedoms if f.turns)),
+                "slides": "".join(sorted(f.axis for f in freedoms if f.travels)),
+                "pitch": linkage.places[k].pitch,
+            }
+        )
+    return {
+        "frame": chain.index(mechanism.frame),
+        "joints": joints,
+        "drives": [
+            {
+                "joint": numbers.index(drive.joint),
+                "axis": "xyz".index(drive.direction[-1]),
+                "turns": drive.turning,
+                "sign": against_frame(linkage, drive.joint),
+                "low": ranges.get(k, (0.0, 0.0))[0],
+                "high": ranges.get(k, (0.0, 0.0))[1],
+            }
+            for k, drive in enumerate(mechanism.drives)
+        ],
+        "gears": [[[numbers.index(joint), weight] for joint, weight in row.turns] for row in gear_rows(linkage)],
     }
 
 
