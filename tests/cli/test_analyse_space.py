@@ -53,3 +53,9 @@ def test_what_does_not_go_is_said(capsys, hooke):
     status, _, refused = run_command(capsys, "analyse", hooke, "--poles")
     assert status == 2
     assert "--poles does not go with a linkage in space" in refused
+
+
+def test_rounding_is_printed_as_zero(capsys):
+    """Schatz's second shaft has its largest speed at 120 degrees; the second derivative was printed as 3.3e-12."""
+    _, text, _ = run_command(capsys, "analyse", "schatz", "--range", "0:120:120")
+    assert text.splitlines()[-1].split() == ["120", "-106.1", "-2", "0"]

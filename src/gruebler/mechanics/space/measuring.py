@@ -34,6 +34,7 @@ _ROWS = 145
 _ASIDE = 0.0123  # radians: rows do not begin at the reference pose, where a symmetric linkage often stops
 _STEPS = 3  # of Newton's method, which begins within 2.5 degrees by regula falsi
 _STILL = 1e-9  # of the usual rate: smaller ones are 0 all the way
+_NOISE = 1e-10  # of the largest value in a table: rounding of closed positions, larger in their rates
 
 _TURNS = message("The drive {drive} turns fully.")
 _BETWEEN = message("The drive {drive} moves from {low} to {high}.")
@@ -188,13 +189,17 @@ def spatial_table(
                     name + "′" * order,
                     unit=shown,
                     values=np.degrees(values) if degree else values,
-                    natural=float(turns),
+                    natural=1.0 if turns else linkage.size,
+                    noise=_NOISE,
                 )
             )
     for point in points:
         for order, letter in enumerate(("", "v", "a")[: motion.order + 1]):
             for axis, values in zip("xyz", motion.point(point, order=order).T, strict=True):
-                columns.append(Column(f"{point} {letter}{axis}", unit=_unit_of_rate(unit, below, order), values=values))
+                shown = _unit_of_rate(unit, below, order)
+                columns.append(
+                    Column(f"{point} {letter}{axis}", unit=shown, values=values, natural=linkage.size, noise=_NOISE)
+                )
     return Table(tuple(columns))
 
 
