@@ -14,7 +14,9 @@ from gruebler.mechanics.space import (
     Bennett,
     DoubleUniversalJoint,
     SphericalFourBar,
+    SwashPlate,
     UniversalJoint,
+    measures,
     move,
 )
 
@@ -170,6 +172,39 @@ def test_two_universal_joints(first, second, phase):
     assert motion.output.velocity == pytest.approx(middle.output.velocity * turned.output.velocity, rel=1e-12)
 
 
+# --- the swash plate ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("radius", "tilt", "start"), [(40, radians(18), 0.4), (25, 1.1, -2.0), (3, 0.01, pi / 2)])
+def test_a_swash_plate_moves_as_the_general_solver_moves_it(radius, tilt, start):
+    plate = SwashPlate(radius, tilt)
+    motion = plate.motion(start + TURN, omega=2.0, alpha=-0.7, jerk=0.4)
+    same = move(plate.linkage(start), TURN, speed=2.0, acceleration=-0.7, jerk=0.4, order=3)
+    assert same.complete
+    for order in range(4):
+        shift = motion.output.value[0] if order == 0 else 0.0
+        assert same.joint("P(frame-piston)", order=order) == pytest.approx(
+            motion.output[order] - shift, abs=1e-11 * plate.stroke
+        )
+    measured = measures(plate.linkage(start))
+    assert measured.travel == pytest.approx(plate.stroke, rel=1e-12)
+    centres = sorted(((centre.drive + start) % (2 * pi), centre.kind) for centre in measured.dead_centres)
+    assert [kind for _, kind in centres if kind == "minimum"] == ["minimum"]
+    for at, kind in centres:
+        (own,) = [centre for centre in plate.dead_centres if centre.kind == kind]
+        assert cos(at - own.drive) == pytest.approx(1, abs=1e-12)
+    normal = plate.linkage(start).places[1].y
+    assert np.arccos(normal[2] / np.linalg.norm(normal)) == pytest.approx(pi / 2 - motion.transmission_angle[0])
+
+
+def test_a_swash_plate_says_what_it_does():
+    plate = SwashPlate(radius=50, tilt=pi / 4)
+    assert (plate.stroke, plate.amplitude) == pytest.approx((100, 50))
+    assert str(plate.explain()) == "stroke: 100\nsmallest transmission angle: 45°"
+    assert plate.explain("de") == "Hub: 100\nkleinster Übertragungswinkel: 45°"
+    assert SwashPlate(50, 0).dead_centres == ()
+
+
 # --- the RSSR ---------------------------------------------------------------------------------------------------------
 
 LENGTH = st.floats(20, 150)
@@ -282,6 +317,8 @@ def test_bennett_moves_over_a_turn(alpha, beta):
         (lambda: SphericalFourBar(0.2, 0.2, 0.2, 2).linkage(0.0), "cannot be assembled at phi = 0 degrees"),
         (lambda: SphericalFourBar(0.2, 0.2, 0.2, 2).transmission_angle, "not assemblable"),
         (lambda: UniversalJoint(pi / 2), "below pi/2"),
+        (lambda: SwashPlate(10, pi / 2), "the tilt must be at least 0 and below pi/2"),
+        (lambda: SwashPlate(0, 0.3), "radius must be positive"),
         (lambda: DoubleUniversalJoint(UniversalJoint(0.1), 0.1), "second must be a UniversalJoint"),
         (lambda: RSSR(a=1, b=1, c=0, d=1), "c must be positive"),
         (lambda: RSSR(a=1, b=1, c=1, d=-1), "d must not be negative"),

@@ -5,8 +5,8 @@ whose closing conditions (`closure`) are followed along the drives (`following`)
 series (`series`), all assembly modes from those of random dimensions (`modes`). Definitions, theorems and what may err:
 docs/theory/space.md, docs/theory/modes-in-space.md.
 
-Closed forms as values: `SphericalFourBar`, `UniversalJoint`, `DoubleUniversalJoint`, `RSSR`, `Bennett`
-(docs/theory/closed-forms-in-space.md).
+Closed forms as values: `SphericalFourBar`, `UniversalJoint`, `DoubleUniversalJoint`, `RSSR`, `SwashPlate`,
+`Bennett` (docs/theory/closed-forms-in-space.md).
 """
 
 from lazy_loader import attach_stub

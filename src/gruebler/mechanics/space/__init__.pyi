@@ -6,6 +6,7 @@ from .motion import SpatialMotion, SpatialStop
 from .moving import move
 from .rssr import RSSR
 from .spherical_four_bar import SphericalFourBar
+from .swash_plate import SwashPlate
 from .universal_joint import DoubleUniversalJoint, UniversalJoint
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "SpatialMotion",
     "SpatialStop",
     "SphericalFourBar",
+    "SwashPlate",
     "UniversalJoint",
     "assembly_modes",
     "measures",
