@@ -253,8 +253,8 @@ def _round_trip(places: Reals) -> tuple[list[int], list[tuple[int, int]]]:
     x, y = centred @ axes[0], centred @ axes[1]
     if abs(y).max() < _FLAT * abs(x).max():
         return list(np.argsort(np.round(x, 6), kind="stable").tolist()), []
-    out = np.linalg.norm(centred, axis=1)
-    inside = out < _INSIDE * out.max() if len(places) > 3 else np.zeros(len(places), bool)
+    reach = np.linalg.norm(centred, axis=1)
+    inside = reach < _INSIDE * reach.max() if len(places) > 3 else np.zeros(len(places), bool)
     every = np.argsort(np.round(np.arctan2(y, x), 9), kind="stable").tolist()
     ring = [k for k in every if not inside[k]]
     spurs = [(k, min(ring, key=lambda n: float(np.linalg.norm(places[n] - places[k])))) for k in every if inside[k]]
