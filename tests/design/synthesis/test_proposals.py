@@ -1,8 +1,10 @@
 """From specifications to machines of several types: what is tried, what is best, what is kept clear."""
 
 import math
+import re
 from dataclasses import replace
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +17,7 @@ from gruebler.design.synthesis.specification import Clearance, Specification
 from gruebler.design.synthesis.structures import synthesise_structures
 from gruebler.files.specifications import read_specification, specification_from_json
 from gruebler.mechanics.kinematics.solve import move_quietly
+from gruebler.pictures.designs.picture import design_figure
 
 SWING = DeadCentreTask(swing=math.radians(60), time_ratio=1.2)
 HOOD = PositionTask([(0, 0, 0), (-1, 2, math.radians(25)), (-1, 3, math.radians(50))], unit="cm")
@@ -156,3 +159,52 @@ def test_files_have_all_keys(tmp_path):
 def test_mistakes_name_their_key(document, words):
     with pytest.raises(SynthesisError, match=words):
         specification_from_json(document)
+
+
+TUTORIAL = Path(__file__).parents[3] / "docs/tutorials/several-types.md"
+
+
+def _wish(name, tmp_path):
+    """The specification of the tutorial with that name."""
+    found = re.search(rf":::{{file}} {name}\n(.*?):::", TUTORIAL.read_text(encoding="utf-8"), re.DOTALL)
+    path = tmp_path / name
+    path.write_text(found[1], encoding="utf-8")
+    return replace(read_specification(path), links=4)
+
+
+@pytest.mark.slow
+def test_a_foot_with_a_flat_step(tmp_path):
+    """The path by intersecting circles: flat along the ground between the points too, in the air above it."""
+    wish = _wish("foot.toml", tmp_path)
+    best = propose(wish).best[0].design
+    assert best.verdict.turns_fully
+    assert best.verdict.transmission >= math.radians(25)
+    pins = {key: complex(element.x, element.y) for key, element in best.linkage.elements.items()}
+    point = best.linkage.points["P"]
+    own, far = pins[0, "frame"], pins[3, "frame"]
+    a, b, c = (
+        abs(pins[k, link] - pins[m, link]) for k, m, link in ((0, 1, "crank"), (1, 2, "coupler"), (2, 3, "rocker"))
+    )
+    pin = own + a * np.exp(1j * np.linspace(0, 2 * math.pi, 2000))
+    gap = far - pin
+    along = (b * b - c * c + np.abs(gap) ** 2) / (2 * np.abs(gap))
+    seen = (complex(point.x, point.y) - pins[1, "coupler"]) / (pins[2, "coupler"] - pins[1, "coupler"])
+    sides = (1, -1)
+    turned = [gap / np.abs(gap) * (along + 1j * side * np.sqrt(b * b - along**2)) for side in sides]
+    paths = [pin + seen * each for each in turned]
+    z = min(paths, key=lambda path: np.abs(path[:, None] - wish.task.z).min(axis=0).max())
+    step = np.abs(z[(np.abs(z.real) < 50) & (z.imag < 8)].imag)
+    assert len(step) > 100
+    assert step.max() < 0.006 * 120
+    assert z.imag.max() == pytest.approx(25, abs=1)
+
+
+@pytest.mark.parametrize(("name", "transmission"), [("swing.toml", 40.3), ("hood-clear.toml", 30)])
+def test_wishes_of_the_tutorial_have_designs_with_pictures(name, transmission, tmp_path):
+    """A swing of 60 degrees with the time ratio 1.2; a hood that opens clear of the windscreen."""
+    wish = _wish(name, tmp_path)
+    best = propose(wish).best
+    assert all(row.transmission >= wish.demands.transmission for row in best)
+    assert max(row.transmission for row in best) >= math.radians(transmission - 0.05)
+    assert all(stays_clear(row.design, each) for row in best for each in wish.clear)
+    assert "<svg" in design_figure(wish.task, best[0].design, clear=wish.clear).svg()
