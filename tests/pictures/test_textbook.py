@@ -153,3 +153,11 @@ def test_svg_for_word_has_attributes_and_no_style_rules():
     widths = {float(width) / MILLIMETRE for element in elements if (width := element.get("stroke-width"))}
     assert sorted(widths) == pytest.approx([0.35, 0.7], rel=1e-5)
     assert not [element for element in root.iter() if element.get("class") or element.tag.endswith("style")]
+
+
+def test_links_of_lengths_have_the_names_of_the_language():
+    """Kurbel, Koppel, Schwinge, Gestell as in Luck/Modler; names that are given win."""
+    german = shapes_of(FOUR_BAR, labels=True, lang="de")
+    assert {s.text for s in german if isinstance(s, TextShape)} == {"Gestell", "Kurbel", "Koppel", "Schwinge"}
+    own = shapes_of(FOUR_BAR, labels=True, lang="de", names={"crank": "drive"})
+    assert {s.text for s in own if isinstance(s, TextShape)} == {"frame", "drive", "coupler", "rocker"}

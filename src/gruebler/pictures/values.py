@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.doors import door
 from gruebler.base.errors import GrueblerError, nearest, to_be_read
-from gruebler.base.text import Message, message
+from gruebler.base.text import Message, message, translate
 from gruebler.mechanics.forces.loads import Loads
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.files import picture_bytes, suffix_of
@@ -221,6 +221,8 @@ def draw(
     """
     given = _given(locals())
     drawn, kind = _drawn(value)
+    if drawn is not value and lang is not None:  # of lengths, whose links have the names of their roles
+        given.setdefault("names", {link: translate(link, lang) for link in drawn.mechanism.chain.links})
     return Picture(_called(_OF_PICTURE, type(value).__name__, _function(kind.module, kind.still), drawn, given))
 
 
