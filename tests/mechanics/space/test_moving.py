@@ -7,7 +7,6 @@ import pytest
 
 import gruebler as gr
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.kinematics import move as move_in_plane
 from gruebler.mechanics.screws import SpatialLinkage, exponential, follow_joint
 from gruebler.mechanics.space import move
 from gruebler.structure.mechanism import Mechanism
@@ -162,34 +161,6 @@ def test_rates_against_differences_of_higher_order():
         assert middle.point("R(2-3)", order=order)[0] == pytest.approx(difference, abs=1e-6)
     turn = (steps.pose("2")[4, :3, :3] - steps.pose("2")[2, :3, :3]) / (2 * h) @ steps.pose("2")[3, :3, :3].T
     assert middle.angular("2")[0] == pytest.approx([turn[2, 1], turn[0, 2], turn[1, 0]], abs=1e-5)
-
-
-def test_a_planar_linkage_put_anywhere_in_space_moves_as_in_its_plane():
-    bar = gr.FourBar(25, 70, 40, 70).linkage({"K": (45, 40)})
-    plane = move_in_plane(bar, TURN, order=2)
-    home = plane.pose(0)
-    chain = bar.mechanism.chain
-    somewhere = exponential([0.4, -0.9, 1.3, 30.0, -20.0, 8.0])
-
-    def put(link, x, y):
-        c, s = cos(home[link].angle), sin(home[link].angle)
-        at = (home[link].x + c * x - s * y, home[link].y + s * x + c * y)
-        return tuple((somewhere @ (*at, 0, 1))[:3])
-
-    places = {}
-    for number, joint in enumerate(chain.joints):
-        element = bar.elements[number, joint.links[0]]
-        places[number] = {"at": put(joint.links[0], element.x, element.y), "z": tuple(somewhere[:3, 2])}
-    mechanism = Mechanism.parse("spatial: " + bar.mechanism.text())
-    point = ("coupler", *put("coupler", 45, 40))
-    motion = move(SpatialLinkage(mechanism, places, points={"K": point}), TURN, order=2)
-    for order in (0, 1, 2):
-        flat = np.zeros((73, 4))
-        flat[:, :2], flat[:, 3] = plane.point("K", order=order), order == 0
-        assert motion.point("K", order=order) == pytest.approx((flat @ somewhere.T)[:, :3], abs=1e-10)
-    assert motion.angular("rocker", order=2) == pytest.approx(
-        np.outer(plane.angular("rocker", order=2), somewhere[:3, 2]), abs=1e-11
-    )
 
 
 @pytest.mark.parametrize("id", ["diff_bevel", "diff_bevel2p"])
