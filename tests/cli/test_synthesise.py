@@ -306,8 +306,8 @@ def test_dead_centres_in_german(capsys):
         (["dead-centres", "--stroke", "5", "--time-ratio", "0.5"], "--time-ratio: expected slow to quick"),
         (["function", "x", "--interval", "1", "2", "--swings", "0", "60"], "--swings: expected a number that is not 0"),
         (
-            ["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--points", "9"],
-            "--points: expected 2 to 5",
+            ["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--points", "10"],
+            "--points: expected 2 to 9",
         ),
         (
             ["function", "x", "--interval", "1", "2", "--swings", "5", "6", "--minimax", "--structure", "quad"],

@@ -33,6 +33,7 @@ from gruebler.design.synthesis import (
     synthesise_function,
     synthesise_path,
     synthesise_positions,
+    synthesise_six_bars,
     synthesise_structures,
 )
 from gruebler.design.synthesis.results import in_order_of
@@ -114,10 +115,11 @@ def add(parser: Parser) -> None:
         --interval FROM TO float  interval of x
         --swings INPUT OUTPUT float  ranges in degrees (or the unit of a slider)
         --starts INPUT OUTPUT float  fixed start values (default: free)
-        --points N int  number of precision points (default: 5, with fixed starts 3)
+        --points N int  number of precision points (default: 5, with fixed starts 3, of six-bars 9)
         --free-starts  count the pairs of a file from start values that are free
         --travel  the output is a slider
         --minimax  the linkages nearby with the least largest error over the interval
+        --six-bars  all six-bars of Watt's second kind that meet nine pairs exactly, their starts free
         """
     )
     path = parser.add_command(
@@ -242,6 +244,10 @@ def _demands(arguments: argparse.Namespace) -> Demands:
         x1, y1, x2, y2 = arguments.region
         region = (min(x1, x2), min(y1, y2), max(x1, x2), max(y1, y2))
     check_demands(arguments)
+    if arguments.action == "function" and arguments.six_bars:
+        other = [*_given(arguments, ("--minimax", "--travel")), *(["--structure"] if arguments.structure else [])]
+        if other:
+            raise SynthesisError("{options}: not with --six-bars", options=joined_by_and(other))
     if not arguments.structure and (idle := _given(arguments, _STRUCTURE_OPTIONS)):
         raise SynthesisError("{options}: only with --structure", options=joined_by_and(idle))
     if arguments.clearance is not None and not 0 <= arguments.clearance < math.inf:
@@ -331,7 +337,7 @@ def _radians(value: float | None) -> float | None:
 def _function_task(arguments: argparse.Namespace) -> FunctionTask:
     from gruebler.design.synthesis import function_task
 
-    points = arguments.points if arguments.points is not None else 5 if arguments.starts is None else 3
+    points = arguments.points or (9 if arguments.six_bars else 5 if arguments.starts is None else 3)
     return function_task(_law(arguments), points, output="travel" if arguments.travel else "angle")
 
 
@@ -359,6 +365,8 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
     match task:
         case PositionTask():
             return synthesise_positions(task, demands, sort=_orders(arguments), progress=progress, **more)
+        case FunctionTask() if arguments.six_bars:
+            return synthesise_six_bars(task, demands, progress=progress)
         case FunctionTask():
             return synthesise_function(task, demands, minimax=arguments.minimax, sort=_orders(arguments), **more)
         case DeadCentreTask():

@@ -50,6 +50,8 @@ class Problem:
     """How many classes of solutions a general task has."""
     members: int
     """How many solutions, with the order of the dyads, a class has."""
+    family: str = ""
+    """Of linkages, by the name that the core knows; four-bars without one."""
 
     @property
     def given_pivots(self) -> bool:
@@ -58,6 +60,8 @@ class Problem:
 
     def marks(self, z: Complexes) -> Complexes:
         """Numbers that are the same for all members of a class and differ between classes: (solutions, marks)."""
+        if self.family:
+            return z
         x, xc, y, yc, a, ac, b, bc = z.T
         if self.given_pivots:
             return np.stack([x, y, xc, yc], axis=1)
@@ -106,7 +110,7 @@ def load_generic_solutions(problem: Problem) -> GenericSolutions:
     raw = (files("gruebler.design.synthesis") / "data" / f"{name}.npz").read_bytes()
     with np.load(BytesIO(raw)) as stored:
         p, z = stored["parameters"], stored["solutions"].astype(np.complex128)
-    z, steps = _core.refine_solutions(z, p, problem.poses, problem.points)
+    z, steps = _core.refine_solutions(z, p, problem.poses, problem.points, family=problem.family)
     if not (steps < 1e-10).all():
         raise SynthesisError("the stored solutions of {name} are damaged", name=problem.name)
     return GenericSolutions(p, z)
@@ -152,7 +156,9 @@ def follow_from_generic(
     blocks = [slice(k, k + _BLOCK) for k in range(0, len(starts), _BLOCK)]
 
     def run(part: slice) -> None:
-        ends[part], status[part], _ = _core.track(starts[part], begin, end, problem.poses, problem.points, loose)
+        ends[part], status[part], _ = _core.track(
+            starts[part], begin, end, problem.poses, problem.points, loose, family=problem.family
+        )
 
     workers = max(1, min(threads or os.cpu_count() or 1, len(blocks)))
     done = 0
@@ -179,18 +185,18 @@ def solutions(
     """
     base = load_generic_solutions(problem)
     ends, status = follow_from_generic(problem, base.z, base.parameters, p, QUICK, threads=threads, progress=progress)
-    again = (status != ARRIVED) | _repeated(problem, ends, status == ARRIVED)
+    again = (status != ARRIVED) | repeated(problem, ends, status == ARRIVED)
     if again.any():
         ends[again], status[again] = follow_from_generic(
             problem, base.z[again], base.parameters, p, CAREFUL, threads=threads
         )
     arrived = status == ARRIVED
-    lost = ~arrived | _repeated(problem, ends, arrived)
+    lost = ~arrived | repeated(problem, ends, arrived)
     doubtful = ~lost
     doubtful[doubtful] = ~_core.certify(ends[doubtful], p, problem.poses, problem.points)
     if doubtful.any():  # paths end with residuals of double precision
         sharp = ends[doubtful]
-        _sharpened(problem, sharp, p)
+        sharpened(problem, sharp, p)
         same = np.abs(sharp - ends[doubtful]).max(axis=1) < _NEAR
         ends[doubtful] = np.where(same[:, None], sharp, ends[doubtful])
         doubtful[doubtful] = ~_core.certify(ends[doubtful], p, problem.poses, problem.points)
@@ -202,8 +208,8 @@ def solutions(
     lost[np.flatnonzero(lost)[single]] = False
     outcome = outcome.without(single)
     regular = np.concatenate([ends[~lost], outcome.z[outcome.regular]])
-    _sharpened(problem, regular, p)
-    regular = _distinct(problem, regular)
+    sharpened(problem, regular, p)
+    regular = distinct(problem, regular)
     missing = problem.classes - len(regular) - outcome.infinite - outcome.singular
     rng = np.random.default_rng(20_231_107)  # fixed: the same task has the same answer
     for bend in _BENDS:
@@ -216,11 +222,11 @@ def solutions(
         ends, status = follow_from_generic(problem, halfway[status == ARRIVED], middle, p, loose, threads=threads)
         more = ends[status == ARRIVED]
         more = more[_regular(problem, more, p)]
-        _sharpened(problem, more, p)
-        regular = _distinct(problem, np.concatenate([regular, more]))
+        sharpened(problem, more, p)
+        regular = distinct(problem, np.concatenate([regular, more]))
         missing = problem.classes - len(regular) - outcome.infinite - outcome.singular
     proved = _core.certify(regular, p, problem.poses, problem.points)
-    multiple = _distinct(problem, outcome.multiple)
+    multiple = distinct(problem, outcome.multiple)
     return Solutions(
         z=regular,
         certified=proved,
@@ -299,16 +305,16 @@ def _regular(problem: Problem, z: Complexes, p: Complexes) -> NDArray[np.bool_]:
     """
     aside = _ASIDE * np.exp(2j * np.pi * np.arange(z.size).reshape(z.shape) / 7)
     first, second = z + aside, z - aside
-    converged = _sharpened(problem, first, p) & _sharpened(problem, second, p)
+    converged = sharpened(problem, first, p) & sharpened(problem, second, p)
     apart = np.abs(first - second).max(axis=1, initial=0.0)
     return np.asarray(
         converged & (apart <= 1e-3 * _ASIDE) & (np.abs(first - z).max(axis=1, initial=0.0) <= 10 * _ASIDE)
     )
 
 
-def _sharpened(problem: Problem, z: Complexes, p: Complexes) -> NDArray[np.bool_]:
+def sharpened(problem: Problem, z: Complexes, p: Complexes) -> NDArray[np.bool_]:
     """Solutions by Newton's method, in place, and which of them are regular: it converges to the last digits."""
-    z[:], steps = _core.refine_solutions(z, p, problem.poses, problem.points)
+    z[:], steps = _core.refine_solutions(z, p, problem.poses, problem.points, family=problem.family)
     return np.asarray(steps < _REGULAR)
 
 
@@ -339,14 +345,15 @@ def _pairs(problem: Problem, z: Complexes, near: float = _SAME) -> Integers:
     return np.stack([order[first[close]], order[second[close]]], axis=1)
 
 
-def _repeated(problem: Problem, z: Complexes, arrived: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    repeated = np.zeros(len(z), bool)
+def repeated(problem: Problem, z: Complexes, arrived: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which of those that arrived are in the class of another one."""
+    alike = np.zeros(len(z), bool)
     where = np.flatnonzero(arrived)
-    repeated[where[_pairs(problem, z[arrived]).ravel()]] = True
-    return repeated
+    alike[where[_pairs(problem, z[arrived]).ravel()]] = True
+    return alike
 
 
-def _distinct(problem: Problem, z: Complexes) -> Complexes:
+def distinct(problem: Problem, z: Complexes) -> Complexes:
     """One solution of each class."""
     pairs = _pairs(problem, z)
     keep = np.ones(len(z), bool)

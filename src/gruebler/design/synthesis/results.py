@@ -88,6 +88,7 @@ _FORMS = {
     "four-bar": message("four-bar"),
     "slider-crank": message("slider-crank"),
     "inverted-slider-crank": message("inverted slider-crank"),
+    "six-bar": message("six-bar"),
 }
 
 

@@ -10,13 +10,14 @@ from typing import Any
 
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import SynthesisError
-from gruebler.base.text import message
+from gruebler.base.text import Message, message
 from gruebler.design.synthesis.dead_centres import synthesise_dead_centres
 from gruebler.design.synthesis.functions import synthesise_function
 from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions
 from gruebler.design.synthesis.results import Progress, SynthesisResult, in_order_of
+from gruebler.design.synthesis.six_bar_functions import synthesise_six_bars
 from gruebler.design.synthesis.structures import synthesise_structures
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.structure.mechanism import Mechanism
@@ -33,6 +34,7 @@ def synthesise(
     sort: str | Sequence[str] = (),
     number: int | None = None,
     minimax: bool | None = None,
+    six_bars: bool = False,
     starts: int | None = None,
     link: str | None = None,
     threads: int | None = None,
@@ -52,11 +54,12 @@ def synthesise(
             four positions or pairs, and of dead centres, are searched for the best by these.
         number: without structures: how many dyads or designs are taken from each infinite family.
         minimax: of a function: the linkages whose largest structural error is as small as possible.
+        six_bars: of a function: all six-bars of Watt's second kind that meet nine pairs of angles with free starts.
         starts: of structures: how many are improved of each mechanism.
         link: of structures: that is guided, or whose motion is the output.
         threads: of a path: how many follow it; as many as there are processors by default.
         executor: of structures: what runs the work; the answer is the same with any.
-        progress: of positions, a path or structures: called with the work done and its amount.
+        progress: of positions, a path, six-bars or structures: called with the work done and its amount.
 
     Returns:
         A `SynthesisResult`: ``designs``, ``rejected`` with reasons, ``count`` with its theorem, ``notes``.
@@ -66,7 +69,8 @@ def synthesise(
             not take.
 
     Cost:
-        1 ms to 3 s (nine points) and 10 ms for each verdict; a structure 1 to 3 s a start, by its atlas 5 s.
+        1 ms to 3 s (nine points) and 10 ms for each verdict; six-bars 20 to 60 s; a structure 1 to 3 s a start, by its
+        atlas 5 s.
 
     Example:
         >>> from gruebler.design.synthesis import DeadCentreTask
@@ -96,9 +100,17 @@ def synthesise(
         "progress": progress,
     }
     given: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
+    if six_bars and (structures is not None or not isinstance(task, FunctionTask)):
+        raise SynthesisError("six_bars: only of functions, and without structures")
+    if six_bars:
+        return _sorted(_called(synthesise_six_bars, task, message("with six_bars"), demands, given), orders)
     if orders and structures is None and not isinstance(task, PathTask):
         given["sort"] = orders
     result = _solved(task, structures, demands, given)
+    return _sorted(result, orders)
+
+
+def _sorted(result: SynthesisResult, orders: Sequence[str]) -> SynthesisResult:
     return result.sorted_by(*orders) if orders else result
 
 
@@ -113,15 +125,25 @@ _METHODS: dict[type[Task], Callable[..., SynthesisResult]] = {
 def _solved(
     task: Task, structures: Iterable[Mechanism] | None, demands: Demands | None, options: dict[str, Any]
 ) -> SynthesisResult:
-    """The answer of the function for such a task; options that it does not take are refused."""
-    function = _METHODS[type(task)] if structures is None else partial(synthesise_structures, structures=structures)
+    """The answer of the function for such a task."""
+    if structures is None:
+        return _called(_METHODS[type(task)], task, message("without structures"), demands, options)
+    return _called(
+        partial(synthesise_structures, structures=structures), task, message("with structures"), demands, options
+    )
+
+
+def _called(
+    function: Callable[..., SynthesisResult], task: Task, how: Message, demands: Demands | None, options: dict[str, Any]
+) -> SynthesisResult:
+    """Options that the function does not take are refused."""
     known = [name for name in signature(function).parameters if name not in ("task", "structures", "demands")]
     other = next((name for name in options if name not in known), None)
     if other is not None:
         raise SynthesisError(
             "a {task} {structures} has no option {option!r}; it has {known}",
             task=type(task).__name__,
-            structures=message("without structures") if structures is None else message("with structures"),
+            structures=how,
             option=other,
             known=", ".join(known),
         )

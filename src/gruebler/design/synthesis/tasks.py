@@ -25,7 +25,7 @@ _Pairs = tuple[tuple[float, ...], tuple[float, ...], bool, bool]  # inputs, outp
 SAME = 1e-9
 """Two points nearer than this part of the task's size are one: designs are held to the same bound."""
 LARGEST = 1e100
-MOST_PAIRS = 5
+MOST_PAIRS = 9
 """Precision pairs that a linkage coordinates exactly, with both starts free."""
 MOST_POINTS = 9
 """A coupler curve of a four-bar passes through nine general points; more are met as well as possible."""
