@@ -51,6 +51,7 @@ class ElementRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_
     arm: float = 0.0
     distance: float = 0.0
     face: float = 0.0
+    closed: bool = False
     pins: int | None = None
     slots: int | None = None
     internal: bool = False
@@ -92,7 +93,7 @@ def _circle(record: ElementRecord, where: str) -> Circle:
     return Circle(x, y, record.circle)
 
 
-_CAM_SIZES = ("roller", "offset", "flat", "scale", "arm", "distance", "face")
+_CAM_SIZES = ("roller", "offset", "flat", "scale", "arm", "distance", "face", "closed")
 
 
 def _cam(record: ElementRecord, where: str) -> CamDisc:
@@ -159,9 +160,7 @@ FORMS: dict[type[Element], ElementForm] = {
     Pin: ElementForm(_pin),
     Line: ElementForm(_line),
     Circle: ElementForm(_circle_table, ("circle",), _circle),
-    CamDisc: ElementForm(
-        _table, ("cam", "angle", "base", "roller", "offset", "flat", "scale", "arm", "distance", "face"), _cam
-    ),
+    CamDisc: ElementForm(_table, ("cam", "angle", "base", *_CAM_SIZES), _cam),
     GenevaDriver: ElementForm(_table, ("pins", "angle"), _pins),
     GenevaWheel: ElementForm(_table, ("slots", "angle", "internal"), _slots),
     NonCircular: ElementForm(_table, ("transfer", "angle", "teeth"), _transfer),

@@ -367,7 +367,7 @@ def test_motors_that_do_not_start_and_ends_that_are_reached():
 @pytest.mark.parametrize("follower", [cams.flat_follower, cams.roller_follower])
 def test_a_cam_swings_over_the_joints_of_its_lift_as_a_scalar_equation(follower):
     """By hand: (J + m s'²) q'²/2 + m g s is constant, and the time is the integral of dq/q'."""
-    linkage, lift = follower(), read_lift(cams.LIFT)
+    linkage, lift = follower(closed=True), read_lift(cams.LIFT)
     loads = Loads(
         bodies={"cam": RigidBody(0, (0, 0), 100.0), linkage.mechanism.chain.links[2]: RigidBody(0.5)},
         gravity=(0, -9.81),
@@ -397,8 +397,19 @@ def test_a_geneva_wheel_takes_its_energy_and_gives_it_back():
     assert run.speeds[:, 0] == pytest.approx(10 / np.sqrt(1 + 0.6 * ratio**2), rel=1e-6)
 
 
+def test_a_follower_that_lifts_off_ends_the_motion():
+    """By hand, at constant speed (a heavy cam): m (g + s'' w²) = 0."""
+    loads = Loads(bodies={"cam": RigidBody(0, (0, 0), 1e9), "valve": RigidBody(0.5)}, gravity=(0, -9.81))
+    run = simulate(cams.flat_follower(), loads, at=0.1, speed=100.0, until=0.05, tolerance=1e-9)
+    lift = read_lift(cams.LIFT)
+    there = brentq(lambda q: 9.81 + float(lift.at(q, 2)) * 10, 0.5, 1.0)
+    assert "G(cam-valve) lift off" in run.message()
+    assert f"At {(there - 0.1) / 100:.4g} s" in run.message()
+    assert "heben" in run.message("de")
+
+
 def test_a_cam_whose_lift_jumps_in_its_speed_ends_the_motion():
-    linkage = cams.flat_follower("rise 20 90 v0=10 v1=5; dwell 60; fall 20 120; dwell")
+    linkage = cams.flat_follower("rise 20 90 v0=10 v1=5; dwell 60; fall 20 120; dwell", closed=True)
     loads = Loads(bodies={"cam": RigidBody(0, (0, 0), 100.0), "valve": RigidBody(0.5)}, gravity=(0, 0))
     run = simulate(linkage, loads, at=1.0, speed=20.0, until=0.2)
     assert "jumps in its speed" in run.message()
@@ -464,9 +475,10 @@ def test_a_start_on_a_jump_goes_to_the_side_that_leaves_it():
 
 
 @pytest.mark.slow
-def test_jumps_of_functions_that_hold_the_motion_end_it_by_their_steps():
+@pytest.mark.parametrize("stiff", [False, True])
+def test_jumps_of_functions_that_hold_the_motion_end_it_by_their_steps(stiff):
     loads = Loads({("1", 0, 0): (lambda s: -50 * np.sign(s.vx), 0)}, bodies=ONE_KILOGRAM, gravity=(0, 0))
-    held = simulate(SLIDE, loads, at=(0, 0), speed=(1000, 0), until=0.1, tolerance=1e-8)
+    held = simulate(SLIDE, loads, at=(0, 0), speed=(1000, 0), until=0.1, tolerance=1e-8, stiff=stiff)
     assert "steps get too short" in held.message()
     assert "Schritte" in held.message("de")
 

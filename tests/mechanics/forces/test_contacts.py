@@ -14,7 +14,7 @@ from gruebler.mechanics.forces import Friction, Loads, RigidBody, statics
 from gruebler.mechanics.forces.contact_forces import CONTACT_FORCES
 from gruebler.mechanics.kinematics import from_degrees, move
 from gruebler.mechanics.kinematics.contacts import CONTACT_MOTIONS
-from gruebler.mechanics.linkages import Linkage, LinkPoint, Wheel
+from gruebler.mechanics.linkages import Circle, Linkage, LinkPoint, Wheel
 from gruebler.structure.mechanism import Mechanism
 from tests.mechanics.forces.test_friction import put_back
 from tests.mechanics.kinematics import test_cams_in_linkages as cams
@@ -234,6 +234,36 @@ def test_inertia_behind_gears_and_cams():
     np.testing.assert_allclose(
         lifted.drive[:, 0], 0.5e-3 * 900 * lift.at(angles, 2) * lift.at(angles, 1), rtol=1e-5, atol=1e-5
     )
+
+
+def test_a_follower_lifts_off_where_its_spring_is_too_weak():
+    """By hand: m (g + s'' w²) + F is what the cam must push with; m = 0.5 kg, w = 100 rad/s."""
+    motion = move(cams.flat_follower(), from_degrees(0, 360, 1), speed=100.0)
+    bend = read_lift(cams.LIFT).at(motion.drives[:, 0], 2) * 10
+    smooth = np.abs(np.mod(motion.drives, 2 * np.pi) - cams.JOINTS).min(axis=1) > 1e-6
+    for force in (0.0, 400.0):
+        loads = Loads({("valve", 0, 0): (0, -force)}, bodies={"valve": RigidBody(0.5)}, gravity=(0, -9.81))
+        held = inverse_dynamics(motion, loads).statics
+        wanted = 0.5 * (9.81 + bend) + force
+        np.testing.assert_allclose(held.pushes[2][smooth], wanted[smooth], rtol=1e-4, atol=1e-3)
+        assert ("lift off" in held.message()) == (wanted < 0).any() == (force == 0)
+        assert ("hebt" in held.message("de")) == (force == 0)
+    assert "46° to 89°" in inverse_dynamics(motion, Loads(bodies={"valve": RigidBody(0.5)})).statics.message()
+    grooved = move(cams.flat_follower(closed=True), motion.drives, speed=100.0)
+    assert inverse_dynamics(grooved, Loads(bodies={"valve": RigidBody(0.5)})).statics.message() == ""
+
+
+@pytest.mark.parametrize("follower", [Circle(3.0, 18.0, 8.0), Circle(3.0, -20.0, -30.0), (3.0, 10.0, 0.0)])
+def test_an_eccentric_disc_pushes_what_lies_on_it(follower):
+    """A roller above it, a ring that hangs on it, a flat face: up; what is drawn upwards lifts off."""
+    mechanism = Mechanism.parse("R(0-disc) P(0-tappet) G(disc-tappet); frame=0; drive=R(0-disc)")
+    places = {"R(0-disc)": (0, 0), "P(0-tappet)": (3, 40, np.pi / 2)}
+    touch = {"disc": Circle(3, 0, 10.0), "tappet": follower}
+    motion = move(Linkage.from_drawing(mechanism, {**places, "G(disc-tappet)": touch}), [0.0, 0.1])
+    for force in (-5.0, 5.0):
+        held = statics(motion, Loads({("tappet", 0.0, 0.0): (0.0, force)}))
+        assert held.pushes[2][0] == pytest.approx(-force)
+        assert ("lift off" in held.message()) == (force > 0)
 
 
 def test_a_load_turns_a_rack_by_its_radius():

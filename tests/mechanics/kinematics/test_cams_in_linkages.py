@@ -25,18 +25,18 @@ JOINTS = np.radians([0, 90, 150, 270, 360])
 TOLERANCES = (1e-11, 1e-9, 1e-6, 1e-3)
 
 
-def flat_follower(lift=LIFT, base=60.0):
+def flat_follower(lift=LIFT, base=60.0, *, closed=False):
     mechanism = Mechanism.parse("R(0-cam) P(0-valve) G(cam-valve); frame=0; drive=R(0-cam)")
-    touch = {"cam": CamDisc(0, 0, 0, lift=lift, base=base, flat=True), "valve": (0, base, 0)}
+    touch = {"cam": CamDisc(0, 0, 0, lift=lift, base=base, flat=True, closed=closed), "valve": (0, base, 0)}
     return Linkage.from_drawing(mechanism, {"R(0-cam)": (0, 0), "P(0-valve)": (0, base, pi / 2), "G(cam-valve)": touch})
 
 
-def roller_follower(lift=LIFT, base=40.0, roller=10.0, offset=5.0):
+def roller_follower(lift=LIFT, base=40.0, roller=10.0, offset=5.0, *, closed=False):
     """The spin of the roller is a freedom of its own."""
     mechanism = Mechanism.parse("R(0-cam) P(0-tappet) R(tappet-roller) G(cam-roller); frame=0; drive=R(0-cam)")
     y = sqrt((base + roller) ** 2 - offset**2)
     touch = {
-        "cam": CamDisc(0, 0, 0, lift=lift, base=base, roller=roller, offset=offset),
+        "cam": CamDisc(0, 0, 0, lift=lift, base=base, roller=roller, offset=offset, closed=closed),
         "roller": Circle(offset, y, roller),
     }
     places = {"R(0-cam)": (0, 0), "P(0-tappet)": (offset, y + 30, pi / 2), "R(tappet-roller)": (offset, y)}

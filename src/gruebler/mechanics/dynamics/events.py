@@ -12,8 +12,11 @@ from gruebler.base.arrays import Flags, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.dynamics.coordinates import JointFreedom, freedom_of
-from gruebler.mechanics.dynamics.free_linkage import FreeLinkage, Instants
-from gruebler.mechanics.forces.acting import MovingLinks
+from gruebler.mechanics.dynamics.free_linkage import FreeLinkage, Instants, motion_of
+from gruebler.mechanics.dynamics.inverse import inertia_of
+from gruebler.mechanics.forces import Statics
+from gruebler.mechanics.forces.acting import MovingLinks, loads_over_rows
+from gruebler.mechanics.forces.equilibrium import link_loads, reactions
 from gruebler.mechanics.forces.laws import SwitchedLaw
 from gruebler.mechanics.kinematics.messages import drive_values
 from gruebler.structure.mechanism import Mechanism
@@ -26,9 +29,13 @@ _HELD = message(
     "At {time:n} s, {values}, {load} jumps, and on either side of the jump it drives the motion back to it: what it is "
     "there is not given. A steep but continuous law, such as tanh(vx/0.1) for a sign, has an answer."
 )
+_LIFTED = message(
+    "At {time:n} s, {values}, the links of {joint} lift off: they only push each other, and a pull would be needed."
+)
 _STALLED = message("The motor at {joint} stalls at {time:n} s, {values}: the loads turn it back.")
 
 
+_PULL = 1e-9  # of the largest force of a joint so far: a smaller pull is rounding
 _ON_JUMP = 1e-11  # of the largest value so far of what a load looks at: nearer to its jump it is on it
 _TOGETHER = 1e-9  # likewise: what is so near to its own jump turns over with it
 _AHEAD = 1e-7  # of the time that is followed: so far it is looked ahead on which side of a jump the motion goes
@@ -98,6 +105,30 @@ def watched_motors(free: FreeLinkage, first: Instants) -> Iterator[Watch]:
             return _STALLED.filled(joint=name, time=now.time, values=_values(free, now))
 
         yield Watch(gap, met)
+
+
+def watched_contacts(free: FreeLinkage, first: Instants) -> Iterator[Watch]:
+    """Cams and smooth circles, which lift off where they would have to pull."""
+    largest = [1e-300]
+
+    def pushes(now: Instants) -> dict[int, Reals]:
+        motion = motion_of(free, now)
+        wrenches = (*loads_over_rows(motion, free.loads, now.moving.time), *inertia_of(motion, free.loads))
+        reaction = reactions(motion, link_loads(motion, wrenches))
+        largest[0] = max(largest[0], float(np.nanmax(np.abs(reaction.forces), initial=0.0)))
+        return Statics(motion=motion, wrenches=wrenches, reactions=reaction, work=motion.drives).pushes
+
+    def least(now: Instants) -> float:
+        return min(float(push[0]) for push in pushes(now).values()) / largest[0] + _PULL
+
+    def met(now: Instants) -> Message:
+        parts = pushes(now)
+        joint = min(parts, key=lambda number: float(parts[number][0]))
+        title = free.plan.linkage.mechanism.chain.joint_title(joint)
+        return _LIFTED.filled(joint=title, time=now.time, values=_values(free, now))
+
+    if free.plan.wheels and pushes(first):
+        yield Watch(least, met)
 
 
 def why_not_started(free: FreeLinkage, first: Instants, acceleration: Reals) -> Message | None:

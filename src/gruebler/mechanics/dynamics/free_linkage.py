@@ -15,6 +15,7 @@ from gruebler.mechanics.dynamics.equations import EquationsOfMotion, Influences
 from gruebler.mechanics.dynamics.reduced_series import ReducedSeries
 from gruebler.mechanics.forces.acting import MovingLinks
 from gruebler.mechanics.forces.loads import Loads
+from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.kinematics.reference_pose import ReferencePose
 
@@ -224,6 +225,25 @@ def _continued(
     moved = np.diff(values, axis=0, prepend=first[None])
     whole = turning * np.round((steps * means - moved) / (2 * np.pi))
     return np.asarray(values + 2 * np.pi * np.cumsum(whole, axis=0))
+
+
+def motion_of(free: FreeLinkage, now: Instants) -> Motion:
+    """Instants as rows of a motion, for joint forces; its assembly mode is not told."""
+    acceleration, moving, rows = free.acceleration(now), now.moving, len(now.speeds)
+    places, rates = now.derivatives(acceleration)
+    return Motion(
+        linkage=free.plan.linkage,
+        plan=free.plan,
+        drives=moving.drives,
+        places=places,
+        turns=moving.turns,
+        rates=rates,
+        whole=np.round((moving.angles - np.angle(moving.turns)) / (2 * np.pi)).astype(np.int32),
+        roots=np.zeros((rows, len(free.plan.dyads))),
+        unknowns=np.zeros((rows, free.plan.unknowns)),
+        stop=None,
+        speeds=np.array([moving.speeds, free.own_acceleration(now, acceleration)]),
+    )
 
 
 def _without_potential(loads: Loads) -> Loads:

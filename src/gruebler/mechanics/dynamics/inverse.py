@@ -195,11 +195,18 @@ def inverse_dynamics(
         docs/theory/dynamics.md
     """
     motion.check_order(2)
+    inertia = inertia_of(motion, loads)
+    held = equilibrium(motion, loads, friction, times, inertia)
+    return InverseDynamics(statics=held, inertia=inertia, loads=loads, times=times)
+
+
+def inertia_of(motion: Motion, loads: Loads) -> tuple[Wrench, ...]:
+    """The forces and moments of inertia of all masses in a motion with accelerations."""
     equations = EquationsOfMotion(motion.linkage, motion.links, loads)
     acting = equations.acting
     weights = equations.metres * acting.masses(len(motion))
     spins = [*(0.0 for _ in loads.masses), *(equations.metres * body.inertia for body in loads.bodies.values())]
-    inertia = tuple(
+    return tuple(
         Wrench(
             spot,
             -weights[:, k] * motion.complex_point(spot, order=2),
@@ -207,5 +214,3 @@ def inverse_dynamics(
         )
         for k, (spot, spin) in enumerate(zip(acting.spots[acting.heavy], spins, strict=True))
     )
-    held = equilibrium(motion, loads, friction, times, inertia)
-    return InverseDynamics(statics=held, inertia=inertia, loads=loads, times=times)

@@ -19,7 +19,14 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.dynamics.charts import Blocked
-from gruebler.mechanics.dynamics.events import Jumps, Watch, watched_ends, watched_motors, why_not_started
+from gruebler.mechanics.dynamics.events import (
+    Jumps,
+    Watch,
+    watched_contacts,
+    watched_ends,
+    watched_motors,
+    why_not_started,
+)
 from gruebler.mechanics.dynamics.free_linkage import FreeLinkage, Instants, Kept
 from gruebler.mechanics.dynamics.simulation import Simulation
 from gruebler.mechanics.dynamics.starts import starting_pose
@@ -33,7 +40,7 @@ from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 _ROWS = 401
 _ABSOLUTE = 0.1  # of the tolerance: what is allowed of values near zero, in their usual size
 _FINEST, _COARSEST = 1e-13, 1e-2
-_SHORT, _MANY = 2.5e-4, 500  # of the time that is followed: so many steps that are shorter together lead nowhere
+_SHORT, _MANY = 2.5e-4, 6000  # of the time that is followed: if so many evaluations lead less far there is no end
 _BY_ORDER = ("places", "rates")  # columns whose rows are their second axis
 _MOST = 10_000  # steps at once, between which Ctrl-C is heard
 _LOOKS = 4  # in each step, at what may end the motion
@@ -210,7 +217,7 @@ class _Run:
         self.points = list[tuple[float, Reals, bool]]()  # not written yet: time, state, whether it is a row
         self.since: Kept | None = None  # what their angles are counted on from
         self.steps = 0
-        self.ahead = (0, 0.0)  # after so many steps it was so far
+        self.ahead = (0, 0.0)  # after so many evaluations it was so far
         self.reason: Message | None = None
         self.count = free.coordinates.count
         self.watched: list[Watch] = []
@@ -230,7 +237,12 @@ class _Run:
         free.check(first)
         jumps = Jumps(free, first, self.until)
         self.reason = jumps.held
-        self.watched = [*watched_ends(free, first, ends), *watched_motors(free, first), *jumps.watched()]
+        self.watched = [
+            *watched_ends(free, first, ends),
+            *watched_motors(free, first),
+            *watched_contacts(free, first),
+            *jumps.watched(),
+        ]
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # of steps that lead where the linkage cannot be assembled
             self._follow(first, np.concatenate([q, v, [0.0]]))
@@ -310,10 +322,10 @@ class _Run:
         return self._solver(end, y, self.free.acceleration(now)[0], solver.h_abs)
 
     def _no_end(self, solver: DOP853 | Radau) -> Message | None:
-        """The reason if so many steps are so short that there is no end of them."""
-        if self.steps - self.ahead[0] < _MANY or self.free.equations.acting.of_the_pose:
+        """The reason if steps are so short that there is no end of them."""
+        if self.free.evaluations - self.ahead[0] < _MANY or self.free.equations.acting.of_the_pose:
             return None
-        last, self.ahead = self.ahead[1], (self.steps, solver.t)
+        last, self.ahead = self.ahead[1], (self.free.evaluations, solver.t)
         if solver.t - last > _SHORT * self.until:
             return None
         values = drive_values(self.free.plan.linkage, tuple(self._at(solver.t, solver.y).moving.drives[0].tolist()))

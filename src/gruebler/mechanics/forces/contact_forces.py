@@ -95,11 +95,13 @@ def _rack(touch: MovingTouch[Wheel, Line]) -> list[ContactForce]:
 
 
 def _circles(touch: MovingTouch[Disc, Disc]) -> list[ContactForce]:
-    return [_pressing(touch.centre, _unit(touch.gap))]
+    away = np.sign(touch.first.radius + touch.second.radius)  # a hole holds its disc towards its centre
+    return [_pressing(touch.centre, away * _unit(touch.gap))]
 
 
 def _circle_on_line(touch: MovingTouch[Circle, Line]) -> list[ContactForce]:
-    return [_pressing(touch.centre, 1j * touch.turned.directions)]
+    across = 1j * touch.turned.directions
+    return [_pressing(touch.centre, across * np.sign((np.conj(across) * touch.gap).real))]
 
 
 # --- cams, Geneva drives, non-circular wheels --------------------------------------------------------------
@@ -154,3 +156,16 @@ CONTACT_FORCES: dict[tuple[type[Element], type[Element]], Callable[[Touching], l
     (NonCircular, NonCircular): _noncircular,
 }
 """One row for each row of `gruebler.mechanics.kinematics.contacts.CONTACT_MOTIONS`."""
+
+
+_PUSHING = {(Circle, Circle), (Circle, Line), (CamDisc, Circle), (CamDisc, Pin), (CamDisc, Line)}
+"""Kinds whose elements can only push each other: the unknown is positive where they do."""
+
+
+def pushing(motion: Motion, joint: int) -> tuple[str, Complexes] | None:
+    """The second link of a joint whose elements can only push each other, and the direction in which it is pushed."""
+    touch = moving_touch(motion, joint)
+    closed = isinstance(touch.first, CamDisc) and touch.first.closed
+    if contact_of(touch.first, touch.second).kinds not in _PUSHING or touch.rolls or closed:
+        return None
+    return touch.links[1], contact_forces(motion, joint)[1][0].force

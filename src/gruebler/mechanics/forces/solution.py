@@ -15,6 +15,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
 from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.mechanics.forces.acting import Wrench, loads_over_rows
+from gruebler.mechanics.forces.contact_forces import pushing
 from gruebler.mechanics.forces.equilibrium import (
     JointConnection,
     Reactions,
@@ -31,6 +32,7 @@ from gruebler.mechanics.forces.taking_apart import LinkLoads
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.lower_pairs import joints_left_out
+from gruebler.mechanics.linkages.wheels import round_joints
 
 _SINGULAR = message(
     "At the drive values {values} the joint forces are not determined: the links are not held there (a limit of the "
@@ -64,9 +66,14 @@ _PRESSED = message(
 _PITCH_CIRCLES = message(
     "In {joints} no link holds the distance of the wheels: the force is that of pitch circles, without pressure angle."
 )
+_LIFTS = message(
+    "At the drive values {values} the links of {joint}, which only push each other, would lift off: a pull would be "
+    "needed to hold them. A spring presses them together; a cam with a groove is said to be closed."
+)
 _RUBS_NOT = message("Nothing rubs: there are no slides with a coefficient of friction, and no pins with a radius.")
 _MOST_VALUES = 6
 _SPINS = 1e-9  # of the loads on a roller, times the linkage's size: a moment that is more than rounding
+_NO_PULL = 1e-9  # of the largest force of a joint: a smaller pull is rounding
 _NONE = 1e-13  # of the loads: a smaller effort is none
 
 
@@ -217,7 +224,36 @@ class Statics(Tabled):
         unknown = np.asarray(np.isnan(without).any(axis=1))
         parts = ((_SINGULAR, self.singular), (_UNKNOWN, unknown))
         sentences = [text.filled(values=self._values(rows)) for text, rows in parts if rows.any()]
-        return joined([*sentences, *self._of_contacts(), *self._of_friction()], " ").in_language(lang)
+        contacts = [*self._of_contacts(), *self._of_lifting()]
+        return joined([*sentences, *contacts, *self._of_friction()], " ").in_language(lang)
+
+    @cached_property
+    def pushes(self) -> dict[int, Reals]:
+        """By number of the joint, where links can only push each other (cams, smooth circles): the push; (rows,).
+
+        Where it is negative they would have to pull, and in truth lift off.
+        """
+        chain, joints = (
+            self.motion.linkage.mechanism.chain,
+            round_joints(self.motion.linkage.mechanism, self.motion.linkage.elements),
+        )
+        pairs = {joint: pushing(self.motion, joint) for joint in joints if not chain.joints[joint].pair.is_basic}
+        return {
+            joint: (np.conj(pair[1] / np.abs(pair[1])) * (self.force(joint, link=pair[0]) @ [1, 1j])).real
+            for joint, pair in pairs.items()
+            if pair is not None
+        }
+
+    def _of_lifting(self) -> list[Message]:
+        """Where links that can only push each other would have to pull."""
+        forces = np.abs(self.reactions.forces)
+        least = -_NO_PULL * float(np.nanmax(forces, initial=0.0))
+        title = self.motion.linkage.mechanism.chain.joint_title
+        return [
+            _LIFTS.filled(joint=title(joint), values=self._spans(push < least))
+            for joint, push in self.pushes.items()
+            if (push < least).any()
+        ]
 
     def _of_contacts(self) -> list[Message]:
         """What is to be said of teeth and belts."""
@@ -262,6 +298,18 @@ class Statics(Tabled):
         rows = np.flatnonzero(flags)
         written = [self._value(int(row)) for row in rows[:_MOST_VALUES]]
         return joined([*written, *(["..."] if len(rows) > _MOST_VALUES else [])])
+
+    def _spans(self, flags: Flags) -> Message:
+        """From where to where, row by row."""
+        rows = np.flatnonzero(flags)
+        parts = np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1)
+        written = [
+            message("{first} to {last}", first=self._value(int(part[0])), last=self._value(int(part[-1])))
+            if len(part) > 1
+            else self._value(int(part[0]))
+            for part in parts[:_MOST_VALUES]
+        ]
+        return joined([*written, *(["..."] if len(parts) > _MOST_VALUES else [])])
 
     def _value(self, row: int) -> Message:
         value = float(self.motion.drives[row, 0])

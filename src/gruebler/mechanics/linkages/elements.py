@@ -227,6 +227,8 @@ class CamDisc(Element):
     arm: float = 0.0
     distance: float = 0.0
     face: float = 0.0
+    closed: bool = False
+    """Whether a groove or a second cam keeps the follower, so that it cannot lift off."""
 
     title = message("a cam (at, cam)")
     form = "round"

@@ -27,6 +27,7 @@ SIZES: Mapping[str, Message] = {
     "arm": message("arm"),
     "distance": message("distance of the axes"),
     "face": message("distance of the face"),
+    "closed": message("form-closed"),
     "pins": message("pins"),
     "slots": message("slots"),
     "internal": message("internal"),
