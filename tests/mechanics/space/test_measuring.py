@@ -100,3 +100,7 @@ def test_a_table_has_rates_by_the_drive():
         measures(linkage, speed=3.0)
     with pytest.raises(LinkageError, match="expected a joint of two links that is no ball"):
         measures(WIPER.linkage(0.3), output="S(crank-rod)")
+
+
+def test_a_piston_begins_at_zero_and_not_at_its_rounding():
+    assert "from 0 mm to 27.3616 mm" in measures(entry("wobble_plate").placed()).explain()

@@ -41,7 +41,7 @@ ROOT = Path(__file__).parents[3]
 
 @pytest.fixture(scope="module")
 def sheet():
-    return worksheet(list(KINDS), 6, level=2, seed=7, lang="de")
+    return worksheet(list(KINDS), len(KINDS), level=2, seed=7, lang="de")
 
 
 def blocks_of(document, kind):
@@ -50,9 +50,9 @@ def blocks_of(document, kind):
 
 def test_one_task_of_each_kind(sheet):
     assert sheet.ids == tuple(f"{kind}-2-{7 + k}" for k, kind in enumerate(KINDS))
-    assert len(blocks_of(sheet.tasks, AnswerLines)) == 6
+    assert len(blocks_of(sheet.tasks, AnswerLines)) == len(KINDS)
     figures = [exercise_figure(exercise(id)) for id in sheet.ids]
-    assert len(blocks_of(sheet.tasks, Pictures)) == sum(figure is not None for figure in figures) == 6
+    assert len(blocks_of(sheet.tasks, Pictures)) == sum(figure is not None for figure in figures) == len(KINDS)
 
 
 def test_answers_are_marked_by_the_names_that_are_printed(sheet):
@@ -198,8 +198,8 @@ def test_a_task_of_mobility_shows_the_chain_and_not_its_joints(sheet):
 def test_the_marking_key_has_every_answer(sheet):
     key = blocks_of(sheet.solutions, Rows)[-1]
     asked = sum(len(exercise(id).asked) for id in sheet.ids)
-    assert len(key.rows) == asked + 6 + 1  # and the way of each, and the sum
-    assert key.rows[-1][-1] == str(asked + 6)
+    assert len(key.rows) == asked + len(KINDS) + 1  # and the way of each, and the sum
+    assert key.rows[-1][-1] == str(asked + len(KINDS))
 
 
 @pytest.mark.parametrize(("lang", "word", "other"), [("en", "good", "gut"), ("de", "gut", "good")])
@@ -274,7 +274,7 @@ def test_latex_knows_every_sign_of_the_texts():
 def test_latex_files_compile(lang, tmp_path):
     if shutil.which("pdflatex") is None:
         pytest.skip("pdflatex is not here")
-    sheets = [worksheet(list(KINDS), 6, level=level, seed=3, lang=lang) for level in (1, 2, 3)]
+    sheets = [worksheet(list(KINDS), len(KINDS), level=level, seed=3, lang=lang) for level in (1, 2, 3)]
     made = [
         *((sheet.tasks, sheet.solutions) for sheet in sheets),
         (machine_document(entries()["crankrocker"], lang=lang), machine_document(entries()["geartrain"], lang=lang)),

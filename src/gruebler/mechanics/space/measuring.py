@@ -159,7 +159,8 @@ class SpatialMeasures:
     def _value(self, value: float, turns: bool) -> Message:
         if turns:
             return message("{angle:n}°", angle=round(degrees(value), 4) + 0.0)
-        return message("{length:n} {unit}", length=float(f"{value:.6g}") + 0.0, unit=self.linkage.unit)
+        length = 0.0 if abs(value) < _STILL * self.linkage.size else float(f"{value:.6g}")
+        return message("{length:n} {unit}", length=length, unit=self.linkage.unit)
 
 
 def spatial_table(

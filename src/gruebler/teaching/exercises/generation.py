@@ -417,7 +417,7 @@ def _spherical_grashof(random: Random, level: int) -> _Draft:
         "crank a turn fully, and what kind of mechanism is it?",
         arcs=joined_by_and([message("{name} = {arc}°", name=k, arc=figure(float(given[k]))) for k in "abcd"]),
     )
-    keys: tuple[str, ...] = ("sum_ends", "sum_others", "turns", "type") if level == 1 else ("turns", "type")
+    keys: tuple[str, ...] = ("sum_ends", "sum_others", "turns", "type") if level == 1 else ("total", "turns", "type")
     if level == 3:
         more = message("Find the swing of the rocker and the smallest transmission angle.")
         task, keys = joined([task, more], " "), ("turns", "type", "ψ_H", "μ_min")
