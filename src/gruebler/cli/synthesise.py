@@ -57,6 +57,7 @@ _OPTIONS = {
     "curve_parameters": "--curve-parameter",
     "region": "--region",
     "lengths": "--length",
+    "tolerance": "--tolerance",
 }
 """The options for keys of task files."""
 _TASK_OPTIONS = {
@@ -175,6 +176,9 @@ def add(parser: Parser) -> None:
             --crank  only designs whose drive turns fully
             --transmission DEG float =0  minimum transmission angle on the way through the targets
             --size-ratio R float =20  limit of longest to shortest length
+            --tolerance PART float  how far a target may be missed, as a part of the size of the task (default: nothing,
+                or 0.05 where targets are approached)
+            --any-order  the targets may be met in any order
             --sort KEY[,KEY] =  sort the designs by error, transmission, range-transmission, size, size-ratio,
                 sensitivity, links, full-turn; of equal ones the second key decides
             --clearance C float  print how far targets move, lengths wrong by a thousandth and pins C beside their holes
@@ -259,6 +263,8 @@ def _demands(arguments: argparse.Namespace) -> Demands:
             transmission=radians(arguments.transmission),
             size_ratio=arguments.size_ratio,
             region=region,
+            tolerance=Demands.tolerance if arguments.tolerance is None else arguments.tolerance,
+            in_order=not arguments.any_order,
         )
 
 

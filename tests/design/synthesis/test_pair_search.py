@@ -8,6 +8,7 @@ from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements,
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.pair_search import pair_facts
 from gruebler.design.synthesis.positions import _targets, guiding_dyads, linkage_of_dyads, sliding_sample
+from gruebler.mechanics.kinematics import move
 
 FOUR = [(2.071235, -0.032527, 19.8126), (2.036152, 1.429641, 44.4843), (0.706012, 1.606846, 68.1715)]
 FOUR += [(0.329970, 2.223983, 92.2134)]
@@ -93,3 +94,23 @@ def test_where_there_is_none_the_tightest_demand_is_named():
     notes = " ".join(map(str, found.notes))
     assert "0 meet all demands" in notes
     assert "Without the demand of a transmission angle of 40° there are " in notes
+
+
+def test_positions_in_any_order_lie_on_one_branch():
+    """The fourth position lies between the second and the third: in order there is none. By `move` along the drive."""
+    task = PositionTask([(0, 0, 0), (-1, 2, np.radians(25)), (-1, 3, np.radians(50)), (-2, 3, np.radians(40))])
+    assert not synthesise_positions(task, number=4).designs
+    found = synthesise_positions(task, Demands(in_order=False), number=4)
+    assert len(found.designs) > 2
+    for design in found.designs:
+        drives = np.array(design.drives)
+        order = np.argsort(drives)
+        assert (np.diff(order) < 0).any()
+        assert (np.diff(order) > 0).any()
+        assert design.linkage.mechanism.drives[0].turning
+        first = int(np.flatnonzero(order == 0)[0])
+        for targets in (order[first:], order[: first + 1][::-1]):  # from the first position to both ends
+            places = np.arange(10 * len(targets) - 9) / 10
+            motion = move(design.linkage, np.interp(places, np.arange(len(targets)), drives[targets]))
+            assert motion.complete
+            assert np.abs(motion.complex_point("P")[::10] - task.origins[targets]).max() < 1e-9 * task.size

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import degrees
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,8 +40,10 @@ class PairFacts:
 
     lengths: Reals
     """(4, n, m) crank, coupler, rocker, frame; NaN where a slide has no such length."""
+    branch: Flags
+    """All positions lie on one branch."""
     moves: Flags
-    """All positions lie on one branch, and the crank meets them in order."""
+    """They do, and the crank meets them in order."""
     turns: Flags
     transmission: Reals
     """The least transmission angle on the way through the positions, in radians."""
@@ -61,8 +64,8 @@ class PairFacts:
 
     def met(self, demands: Demands) -> list[tuple[Message, Flags]]:
         """The demands by their names, each with the pairs that meet it."""
-        strict = demands.one_branch and demands.in_order
-        met = [(message("one branch and order"), self.moves if strict else np.ones_like(self.moves))]
+        path = self.moves if demands.in_order else self.branch
+        met = [(message("one branch and order"), path if demands.one_branch else np.ones_like(path))]
         if demands.crank:
             met.append((message("a drive that turns fully"), self.turns))
         if demands.transmission > 0:
@@ -118,12 +121,13 @@ def facts_of_pins(
     """What cranks do with rockers, sliders or blocks, from the pins of both in all positions and their pivots."""
     with np.errstate(divide="ignore", invalid="ignore"):
         closure = _CLOSURES[kind](driven, other, slides)
-        moves, turns, transmission = motion_of_pairs(closure)
+        branch, moves, turns, transmission = motion_of_pairs(closure)
     # Two dyads with a common pivot are no linkage.
     lengths = closure.lengths
     usable = np.isfinite(transmission) & (np.nanmin(lengths, axis=0) > 1e-9 * np.nanmax(lengths, axis=0))
     return PairFacts(
         lengths=lengths,
+        branch=np.asarray(branch & usable),
         moves=np.asarray(moves & usable),
         turns=np.asarray(turns & usable),
         transmission=np.where(usable, transmission, 0.0),
@@ -132,8 +136,17 @@ def facts_of_pins(
     )
 
 
-def motion_of_pairs(closure: PairClosure) -> tuple[Flags, Flags, Reals]:
-    """Whether a crank meets the targets in order on one branch, whether it turns, its transmission angle on the way.
+class PairMotion(NamedTuple):
+    """What cranks do, for each pair; see `PairFacts`."""
+
+    branch: Flags
+    moves: Flags
+    turns: Flags
+    transmission: Reals
+
+
+def motion_of_pairs(closure: PairClosure) -> PairMotion:
+    """Whether all targets lie on one branch, and in order on it; whether the crank turns; its transmission angle.
 
     The last is at most a right angle and only meant for linkages that meet the targets.
     """
@@ -149,10 +162,10 @@ def motion_of_pairs(closure: PairClosure) -> tuple[Flags, Flags, Reals]:
     travel = np.where(onward <= back, onward, -back)  # of two positions both ways lead there: the shorter is taken
     travel = np.where(turns, travel, angle[..., -1] - angle[..., 0])
     same_part = ~split | (np.sign(angle) == np.sign(angle[..., :1])).all(axis=2)
-    moves = (side == side[..., :1]).all(axis=2) & (side[..., 0] != 0) & ordered & same_part
+    branch = (side == side[..., :1]).all(axis=2) & (side[..., 0] != 0) & same_part
     cosines = [closure.cosine(_extreme(angle[..., 0], travel, at)) for at in (0.0, np.pi)]
     transmission = np.arccos(np.clip(np.maximum(*map(np.abs, cosines)), 0, 1))
-    return np.asarray(moves), np.asarray(turns), np.asarray(transmission)
+    return PairMotion(*map(np.asarray, (branch, branch & ordered, turns, transmission)))
 
 
 Places = tuple[Complexes, Complexes]

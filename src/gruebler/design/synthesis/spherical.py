@@ -330,12 +330,12 @@ def _best_pairs(
     fixed, moving = (np.array([getattr(dyad, name) for dyad in dyads]) for name in ("fixed", "moving"))
     closure = _closures(fixed, moving, turns)
     with np.errstate(invalid="ignore", divide="ignore"):
-        moves, full, transmission = motion_of_pairs(closure)
+        branch, moves, full, transmission = motion_of_pairs(closure)
     folded = np.minimum(closure.lengths, pi - closure.lengths)
     ratio = closure.lengths.max(axis=0) / np.maximum(closure.lengths.min(axis=0), 1e-300)
     usable = folded.min(axis=0) > _LEAST_ARC
-    strict = demands.one_branch and demands.in_order
-    met = np.stack([moves | (not strict), full | (not demands.crank), ratio <= demands.size_ratio])
+    path = moves if demands.in_order else branch
+    met = np.stack([path | (not demands.one_branch), full | (not demands.crank), ratio <= demands.size_ratio])
     good = np.concatenate([met, [transmission >= demands.transmission]]) & usable
     fails = np.where(usable, np.sum(~good, axis=0), 99)
     notes.append(
