@@ -13,6 +13,8 @@ from gruebler.design.synthesis import mixed_targets as mixed
 from gruebler.design.synthesis.curves import limits_of
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR
 from gruebler.design.synthesis.judging import judge_design
+from gruebler.design.synthesis.proposals import propose
+from gruebler.design.synthesis.specification import Specification
 from gruebler.design.synthesis.targets import point_targets
 from gruebler.files.tasks import read_task, task_from_json, task_to_json, write_task
 from gruebler.mechanics.fourbar import FourBar
@@ -202,3 +204,9 @@ def test_files_keep_mixed_tasks(tmp_path, ending):
     write_task(tmp_path / f"task.{ending}", task)
     assert read_task(tmp_path / f"task.{ending}") == task
     assert task_from_json(task_to_json(task)) == task
+
+
+def test_a_specification_of_mixed_targets_tries_four_bars():
+    found = propose(Specification(MIXED["angles without a point"], demands=Demands(crank=True)))
+    assert [each.mechanism for each in found.tried] == [None]
+    assert found.best
