@@ -113,6 +113,11 @@ _SHARED = {
         --view {isometric,oblique}  of a linkage in space: the view (default: isometric)
         --jobs N int =1  number of processes (default: 1)
         --scheduler ADDRESS  send the work to a Dask scheduler, such as tcp://host:8786
+        --crank  only designs whose drive turns fully
+        --transmission DEG float =0  minimum transmission angle on the way through the targets
+        --size-ratio R float =20  limit of longest to shortest length
+        --rejected  also list the rejected designs with their reasons
+        --design K int  with -o: write design K of the list (default: 1)
         """
     )
 }

@@ -45,7 +45,7 @@ def add(parser: Parser) -> None:
     parser.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
     parser.take(
         """
-        --design K int =1  with -o: write design K of the list (default: 1)
+        --design =1
         --draw FILE path  draw the designs: .html all, moving; .svg, .png or .pdf the best six
         """
     )

@@ -173,9 +173,9 @@ def add(parser: Parser) -> None:
             --link LINK =  with --structure: the link that is guided, or the output
             --jobs N int =1  with --structure: number of processes (default: 1)
             --scheduler ADDRESS  with --structure: send the work to a Dask scheduler, such as tcp://host:8786
-            --crank  only designs whose drive turns fully
-            --transmission DEG float =0  minimum transmission angle on the way through the targets
-            --size-ratio R float =20  limit of longest to shortest length
+            --crank
+            --transmission
+            --size-ratio
             --tolerance PART float  how far a target may be missed, as a part of the size of the task (default: nothing,
                 or 0.05 where targets are approached)
             --any-order  the targets may be met in any order
@@ -183,14 +183,14 @@ def add(parser: Parser) -> None:
                 sensitivity, links, full-turn; of equal ones the second key decides
             --clearance C float  print how far targets move, lengths wrong by a thousandth and pins C beside their holes
             --number N int  give the N best designs only, where there are infinitely many or targets are approached
-            --rejected  also list the rejected designs with their reasons
+            --rejected
             """
         )
         kind.add_json(help="print an object with all linkages")
         kind.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
         kind.take(
             """
-            --design K int  with -o: write design K of the list (default: 1)
+            --design
             --draw FILE path  draw the designs, or rejected ones if there are no others: .html all, moving; .svg, .png
                 or .pdf the best six
             """

@@ -36,18 +36,18 @@ def add(parser: Parser) -> None:
     parser.take(
         """
         task TASK  a .toml or .json file: orientations = [[x, y, z, angle], ...], axis and angle in degrees
-        --crank  only designs whose drive turns fully
-        --transmission DEG float =0  minimum transmission angle on the way through the targets
-        --size-ratio R float =20  limit of longest to shortest length
+        --crank
+        --transmission
+        --size-ratio
         --number N int =16  give the N best designs only, where there are infinitely many or targets are approached
-        --rejected  also list the rejected designs with their reasons
+        --rejected
         """
     )
     parser.add_json(help="print an object with all linkages")
     parser.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
     parser.take(
         """
-        --design K int  with -o: write design K of the list (default: 1)
+        --design
         --draw FILE path  draw the best six designs: .svg, .png or .pdf
         """
     )
