@@ -77,7 +77,9 @@ docs: $(VENV)/.docs
 messages: $(READY)
 	$(BIN)/python -m tests.messages
 
+# The widget is dragged in real notebooks, whose servers are too large for the fast tests.
 slow: $(READY)
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check jupyterlab marimo
 	$(BIN)/python -m pytest -q -m slow
 	GRUEBLER_NEW_EXAMPLES=1 $(BIN)/python $(TESTED)
 

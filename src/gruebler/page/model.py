@@ -29,7 +29,7 @@ from gruebler.structure.chain.pairs import Pair
 from gruebler.structure.chain.spaces import Space
 from gruebler.teaching.catalog import entries
 
-_COMMON = ("frame", "crank", "coupler", "rocker", "slider")  # links of four-bars and slider-cranks
+_COMMON = ("frame", "crank", "coupler", "rocker", "slider", "block")  # links of four-bars and slider-cranks
 
 _SAME = 1e-12  # sizes: elements of the plan are copies of the linkage's, but for rounding of turned ones
 
