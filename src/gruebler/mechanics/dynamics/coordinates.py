@@ -24,6 +24,7 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Drive, Mechanism
 
 _SOUND = 1e-2  # a pose with a smaller root is not walked on from
+_ANYWHERE = 1e4  # radians or sizes: no step leads so far, but it would be walked there
 _SLOW = 0.4  # coordinates whose volume is less than this part of that of other joints are exchanged for those
 _LOOKS, _CALM = 9, 0.8  # places of a chart, and the part of that volume: below it no place is looked at again
 _HERE = 1e-6  # in sizes: a branch that was known before is taken if it lies so near to the pose
@@ -59,6 +60,8 @@ class Coordinates:
             raise Blocked
         speeds = np.vstack([np.eye(self.count), v])
         drives, signs, unknowns = self._state
+        if (np.abs(q - drives) > _ANYWHERE * self.scale).any():
+            raise Blocked
         path = np.vstack([drives, np.repeat(q[None], len(speeds), 0)])
         fast = np.zeros((2, *path.shape))
         fast[0, 1:] = speeds

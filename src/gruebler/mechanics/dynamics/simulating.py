@@ -40,6 +40,7 @@ from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 _ROWS = 401
 _ABSOLUTE = 0.1  # of the tolerance: what is allowed of values near zero, in their usual size
 _FINEST, _COARSEST = 1e-13, 1e-2
+_NEARBY = 1e-8  # of what is usual: steps by which derivatives are taken
 _SHORT, _MANY = 2.5e-4, 6000  # of the time that is followed: if so many evaluations lead less far there is no end
 _BY_ORDER = ("places", "rates")  # columns whose rows are their second axis
 _MOST = 10_000  # steps at once, between which Ctrl-C is heard
@@ -212,7 +213,8 @@ class _Run:
 
     def __init__(self, free: FreeLinkage, until: float, times: Reals, tolerance: float, stiff: bool) -> None:
         self.free, self.until, self.times, self.tolerance = free, until, times, tolerance
-        self.method = Radau if stiff else partial(ChartedSteps, free)
+        self.method = partial(Radau, jac=self._slopes) if stiff else partial(ChartedSteps, free)
+        self.usual = np.zeros(0)  # of y: what is usual for each
         self.written = list[dict[str, Any]]()  # the columns of `Simulation`, of rows in the same coordinates
         self.points = list[tuple[float, Reals, bool]]()  # not written yet: time, state, whether it is a row
         self.since: Kept | None = None  # what their angles are counted on from
@@ -291,7 +293,9 @@ class _Run:
         solver.step()
         self.steps += 1
         if solver.status == "failed" or not np.isfinite(solver.y).all():
-            self.reason = self._no_way(solver.t_old or 0.0)
+            steady = solver.status == "failed" and np.isfinite(solver.y).all() and np.isfinite(solver.f).all()
+            jumps = steady and not self.free.equations.acting.of_the_pose
+            self.reason = self._endless(solver) if jumps else self._no_way(solver.t_old or 0.0)
             return solver
         stops = self._stops(begin, solver.t)
         if len(stops) or self.watched:
@@ -328,6 +332,9 @@ class _Run:
         last, self.ahead = self.ahead[1], (self.free.evaluations, solver.t)
         if solver.t - last > _SHORT * self.until:
             return None
+        return self._endless(solver)
+
+    def _endless(self, solver: DOP853 | Radau) -> Message:
         values = drive_values(self.free.plan.linkage, tuple(self._at(solver.t, solver.y).moving.drives[0].tolist()))
         return _NO_END.filled(time=solver.t, values=values)
 
@@ -348,6 +355,7 @@ class _Run:
         speeds = np.abs(y[count : 2 * count]) + np.sqrt(np.abs(acceleration) * usual) + usual / self.until
         kinetic, _ = free.energies(self._at(t, y))
         least = np.concatenate([usual, speeds, [float(kinetic[0]) + float(np.abs(acceleration) @ usual) or 1.0]])
+        self.usual = least
         options = {} if step is None else {"first_step": min(step, self.until - t)}
         return self.method(
             self._rate, t, y, self.until, rtol=self.tolerance, atol=_ABSOLUTE * self.tolerance * least, **options
@@ -367,6 +375,18 @@ class _Run:
             return np.concatenate([v, acceleration, [power]])
         except (Blocked, np.linalg.LinAlgError):
             return np.full(len(y), np.nan)
+
+    def _slopes(self, t: float, y: Reals) -> Reals:
+        """The derivatives of y' by y, for the implicit method: by small steps, since large ones may lead nowhere."""
+        here, slopes = self._rate(t, y), np.zeros((len(y), len(y)))
+        for k in range(2 * self.count):
+            for step in _NEARBY * max(abs(y[k]), self.usual[k]) * np.array([1.0, -1.0]):
+                moved = y.copy()
+                moved[k] += step
+                slopes[:, k] = (self._rate(t, moved) - here) / (moved[k] - y[k])
+                if np.isfinite(slopes[:, k]).all():
+                    break
+        return np.nan_to_num(slopes, nan=0.0)
 
     def _write(self) -> None:
         """What the rows noted are, in the coordinates of the moment."""
