@@ -1,7 +1,7 @@
 // Poses of a linkage in space for given values of all its drives, by Gauss and Newton from the last ones.
 //
-// A joint has a frame in the reference pose, common to its links. Its second link's frame as seen from its first one, E,
-// keeps the directions in which the joint does not slide and turn; a drive, and the wheels on common carriers, add rows.
+// A joint has a frame in the reference pose, common to its links. The frame E of its second link, seen from its first,
+// keeps the directions in which the joint does not slide and turn; drives, and wheels on common carriers, add rows.
 
 import type { Vector } from "./algebra";
 
