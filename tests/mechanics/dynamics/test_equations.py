@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gruebler.base.errors import GrueblerError
+from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.units import quantity_of
 from gruebler.mechanics.dynamics import reduced_equations
 from gruebler.mechanics.forces import Curve, Gas, LoadFormula, Loads, Motor, RigidBody, Spring, TorsionSpring, statics
@@ -90,6 +90,21 @@ def test_bodies_of_shapes():
     parts = RigidBody.plate([(0, 0), (40, 0), (40, 10), (0, 10)], 5, 7850.0)
     parts += RigidBody.plate([(0, 10), (10, 10), (10, 30), (0, 30)], 5, 7850.0)
     assert (parts.mass, parts.inertia) == pytest.approx((body.mass, body.inertia), rel=1e-12)
+    with pytest.raises(LinkageError, match="crosses itself: edges 1 and 3"):  # not the difference of two triangles
+        RigidBody.plate([(0, 0), (2, 1), (2, 0), (0, 3)], 5, 7850.0)
+    hole = [
+        (0, 0),
+        (4, 0),
+        (4, 4),
+        (0, 4),
+        (0, 0),
+        (1, 1),
+        (1, 2),
+        (2, 2),
+        (2, 1),
+        (1, 1),
+    ]  # reached by an edge passed twice
+    assert RigidBody.plate(hole, 5, 7850.0).mass == pytest.approx(15 * 5 * 7850e-9)
     at_corner = body.inertia + body.mass * abs(complex(*body.centre)) ** 2
     assert RigidBody.about((0, 0), body.mass, body.centre, at_corner).inertia == pytest.approx(body.inertia)
 

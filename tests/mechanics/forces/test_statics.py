@@ -212,6 +212,7 @@ def test_many_rows_are_the_same_as_few():
         (Loads({"Q": (1, 2)}), "no point 'Q'"),
         (Loads({"K": 3.0}), "expected x and y"),
         (Loads({"K": (1, float("nan"))}), "expected finite numbers"),
+        (Loads({"K": (1, "log(-1)")}), "the law is not finite at a time of 0 s, where the first drive is at"),
         (Loads({"K": "much"}), "expected x and y"),
         (Loads({LinkPoint("roker", 0, 0): (1, 2)}), "no link 'roker'"),
         (Loads(moments={"roker": 1}), "did you mean 'rocker'"),

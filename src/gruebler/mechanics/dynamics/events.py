@@ -18,7 +18,8 @@ from gruebler.mechanics.forces import Statics
 from gruebler.mechanics.forces.acting import MovingLinks, loads_over_rows
 from gruebler.mechanics.forces.equilibrium import link_loads, reactions
 from gruebler.mechanics.forces.laws import SwitchedLaw
-from gruebler.mechanics.kinematics.messages import drive_values
+from gruebler.mechanics.kinematics.messages import drive_name, drive_values
+from gruebler.structure.chain.pairs import SymbolText
 from gruebler.structure.mechanism import Mechanism
 
 _STILL = 1e-9  # of the fastest speed so far: a motor that is slower backwards has rounding
@@ -93,7 +94,7 @@ def _watched_end(free: FreeLinkage, name: str, freedom: JointFreedom, low: float
 def watched_motors(free: FreeLinkage, first: Instants) -> Iterator[Watch]:
     """Motors that may be turned back by the loads, of those that begin at rest."""
     for k, sense in _motors_at_rest(free, first):
-        name = free.plan.linkage.mechanism.drive_names()[k]
+        name = drive_name(free.plan.linkage.mechanism, k)
         fastest = [0.0]
 
         def gap(now: Instants, k: int = k, sense: float = sense, fastest: list[float] = fastest) -> float:
@@ -101,7 +102,7 @@ def watched_motors(free: FreeLinkage, first: Instants) -> Iterator[Watch]:
             fastest[0] = max(fastest[0], speed)
             return speed + _STILL * fastest[0]
 
-        def met(now: Instants, name: str = name) -> Message:
+        def met(now: Instants, name: SymbolText = name) -> Message:
             return _STALLED.filled(joint=name, time=now.time, values=_values(free, now))
 
         yield Watch(gap, met)
@@ -141,7 +142,7 @@ def why_not_started(free: FreeLinkage, first: Instants, acceleration: Reals) -> 
             need = -float(free.equations.generalised(first.influences, first.moving)[0, k])
             unit = f"N·{free.plan.linkage.unit}" if mechanism.drives[k].turning else "N"
             return _NOT_STARTED.filled(
-                joint=mechanism.drive_names()[k],
+                joint=drive_name(mechanism, k),
                 values=_values(free, first),
                 give=message("{value:n} {unit}", value=give, unit=unit),
                 need=message("{value:n} {unit}", value=need, unit=unit),

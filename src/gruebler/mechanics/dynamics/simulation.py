@@ -21,6 +21,7 @@ from gruebler.mechanics.kinematics.plan import Plan, plan
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
 from gruebler.mechanics.linkages import Linkage
 
+_ONE_ROW = message("At {start} at {begin:n} s, the only row.")
 _SUMMARY = message("From {start} at {begin:n} s to {end} at {last:n} s; {count} rows.")
 _ENERGY = message("Energy is kept to {defect:.1e} of what is exchanged.")
 _COORDINATES = message("Coordinates were exchanged {count} times.")
@@ -138,7 +139,9 @@ class Simulation(LinkPoses, Tabled):
         ends = [drive_values(self.linkage, tuple(map(float, self.drives[row]))) for row in (0, -1)]
         times = [float(self.times[row]) for row in (0, -1)]
         lines = [
-            _SUMMARY.filled(start=ends[0], begin=times[0], end=ends[1], last=times[1], count=len(self)),
+            _ONE_ROW.filled(start=ends[0], begin=times[0])
+            if len(self) == 1
+            else _SUMMARY.filled(start=ends[0], begin=times[0], end=ends[1], last=times[1], count=len(self)),
             _ENERGY.filled(defect=self.defect),
         ]
         exchanges = len(self.coordinates) - 1

@@ -21,6 +21,7 @@ from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.linkages.points import PointLike, place_of, point_name
 
 Rows = NDArray[np.int64]
+_LARGEST = 1e100
 
 
 @compared_by_value
@@ -349,14 +350,23 @@ def _varies(given: Any) -> bool:
 
 def _of_law(what: Message, given: str | Callable[[State], Any], state: State) -> Reals:
     law: Law = LoadFormula(given) if isinstance(given, str) else given
-    return _over_rows(what, law(state), state.time.shape)
+    values = _over_rows(what, law(state), state.time.shape, of_law=True)
+    if not (np.abs(values) < _LARGEST).all():
+        row = int(np.argmin(np.abs(values) < _LARGEST))
+        raise LinkageError(
+            "{what}: the law is not finite at a time of {time:n} s, where the first drive is at {drive:n}",
+            what=what,
+            time=float(state.time[row]),
+            drive=float(state.drive[row]),
+        )
+    return values
 
 
 def _point_text(name: PointLike) -> Message:
     return message("{name!r}", name=point_name(name))
 
 
-def _over_rows(what: Message, given: ArrayLike, shape: Sequence[int]) -> Reals:
+def _over_rows(what: Message, given: ArrayLike, shape: Sequence[int], *, of_law: bool = False) -> Reals:
     each_row = len(shape) == 1
     wanted = message("one number for each row" if each_row else "x and y, for each row if they change")
     try:
@@ -368,6 +378,6 @@ def _over_rows(what: Message, given: ArrayLike, shape: Sequence[int]) -> Reals:
         ) from None
     if numbers.ndim == 0 and len(shape) == 2:
         raise LinkageError("{what}: expected {wanted}, but found {given!r}", what=what, wanted=wanted, given=given)
-    if not (np.abs(numbers) < 1e100).all():
+    if not (of_law or (np.abs(numbers) < _LARGEST).all()):
         raise LinkageError("{what}: expected finite numbers, but found {given!r}", what=what, given=given)
     return values

@@ -8,7 +8,7 @@ from math import isfinite
 
 import numpy as np
 
-from gruebler.base.arrays import cross_product
+from gruebler.base.arrays import Complexes, cross_product
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.immutable import settle
@@ -138,6 +138,20 @@ class RigidBody:
         return RigidBody(mass, (centre.real, centre.imag), inertia)
 
 
+def _crossing(corners: Complexes) -> tuple[int, int] | None:
+    """Two edges, from 1, that cross; edges that only touch, as at the way to a hole, do not."""
+    ends = np.roll(corners, -1)
+    least = 1e-12 * float(np.abs(corners).max()) ** 2
+    for k, (start, end) in enumerate(zip(corners, ends, strict=True)):
+        sides = cross_product(end - start, corners - start)
+        others = [cross_product(ends - corners, place - corners) for place in (start, end)]
+        pairs = np.array([[sides, np.roll(sides, -1)], others])
+        across = (pairs.prod(axis=1) < 0).all(axis=0) & (np.abs(pairs).min(axis=(0, 1)) > least)
+        if across.any():
+            return k + 1, int(across.argmax()) + 1
+    return None
+
+
 def _polygon(outline: Sequence[Place]) -> tuple[float, complex, float]:
     """Area, centre, and the polar moment of area about it by the area (radius of gyration squared)."""
     corners = np.array([complex(*corner) for corner in outline])
@@ -150,6 +164,10 @@ def _polygon(outline: Sequence[Place]) -> tuple[float, complex, float]:
     area = float(cross.sum() / 2)
     if not abs(area) > 1e-12 * float(np.abs(a).max()) ** 2:
         raise LinkageError("the outline of a plate surrounds no area")
+    if (crossed := _crossing(a)) is not None:
+        raise LinkageError(
+            "the outline of a plate crosses itself: edges {one} and {other}", one=crossed[0], other=crossed[1]
+        )
     centre = complex((cross * (a + b)).sum() / (6 * area))
     polar = float((cross * (np.abs(a) ** 2 + (np.conj(a) * b).real + np.abs(b) ** 2)).sum() / 12) / area
     return abs(area), complex(origin) + centre, polar - abs(centre) ** 2
