@@ -44,14 +44,19 @@ Conditions::Conditions(const Linkage& linkage)
     const auto conditions = static_cast<std::size_t>(linkage.conditions());
     values.resize(conditions), derivatives.resize(conditions * static_cast<std::size_t>(structure.unknowns));
     for (std::size_t ball = 0; ball < turns.size(); ball += turn_size) turns[ball] = turns[ball + 4] = turns[ball + 8] = 1;
-    std::vector<char> is_mark(static_cast<std::size_t>(structure.nodes));
-    for (int row = 0; row < structure.rows; ++row)
-        for (const int side : {1, 2}) is_mark[static_cast<std::size_t>(structure.row_at(row)[side])] = 1;
+    std::vector<int> columns(static_cast<std::size_t>(structure.nodes));
+    for (int row = 0; row < structure.rows; ++row) {
+        const std::int64_t* ask = structure.row_at(row);
+        const RowKind kind = static_cast<RowKind>(ask[0]);
+        const int origin = kind == RowKind::across ? 0 : 8;
+        columns[static_cast<std::size_t>(ask[1])] |= origin | (kind == RowKind::length ? 0 : 1 << ask[3]);
+        columns[static_cast<std::size_t>(ask[2])] |= origin | (kind == RowKind::across ? 1 << ask[4] : 0);
+    }
     for (int k = 0; k < structure.nodes; ++k) {
         const std::int64_t* own = structure.node_at(k);
         const auto at = static_cast<std::size_t>(k);
-        if (is_mark[at]) marks_.push_back(k);
-        if (is_mark[at] || own[4] >= 0) nodes_of_rows_ = k + 1;
+        if (columns[at]) marks_.push_back({k, columns[at]});
+        if (columns[at] || own[4] >= 0) nodes_of_rows_ = k + 1;
         if (static_cast<Kind>(own[1]) != Kind::still) continue;
         still[at] = read_frame(linkage.frames + k * frame_size);
         if (own[0] >= 0 && !settled[static_cast<std::size_t>(own[0])]) continue;
@@ -138,7 +143,7 @@ void Series::turn_screws(int order) {
     }
 }
 
-void Series::set_frame(int node, int order) {
+void Series::set_frame(int node, int order, int columns) {
     Frame<double>& f = frames_[order - 1][static_cast<std::size_t>(node)];
     const int carrier = carrier_[static_cast<std::size_t>(node)];
     if (carrier < 0) {
@@ -146,18 +151,17 @@ void Series::set_frame(int node, int order) {
         return;
     }
     const auto at = static_cast<std::size_t>(carrier);
-    Vector<double> columns[4] = {{}, {}, {}, twists_[order - 1][at].shift};
-    for (int i = 0; i < order; ++i) {
-        const Vector<double>& spin = twists_[i][at].turn;
-        const Frame<double>& below = frame(node, order - 1 - i);
-        for (int k = 0; k < 3; ++k) columns[k] = columns[k] + cross(spin, below.axis(k));
-        columns[3] = columns[3] + cross(spin, below.origin());
-    }
     const double share = 1.0 / order;
-    for (int i = 0; i < 3; ++i) {
-        for (int k = 0; k < 3; ++k) f.r[3 * i + k] = share * columns[k].x[i];
-        f.p[i] = share * columns[3].x[i];
+    for (int k = 0; k < 3; ++k) {
+        if (!(columns >> k & 1)) continue;
+        Vector<double> sum{};
+        for (int i = 0; i < order; ++i) sum = sum + cross(twists_[i][at].turn, frame(node, order - 1 - i).axis(k));
+        for (int i = 0; i < 3; ++i) f.r[3 * i + k] = share * sum.x[i];
     }
+    if (!(columns & 8)) return;
+    Vector<double> sum = twists_[order - 1][at].shift;
+    for (int i = 0; i < order; ++i) sum = sum + cross(twists_[i][at].turn, frame(node, order - 1 - i).origin());
+    for (int i = 0; i < 3; ++i) f.p[i] = share * sum.x[i];
 }
 
 // The coefficient of t^order of a row.
@@ -175,27 +179,31 @@ double Series::open(int row, int order) const {
     return sum;
 }
 
+// The coefficient of a row is J q_k and what lower orders leave: of the first order nothing.
 void Series::solve(int orders, const std::vector<int>& passive, const LeastSquares& matrix) {
-    const Linkage& linkage = conditions_.linkage();
-    const auto unknowns = static_cast<std::size_t>(linkage.structure.unknowns);
+    const auto unknowns = static_cast<std::size_t>(conditions_.structure.unknowns);
     for (int order = 1; order <= orders; ++order) {
         double* own = q.data() + static_cast<std::size_t>(order) * unknowns;
         for (const int k : passive) own[k] = 0;
-        set_twists(order);
-        for (const int mark : conditions_.marks()) set_frame(mark, order);
-        for (int row = 0; row < linkage.structure.rows; ++row) open_[static_cast<std::size_t>(row)] = open(row, order);
-        for (int row = 0; row < linkage.gear_rows; ++row) {
-            double sum = 0;
-            for (std::size_t i = 0; i < unknowns; ++i) sum += linkage.gears[static_cast<std::size_t>(row) * unknowns + i] * own[i];
-            open_[static_cast<std::size_t>(linkage.structure.rows + row)] = sum;
+        for (double& each : open_) each = 0;
+        if (order > 1) {
+            set_twists(order);
+            set_marks(order);
+            for (int row = 0; row < conditions_.structure.rows; ++row) open_[static_cast<std::size_t>(row)] = open(row, order);
         }
+        for (std::size_t row = order > 1 ? static_cast<std::size_t>(conditions_.structure.rows) : 0; row < open_.size(); ++row)
+            for (std::size_t k = 0; k < unknowns; ++k) open_[row] += conditions_.derivatives[row * unknowns + k] * own[k];
         matrix.solve(open_.data(), change_.data());
         for (std::size_t i = 0; i < passive.size(); ++i) own[passive[i]] = -change_[i];
         set_twists(order);
         if (order == orders) return;
-        for (const int mark : conditions_.marks()) set_frame(mark, order);
+        set_marks(order);
         turn_screws(order);
     }
+}
+
+void Series::set_marks(int order) {
+    for (const Mark& mark : conditions_.marks()) set_frame(mark.node, order, mark.columns);
 }
 
 // --- following ---------------------------------------------------------------------------------------------------------

@@ -27,6 +27,11 @@ struct Linkage {
     int conditions() const { return structure.rows + gear_rows; }
 };
 
+// A node that rows ask for, and for which of its axes (bits 0 to 2) and its origin (bit 3).
+struct Mark {
+    int node, columns;
+};
+
 // By how much the rows are open, lengths as such, and the derivatives by all unknowns.
 class Conditions : public Tree<double> {
 public:
@@ -36,14 +41,14 @@ public:
 
     const Linkage& linkage() const { return linkage_; }
     int nodes_of_rows() const { return nodes_of_rows_; }
-    const std::vector<int>& marks() const { return marks_; }
+    const std::vector<Mark>& marks() const { return marks_; }
 
     void evaluate(const double* q);
 
 private:
     Linkage linkage_;
     int nodes_of_rows_;       // those behind carry links only
-    std::vector<int> marks_;  // the nodes that rows ask for
+    std::vector<Mark> marks_;
     std::vector<std::vector<Part>> between_;
 };
 
@@ -59,8 +64,8 @@ public:
     // The passive unknowns up to that order.
     void solve(int orders, const std::vector<int>& passive, const LeastSquares& matrix);
 
-    // The coefficient of a frame, after `solve`; those below it before it.
-    void set_frame(int node, int order);
+    // The coefficient of a frame, or of some of its columns, after `solve`; those below it before it.
+    void set_frame(int node, int order, int columns = 15);
     const Frame<double>& frame(int node, int order) const;
 
 private:
@@ -72,6 +77,7 @@ private:
 
     const Screw<double>& screw(int node, int order) const;
     void set_twists(int order);
+    void set_marks(int order);
     void turn_screws(int order);
     double open(int row, int order) const;
 };

@@ -5,6 +5,16 @@
 #include <utility>
 
 namespace gruebler::space {
+namespace {
+
+// Of the entries from begin to end.
+double product(const double* a, const double* b, std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) sum += a[i] * b[i];
+    return sum;
+}
+
+}  // namespace
 
 LeastSquares::LeastSquares(int rows, int columns) : rows_(rows), columns_(columns) {
     matrix_.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
@@ -24,8 +34,7 @@ bool LeastSquares::factor(double share) {
         std::size_t pivot = k;
         for (std::size_t j = k; j < columns; ++j) {
             const double* a = matrix_.data() + j * rows;
-            double square = 0;
-            for (std::size_t i = k; i < rows; ++i) square += a[i] * a[i];
+            const double square = product(a, a, k, rows);
             if (square > most) most = square, pivot = j;
         }
         double* a = matrix_.data() + k * rows;
@@ -52,9 +61,7 @@ bool LeastSquares::factor(double share) {
         mirrors_ ^= diagonal > 0;  // the reflection mirrors, too
         for (std::size_t j = k + 1; j < columns; ++j) {
             double* b = matrix_.data() + j * rows;
-            double sum = 0;
-            for (std::size_t i = k; i < rows; ++i) sum += a[i] * b[i];
-            sum *= factor;
+            const double sum = factor * product(a, b, k, rows);
             for (std::size_t i = k; i < rows; ++i) b[i] -= sum * a[i];
         }
     }
@@ -65,9 +72,7 @@ void LeastSquares::reflect(double* b) const {
     const auto rows = static_cast<std::size_t>(rows_), columns = static_cast<std::size_t>(columns_);
     for (std::size_t k = 0; k < columns; ++k) {
         const double* a = matrix_.data() + k * rows;
-        double sum = 0;
-        for (std::size_t i = k; i < rows; ++i) sum += a[i] * b[i];
-        sum *= factors_[k];
+        const double sum = factors_[k] * product(a, b, k, rows);
         for (std::size_t i = k; i < rows; ++i) b[i] -= sum * a[i];
     }
 }

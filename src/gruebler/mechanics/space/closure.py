@@ -72,6 +72,7 @@ class ClosingConditions:
         nodes[starts, 5] = np.arange(len(starts))
         self.tree = tree
         self._balls = len(starts)
+        self._rods = rod_tables(tree)
         self._tables = (nodes, tables.rows, np.array(frames), pitches, tables.lengths, gears)
 
     @property
@@ -96,7 +97,7 @@ class ClosingConditions:
             passive.astype(np.int64),
             drives.astype(np.int64),
             self.links,
-            *rod_tables(self.tree),
+            *self._rods,
             np.array([self.tree.scale, *self.tree.linkage.centre]),
             np.ascontiguousarray(values),
             np.ascontiguousarray(rates),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from math import pi
 
 import numpy as np
@@ -38,9 +37,6 @@ class SpatialRange:
         return np.linspace(self.low + low, self.high - high, count)
 
 
-_setting = lru_cache(maxsize=8)(setting)
-
-
 def spatial_range(linkage: SpatialLinkage) -> SpatialRange:
     """The range of the one drive of a linkage, followed from its reference pose upwards and downwards.
 
@@ -57,10 +53,10 @@ def spatial_range(linkage: SpatialLinkage) -> SpatialRange:
     most = 2 * pi if turning else 3 * linkage.size
     steps = np.linspace(0.0, most, _ROWS + 1)[:, None]
     still = np.zeros((0, *steps.shape))
-    up = moved(_setting(linkage), steps, still)
+    up = moved(setting(linkage), steps, still)
     if turning and up.complete:
         return SpatialRange(low=0.0, high=2 * pi, full=True, stops=(None, None))
-    down = moved(_setting(linkage), -steps, still)
+    down = moved(setting(linkage), -steps, still)
     ends = [-most if down.stop is None else down.stop.drives[0], most if up.stop is None else up.stop.drives[0]]
     return SpatialRange(low=ends[0], high=ends[1], full=False, stops=(down.stop, up.stop))
 
@@ -76,7 +72,7 @@ def followed(linkage: SpatialLinkage, values: Reals, order: int = 0, speed: Arra
     path = np.concatenate([np.zeros((1, values.shape[1])), values])
     rates = np.zeros((order, *path.shape))
     rates[:1] = speed
-    motion = moved(_setting(linkage), path, rates)
+    motion = moved(setting(linkage), path, rates)
     if motion.stop is not None:
         raise LinkageError("{reason}", reason=motion.stop.message)
     return replace(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -52,6 +53,7 @@ class Inverse(NamedTuple):
         return int(np.sum(self.values > RANK * self.values.max(initial=0.0)))
 
 
+@lru_cache(maxsize=64)
 def setting(linkage: SpatialLinkage) -> Setting:
     """What is solved for; `LinkageError` if the drives do not fix the motion.
 

@@ -88,7 +88,8 @@ def move(
 
     Cost:
         In the plane 10 to 30 ns a pose of a dyad where rows are taken in sweeps, 0.1 to 0.3 us where each is walked
-        to, 1 to 3 us of a group of four links. In space 1 to 15 us a pose, and up to a millisecond for each motion.
+        to, 1 to 3 us of a group of four links. In space 0.5 to 10 us a pose, and some milliseconds for the first
+        motion of a linkage.
 
     Example:
         >>> from gruebler.mechanics.kinematics import from_degrees
