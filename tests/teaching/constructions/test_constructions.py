@@ -490,36 +490,46 @@ def test_universal_joints_in_two_views():
         assert made["lead"] == pytest.approx(psi - phi, **CLOSE)
 
 
-def test_positions_of_rssr_in_two_views():
-    """Against the closed form, wherever the linkage can be assembled."""
-    random, compared = Random(32), 0
-    while compared < MANY:
-        lengths = {key: random.uniform(30, 120) for key in "abcd"}
-        offsets = {key: random.uniform(-40, 40) for key in ("crank_offset", "rocker_offset")}
+def assembled_rssr(seed):
+    """Random dimensions and a crank angle, in degrees, with the rocker's angle by the closed form."""
+    random, made = Random(seed), 0
+    while made < MANY:
+        given = {key: random.uniform(30, 120) for key in "abcd"}
+        given |= {key: random.uniform(-40, 40) for key in ("crank_offset", "rocker_offset")}
         twist, phi = random.uniform(-150, 150), random.uniform(-180, 180)
-        size = RSSR(**lengths, **offsets, twist=radians(twist))
+        size = RSSR(**given, twist=radians(twist))
         psi = size.motion(radians(phi)).output.value if size.limits else np.nan
         if np.isfinite(psi):
-            made = construction("rssr", **lengths, **offsets, twist=twist, phi=phi).values
-            assert np.exp(1j * radians(made["psi"])) == pytest.approx(np.exp(1j * psi), abs=1e-6)
-            compared += 1
+            made += 1
+            yield given | {"twist": twist, "phi": phi}, float(psi)
+
+
+def rssr_in_a_plane_through_the_axis(seed, many):
+    """Random crank-rockers whose rocker's plane holds the crank's axis."""
+    random, made = Random(seed), 0
+    while made < many:
+        a, b, c = random.uniform(10, 40), random.uniform(60, 160), random.uniform(30, 90)
+        given = {"a": a, "b": b, "c": c, "d": random.uniform(0, 90), "crank_offset": random.uniform(20, 150)}
+        size = RSSR(**given, twist=np.pi / 2)
+        if size.type.key == "crank_rocker":
+            made += 1
+            yield given, size
+
+
+def test_positions_of_rssr_in_two_views():
+    for given, psi in assembled_rssr(32):
+        made = construction("rssr", **given).values
+        assert np.exp(1j * radians(made["psi"])) == pytest.approx(np.exp(1j * psi), abs=1e-6)
 
 
 def test_dead_centres_of_rssr_in_two_views():
-    random, compared = Random(33), 0
-    while compared < 30:
-        a, b, c = random.uniform(10, 40), random.uniform(60, 160), random.uniform(30, 90)
-        d, height = random.uniform(0, 90), random.uniform(20, 150)
-        size = RSSR(a=a, b=b, c=c, d=d, twist=np.pi / 2, crank_offset=height)
-        if size.type.key != "crank_rocker":
-            continue
-        made = construction("rssr-dead-centres", a=a, b=b, c=c, d=d, crank_offset=height).values
+    for given, size in rssr_in_a_plane_through_the_axis(33, 30):
+        made = construction("rssr-dead-centres", **given).values
         at = {round(degrees(centre.drive)) % 360: centre.output for centre in size.dead_centres()}
         assert set(at) == {0, 180}
         for key, drive in (("psi_0", 0), ("psi_180", 180)):
             assert np.exp(1j * radians(made[key])) == pytest.approx(np.exp(1j * at[drive]), abs=1e-6)
         assert made["swing"] == pytest.approx(degrees(size.swing()), **CLOSE)
-        compared += 1
 
 
 @pytest.mark.parametrize(
