@@ -37,7 +37,7 @@ def same(one, other):
 
 REFUSED_MEMORY = "exceeds maximum supported size"
 
-WRITING = {"closing", "newton", "close_near_singular", "settle_on_curve", "evaluate_pose"}
+WRITING = {"closing", "newton", "close_near_singular", "settle_on_curve", "evaluate_pose", "place_rods"}
 """Doors that write into arrays of the caller."""
 
 
