@@ -1,4 +1,5 @@
 from .bennett import Bennett
+from .circuits import SpatialCircuit, spatial_circuit
 from .crank_output import OutputMotion
 from .measuring import SpatialMeasures, measures
 from .modes import SpatialModes, assembly_modes
@@ -14,6 +15,7 @@ __all__ = [
     "Bennett",
     "DoubleUniversalJoint",
     "OutputMotion",
+    "SpatialCircuit",
     "SpatialMeasures",
     "SpatialModes",
     "SpatialMotion",
@@ -24,4 +26,5 @@ __all__ = [
     "assembly_modes",
     "measures",
     "move",
+    "spatial_circuit",
 ]
