@@ -19,7 +19,7 @@ from gruebler.design.synthesis.alt_burmester import (
     QUICK,
     GenericSolutions,
     Problem,
-    _distinct,
+    distinct,
     follow_from_generic,
 )
 
@@ -71,7 +71,7 @@ def find_generic(
             ends, status = follow_from_generic(problem, ends, begin, end, QUICK)
             ends = ends[status == ARRIVED]
         count = len(z)
-        z = _distinct(problem, np.concatenate([z, ends]))
+        z = distinct(problem, np.concatenate([z, ends]))
         z, steps = _core.refine_solutions(z, p, problem.poses, problem.points)
         z = z[steps < _SHARP]
         idle = idle + 1 if len(z) == count else 0
