@@ -75,7 +75,7 @@ def model_of(
         "document": linkage_to_json(linkage),
         "links": list(lower.mechanism.chain.links),
         "linkNames": {lang: list(link_names(linkage, source, lang).values()) for lang in LANGUAGES},
-        "pointNames": {lang: point_names(linkage, source, lang) for lang in LANGUAGES},
+        "pointNames": {lang: names_of_points(linkage, source, lang) for lang in LANGUAGES},
         "own": len(chain.links),
         "frame": lower.mechanism.chain.index(mechanism.frame),
         "unit": linkage.unit,
@@ -136,11 +136,11 @@ def link_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
     return {link: translate(link, lang) if link in _COMMON else link for link in links}
 
 
-def point_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
+def names_of_points(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
     """The names of the points in a language, where they have others: words, of machines of the catalog.
 
     >>> from gruebler.teaching.catalog import entry
-    >>> point_names(entry("filmclaw").linkage(), "filmclaw", "de")
+    >>> names_of_points(entry("filmclaw").linkage(), "filmclaw", "de")
     {'tip': 'Spitze'}
     """
     record = entries().get(source)
