@@ -320,9 +320,12 @@ def arrived_or_far(
 ) -> tuple[Positions, int]:
     """Where those paths end that arrive, and how many of the others go far out, to infinity or short of it.
 
-    They end there, or the largest entry of their frames grows like a negative power of what is left of the way.
+    They end there, or the largest entry of their frames grows like a negative power of what is left of the way. If all
+    arrive, none is far.
     """
     ends, arrives = _followed(structure, begin, end, starts)
+    if arrives.all():
+        return ends, 0
     here, at = starts.at(~arrives), begin
     left = np.arange(here.number)
     sizes = np.zeros((len(_BEFORE), here.number))
