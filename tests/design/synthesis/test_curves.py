@@ -113,7 +113,7 @@ def test_a_triangle_is_drawn_by_a_linkage_at_the_limit_of_turning():
     """Its corners need a crank that just turns: a search that stops at this limit ends at 1.9 % of the size."""
     corners = [0, 3, 1.5 + 2.6j, 0]
     z = np.concatenate([a + (b - a) * np.linspace(0, 1, 22, endpoint=False) for a, b in pairwise(corners)])
-    best = fit_curve(z, closed=True)[0]
+    best = fit_curve(z, closed=True, demands=Demands(size_ratio=1e4))[0]
     limits = FitLimits(kind=best.kind, turning=True)
     assert -1e-4 < limits.values(best.row[:, None], best.phi[None])[0, 0] < 2e-6
     assert best.error < 0.0146  # pylinkage's four-bar: 0.01535
