@@ -318,7 +318,7 @@ def test_a_six_bar_follows_a_figure_eight_better_than_a_four_bar():
     s = np.linspace(0, 2 * np.pi, 24, endpoint=False)
     task = PathTask([(float(x), float(y)) for x, y in zip(np.sin(s), 0.5 * np.sin(2 * s), strict=True)], closed=True)
     chains = [Mechanism.parse(MECHANISMS[k]) for k in (0, 3)]
-    found = synthesise_structures(task, chains, Demands(tolerance=0.1), starts=2)
+    found = synthesise_structures(task, chains, Demands(tolerance=0.1, size_ratio=1e4), starts=2)
     table = pareto(found)
     assert len(table) >= 1
     assert all(not a.dominates(b) for a in table for b in table)
