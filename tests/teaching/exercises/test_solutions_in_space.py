@@ -6,6 +6,7 @@ import pytest
 
 from gruebler.base.errors import LinkageError
 from gruebler.teaching.exercises import Mark, exercise, generate, grade, solve
+from gruebler.teaching.exercises.grading import common_mistakes
 from gruebler.teaching.exercises.in_space import (
     differential,
     differential_in_a_curve,
@@ -98,3 +99,13 @@ def test_fresh_tasks_in_space_have_figures(kind):
     arcs = [sum(generate("spherical-grashof", seed, 2).given[key] for key in "abcd") for seed in range(5)]
     assert min(arcs) > 360
     assert all(check.holds for check in solve(generate(kind, 6, 3)).checks)
+
+
+def test_mistakes_of_a_sum_beyond_a_turn_are_numbers():
+    """More than 360 degrees have no sine that a learner could have mistaken for them; the site writes all mistakes."""
+    total = solve(generate("spherical-grashof", 0, 2)).number("total")
+    assert total > 360
+    (result,) = (row for row in solve(generate("spherical-grashof", 0, 2)).results if row.key == "total")
+    values = [mistake.value for mistake in common_mistakes(result)]
+    assert 180 - total in values
+    assert all(map(math.isfinite, values))

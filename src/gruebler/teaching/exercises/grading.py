@@ -210,9 +210,8 @@ def common_mistakes(result: Result) -> list[Mistake]:
     """The mistakes that are possible with any measured number: sign, unit, angle, half and double."""
     if not isinstance(result.value, float) or not result.unit:
         return []
-    return [
-        Mistake(result.key, change(result.value), hint) for change, unit, hint in _ANYWHERE if unit in ("", result.unit)
-    ]
+    changed = [(change(result.value), hint) for change, unit, hint in _ANYWHERE if unit in ("", result.unit)]
+    return [Mistake(result.key, value, hint) for value, hint in changed if math.isfinite(value)]
 
 
 def _is_mistake(mistake: Value, correct: float, reading: GivenAnswer) -> bool:
