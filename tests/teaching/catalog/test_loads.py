@@ -50,6 +50,20 @@ def test_the_work_of_the_compressor():
     assert work_of_a_turn(run_of("vcomp")) == pytest.approx(2 * work, rel=2e-4)
 
 
+def test_a_compressor_starts_from_rest_at_half_its_pressures():
+    """By hand, crank upright: the mean of both lines of the diagram pushes the piston out; no weight has a lever."""
+    linkage, loads, _ = entry("compressor").loaded()
+    run = gr.simulate(linkage, loads, at=math.pi / 2, until=0.02, times=[0.0, 0.02])
+    assert run.complete
+    assert run.defect < 1e-8
+    pin = math.sqrt(100**2 - 30**2)
+    pressure = ((63 / (133 - pin)) ** 1.3 + 1) / 2 - 1  # on its way in and out, less that of the air
+    inertia = 2600 + 2.5 * 8**2 + 0.35 * 30**2 + 0.4 * 30**2  # rod and piston only shift, 30 mm a radian
+    assert run.accelerations[0, 0] == pytest.approx(1000 * 282.7 * pressure * 30 / inertia, rel=1e-12)
+    vee, its, _ = entry("vcomp").loaded()
+    assert gr.simulate(vee, its, at=1.0, until=0.02, times=[0.02]).complete
+
+
 def test_the_vee_is_balanced_in_the_first_order():
     """Only the second order is left, level: sqrt 2 m r w² (s + s³/4 + 15 s⁵/128 + ...), s = r/l."""
     run = run_of("vcomp")
