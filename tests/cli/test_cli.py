@@ -263,6 +263,7 @@ def test_help_names_every_command(capsys):
     for command in ("check", "catalog", "demo"):
         assert command in out
     assert run(capsys, "--version")[1].startswith("gruebler ")
+    assert run(capsys, "version") == run(capsys, "--version")
 
 
 def command(script, **options):

@@ -62,7 +62,7 @@ def _run(words: list[str], lang: str) -> int:
     if words == ["--help"]:
         print(overview(lang))
         return 0
-    if words[0] == "--version":
+    if words[0] in ("--version", "version"):
         from gruebler import __version__
 
         print(f"gruebler {__version__}")

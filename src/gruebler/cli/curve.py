@@ -18,13 +18,15 @@ from gruebler.cli import curve_cognates, curve_guidance, curve_straight
 from gruebler.cli.arguments import take
 from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import linkage_of_word
+from gruebler.cli.linkage_inputs import linkage_of_lengths, linkage_of_word
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import Cell, print_table
 from gruebler.mechanics.analysis.drive_cycles import PathCycle
+from gruebler.mechanics.analysis.measure_units import length_message
+from gruebler.mechanics.fourbar.length_texts import size_of
 from gruebler.mechanics.geometry import CouplerCurve, TangentContact, coupler_curve
 from gruebler.mechanics.geometry.double_points import DoublePoint
 from gruebler.mechanics.geometry.path_events import Cusp, Inflection, TurningPoint, Vertex
@@ -141,6 +143,9 @@ def _check(arguments: argparse.Namespace, question: str) -> None:
 def _path(arguments: argparse.Namespace) -> int:
     """Length, area, contact, then a table of what is on the path."""
     linkage, _ = linkage_of_word(arguments.linkage, language_of_names(arguments))
+    size = size_of(arguments.linkage)
+    if size is not None and not arguments.json:  # as JSON it must have a unit
+        linkage = linkage_of_lengths(size, language_of_names(arguments), unit="")
     path = driven_path(arguments.range, linkage)
     if path is not None and arguments.contact:
         raise GrueblerError("--contact needs the whole motion of one drive: leave --range out")
@@ -190,11 +195,10 @@ def _print(
     if curve.area is not None:
         print(
             translate(
-                "The path is closed: length {length:n} {unit}, area {area:n} {unit}².",
+                "The path is closed: length {length}, area {area}.",
                 lang,
-                length=curve.length,
-                area=round(curve.area, 9) + 0.0,
-                unit=unit,
+                length=length_message(curve.length, unit),
+                area=length_message(round(curve.area, 9) + 0.0, f"{unit}²" if unit else ""),
             )
         )
     else:
@@ -202,12 +206,11 @@ def _print(
         low, high = (_drive(curve, value, lang) for value in (span.low, span.high))
         print(
             translate(
-                "The path goes from {low} to {high}: length {length:n} {unit}.",
+                "The path goes from {low} to {high}: length {length}.",
                 lang,
                 low=low,
                 high=high,
-                length=curve.length,
-                unit=unit,
+                length=length_message(curve.length, unit),
             )
         )
     if curve.retraced:
@@ -250,7 +253,12 @@ def _rows(curve: CouplerCurve, directions: tuple[float, ...], lang: str) -> list
     for vertex in curve.vertices:
         straight = abs(vertex.curvature) * size < 1e-9
         radius = "∞" if straight else number(1 / vertex.curvature, lang, "n")
-        add(message("vertex"), (vertex.drive,), vertex.at, message("radius {radius} {unit}", radius=radius, unit=unit))
+        add(
+            message("vertex"),
+            (vertex.drive,),
+            vertex.at,
+            message("radius {radius}", radius=f"{radius} {unit}".rstrip()),
+        )
     for double in curve.double_points:
         feature = message("self-contact") if double.touching else message("double point")
         add(feature, double.drives, double.at, message("angle {angle:n}°", angle=math.degrees(double.angle)))
@@ -270,7 +278,9 @@ def _drive(curve: CouplerCurve, value: float, lang: str) -> str:
     linkage = curve.point_path.cycle.linkage
     texts = []
     for drive, at in zip(linkage.mechanism.drives, _values(curve, np.array([value]))[0], strict=True):
-        texts.append(number(at, lang, "n") + "°" if drive.turning else f"{number(at, lang, 'n')} {linkage.unit}")
+        texts.append(
+            number(at, lang, "n") + "°" if drive.turning else f"{number(at, lang, 'n')} {linkage.unit}".rstrip()
+        )
     return " / ".join(texts)
 
 

@@ -198,9 +198,7 @@ def _count(
         print_json(document)
     else:
         _print_count(count, request, arguments.lang)
-        if not count.chains:
-            _say_none(request, arguments.lang)
-    return 0
+    return 0 if count.chains else _say_none(request, arguments.lang)
 
 
 def _print_count(count: ChainCount, request: Request, lang: str) -> None:
@@ -232,9 +230,7 @@ def _list(
         elif arguments.out is None:
             sys.stdout.flush()  # what follows goes past its buffer
             written = _write(listings, form, request, sys.stdout.buffer)
-            if not written:
-                _say_none(request, arguments.lang)
-            return 0
+            return 0 if written else _say_none(request, arguments.lang)
         else:
             with atomic_file(arguments.out) as file:
                 written = _write(listings, form, request, file)
@@ -244,7 +240,7 @@ def _list(
     say_written(
         arguments.out, arguments.lang, ", " + plural("{count} chain", "{count} chains", written, arguments.lang)
     )
-    return 0
+    return 0 if written else _say_none(request, arguments.lang)
 
 
 def _is_cut(arguments: argparse.Namespace) -> bool:
@@ -287,7 +283,8 @@ def _comment(listing: PieceListing, request: Request) -> str:
     return f"# {listing.kind}" if request.fractionated == "all" else ""
 
 
-def _say_none(request: Request, lang: str) -> None:
+def _say_none(request: Request, lang: str) -> int:
+    """Say why there is no chain; returns the exit status."""
     values = {"links": request.links, "mobility": request.mobility}
     if (request.links + request.mobility) % 2:
         text = message("there is no such chain of {links} links with mobility {mobility}.")
@@ -296,6 +293,7 @@ def _say_none(request: Request, lang: str) -> None:
             "there is no chain of {links} links with mobility {mobility}: F = 3(n - 1) - 2 g1 makes n + F odd."
         )
     print(f"gruebler enumerate: {text.filled(**values).in_language(lang)}", file=sys.stderr)
+    return 1
 
 
 def _write(listings: Iterator[PieceListing], form: str, request: Request, file: BinaryIO) -> int:

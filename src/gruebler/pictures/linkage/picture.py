@@ -128,8 +128,8 @@ def draw_linkage(
     linkage = as_linkage(linkage)
     posed = room_for(posed_linkage(linkage, at, branch=branch, between=between), outlines)
     layers = {key: layer(key) for key in dict.fromkeys(show)}
-    if letters and "joints" in layers:
-        layers["joints"] = partial(joint_names, letters=letters)
+    if "joints" in layers:
+        layers["joints"] = partial(joint_names, letters=tuple(letters))
     curve = [shape for point in each_point(curves).values() for shape in coupler_curve_lines(posed, point)]
     pieces = (*body_parts(posed), *outline_parts(posed, outlines))
     frame = layered(posed, pieces, FRAME, FRAME)
