@@ -12,8 +12,11 @@ from gruebler.base.errors import LinkageError
 from gruebler.machines.cams import read_lift
 from gruebler.machines.geneva import Geneva
 from gruebler.mechanics.dynamics import EquationsOfMotion, equilibria, influences_of, linearised, simulate
+from gruebler.mechanics.dynamics.charts import Charts
+from gruebler.mechanics.dynamics.starts import starting_pose
 from gruebler.mechanics.forces import Loads, Motor, RigidBody, Spring
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
+from gruebler.mechanics.kinematics.solve import cached_plan
 from gruebler.mechanics.linkages import Linkage, LinkPoint, Wheel
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
@@ -65,17 +68,21 @@ def test_windows_pass_their_change_points_as_one_pendulum(n, time):
     assert fall.defect < 1e-10
 
 
-SIX_BARS = {"Watt": ("3-4", (1.8, 1.3), (2, 0)), "Stephenson": ("2-4", (1.2, 1.5), (1.2, 0.5))}
-"""Which link of a parallelogram drives a dyad, from where, and about which pivot that place turns."""
+SIX_BARS = {
+    "Watt": ("3-4", (2, 0), (1.8, 1.3), (3.8, 2.0), (4.2, 0.3)),
+    "Stephenson": ("2-4", (1.2, 0.5), (1.2, 1.5), (3.8, 2.0), (4.2, 0.3)),
+    "Stephenson, drag link": ("2-4", (1.2, 0.5), (1.2, 1.5), (2.3, 1.7), (1.5, 0.7)),
+}
+"""Which link of a parallelogram drives a dyad, about which pivot the place turns where it does so, and its joints."""
 CRANK = RigidBody(1.0, (0.5, 0), 1 / 12)
 DYAD = {"4": RigidBody(0.7, (0.5, 0.1), 0.2), "5": RigidBody(0.8, (0.3, 0), 0.1)}
 
 
 def six_bar(kind):
     """A parallelogram of 2 m and 1 m, cranks upright, with a dyad."""
-    driven, place, _ = SIX_BARS[kind]
+    driven, _, *dyad = SIX_BARS[kind]
     joints = f"R(0-1) R(1-2) R(2-3) R(0-3) R({driven}) R(4-5) R(0-5)"
-    places = dict(zip(joints.split(), [(0, 0), (0, 1), (2, 1), (2, 0), place, (3.8, 2.0), (4.2, 0.3)], strict=True))
+    places = dict(zip(joints.split(), [(0, 0), (0, 1), (2, 1), (2, 0), *dyad], strict=True))
     linkage = Linkage.from_drawing(
         Mechanism.parse(f"{joints}; frame=0; drive=R(0-1)"), places, points={"C": ("2", 1.0, 1.0)}, unit="m"
     )
@@ -84,9 +91,9 @@ def six_bar(kind):
 
 def its_four_bar(kind):
     """The coupler of the parallelogram only shifts: one crank with both inertias, and the coupler's mass at its end."""
-    _, place, pivot = SIX_BARS[kind]
+    _, pivot, *dyad = SIX_BARS[kind]
     joints = "R(0-3) R(3-4) R(4-5) R(0-5)"
-    places = dict(zip(joints.split(), [pivot, place, (3.8, 2.0), (4.2, 0.3)], strict=True))
+    places = dict(zip(joints.split(), [pivot, *dyad], strict=True))
     end = (pivot[0], pivot[1] + 1.0)
     linkage = Linkage.from_drawing(
         Mechanism.parse(f"{joints}; frame=0; drive=R(0-3)"), places, points={"E": ("3", *end)}, unit="m"
@@ -97,15 +104,30 @@ def its_four_bar(kind):
     return linkage, Loads(bodies={"3": both, **DYAD}, masses={"E": 1.0}, gravity=(0, -9.81))
 
 
+def driven_by(linkage, drive):
+    mechanism = linkage.mechanism
+    return linkage.with_mechanism(Mechanism(mechanism.chain, mechanism.frame, [drive]))
+
+
+def jets_of(charts, q, names):
+    """Turns, speeds and accelerations of links by the drive, (rows, links)."""
+    columns = [charts.plan.lower.mechanism.chain.links.index(name) for name in names]
+    jets = charts.jets_at(q)
+    return jets.turns[:, columns], *jets.rates[:, :, columns]
+
+
 @pytest.mark.parametrize(
     ("kind", "drive"),
-    [("Watt", "R(0-1)"), ("Watt", "R(3-4)"), ("Watt", "R(0-5)"), ("Stephenson", "R(0-1)"), ("Stephenson", "R(0-5)")],
+    [
+        *(("Watt", drive) for drive in ("R(0-1)", "R(3-4)", "R(0-5)")),
+        *(("Stephenson", drive) for drive in ("R(0-1)", "R(0-5)")),
+        *(("Stephenson, drag link", drive) for drive in ("R(0-5)", "R(2-4)")),
+    ],
 )
 def test_six_bars_pass_the_change_points_of_their_parallelogram_as_a_four_bar(kind, drive):
     """Any joint may be the coordinate; of Stephenson's chain R(0-5) asks for a group of four links, until exchanged."""
     linkage, loads = six_bar(kind)
-    mechanism = linkage.mechanism
-    driven = linkage.with_mechanism(Mechanism(mechanism.chain, mechanism.frame, [drive]))
+    driven = driven_by(linkage, drive)
     ratio = simulate(driven, loads, speed=1.0, until=1e-6, times=[0]).angular("1")[0]
     fall = simulate(driven, loads, speed=-1.0 / ratio, until=2.0, times=[0, 1.0, 2.0], tolerance=1e-11)
     single, its = its_four_bar(kind)
@@ -117,6 +139,31 @@ def test_six_bars_pass_the_change_points_of_their_parallelogram_as_a_four_bar(ki
     assert turned[-1] < -np.pi  # past both change points, at 0 and 180°
     assert turned == pytest.approx(wanted.angle("3") - wanted.angle("3")[0], abs=1e-8)
     assert fall.defect < 1e-9
+
+
+@pytest.mark.parametrize("drive", ["R(0-5)", "R(2-4)"])
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_group_of_four_links_passes_its_change_points_on_charts_alone(drive, side):
+    """A turn of a drag link whose crank is a parallelogram, by triads; its four-bar has dyads and no change point."""
+    linkage, _ = six_bar("Stephenson, drag link")
+    single, _ = its_four_bar("Stephenson, drag link")
+    solving = cached_plan(driven_by(linkage, drive))
+    assert [len(group.roots) for group in solving.higher_groups] == [4]
+    q, start = starting_pose(solving, None, None)
+    charts = Charts(solving, start)
+    six = jets_of(charts, q + side * np.linspace(0, 7, 141), "12345")
+    assert charts.closed is not None
+    four = cached_plan(driven_by(single, "R(0-5)"))
+    q, start = starting_pose(four, None, None)
+    rocker = np.unwrap(np.angle(six[0][:, 4] / six[0][0, 4]))
+    turns, speeds, accelerations = jets_of(Charts(four, start), q + rocker, "345")
+    crank = six[0][:, 0] / six[0][0, 0]
+    assert crank.real.min() < -0.99  # it went round
+    assert six[0][:, 1] == pytest.approx(np.full(141, six[0][0, 1]), abs=1e-10)  # its coupler only shifts
+    assert six[0] / six[0][0] == pytest.approx(np.c_[crank, crank**0, turns / turns[0]], abs=1e-10)
+    way, bend = (rates[:, [4]] for rates in six[1:])
+    assert six[1][:, 2:] == pytest.approx(speeds * way, abs=1e-9)
+    assert six[2][:, 2:] == pytest.approx(accelerations * way**2 + speeds * bend, abs=1e-8)
 
 
 def test_windows_at_ten_seconds_as_printed():

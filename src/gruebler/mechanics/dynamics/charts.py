@@ -14,6 +14,7 @@ import numpy as np
 from numpy.polynomial import chebyshev, polynomial
 
 from gruebler.base.arrays import Complexes, Flags, Reals
+from gruebler.mechanics.kinematics.determinants import determinants
 from gruebler.mechanics.kinematics.kernel_calls import SolvedRows, run_rows
 from gruebler.mechanics.kinematics.law_directions import law_direction
 from gruebler.mechanics.kinematics.plan import Plan
@@ -33,6 +34,7 @@ _FIT_OF_LAWS = 1e-9  # likewise with cams and the like, whose accelerations are 
 _FIT_AT_CHANGE = 1e-10  # likewise round a change point: that both sides lie on one polynomial is the proof
 _SOUND = 1e-2  # a pose with a smaller root is not walked on from: signs read next to a change point lose the branch
 _FLIPS = 1e-2  # a root that comes so near to zero in the change point goes through it
+_FORETELLING = 9  # the degree by which unknowns of larger groups are foretold behind a change point
 _LOOKED = 0.05  # radians or sizes between the poses from which a zero of a root is foretold
 _FORETOLD = 0.6  # so far it is
 _AT_JOINT = 1e-9  # radians: a law so near to the end of one of its pieces is at it
@@ -282,8 +284,8 @@ class Charts:
     def _round_change(self, start: ReferencePose, edge: float, back: float) -> Chart | None:
         """A chart round an exact change point near a place, if there is one, and one polynomial fits both sides of it.
 
-        It is not walked through: behind it the dyads whose roots go through zero have the other sign. ``back`` is the
-        way away from it, 1 or -1.
+        It is not walked through: behind it the dyads whose roots go through zero have the other sign, and unknowns of
+        larger groups are where a polynomial leads. ``back`` is the way away from it, 1 or -1.
         """
         change = self._zero(start, edge, back)
         if change is not None:
@@ -295,9 +297,7 @@ class Charts:
         return None
 
     def _zero(self, start: ReferencePose, edge: float, back: float) -> tuple[float, Flags, ReferencePose] | None:
-        """Where a root goes through zero near a place, which roots do, and a sound pose beside it."""
-        if not self._branching:
-            return None
+        """Where a root or determinant goes through zero near a place, which roots do, and a sound pose beside it."""
         steps = back * _LOOKED * self.scale * np.arange(8)
         origin = edge + 2 * steps[1]
         zero = 0.0
@@ -305,7 +305,8 @@ class Charts:
             rows = self._rows(origin + steps, start)
             if rows is None or (self._least(rows) < _SOUND).any():
                 return None
-            fits = polynomial.polyfit(steps, rows.roots[1:, self._branching], 7)
+            seen = determinants(self.plan, rows.places[0, 1:], rows.turns[1:])
+            fits = polynomial.polyfit(steps, np.hstack([rows.roots[1:, self._branching], seen]), 7)
             zeros = [
                 z.real
                 for column in fits.T
@@ -321,7 +322,7 @@ class Charts:
                 break
             origin = middle + 3 * steps[1]
         flips = np.zeros(len(self.plan.dyads), bool)
-        flips[self._branching] = np.abs(polynomial.polyval(zero, fits)) < _FLIPS
+        flips[self._branching] = np.abs(polynomial.polyval(zero, fits))[: len(self._branching)] < _FLIPS
         return float(middle), flips, start
 
     def _both_sides(self, start: ReferencePose, middle: float, half: float, back: float, flips: Flags) -> Chart | None:
@@ -333,7 +334,8 @@ class Charts:
         if here is None:
             return None
         signs = np.where(here.roots[count] < 0, -1.0, 1.0)
-        across = ReferencePose(path[count : count + 1], np.where(flips, -signs, signs), here.unknowns[count])
+        foretold = chebyshev.chebval(nodes[count], chebyshev.chebfit(nodes[:count], here.unknowns[1:], _FORETELLING))
+        across = ReferencePose(path[count : count + 1], np.where(flips, -signs, signs), foretold)
         there = self._rows(path[count:], across)
         if there is None:
             return None
