@@ -357,3 +357,13 @@ def test_a_dead_centre_of_an_rssr_may_lie_at_the_start():
     assert np.cos(drives) == pytest.approx([1, -1], abs=1e-9) or np.cos(drives) == pytest.approx([-1, 1], abs=1e-9)
     psi = size.motion([0.0, np.pi]).output.value
     assert size.swing() == pytest.approx(abs(psi[1] - psi[0]))
+
+
+@pytest.mark.parametrize(
+    "lengths", [RSSR(a=1, b=4, c=2.5, d=3, twist=1.2), SphericalFourBar(0.5, 1.2, 1.0, 1.4), SwashPlate(30, 0.3)]
+)
+def test_lengths_stand_for_the_linkage_whose_drive_is_their_angle(lengths):
+    motion = move(lengths, TURN[:30], speed=1.0)
+    value = lengths.motion(TURN[:30]).output.value
+    output = len(motion.linkage.places) - 1
+    assert motion.joint(output) == pytest.approx(value - value[0], abs=1e-9)

@@ -325,6 +325,13 @@ def test_from_denavit_and_hartenberg():
     assert move(linkage, [0.5]).joint(1) == pytest.approx(move(driven(made), [0.5]).joint(1), abs=1e-12)
 
 
+def test_rows_too_far_apart_are_refused():
+    with pytest.raises(
+        LinkageError, match=r"R\(0-1\): row 1 is 1e\+12 rad from the row before; expected at most 1e\+09"
+    ):
+        move(rssr(), [0, 1e12])
+
+
 def test_points_outputs_and_files(tmp_path):
     linkage = SpatialLinkage(rssr().mechanism, rssr().places, points={"K": ("3", 3, 1, 2.5)}, outputs=["3"])
     for name in ("a.toml", "a.json"):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol, TypeGuard, runtime_checkable
+from typing import Any, Protocol, TypeGuard, runtime_checkable
 
 from gruebler.base.errors import LinkageError, to_be_read
 from gruebler.base.text import message
@@ -26,6 +26,11 @@ def makes_linkage(value: object) -> TypeGuard[HasLinkage]:
     return isinstance(value, HasLinkage) and not isinstance(value, type) and callable(value.linkage)
 
 
+def linkage_made(value: Any) -> Any:
+    """The linkage that lengths make, in the plane or in space; any other value as it is."""
+    return value.linkage() if makes_linkage(value) else value
+
+
 def as_linkage(value: object) -> Linkage:
     """The linkage that a value is or makes; `LinkageError` says what else it is, and where that is answered.
 
@@ -33,6 +38,7 @@ def as_linkage(value: object) -> Linkage:
     >>> as_linkage(FourBar(25, 70, 40, 70)).mechanism.frame
     'frame'
     """
+    value = linkage_made(value)
     if isinstance(value, Linkage):
         return value
     kind = type(value).__name__
@@ -42,8 +48,6 @@ def as_linkage(value: object) -> Linkage:
         )
     if kind in ("Chain", "Mechanism"):
         raise LinkageError("a {kind} has no dimensions: realise(mechanism) finds some", kind=kind)
-    if makes_linkage(value):
-        return value.linkage()
     said = message(
         "expected a linkage, a FourBar, SliderCrank or InvertedSliderCrank, but found {found}", found=_in_short(value)
     )

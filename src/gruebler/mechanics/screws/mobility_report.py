@@ -18,8 +18,9 @@ from gruebler.base.plain_data import plain
 from gruebler.base.text import Message, message
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch
-from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
+from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage, linkage_made
 from gruebler.mechanics.screws.closed_poses import closed_pose
+from gruebler.mechanics.screws.conversion import SpatialLike
 from gruebler.mechanics.screws.finite_mobility import FiniteMobility, finite_mobility
 from gruebler.mechanics.screws.idle import idle_parts
 from gruebler.mechanics.screws.instant_mobility import InstantMobility, instant_mobility
@@ -209,7 +210,7 @@ class Freedoms:
 
 @door_that_raises(LinkageError)
 def freedoms(
-    linkage: LinkageLike | SpatialLinkage,
+    linkage: LinkageLike | SpatialLike,
     *,
     branch: Branch = None,
     at: float | Sequence[float] | None = None,
@@ -250,6 +251,7 @@ def freedoms(
     Theory:
         docs/theory/freedoms.md
     """
+    linkage = linkage_made(linkage)
     if not isinstance(linkage, SpatialLinkage):
         linkage = as_linkage(linkage)
     if isinstance(tolerance, bool) or not isinstance(tolerance, int | float) or not 0 < tolerance < 0.01:

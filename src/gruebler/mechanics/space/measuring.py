@@ -22,7 +22,8 @@ from gruebler.mechanics.analysis import measuring
 from gruebler.mechanics.analysis.measuring import Measures
 from gruebler.mechanics.kinematics.messages import drive_values
 from gruebler.mechanics.linkages.branch import Branch
-from gruebler.mechanics.linkages.conversion import LinkageLike
+from gruebler.mechanics.linkages.conversion import LinkageLike, linkage_made
+from gruebler.mechanics.screws.conversion import SpatialLike
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.bodies import motions
 from gruebler.mechanics.space.drive_range import SpatialRange, followed, spatial_range
@@ -217,7 +218,7 @@ def _unit_of_rate(above: str, below: str, order: int) -> str:
 
 @overload
 def measures(
-    linkage: SpatialLinkage, *, branch: Branch = None, speed: float | None = None, output: str | None = None
+    linkage: SpatialLike, *, branch: Branch = None, speed: float | None = None, output: str | None = None
 ) -> SpatialMeasures: ...
 
 
@@ -229,7 +230,7 @@ def measures(
 
 @door_that_raises(LinkageError)
 def measures(
-    linkage: LinkageLike | SpatialLinkage,
+    linkage: LinkageLike | SpatialLike,
     *,
     branch: Branch = None,
     speed: float | None = None,
@@ -270,11 +271,12 @@ def measures(
     Theory:
         docs/theory/events.md
     """
-    if not isinstance(linkage, SpatialLinkage):
-        return measuring.measures(linkage, branch=branch, speed=speed, output=output)
+    placed = linkage_made(linkage)
+    if not isinstance(placed, SpatialLinkage):
+        return measuring.measures(placed, branch=branch, speed=speed, output=output)
     if branch is not None or speed is not None:
         raise LinkageError("a linkage in space has measures by its drive, without branch and speed")
-    return _measured(linkage, output)
+    return _measured(placed, output)
 
 
 def _measured(linkage: SpatialLinkage, output: str | None) -> SpatialMeasures:

@@ -17,7 +17,8 @@ from gruebler.base.text import message
 from gruebler.mechanics.kinematics import solve
 from gruebler.mechanics.kinematics.drive_rows import row_of_values, warn_of_angles
 from gruebler.mechanics.kinematics.messages import drive_values
-from gruebler.mechanics.linkages.conversion import LinkageLike
+from gruebler.mechanics.linkages.conversion import LinkageLike, linkage_made
+from gruebler.mechanics.screws.conversion import SpatialLike
 from gruebler.mechanics.screws.joint_places import Vector
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.closure import ClosingConditions
@@ -146,7 +147,7 @@ class SpatialModes:
 
 
 @overload
-def assembly_modes(linkage: SpatialLinkage, drives: float | ArrayLike) -> SpatialModes: ...
+def assembly_modes(linkage: SpatialLike, drives: float | ArrayLike) -> SpatialModes: ...
 
 
 @overload
@@ -154,7 +155,7 @@ def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]
 
 
 @door_that_raises(LinkageError)
-def assembly_modes(linkage: LinkageLike | SpatialLinkage, drives: float | ArrayLike) -> list[str] | SpatialModes:
+def assembly_modes(linkage: LinkageLike | SpatialLike, drives: float | ArrayLike) -> list[str] | SpatialModes:
     """Every assembly mode that a linkage has at a drive value, in the plane as `move` takes it for ``branch``.
 
     Args:
@@ -186,20 +187,21 @@ def assembly_modes(linkage: LinkageLike | SpatialLinkage, drives: float | ArrayL
     Theory:
         docs/theory/modes-in-space.md
     """
-    if not isinstance(linkage, SpatialLinkage):
-        return solve.assembly_modes(linkage, drives)
-    mechanism = linkage.mechanism
+    placed = linkage_made(linkage)
+    if not isinstance(placed, SpatialLinkage):
+        return solve.assembly_modes(placed, drives)
+    mechanism = placed.mechanism
     row = row_of_values(drives, len(mechanism.drives))
     warn_of_angles(mechanism, row)
-    _check(linkage)
-    tree, held, values = _held(linkage, row[0])
+    _check(placed)
+    tree, held, values = _held(placed, row[0])
     structure, target = structure_of(tree, held)
     for unknown, value in values.items():
         target.given[structure.node_of[unknown + 1]] = value
     known = known_number(tree)
     generic = _generic(structure, known)
     ends, far = _all_ends(structure, generic, target)
-    return _modes(linkage, tuple(map(float, row[0])), tree, structure, target, generic, known, ends, far)
+    return _modes(placed, tuple(map(float, row[0])), tree, structure, target, generic, known, ends, far)
 
 
 def _check(linkage: SpatialLinkage) -> None:

@@ -16,18 +16,20 @@ from gruebler.mechanics.kinematics.drive_rows import drive_speeds, path_of_value
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.linkages.branch import Branch
-from gruebler.mechanics.linkages.conversion import LinkageLike
+from gruebler.mechanics.linkages.conversion import LinkageLike, linkage_made
+from gruebler.mechanics.screws.conversion import SpatialLike
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.closure import Place
 from gruebler.mechanics.space.following import Setting, is_limit, setting
 from gruebler.mechanics.space.motion import SpatialMotion, SpatialStop
 
+_LONGEST_WAY = 1e9  # radians and sizes from row to row, as the kernel has it
 _FAST = 0.5  # of the fastest joint: joints that move so fast in a last position are named
 
 
 @overload
 def move(
-    linkage: SpatialLinkage,
+    linkage: SpatialLike,
     drives: ArrayLike,
     *,
     branch: Branch = None,
@@ -53,7 +55,7 @@ def move(
 
 @door_that_raises(LinkageError)
 def move(
-    linkage: LinkageLike | Plan | SpatialLinkage,
+    linkage: LinkageLike | Plan | SpatialLike,
     drives: ArrayLike,
     *,
     branch: Branch = None,
@@ -66,7 +68,8 @@ def move(
 
     Args:
         linkage: a linkage whose drives fix the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`; a
-            `SpatialLinkage` moves from its reference pose, in which its drives are 0.
+            `SpatialLinkage`, or an `RSSR`, `Bennett`, `SphericalFourBar`, `SwashPlate` that makes one, moves from its
+            reference pose, in which its drives are 0.
         drives: (rows,) for one drive, (rows, drives) for several: angles in radians, displacements in the linkage's
             unit. Between rows the drives move on straight lines.
         branch: in the plane the assembly mode at the first row, such as ``"+-"``; without it the one that leads from
@@ -104,20 +107,35 @@ def move(
     Theory:
         docs/theory/space.md
     """
-    if not isinstance(linkage, SpatialLinkage):
-        return solve.move(
-            linkage, drives, branch=branch, speed=speed, acceleration=acceleration, jerk=jerk, order=order
-        )
+    placed = linkage_made(linkage)
+    if not isinstance(placed, SpatialLinkage):
+        return solve.move(placed, drives, branch=branch, speed=speed, acceleration=acceleration, jerk=jerk, order=order)
     if branch is not None:
         raise LinkageError("a linkage given by its reference pose has no assembly mode to choose")
-    mechanism = linkage.mechanism
+    mechanism = placed.mechanism
     path = path_of_values(drives, len(mechanism.drives))
+    _check_ways(placed, path)
     warn_of_angles(mechanism, path)
     upto = (0 if speed is None else 2) if order is None else order
     if upto not in (0, 1, 2, 3):
         raise LinkageError("the order is 0, 1, 2 or 3, not {order!r}", order=order)
     speeds = drive_speeds(path, (1.0 if speed is None else speed, acceleration, jerk), upto)
-    return moved(setting(linkage), path, speeds)
+    return moved(setting(placed), path, speeds)
+
+
+def _check_ways(linkage: SpatialLinkage, path: Reals) -> None:
+    """A row so far from the one before that the way there would take minutes is refused."""
+    ways = abs(np.diff(path, axis=0, prepend=0.0))
+    longest = [_LONGEST_WAY * (1.0 if drive.turning else linkage.size) for drive in linkage.mechanism.drives]
+    for row, k in np.argwhere(ways > longest)[:1].tolist():
+        raise LinkageError(
+            "{drive}: row {row} is {way:.4g} {unit} from the row before; expected at most {most:.4g}",
+            drive=linkage.mechanism.drive_names()[k],
+            row=row,
+            way=float(ways[row, k]),
+            unit="rad" if linkage.mechanism.drives[k].turning else linkage.unit,
+            most=longest[k],
+        )
 
 
 def moved(set_up: Setting, path: Reals, speeds: Reals) -> SpatialMotion:

@@ -170,7 +170,7 @@ class RSSR:
 
     def linkage(
         self,
-        phi: float,
+        phi: float = 0.0,
         *,
         branch: Branch = None,
         points: Mapping[str, tuple[str, float, float, float]] | None = None,

@@ -212,7 +212,7 @@ class SphericalFourBar:
 
     def linkage(
         self,
-        phi: float,
+        phi: float = 0.0,
         *,
         branch: Branch = None,
         points: Mapping[str, tuple[str, float, float, float]] | None = None,

@@ -100,7 +100,7 @@ class SwashPlate:
             transmission_angle=np.full(np.shape(crank.value), math.pi / 2 - self.tilt),
         )
 
-    def linkage(self, phi: float, *, unit: str = "mm") -> SpatialLinkage:
+    def linkage(self, phi: float = 0.0, *, unit: str = "mm") -> SpatialLinkage:
         """The linkage with the shaft at phi as its reference pose: the shaft along z, the piston over the x axis."""
         cosine, sine, slope = math.cos(as_finite("phi", phi)), math.sin(phi), math.tan(self.tilt)
         ball = (self.radius, 0.0, self.amplitude * cosine)
