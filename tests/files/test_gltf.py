@@ -90,9 +90,13 @@ def test_keys_of_the_animation_are_the_poses_of_the_links(tmp_path):
             assert 2 * (x * z + y * w) == pytest.approx(pose[:, 0, 2], abs=1e-6)
 
 
-def test_a_machine_of_the_catalog_moves_over_its_range(tmp_path):
+@pytest.mark.parametrize("by_command", [True, False])
+def test_a_machine_moves_over_its_range(by_command, tmp_path):
     path = tmp_path / "suspension.glb"
-    assert main(["convert", "susp_spatial", str(path)]) == 0
+    if by_command:
+        assert main(["convert", "susp_spatial", str(path)]) == 0
+    else:
+        files.write(entry("susp_spatial").placed(), path, between=(-pi / 18, pi / 18))
     document, binary = glb(path)
     (animation,) = document["animations"]
     node = next(k for k, each in enumerate(document["nodes"]) if each["name"] == "lower_wishbone")
@@ -113,6 +117,13 @@ def test_a_machine_with_several_drives_has_an_animation_for_each(tmp_path):
     assert [each["name"] for each in document["animations"]] == list(entry("delta").drives)
     nodes = [each["name"] for each in document["nodes"]]
     assert nodes == ["linkage", *entry("delta").links]
+
+
+def test_a_range_is_of_one_drive_and_of_a_format_with_motion(tmp_path):
+    with pytest.raises(GrueblerError, match="a range needs one drive, but the mechanism has 3"):
+        files.write(entry("delta").placed(), tmp_path / "a.glb", between=(0, 1))
+    with pytest.raises(GrueblerError, match="only glTF has a motion between values of the drive"):
+        files.write(FourBar(25, 70, 40, 70), tmp_path / "a.toml", between=(0, 1))
 
 
 def test_a_machine_without_drives_says_that_it_stands_still(tmp_path):

@@ -268,12 +268,12 @@ def test_paths_of_points_are_drawn_over_the_range():
 def plotted(monkeypatch):
     """The panels of a diagram."""
 
-    def panels_of(linkage, plot=gr.plot, **options):
+    def panels_of(linkage, **options):
         seen = []
         monkeypatch.setattr(
             plots, "draw_panels", lambda panels, *rest: seen.append(panels) or draw_panels(panels, *rest)
         )
-        return plot(linkage, **options), *seen
+        return gr.plot(linkage, **options), *seen
 
     return panels_of
 
@@ -302,7 +302,7 @@ def test_dead_centres_in_a_diagram_are_where_the_rate_changes_sign(plotted):
 @pytest.mark.parametrize(("drive", "rate"), [("R(frame-carrier)", 2), ("R(frame-sun1)", -1)])
 def test_one_of_several_drives_moves_in_a_diagram(plotted, drive, rate):
     """Willis: sun1 + sun2 = 2 carrier."""
-    _, panels = plotted(entry("diff_bevel").placed(), plots.plot_spatial, output="R(frame-sun2)", drive=drive)
+    _, panels = plotted(entry("diff_bevel").placed(), output="R(frame-sun2)", drive=drive)
     value, first, second = (panel.curves[0].y for panel in panels)
     assert value[[0, -1]] == pytest.approx([0, 360 * rate])
     assert first == pytest.approx(rate, abs=1e-9)
@@ -319,7 +319,7 @@ def test_one_of_several_drives_moves_in_a_diagram(plotted, drive, rate):
 )
 def test_why_there_is_no_diagram(id, drive, words):
     with pytest.raises(LinkageError, match=words):
-        plots.plot_spatial(entry(id).placed(), drive=drive)
+        gr.plot(entry(id).placed(), drive=drive)
 
 
 def test_a_place_inside_a_ring_does_not_bend_it():

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from gruebler.base.atomic_files import atomic_file
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message
 from gruebler.cli.inputs import chain_from_word
@@ -50,18 +49,13 @@ def _is_file(word: str) -> bool:
 
 def _write_value(word: str, target: str, form: str | None, notes: list[Message]) -> None:
     """The linkage of lengths or of a catalog entry with dimensions and loads, else the chain of a text or an entry."""
-    from gruebler.files.gltf import glb_from_linkage
     from gruebler.files.structures import is_structure_text
     from gruebler.files.values import format_of, write, write_loaded
     from gruebler.teaching.catalog import entry
 
     if (spatial := spatial_of_word(word)) is not None:
-        if spatial.range is not None and format_of(Path(target), form).name == "glb":
-            between = spatial.range if len(spatial.linkage.mechanism.drives) == 1 else None
-            with atomic_file(Path(target), durable=False) as file:
-                file.write(glb_from_linkage(spatial.linkage, notes, between))
-            return
-        write(spatial.linkage, target, format_name=form, left_out=notes)
+        moves = len(spatial.linkage.mechanism.drives) == 1 and format_of(target, form).write_between is not None
+        write(spatial.linkage, target, between=spatial.range if moves else None, format_name=form, left_out=notes)
         return
     lengths = is_lengths(word) or (":" in word and "(" not in word)
     if is_structure_text(word) or not (lengths or entry(word).dimensions is not None):

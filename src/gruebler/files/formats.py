@@ -53,6 +53,8 @@ class Format:
     """The value in a file; the list gets a message for each thing that the value does not have."""
     write: Callable[[Any, Path, list[Message]], None]
     """Write a value; the list gets a message for each thing that the file does not have."""
+    write_between: Callable[[Any, Path, list[Message], tuple[float, float]], None] | None = None
+    """Write its motion between two values of the drive; None if the file has no motion."""
     lengths: Message | None = None
     """What the numbers of lengths are; None if there are none."""
 
@@ -317,10 +319,10 @@ def _write_in_folder(path: Path, files: Mapping[str, bytes]) -> None:
         _write_bytes(path / name, content)
 
 
-def _write_glb(value: Any, path: Path, left_out: list[Message]) -> None:
+def _write_glb(value: Any, path: Path, left_out: list[Message], between: tuple[float, float] | None = None) -> None:
     from gruebler.files.gltf import glb_from_linkage
 
-    _write_bytes(path, glb_from_linkage(_in_space(value), left_out))
+    _write_bytes(path, glb_from_linkage(_in_space(value), left_out, between))
 
 
 def _write_stl_of_links(value: Any, path: Path, left_out: list[Message]) -> None:
@@ -503,6 +505,7 @@ FORMATS: tuple[Format, ...] = (
         title=message("glTF 2.0, viewers of bodies"),
         carries=message("bodies of the links of a linkage in space, an animation for each drive"),
         write=_write_glb,
+        write_between=_write_glb,
         lengths=message("m"),
     ),
     Format(

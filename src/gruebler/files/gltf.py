@@ -20,7 +20,7 @@ from gruebler.base.text import Message, message
 from gruebler.base.units import MILLIMETRES
 from gruebler.files.link_solids import Solid, link_solids
 from gruebler.mechanics.screws import SpatialLinkage
-from gruebler.mechanics.space.drive_range import followed, spatial_range
+from gruebler.mechanics.space.drive_range import RANGE_OF_ONE, followed, spatial_range
 from gruebler.mechanics.space.motion import SpatialMotion
 from gruebler.structure.chain.spaces import Space
 
@@ -60,6 +60,8 @@ def moving_solids(
     """
     motions, full = [], []
     drives = linkage.mechanism.drives
+    if between is not None and len(drives) != 1:
+        raise LinkageError(RANGE_OF_ONE.filled(count=len(drives), drives=", ".join(linkage.mechanism.drive_names())))
     if len(drives) == 1:
         try:
             span = spatial_range(linkage) if between is None else None

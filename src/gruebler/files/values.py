@@ -102,13 +102,20 @@ def _say(notes: list[Message], left_out: list[Message] | None, text: Message) ->
 
 
 def write(
-    value: object, path: str | PathLike[str], *, format_name: str | None = None, left_out: list[Message] | None = None
+    value: object,
+    path: str | PathLike[str],
+    *,
+    between: tuple[float, float] | None = None,
+    format_name: str | None = None,
+    left_out: list[Message] | None = None,
 ) -> Path:
     """Write a value into a file that `read` takes back, a motion as a table; returns the path.
 
     Args:
         value: a linkage, a chain or a list of chains, a task, a motion or its table (`Motion.table`).
         path: a file, which appears complete or not at all; the ending of its name says the format.
+        between: of a linkage in space with one drive, as glTF: values of the drive (radians, or lengths) between which
+            it moves; by default its full range.
         format_name: the format, if the name does not say it: one of `FORMATS`.
         left_out: gets a message for each thing of the value that the file does not have; without it such things are
             warnings, `FormatWarning`.
@@ -137,21 +144,31 @@ def write(
     """
     if isinstance(value, str | PathLike) and not isinstance(path, str | PathLike):
         raise GrueblerError("write(value, path): the value comes first, then {path!r}", path=fspath(value))
-    return _written(value, path, format_name, left_out)
+    return _written(value, path, between, format_name, left_out)
 
 
 @door
-def _written(value: object, path: str | PathLike[str], format_name: str | None, left_out: list[Message] | None) -> Path:
-    from gruebler.mechanics.linkages.conversion import makes_linkage
+def _written(
+    value: object,
+    path: str | PathLike[str],
+    between: tuple[float, float] | None,
+    format_name: str | None,
+    left_out: list[Message] | None,
+) -> Path:
+    from gruebler.mechanics.linkages.conversion import linkage_made
 
     path = Path(path)
     refuse_folder(path)
-    if makes_linkage(value):
-        value = value.linkage()
+    value = linkage_made(value)
     _check_kind(value)
     form = format_of(path, format_name)
     notes: list[Message] = []
-    form.write(value, path, notes)
+    if between is None:
+        form.write(value, path, notes)
+    elif form.write_between is not None:
+        form.write_between(value, path, notes, between)
+    else:
+        raise GrueblerError("{path}: only glTF has a motion between values of the drive", path=path)
     _say(notes, left_out, message("{path}: not written: {items}", path=path, items=joined(notes, "; ")))
     return path
 

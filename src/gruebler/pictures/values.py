@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from gruebler.mechanics.linkages.branch import Branch
     from gruebler.mechanics.linkages.conversion import LinkageLike
     from gruebler.mechanics.linkages.points import PointLike
-    from gruebler.mechanics.screws import SpatialLinkage
+    from gruebler.mechanics.screws.conversion import SpatialLike
     from gruebler.pictures.canvas.moving_frames import FramePicture
     from gruebler.pictures.canvas.moving_picture import MovingPicture
     from gruebler.structure.mechanism import Mechanism
@@ -304,12 +304,13 @@ def animate(
 
 @door
 def plot(
-    linkage: LinkageLike | SpatialLinkage | Motion | InverseDynamics | Simulation,
+    linkage: LinkageLike | SpatialLike | Motion | InverseDynamics | Simulation,
     kind: str = "transfer",
     *,
     branch: Branch = None,
     between: tuple[float, float] | None = None,
     speed: float | None = None,
+    drive: str | None = None,
     output: str | None = None,
     points: Sequence[PointLike] | None = None,
     link: str | None = None,
@@ -328,12 +329,14 @@ def plot(
         linkage: also a `FourBar`, `SliderCrank` or `InvertedSliderCrank`; a `Motion` stands for its linkage on its
             branch, between its smallest and largest drive value. What `inverse_dynamics` returns has diagrams of its
             own, ``torque`` (with the power; the usual one) and ``forces`` (of joints, in polar form); what `simulate`
-            returns has ``phase`` (speed over drive); a `SpatialLinkage` has ``transfer``.
+            returns has ``phase`` (speed over drive); a `SpatialLinkage`, or what makes one, has ``transfer``.
         kind: ``transfer`` (the output and its derivatives), ``transmission`` (transmission angle), ``hodograph``,
             ``curves`` (paths of points) or ``family`` (paths of points on a line of one link).
         branch: the assembly mode, such as ``"+-"``.
         between: drive values between which it is plotted (radians, or lengths); by default the full range.
         speed: of ``hodograph``: that of the drive, in rad/s or lengths a second; without it velocities are by drive.
+        drive: of a `SpatialLinkage` with several drives: the joint that moves while the others stay; by default the
+            first.
         output: of ``transfer`` and ``transmission``: a link or sliding joint, in space a joint; by default the
             linkage's own output.
         points: of ``hodograph``, ``curves`` and ``forces``: names of points or joints, at most eight.
@@ -367,6 +370,9 @@ def plot(
         docs/theory/events.md
     """
     given = _given(locals())
+    from gruebler.mechanics.linkages.conversion import linkage_made
+
+    linkage = linkage_made(linkage)
     own = _PLOTS_OF.get(type(linkage).__name__)
     known = own or _PLOTS
     if own and kind == "transfer":

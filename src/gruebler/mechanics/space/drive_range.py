@@ -10,11 +10,13 @@ from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
+from gruebler.base.text import message
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.following import setting
 from gruebler.mechanics.space.motion import SpatialMotion, SpatialStop
 from gruebler.mechanics.space.moving import moved
 
+RANGE_OF_ONE = message("a range needs one drive, but the mechanism has {count}: {drives}")
 _ROWS = 72  # of a turn, or of as many sizes of a slide
 
 
@@ -44,11 +46,7 @@ def spatial_range(linkage: SpatialLinkage) -> SpatialRange:
     """
     drives = linkage.mechanism.drives
     if len(drives) != 1:
-        raise LinkageError(
-            "a range needs one drive, but the mechanism has {count}: {drives}",
-            count=len(drives),
-            drives=", ".join(linkage.mechanism.drive_names()),
-        )
+        raise LinkageError(RANGE_OF_ONE.filled(count=len(drives), drives=", ".join(linkage.mechanism.drive_names())))
     turning = drives[0].turning
     most = 2 * pi if turning else 3 * linkage.size
     steps = np.linspace(0.0, most, _ROWS + 1)[:, None]
