@@ -49,7 +49,7 @@ def definitions(kinds):
 
 
 def repeated(kinds):
-    return {name: modules for name, modules in definitions(kinds).items() if len(modules) > 1}
+    return {name: modules for name, modules in definitions(kinds).items() if len({*modules}) > 1}
 
 
 def test_a_class_has_its_name_alone():

@@ -6,9 +6,10 @@ from urllib.request import urlopen
 import numpy as np
 import pytest
 
+import gruebler as gr
 from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
-from gruebler.mechanics.space import move
+from gruebler.mechanics.space import Bennett, move
 from gruebler.page.requests import answer
 from gruebler.page.space_page import machine_model, space_file, space_model
 from gruebler.page.static_site import FileGroup, write_site
@@ -75,7 +76,7 @@ def test_the_list_of_machines_says_which_move_in_space():
     assert "Isometri" in picture
 
 
-def browsed(chromium, path):
+def browsed(chromium, path, wanted="canvas"):
     """A page of a machine in space, and what went wrong on it."""
     from tests.page.conftest import find_browser
 
@@ -88,7 +89,7 @@ def browsed(chromium, path):
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.on("console", lambda line: errors.append(line.text) if line.type == "error" else None)
     page.goto(path.as_uri())
-    page.wait_for_selector("canvas")
+    page.wait_for_selector(wanted)
     return browser, page, errors
 
 
@@ -164,5 +165,20 @@ def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):
         page.mouse.move(box["x"] + spot[0] + 4 * step, box["y"] + spot[1] - 5 * step)
     page.mouse.up()
     assert output.inner_text() != "180.0°"
+    assert errors == []
+    browser.close()
+
+
+def test_a_cell_of_a_notebook_has_the_page(tmp_path, chromium):
+    shown = gr.explore(Bennett(200, 1, 0.5), height=300, lang="de")
+    assert shown.save(tmp_path / "a.html").read_text(encoding="utf-8") == shown.html
+    cell = tmp_path / "cell.html"
+    cell.write_text(f"<!doctype html><p>Before</p>{shown._repr_html_()}", encoding="utf-8")
+    browser, page, errors = browsed(chromium, cell, wanted="iframe")
+    frame = page.frame_locator("iframe")
+    frame.get_by_role("button", name="Anhalten").click()
+    frame.get_by_role("slider").fill("18")
+    assert frame.locator("output").inner_text().startswith("90")
+    assert page.locator("iframe").bounding_box()["height"] == 300
     assert errors == []
     browser.close()

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from gruebler.base.atomic_files import atomic_file
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import LANGUAGES, message
 from gruebler.files.gltf import MovingSolids, link_colour, moving_solids, united
@@ -29,6 +33,28 @@ _WORDS = {
     ),
     "none": message("No drive moves this linkage."),
 }
+
+
+@dataclass(frozen=True, slots=True)
+class SpacePage:
+    """The page of a linkage in space, which shows itself in a notebook cell and can be saved."""
+
+    html: str
+    height: int = 640
+    """Of the cell, in pixels."""
+
+    def save(self, path: Path | str) -> Path:
+        """Write it as one HTML file, or not at all; returns the path."""
+        with atomic_file(Path(path), durable=False) as file:
+            file.write(self.html.encode("utf-8"))
+        return Path(path)
+
+    def __repr__(self) -> str:
+        return f"<SpacePage of {len(self.html) // 1000} kB>"
+
+    def _repr_html_(self) -> str:
+        style = f"width: 100%; height: {self.height}px; border: 0"
+        return f'<iframe srcdoc="{escape(self.html)}" sandbox="allow-scripts" style="{style}"></iframe>'
 
 
 def space_model(
