@@ -104,7 +104,9 @@ class Simulation(LinkPoses, Tabled):
     def defect(self) -> float:
         """By how much `energy` changes at most, as a part of what is exchanged: kinetic, potential energy and work."""
         scale = self.kinetic.max(initial=0.0) + sum(float(np.ptp(e)) for e in (self.potential, self.work) if len(e))
-        return float(np.abs(self.energy - self.energy[0]).max() / scale) if scale else 0.0
+        lost = float(np.abs(self.energy - self.energy[0]).max())
+        rounding = 64 * np.finfo(float).eps * float(np.abs(self.potential).max())
+        return lost / scale if lost > rounding else 0.0  # at rest nothing is exchanged but what was rounded
 
     @cached_property
     def motion(self) -> Motion:

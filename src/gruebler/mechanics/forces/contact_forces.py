@@ -165,7 +165,6 @@ _PUSHING = {(Circle, Circle), (Circle, Line), (CamDisc, Circle), (CamDisc, Pin),
 def pushing(motion: Motion, joint: int) -> tuple[str, Complexes] | None:
     """The second link of a joint whose elements can only push each other, and the direction in which it is pushed."""
     touch = moving_touch(motion, joint)
-    closed = isinstance(touch.first, CamDisc) and touch.first.closed
-    if contact_of(touch.first, touch.second).kinds not in _PUSHING or touch.rolls or closed:
+    if contact_of(touch.first, touch.second).kinds not in _PUSHING or touch.rolls or touch.first.closed:
         return None
     return touch.links[1], contact_forces(motion, joint)[1][0].force

@@ -70,6 +70,11 @@ class Element(ABC):
         return 0.0
 
     @property
+    def closed(self) -> bool:
+        """Whether what it touches cannot lift off although it only pushes it: a cam with a groove."""
+        return False
+
+    @property
     def place(self) -> tuple[float, ...]:
         """Where it is on its link: x, y, and its angle if it has one.
 
