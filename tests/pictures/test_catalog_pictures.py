@@ -91,6 +91,23 @@ def test_the_same_holds_for_their_structures():
     assert not any(found.values()), found
 
 
+def test_the_same_holds_for_machines_that_stand_still():
+    """Of the two scissors one repeats the other: it is drawn, too, each end of an arm at its place."""
+    found = {}
+    for id, record in entries().items():
+        still = record.in_language("de").pictured()
+        if still is not None:
+            figure = draw_linkage(still, labels=True, lang="de")
+            found[id] = list(faults(figure))
+            circles = np.array([complex(*shape.at) for shape in figure.shapes if isinstance(shape, CircleShape)])
+            wanted = [complex(x, -y) for x, y, *_ in record.picture.places.values()]
+            wanted = posed_linkage(still).scale * np.array(wanted[: 8 if id == "pumpjack_rod" else 10])  # no guide
+            shifted = circles[:, None] + wanted - wanted[0]
+            assert np.abs(shifted[..., None] - circles).min(axis=2).max(axis=1).min() < 0.5
+    assert set(found) == {"pumpjack_rod", "scissor_lr", "scissor_tandem"}
+    assert not any(found.values()), found
+
+
 def test_the_same_holds_in_space():
     found = {}
     for id, record in entries().items():

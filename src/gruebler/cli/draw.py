@@ -213,10 +213,23 @@ def _figure(arguments: argparse.Namespace) -> Figure:
         return _block(thing, record, arguments, name, names)
     if view is not None:
         return view(thing, lang=arguments.lang, name=name)
+    still = _standing_still(arguments, record)
     contacts = contacts_of(record) if isinstance(thing, Mechanism) else None
-    return draw_structure(
+    return still or draw_structure(
         thing, labels=arguments.labels, contacts=contacts, lang=arguments.lang, name=name, names=names
     )
+
+
+def _standing_still(arguments: argparse.Namespace, record: Entry | None) -> Figure | None:
+    """The picture of a catalog entry that has places for it alone; None if an option changes its roles."""
+    changed = arguments.structure or arguments.space or arguments.frame or arguments.drive
+    still = None if record is None or changed else record.in_language(arguments.lang).pictured()
+    if still is None:
+        return None
+    from gruebler.pictures.linkage.picture import draw_linkage
+
+    name, names = called(record, arguments.lang)
+    return draw_linkage(still, labels=arguments.labels, lang=arguments.lang, name=name, names=names)
 
 
 def _letters(arguments: argparse.Namespace) -> list[str]:

@@ -207,6 +207,8 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     """What acts on the machine, and its masses, as in the file of a linkage."""
     screws: ReferenceScrews | None = None
     """Where the joints lie in one position, for machines in space and for contacts: enough for their mobility."""
+    picture: Dimensions | None = None
+    """Places for a picture alone, of a machine in the plane that stands still or repeats itself."""
 
     def chain(self) -> Chain:
         """The chain of the entry, its links in the order of the file."""
@@ -220,6 +222,13 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         chain = self.chain()
         mechanism = Mechanism(chain, self.frame or chain.links[0], self.dimensions.shown_drives or self.drives)
         return linkage_from_record(self.dimensions, mechanism, self.outputs)
+
+    def pictured(self) -> Linkage | None:
+        """The machine standing still at the places of its picture, if it has any."""
+        if self.picture is None:
+            return None
+        chain = self.chain()
+        return linkage_from_record(self.picture, Mechanism(chain, self.frame or chain.links[0], ()), ())
 
     @property
     def between(self) -> tuple[float, float] | None:
@@ -305,6 +314,7 @@ _NO_NUMBER = message("none")
 _NAME_LINKS: Mapping[str, tuple[str, ...]] = {
     "dimensions": ("elements", "reference_pose", "places", "points", "outlines", "drive"),
     "screws": ("joints", "points", "drive"),
+    "picture": ("places", "outlines"),
     "claims": ("idle", "motion", "travel", "dead_centres"),
     "loads": ("bodies", "masses", "forces", "moments", "springs", "torsion_springs", "motors"),
 }
@@ -442,6 +452,7 @@ def _check(entry: Entry, path: Path | str) -> None:
             raise CatalogError("{path}: screws: either assumed = true, or a source that prints them", path=path)
         try:
             entry.placed()
+            entry.pictured()
         except GrueblerError as error:
             raise CatalogError("{path}: {error}", path=path, error=error) from None
     known = {point for sizes in (entry.dimensions, entry.screws) if sizes is not None for point in sizes.points}

@@ -22,6 +22,7 @@ from gruebler.mechanics.kinematics.solve import cached_plan, move_quietly
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
+from gruebler.mechanics.linkages.lower_pairs import with_lower_pairs
 from gruebler.pictures.canvas.shapes import Point
 from gruebler.structure.mechanism import Mechanism
 
@@ -203,9 +204,25 @@ def _at_rest(linkage: Linkage) -> PosedLinkage:
         except GrueblerError:
             continue
         if len(pose):
-            return _posed(replace(pose, linkage=linkage))
+            return _posed(replace(_whole(pose, linkage) if plan.released else pose, linkage=linkage))
     name = mechanism.chain.joint_title(0)
     raise LinkageError("no joint is driven, so there is no pose; name a drive, such as {name}", name=name)
+
+
+def _whole(pose: Motion, linkage: Linkage) -> Motion:
+    """The reference pose with the joints, too, that are released because they repeat what others say."""
+    lower = with_lower_pairs(linkage)
+    assert lower.reference_pose is not None
+    x, y, angle = np.array([lower.reference_pose[link] for link in lower.mechanism.chain.links]).T
+    still = np.zeros((len(pose.places), 1, len(x)))
+    return replace(
+        pose,
+        plan=replace(pose.plan, lower=lower),
+        places=still + (x + 1j * y) * (np.arange(len(still)) == 0)[:, None, None],
+        turns=np.exp(1j * angle)[None],
+        rates=still[1:],
+        whole=np.zeros((1, len(x)), np.int32),
+    )
 
 
 def drive_rows(cycle: Course, between: tuple[float, float] | None = None, count: int = _ROWS) -> Reals:
