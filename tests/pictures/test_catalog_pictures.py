@@ -115,9 +115,7 @@ def test_the_same_holds_in_space():
             figure = draw(record.in_language("de").placed(), labels=True, lang="de").figure
             found[id] = list(faults(figure))
     assert len(found) > 15
-    # Eight links in little space: a number touches a letter by a few pixels.
-    known = {"susp_5link_lift": ["'S' over '2'"]}
-    assert {id: fault for id, fault in found.items() if fault} == known
+    assert not any(found.values()), found
 
 
 def test_the_check_itself_notices():

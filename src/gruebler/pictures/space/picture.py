@@ -62,10 +62,10 @@ def draw_spatial(
     shapes = scene.shapes(poses)
     if course is not None:
         shapes += [path_on_paper(scene, course, point) for point in curves]
-    if symbols:
-        shapes = _with_letters(scene, shapes, poses, lang)
     if labels:
         shapes = _with_names(scene, shapes, poses, names)
+    if symbols:
+        shapes = _with_letters(scene, shapes, poses, lang)
     about = f"{scene.view.title.in_language(lang)} {describe(linkage.mechanism, lang)}"
     return figure_of(shapes, title(linkage.mechanism, lang, name), about, margin=MARGIN)
 
