@@ -27,7 +27,7 @@ _BOTH_SIDES = 48  # of a chart round a change point, less those in its middle
 _GAP = 0.25  # of the half width: so near to a change point no pose is taken
 _WIDTHS = (0.5, 0.25, 0.12, 0.06, 0.03, 0.015, 0.007, 0.003)  # radians or sizes: of ordinary charts, tried in turn
 _WIDE = (4.0, 2.0, 1.0)  # of wheels, which turn many times and never come back
-_HALF_WIDTHS = (1.0, 0.5, 0.25, 0.12, 0.06)  # of charts round a change point
+_HALF_WIDTHS = tuple(2.0 ** (-k / 2) for k in range(15))  # likewise of charts round a change point
 _USED = 0.7  # the part of a chart round a change point that is used: beyond it ordinary charts go on
 _FIT = 1e-11  # of the largest value: an ordinary chart must fit all its poses and derivatives so well
 _FIT_OF_LAWS = 1e-9  # likewise with cams and the like, whose accelerations are those of polynomials
@@ -35,8 +35,8 @@ _FIT_AT_CHANGE = 1e-10  # likewise round a change point: that both sides lie on 
 _SOUND = 1e-2  # a pose with a smaller root is not walked on from: signs read next to a change point lose the branch
 _FLIPS = 1e-2  # a root that comes so near to zero in the change point goes through it
 _FORETELLING = 9  # the degree by which unknowns of larger groups are foretold behind a change point
-_LOOKED = 0.05  # radians or sizes between the poses from which a zero of a root is foretold
-_FORETOLD = 0.6  # so far it is
+_LOOKED = (0.05, 0.015, 0.004)  # radians or sizes between the poses from which a zero is foretold, tried in turn
+_FORETOLD = 12  # so many times that far it is
 _AT_JOINT = 1e-9  # radians: a law so near to the end of one of its pieces is at it
 _SEAM = 1e-7  # charts that differ by more where they meet are not one branch, or there is an impact
 _ONWARD = 0.1  # of the half width: so far a chart round a change point leads on at least
@@ -287,8 +287,10 @@ class Charts:
         It is not walked through: behind it the dyads whose roots go through zero have the other sign, and unknowns of
         larger groups are where a polynomial leads. ``back`` is the way away from it, 1 or -1.
         """
-        change = self._zero(start, edge, back)
-        if change is not None:
+        for looked in _LOOKED:
+            change = self._zero(start, edge, back * looked * self.scale)
+            if change is None:
+                continue
             middle, flips, near = change
             for half in _HALF_WIDTHS:
                 chart = self._both_sides(near, middle, half * self.scale, back, flips)
@@ -296,10 +298,10 @@ class Charts:
                     return chart
         return None
 
-    def _zero(self, start: ReferencePose, edge: float, back: float) -> tuple[float, Flags, ReferencePose] | None:
+    def _zero(self, start: ReferencePose, edge: float, step: float) -> tuple[float, Flags, ReferencePose] | None:
         """Where a root or determinant goes through zero near a place, which roots do, and a sound pose beside it."""
-        steps = back * _LOOKED * self.scale * np.arange(8)
-        origin = edge + 2 * steps[1]
+        steps: Reals = step * np.arange(8.0)
+        origin = edge + 2 * step
         zero = 0.0
         for _ in range(3):  # where it is foretold from afar it is looked for again, from nearer by
             rows = self._rows(origin + steps, start)
@@ -311,16 +313,16 @@ class Charts:
                 z.real
                 for column in fits.T
                 for z in polynomial.polyroots(column)
-                if abs(z.imag) < 1e-3 * self.scale and -z.real * back > -steps[1] * back
+                if abs(z.imag) < 0.02 * abs(step) and z.real / step < 1
             ]
             zero = min(zeros, key=abs, default=np.inf)
-            if not abs(zero) < _FORETOLD * self.scale:
+            if not abs(zero) < _FORETOLD * abs(step):
                 return None
             start = self._state(rows, 1, float(origin))
             middle = origin + zero
-            if abs(zero) < 3.5 * abs(steps[1]):
+            if abs(zero) < 3.5 * abs(step):
                 break
-            origin = middle + 3 * steps[1]
+            origin = middle + 3 * step
         flips = np.zeros(len(self.plan.dyads), bool)
         flips[self._branching] = np.abs(polynomial.polyval(zero, fits))[: len(self._branching)] < _FLIPS
         return float(middle), flips, start
