@@ -73,7 +73,9 @@ def _entry_blocks(entry: Entry, lang: str) -> Iterator[Block]:
         linkage = shown.placed()
     sizes = shown.dimensions or shown.screws
     mechanism = entry_mechanism(shown) if linkage is None else linkage.mechanism
-    yield from _machine_blocks(mechanism, linkage, lang, None if sizes is None else sizes.range, shown.outputs)
+    yield from _machine_blocks(
+        mechanism, linkage, lang, None if sizes is None else sizes.range, shown.outputs, shown.pictured()
+    )
 
 
 def _machine_blocks(
@@ -82,11 +84,12 @@ def _machine_blocks(
     lang: str,
     between: tuple[float, float] | None,
     outputs: Sequence[str],
+    still: Linkage | None = None,
 ) -> Iterator[Block]:
     shown = between
     if between is not None and mechanism.drives and mechanism.drives[0].turning:
         shown = radians(between[0]), radians(between[1])
-    yield _pictures(mechanism, linkage, lang, outputs, shown)
+    yield _pictures(mechanism, linkage or still, lang, outputs, shown)
     yield Heading(translate("Access features", lang))
     yield Rows(
         (translate("feature", lang), translate("value", lang)), access_features(mechanism, outputs).described(lang)
@@ -135,7 +138,7 @@ def _pictures(
     caption = translate("Structure: symbols of the joints, curved arrow driven joint, double arrow output", lang)
     if linkage is not None:
         try:
-            curves = [*linkage.points][:_POINTS] if len(mechanism.drives) == 1 else []
+            curves = [*linkage.points][:_POINTS] if len(linkage.mechanism.drives) == 1 else []
             if isinstance(linkage, SpatialLinkage):
                 scheme = draw_spatial(linkage, between=between, curves=curves, labels=True, lang=lang)
             else:
