@@ -10,7 +10,6 @@ from .machines.cams import Cam
 from .machines.gears import Train
 from .machines.geneva import Geneva
 from .mechanics.analysis import drive_range, motion_roles
-from .mechanics.analysis.circuit_ranges import rotatability
 from .mechanics.analysis.measuring import Measures
 from .mechanics.dynamics import equilibria, inverse_dynamics, linearised, simulate
 from .mechanics.forces import Gas, Loads, Motor, RigidBody, Spring, Statics, TorsionSpring, statics
@@ -20,7 +19,7 @@ from .mechanics.kinematics import Circuit, Motion, circuit, from_degrees, move_m
 from .mechanics.kinematics.drive_rows import rpm
 from .mechanics.linkages import Linkage
 from .mechanics.screws import SpatialLinkage, freedoms
-from .mechanics.space import assembly_modes, measures, move
+from .mechanics.space import assembly_modes, measures, move, rotatability
 from .page.notebook import explore
 from .pictures.values import animate, draw, plot
 from .structure.assur import assur_groups, decompose

@@ -104,3 +104,10 @@ def test_a_table_has_rates_by_the_drive():
 
 def test_a_piston_begins_at_zero_and_not_at_its_rounding():
     assert "from 0 mm to 27.3616 mm" in measures(entry("wobble_plate").placed()).explain()
+
+
+def test_links_of_a_spherical_crank_rocker_turn_as_grashof_says():
+    lengths = SphericalFourBar(0.5, 1.2, 1.0, 1.4)  # the shortest arc is the crank
+    assert [row.full for row in gr.rotatability(lengths)] == [True, True, False, False]
+    with pytest.raises(LinkageError, match="no assembly mode to choose"):
+        gr.rotatability(lengths, branch="+")

@@ -88,39 +88,7 @@ class DriveRange:
 
 @door_that_raises(LinkageError)
 def rotatability(linkage: LinkageLike | Circuit, *, branch: Branch = None) -> tuple[Rotatability, ...]:
-    """Each pair of neighbouring links: whether they turn fully against each other, and how far they move.
-
-    They turn fully if there is a net turn over the closed circuit, or if the relative angle takes all values. The
-    answer holds for one circuit: that of the branch, or of the linkage's reference pose.
-
-    Args:
-        linkage: with one drive, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`, or its `Circuit`.
-        branch: the assembly mode, as for `move`; not with a circuit.
-
-    Returns:
-        A tuple of `Rotatability`, one for each pair of neighbouring links: ``joint``, ``full``, ``range`` in radians.
-
-    Raises:
-        LinkageError: a linkage that cannot be assembled, several drives, a circuit together with a branch.
-
-    Cost:
-        That of the circuit, 10 to 200 ms.
-
-    Example:
-        >>> from gruebler.mechanics.fourbar import FourBar
-        >>> for row in rotatability(FourBar(25, 70, 40, 70).linkage()):
-        ...     print(row.joint, row.full, round(row.range / pi * 180, 3))
-        R(frame-crank) True 360.0
-        R(crank-coupler) True 360.0
-        R(coupler-rocker) False 79.846
-        R(frame-rocker) False 79.846
-
-    See Also:
-        `circuit`, `motion_roles`, `drive_range`
-
-    Theory:
-        docs/theory/circuits.md
-    """
+    """As `gruebler.rotatability` in the plane: each pair of neighbouring links, on one circuit."""
     traced = _circuit(linkage, branch)
     return tuple(_row(traced, *which) for which in _pairs(traced.linkage))
 

@@ -1,10 +1,11 @@
 from .bennett import Bennett
 from .circuits import SpatialCircuit, spatial_circuit
 from .crank_output import OutputMotion
-from .measuring import SpatialMeasures, measures
+from .measuring import JointRange, SpatialMeasures, measures
 from .modes import SpatialModes, assembly_modes
 from .motion import SpatialMotion, SpatialStop
 from .moving import move
+from .rotating import rotatability
 from .rssr import RSSR
 from .spherical_four_bar import SphericalFourBar
 from .swash_plate import SwashPlate
@@ -14,6 +15,7 @@ __all__ = [
     "RSSR",
     "Bennett",
     "DoubleUniversalJoint",
+    "JointRange",
     "OutputMotion",
     "SpatialCircuit",
     "SpatialMeasures",
@@ -26,5 +28,6 @@ __all__ = [
     "assembly_modes",
     "measures",
     "move",
+    "rotatability",
     "spatial_circuit",
 ]
