@@ -49,6 +49,7 @@ def test_a_file_moves(capsys, bennett, tmp_path):
     ("command", "words", "said"),
     [
         ("draw", ["--show", "poles"], "--show does not go with a linkage in space"),
+        ("draw", ["--names", "A0,A"], "--names does not go with a linkage in space"),
         ("draw", ["--ghosts", "3"], "--ghosts does not go with a linkage in space"),
         ("draw", ["--at", "nan"], "--at: expected one finite number below 1e9"),
         ("draw", ["--curve", "K"], "there is no point 'K'; known are R(0-1)"),

@@ -432,7 +432,7 @@ def test_orientations_without_a_design_say_why(tmp_path, capsys):
             "orientation 1: expected an axis and an angle",
         ),
         ("orientations = [[0, 0, 1], [1, 0, 0, 9], [0, 1, 0, 9]]", [], "orientation 1: expected an axis"),
-        ("orientations = [[0, 0, 1, 0], [1, 0, 0, 9]]", [], "expected three to five matrices"),
+        ("orientations = [[0, 0, 1, 0], [1, 0, 0, 9]]", [], "expected three to five orientations, but found 2"),
         ("positions = [[0, 0, 1]]", [], "positions"),
         (TURNS, ["--transmission", "91"], "--transmission: expected 0 to 90 degrees"),
         (TURNS, ["--number", "0"], "--number: expected at least 1"),

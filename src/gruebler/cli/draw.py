@@ -310,8 +310,10 @@ def _in_space(arguments: argparse.Namespace, spatial: SpatialWord, moving: Mappi
     """The picture of a linkage in space, in isometric or oblique view."""
     from gruebler.pictures.space import draw_spatial
 
-    for option in ("loads", "show", "ghosts", "branch", "output"):
-        if moving[option] not in (None, [], False):
+    asked = {key: moving[key] for key in ("loads", "ghosts", "branch", "output")}
+    asked |= {key: getattr(arguments, key) for key in ("show", "names", "angles", "lengths")}
+    for option, given in asked.items():
+        if given not in (None, [], False):
             raise GrueblerError("--{option} does not go with a linkage in space", option=option)
     name, names = called(entry_of(arguments.chain, arguments.lang), arguments.lang)
     return draw_spatial(

@@ -42,7 +42,10 @@ def read_orientations(path: Path | str) -> Reals:
         raise SynthesisError("{path}: orientations are in a .toml or .json file", path=path)
     try:
         record = convert_document(load_document(path, SynthesisError), _Orientations, SynthesisError)
-        return np.array([_checked(row, k) for k, row in enumerate(record.orientations, 1)])
+        turns = [_checked(row, k) for k, row in enumerate(record.orientations, 1)]
+        if not 3 <= len(turns) <= 5:
+            raise SynthesisError("expected three to five orientations, but found {count}", count=len(turns))
+        return np.array(turns)
     except SynthesisError as error:
         raise SynthesisError("{path}: {error}", path=path, error=error) from None
 

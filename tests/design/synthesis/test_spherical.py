@@ -157,6 +157,7 @@ def test_pairs_without_a_real_linkage_say_so():
         ([np.eye(3), np.eye(3), -np.eye(3)], "orientation 3 is no rotation"),
         ([np.eye(3), np.eye(3), np.eye(3)], "orientations 1 and 2 are equal"),
         (Rotation.from_euler("z", [[0], [10], [30], [50], [70]], degrees=True).as_matrix(), "infinitely many dyads"),
+        (Rotation.from_euler("z", [[0], [20], [40]], degrees=True).as_matrix(), "infinitely many dyads"),
     ],
 )
 def test_tasks_that_cannot_be_solved_say_why(task, words):

@@ -55,6 +55,7 @@ def test_a_car_in_a_curve():
     assert solution.number("n_C") == pytest.approx(turns)
     assert solution.number("n_1") == pytest.approx(0.925 * turns)
     assert solution.number("n_2") == pytest.approx(1.075 * turns)
+    assert solution.results["n_2"].name.in_language("en") == "speed of the outer wheel"
 
 
 def test_one_wheel_stands():

@@ -288,6 +288,8 @@ def _polished(turns: Reals, moving: Reals) -> SphericalDyad:
 
 def _family(turns: Reals) -> tuple[SphericalDyad, ...]:
     """A sample of the dyads of three or four orientations."""
+    if np.linalg.svd(np.concatenate(turns - np.eye(3)), compute_uv=False)[-1] < _REAL:  # an axis that stays
+        raise SynthesisError(_INFINITELY_MANY)
     if len(turns) == 2:
         k = np.arange(_SAMPLE[3]) + 0.5
         height, around = 1 - k / _SAMPLE[3], pi * (1 + 5**0.5) * k  # a spiral over half the sphere

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import in_every_language, message
+from gruebler.base.text import Message, in_every_language, message
 from gruebler.machines.gears import read_train, speeds
 from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES
 from gruebler.mechanics.linkages.quantities import as_positive
@@ -239,7 +239,7 @@ def differential(n_C: float, n_1: float, z_s: float | None = None, z_p: float | 
         "(n_1 - n_C)/(n_2 - n_C) = -1",
     )
     teeth = {key: as_positive(key, z) for key, z in (("z_s", z_s), ("z_p", z_p)) if z is not None}
-    _shafts(builder, n_C, n_1, **teeth)
+    _shafts(builder, message("speed of the second axle shaft"), n_C, n_1, **teeth)
     return builder.done()
 
 
@@ -264,7 +264,7 @@ def differential_in_a_curve(v: float, diameter: float, radius: float, track: flo
     inner = carrier * (1 - track / (2 * radius))
     name = message("speed of the inner wheel")
     builder.find("n_1", name, "n_C (1 - s/(2·R))", inner, unit=_SPEED, values=numbers)
-    _shafts(builder, carrier, inner)
+    _shafts(builder, message("speed of the outer wheel"), carrier, inner)
     outer = carrier * (radius + track / 2) / radius
     builder.check(message("Outer wheel by its own circle"), builder.number("n_2"), outer, _SPEED)
     builder.mistake("n_1", carrier * (1 - track / radius), message("The inner wheel runs half the track nearer."))
@@ -273,11 +273,10 @@ def differential_in_a_curve(v: float, diameter: float, radius: float, track: flo
 
 
 def _shafts(
-    builder: SolutionBuilder, n_c: float, n_1: float, z_s: float | None = None, z_p: float | None = None
+    builder: SolutionBuilder, shaft: Message, n_c: float, n_1: float, z_s: float | None = None, z_p: float | None = None
 ) -> None:
     numbers: dict[str, float | str] = {"n_C": float(n_c), "n_1": float(n_1)}
-    name = message("speed of the second axle shaft")
-    n_2 = builder.find("n_2", name, "2·n_C - n_1", 2 * n_c - n_1, unit=_SPEED, values=numbers)
+    n_2 = builder.find("n_2", shaft, "2·n_C - n_1", 2 * n_c - n_1, unit=_SPEED, values=numbers)
     if z_s is not None and z_p is not None:
         teeth = {"z_s": z_s, "z_p": z_p, **numbers}
         planet = abs(n_1 - n_c) * z_s / z_p
