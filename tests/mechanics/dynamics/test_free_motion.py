@@ -340,6 +340,23 @@ def test_two_freedoms_pass_a_change_point():
     assert fall.drives[-1] - fall.drives[0] == pytest.approx([a - np.pi / 2, b], abs=1e-7)
 
 
+@pytest.mark.parametrize("crank", [3.72, 3.706])
+def test_a_start_next_to_a_limit_of_the_drive(crank):
+    """The rocker as drive; its limit is where the coupler covers the crank, at pi + arccos(5325/6300) = 3.7052."""
+    loads = Loads(bodies={"coupler": RigidBody(0.5, (35, 0), 200.0)}, gravity=(0, -9.81))
+    linkage, given = FourBar(25, 70, 40, 70).linkage(), {"until": 0.5, "times": [0, 0.5]}
+    wanted = simulate(linkage, loads, branch="+", at=crank, speed=2.0, **given)
+    links = wanted.plan.lower.mechanism.chain.links
+    pose = {
+        link: (z.real, z.imag, np.angle(turn))
+        for link, z, turn in zip(links, wanted.places[0, 0], wanted.turns[0], strict=True)
+    }
+    by_rocker = driven_by(linkage.with_reference_pose(pose), "R(frame-rocker)")
+    swing = simulate(by_rocker, loads, speed=wanted.angular("rocker")[0], **given)
+    assert swing.angle("crank") == pytest.approx(wanted.angle("crank"), abs=1e-8)
+    assert swing.drives[:, 0] == pytest.approx(wanted.angle("rocker"), abs=1e-8)
+
+
 @pytest.mark.parametrize("amplitude", [0.1, 1.5, 3.0])
 def test_a_pendulum_of_any_amplitude_has_the_period_of_the_elliptic_integral(amplitude):
     """A quarter of 4 sqrt(l/g) K(sin²(a/2)) leads from rest at the amplitude to the lowest place; there v² = 2gh.

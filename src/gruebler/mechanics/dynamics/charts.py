@@ -33,6 +33,7 @@ _FIT = 1e-11  # of the largest value: an ordinary chart must fit all its poses a
 _FIT_OF_LAWS = 1e-9  # likewise with cams and the like, whose accelerations are those of polynomials
 _FIT_AT_CHANGE = 1e-10  # likewise round a change point: that both sides lie on one polynomial is the proof
 _SOUND = 1e-2  # a pose with a smaller root is not walked on from: signs read next to a change point lose the branch
+_READ = 1e-5  # the signs of a pose with a smaller root are not read
 _FLIPS = 1e-2  # a root that comes so near to zero in the change point goes through it
 _FORETELLING = 9  # the degree by which unknowns of larger groups are foretold behind a change point
 _LOOKED = (0.05, 0.015, 0.004)  # radians or sizes between the poses from which a zero is foretold, tried in turn
@@ -114,6 +115,13 @@ class Charts:
             chart = self.current = self._found(q)
             at = self._reduced(q)
         return chart, min(max((at - chart.middle) / chart.half, -1.0), 1.0)
+
+    def walked(self, q: float) -> Jets:
+        """The same from the kernel, near the start: next to a limit, too. Raises `Blocked` in a change point."""
+        rows = self._rows(np.array([q]), self._start)
+        if rows is None or self._least(rows)[0] < _READ:
+            raise Blocked
+        return Jets(rows.places[:, 1:], rows.turns[1], rows.rates[:, 1:])
 
     def jets_on(self, chart: Chart, x: Reals) -> Jets:
         """Poses and derivatives by the drive at places of a chart, a row each; turns are (rows, links)."""

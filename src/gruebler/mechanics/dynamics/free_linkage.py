@@ -9,7 +9,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.dynamics.charts import Jets
+from gruebler.mechanics.dynamics.charts import Blocked, Jets
 from gruebler.mechanics.dynamics.coordinates import Coordinates, CoordinateSets
 from gruebler.mechanics.dynamics.equations import EquationsOfMotion, Influences
 from gruebler.mechanics.dynamics.reduced_series import ReducedSeries
@@ -100,6 +100,20 @@ class FreeLinkage:
         several = Jets(jets.places[:, :, None], jets.turns[None], jets.rates[:, :, None])
         influences, moving = self._moving(np.array([time]), several, q[None], v[None])
         return Instants(influences=influences, moving=moving, speeds=v[None])
+
+    def beginning(self, q: Reals, v: Reals) -> tuple[Reals, Reals, Instants]:
+        """Values and speeds of the coordinates with which a motion starts: others next to a limit of the drive."""
+        try:
+            return q, v, self.instant(0.0, q, v)
+        except Blocked:
+            charts = self.coordinates.charts
+            other = charts and self.sets.exchanged(self.coordinates, charts.walked(float(q[0])), v)
+            if not other:
+                raise
+        self.coordinates, values, speeds = other
+        moving = self.instant(0.0, values, speeds).moving
+        self.last = Kept(0.0, (moving.angles[0], moving.rates[0]), (q, v))  # that the drive is counted on from q
+        return values, speeds, self.instant(0.0, values, speeds)
 
     def instants(self, times: Reals, q: Reals, v: Reals) -> Instants:
         """Those at increasing times after the one that was kept last; q and v are (rows, coordinates)."""

@@ -223,13 +223,14 @@ class _Run:
         self.reason: Message | None = None
         self.count = free.coordinates.count
         self.watched: list[Watch] = []
-        self.used = [(0.0, free.plan.linkage.mechanism.drive_names())]
+        self.used = list[tuple[float, tuple[str, ...]]]()
 
     def followed(self, q: Reals, v: Reals, ends: Mapping[str, tuple[float, float]]) -> Simulation:
         """The motion from values and speeds of the drives."""
         free = self.free
         try:
-            first = free.instant(0.0, q, v)
+            q, v, first = free.beginning(q, v)
+            self.used = [(0.0, free.coordinates.plan.linkage.mechanism.drive_names())]
         except Blocked:
             values = drive_values(free.plan.linkage, tuple(map(float, q)))
             raise LinkageError(
