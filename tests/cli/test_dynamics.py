@@ -171,3 +171,12 @@ def test_loads_that_cannot_be_are_one_sentence(loads, words, tmp_path, capsys):
     assert err.startswith(f"{path}: ")
     assert "\n" not in err
     assert words in err
+
+
+def test_an_entry_goes_past_the_ends_of_its_range(capsys):
+    """A treadle passes its dead centres, which its range keeps away from pictures."""
+    words = ("simulate", "sewing", "--until", "1", "--at", "85", "--speed=-10", "--tolerance", "1e-6")
+    status, out, _ = run_command(capsys, *words)
+    assert status == 1
+    assert "reaches the end of its range" in out
+    assert run_command(capsys, *words, "--no-ends")[0] == 0

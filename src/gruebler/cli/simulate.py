@@ -43,6 +43,7 @@ def add(parser: Parser) -> None:
             drive (default: at rest)
         --rows N int =21  how many times there are in the table
         --tolerance E float =1e-10  of each step, relative
+        --no-ends  past the ends of the range of a catalog entry
         --stiff  an implicit method, for springs or dampers far faster than the motion
         --branch
         """
@@ -68,7 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
         at=None if arguments.at is None else pose_of(arguments.at, linkage.mechanism),
         speed=given_speeds(arguments.speed, turning, from_rest=True) or 0.0,
         times=np.linspace(0.0, arguments.until, arguments.rows),
-        ends=_ends(linkage, between),
+        ends=_ends(linkage, None if arguments.no_ends else between),
         tolerance=arguments.tolerance,
         stiff=arguments.stiff,
     )
