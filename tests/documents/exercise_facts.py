@@ -324,6 +324,9 @@ def _coupler_points(points: list[tuple[float, float]]) -> list[list[float]]:
     return rows
 
 
+_K_AT_90 = _coupler_points([(45, 40)])[6]  # φ, x, y: every 15°
+
+
 def _double_rocker_lengths() -> Any:
     """Lengths of exercise 19 in the table of its solution, and the angle of d."""
     rows = np.array(solve(exercise("exercise-19")).tables[0].rows, float)
@@ -442,6 +445,8 @@ EXERCISES = [
         list(range(9)),
         _coupler_points([(45, 40), (45, 0), (135, 0), (45, -40)]),
     ),
+    task("exercise-16", "K1_x", "x of K = (45, 40) at 90°, asked since its path is a drawing", value=_K_AT_90[1]),
+    task("exercise-16", "K1_y", "y of the same", value=_K_AT_90[2]),
     table(
         "exercise-17",
         "the path of C every 30°, a = 30, b = 90, A0B0 = 50",

@@ -59,5 +59,4 @@ def test_the_written_solution_says_what_is_printed():
     assert "Check by a second method:" in page
     german = document_bytes(solution_document([exercise("16")], lang="de"), "md").decode("utf-8")
     assert "Bemerkung: Das Bild mit K fehlt" in german
-    assert "Antwort" not in german  # nothing is asked by name there, so that there is no table of answers
     assert "± 78.463°" in document_bytes(solution_document([exercise("11")]), "md").decode("utf-8")

@@ -39,7 +39,7 @@ def task_kinds(lang: str) -> list[dict[str, Any]]:
     """The kinds of fresh tasks with their names, and the exercises of the text.
 
     >>> [(kind["kind"], len(kind["tasks"])) for kind in task_kinds("en")][-2:]
-    [('velocity', 0), ('exercise', 22)]
+    [('differential', 0), ('exercise', 22)]
     """
     fresh = [{"kind": kind, "name": name.in_language(lang), "tasks": []} for kind, (name, _) in KINDS.items()]
     tasks = [

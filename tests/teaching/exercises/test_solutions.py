@@ -20,11 +20,13 @@ from gruebler.files.catalog_records import Question
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.teaching.catalog import check_exercise, entries, exercises
 from gruebler.teaching.exercises import (
+    KINDS,
     all_exercises,
     compare,
     coupler_points,
     dead_centres,
     exercise,
+    generate,
     grashof,
     methods,
     mobility,
@@ -511,7 +513,8 @@ def test_a_reason_without_a_difference_does_not_explain():
 
 
 def test_every_method_is_used_by_an_exercise_or_a_fresh_task():
-    used = {task.method for task in all_exercises().values()} | {"mobility.chain"}
+    fresh = [generate(kind, seed, level) for kind in KINDS for level in (1, 2, 3) for seed in (0, 1)]
+    used = {task.method for task in (*all_exercises().values(), *fresh)} | {"mobility.chain"}
     assert used == set(methods())
 
 

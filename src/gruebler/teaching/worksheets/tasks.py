@@ -238,7 +238,7 @@ def solution_document(exercises: Sequence[Exercise], *, lang: str = "en") -> Doc
 
     >>> from gruebler.teaching.exercises import exercise
     >>> len([block for block in solution_document([exercise("12")]).blocks if isinstance(block, Pictures)])
-    1
+    2
     """
     blocks = [block for each in exercises for block in _solution_blocks(each, 0, lang)]
     title = plural("Solution", "Solutions of {count} exercises", len(exercises), lang)
