@@ -15,7 +15,8 @@ from gruebler.mechanics.space import Bennett, UniversalJoint
 from gruebler.mechanics.space.drive_range import spatial_range
 from gruebler.pictures.canvas.panels import draw_panels
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, TextShape
-from gruebler.pictures.space import animate_spatial, draw_spatial, plots
+from gruebler.pictures.canvas.styles import LINES
+from gruebler.pictures.space import animate_spatial, draw_spatial, plot_point, plots
 from gruebler.pictures.space import scene as scenes
 from gruebler.pictures.space.painting import covering_order
 from gruebler.pictures.space.parts import LOOKS, link_bar, sleeve
@@ -332,3 +333,13 @@ def test_a_place_inside_a_ring_does_not_bend_it():
     steps = np.diff([ring.index(k) for k in (0, 1, 3, 4, 5, 6)])
     assert {abs(step) for step in steps} <= {1, 5}  # in their order round the middle
     assert scenes._round_trip(np.eye(3)) == ([*scenes._round_trip(np.eye(3))[0]], [])
+
+
+def test_a_point_over_the_drive_stays_in_the_plane_of_its_arm():
+    """The Delta robot is alike on both sides of its first arm's plane: y stays 0; x and z move."""
+    figure = plot_point(entry("delta").placed(), "T", (-0.3, 0.6))
+    lines = [(s.style, np.array(s.parts[0])) for s in figure.shapes if isinstance(s, Polylines) and s.style in LINES]
+    curves = {style: line for style, line in lines if np.ptp(line[:, 0]) > 500}  # no samples of the list
+    x, y, z = (np.ptp(curves[style][:, 1]) for style in LINES[:3])
+    assert y < 1e-6
+    assert min(x, z) > 10

@@ -114,6 +114,26 @@ def plot_spatial(
     return draw_panels(panels, heading, about + said, lang)
 
 
+def plot_point(
+    linkage: SpatialLinkage, point: str, between: tuple[float, float], *, lang: str = "en", name: str = ""
+) -> Figure:
+    """The three coordinates of a named point over the first drive (radians, or a length); others stay at 0.
+
+    Raises `LinkageError` for drive values that cannot be reached.
+    """
+    turning = linkage.mechanism.drives[0].turning
+    row = np.linspace(*between, ROWS + 1)
+    places = followed(linkage, row[:, None] * np.eye(len(linkage.mechanism.drives))[0]).point(point)
+    x = np.degrees(row) if turning else row
+    panel = Panel(
+        across=drive_axis(x, turning, linkage.unit),
+        up=Axis(f"x, y, z in {linkage.unit}", decimals(*bulk(places.ravel(), np.tile(row, 3), full=False), few=6)),
+        curves=tuple(PlottedCurve(x=x, y=places[:, k], name="xyz"[k], style=LINES[k]) for k in range(3)),
+    )
+    heading = translate("{name}: coordinates of {point}", lang, name=title(linkage.mechanism, lang, name), point=point)
+    return draw_panels([panel], heading, heading, lang)
+
+
 def _moving_drive(linkage: SpatialLinkage, drive: str | None) -> int:
     """The place of a joint among the drives; `LinkageError` if there are none or it is not driven."""
     mechanism = linkage.mechanism

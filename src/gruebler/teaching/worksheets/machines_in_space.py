@@ -11,7 +11,7 @@ from gruebler.base.text import translate
 from gruebler.mechanics.screws import SpatialLinkage, freedoms
 from gruebler.mechanics.space import assembly_modes, measures
 from gruebler.pictures.canvas.figure import Figure
-from gruebler.pictures.space import plot_spatial
+from gruebler.pictures.space import plot_point, plot_spatial
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.teaching.worksheets.blocks import Block, Heading, Paragraph, Pictures, Rows
 from gruebler.teaching.worksheets.places_in_space import headers_in_space, lengths_in_space, places_in_space
@@ -42,15 +42,21 @@ def blocks_in_space(linkage: SpatialLinkage, lang: str, between: tuple[float, fl
 
 
 def _diagrams(linkage: SpatialLinkage, between: tuple[float, float] | None, lang: str) -> Iterator[tuple[str, Figure]]:
-    """The output over the drive, or over each of two; of more drives only over the first."""
+    """The output over the drive, or over each of two; of more drives only over the first.
+
+    Where no joint measures the output (a platform on balls), the places of its named points.
+    """
     names = linkage.mechanism.drive_names(Alphabet.of_language(lang))
     of_one = linkage.mechanism.drive_names()
     for number, drive in enumerate(of_one[: 1 if len(names) > _DIAGRAMS else None]):
+        caption = translate("{drive} moves; the other drives stay at 0", lang, drive=names[number])
         try:
-            diagram = plot_spatial(linkage, drive=drive, between=None if number else between, lang=lang)
+            yield caption, plot_spatial(linkage, drive=drive, between=None if number else between, lang=lang)
         except GrueblerError:
-            continue
-        yield translate("{drive} moves; the other drives stay at 0", lang, drive=names[number]), diagram
+            if between is None or number:
+                continue
+            for point in linkage.points:
+                yield f"{point}: {caption}", plot_point(linkage, point, between, lang=lang)
 
 
 def _values(linkage: SpatialLinkage, lang: str) -> Iterator[str]:
