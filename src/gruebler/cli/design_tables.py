@@ -133,7 +133,7 @@ def print_pareto(result: SynthesisResult, lang: str) -> None:
             number(row.size, lang, "n"),
             str(row.links),
             _shift(row.design, lang),
-            row.structure,
+            _named(row.design.linkage, lang).mechanism.text(Alphabet.of_language(lang)),
         ]
         for row in pareto(result)
     ]
