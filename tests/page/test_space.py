@@ -128,6 +128,11 @@ def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):
     slider = page.get_by_role("slider")
     slider.fill("18")  # of 72: a quarter of a turn
     assert output.inner_text() == "90.0°"
+    german = browser.new_page()
+    german.goto(f"{path.as_uri()}#de")
+    german.get_by_role("slider").fill("18")
+    assert "," in german.locator("output").inner_text()
+    german.close()
 
     def picture():
         return page.evaluate("document.querySelector('canvas').toDataURL()")

@@ -37,7 +37,9 @@ const NEAR = 8; // rows before and behind among which a pulled link looks for it
 const STILL = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 
 const model: Model = JSON.parse(document.getElementById("gruebler-model")!.textContent!);
-const { title, drives, words } = (model.texts[location.hash.slice(1)] ?? model.texts[document.documentElement.lang])!;
+const asked = location.hash.slice(1);
+const language = asked in model.texts ? asked : document.documentElement.lang;
+const { title, drives, words } = model.texts[language]!;
 document.title = title;
 const dark = matchMedia("(prefers-color-scheme: dark)").matches;
 const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -143,6 +145,16 @@ try {
   canvas.replaceWith(document.createTextNode("WebGL 2?"));
 }
 
+const numbers = new Intl.NumberFormat(language, {
+  minimumFractionDigits: 1,
+  maximumFractionDigits: 1,
+  useGrouping: false,
+});
+/** In the page's language, with a true minus. */
+function written(value: number): string {
+  return numbers.format(value).replace("-", "\u2212");
+}
+
 function paint(): void {
   const ratio = Math.min(devicePixelRatio, 2);
   const [width, height] = [Math.round(canvas.clientWidth * ratio), Math.round(canvas.clientHeight * ratio)];
@@ -157,14 +169,14 @@ function paint(): void {
     const at = solver!.values[k]!;
     const unit = model.motions.find((each) => each.drive === k)?.unit ?? "";
     input.value = String(at);
-    output.textContent = `${(live!.drives[k]!.turns ? (at * 180) / Math.PI : at).toFixed(1)}${unit}`;
+    output.textContent = `${written(live!.drives[k]!.turns ? (at * 180) / Math.PI : at)}${unit}`;
   });
   if (!motion || solver) return;
   const low = Math.min(Math.floor(row), motion.values.length - 2);
   const shown = motion.values[low]! + (row - low) * (motion.values[low + 1]! - motion.values[low]!);
   slider.max = String(motion.values.length - 1);
   slider.value = String(row);
-  value.textContent = `${shown.toFixed(1)}${motion.unit}`;
+  value.textContent = `${written(shown)}${motion.unit}`;
 }
 
 let last = 0;
