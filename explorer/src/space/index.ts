@@ -151,8 +151,8 @@ const numbers = new Intl.NumberFormat(language, {
   useGrouping: false,
 });
 /** In the page's language, with a true minus. */
-function written(value: number): string {
-  return numbers.format(value).replace("-", "\u2212");
+function written(amount: number): string {
+  return numbers.format(amount).replace("-", "\u2212");
 }
 
 function paint(): void {
