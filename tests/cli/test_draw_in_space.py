@@ -63,6 +63,12 @@ def test_what_does_not_go_is_said(capsys, bennett, command, words, said):
     assert said in refused
 
 
+def test_the_first_of_several_drives_moves(capsys):
+    status, text, _ = run_command(capsys, "animate", "delta", "--seconds", "0.2")
+    assert status == 0
+    assert text.count("<animate ") > 1
+
+
 def test_views_are_for_space(capsys):
     for command in ("draw", "animate"):
         status, _, refused = run_command(capsys, command, "wiper", "--view", "oblique")

@@ -40,7 +40,7 @@ def animate_spatial(
 
     Args:
         linkage: what moves.
-        between: values of its drive between which it moves to and fro.
+        between: values of its first drive between which it moves to and fro; others stay at 0.
         drives: (rows, drives) a piecewise straight path of its drives, there and back.
         curves: points or joints whose paths are drawn.
         view: ``isometric`` or ``oblique``.
@@ -55,7 +55,7 @@ def animate_spatial(
     if drives is not None:
         path = path_of_values(np.asarray(drives, float), len(linkage.mechanism.drives))
     elif between is not None:
-        path = np.array([[between[0]], [between[1]]])
+        path = np.outer(between, np.eye(len(linkage.mechanism.drives))[0])
     else:
         course = spatial_range(linkage)
         full = course.full
