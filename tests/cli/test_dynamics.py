@@ -180,3 +180,17 @@ def test_an_entry_goes_past_the_ends_of_its_range(capsys):
     assert status == 1
     assert "reaches the end of its range" in out
     assert run_command(capsys, *words, "--no-ends")[0] == 0
+
+
+def test_the_phase_plane_of_a_free_motion_is_drawn(capsys, tmp_path):
+    """The pumpjack starts at half a turn; the curve has 401 places."""
+    picture = tmp_path / "phase.svg"
+    words = ("simulate", "pumpjack", "--until", "6", "--speed", "5", "--json")
+    status, out, _ = run_command(capsys, *words, "--draw", str(picture))
+    assert (status, len(json.loads(out)["rows"])) == (0, 401)
+    text = picture.read_text("utf-8")
+    assert "ω in rad/s" in text
+    assert "φ in °" in text
+    status, _, err = run_command(capsys, *words, "--draw", str(tmp_path / "a.doc"))
+    assert status == 2
+    assert "a.doc" in err
