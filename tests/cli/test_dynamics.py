@@ -194,3 +194,6 @@ def test_the_phase_plane_of_a_free_motion_is_drawn(capsys, tmp_path):
     status, _, err = run_command(capsys, *words, "--draw", str(tmp_path / "a.doc"))
     assert status == 2
     assert "a.doc" in err
+    status, _, err = run_command(capsys, "simulate", "lamp", "--until", "1", "--draw", str(picture))
+    assert status == 2
+    assert "the phase plane has one drive, but there are 2" in err

@@ -61,6 +61,8 @@ def run(arguments: argparse.Namespace) -> int:
     lang, turning = arguments.lang, turning_drives(linkage)
     if arguments.draw is not None:
         check_picture(arguments.draw, SUFFIXES)
+        if len(linkage.mechanism.drives) != 1:
+            raise GrueblerError("--draw: the phase plane has one drive, but there are {count}", count=len(turning))
     rows = arguments.rows if arguments.rows is not None else 21 if arguments.draw is None else 401
     if not 2 <= rows <= _MOST_ROWS:
         raise GrueblerError("--rows: expected a number from 2 to 100000, but found {count}", count=rows)
@@ -80,11 +82,6 @@ def run(arguments: argparse.Namespace) -> int:
         tolerance=arguments.tolerance,
         stiff=arguments.stiff,
     )
-    if arguments.draw is not None:
-        from gruebler.pictures.linkage.force_plots import phase_plot
-
-        figure = phase_plot(result, lang=lang)
-        write_picture(figure, arguments.draw, suffix_of(arguments.draw, SUFFIXES), False, lang)
     table = simulation_table(result, lang=language_of_names(arguments))
     if is_table(arguments.out):
         write_table(arguments.out, list(table), lang, decimal_comma=arguments.decimal_comma)
@@ -94,6 +91,11 @@ def run(arguments: argparse.Namespace) -> int:
         print_text(result.explain(lang))
         print()
         print_table([column.header for column in table], shown(table.columns, lang), numbers=range(len(table.columns)))
+    if arguments.draw is not None:
+        from gruebler.pictures.linkage.force_plots import phase_plot
+
+        figure = phase_plot(result, lang=lang)
+        write_picture(figure, arguments.draw, suffix_of(arguments.draw, SUFFIXES), False, lang)
     return 0 if result.complete else 1
 
 

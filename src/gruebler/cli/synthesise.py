@@ -343,7 +343,8 @@ def _radians(value: float | None) -> float | None:
 def _function_task(arguments: argparse.Namespace) -> FunctionTask:
     from gruebler.design.synthesis import function_task
 
-    points = arguments.points or (9 if arguments.six_bars else 5 if arguments.starts is None else 3)
+    usual = 9 if arguments.six_bars else 5 if arguments.starts is None else 3
+    points = usual if arguments.points is None else arguments.points
     return function_task(_law(arguments), points, output="travel" if arguments.travel else "angle")
 
 

@@ -67,12 +67,13 @@ def synthesise_six_bars(
         the first on the same line. Of a function the error is the largest over its interval, seen at 400 places. The
         notes say how many there are besides.
 
-    Raises `SynthesisError` for other tasks. Cost: 20 s of processor time, and 10 to 30 ms for each verdict.
+    Raises `SynthesisError` for other tasks. Cost: 25 to 55 s of processor time, and 10 to 30 ms for each verdict.
+    docs/theory/synthesis-functions.md.
     """
     wanted = demands or Demands()
     if task.output != "angle" or task.start_input or task.start_output:
         raise SynthesisError("six-bars coordinate angles whose starts are free: give only their differences")
-    if len(task) != 9:
+    if len(task) != NINE_PAIRS.points + 1:
         raise SynthesisError("six-bars meet nine pairs exactly, but the task has {count}", count=len(task))
     phi, output = (values - values[0] for values in pair_arrays(task))
     p = np.zeros((4, 8), np.complex128)
@@ -84,21 +85,25 @@ def synthesise_six_bars(
     accepted, rejected = ranked([_judged(task, wanted, arms, turns) for arms in real[kept]])
     if task.law is not None:
         accepted = in_order_of((_with_error_between(design, task, task.law) for design in accepted), ["error"])
-    notes = (
+    notes = [
         message(
             "At least {classes:,} complex six-bars turn through nine general pairs; {found:,} were followed to these, "
             "{real:,} of them real. The others lie at infinity or were lost.",
             classes=NINE_PAIRS.classes,
             found=len(z),
             real=len(real),
-        ),
-        message(
-            "{count:,} real ones are not listed: one of their four-bars changes its assembly mode between the pairs.",
-            count=int(np.count_nonzero(~kept)),
-        ),
-    )
+        )
+    ]
+    if not kept.all():
+        notes.append(
+            message(
+                "Real ones that are not listed, since one of their four-bars changes its assembly mode between the "
+                "pairs: {count:,}.",
+                count=int(np.count_nonzero(~kept)),
+            )
+        )
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(z), real=len(real))
-    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=notes)
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
 
 
 def six_bar_solutions(p: Complexes, *, threads: int | None = None, progress: Progress | None = None) -> Complexes:
