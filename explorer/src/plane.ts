@@ -5,6 +5,7 @@ import { svg } from "./dom";
 import { type Drawing, isPin, type Knot, linksOf, type Spot } from "./drawing";
 import { convexHull } from "./hull";
 import { angle, number } from "./language";
+import { namePlace, nameSpot } from "./names";
 import type { Pair } from "./rows";
 import { guidelines } from "./snapping";
 import type { Viewport } from "./viewport";
@@ -38,14 +39,12 @@ export function planePicture(plane: Plane): SVGElement[] {
     const hull = outlineOf(plane, link);
     const mark = chosen && "link" in chosen && chosen.link === link ? " chosen" : "";
     const d = path(hull) + (hull.length > 2 ? "Z" : "");
-    const [x, y] = [0, 1].map((axis) => hull.reduce((sum, p) => sum + p[axis]!, 0) / hull.length) as Pair;
-    const [one, two, three] = hull;
-    const across = one && two && !three ? Math.atan2(two[0] - one[0], one[1] - two[1]) : 0; // beside a bar
-    const far = one && two && !three ? 15 : 0;
+    const joints = drawing.knots.filter((knot) => knot.links.includes(link)).map(({ at }) => at);
+    const [x, y] = nameSpot(viewport, namePlace(joints, [], link, viewport.scale), link);
     return [
       svg("path", { class: `outline${mark}`, d, "data-link": link }),
       svg("path.bar", { d }),
-      svg("text", { x: x + far * Math.cos(across), y: y + far * Math.sin(across) + 4, "text-anchor": "middle" }, link),
+      svg("text.name", { x, y, "text-anchor": "middle" }, link),
     ];
   });
   const knots = drawing.knots.map((knot, k) => knotElement(plane, k, knot.at));
@@ -132,12 +131,12 @@ function grid({ viewport, step }: Plane): SVGElement[] {
   for (let k = Math.ceil(left / step); k * step <= right; k++) {
     const [x] = viewport.screen(k * step, 0);
     out.push(svg("path.mesh", { d: `M${x} 0V${height}` }));
-    out.push(svg("text.tick", { x: x + 3, y: height - 5 }, number(k * step)));
+    out.push(svg("text.tick", { x: x + 3, y: height - 8 }, number(k * step)));
   }
   for (let k = Math.ceil(bottom / step); k * step <= top; k++) {
     const [, y] = viewport.screen(0, k * step);
     out.push(svg("path.mesh", { d: `M0 ${y}H${width}` }));
-    out.push(svg("text.tick", { x: 4, y: y - 3 }, number(k * step)));
+    if (y > 20) out.push(svg("text.tick", { x: 6, y: y - 3 }, number(k * step)));
   }
   const long = step * viewport.scale;
   const d = `M${width - 20 - long} 24v6h${long}v-6`;

@@ -6,7 +6,8 @@ import { renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
-import { origin, type Pair, place, turn } from "./rows";
+import { halfOf, namePlace, nameSpot } from "./names";
+import { direction, origin, type Pair, place, turn } from "./rows";
 import { ownColour, type Shown } from "./shown";
 import { springPath } from "./springs";
 import type { Viewport } from "./viewport";
@@ -15,7 +16,6 @@ const SUPPORT = "M0 0 L-11 17 H11 Z M-17 17 H17 M-14 23 l5 -6 M-5 23 l5 -6 M4 23
 // Counter-clockwise, as a drive grows.
 const DRIVEN = "M9.5 -9.5 A13.4 13.4 0 0 0 -12.5 -5 M-12.5 -5 l6 -1.5 M-12.5 -5 l-0.6 -6";
 const LONGEST_ARROW = 70; // pixels
-const HALF_LETTER = 3.4; // pixels
 const LINE = 15; // pixels that names are apart
 
 export class Scene {
@@ -95,7 +95,8 @@ export class Scene {
     renew(this.root, ...(this.backdrop ? [this.backdrop] : []), back, bodies, marks, front);
   }
 
-  private pin({ model }: Linkage, number: number, dragging: Dragging): SVGGElement {
+  private pin(linkage: Linkage, number: number, dragging: Dragging): SVGGElement {
+    const { model } = linkage;
     const joint = model.joints[number]!;
     const held = dragging.locks.held.has(number);
     const free = held || dragging.draggable(number);
@@ -105,7 +106,7 @@ export class Scene {
       "data-joint": joint.name,
       tabindex: free ? 0 : -1,
       role: free ? "button" : "img",
-      "aria-label": joint.name,
+      "aria-label": linkage.jointName(joint.name),
       "aria-pressed": free ? String(held) : null,
       onkeydown: (event: KeyboardEvent) => this.keys.joint(event, number),
     });
@@ -148,17 +149,16 @@ export class Scene {
       if (record) put(element, viewport.screen(...place(pose, 0, record.link, ...record.at)));
     }
     const taken: { x: number; y: number; half: number }[] = [];
-    for (const { element, at, beside, half, begins } of this.labels) {
-      const [px, py] = viewport.screen(...at());
-      const [u, v] = beside();
-      const x = px + u + (begins ? half : 0);
-      let y = py + v;
-      for (const other of taken) {
-        const high = LINE - Math.abs(y - other.y);
-        if (high > 0 && half + other.half > Math.abs(x - other.x)) y += y < other.y ? -high : high;
-      }
+    for (const { element, spot, half, begins } of this.labels) {
+      const [left, top] = spot(viewport);
+      const x = left + (begins ? half : 0);
+      let y = top;
+      const touches = (other: { x: number; y: number; half: number }) =>
+        half + other.half > Math.abs(x - other.x) && Math.abs(y - other.y) < LINE - 0.01;
+      const way = y < (taken.find(touches)?.y ?? 0) ? -1 : 1;
+      for (let other = taken.find(touches); other; other = taken.find(touches)) y = other.y + way * LINE;
       taken.push({ x, y, half });
-      put(element, [px + u, y]);
+      put(element, [left, y]);
     }
     this.arrows.setAttribute("d", shown.velocities ? this.vectors(linkage, 1) : "");
     this.changes.setAttribute("d", shown.accelerations ? this.vectors(linkage, 2) : "");
@@ -215,55 +215,42 @@ export class Scene {
   }
 }
 
-/** A name, its place in the plane, and how many pixels it stands beside that. */
+/** A name and where it stands in the picture. */
 interface Label {
   element: SVGTextElement;
-  at: () => Pair;
-  beside: () => Pair;
+  spot: (viewport: Viewport) => Pair;
   /** Half its width, in pixels, and whether it begins at its place instead of having its middle there. */
   half: number;
   begins: boolean;
 }
 
-/** The names of links beside the middle of their elements, and of points. */
+/** The names of links, in or beside their bodies, and of points. */
 function labelsOf(linkage: Linkage): Label[] {
   const { model, sizes } = linkage;
   const links = [...model.links.slice(0, model.own).keys()].filter((link) => link !== model.frame);
-  const names = links.map((link) => {
-    const mine = sizes.elementsOn(link);
-    const at = (): Pair => {
-      const places = mine.map((k) => linkage.elementAt(k));
-      const mean = (axis: 0 | 1) => places.reduce((sum, p) => sum + p[axis], 0) / places.length;
-      return [mean(0), mean(1)];
-    };
+  const names = links.map((link): Label => {
     const name = linkage.linkName(link);
-    const element = svg("text.name", { "text-anchor": "middle" }, name);
-    const points = sizes.points.filter((point) => point.link === link);
-    const beside = (): Pair => {
-      const [one, two] = mine.length === 2 ? mine.map((k) => linkage.elementAt(k)) : [];
-      if (!one || !two) return [0, 4];
-      const [dx, dy] = [two[0] - one[0], two[1] - one[1]];
-      const length = Math.hypot(dx, dy);
-      if (!(length > 0)) return [0, -12];
-      // across from where its points are
-      const across = points.reduce((sum, point) => {
-        const [x, y] = place(linkage.pose, 0, link, ...point.at);
-        return sum + dx * (y - one[1]) - dy * (x - one[0]);
-      }, 0);
-      const side = across > 1e-6 * length * length ? 1 : -1;
-      const [u, v] = [(side * dy) / length, (side * dx) / length];
-      const far = 9 + HALF_LETTER * name.length * Math.abs(u) + 6 * Math.abs(v);
-      return [far * u, far * v + 4];
+    const spot = (viewport: Viewport) => {
+      const joints = sizes.elementsOn(link).map((k) => sizes.xy(k));
+      const points = sizes.points.filter((point) => point.link === link).map((point) => point.at);
+      const { at, away } = namePlace(joints, points, name, viewport.scale);
+      const turned = away && direction(linkage.pose, 0, link, away);
+      return nameSpot(viewport, { at: place(linkage.pose, 0, link, ...at), away: turned }, name);
     };
-    return { element, at, beside, half: HALF_LETTER * name.length, begins: false };
+    const element = svg("text.name", { "text-anchor": "middle" }, name);
+    return { element, spot, half: halfOf(name), begins: false };
   });
-  const marks = sizes.points.map((point) => ({
-    element: svg("text.mark", {}, linkage.pointName(point.name)),
-    at: () => place(linkage.pose, 0, point.link, ...point.at),
-    beside: (): Pair => [9, -9],
-    half: HALF_LETTER * linkage.pointName(point.name).length,
-    begins: true,
-  }));
+  const marks = sizes.points.map(
+    (point): Label => ({
+      element: svg("text.mark", {}, linkage.pointName(point.name)),
+      spot: (viewport) => {
+        const [x, y] = viewport.screen(...place(linkage.pose, 0, point.link, ...point.at));
+        return [x + 9, y - 9];
+      },
+      half: halfOf(linkage.pointName(point.name)),
+      begins: true,
+    }),
+  );
   return [...names, ...marks];
 }
 

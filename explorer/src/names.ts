@@ -1,0 +1,48 @@
+/** Where the name of a link stands: in its body if that has room, else beside it. */
+
+import { convexHull, toHull } from "./hull";
+import type { Pair } from "./rows";
+import type { Viewport } from "./viewport";
+
+const HALF_LETTER = 3.4; // pixels
+const BODY = 9; // pixels from the line between two joints to a name: half the width of a bar, and some room
+const INK = 6; // half the height of a name, in pixels
+const ROOM = 15; // pixels between a name in a body and the lines between its joints
+
+export interface NamePlace {
+  /** In the coordinates of the link. */
+  at: Pair;
+  /** Away from its body, of length 1; none for a name within it. */
+  away: Pair | null;
+}
+
+/** Half the width of a name, in pixels. */
+export function halfOf(name: string): number {
+  return HALF_LETTER * name.length;
+}
+
+/** The place of a name on a link with these joints and free points; it holds in every pose of the link.
+ * Where the body has no room, the name stands beside the longest side of it between joints. */
+export function namePlace(joints: readonly Pair[], points: readonly Pair[], name: string, scale: number): NamePlace {
+  const hull = convexHull([...joints, ...points]);
+  const mean = [0, 1].map((axis) => hull.reduce((sum, p) => sum + p[axis]!, 0) / hull.length) as Pair;
+  if (hull.length < 2) return { at: mean, away: [0, 1] };
+  const sides = hull.map((one, k) => [one, hull[(k + 1) % hull.length]!]);
+  const room = (halfOf(name) + ROOM) / scale;
+  if (sides.every((one) => toHull(one, ...mean) > room)) return { at: mean, away: null };
+  const isJoint = (p: Pair) => joints.some((one) => one[0] === p[0] && one[1] === p[1]);
+  const between = sides.filter((one) => one.every(isJoint));
+  const long = ([p, q]: Pair[]) => Math.hypot(q![0] - p![0], q![1] - p![1]);
+  const side = (between.length ? between : sides).reduce((a, b) => (long(b) > 1.001 * long(a) ? b : a));
+  const [[x, y], [u, v]] = side as [Pair, Pair];
+  return { at: [(x + u) / 2, (y + v) / 2], away: [(v - y) / long(side), (x - u) / long(side)] };
+}
+
+/** The pixel of the middle of a name, at a place of the plane. */
+export function nameSpot(viewport: Viewport, { at, away }: NamePlace, name: string): Pair {
+  const [x, y] = viewport.screen(...at);
+  if (!away) return [x, y + 4];
+  const [u, v] = away;
+  const far = BODY + halfOf(name) * Math.abs(u) + INK * Math.abs(v);
+  return [x + far * u, y - far * v + 4];
+}
