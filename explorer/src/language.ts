@@ -36,6 +36,12 @@ export function number(value: number, digits = 4): string {
   return language === "de" ? text.replace(".", ",") : text;
 }
 
+/** The letters of joints, as of the group 3-RR, as the reader writes them: in German D turns and S slides. */
+export function inLetters(letters: string): string {
+  const known = language === "de" && /^[\d-]*[RPG]+$/.test(letters);
+  return known ? letters.replaceAll("R", "D").replaceAll("P", "S") : letters;
+}
+
 /** A number that a reader typed, with a comma or a point; NaN if it is none. */
 export function parsed(typed: string): number {
   const text = typed.replaceAll("−", "-");

@@ -3,7 +3,7 @@
 import { type Beside, besideOf } from "./beside";
 import { type Cycle, findCycle, type Stop, stopOf, TURN } from "./cycle";
 import { Kernel, type Rows, type State } from "./kernel";
-import { currentLanguage } from "./language";
+import { currentLanguage, inLetters } from "./language";
 import type { DriveRecord, Model, PointRecord } from "./model";
 import { Code, type Program, programOf } from "./program";
 import { leastRoot, oneRow, origin, type Pair, picked, place, stateAt, turn } from "./rows";
@@ -84,6 +84,13 @@ export class Linkage {
   /** What a link is called in the reader's language. */
   linkName(link: number): string {
     return this.model.linkNames[currentLanguage()]?.[link] ?? this.model.links[link]!;
+  }
+
+  /** What the joint of this name is called in the reader's language. */
+  jointName(name: string): string {
+    const joint = this.model.joints.find((one) => one.name === name);
+    const links = joint?.links.map((link) => this.linkName(link)).join("-");
+    return links ? name.replace(/^(.*?)\(.*\)/, (_, sign: string) => `${inLetters(sign)}(${links})`) : name;
   }
 
   /** What a point is called in the reader's language. */

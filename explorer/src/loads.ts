@@ -65,7 +65,7 @@ export class LoadForm {
     const places = [
       ["", t("none")],
       ...sizes.points.map(({ name }, k) => [`point ${k}`, linkage.pointName(name)]),
-      ...model.joints.map(({ name }, k) => [`joint ${k}`, name]),
+      ...model.joints.map(({ name }, k) => [`joint ${k}`, linkage.jointName(name)]),
       ...links.map((link) => [`link ${link}`, linkage.linkName(link)]),
     ];
     // one row for each, and an empty one

@@ -12,7 +12,7 @@ import {
   withLink,
   withoutLink,
 } from "./drawing";
-import { t } from "./language";
+import { inLetters, t } from "./language";
 import type { Page } from "./view";
 import { moment } from "./waiting";
 
@@ -53,11 +53,14 @@ export class MobilityPanel {
     const { drawing, page } = this.view;
     const count = h("p.mobility", { "data-fact": "drawn" }, `F = ${counted(drawing)}`);
     const { frame } = drawing;
+    this.element.classList.remove("asking");
     if (frame === null || linksOf(drawing).length < 3) {
       const text = frame === null ? t("Put a ground: key G.") : t("Draw links: a mechanism has at least three.");
       return renew(this.element, ...(linksOf(drawing).length ? [count] : []), h("p.note", {}, text));
     }
-    if (!this.element.querySelector('[data-fact="freedoms"]')) renew(this.element, count, moment());
+    if (this.element.querySelector('[data-fact="freedoms"]')) this.element.firstChild!.replaceWith(count);
+    else renew(this.element, count, moment());
+    this.element.classList.add("asking"); // what was offered before does not hold any more
     const numbers = jointsOf(drawing);
     const joints = numbers.map((k) => jointName(drawing, k)).join(" ");
     const drives = drawing.drives.map((k) => numbers.indexOf(k));
@@ -77,6 +80,8 @@ export class MobilityPanel {
       );
     } catch (error) {
       if (asked === this.asked) renew(this.element, count, h("p.note", {}, (error as Error).message));
+    } finally {
+      if (asked === this.asked) this.element.classList.remove("asking");
     }
   }
 
@@ -84,12 +89,11 @@ export class MobilityPanel {
     const { drawing } = this.view;
     const knot = joint === undefined ? -1 : numbers[joint]!;
     const [one, two] = (links ?? []) as [string, string];
+    const name = knot < 0 ? "" : jointName(drawing, knot);
+    const called = { joint: inLetters(name.slice(0, 1)) + name.slice(1) };
     const [text, act] = {
-      drive: [t("Drive {joint}", { joint: knot < 0 ? "" : jointName(drawing, knot) }), () => driven(drawing, knot)],
-      undrive: [
-        t("Let {joint} free", { joint: knot < 0 ? "" : jointName(drawing, knot) }),
-        () => driven(drawing, knot),
-      ],
+      drive: [t("Drive {joint}", called), () => driven(drawing, knot)],
+      undrive: [t("Let {joint} free", called), () => driven(drawing, knot)],
       bar: [
         t("A link between {one} and {two}: F = {generic}", { one, two, generic }),
         () => barred(this.view, one, two),

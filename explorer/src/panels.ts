@@ -4,7 +4,7 @@ import { applyDocument, documentOf } from "./document";
 import { h, renew } from "./dom";
 import type { Dragging, Length } from "./dragging";
 import { icon } from "./icons";
-import { number, parsed, t } from "./language";
+import { inLetters, number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
 import type { Kept } from "./locks";
 import type { LinkageDocument } from "./model";
@@ -230,7 +230,7 @@ export function modesPanel(editor: Editor): HTMLElement {
   const groups = linkage.model.groups.filter((group) => group.modes);
   if (!groups.length) return h("p.note", {}, t("There is one assembly mode only."));
   const chips = groups.map(({ dyad, form, links, number: mode }) => {
-    const text = `${form} {${linkage.linkList(links)}}`;
+    const text = `${inLetters(form)} {${linkage.linkList(links)}}`;
     if (!dyad) return h("div.chip", {}, text);
     const onclick = () => editor.attempt(() => linkage.switchMode(mode));
     const sign = linkage.state.signs[mode]! < 0 ? "−" : "+";

@@ -21,12 +21,16 @@ export interface Spring {
 }
 
 /** Places at which a spring may end, with what they are called: joints, then points. */
-export function endsOf({ model, sizes }: Linkage): [End, string][] {
+export function endsOf(linkage: Linkage): [End, string][] {
+  const { model, sizes } = linkage;
   const joints = model.joints.flatMap(({ name }, joint): [End, string][] => {
     const pin = sizes.elementsOf(joint).find((k) => sizes.is(k, "pin"));
-    return pin === undefined ? [] : [[[sizes.element(pin).link, ...sizes.xy(pin)], name]];
+    return pin === undefined ? [] : [[[sizes.element(pin).link, ...sizes.xy(pin)], linkage.jointName(name)]];
   });
-  return [...joints, ...sizes.points.map(({ at, link, name }): [End, string] => [[link, ...at], name])];
+  return [
+    ...joints,
+    ...sizes.points.map(({ at, link, name }): [End, string] => [[link, ...at], linkage.pointName(name)]),
+  ];
 }
 
 /** A coil, a piston in its cylinder, or a spiral about the joint of two links. */

@@ -63,7 +63,9 @@ export class Transport {
       this.view.linkage.choose(Number((event.target as HTMLSelectElement).value));
       this.view.chosen();
     };
-    const choices = model.drives.map((drive, k) => h("option", { value: k, selected: k === active }, drive.name));
+    const choices = model.drives.map((drive, k) =>
+      h("option", { value: k, selected: k === active }, this.view.linkage.jointName(drive.name)),
+    );
     const drives = choices.length > 1 ? [h("select", { "aria-label": t("Drive"), onchange }, ...choices)] : [];
     const speedLabel = h("label.speed", {}, t("Speed"), speed, rate);
     renew(this.element, this.player.button, ...drives, this.track.element, this.value, speedLabel);

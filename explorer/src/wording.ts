@@ -2,7 +2,7 @@
 
 import { type Stop, wrapped } from "./cycle";
 import { Status } from "./kernel";
-import { angle, number, t } from "./language";
+import { angle, inLetters, number, t } from "./language";
 import type { Linkage } from "./linkage";
 
 /** A value of the active drive with its unit. */
@@ -18,9 +18,9 @@ export function placeOf({ cycle, drive }: Linkage, value: number): number {
 
 /** Why the motion ends, or why the linkage cannot be assembled. */
 export function stopText(linkage: Linkage, stop: Stop): string {
-  const drives = `${linkage.drive?.name ?? ""} = ${driveText(linkage, stop.value, 4)}`;
+  const drives = `${linkage.jointName(linkage.drive?.name ?? "")} = ${driveText(linkage, stop.value, 4)}`;
   const links = linkage.linkList(stop.links);
-  const { form } = stop;
+  const form = stop.status === "open" ? linkage.jointName(stop.form) : inLetters(stop.form);
   if (stop.status === "open") return t("The motion ends at {drives}: there {form} is open.", { drives, form });
   const values = { drives, form, links };
   if (stop.status === Status.START)

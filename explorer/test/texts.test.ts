@@ -147,6 +147,10 @@ test("why a motion ends", () => {
   assert.equal(stopText(linkage, third), `The motion ends at R(frame-crank) = 60.06°: ${said}`);
   const open = { ...stop, status: "open" as const, form: "R(a-b)", links: [] };
   assert.equal(stopText(linkage, open), "The motion ends at R(frame-crank) = 90°: there R(a-b) is open.");
+  inGerman(() => {
+    const text = stopText(linkage, stop);
+    assert.ok(text.includes("D(Gestell-Kurbel) = 90°") && text.includes("DDD {Koppel, Schwinge}"), text);
+  });
 });
 
 test("undo and redo", () => {
