@@ -64,7 +64,8 @@ export class BuildView implements View, Plane, Drawn {
   private snapping = true;
   private readonly history = new History<Drawing>();
   private readonly root = svg("svg", { role: "application", tabindex: 0, class: "drawing" });
-  private readonly tools = h("div.transport", {});
+  private readonly tools = h("div.transport.palette", {});
+  private readonly hint = h("div.hint", {});
   private readonly side = h("div.side", {});
   private readonly mobility = new MobilityPanel(this);
   private readonly choice = h("div", {});
@@ -72,7 +73,7 @@ export class BuildView implements View, Plane, Drawn {
 
   constructor(readonly page: Page) {
     this.viewport.scale = 4;
-    const stage = h("div.stage", {}, this.root);
+    const stage = h("div.stage", {}, this.root, this.hint);
     this.element.append(stage, this.side, this.tools);
     this.root.addEventListener("pointerdown", (event) => this.down(event));
     this.root.addEventListener("pointermove", (event) => this.hover(event));
@@ -95,7 +96,8 @@ export class BuildView implements View, Plane, Drawn {
     const first = this.viewport.width < 2;
     Object.assign(this.viewport, { width, height });
     this.root.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    if (first) this.viewport.fit({ left: -60, right: 140, bottom: -50, top: 90 }, 1);
+    const part = width < 500 ? 0.5 : 1;
+    if (first) this.viewport.fit({ left: -60 * part, right: 140 * part, bottom: -50 * part, top: 90 * part }, 1);
     this.draw();
   }
 
@@ -122,6 +124,19 @@ export class BuildView implements View, Plane, Drawn {
       tool("cylinder", t("Cylinder"), "C"),
       tool("gears", t("Gear pair"), "W"),
     );
+    const ends = t("Two clicks, from end to end.");
+    const hints: Record<Tool, string> = {
+      move: t("Drag joints; click on a joint or a link to choose it."),
+      ground: t("A click puts it, on a joint too."),
+      slider: t("A click puts it, on a joint too."),
+      link: ends,
+      cylinder: ends,
+      dyad: t("Three clicks: end, middle, end."),
+      gears: t(
+        "Three clicks: both centres, then where they touch; beyond a centre the other wheel has internal teeth.",
+      ),
+    };
+    this.hint.textContent = hints[this.tool];
     const snap = h("input", {
       type: "checkbox",
       checked: this.snapping,
@@ -139,9 +154,7 @@ export class BuildView implements View, Plane, Drawn {
           "p.note",
           {},
           t(
-            "Ground, slider: one click. Link, cylinder: two clicks. Dyad: end, middle, end. Gear pair: both centres, " +
-              "then where they touch; beyond a centre the other wheel has internal teeth. Ends meet what is near " +
-              "them, and stop in line with others, at round angles and " +
+            "Ends meet what is near them, and stop in line with others, at round angles and " +
               "at lengths of other links. With Shift links are level or upright. Keys: arrows and Enter.",
           ),
         ),

@@ -38,7 +38,8 @@ export function snapped([x, y]: Pair, { places, from, lengths, grid, reach }: Su
   const known = Math.abs(length - far) < reach;
   if (!turned && !known) return found;
   const [r, phi] = [known ? length : far, turned ? round : angle];
-  const polar: Pair = [from[0] + r * Math.cos(phi), from[1] + r * Math.sin(phi)];
+  const part = (value: number) => (Math.abs(value) < 1e-12 ? 0 : value); // exactly upright, exactly level
+  const polar: Pair = [from[0] + r * part(Math.cos(phi)), from[1] + r * part(Math.sin(phi))];
   const away = ([u, v]: Pair) => Math.hypot(u - x, v - y);
   return away(polar) < away(found) ? polar : found;
 }

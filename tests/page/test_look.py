@@ -152,6 +152,46 @@ def test_names_of_a_six_bar_do_not_lie_on_each_other(tab, server):
         assert page.page.evaluate(overlaps) == [], drive
 
 
+def test_no_name_lies_on_the_edge_of_its_link(tab, server):
+    """Klann's leg has links with three joints in a thin triangle: names stand within their link, or beside it."""
+    page = tab(width=1024, height=768).open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-id="klann"]').click()
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'klann'")
+    crossed = """(() => {
+        const { linkage, stage } = gruebler.motion;
+        const names = [...stage.root.querySelectorAll("text.name")];
+        const links = linkage.model.links.map((_, link) => link).filter((link) => link !== linkage.model.frame);
+        return links.filter((link, number) => {
+            const box = names[number].getBBox();
+            const { e, f } = names[number].transform.baseVal[0].matrix;
+            const within = ([x, y]) => Math.abs(x - e - box.x - box.width / 2) < box.width / 2
+                && Math.abs(y - f - box.y - box.height / 2) < box.height / 2 - 3;
+            const ends = linkage.sizes.elementsOn(link).map((k) => stage.viewport.screen(...linkage.elementAt(k)));
+            return ends.some(([x, y]) => ends.some(([u, v]) =>
+                [...Array(101).keys()].some((k) => within([x + (u - x) * k / 100, y + (v - y) * k / 100]))));
+        }).map((link) => linkage.model.links[link]);
+    })()"""
+    for drive in np.linspace(0, 6, 13):
+        page.page.evaluate(f"gruebler.motion.transport.pick({drive})")
+        assert page.page.evaluate(crossed) == [], drive
+
+
+def test_tools_of_a_phone_stand_in_one_row(tab, server):
+    page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
+    page.page.click('[data-view="build"]')
+    tools = page.page.locator("[data-tool]")
+    boxes = tools.evaluate_all("all => all.map((e) => e.getBoundingClientRect().toJSON())")
+    assert len({box["y"] for box in boxes}) == 1
+    assert min(box["height"] for box in boxes) >= 44
+    palette = page.page.locator(".palette")
+    assert palette.evaluate("(e) => e.scrollWidth > e.clientWidth")  # the last ones are reached by a swipe
+    page.page.locator('[data-tool="gears"]').click()
+    assert page.page.locator("[data-page] .hint, .drawing + .hint").first.inner_text().startswith("Drei Klicks")
+    last = page.page.locator('[data-tool="gears"]').bounding_box()
+    assert last["x"] + last["width"] <= 390  # it stays in sight when it is chosen
+
+
 def test_tabs_of_a_phone_show_that_they_scroll_and_cards_have_one_height(tab, server):
     page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
     nav = page.page.locator("header nav")
