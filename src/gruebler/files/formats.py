@@ -291,11 +291,14 @@ def _json_of_others(name: str, title: Message, carries: Message) -> Format:
     return Format(name=name, suffixes=(), title=title, carries=carries, read=read, write=write, lengths=_AS_MILLIMETRES)
 
 
-def _of_linkages(name: str, title: Message, carries: Message, lengths: Message) -> Format:
+def _of_linkages(name: str, title: Message, carries: Message, lengths: Message, *, in_space: bool = False) -> Format:
     """A row for a text that is only written, by ``NAME_from_linkage`` in the module of its name."""
 
     def write(value: Any, path: Path, left_out: list[Message]) -> None:
-        _write_text(path, _function(name, f"{name}_from_linkage")(_as_linkage(value), left_out))
+        from gruebler.mechanics.screws import SpatialLinkage
+
+        linkage = value if in_space and isinstance(value, SpatialLinkage) else _as_linkage(value)
+        _write_text(path, _function(name, f"{name}_from_linkage")(linkage, left_out))
 
     return Format(name=name, suffixes=(f".{name}",), title=title, carries=carries, write=write, lengths=lengths)
 
@@ -496,8 +499,9 @@ FORMATS: tuple[Format, ...] = (
     _of_linkages(
         "urdf",
         message("robots (URDF)"),
-        message("a linkage of pins, slides and slots as a tree: its loops are cut"),
+        message("a linkage in the plane or in space as a tree: its loops are cut"),
         message("m"),
+        in_space=True,
     ),
     Format(
         name="glb",

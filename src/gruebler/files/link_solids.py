@@ -134,7 +134,7 @@ def link_solids(
         if link != frame:
             solids[link] += [
                 cylinder_solid(a, b, radius, phase=0.05 * k)
-                for k, (a, b) in enumerate(_bars(np.array(ends_of_bars)), 1)
+                for k, (a, b) in enumerate(bars_between(np.array(ends_of_bars)), 1)
                 if np.linalg.norm(b - a) > radius / 4
             ]
     return {link: _distinct(each) for link, each in solids.items()}
@@ -220,7 +220,7 @@ def _wheel(linkage: SpatialLinkage, number: int, index: int, r: float) -> tuple[
     return cylinder_solid(middle - _DISC * r * z, middle + _DISC * r * z, max(abs(radius), r)), middle
 
 
-def _bars(places: Reals) -> Iterator[tuple[Reals, Reals]]:
+def bars_between(places: Reals) -> Iterator[tuple[Reals, Reals]]:
     """From the place in the middle of a link to all others: the one with the least sum of distances."""
     if len(places) > 1:
         distances = np.linalg.norm(places[:, None] - places[None], axis=2)

@@ -75,7 +75,7 @@ class _Model:
         ]
         bodies = [*self._sites(self.bodies.frame, 2), *self._bodies()]
         closing = []
-        for number, base, follower in self.bodies.closing:
+        for number, base, follower in self.bodies.open.closing:
             body, partner = (follower, base) if base == self.bodies.frame else (base, follower)
             pin = self.bodies.lower.elements[number, body]
             second = "" if partner == self.bodies.frame else f" body2={_body(partner)}"
@@ -95,13 +95,13 @@ class _Model:
     def _inertia(self, drive: Drive) -> float:
         """Inertia of the motor of a drive: that of all links together, so that they hardly act back on it."""
         size = self.bodies.lower.size * self.bodies.scale
-        mass = self.density * 3 * (size / SLENDER) ** 2 * size * len(self.bodies.tree)
+        mass = self.density * 3 * (size / SLENDER) ** 2 * size * len(self.bodies.open.tree)
         return float(mass * size**2 if drive.turning else mass)
 
     def _bodies(self) -> Iterator[str]:
         """The bodies, each within the one that it hangs on."""
         poses, indent = self.bodies.lower.required_pose, 2
-        for entry in self.bodies.descent():
+        for entry in self.bodies.open.descent():
             if entry is None:
                 indent -= 1
                 yield "  " * indent + "</body>"

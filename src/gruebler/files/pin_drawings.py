@@ -345,7 +345,7 @@ def drawing_of(linkage: Linkage, left_out: list[Message]) -> PinDrawing:
     if linkage.outputs:
         left_out.append(message("which links are outputs: {links}", links=", ".join(linkage.outputs)))
     names = _letters(lower.points)
-    placed = [_placed(lower, number) for number in range(len(chain.joints))]
+    placed = [placed_joint(lower, number) for number in range(len(chain.joints))]
     in_slots = _pins_in_slots(lower, placed)
     joints: dict[int, DrawnJoint] = {}
     for number, pin in enumerate(placed):
@@ -377,7 +377,7 @@ def lower_linkage(linkage: Linkage) -> Linkage:
     return lower
 
 
-def _placed(lower: Linkage, number: int) -> DrawnJoint:
+def placed_joint(lower: Linkage, number: int) -> DrawnJoint:
     """A joint where it lies in the reference pose; of a slide the frame, else the first link has the slot."""
     joint, poses = lower.mechanism.chain.joints[number], lower.required_pose
     first, *others = joint.links
