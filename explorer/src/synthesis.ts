@@ -1,5 +1,6 @@
 /** The view of the synthesis: what a linkage is to do, put into a plane or a table; designs that do it play over it. */
 
+import { type Area, areaOf, gridOf, viewBoxOf } from "./area";
 import { type Design, DesignCards, type Found } from "./designs";
 import { choice, h, renew, svg } from "./dom";
 import { Ghost } from "./ghost";
@@ -14,10 +15,8 @@ type Kind = "positions" | "points" | "function" | "dead-centres";
 /** The rows of each kind at first, and how few there are at least. */
 const FEWEST: Record<Kind, number> = { positions: 3, points: 5, function: 3, "dead-centres": 1 };
 
-const WIDE = 240;
-const HIGH = 150; // the plane, in units of length
-const STEP = 10; // between lines of its grid
-const NEAR = 4;
+const WIDE = 240; // of the plane, in millimetres; that of a phone is narrower
+const NEAR = 4; // units of marks that a pointer reaches; a finger needs more
 const OF_STROKE = 20; // points of a curve that is drawn
 
 export class SynthesisView implements View {
@@ -40,6 +39,9 @@ export class SynthesisView implements View {
   private crank = true;
   private least = 20; // degrees
   private shownDesign: Design | null = null;
+  /** How wide the plane is before there is anything in it; that of points out of a file is as wide as they need. */
+  private home = 0;
+  private area!: Area;
   /** What the pointer takes along. */
   private held: ((at: [number, number]) => void) | null = null;
   private readonly marks = svg("g");
@@ -58,12 +60,13 @@ export class SynthesisView implements View {
     for (const event of ["pointerup", "pointercancel"])
       this.plane.addEventListener(event, () => {
         this.held = null;
+        this.paint();
         if (this.puts === "curve") this.arrange(); // whether it is closed
       });
   }
 
   appeared(): void {
-    this.play(this.shownDesign);
+    this.play(this.shownDesign); // now the width of the plane is known
   }
 
   /** Other points, out of a file. */
@@ -71,6 +74,8 @@ export class SynthesisView implements View {
     this.kind = "points";
     this.rows.points = points;
     this.closed = closed;
+    const far = Math.max(...points.flat().map(Math.abs));
+    this.home = far > WIDE / 2 || far < WIDE / 12 ? 2.4 * far : 0;
     this.designs.show(null);
     this.arrange();
   }
@@ -191,7 +196,9 @@ export class SynthesisView implements View {
   private at(event: PointerEvent): [number, number] {
     const box = this.marks.getScreenCTM()!.inverse();
     const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(box);
-    const round = (value: number) => Math.round(value * 10) / 10;
+    const { left, right } = this.area;
+    const fine = 10 ** Math.ceil(Math.log10(1000 / (right - left)));
+    const round = (value: number) => Math.round(value * fine) / fine;
     return [round(point.x), round(-point.y)];
   }
 
@@ -200,14 +207,16 @@ export class SynthesisView implements View {
     const [x, y] = this.at(event);
     this.plane.setPointerCapture(event.pointerId);
     if (this.puts === "curve") return this.stroke(x, y);
-    const near = ([u, v]: number[]) => Math.hypot(u! - x, v! - y) < NEAR;
+    const { unit } = this.area;
+    const reach = (event.pointerType === "touch" ? 2 : 1) * NEAR * unit;
+    const near = ([u, v]: number[]) => Math.hypot(u! - x, v! - y) < reach;
     const move = (row: number[]) => {
       this.held = ([u, v]) => {
         [row[0], row[1]] = [u, v];
         this.draw();
       };
     };
-    const turned = this.kind === "positions" && this.points.find((row) => near(tip(row)));
+    const turned = this.kind === "positions" && this.points.find((row) => near(tip(row, unit)));
     const here = [...this.points, ...(this.kind === "positions" ? this.pivots : [])].find(near);
     if (turned) {
       this.held = ([u, v]) => {
@@ -250,24 +259,7 @@ export class SynthesisView implements View {
   }
 
   private draw(): void {
-    const lines: SVGElement[] = [];
-    if (this.planar) {
-      for (let x = -WIDE / 2; x <= WIDE / 2; x += STEP)
-        lines.push(svg("path", { class: x === 0 ? "axis" : "mesh", d: `M${x} ${-HIGH / 2}V${HIGH / 2}` }));
-      for (let y = -HIGH / 2 + 5; y <= HIGH / 2; y += STEP)
-        lines.push(svg("path", { class: y === 0 ? "axis" : "mesh", d: `M${-WIDE / 2} ${y}H${WIDE / 2}` }));
-      for (let x = -100; x <= 100; x += 50) lines.push(svg("text.tick", { x: x + 1, y: HIGH / 2 - 2 }, `${x}`));
-      if (this.kind === "points") {
-        const d = this.points.map(([x, y], k) => `${k ? "L" : "M"}${x} ${-y!}`).join("");
-        lines.push(svg("path.polygon", { d: d + (this.closed && this.points.length > 2 ? "Z" : "") }));
-      }
-      for (const [k, row] of this.points.entries()) lines.push(targetMark(row, k));
-      if (this.kind === "positions")
-        for (const [x, y] of this.pivots)
-          lines.push(svg("path.pivot", { d: `M${x} ${-y!}l4 6h-8z`, "data-pivot": "" }));
-    }
-    renew(this.marks, ...lines);
-    this.look();
+    this.paint();
     this.drawList();
   }
 
@@ -328,26 +320,33 @@ export class SynthesisView implements View {
 
   // --- a design plays over its targets -------------------------------------------------------------------------------
 
-  /** Everything that is seen: the plane, and where the design that plays comes to. */
-  private look(): void {
-    const places = this.shownDesign?.frames.flat() ?? [];
-    const fixed: [number, number][] =
-      this.planar || !places.length
-        ? [
-            [-WIDE / 2, -HIGH / 2],
-            [WIDE / 2, HIGH / 2],
-          ]
-        : [];
-    const [xs, ys] = [0, 1].map((axis) => [...fixed, ...places].map((place) => place[axis]!));
-    const [left, right, low, high] = [Math.min(...xs!), Math.max(...xs!), Math.min(...ys!), Math.max(...ys!)];
-    const room = places.length ? 0.04 * Math.max(right - left, high - low) : 0;
-    const box = [left - room, -high - room, right - left + 2 * room, high - low + 2 * room];
-    this.plane.setAttribute("viewBox", box.map((value) => value.toPrecision(6)).join(" "));
+  /** The plane with what is put into it, and where the design that plays comes to; while a mark is held it stays. */
+  private paint(): void {
+    const { kind, planar, plane, points, shownDesign } = this;
+    const pivots = kind === "positions" ? this.pivots : [];
+    const places = [...(planar ? [...points, ...pivots] : []), ...(shownDesign?.frames.flat() ?? [])];
+    if (!this.held) {
+      const few = plane.clientWidth && plane.clientWidth < 500 ? 0.6 : 1;
+      this.area = areaOf(planar || !places.length ? this.home || few * WIDE : 0, places, plane);
+      plane.setAttribute("viewBox", viewBoxOf(this.area));
+    }
+    const { unit } = this.area;
+    const line = kind === "points" ? points.map(([x, y]) => `${x} ${-y!}`).join("L") : "";
+    const d = line && `M${line}${this.closed && points.length > 2 ? "Z" : ""}`;
+    const marks = [
+      ...gridOf(this.area),
+      svg("path.polygon", { d }),
+      ...points.map((row, k) => targetMark(row, k, unit)),
+      ...pivots.map(([x, y]) =>
+        svg("path.pivot", { d: "M0 0l4 6h-8z", transform: `translate(${x} ${-y!}) scale(${unit})`, "data-pivot": "" }),
+      ),
+    ];
+    renew(this.marks, ...(planar ? marks : []));
   }
 
   private play(design: Design | null): void {
     this.shownDesign = design;
-    this.look();
+    this.paint();
     this.ghost.play(design);
   }
 

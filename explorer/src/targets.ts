@@ -81,24 +81,21 @@ export function evenly(line: number[][], count: number): { places: number[][]; c
 }
 
 /** The end of the arrow of a position. */
-export function tip([x, y, turn]: number[]): number[] {
+export function tip([x, y, turn]: number[], unit: number): number[] {
   const phi = ((turn ?? 0) * Math.PI) / 180;
-  return [x! + ARM * Math.cos(phi), y! + ARM * Math.sin(phi)];
+  return [x! + ARM * unit * Math.cos(phi), y! + ARM * unit * Math.sin(phi)];
 }
 
-/** A point with its number, and the arrow of a position. */
-export function targetMark(row: number[], k: number): SVGElement {
+/** A point with its number, and the arrow of a position; all of it in units that are so long. */
+export function targetMark(row: number[], k: number, unit: number): SVGElement {
   const [x, y, turn] = row;
-  const [u, v] = tip(row);
+  const [u, v] = tip([0, 0, turn ?? 0], 1);
   return svg(
     "g",
-    { "data-point": String(k), transform: `translate(${x} ${-y!})` },
+    { "data-point": String(k), transform: `translate(${x} ${-y!}) scale(${unit})` },
     ...(turn === undefined
       ? []
-      : [
-          svg("path.arm", { d: `M0 0L${u! - x!} ${y! - v!}` }),
-          svg("circle.tip", { r: 1.8, cx: u! - x!, cy: y! - v! }),
-        ]),
+      : [svg("path.arm", { d: `M0 0L${u} ${-v!}` }), svg("circle.tip", { r: 1.8, cx: u!, cy: -v! })]),
     svg("circle", { r: 2.6 }),
     svg("text", { x: 3.4, y: -3.4 }, String(k + 1)),
   );

@@ -118,6 +118,12 @@ class Tab:
         self.until("window.gruebler?.motion?.linkage !== undefined")
         return self
 
+    def target(self, x: float, y: float) -> tuple[float, float]:
+        """Where a place of the plane of the synthesis is seen."""
+        matrix = "(({ a, d, e, f }) => [a, d, e, f])(gruebler.views.synthesis.marks.getScreenCTM())"
+        a, d, e, f = self.page.evaluate(matrix)
+        return e + a * x, f - d * y
+
     def middle(self, selector: str) -> tuple[float, float]:
         box = self.page.locator(selector).bounding_box()
         return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2

@@ -30,25 +30,20 @@ def opened(page):
 def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(design):
     view = design.page
     view.click('[data-value="positions"]')
-    box = view.locator(".plane").bounding_box()
-
-    def at(x: float, y: float) -> tuple[float, float]:
-        return box["x"] + box["width"] * (0.5 + x / 240), box["y"] + box["height"] * (0.5 - y / 150)
-
     for place in ((-40, 0), (0, 25), (35, 10)):
-        view.mouse.click(*at(*place))
-    view.mouse.move(*at(-26, 0))  # the end of the first arrow
-    view.mouse.down()
-    view.mouse.move(*at(-40 + 14, 3), steps=3)
-    view.mouse.up()
-    assert view.evaluate(f"{VIEW}.rows.positions[0][2]") == pytest.approx(np.degrees(np.arctan2(3, 14)), abs=1.5)
+        view.mouse.click(*design.target(*place))
+    design.drag(design.middle('[data-point="0"] .tip'), (0, -10), steps=3)
+    x, y = design.middle('[data-point="0"] > circle:last-of-type')
+    u, v = design.middle('[data-point="0"] .tip')
+    assert v < y - 5
+    assert view.evaluate(f"{VIEW}.rows.positions[0][2]") == pytest.approx(np.degrees(np.arctan2(y - v, u - x)), abs=1)
     for number, angle in enumerate((12, 35, 70), 1):
         field = view.locator(f'[aria-label="Position {number} φ [°]"]')
         field.fill(str(angle))
         field.press("Enter")
     view.click('[data-value="pivot"]')
     for pivot in ((-30, -40), (30, -40)):
-        view.mouse.click(*at(*pivot))
+        view.mouse.click(*design.target(*pivot))
     assert view.locator("[data-pivot]").count() == 2
     view.locator('[data-field="crank"]').uncheck()
     view.locator('[data-field="least"]').fill("0")
@@ -93,10 +88,8 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
 def test_a_curve_is_drawn_by_hand(design):
     view = design.page
     view.click('[data-value="curve"]')
-    box = view.locator(".plane").bounding_box()
     angles = np.linspace(0, 6.1, 40)
-    x = box["x"] + box["width"] * (0.5 + 40 / 240 * np.cos(angles))
-    y = box["y"] + box["height"] * (0.5 - 25 / 150 * np.sin(angles))
+    x, y = np.transpose([design.target(40 * np.cos(angle), 25 * np.sin(angle)) for angle in angles])
     view.mouse.move(x[0], y[0])
     view.mouse.down()
     for place in zip(x, y, strict=True):
@@ -113,6 +106,36 @@ def test_a_curve_is_drawn_by_hand(design):
     view.mouse.up()
     assert not view.locator('[data-field="closed"]').is_checked()
     assert len(view.evaluate(f"{VIEW}.points")) == len(points)
+
+
+def test_points_of_a_file_are_seen_whatever_their_size(design, tmp_path):
+    view = design.page
+    for far in (0.4, 900):
+        path = tmp_path / "points.csv"
+        path.write_text("x,y\n" + "".join(f"{x * far},{y * far}\n" for x, y in ((-1, 0), (0, 1), (1, 0.2), (0.3, -1))))
+        view.locator('header input[type="file"]').set_input_files(path)
+        design.until(f"Math.abs({VIEW}.points[0]?.[0] + {far}) < 1e-9")
+        box = view.locator(".plane").bounding_box()
+        spots = [design.middle(f'[data-point="{k}"] circle') for k in range(4)]
+        assert all(0 < x - box["x"] < box["width"] and 0 < y - box["y"] < box["height"] for x, y in spots)
+        assert spots[2][0] - spots[0][0] > box["width"] / 3
+        design.drag(spots[1], (0, 12))
+        moved = view.evaluate(f"{VIEW}.points[1][1]")
+        assert moved == pytest.approx(far - 12 * 2 * far / (spots[2][0] - spots[0][0]), rel=0.01)
+
+
+def test_a_finger_takes_a_point_of_the_plane(tab, server):
+    page = tab(width=390, height=844, touch=True).open(server.address)
+    page.page.tap('[data-view="synthesis"]')
+    box = page.page.locator(".plane").bounding_box()
+    assert box["height"] > 300  # nearly a square
+    page.page.touchscreen.tap(*page.target(10, 20))
+    x, y = page.target(10, 20)
+    page.page.touchscreen.tap(x + 18, y)  # the same point: it is not put twice
+    assert page.page.locator("[data-point]").count() == 1
+    ticks = page.page.locator(".plane .tick").all_text_contents()
+    assert ticks[0] == "mm"
+    assert ticks.count("0") == 2  # both axes have numbers
 
 
 def test_dead_centres_are_those_that_were_asked_for(design):

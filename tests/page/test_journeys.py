@@ -112,10 +112,7 @@ def test_a_watt_six_bar_is_drawn_and_moved(reader):
 def test_three_positions_are_designed(reader):
     reader.click('[data-view="synthesis"]')
     reader.click('[data-value="positions"]')
-    plane = (
-        "(({ left, top, width, height }) => [left + width * (0.5 + $x / 240), top + height * (0.5 - $y / 150)])("
-        "gruebler.views.synthesis.plane.getBoundingClientRect())"
-    )
+    plane = "(({ a, d, e, f }) => [e + a * $x, f - d * $y])(gruebler.views.synthesis.marks.getScreenCTM())"
     reader.put(plane, (-40, 0), (0, 25), (35, 10))
     for number, angle in enumerate((12, 35, 70), 1):
         reader.fill(f'[aria-label$="{number} φ [°]"]', str(angle))

@@ -362,9 +362,8 @@ def test_a_four_bar_through_points_that_are_clicked(tab, server):
     page.page.click('[data-view="synthesis"]')
     page.page.click('[data-act="synthesise"]')
     page.page.locator('[data-page="synthesis"] .error').wait_for()
-    box = page.page.locator(".plane").bounding_box()
     for x, y in traced:
-        page.page.mouse.click(box["x"] + box["width"] * (0.5 + x / 240), box["y"] + box["height"] * (0.5 - y / 150))
+        page.page.mouse.click(*page.target(x, y))
     assert page.page.locator("[data-point]").count() == 12
     field = page.page.locator('[aria-label="Point 1 x"]')
     assert float(field.input_value().replace("\N{MINUS SIGN}", "-")) == pytest.approx(traced[0, 0], abs=0.5)

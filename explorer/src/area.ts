@@ -1,0 +1,53 @@
+/** The plane of the synthesis: how much of it is seen, its grid, and how large its marks are. */
+
+import { gridStep } from "./canvas";
+import { svg } from "./dom";
+import { number } from "./language";
+import type { Box } from "./viewport";
+
+const MARK = 3.2; // pixels that a mark has for each of its units
+const LINES = 36; // pixels between lines of the grid, at least
+
+export interface Area extends Box {
+  /** The unit of marks, as a length of the plane. */
+  unit: number;
+}
+
+/** A square about the origin of that width, or less of its height where the window is low, and all of the places. */
+export function areaOf(wide: number, places: readonly (readonly number[])[], element: Element): Area {
+  const pixels = element.clientWidth || 840;
+  const high = wide * Math.min(1, Math.max(0.5, (0.6 * window.innerHeight) / pixels));
+  const span = (axis: 0 | 1, half: number): [number, number] => {
+    const values = places.map((place) => place[axis]!);
+    const [low, most] = [Math.min(...values), Math.max(...values)];
+    const room = values.length ? 0.06 * (most - low) : 0;
+    return [Math.min(-half, low - room), Math.max(half, most + room)];
+  };
+  const [left, right] = span(0, wide / 2);
+  const [bottom, top] = span(1, high / 2);
+  return { left, right, bottom, top, unit: (MARK * (right - left)) / pixels };
+}
+
+/** What an element with this area as its picture has as its view box. */
+export function viewBoxOf({ left, right, bottom, top }: Area): string {
+  return [left, -top, right - left, top - bottom].map((value) => value.toPrecision(6)).join(" ");
+}
+
+/** Lines with their numbers, and the unit of length. */
+export function gridOf({ left, right, bottom, top, unit }: Area): SVGElement[] {
+  const step = gridStep((LINES / MARK) * unit);
+  const line = (k: number, d: string) => svg("path", { class: k ? "mesh" : "axis", d });
+  const tick = (x: number, y: number, text: string) =>
+    svg("text.tick", { transform: `translate(${x} ${-y}) scale(${unit})` }, text);
+  const lines: SVGElement[] = [];
+  const ticks = [tick(right - 9 * unit, top - 6 * unit, "mm")];
+  for (let k = Math.ceil(left / step); k * step < right; k++) {
+    lines.push(line(k, `M${k * step} ${-top}V${-bottom}`));
+    if (k % 2 === 0) ticks.push(tick(k * step + unit, bottom + 2 * unit, number(k * step)));
+  }
+  for (let k = Math.ceil(bottom / step); k * step < top; k++) {
+    lines.push(line(k, `M${left} ${-k * step}H${right}`));
+    if (k % 2 === 0) ticks.push(tick(left + unit, k * step + unit, number(k * step)));
+  }
+  return [...lines, ...ticks];
+}
