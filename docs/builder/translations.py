@@ -15,7 +15,7 @@ from sphinx.util import logging
 
 _LOG = logging.getLogger(__name__)
 _ALIKE = {"gruebler", "Notebooks", "pylinkage", "Pyslvs", "DXF", "Python", "10"}  # the same in both languages
-_ALIKE |= {"Bennett", "Bricard", "Sarrus", "Schatz", "lead", "radii", "pressure"}
+_ALIKE |= {"Bennett", "Bricard", "Sarrus", "Schatz", "Pinocchio", "lead", "radii", "pressure"}
 _ENGLISH_ONLY = {"de": "Diese Seite gibt es nur auf Englisch; die Begriffe stehen auf Deutsch im Glossar."}
 _MADE = {"reference/commands", "reference/formats", "reference/front-door"}
 
