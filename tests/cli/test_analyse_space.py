@@ -43,6 +43,20 @@ def test_the_assembly_modes_are_shown_or_why_there_is_no_list(capsys):
     assert "Einbaulagen sind nicht bekannt: " in text
 
 
+@pytest.mark.parametrize(
+    ("machine", "told"),
+    [  # a body between two balls spins about their line
+        ("susp_spatial", "Idle: tie_rod spins for itself alone; without idle freedoms the mobility is 1."),
+        ("wobble_plate", "Idle: rod1, rod2, rod3 spin for themselves alone; without idle freedoms the mobility is 1."),
+        ("bennett", None),
+    ],
+)
+def test_idle_freedoms_are_told(capsys, machine, told):
+    _, text, _ = run_command(capsys, "analyse", machine, "--at", "0")
+    lines = [line for line in text.splitlines() if line.startswith("Idle")]
+    assert lines == [told] * (told is not None)
+
+
 def test_without_drives_the_freedoms_are_said(capsys):
     status, text, _ = run_command(capsys, "analyse", "susp_5link", "--lang", "de")
     assert status == 0

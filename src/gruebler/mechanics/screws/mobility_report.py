@@ -177,17 +177,17 @@ class Freedoms:
         Finite: 1, proved, for no constraint is redundant (implicit function theorem).
         """
         names = _joint_names(self, lang)
-        lines = [_mobilities(self), *_instant(self, names), *_finite(self), *_reasons(self, names)]
+        lines = [_mobilities(self), *_instant(self, names), _finite(self), *_idle(self), *_reasons(self, names)]
         return "\n".join(line.in_language(lang) for line in lines)
 
     def summary(self, lang: str = "en") -> str:
-        """The four numbers in a line, and the reasons, a line each.
+        """The four numbers in a line, what is idle, and the reasons, a line each.
 
         >>> from gruebler.mechanics.fourbar import FourBar
         >>> print(freedoms(FourBar(25, 70, 40, 70).linkage()).summary("de"))
         Laufgrad: gezählt 1, generisch 1, momentan 1, endlich 1.
         """
-        lines = [_mobilities(self), *_reasons(self, _joint_names(self, lang))]
+        lines = [_mobilities(self), *_idle(self), *_reasons(self, _joint_names(self, lang))]
         return "\n".join(line.in_language(lang) for line in lines)
 
     def to_json(self) -> dict[str, Any]:
@@ -323,19 +323,22 @@ def _instant(freedoms: Freedoms, names: Sequence[str]) -> Iterator[Message]:
         yield message("Joints at rest: {joints}.", joints=", ".join(names[k] for k in instant.immobile))
 
 
-def _finite(freedoms: Freedoms) -> Iterator[Message]:
+def _finite(freedoms: Freedoms) -> Message:
     followed = freedoms.finite
     if followed.ways > 1:
         branches = message("{count} branches meet in this pose", count=followed.ways)
     else:
         branches = message("the pose is singular")
-    yield _FINITE[followed.evidence].filled(
+    return _FINITE[followed.evidence].filled(
         finite=followed.mobility,
         reach=followed.reach,
         order=followed.order,
         open=followed.open,
         branches=branches,
     )
+
+
+def _idle(freedoms: Freedoms) -> Iterator[Message]:
     spinning = [" + ".join(idle.links) for idle in freedoms.idle_parts]
     if len(spinning) == 1:
         text = message("Idle: {links} spins for itself alone; without idle freedoms the mobility is {useful}.")

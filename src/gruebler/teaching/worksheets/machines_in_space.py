@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gruebler.base.errors import GrueblerError
-from gruebler.base.text import translate
+from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.text import error_in_language, translate
 from gruebler.mechanics.screws import SpatialLinkage, freedoms
 from gruebler.mechanics.space import assembly_modes, measures
 from gruebler.pictures.canvas.figure import Figure
@@ -60,12 +60,13 @@ def _diagrams(linkage: SpatialLinkage, between: tuple[float, float] | None, lang
 
 
 def _values(linkage: SpatialLinkage, lang: str) -> Iterator[str]:
-    """The four numbers of mobility, what the one drive does, how many assembly modes there are."""
+    """The four numbers of mobility, what is idle, what the one drive does, how many assembly modes there are."""
     yield freedoms(linkage).summary(lang)
     drives = linkage.mechanism.drives
     if len(drives) == 1:
         yield measures(linkage).explain(lang)
     try:
         yield assembly_modes(linkage, [np.zeros(len(drives))]).explain(lang)
-    except GrueblerError:
-        return
+    except LinkageError as error:
+        if drives:
+            yield translate("Assembly modes are not known: {reason}.", lang, reason=error_in_language(error, lang))
