@@ -1,5 +1,5 @@
-// Builds the page into the folder given, else into the Python package: an ES module, one more for static sites, and one
-// for linkages in space.
+// Builds the page into the folder given, else into the Python package: an ES module, one more for static sites, one for
+// their synthesis, and one for linkages in space.
 
 import { readFile } from "node:fs/promises";
 import path from "node:path";
@@ -62,7 +62,12 @@ const packed = {
 
 await build({
   absWorkingDir: here,
-  entryPoints: { explorer: "src/index.ts", site: "src/site/index.ts", space: "src/space/index.ts" },
+  entryPoints: {
+    explorer: "src/index.ts",
+    site: "src/site/index.ts",
+    points: "src/points/index.ts",
+    space: "src/space/index.ts",
+  },
   outdir: target,
   bundle: true,
   format: "esm",

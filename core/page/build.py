@@ -1,8 +1,9 @@
-"""Compiles what the page needs of the kernels into `motion.wasm.gz` beside this file, by the clang of `ziglang`.
+"""Compiles what the page needs of the kernels into modules beside this file, by the clang of `ziglang`.
 
-    python core/page/build.py      # needs `ziglang`, `zopfli` and npx; some minutes the first time, then half a minute
+    python core/page/build.py      # needs `ziglang`, `zopfli` and npx; some minutes the first time, then a minute
 
-The module tells which sources it was made of, so that a test can say whether it belongs to those that are here.
+`motion.wasm.gz` moves linkages; `solutions.wasm.gz` finds four-bars through points, and is loaded when they are asked
+for. A module tells which sources it was made of, so that a test can say whether it belongs to those that are here.
 """
 
 from __future__ import annotations
@@ -13,23 +14,49 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
 HERE = Path(__file__).parent
 CORE = HERE.parent
-TARGET = HERE / "motion.wasm.gz"
 SECTION = b"gruebler sources"
-"""A custom section of the module: engines pass over it."""
+"""A custom section of a module: engines pass over it."""
 
-UNITS = (
-    "page/door.cpp",
-    *(
-        f"src/motion/{name}.cpp"
-        for name in ("closure", "closure_rates", "dyads", "newton", "placing", "plan", "sweep", "swept", "walk")
+
+class Module(NamedTuple):
+    """What is compiled into one file."""
+
+    name: str
+    units: tuple[str, ...]
+    exports: tuple[str, ...]
+    hot: str
+    """The unit in which nearly all of the time is spent; the others are compiled for their size."""
+
+    @property
+    def target(self) -> Path:
+        """The file."""
+        return HERE / f"{self.name}.wasm.gz"
+
+
+MODULES = (
+    Module(
+        name="motion",
+        units=(
+            "page/door.cpp",
+            *(
+                f"src/motion/{name}.cpp"
+                for name in ("closure", "closure_rates", "dyads", "newton", "placing", "plan", "sweep", "swept", "walk")
+            ),
+        ),
+        exports=("reserve", "run", "unwound"),
+        hot="src/motion/sweep.cpp",  # rows of dyads abreast
+    ),
+    Module(
+        name="solutions",
+        units=("page/solutions_door.cpp", "src/algebra/tracking.cpp", "src/algebra/certificate.cpp"),
+        exports=("reserve", "track", "refine", "certify"),
+        hot="src/algebra/tracking.cpp",
     ),
 )
-EXPORTS = ("reserve", "run", "unwound")
-HOT = "src/motion/sweep.cpp"
-"""Rows of dyads abreast, nearly all of the time of a motion; the other units are compiled for their size."""
 OPTIONS = (
     "--target=wasm32-wasi",  # nothing of the system remains in it, see door.cpp
     "-std=c++20",
@@ -50,17 +77,13 @@ OPTIONS = (
 QUICK = (
     "-O3",
     "-DGRUEBLER_NO_JERK",  # the page asks for accelerations at most
+    "-DGRUEBLER_NO_SIX_BARS",  # and follows solutions of four-bars alone
     "-mllvm",
     "-unroll-runtime=false",
     "-Werror=pass-failed",  # a hot loop that is not vectorised
 )
 SMALL = ("-Os",)
-LINKING = (
-    "-mexec-model=reactor",
-    "-Wl,--strip-all",
-    "-Wl,--gc-sections",
-    *(f"-Wl,--export={name}" for name in EXPORTS),
-)
+LINKING = ("-mexec-model=reactor", "-Wl,--strip-all", "-Wl,--gc-sections")
 
 
 OPTIMISER = (
@@ -77,10 +100,10 @@ OPTIMISER = (
 )
 
 
-def sources() -> list[Path]:
+def sources(module: Module) -> list[Path]:
     """The units and all that they include of the core, and this file, which holds the options."""
     found: dict[Path, None] = {}
-    waiting = [CORE / unit for unit in UNITS]
+    waiting = [CORE / unit for unit in module.units]
     while waiting:
         file = waiting.pop()
         if file in found:
@@ -90,30 +113,31 @@ def sources() -> list[Path]:
     return [*sorted(found), Path(__file__)]
 
 
-def digest() -> bytes:
+def digest(module: Module) -> bytes:
     """Of the names and the texts of all sources."""
     made = hashlib.sha256()
-    for file in sources():
+    for file in sources(module):
         made.update(file.relative_to(CORE).as_posix().encode() + b"\0" + file.read_bytes() + b"\0")
     return made.hexdigest().encode()
 
 
-def with_digest(module: bytes) -> bytes:
+def with_digest(module: Module, compiled: bytes) -> bytes:
     """A module with one more section; lengths below 128 are one byte."""
-    content = bytes([len(SECTION)]) + SECTION + digest()
-    return module + bytes([0, len(content)]) + content
+    content = bytes([len(SECTION)]) + SECTION + digest(module)
+    return compiled + bytes([0, len(content)]) + content
 
 
-def compiled() -> bytes:
+def compiled(module: Module) -> bytes:
     """The module of the linker, made smaller."""
     with tempfile.TemporaryDirectory() as folder:
-        made = Path(folder) / "motion.wasm"
+        made = Path(folder) / "module.wasm"
         command = [sys.executable, "-m", "ziglang", "c++", *OPTIONS, f"-I{CORE / 'src'}"]
-        parts = [str(Path(folder) / f"{Path(unit).stem}.o") for unit in UNITS]
-        for unit, part in zip(UNITS, parts, strict=True):
-            speed = QUICK if unit == HOT else SMALL
+        parts = [str(Path(folder) / f"{Path(unit).stem}.o") for unit in module.units]
+        for unit, part in zip(module.units, parts, strict=True):
+            speed = QUICK if unit == module.hot else SMALL
             subprocess.run([*command, *speed, "-c", str(CORE / unit), "-o", part], check=True)
-        subprocess.run([*command, *SMALL, *LINKING, *parts, "-o", str(made)], check=True)
+        exports = [f"-Wl,--export={name}" for name in module.exports]
+        subprocess.run([*command, *SMALL, *LINKING, *exports, *parts, "-o", str(made)], check=True)
         subprocess.run([*OPTIMISER, str(made), "-o", str(made)], check=True)
         return made.read_bytes()
 
@@ -121,4 +145,5 @@ def compiled() -> bytes:
 if __name__ == "__main__":
     from zopfli import gzip  # 5 % smaller than zlib makes it; the page carries it as text
 
-    TARGET.write_bytes(gzip.compress(with_digest(compiled())))
+    for each in MODULES:
+        each.target.write_bytes(gzip.compress(with_digest(each, compiled(each))))

@@ -54,10 +54,10 @@ export class App implements Page {
     this.views = { motion: this.motion };
     if (this.backend.present) {
       this.views = {
-        build: this.served ? new BuildView(this) : new LibraryView("build"),
+        build: this.served ? new BuildView(this) : new LibraryView(),
         structure: new StructureView(this),
         motion: this.motion,
-        synthesis: this.served ? new SynthesisView(this) : new LibraryView("synthesis"),
+        synthesis: new SynthesisView(this),
         catalog: new CatalogView(this),
         exercises: new ExercisesView(this),
       };

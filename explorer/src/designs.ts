@@ -19,6 +19,8 @@ export interface Found {
   total: number;
   refused: number;
   items: Design[];
+  /** How complete they are, where the page found them itself. */
+  note?: string;
 }
 
 type Order = "error" | "size" | "transmission";
@@ -59,6 +61,7 @@ export class DesignCards {
     renew(
       this.element,
       h("h2", {}, t("{count} designs", { count: found.total })),
+      h("p.note", {}, found.note ?? ""),
       h("p.note", {}, found.refused ? t("{count} others do not meet what is asked.", { count: found.refused }) : ""),
       found.items.length > 1
         ? choice(t("Order"), orders, this.order, (order) => {

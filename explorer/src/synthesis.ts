@@ -139,6 +139,9 @@ export class SynthesisView implements View {
         h("h2", {}, t("Synthesis")),
         choice(t("What a linkage is to do"), kinds, this.kind, (kind) => this.turnTo(kind as Kind)),
         h("p.note", {}, hints[this.kind]),
+        this.page.served
+          ? null
+          : h("p.note", {}, t("Here four-bars through nine points are found; everything else needs the library.")),
         h(
           "div.two.wide",
           {},

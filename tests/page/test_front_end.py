@@ -47,7 +47,8 @@ def test_the_built_file_is_what_the_sources_give(tmp_path):
     assert (tmp_path / "explorer.js").read_text(encoding="utf-8") == BUILT.read_text(encoding="utf-8"), (
         "run `npm ci && npm run build` in explorer/ and commit src/gruebler/page/static/explorer.js"
     )
-    assert (tmp_path / "space.js").read_bytes() == (BUILT.parent / "space.js").read_bytes()
+    for name in ("points.js", "site.js", "space.js"):
+        assert (tmp_path / name).read_bytes() == (BUILT.parent / name).read_bytes(), name
 
 
 def bytes_of(text: str) -> bytes:
@@ -60,19 +61,21 @@ def bytes_of(text: str) -> bytes:
     return bytes(int(bits[k : k + 8], 2) for k in range(0, len(bits) - 7, 8))
 
 
-def test_the_module_of_the_kernels_is_made_of_these_sources():
-    """It is committed, as the built page is, since compiling it takes a compiler of its own."""
+def test_the_modules_of_the_kernels_are_made_of_these_sources():
+    """They are committed, as the built page is, since compiling them takes a compiler of its own."""
     spec = importlib.util.spec_from_file_location("page_build", ROOT / "core/page/build.py")
     assert spec is not None
     assert spec.loader is not None
     build = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(build)
-    packed = build.TARGET.read_bytes()
-    module = gzip.decompress(packed)
-    assert module.startswith(b"\0asm\1\0\0\0")
-    assert module.endswith(build.SECTION + build.digest()), "run `make page` and commit what it makes"
-    assert packed in [bytes_of(text) for text in re.findall('"([^"<\\\\]{9000,})"', BUILT.read_text(encoding="utf-8"))]
-    assert b"wasi_snapshot" not in module  # it asks nothing of its host
+    for each, built in zip(build.MODULES, (BUILT, BUILT.parent / "points.js"), strict=True):
+        packed = each.target.read_bytes()
+        module = gzip.decompress(packed)
+        assert module.startswith(b"\0asm\1\0\0\0")
+        assert module.endswith(build.SECTION + build.digest(each)), "run `make page` and commit what it makes"
+        texts = re.findall('"([^"<\\\\]{9000,})"', built.read_text(encoding="utf-8"))
+        assert packed in [bytes_of(text) for text in texts]
+        assert b"wasi_snapshot" not in module  # it asks nothing of its host
 
 
 def test_the_page_stays_small():

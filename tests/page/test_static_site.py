@@ -7,8 +7,11 @@ import json
 import threading
 from functools import partial
 
+import numpy as np
 import pytest
 
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.kinematics import move
 from gruebler.page.model import model_of
 from gruebler.page.page import module_text
 from gruebler.page.requests import answer
@@ -26,6 +29,7 @@ GROUPS = [
     FileGroup("tasks", ("grashof", 1, 1)),
     FileGroup("tasks", ("mobility", 1, 1)),
     FileGroup("common"),
+    FileGroup("points"),
 ]
 
 
@@ -166,12 +170,61 @@ def test_the_disk_alone_is_enough_and_the_rest_says_how(tab, folder):
     page.until("gruebler.view === 'motion'")
     page.page.click('[data-view="structure"]')
     assert page.page.locator('[data-fact="generic"]').text_content() == "F = 1"
-    for view in ("build", "synthesis"):
-        page.page.click(f'[data-view="{view}"]')
-        assert "gruebler explore" in page.page.locator(f'[data-page="{view}"] pre').text_content()
+    page.page.click('[data-view="build"]')
+    assert "gruebler explore" in page.page.locator('[data-page="build"] pre').text_content()
     page.page.click('[data-view="structure"]')
     page.page.evaluate("gruebler.describe('R(a-b) P(b-c) R(c-a)')")
     assert 'gruebler explore "R(a-b)' in page.page.locator('[data-page="structure"] .error').text_content()
+
+
+KNOWN = FourBar(25, 70, 40, 70).linkage({"P": (45, 40)})
+ROWS = move(KNOWN, np.radians([10.0, 45, 80, 120, 155, 195, 240, 280, 330])).point("P").tolist()
+
+
+def searching(page, rows=ROWS):
+    page.page.click('[data-view="synthesis"]')
+    page.page.evaluate("(rows) => gruebler.views.synthesis.take(rows, false)", rows)
+    page.page.click('[data-act="synthesise"]')
+
+
+@pytest.mark.parametrize("from_disk", [False, True])
+def test_nine_points_are_met_without_python(tab, folder, address, from_disk):
+    page = tab().open((folder / "index.html").as_uri() if from_disk else address)
+    assert not any("points" in url for url in page.requests)  # what it takes is loaded when it is asked for
+    searching(page)
+    page.until("gruebler.views.synthesis.status.textContent.includes('of 1442 solutions followed')", 60)
+    page.until("gruebler.views.synthesis.designs.element.querySelectorAll('.card svg .gr-curve').length === 4", 120)
+    assert "Of the 1442 solutions of nine points" in page.page.locator('[data-page="synthesis"]').text_content()
+    page.page.click('[data-page="synthesis"] .card >> nth=0')
+    page.until("gruebler.view === 'motion'")
+    assert page.page.evaluate("gruebler.shown.name") == "A design for 9 points"
+    assert page.page.evaluate("gruebler.motion.linkage.cycle.full")
+    # the curve on the stage passes through all nine
+    curve = page.page.evaluate(
+        """() => { const { linkage } = gruebler.motion, { link, at } = linkage.sizes.points[0];
+        return Array.from({ length: 3600 }, (_, k) => { linkage.moveTo(k * Math.PI / 1800);
+          const [c, s] = linkage.pose.turns.slice(2 * link), [x, y] = linkage.pose.places.slice(2 * link);
+          return [x + c * at[0] - s * at[1], y + s * at[0] + c * at[1]]; }); }"""
+    )
+    for row in ROWS:
+        assert np.hypot(*(np.array(curve) - row).T).min() < 0.1
+    if from_disk:
+        return
+    page.page.evaluate("gruebler.share()")
+    link = page.until("location.hash.length > 200 && location.href")
+    other = tab().open(address + "#" + link.partition("#")[2])
+    other.until("gruebler.shown.name === 'A design for 9 points'")
+
+
+def test_the_search_for_nine_points_can_be_cancelled_and_says_what_it_does_not_do(tab, address):
+    page = tab(locale="de-DE").open(address)
+    searching(page)
+    page.page.click('[data-act="cancel"]')
+    page.until("gruebler.views.synthesis.status.textContent === 'Abgebrochen.'")
+    searching(page, [[float(k), 0.5 * k] for k in range(9)])
+    page.until("gruebler.views.synthesis.status.textContent.startsWith('9 der Punkte liegen auf einer Geraden')", 60)
+    searching(page, ROWS[:8])
+    page.until("gruebler.views.synthesis.status.textContent.includes('gruebler explore')")
 
 
 def test_frames_and_drives_are_drawn_in_one_picture(folder):
@@ -179,4 +232,5 @@ def test_frames_and_drives_are_drawn_in_one_picture(folder):
     assert [frame["text"][-1] for frame in pack["frames"] if frame["listed"]] == ["0", "1"]  # Watt: two inversions
     assert all(min(at) > 0 for frame in pack["frames"] for at in frame["at"])
     assert all("gr-drive" in arrow for _, _, arrow, *_ in pack["driven"])
-    assert len(module_text("site")) < 8_000
+    assert len(module_text("site")) < 9_000
+    assert len(module_text("points")) < 110_000

@@ -260,14 +260,18 @@ bool refine_all(const System& system, const Solutions& solutions, Watch& watch) 
 }  // namespace
 
 bool track(const Paths& paths, Watch& watch) {
-    if (paths.family == Family::four_bars) return track_all(FourBarSystem{{paths.positions, paths.points}}, paths, watch);
-    return track_all(SixBarSystem{paths.family, paths.points}, paths, watch);
+#ifndef GRUEBLER_NO_SIX_BARS
+    if (paths.family != Family::four_bars) return track_all(SixBarSystem{paths.family, paths.points}, paths, watch);
+#endif
+    return track_all(FourBarSystem{{paths.positions, paths.points}}, paths, watch);
 }
 
 bool refine(const Solutions& solutions, Watch& watch) {
-    if (solutions.family == Family::four_bars)
-        return refine_all(FourBarSystem{{solutions.positions, solutions.points}}, solutions, watch);
-    return refine_all(SixBarSystem{solutions.family, solutions.points}, solutions, watch);
+#ifndef GRUEBLER_NO_SIX_BARS
+    if (solutions.family != Family::four_bars)
+        return refine_all(SixBarSystem{solutions.family, solutions.points}, solutions, watch);
+#endif
+    return refine_all(FourBarSystem{{solutions.positions, solutions.points}}, solutions, watch);
 }
 
 }  // namespace gruebler::algebra::inline GRUEBLER_LEVEL

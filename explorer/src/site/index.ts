@@ -1,8 +1,9 @@
 /** What a static site adds to the page: a model that answers out of files what a server answers otherwise. */
 
-import { StillModel } from "../host";
+import { Cancelled, StillModel } from "../host";
 import type { Language } from "../language";
-import type { Model } from "../model";
+import type { LinkageDocument, Model } from "../model";
+import { DesignWorker, NINE } from "./designs";
 import { type Catalog, fitting } from "./machines";
 import { type Answer, type Asked, marked, type Said, type Tolerances } from "./marks";
 import { pack } from "./packs";
@@ -17,6 +18,13 @@ interface Params {
   start: number;
   part: number;
   answers: Record<string, string>;
+  kind: string;
+  rows: [number, number][];
+  closed: boolean;
+  crank: boolean;
+  transmission: number;
+  document: LinkageDocument;
+  name: string;
 }
 
 interface MachinePack {
@@ -38,6 +46,8 @@ type Chains = { text: string; picture: string }[];
 type Texts = (text: string, values?: Record<string, string | number>) => string;
 
 class SiteModel extends StillModel {
+  private readonly designs = new DesignWorker();
+
   constructor(
     values: Record<string, unknown>,
     private readonly t: Texts,
@@ -47,10 +57,12 @@ class SiteModel extends StillModel {
 
   override send(content: unknown): void {
     const { id, method, params, lang } = content as { id: number; method: string; params: Params; lang: Language };
-    if (!method) return; // nothing here takes so long that it is cancelled
-    this.answer(method, params, lang).then(
+    if (!method) return this.designs.cancel(id); // nothing else takes so long
+    const asked = method === "synthesise" ? this.synthesised(id, params, lang) : this.answer(method, params, lang);
+    asked.then(
       (result) => this.emit("msg:custom", { id, result }),
-      (error: Error) => this.emit("msg:custom", { id, error: error.message }),
+      (error: Error) =>
+        this.emit("msg:custom", error instanceof Cancelled ? { id, cancelled: true } : { id, error: error.message }),
     );
   }
 
@@ -60,6 +72,12 @@ class SiteModel extends StillModel {
     return new Error(
       this.t("This needs gruebler on your computer: pip install 'gruebler[web]', then: {command}", { command }),
     );
+  }
+
+  private async synthesised(id: number, params: Params, lang: Language): Promise<unknown> {
+    const { kind, rows, closed } = params;
+    if (kind !== "points" || rows.length !== NINE || closed) throw this.library();
+    return this.designs.found(id, params, lang, (progress) => this.emit("msg:custom", { id, progress }));
   }
 
   private async answer(method: string, params: Params, lang: Language): Promise<unknown> {
@@ -100,6 +118,11 @@ class SiteModel extends StillModel {
       }
       case "mark":
         return await this.marks(id, params.answers, lang);
+      case "open_document": {
+        const found = this.designs.opened(params.document, params.name);
+        if (!found) throw this.library();
+        return found;
+      }
       case "try":
         return (await this.task(id)).task.try[params.part];
     }

@@ -92,7 +92,7 @@ def static_page(
         "site",
         values,
         elements,
-        policy_element(*scripts, styles=False, webassembly=True, beside=True),
+        policy_element(*scripts, styles=False, webassembly=True, beside=True, workers=True),
     )
 
 

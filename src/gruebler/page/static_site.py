@@ -97,6 +97,7 @@ def _all_groups() -> Iterator[FileGroup]:
     yield from (FileGroup("tasks", (kind, level, TASKS)) for kind in KINDS for level in (1, 2, 3))
     yield FileGroup("exercises")
     yield FileGroup("common")
+    yield FileGroup("points")
 
 
 def _written(work: tuple[str, FileGroup]) -> int:
@@ -246,6 +247,12 @@ def _common_packs() -> _Packs:
     yield "kinds", {lang: answer("exercise_kinds", {}, lang, _nothing) for lang in LANGUAGES}
 
 
+def _point_packs() -> _Packs:
+    from gruebler.page.site_points import point_packs
+
+    yield from point_packs()
+
+
 _PACKS: dict[str, Callable[..., _Packs]] = {
     "chains": _chain_packs,
     "structures": _structure_packs,
@@ -254,6 +261,7 @@ _PACKS: dict[str, Callable[..., _Packs]] = {
     "tasks": _task_packs,
     "exercises": _exercise_packs,
     "common": _common_packs,
+    "points": _point_packs,
 }
 """What each kind of work writes: names of files with their contents."""
 

@@ -103,13 +103,19 @@ class GenericSolutions(NamedTuple):
     z: Complexes
 
 
-@cache
-def load_generic_solutions(problem: Problem) -> GenericSolutions:
-    """The stored solutions, sharpened to full precision."""
+def stored_solutions(problem: Problem) -> GenericSolutions:
+    """The generic task and its solutions as they are stored: complex[4, 8], complex64[classes, 8]."""
     name = problem.name.replace(" ", "_")
     raw = (files("gruebler.design.synthesis") / "data" / f"{name}.npz").read_bytes()
     with np.load(BytesIO(raw)) as stored:
-        p, z = stored["parameters"], stored["solutions"].astype(np.complex128)
+        return GenericSolutions(stored["parameters"], stored["solutions"])
+
+
+@cache
+def load_generic_solutions(problem: Problem) -> GenericSolutions:
+    """The stored solutions, sharpened to full precision."""
+    p, stored = stored_solutions(problem)
+    z = stored.astype(np.complex128)
     z, steps = _core.refine_solutions(z, p, problem.poses, problem.points, family=problem.family)
     if not (steps < 1e-10).all():
         raise SynthesisError("the stored solutions of {name} are damaged", name=problem.name)

@@ -34,6 +34,15 @@ from gruebler.design.synthesis.tasks import MOST_POINTS, SAME, PathTask, Positio
 from gruebler.mechanics.linkages import Linkage
 
 MOST_ON_CIRCLE = 6
+ON_LINE = message(
+    "{count} of the points lie on one line, which a coupler curve meets in at most {most} points "
+    "unless it contains it: give closed = true for the curves that come nearest"
+)
+ON_CIRCLE = message(
+    "{count} of the points lie on one circle, which a coupler curve meets in at most {most} points "
+    "unless it contains it: give closed = true for the curves that come nearest"
+)
+UNRESOLVED = message("{count} solutions are not resolved: where their paths end could not be decided.")
 MOST_TIMED = 5
 TIMED_POSITIONS = 3
 _TIMED_SAMPLE = 1600
@@ -297,19 +306,7 @@ def _check_general(task: PathTask) -> None:
     crowd = _crowded(task)
     if crowd is None:
         return
-    if crowd.on_line:
-        raise SynthesisError(
-            "{count} of the points lie on one line, which a coupler curve meets in at most {most} points "
-            "unless it contains it: give closed = true for the curves that come nearest",
-            count=crowd.points,
-            most=MOST_ON_CIRCLE,
-        )
-    raise SynthesisError(
-        "{count} of the points lie on one circle, which a coupler curve meets in at most {most} points unless "
-        "it contains it: give closed = true for the curves that come nearest",
-        count=crowd.points,
-        most=MOST_ON_CIRCLE,
-    )
+    raise SynthesisError(ON_LINE if crowd.on_line else ON_CIRCLE, count=crowd.points, most=MOST_ON_CIRCLE)
 
 
 def _notes(problem: Problem, complete: Solutions, added: int) -> Iterator[Message]:
@@ -328,9 +325,7 @@ def _notes(problem: Problem, complete: Solutions, added: int) -> Iterator[Messag
             count=complete.singular,
         )
     if complete.missing:
-        yield message(
-            "{count} solutions are not resolved: where their paths end could not be decided.", count=complete.missing
-        )
+        yield UNRESOLVED.filled(count=complete.missing)
     doubtful = int(np.count_nonzero(~complete.certified))
     if doubtful:
         yield message("{count} solutions are not certified: they are singular or nearly so.", count=doubtful)

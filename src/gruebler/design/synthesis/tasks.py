@@ -22,6 +22,7 @@ from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
 Pair = tuple[float, float]
 _Pairs = tuple[tuple[float, ...], tuple[float, ...], bool, bool]  # inputs, outputs, whether their starts are given
 
+EQUAL_POINTS = message("points {first} and {second} are equal")
 SAME = 1e-9
 """Two points nearer than this part of the task's size are one: designs are held to the same bound."""
 LARGEST = 1e100
@@ -232,7 +233,7 @@ class PathTask:
             for m in others:
                 if abs(z[m] - z[k]) <= limit and not self._turned(m, k):
                     first, second = sorted((m % len(z), k))
-                    raise SynthesisError("points {first} and {second} are equal", first=first + 1, second=second + 1)
+                    raise SynthesisError(EQUAL_POINTS, first=first + 1, second=second + 1)
 
     def _turned(self, m: int, k: int) -> bool:
         """Whether the coupler has different angles at two points, so that these may coincide."""

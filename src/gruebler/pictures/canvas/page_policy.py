@@ -12,13 +12,16 @@ def script_element(script: str, kind: str = "") -> str:
     return f"<script{typed}>{_closed(script)}</script>"
 
 
-def policy_element(*scripts: str, styles: bool = True, webassembly: bool = False, beside: bool = False) -> str:
+def policy_element(
+    *scripts: str, styles: bool = True, webassembly: bool = False, beside: bool = False, workers: bool = False
+) -> str:
     r"""The element of a page's head that lets it run these scripts, by their digests, and load nothing at all.
 
     Args:
         scripts: as given to `script_element`.
         styles: whether the page has style sheets and styles of elements.
         beside: whether it loads scripts from its own folder.
+        workers: whether its scripts start workers from texts that they hold.
         webassembly: whether its scripts compile WebAssembly that they hold; texts as code stay forbidden.
 
     >>> policy_element()[:77]
@@ -33,6 +36,7 @@ def policy_element(*scripts: str, styles: bool = True, webassembly: bool = False
         "default-src 'none'",
         *([f"script-src {' '.join(allowed)}"] if allowed else []),
         *(["style-src 'unsafe-inline'"] if styles else []),
+        *(["worker-src blob:"] if workers else []),
         "img-src data: blob:",
         "base-uri 'none'",
         "form-action 'none'",
