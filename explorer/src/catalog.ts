@@ -101,7 +101,7 @@ export class CatalogView implements View {
         "div.page",
         {},
         h("h2", {}, t("Catalog")),
-        choice(t("Kinds of machines"), kinds, this.words, choose),
+        choice(t("Kinds of machines"), kinds, this.words, choose, { class: "choice palette" }),
         h(
           "div.form",
           {},

@@ -21,6 +21,8 @@ interface Task {
   remark: string;
   /** Pictures of what can be tried, each with a name where there are several. */
   figures: { name: string; picture: string }[];
+  /** How many of them are opened to try; tasks in space have none. */
+  tries: number;
   asked: Asked[];
 }
 
@@ -86,7 +88,7 @@ export class ExercisesView implements View {
       this.kind = kind;
       void this.fresh();
     };
-    renew(this.kinds, choice(t("Theory"), options, this.kind, choose));
+    renew(this.kinds, choice(t("Theory"), options, this.kind, choose, { class: "choice palette" }));
   }
 
   /** The exercises of the text; none for a kind of fresh tasks. */
@@ -159,7 +161,13 @@ export class ExercisesView implements View {
       h(
         "div.task",
         {},
-        h("div", {}, h("h2", {}, task.name), h("p", {}, task.task), task.remark ? h("p.note", {}, task.remark) : null),
+        h(
+          "div",
+          {},
+          h("h2", {}, task.name),
+          h("p", {}, ...indexed(task.task)),
+          task.remark ? h("p.note", {}, task.remark) : null,
+        ),
         h(
           "div",
           {},
@@ -188,7 +196,7 @@ export class ExercisesView implements View {
             {},
             act("mark", t("Mark my answers"), !solved, () => undefined, "submit"),
             marked ? act("next", t("Next task"), solved, () => this.next()) : null,
-            ...(marked ? task.figures : []).map(({ name }, k) =>
+            ...(marked ? task.figures.slice(0, task.tries) : []).map(({ name }, k) =>
               act("try", [t("Try it"), name].filter(Boolean).join(": "), false, () => void this.tryIt(k)),
             ),
           ),

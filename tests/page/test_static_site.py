@@ -4,6 +4,7 @@ import base64
 import gzip
 import http.server
 import json
+import re
 import threading
 from functools import partial
 
@@ -19,6 +20,7 @@ from gruebler.page.site_structures import structure_pack
 from gruebler.page.static_site import FileGroup, write_site
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
+from gruebler.teaching.exercises import exercise
 
 GROUPS = [
     FileGroup("chains", (4, 1)),
@@ -28,6 +30,7 @@ GROUPS = [
     FileGroup("catalog", ("bennett", "crankrocker", "lambda")),
     FileGroup("tasks", ("grashof", 1, 1)),
     FileGroup("tasks", ("mobility", 1, 1)),
+    FileGroup("tasks", ("universal-joint", 1, 1)),
     FileGroup("common"),
     FileGroup("points"),
 ]
@@ -142,6 +145,47 @@ def test_answers_are_marked_as_the_library_marks_them(tab, folder, address):
                     assert one["mark"] == other["mark"], (one, other)
                     if not other["hint"].startswith("erwartet"):  # of what is no number
                         assert one["hint"] == other["hint"]
+
+
+def test_a_task_is_solved_and_tried_on_a_phone_from_the_disk(tab, folder):
+    """Its chain has other names of links than those of the lists: it is shown nevertheless."""
+    page = tab(width=390, height=844, locale="de-DE", touch=True).open((folder / "index.html").as_uri())
+    view = page.page
+    view.tap('[data-view="exercises"]')
+    view.locator("[data-answer]").first.wait_for()
+    given = exercise("mobility-1-1").given["chain"]
+    joints = re.findall(r"(\w+)\(([^)]*)\)", given)
+    links = {link for _, names in joints for link in names.split("-")}
+    freedoms = {"R": 1, "P": 1, "G": 2}
+    counts = [(freedoms[sign], len(names.split("-")) - 1) for sign, names in joints]
+    right = {
+        "n": len(links),
+        "g1": sum(count for f, count in counts if f == 1),
+        "g2": sum(count for f, count in counts if f == 2),
+        "F": 3 * (len(links) - 1) - sum((3 - f) * count for f, count in counts),
+    }
+    view.fill('[data-answer="F"]', "7")
+    view.tap('[data-act="mark"]')
+    assert view.locator("#hint-F").inner_text()
+    for key, value in right.items():
+        view.fill(f'[data-answer="{key}"]', str(value))
+    view.tap('[data-act="mark"]')
+    page.until("gruebler.views.exercises.record.get('mobility-1-1')")
+    assert view.locator('[data-mark="right"]').count() == len(right)
+    assert view.evaluate("document.documentElement.scrollWidth") == 390
+    view.tap('[data-act="try"]')
+    page.until("gruebler.view === 'structure'")
+    view.locator('[data-fact="counted"]').wait_for()
+    assert view.locator('[data-fact="counted"]').inner_text().endswith(str(right["F"]))
+    assert "".join(view.locator('[data-page="structure"] .error').all_inner_texts()) == ""
+    # a task in space has nothing that moves in the plane: it offers no trial
+    view.tap('[data-view="exercises"]')
+    view.locator('[data-value="universal-joint"]').tap()
+    page.until("gruebler.views.exercises.task.id.startsWith('universal-joint')")
+    view.locator("input[data-answer]").first.fill("1")
+    view.tap('[data-act="mark"]')
+    view.locator("[data-result]").wait_for()
+    assert view.locator('[data-act="try"]').count() == 0
 
 
 def test_a_link_made_there_opens_there_for_everyone(tab, address):

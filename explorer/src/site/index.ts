@@ -39,6 +39,7 @@ interface TaskPack extends Tolerances {
     solutions: Said;
     answers: Record<string, Asked | Record<Language, Record<string, Answer>>>;
     try: object[];
+    structures: StructurePack[];
   }[];
 }
 
@@ -47,6 +48,8 @@ type Texts = (text: string, values?: Record<string, string | number>) => string;
 
 class SiteModel extends StillModel {
   private readonly designs = new DesignWorker();
+  /** Chains of tasks, whose links have other names than those of the lists. */
+  private readonly tried = new Map<string, StructurePack>();
 
   constructor(
     values: Record<string, unknown>,
@@ -124,7 +127,7 @@ class SiteModel extends StillModel {
         return found;
       }
       case "try":
-        return (await this.task(id)).task.try[params.part];
+        return await this.try(id, params.part);
     }
     throw this.library();
   }
@@ -159,18 +162,19 @@ class SiteModel extends StillModel {
 
   private async structure(text: string, lang: Language): Promise<unknown> {
     const chain = chainOf(text);
-    const name = await this.numberOf(chain);
-    let held: StructurePack | undefined;
-    if (name) held = await pack<StructurePack>(`structure-${name}`);
-    else {
-      const { machines } = await pack<Catalog>("catalog");
-      const found = machines.find(({ entries }) => chainOf(entries.en.text) === chain);
-      if (found) held = (await pack<MachinePack>(`machine-${found.entries.en.id}`)).structure[lang];
-    }
-    const pairs = await pack<Pair[]>("pairs");
-    const said = held && structureOf(held, text, lang, pairs);
+    const held = this.tried.get(chain) ?? (await this.held(chain, lang));
+    const said = held && structureOf(held, text, lang, await pack<Pair[]>("pairs"));
     if (!said) throw this.library(text);
     return said;
+  }
+
+  /** What is held of a chain of the lists or of a machine. */
+  private async held(chain: string, lang: Language): Promise<StructurePack | undefined> {
+    const name = await this.numberOf(chain);
+    if (name) return await pack<StructurePack>(`structure-${name}`);
+    const { machines } = await pack<Catalog>("catalog");
+    const found = machines.find(({ entries }) => chainOf(entries.en.text) === chain);
+    return found && (await pack<MachinePack>(`machine-${found.entries.en.id}`)).structure[lang];
   }
 
   private async task(id: string): Promise<{ task: TaskPack["tasks"][number]; tolerances: Tolerances }> {
@@ -178,6 +182,12 @@ class SiteModel extends StillModel {
     const { tasks, ...tolerances } = await pack<TaskPack>(`tasks-${kind}`);
     const task = tasks.find(({ records }) => records.en.id === id) ?? tasks[Number(number) % tasks.length]!;
     return { task, tolerances };
+  }
+
+  private async try(id: string, part: number): Promise<unknown> {
+    const { task } = await this.task(id);
+    for (const held of task.structures) this.tried.set(held.text, held);
+    return task.try[part];
   }
 
   private async marks(id: string, answers: Record<string, string>, lang: Language): Promise<unknown> {

@@ -11,6 +11,8 @@ from typing import Any
 
 from gruebler.base.text import Readable
 from gruebler.files import Exercise
+from gruebler.page.site_structures import structure_pack
+from gruebler.page.structures import mechanism_of_text
 from gruebler.page.tasks import marked_task, task_record, tried_task, way
 from gruebler.teaching.exercises import Result, ascii_key, exercise, solution_text, solve
 from gruebler.teaching.exercises.answers import units_for
@@ -22,7 +24,7 @@ TOLERANCES = {"fine": FINE, "nearly": NEARLY}
 
 
 def task_pack(id: str, langs: Sequence[str]) -> dict[str, Any]:
-    """A task, its solution, what is right and what is wrong in which way, and its linkages to try.
+    """A task, its solution, what is right and what is wrong in which way, and its linkages or its chain to try.
 
     >>> answers = task_pack("grashof-1-3", ["en"])["answers"]
     >>> answers["turns"]["en"]["no"]["mark"], answers["sum_ends"]["value"]
@@ -44,11 +46,16 @@ def task_pack(id: str, langs: Sequence[str]) -> dict[str, Any]:
         else:
             known = [(m.value, m.hint) for m in solution.mistakes if m.key == result.key]
             answers[key] = _number_record(result, known, langs) | {"way": _said(way(solution, result), langs)}
+    tried = tried_task(id)
+    chains = [structure_pack(mechanism_of_text(one["text"]), langs) for one in tried if "text" in one]
+    if chains:
+        tried = [{"text": pack["text"]} for pack in chains]
     return {
         "records": records,
         "solutions": {lang: solution_text(task, solution, lang) for lang in langs},
         "answers": answers,
-        "try": tried_task(id),
+        "try": tried,
+        "structures": chains,
     }
 
 

@@ -65,6 +65,7 @@ def task_record(id: str, lang: str) -> dict[str, Any]:
         "task": task.task.in_language(lang),
         "remark": task.remark.in_language(lang) if task.remark else "",
         "figures": _figures(task, lang),
+        "tries": 1 if _chain_of(task) else len(exercise_linkages(task)),
         "asked": [
             {
                 "key": ascii_key(result.key),
@@ -78,6 +79,12 @@ def task_record(id: str, lang: str) -> dict[str, Any]:
             if plain_name(result)
         ],
     }
+
+
+def _chain_of(task: Exercise) -> str:
+    """The text of the chain that a task is about; empty where it is about linkages."""
+    chain = task.given.get("chain")
+    return chain if isinstance(chain, str) else ""
 
 
 def _figures(task: Exercise, lang: str) -> list[dict[str, str]]:
@@ -148,7 +155,7 @@ def tried_task(id: str) -> list[dict[str, Any]]:
     from gruebler.page.model import model_of
 
     task = exercise(id)
-    if isinstance(chain := task.given.get("chain"), str):
+    if chain := _chain_of(task):
         return [{"text": chain}]
     return [
         {
