@@ -8,13 +8,14 @@ INSTALLED := $(VENV)/.installed
 # Each of two workers begins with one half, so that files are not split between them and what they share is made once.
 TESTED := -m pytest -q -n 2 --dist worksteal
 
-.PHONY: help demo test lint fast docs messages slow wheel-test test-blas lowest-packages test-lowest test-newest \
+.PHONY: help demo test lint fast docs handbook messages slow wheel-test test-blas lowest-packages test-lowest test-newest \
 	page core test-core core-sanitize core-sanitize-python torture mutants bench evidence paper clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
 	@echo "make test        ruff, mypy --strict, all fast tests and doctests"
 	@echo "make docs        the site in English and German in build/docs/html, with the page; about four minutes"
+	@echo "make handbook    the site as two PDF files in build/docs, printed by chromium; two minutes more"
 	@echo "make messages    brings the German catalog up to date with the code and lists what is untranslated"
 	@echo "make slow        the long tests, and the fast ones with new random examples"
 	@echo "make torture     5,000 damaged inputs, 200 interrupts, 300 kills, see docs/reliability.md; about an hour"
@@ -73,6 +74,12 @@ docs: $(VENV)/.docs
 	$(BIN)/python $(SPHINX) -d build/docs/doctrees/de -D language=de docs build/docs/html/de
 	$(BIN)/gruebler explore --site build/docs/html/explore --jobs 2
 	$(BIN)/python docs/builder/links.py build/docs/html
+
+# Of the site that is there; without one it is built first.
+handbook: $(VENV)/.docs
+	@test -e build/docs/html/de/index.html || $(MAKE) docs
+	$(BIN)/python docs/builder/handbook.py build/docs/html build/docs/gruebler-handbook.pdf
+	$(BIN)/python docs/builder/handbook.py build/docs/html/de build/docs/gruebler-handbuch.pdf --lang de
 
 messages: $(READY)
 	$(BIN)/python -m tests.messages
