@@ -22,8 +22,8 @@ def document(capsys, *arguments):
 def test_a_press_over_a_turn(capsys):
     status, out, _ = run(capsys, "slider-crank:20,50", "--load", "R(coupler-slider)=-100,0", "--friction", "0.1")
     assert status == 0
-    assert "Largest effort, without friction: torque R(frame-crank) = -2149 N·mm at 75°." in out
-    assert "Largest effort: torque R(frame-crank) with friction = 2243 N·mm at 285°." in out
+    assert "Largest effort, without friction: torque R(frame-crank) = -2149 N·length at 75°." in out
+    assert "Largest effort: torque R(frame-crank) with friction = 2243 N·length at 285°." in out
     # 1/(0.1 tan(alpha)), sin(alpha) = 0.4, as the slider goes forth against its load
     assert "Least safety against self-locking: 22.91 at 270°, by P(frame-slider)." in out
     row = next(line.split() for line in out.splitlines() if line.strip()[:2] == "90")
@@ -96,8 +96,8 @@ def test_pins_and_guides(capsys):
 def test_all_forces_of_one_pose(capsys):
     status, out, _ = run(capsys, "four-bar:25,70,40,70", "--moment", "rocker=-1000", "--at", "55", "--lang", "de")
     assert status == 0
-    rows = [line.rsplit(maxsplit=2) for line in out.splitlines() if line.endswith(("N", "N·mm"))]
-    assert ["Antriebsmoment D(Gestell-Kurbel)", "478,5", "N·mm"] in rows
+    rows = [line.rsplit(maxsplit=2) for line in out.splitlines() if line.endswith(("N", "N·Länge"))]
+    assert ["Antriebsmoment D(Gestell-Kurbel)", "478,5", "N·Länge"] in rows
     assert ["Kraft von D(Gestell-Kurbel) auf Kurbel y", "-7,45", "N"] in rows
 
 
@@ -114,7 +114,7 @@ def test_json_and_csv(capsys, tmp_path):
     assert run(capsys, *arguments, "-o", str(path))[:2] == (0, "")
     with path.open(encoding="utf-8", newline="") as file:
         header, *rows = csv.reader(file)
-    assert header[1] == "torque R(frame-crank) [N·mm]"
+    assert header[1] == "torque R(frame-crank) [N·length]"
     assert len(rows) == 3
     light = document(capsys, *arguments, "--gravity", "0,-4.903325")[2]
     assert columns["torque R(frame-crank)"] == pytest.approx([2 * t for t in light["torque R(frame-crank)"]])

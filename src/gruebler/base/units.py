@@ -7,6 +7,7 @@ import re
 from typing import NamedTuple
 
 from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.text import translate
 
 MILLIMETRES = {"mm": 1.0, "cm": 10.0, "dm": 100.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
 """How long each unit is, in millimetres; the only table of units of length."""
@@ -110,6 +111,15 @@ def metres_of(unit: str) -> float:
             units=", ".join(MILLIMETRES),
         )
     return MILLIMETRES[unit] / 1000
+
+
+def moment_unit(unit: str, lang: str = "en") -> str:
+    """The unit of moments with forces in newtons and lengths in a unit, or in none.
+
+    >>> moment_unit("mm"), moment_unit("", "de")
+    ('N·mm', 'N·Länge')
+    """
+    return f"N·{unit or translate('length', lang)}"
 
 
 def quantity_of(name: str, word: str, quantity: str, unit: str) -> float:

@@ -17,7 +17,7 @@ from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import Message, error_in_language, joined, message, translate
 from gruebler.cli.drive_rows import given_rows, given_speeds, turning_drives
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import linkage_of_lengths, linkage_of_word, spatial_of_word, with_points
+from gruebler.cli.linkage_inputs import linkage_of_word, spatial_of_word, with_points
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.printed_file import is_table
@@ -28,7 +28,6 @@ from gruebler.mechanics.analysis.circuit_ranges import slide_directions
 from gruebler.mechanics.analysis.measure_units import length_message
 from gruebler.mechanics.analysis.outputs import Output, find_output
 from gruebler.mechanics.analysis.table import default_rows, motion_table
-from gruebler.mechanics.fourbar.length_texts import size_of
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.branches import read_branch
 from gruebler.mechanics.kinematics.drive_rows import rpm as per_minute
@@ -86,9 +85,6 @@ def run(arguments: argparse.Namespace) -> int:
 
         return analyse_in_space(arguments, spatial)
     linkage, shown_range = _in_plane(arguments)
-    size = size_of(arguments.linkage)
-    if size is not None and not arguments.json:  # the linkage as JSON must have a unit, these lengths have none
-        linkage = linkage_of_lengths(size, language_of_names(arguments), unit="")
     linkage = with_points(linkage, arguments.point)
     turning = turning_drives(linkage)
     plan = cached_plan(linkage)
@@ -155,7 +151,8 @@ def _in_plane(arguments: argparse.Namespace) -> tuple[Linkage, tuple[float, floa
     """The linkage and the drive values between which it is shown."""
     if arguments.wheel is not None:
         raise GrueblerError("--wheel goes with a linkage in space")
-    return linkage_of_word(arguments.linkage, language_of_names(arguments))
+    unit = "mm" if arguments.json else ""  # the linkage as JSON must have a unit, lengths have none
+    return linkage_of_word(arguments.linkage, language_of_names(arguments), unit=unit)
 
 
 # --- what was asked for ----------------------------------------------------------------------------

@@ -61,7 +61,7 @@ def _write_value(word: str, target: str, form: str | None, notes: list[Message])
     if is_structure_text(word) or not (lengths or entry(word).dimensions is not None):
         write(chain_from_word(word), target, format_name=form, left_out=notes)
     elif lengths or entry(word).loads is None:
-        write(linkage_of_word(word)[0], target, format_name=form, left_out=notes)
+        write(linkage_of_word(word, unit="mm")[0], target, format_name=form, left_out=notes)
     else:
         write_loaded(*entry(word).loaded(), Path(target), form, notes)
 

@@ -18,7 +18,7 @@ from gruebler.cli import curve_cognates, curve_guidance, curve_straight
 from gruebler.cli.arguments import take
 from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import linkage_of_lengths, linkage_of_word
+from gruebler.cli.linkage_inputs import linkage_of_word
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
@@ -26,7 +26,6 @@ from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import Cell, print_table
 from gruebler.mechanics.analysis.drive_cycles import PathCycle
 from gruebler.mechanics.analysis.measure_units import length_message
-from gruebler.mechanics.fourbar.length_texts import size_of
 from gruebler.mechanics.geometry import CouplerCurve, TangentContact, coupler_curve
 from gruebler.mechanics.geometry.double_points import DoublePoint
 from gruebler.mechanics.geometry.path_events import Cusp, Inflection, TurningPoint, Vertex
@@ -142,10 +141,8 @@ def _check(arguments: argparse.Namespace, question: str) -> None:
 
 def _path(arguments: argparse.Namespace) -> int:
     """Length, area, contact, then a table of what is on the path."""
-    linkage, _ = linkage_of_word(arguments.linkage, language_of_names(arguments))
-    size = size_of(arguments.linkage)
-    if size is not None and not arguments.json:  # as JSON it must have a unit
-        linkage = linkage_of_lengths(size, language_of_names(arguments), unit="")
+    unit = "mm" if arguments.json else ""  # the linkage as JSON must have a unit, lengths have none
+    linkage, _ = linkage_of_word(arguments.linkage, language_of_names(arguments), unit=unit)
     path = driven_path(arguments.range, linkage)
     if path is not None and arguments.contact:
         raise GrueblerError("--contact needs the whole motion of one drive: leave --range out")

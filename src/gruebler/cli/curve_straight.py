@@ -76,7 +76,7 @@ def _piece(arguments: argparse.Namespace, centre: float) -> PathPiece | None:
     if not ranges:
         raise GrueblerError("{lengths} cannot be assembled in any position", lengths=arguments.linkage)
     band, band_unit = length_of("--band", arguments.band)
-    width = same_unit(band, band_unit, unit) if band_unit else band
+    width = same_unit(band, band_unit, unit) if band_unit and unit else band  # lengths have the unit of the band
     return max((longest_piece(path, *ends, width) for ends in ranges), key=lambda piece: piece.length)
 
 
@@ -85,7 +85,7 @@ def _path(arguments: argparse.Namespace, centre: float) -> tuple[Path, str, list
     turn = (centre - math.pi, centre + math.pi)
     if (size := size_of(arguments.linkage)) is not None:
         path = coupler_path(size, *coupler_point(size, arguments.point), branch=arguments.branch)
-        return path, "mm", [turn if arc.full else (arc.start, arc.end) for arc in size.limits]
+        return path, "", [turn if arc.full else (arc.start, arc.end) for arc in size.limits]
     linkage, _ = linkage_of_word(arguments.linkage, language_of_names(arguments))
     span = drive_cycle(linkage, branch=arguments.branch).span
     if not linkage.mechanism.drives[0].turning:

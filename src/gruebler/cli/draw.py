@@ -338,9 +338,9 @@ def _bevel_train(arguments: argparse.Namespace, spatial: SpatialWord) -> Figure:
     return draw_train(bevel_train(spatial.linkage), lang=arguments.lang, name=name)
 
 
-def linkage_and_range(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float] | None]:
+def linkage_and_range(word: str, lang: str = "en", *, unit: str = "") -> tuple[Linkage, tuple[float, float] | None]:
     """The linkage of a word, and the drive values between which it is shown, in radians where the drive turns."""
-    linkage, shown = linkage_of_word(word, lang)
+    linkage, shown = linkage_of_word(word, lang, unit=unit)
     drives = linkage.mechanism.drives
     if shown is None or not drives or not drives[0].turning:
         return linkage, shown

@@ -126,7 +126,7 @@ def _model(word: str, lang: str) -> dict[str, Any]:
         if realisation.linkage is None:
             raise GrueblerError("{message}", message=realisation.explain(lang))
         return model_of(realisation.linkage)
-    linkage, between = linkage_and_range(word)
+    linkage, between = linkage_and_range(word, unit="mm")  # which the page writes into files
     record = entry_of(word)
     model = model_of(linkage, name=word if record is None else record.name, source=word, between=between)
     return with_document(model, linkage, own_document(Path(word))) if Path(word).is_file() else model

@@ -29,8 +29,8 @@ def with_points(linkage: Linkage, texts: Collection[str]) -> Linkage:
     return linkage
 
 
-def linkage_of_lengths(size: ClosedForm, lang: str = "en", *, unit: str = "mm") -> Linkage:
-    """The linkage of given lengths, its links by their names in a language.
+def linkage_of_lengths(size: ClosedForm, lang: str = "en", *, unit: str = "") -> Linkage:
+    """The linkage of given lengths, which have no unit; its links by their names in a language.
 
     >>> from gruebler.mechanics.fourbar import FourBar
     >>> linkage_of_lengths(FourBar(25, 70, 40, 70), "de").mechanism.chain.links
@@ -40,16 +40,17 @@ def linkage_of_lengths(size: ClosedForm, lang: str = "en", *, unit: str = "mm") 
     return linkage.renamed({link: translate(link, lang) for link in linkage.mechanism.chain.links})
 
 
-def linkage_of_word(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float] | None]:
+def linkage_of_word(word: str, lang: str = "en", *, unit: str = "") -> tuple[Linkage, tuple[float, float] | None]:
     """The linkage of a word, and the drive values between which a catalog entry shows it.
 
-    The links of lengths and of catalog entries have their names in the language.
+    The links of lengths and of catalog entries have their names in the language. Lengths are in ``unit``,
+    which files need.
 
     >>> linkage_of_word("slider-crank:25,70")[0].length("coupler", 1, 2)
     70.0
     """
     if (size := size_of(word)) is not None:
-        return linkage_of_lengths(size, lang), None
+        return linkage_of_lengths(size, lang, unit=unit), None
     kind, colon, _ = word.partition(":")
     path = Path(word)
     foreign = value_of_another_program(word, lang)

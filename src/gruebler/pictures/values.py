@@ -372,7 +372,7 @@ def plot(
     given = _given(locals())
     from gruebler.mechanics.linkages.conversion import linkage_made
 
-    linkage = linkage_made(linkage)
+    linkage = linkage_made(linkage, unit="")
     own = _PLOTS_OF.get(type(linkage).__name__)
     known = own or _PLOTS
     if own and kind == "transfer":
@@ -394,7 +394,7 @@ def _plotted(linkage: Any, given: dict[str, Any]) -> tuple[Linkage, dict[str, An
     from gruebler.mechanics.linkages.conversion import as_linkage
 
     if not isinstance(linkage, Motion):
-        return as_linkage(linkage), given
+        return as_linkage(linkage, unit=""), given
     if len(linkage) < 2:
         raise GrueblerError("this motion has {count} rows, and no diagram: plot its linkage", count=len(linkage))
     low, high = float(linkage.drives[:, 0].min()), float(linkage.drives[:, 0].max())
@@ -416,10 +416,10 @@ def picture_of(value: object) -> str:
 
 def _drawn(value: Any) -> tuple[Any, _Kind]:
     """The value that is drawn, and how: a linkage for lengths that make one."""
-    from gruebler.mechanics.linkages.conversion import makes_linkage
+    from gruebler.mechanics.linkages.conversion import linkage_made
 
-    if type(value).__name__ not in _KINDS and makes_linkage(value):
-        value = value.linkage()
+    if type(value).__name__ not in _KINDS:
+        value = linkage_made(value, unit="")
     kind = _KINDS.get(type(value).__name__)
     if kind is None and isinstance(value, str):
         raise GrueblerError("a text has no picture; {call} reads what it stands for", call=to_be_read(value))

@@ -88,7 +88,7 @@ def drive_cycle(linkage: Linkage, *, branch: Branch = None) -> DriveCycle:
     size = 1.0 if _turns(plan) else plan.lower.size
     if span.width < _NARROW * size:
         middle = (span.low + span.high) / 2
-        at = f"{round(degrees(middle), 4) + 0:g}°" if _turns(plan) else f"{middle:.9g} {linkage.unit}"
+        at = f"{round(degrees(middle), 4) + 0:g}°" if _turns(plan) else f"{middle:.9g} {linkage.unit}".rstrip()
         raise LinkageError(
             "the drive cannot move: the linkage can be assembled in one position only, drive = {at}", at=at
         )

@@ -14,6 +14,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
 from gruebler.base.text import Message, joined, joined_by_and, message
+from gruebler.base.units import moment_unit
 from gruebler.mechanics.forces.acting import Wrench, loads_over_rows
 from gruebler.mechanics.forces.contact_forces import pushing
 from gruebler.mechanics.forces.equilibrium import (
@@ -210,7 +211,7 @@ class Statics(Tabled):
             known = self.work[:, k][np.isfinite(self.work[:, k])]
             if len(known):
                 name = mechanism.chain.joint_title(drive.joint)
-                unit = f"N·{self.motion.linkage.unit}" if drive.turning else "N"
+                unit = moment_unit(self.motion.linkage.unit, lang) if drive.turning else "N"
                 ends = {"low": float(known.min()), "high": float(known.max())}
                 lines.append(_EFFORT.filled(drive=name, unit=unit, **ends))
         forces = np.abs(self.reactions.forces)

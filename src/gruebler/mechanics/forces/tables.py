@@ -9,6 +9,7 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.columns import Column, Table
 from gruebler.base.text import translate
+from gruebler.base.units import moment_unit
 from gruebler.mechanics.forces.friction import FrictionForces
 from gruebler.mechanics.forces.solution import Statics
 from gruebler.structure.chain.pairs import Alphabet
@@ -45,7 +46,7 @@ def statics_table(statics: Statics, *, lang: str = "en") -> Table:
         values = motion.drives[:, k]
         if drive.turning:
             drives.append(Column(name, unit="°", values=np.degrees(values)))
-            effort, unit = translate("torque {joint}", lang, joint=name), f"N·{linkage.unit}"
+            effort, unit = translate("torque {joint}", lang, joint=name), moment_unit(linkage.unit, lang)
         else:
             drives.append(Column(name, unit=linkage.unit, values=values))
             effort, unit = translate("force {joint}", lang, joint=name), "N"
@@ -87,7 +88,10 @@ def _friction_columns(statics: Statics, rubbing: FrictionForces, names: Sequence
         if contact.slides:
             header, unit = translate("friction {joint}", lang, joint=place), "N"
         else:
-            header, unit = translate("friction moment {joint}", lang, joint=place), f"N·{statics.motion.linkage.unit}"
+            header, unit = (
+                translate("friction moment {joint}", lang, joint=place),
+                moment_unit(statics.motion.linkage.unit, lang),
+            )
         columns.append(Column(header, unit=unit, values=rubbing.friction[:, k]))
     return columns
 
@@ -116,7 +120,9 @@ def component_table(statics: Statics, lang: str = "en", *, reactions: bool = Tru
             if joint.pair.keeps_directions or number in rubbing_pins:
                 header = translate("moment of {joint} on {link}", lang, joint=name, link=link)
                 moment = statics.couple(number, link=link)
-                columns.append(Column(header, unit=f"N·{linkage.unit}", values=moment, natural=largest * linkage.size))
+                columns.append(
+                    Column(header, unit=moment_unit(linkage.unit, lang), values=moment, natural=largest * linkage.size)
+                )
     return Table(tuple(columns))
 
 

@@ -127,7 +127,7 @@ class CouplerCurve:
         Raises `LinkageError` for a value outside the range of the drive.
         """
         value, cycle = as_finite("drive", drive), self.point_path.cycle
-        span, scale, unit = cycle.span, 1.0, f" {cycle.linkage.unit}"
+        span, scale, unit = cycle.span, 1.0, f" {cycle.linkage.unit}".rstrip()
         if cycle.turning_drive:
             scale, unit = degrees(1), "°"
             if not span.low <= value <= span.high:

@@ -71,7 +71,8 @@ def drive_values(linkage: Driven, values: tuple[float, ...]) -> Message:
         if drive.turning:
             parts.append(message("{name} = {value:n}°", name=name, value=degrees(value)))
         else:
-            parts.append(message("{name} = {value:n} {unit}", name=name, value=value, unit=linkage.unit))
+            text = message("{name} = {value:n} {unit}") if linkage.unit else message("{name} = {value:n}")
+            parts.append(text.filled(name=name, value=value, unit=linkage.unit))
     return joined(parts)
 
 

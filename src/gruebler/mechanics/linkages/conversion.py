@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from inspect import signature
 from typing import Any, Protocol, TypeGuard, runtime_checkable
 
 from gruebler.base.errors import LinkageError, to_be_read
@@ -26,19 +28,27 @@ def makes_linkage(value: object) -> TypeGuard[HasLinkage]:
     return isinstance(value, HasLinkage) and not isinstance(value, type) and callable(value.linkage)
 
 
-def linkage_made(value: Any) -> Any:
-    """The linkage that lengths make, in the plane or in space; any other value as it is."""
-    return value.linkage() if makes_linkage(value) else value
+def linkage_made(value: Any, *, unit: str | None = None) -> Any:
+    """The linkage that lengths make, in the plane or in space; any other value as it is.
+
+    Lengths are numbers without a unit: their linkage is in ``unit`` if one is given, else in mm, as files need one.
+    """
+    if not makes_linkage(value):
+        return value
+    make: Callable[..., Any] = value.linkage
+    return make() if unit is None or "unit" not in signature(make).parameters else make(unit=unit)
 
 
-def as_linkage(value: object) -> Linkage:
+def as_linkage(value: object, *, unit: str | None = None) -> Linkage:
     """The linkage that a value is or makes; `LinkageError` says what else it is, and where that is answered.
+
+    ``unit`` is for lengths, as for `linkage_made`.
 
     >>> from gruebler.mechanics.fourbar import FourBar
     >>> as_linkage(FourBar(25, 70, 40, 70)).mechanism.frame
     'frame'
     """
-    value = linkage_made(value)
+    value = linkage_made(value, unit=unit)
     if isinstance(value, Linkage):
         return value
     kind = type(value).__name__

@@ -96,17 +96,35 @@ def tick_labels(values: Sequence[float], step: float) -> tuple[str, ...]:
     return tuple(f"{value + 0.0:.{places}f}".replace("-", "−") for value in values)
 
 
+def axis_name(symbol: str, unit: str) -> str:
+    """The name of an axis, with its unit if there is one.
+
+    >>> axis_name("s", "mm"), axis_name("s", "")
+    ('s in mm', 's')
+    """
+    return f"{symbol} in {unit}" if unit else symbol
+
+
+def rate_unit(unit: str, per: str) -> str:
+    """The unit of a rate; either may be missing.
+
+    >>> rate_unit("mm", "rad"), rate_unit("", "rad"), rate_unit("rad", ""), rate_unit("", "")
+    ('mm/rad', '1/rad', 'rad', '')
+    """
+    return f"{unit or '1'}/{per}" if per else unit
+
+
 def as_text(value: float, unit: str, lang: str = "en") -> str:
     """A size with four digits and its unit; with a power of ten where it is huge or tiny.
 
     >>> as_text(70.0, "mm"), as_text(40.311, "mm", "de"), as_text(3e7, "mm"), as_text(1e-6, "mm")
     ('70 mm', '40,31 mm', '3×10⁷ mm', '10⁻⁶ mm')
-    >>> as_text(3e7, "mm", "de")
-    '3·10⁷ mm'
+    >>> as_text(3e7, "mm", "de"), as_text(20.0, "1/rad")
+    ('3·10⁷ mm', '20/rad')
     """
     plain = not value or 1e-3 <= abs(float(f"{value:.4g}")) < 1e5
     number = f"{float(f'{value:.4g}'):.10g}".replace("-", "−") if plain else _with_power(value).removeprefix("1×")
-    return decimal_sign_in(f"{number} {unit}".rstrip(), lang)
+    return decimal_sign_in(f"{number}{unit[1:]}" if unit.startswith("1/") else f"{number} {unit}".rstrip(), lang)
 
 
 def _with_power(value: float) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.text import number
-from gruebler.pictures.canvas.axes import Axis, angles, as_text, decimals
+from gruebler.pictures.canvas.axes import Axis, angles, as_text, axis_name, decimals, rate_unit
 
 ROWS = 720
 """Poses of a turn, or of the range."""
@@ -17,7 +17,7 @@ _STEEP = {False: 1.5, True: 20.0}  # widths of it beyond which values are cut of
 
 def drive_axis(x: Reals, turning: bool, unit: str) -> Axis:
     """The axis of a drive over values in degrees, or in the unit."""
-    scale, text = (angles, "φ in °") if turning else (decimals, f"s₁ in {unit}")
+    scale, text = (angles, "φ in °") if turning else (decimals, axis_name("s₁", unit))
     return Axis(text, scale(float(x.min()), float(x.max()), tight=True))
 
 
@@ -53,17 +53,18 @@ def order_words(turning: bool, by_turning: bool, unit: str, order: int) -> str:
 
     >>> order_words(True, True, "mm", 0), order_words(False, True, "mm", 2)
     ('ψ in °', 's′′ = d²s/dφ² in mm/rad²')
+    >>> order_words(False, True, "", 0), order_words(False, True, "", 1)
+    ('s', 's′ = ds/dφ in 1/rad')
     """
     letter, over = "ψ" if turning else "s", "φ" if by_turning else "s₁"
     if order == 0:
-        return f"{letter} in {'°' if turning else unit}"
+        return axis_name(letter, "°" if turning else unit)
     mark = ("", "", "²")[order]
     units = {
         (True, True): "",
-        (True, False): f"rad/{unit}{mark}",
-        (False, True): f"{unit}/rad{mark}",
-        (False, False): "" if order == 1 else f"1/{unit}",
+        (True, False): rate_unit("rad", unit and f"{unit}{mark}"),
+        (False, True): rate_unit(unit, f"rad{mark}"),
+        (False, False): rate_unit("", "" if order == 1 else unit),
     }
     of = units[turning, by_turning]
-    text = f"{letter}{'′' * order} = d{mark}{letter}/d{over}{mark}"
-    return f"{text} in {of}" if of else text
+    return axis_name(f"{letter}{'′' * order} = d{mark}{letter}/d{over}{mark}", of)

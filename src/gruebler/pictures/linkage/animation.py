@@ -114,7 +114,7 @@ def scene(
 
     Raises `LinkageError` for several drives, unknown points, or a time that is no positive number.
     """
-    linkage = as_linkage(linkage)
+    linkage = as_linkage(linkage, unit="")
     if not 0 < seconds <= _LONGEST:
         raise LinkageError(
             "the time is a number of seconds up to {longest:g}, not {seconds!r}", longest=_LONGEST, seconds=seconds

@@ -44,5 +44,5 @@ def _settings(shown: Scene) -> PageSettings:
         seconds=shown.seconds,
         round=posed.repeats,
         places=1 if turning else max(0, 2 - math.floor(math.log10(high - low))),
-        unit="°" if turning else f" {posed.linkage.unit}",
+        unit="°" if turning else f" {posed.linkage.unit}".rstrip(),
     )

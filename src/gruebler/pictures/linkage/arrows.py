@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from gruebler.mechanics.linkages import LinkPoint
-from gruebler.pictures.canvas.axes import as_text
+from gruebler.pictures.canvas.axes import as_text, rate_unit
 from gruebler.pictures.canvas.shapes import Point, Polylines, Shape, TextShape, bounds
 from gruebler.pictures.canvas.symbols import arrow
 from gruebler.pictures.linkage.layer_context import LayerContext
@@ -106,7 +106,7 @@ def _bar(posed: PosedLinkage, key: str) -> _ScaleBar | None:
     if not longest:
         return None
     by = f"{'rad' if posed.driven().turning_drive else unit}{'²' if order == 2 else ''}"
-    return _ScaleBar(_LONGEST, longest, f"{unit}/{by}", ("velocity", "acceleration")[order - 1])
+    return _ScaleBar(_LONGEST, longest, rate_unit(unit, by), ("velocity", "acceleration")[order - 1])
 
 
 def _round(most: float) -> float:

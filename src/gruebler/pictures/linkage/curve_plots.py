@@ -17,7 +17,7 @@ from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanics.linkages.points import PointLike, each_point, place_of
-from gruebler.pictures.canvas.axes import Axis, Scale, decimals
+from gruebler.pictures.canvas.axes import Axis, Scale, axis_name, decimals, rate_unit
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.panels import Panel, PlottedCurve, PointMarker, draw_panels
 from gruebler.pictures.canvas.shapes import Point
@@ -59,7 +59,7 @@ def hodograph(
     >>> hodograph(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), ["K"]).title
     'four-bar linkage: hodograph of K'
     """
-    linkage = as_linkage(linkage)
+    linkage = as_linkage(linkage, unit="")
     chosen = _few(points)
     if speed is not None and not (math.isfinite(speed) and speed):
         raise LinkageError(
@@ -70,9 +70,13 @@ def hodograph(
     factor = 1.0 if speed is None else speed
     paths = [factor * run.motion.complex_point(place, order=1) for place in places]
     per = run.drive_unit if speed is None else "s"
-    rate = message("1") if speed is None else message("{speed:.6g} {unit}/s", speed=speed, unit=run.drive_unit)
+    rate = (
+        message("1")
+        if speed is None
+        else message("{speed:.6g} {unit}", speed=speed, unit=rate_unit(run.drive_unit, "s"))
+    )
     symbols = ("x′", "y′") if speed is None else ("ẋ", "ẏ")
-    axes = [f"{symbol} in {run.unit}/{per}" for symbol in symbols]
+    axes = [axis_name(symbol, rate_unit(run.unit, per)) for symbol in symbols]
     names = list(chosen)
     ranges = [
         _joined([run.bulk(part) for part in parts]) for parts in zip(*((z.real, z.imag) for z in paths), strict=True)
@@ -123,7 +127,7 @@ def coupler_plot(
 
     Arguments and errors as for `hodograph`.
     """
-    linkage = as_linkage(linkage)
+    linkage = as_linkage(linkage, unit="")
     places = {name: place_of(linkage, point) for name, point in _few(points).items()}
     return _paths(linkage, places, branch, between, lang, name)
 
@@ -161,7 +165,7 @@ def family_plot(
     >>> family_plot(FourBar(25, 70, 40, 70).linkage(), count=3).description[:35]
     'Paths of −35, 0; 35, 0; 105, 0, dri'
     """
-    linkage = as_linkage(linkage)
+    linkage = as_linkage(linkage, unit="")
     return _paths(linkage, family_of(linkage, link, start, end, count), branch, between, lang, name)
 
 
@@ -202,7 +206,7 @@ def _paths(
     row = len(run.drives) // 6
     skeleton = _skeleton(run.motion, row, places.values())
     spots = [PointMarker(x=path[row].real, y=path[row].imag, text="") for path in paths]
-    panel = square_panel(paths, list(places), [f"{axis} in {run.unit}" for axis in "xy"], spots, skeleton)
+    panel = square_panel(paths, list(places), [axis_name(axis, run.unit) for axis in "xy"], spots, skeleton)
     about = translate(
         "Paths of {points}, {range}; dots and thin lines show the pose at {at}.",
         lang,

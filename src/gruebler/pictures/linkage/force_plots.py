@@ -15,7 +15,7 @@ from gruebler.base.units import metres_of
 from gruebler.mechanics.dynamics import InverseDynamics, Simulation
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage
-from gruebler.pictures.canvas.axes import Axis, angles, decimals
+from gruebler.pictures.canvas.axes import Axis, angles, axis_name, decimals, rate_unit
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.panels import Panel, PlottedCurve, PointMarker, draw_panels
 from gruebler.pictures.canvas.shapes import Point
@@ -132,8 +132,10 @@ def phase_plot(run: Simulation, *, lang: str = "en", name: str = "") -> Figure:
     _one_drive(run.linkage, len(run))
     turning = run.linkage.mechanism.drives[0].turning
     x, speed = np.degrees(run.drives[:, 0]) if turning else run.drives[:, 0], run.speeds[:, 0]
-    across = Axis("φ in °" if turning else f"s₁ in {run.linkage.unit}", (angles if turning else decimals)(*_ends([x])))
-    up = _axis("ω in rad/s" if turning else f"v in {run.linkage.unit}/s", [speed])
+    across = Axis(
+        "φ in °" if turning else axis_name("s₁", run.linkage.unit), (angles if turning else decimals)(*_ends([x]))
+    )
+    up = _axis("ω in rad/s" if turning else axis_name("v", rate_unit(run.linkage.unit, "s")), [speed])
     start = PointMarker(x=float(x[0]), y=float(speed[0]), text="")
     curve = PlottedCurve(x=x, y=speed, name="", style=LINES[0])
     called = translate("{name}: phase plane", lang, name=title(run.linkage.mechanism, lang, name))
@@ -154,7 +156,7 @@ def _drive_axis(motion: Motion) -> tuple[Axis, Reals]:
     _one_drive(linkage, len(motion))
     if linkage.mechanism.drives[0].turning:
         return Axis("φ in °", angles(*_ends([np.degrees(values)]), tight=True)), np.degrees(values)
-    return Axis(f"s₁ in {linkage.unit}", decimals(*_ends([values]), tight=True)), values
+    return Axis(axis_name("s₁", linkage.unit), decimals(*_ends([values]), tight=True)), values
 
 
 def _axis(text: str, values: Sequence[Reals]) -> Axis:

@@ -60,7 +60,7 @@ def transfer_plot(
     >>> transfer_plot(FourBar(25, 70, 40, 70).linkage()).title
     'four-bar linkage: transfer functions of rocker'
     """
-    linkage = as_linkage(linkage)
+    linkage = as_linkage(linkage, unit="")
     run = plot_run(linkage, 2, branch, between, lang, name)
     output_quantity = find_output(linkage, output)
     _check(run, output_quantity, output)
@@ -177,7 +177,7 @@ def transmission_plot(
     >>> transmission_plot(FourBar(2, 5, 4, 5).linkage()).description[-72:]
     'Smallest 36.87° at 0°; shaded below 40°. Dead centres at 34.05°, 233.1°.'
     """
-    linkage = as_linkage(linkage)
+    linkage = as_linkage(linkage, unit="")
     run = plot_run(linkage, 2, branch, between, lang, name)
     output_quantity = find_output(linkage, output)
     called = (names or {}).get(output_quantity.name, output_quantity.name)

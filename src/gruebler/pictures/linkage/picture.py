@@ -125,7 +125,7 @@ def draw_linkage(
     >>> len(figure.svg()) < 8000
     True
     """
-    linkage = as_linkage(linkage)
+    linkage = as_linkage(linkage, unit="")
     posed = room_for(posed_linkage(linkage, at, branch=branch, between=between), outlines)
     layers = {key: layer(key) for key in dict.fromkeys(show)}
     if "joints" in layers:

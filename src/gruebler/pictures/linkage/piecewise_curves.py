@@ -98,7 +98,7 @@ def plot_run(linkage: LinkageLike, order: int, branch: Branch, between: Between,
 
     Raises `LinkageError` for a linkage without a drive, or with several, or if nothing lies between the two values.
     """
-    linkage = as_linkage(linkage)
+    linkage = as_linkage(linkage, unit="")
     if not linkage.mechanism.drives:
         raise LinkageError("no joint is driven, so there is nothing to be plotted; name a drive")
     cycle = drive_cycle(linkage, branch=branch)

@@ -131,7 +131,7 @@ def posed_linkage(
 
     Raises `LinkageError` for an unreachable pose, and without a drive if there is no reference pose.
     """
-    linkage = as_linkage(linkage)
+    linkage = as_linkage(linkage, unit="")
     try:
         values = None if drive is None else np.atleast_1d(np.asarray(drive, np.float64))
     except (TypeError, ValueError, OverflowError):
@@ -278,7 +278,9 @@ def _range(cycle: Course) -> Message:
 def _drive_value(cycle: Course, value: float) -> Message:
     if cycle.turning_drive:
         return message("{angle:.6g} degrees", angle=math.degrees(value))
-    return message("{length:.6g} {unit}", length=value, unit=cycle.linkage.unit)
+    return message(
+        "{length:.6g} {unit}" if cycle.linkage.unit else "{length:.6g}", length=value, unit=cycle.linkage.unit
+    )
 
 
 def floating_link(linkage: Linkage) -> str:

@@ -69,7 +69,7 @@ def animate_spatial(
     frames = [[*scene.shapes(poses), *paths] for poses in motion.poses[0]]
     turning = linkage.mechanism.drives[0].turning
     low, high = (degrees(q) if turning else float(q) for q in (path[0, 0], path[-1, 0]))
-    unit = "°" if turning else f" {linkage.unit}"
+    unit = "°" if turning else f" {linkage.unit}".rstrip()
     moves = translate("A turn of the drive in {seconds:g} s.", lang, seconds=seconds) if full else ""
     about = " ".join(filter(None, [scene.view.title.in_language(lang), moves, describe(linkage.mechanism, lang)]))
     clock = Clock(seconds=seconds, low=low, high=high, unit=unit, round=full)

@@ -12,7 +12,7 @@ from gruebler.base.text import translate
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space.drive_range import followed
 from gruebler.mechanics.space.measuring import SpatialMeasures, measures, output_freedom, spatial_table
-from gruebler.pictures.canvas.axes import Axis, angles, decimals
+from gruebler.pictures.canvas.axes import Axis, angles, axis_name, decimals
 from gruebler.pictures.canvas.drive_axes import ROWS, bulk, drive_axis, drive_text, order_words
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.panels import AxisMarker, Panel, PlottedCurve, draw_panels
@@ -127,7 +127,9 @@ def plot_point(
     x = np.degrees(row) if turning else row
     panel = Panel(
         across=drive_axis(x, turning, linkage.unit),
-        up=Axis(f"x, y, z in {linkage.unit}", decimals(*bulk(places.ravel(), np.tile(row, 3), full=False), few=6)),
+        up=Axis(
+            axis_name("x, y, z", linkage.unit), decimals(*bulk(places.ravel(), np.tile(row, 3), full=False), few=6)
+        ),
         curves=tuple(PlottedCurve(x=x, y=places[:, k], name="xyz"[k], style=LINES[k]) for k in range(3)),
     )
     heading = translate("{name}: coordinates of {point}", lang, name=title(linkage.mechanism, lang, name), point=point)

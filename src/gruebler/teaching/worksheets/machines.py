@@ -114,7 +114,8 @@ def _blocks_in_plane(
         yield Paragraph(values)
     rows = tuple(_lengths(linkage, lang))
     if rows:
-        yield Heading(translate("Dimensions in {unit}", lang, unit=linkage.unit))
+        sizes = message("Dimensions in {unit}", unit=linkage.unit) if linkage.unit else message("Dimensions")
+        yield Heading(sizes.in_language(lang))
         yield Rows((translate("link", lang), translate("joints or points", lang), translate("distance", lang)), rows)
     yield from _position(linkage, lang, shown)
     diagrams = _diagrams(linkage, outputs, lang, shown)
@@ -169,7 +170,9 @@ def _position(linkage: Linkage, lang: str, between: tuple[float, float] | None) 
         posed = posed_linkage(linkage, between=between)
     except GrueblerError:
         return
-    yield Heading(translate("Places in the position shown, in {unit} and degrees", lang, unit=linkage.unit))
+    with_unit = message("Places in the position shown, in {unit} and degrees", unit=linkage.unit)
+    without = message("Places in the position shown, angles in degrees")
+    yield Heading((with_unit if linkage.unit else without).in_language(lang))
     yield Paragraph(" ".join(picture_notes(posed, (), {}, lang)[0]))
     yield Rows(headers(lang), tuple(places(linkage, posed.pose, lang)))
 
