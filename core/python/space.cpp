@@ -31,6 +31,9 @@ void check_nodes(const Array<std::int64_t, -1, node_fields>& nodes, std::int64_t
                      within(own[4], -1, unknowns) && within(own[5], -1, balls) && (own[0] >= 0 || is_still) &&
                      !(is_still && (own[4] >= 0 || own[5] >= 0)) && (own[5] < 0 || (own[4] >= 0 && own[4] + 3 <= unknowns));
         if (sound && own[4] >= 0) sound = uses[static_cast<std::size_t>(own[4])]++ == 0;
+        for (std::int64_t i = 1; sound && own[5] >= 0 && i < 3; ++i)  // its turns follow each other
+            sound = k + i < count && own[i * node_fields + 1] == static_cast<std::int64_t>(Kind::turns) &&
+                    own[i * node_fields + 4] == own[4] + i;
         if (sound && own[5] >= 0) sound = starts[static_cast<std::size_t>(own[5])]++ == 0;
         if (!sound) throw nb::value_error(("node " + std::to_string(k) + " is none").c_str());
     }
@@ -135,13 +138,15 @@ nb::tuple open_linkage(const Nodes& nodes, const Rows& rows, const Array<double,
 
 nb::tuple follow_linkage(const Nodes& nodes, const Rows& rows, const Array<double, -1, 4, 4>& frames,
                          const Array<double, -1>& pitches, const Array<double, -1>& lengths,
-                         const Array<double, -1, -1>& gears, std::size_t balls, const Array<std::int64_t, -1>& passive,
+                         const Array<double, -1, -1>& gears, const Array<double, -1>& start,
+                         const Array<double, -1, 3, 3>& turns, const Array<std::int64_t, -1>& passive,
                          const Array<std::int64_t, -1>& drives, const Array<std::int64_t, -1>& links,
                          const Array<std::int64_t, -1, rod_fields>& rods, const Array<double, -1, rod_vectors, 3>& balls_of_rods,
                          const Array<double, 4>& unit,
                          const Array<double, -1, -1>& values, const Array<double, -1, -1, -1>& rates) {
     const std::size_t unknowns = gears.shape(1), count = values.shape(0), orders = rates.shape(0);
-    expect(balls <= unknowns, "there are fewer balls than unknowns");
+    const std::size_t balls = turns.shape(0);
+    expect(start.shape(0) == unknowns, "each unknown has a value at the start");
     const Linkage linkage = linkage_of(nodes, rows, frames, pitches, lengths, gears, balls);
     const std::size_t conditions = static_cast<std::size_t>(linkage.conditions()), passives = passive.shape(0);
     check_numbers(passive, 0, unknowns, "passive: the numbers of unknowns");
@@ -154,7 +159,7 @@ nb::tuple follow_linkage(const Nodes& nodes, const Rows& rows, const Array<doubl
            "each row has a value and rates of each drive");
     const std::size_t each = values.shape(1);
     for (std::size_t k = 0; k < values.size(); ++k)
-        expect(std::fabs(values.data()[k] - (k < each ? 0 : values.data()[k - each])) <= longest_way,
+        expect(std::fabs(values.data()[k] - (k < each ? start.data()[drives.data()[k]] : values.data()[k - each])) <= longest_way,
                "values: no row lies farther than 1e9 from the one before");
     std::vector<double> found((orders + 1) * count * unknowns), derivatives(count * conditions * passives);
     std::vector<double> poses((orders + 1) * count * links.shape(0) * frame_size);
@@ -166,6 +171,7 @@ nb::tuple follow_linkage(const Nodes& nodes, const Rows& rows, const Array<doubl
                     drives.data(),                         passive.data(),
                     links.data(),                          rods.data(),
                     balls_of_rods.data(),                  unit.data(),
+                    start.data(),                          turns.data(),
                     values.data(),                         rates.data(),
                     found.data(),                          poses.data(),
                     derivatives.data(),                    passed.data()};
@@ -199,11 +205,12 @@ void add_space(nb::module_& module) {
                "float[gears, unknowns], conditions behind those of the rows; turns: float[balls, 3, 3].");
     module.def("follow_linkage", follow_linkage, nb::arg("nodes").noconvert(), nb::arg("rows").noconvert(),
                nb::arg("frames").noconvert(), nb::arg("pitches").noconvert(), nb::arg("lengths").noconvert(),
-               nb::arg("gears").noconvert(), nb::arg("balls"), nb::arg("passive").noconvert(),
+               nb::arg("gears").noconvert(), nb::arg("start").noconvert(), nb::arg("turns").noconvert(),
+               nb::arg("passive").noconvert(),
                nb::arg("drives").noconvert(), nb::arg("links").noconvert(), nb::arg("rods").noconvert(),
                nb::arg("balls_of_rods").noconvert(), nb::arg("unit").noconvert(), nb::arg("values").noconvert(),
                nb::arg("rates").noconvert(),
-               "A linkage followed along values of its drives from where all unknowns are 0: the unknowns as power series in "
+               "A linkage followed along values of its drives from a closed position: the unknowns as power series in "
                "time float[orders + 1, rows, unknowns], poses of links and their time derivatives float[orders + 1, rows, "
                "links, 4, 4], derivatives by the passive unknowns float[rows, conditions, passive], whether a change of "
                "mode was passed before a row uint8[rows], how many rows were reached, what part of the way to the next, by "

@@ -104,6 +104,8 @@ Driven drive(const Dimensioned& of, const std::vector<double>& lengths, const st
     std::vector<double> rates(many * orders), derivatives(many * static_cast<std::size_t>((rows + wheels) * unknowns));
     std::vector<std::uint8_t> passed(many);
     for (std::size_t row = 0; row < many; ++row) rates[row] = 1;
+    std::vector<double> start(static_cast<std::size_t>(unknowns)), turns;
+    for (int ball = 0; ball < balls; ++ball) turns.insert(turns.end(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
     Driven driven{};
     driven.unknowns.resize((orders + 1) * many * static_cast<std::size_t>(unknowns));
     driven.poses.resize((orders + 1) * many * links.size() * frame_size);
@@ -116,6 +118,7 @@ Driven drive(const Dimensioned& of, const std::vector<double>& lengths, const st
                     &first,                          passive.data(),
                     links.data(),                    rod,
                     vectors,                         unit,
+                    start.data(),                    turns.data(),
                     values.data(),                   rates.data(),
                     driven.unknowns.data(),          driven.poses.data(),
                     derivatives.data(),              passed.data()};

@@ -57,8 +57,9 @@ ROD = np.array([[1, 0, 2]]), np.arange(15.0).reshape(1, 5, 3)
 CALLS_IN_SPACE = (
     ("follow_modes", MODES),
     ("open_linkage", (*BODY, np.zeros(4), np.eye(3)[None])),
-    ("follow_linkage", (*BODY, 1, np.array([1, 2, 3]), np.zeros(1, np.int64), np.array([4, -1, 1]),
-                        *ROD, np.array([2.0, 1, 1, 0]), np.array([[0.0], [0.3]]), np.ones((3, 2, 1)))),
+    ("follow_linkage", (*BODY, np.zeros(4), np.eye(3)[None], np.array([1, 2, 3]), np.zeros(1, np.int64),
+                        np.array([4, -1, 1]), *ROD, np.array([2.0, 1, 1, 0]), np.array([[0.0], [0.3]]),
+                        np.ones((3, 2, 1)))),
     ("place_rods", (*ROD, np.tile(np.eye(4), (2, 3, 1, 1)))),
 )  # fmt: skip
 ROWS = np.array([0, 2, 3]), np.array([0, 1, 1]), np.array([1, 2, 3])

@@ -100,7 +100,8 @@ ROD = {
 }
 ROD["frames"][1, 0, 3] = ROD["frames"][4, 1, 3] = 1
 DRIVEN = {
-    "balls": 0,
+    "start": np.zeros(2),
+    "turns": np.zeros((0, 3, 3)),
     "passive": np.array([1]),
     "drives": np.array([0]),
     "links": np.array([4, -1, 2]),
@@ -140,6 +141,14 @@ def test_the_rod_turns_the_hand_by_the_law_of_cosines_with_its_rates():
         np.testing.assert_allclose(series[:, row, 1], taylor[:4], atol=1e-11)
 
 
+def test_a_path_may_begin_anywhere():
+    whole = _core.follow_linkage(**ROD | DRIVEN)
+    later = {"start": whole[0][0, 1], "values": np.array([[0.5], [1.0]]), "rates": DRIVEN["rates"][:, 1:].copy()}
+    part = _core.follow_linkage(**ROD | DRIVEN | later)
+    np.testing.assert_allclose(part[0], whole[0][:, 1:], atol=1e-13)
+    np.testing.assert_allclose(part[1], whole[1][:, 1:], atol=1e-13)
+
+
 def test_the_rod_is_open_by_what_it_misses():
     place = np.array([0.2, 0.1]), np.zeros((0, 3, 3))
     value, derivative = _core.open_linkage(**ROD, at=place[0], turns=place[1])
@@ -171,8 +180,9 @@ def test_the_rod_ends_where_it_lies_in_line():
         {"pitches": np.zeros(4)},
         {"lengths": np.zeros(2)},
         {"gears": np.zeros((0, 3))},
-        {"balls": 1},
-        {"balls": -1},
+        {"start": np.zeros(1)},
+        {"start": np.full(2, np.nan)},
+        {"turns": np.eye(3)[None]},
         {"passive": np.array([2])},
         {"passive": np.array([1, 1])},
         {"drives": np.array([-1])},

@@ -218,13 +218,15 @@ public:
           series_(conditions_),
           here_(linkage.conditions(), path.passives),
           there_(linkage.conditions(), path.passives),
-          q_(static_cast<std::size_t>(linkage.structure.unknowns)),
+          q_(path.start, path.start + linkage.structure.unknowns),
           guess_(q_),
           predicted_(q_),
           begin_(static_cast<std::size_t>(path.drives)),
           change_(static_cast<std::size_t>(path.passives)),
           passive_(path.passive, path.passive + path.passives),
-          placed_(static_cast<std::size_t>(path.links * terms)) {}
+          placed_(static_cast<std::size_t>(path.links * terms)) {
+        conditions_.turns.assign(path.turns, path.turns + linkage.structure.balls * turn_size);
+    }
 
     bool follow(Followed& followed, Watch& watch) {
         conditions_.evaluate(q_.data());
@@ -344,9 +346,7 @@ private:
             if (own[5] < 0) continue;
             double* angles = q_.data() + own[4];
             if (!(std::fabs(angles[0]) > far || std::fabs(angles[1]) > far || std::fabs(angles[2]) > far)) continue;
-            double* rotation = conditions_.turns.data() + own[5] * turn_size;
-            turn_further(rotation, angles);
-            make_orthogonal(rotation);
+            conditions_.count_from(k, angles);
             for (int i = 0; i < 3; ++i) angles[i] = 0;
             any = true;
         }

@@ -86,11 +86,13 @@ struct Path {
     std::int64_t rows;
     int drives, passives, links, rods, orders;
     const std::int64_t* drive;    // [drives] unknowns
-    const std::int64_t* passive;  // [passives] unknowns; all others keep the value 0
+    const std::int64_t* passive;  // [passives] unknowns; all others keep their values
     const std::int64_t* link;     // [links] nodes; -1 for a rod
     const std::int64_t* rod;      // [rods, 3] links
     const double* balls;          // [rods, 5, 3] their vectors
     const double* unit;           // the size of the linkage and its centre: poses are in its unit
+    const double* start;          // [unknowns] the closed position from which the path begins
+    const double* turns;          // [balls, 3, 3] where the turns of balls are counted from there
     const double* values;         // [rows, drives]
     const double* rates;          // [orders, rows, drives] coefficients of t, t², t³
     // Written:

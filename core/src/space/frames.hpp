@@ -148,12 +148,6 @@ void turn_about(Number* r, int axis, const Circle<Number>& k) {
     }
 }
 
-// By turns about x, y, z in this order.
-template <class Number>
-void turn_further(Number* rotation, const Number* angles) {
-    for (int axis = 0; axis < 3; ++axis) turn_about(rotation, axis, circle(angles[axis]));
-}
-
 // A step of Newton and Schulz towards the next rotation.
 template <class Number>
 void make_orthogonal(Number* r) {
@@ -224,6 +218,16 @@ public:
             if (kind != Kind::turns)
                 for (int i = 0; i < 3; ++i) f.p[i] = f.p[i] + pitch * (value * along.x[i]);
         }
+    }
+
+    // Counts the turns of a ball from where its three nodes, the first of which is given, have these values.
+    void count_from(int node, const Number* values) {
+        Number* rotation = turns.data() + structure.node_at(node)[5] * turn_size;
+        for (int i = 0; i < 3; ++i) {
+            const std::int64_t* own = structure.node_at(node + i);
+            turn_about(rotation, static_cast<int>(own[2]), circle(static_cast<double>(own[3]) * values[i]));
+        }
+        make_orthogonal(rotation);
     }
 
 private:

@@ -144,9 +144,7 @@ private:
             bool grown = false;
             for (int i = 0; i < 3; ++i) grown = grown || algebra::size(angles[i]) > far;
             if (!grown) continue;
-            Complex* rotation = closing_.turns.data() + own[5] * turn_size;
-            turn_further(rotation, angles);
-            make_orthogonal(rotation);
+            closing_.count_from(k, angles);
             for (int i = 0; i < 3; ++i) angles[i] = {0, 0};
         }
         return most;

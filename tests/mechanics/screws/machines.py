@@ -316,3 +316,15 @@ def elsewhere(linkage, seed=5):
     if space == "spherical":
         twist[3:] = 0
     return linkage.moved(exponential(twist))
+
+
+def tied_body(text):
+    """A body on a ball of a crank, tied to the frame by three rods; where these are on the body and on the frame."""
+    body = [(1.2, 0.1, 0.2), (0.1, 1.1, -0.3), (0.2, 0.2, 1.3)]
+    frame = [(1.4, 1.6, 0.5), (-1.3, 1.4, 0.6), (0.4, -1.2, 1.5)]
+    rods = " ".join(f"S(body-r{k}) S(r{k}-frame)" for k in range(3))
+    mechanism = Mechanism.parse(f"spatial: {text} {rods}; frame=frame")
+    crank = 0 if text.startswith("R") else 1
+    places = {crank: {"z": Z}, 1 - crank: (0.6, 0, 0)}
+    places |= {2 + 2 * k: body[k] for k in range(3)} | {3 + 2 * k: frame[k] for k in range(3)}
+    return SpatialLinkage(mechanism, places).with_drives([crank]), body, frame

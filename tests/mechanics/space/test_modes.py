@@ -13,6 +13,7 @@ from gruebler.structure.assur.modes import count_modes
 from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
+from tests.mechanics.screws import machines
 
 # P. Dietmaier, The Stewart-Gough platform of general geometry can have 40 real postures, 1998; figures and three of the
 # forty places of the platform's first ball as PHCpack prints them (src/Demo/stewgou40).
@@ -299,3 +300,11 @@ def test_where_two_modes_meet_it_says_that_some_may_lie_together():
 def test_what_cannot_be_counted_is_refused_with_the_reason(linkage, reason):
     with pytest.raises(LinkageError, match=reason):
         assembly_modes(linkage, 0.0)
+
+
+def test_modes_do_not_depend_on_the_link_from_which_a_ball_is_written():
+    """A body with a fixed point on three rods: three quadrics in the four numbers of its turn, up to a sign, have 8."""
+    for text in ("R(frame-crank) S(crank-body)", "S(body-crank) R(crank-frame)"):
+        modes = assembly_modes(machines.tied_body(text)[0], [np.array([0.5])])
+        assert modes.number == 8
+        assert len(modes) == 6

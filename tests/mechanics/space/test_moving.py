@@ -248,6 +248,17 @@ def test_a_motion_ends_at_its_limit_with_the_joint_that_turns_back():
     assert "Grenz" in motion.message("de")
 
 
+def test_a_ball_may_be_written_from_either_link():
+    """On the way it turns by more than half a radian, where its turns are counted anew."""
+    motions = [
+        move(machines.tied_body(text)[0], np.linspace(0, 0.75, 16))
+        for text in ("R(frame-crank) S(crank-body)", "S(body-crank) R(crank-frame)")
+    ]
+    assert all(motion.complete for motion in motions)
+    assert abs(motions[0].pose("body") - motions[1].pose("body")).max() < 1e-12
+    assert np.arccos((np.trace(motions[0].pose("body")[-1, :3, :3]) - 1) / 2) > 0.5
+
+
 def test_a_change_of_mode_is_no_limit():
     """A parallelogram meets its crossed mode where its cranks lie on one line."""
     square = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")

@@ -71,29 +71,44 @@ class ClosingConditions:
         nodes[:, 5] = -1
         nodes[starts, 5] = np.arange(len(starts))
         self.tree = tree
-        self._balls = len(starts)
+        self.balls = [int(nodes[k, 4]) for k in starts]
+        """The first unknown of each ball whose turns are counted anew on the way."""
         self._rods = rod_tables(tree)
         self._tables = (nodes, tables.rows, np.array(frames), pitches, tables.lengths, gears)
 
     @property
     def reference(self) -> Place:
         """The reference pose."""
-        return Place(np.zeros(self.tree.unknowns), np.tile(np.eye(3), (self._balls, 1, 1)))
+        return Place(np.zeros(self.tree.unknowns), np.tile(np.eye(3), (len(self.balls), 1, 1)))
 
     @property
     def units(self) -> Reals:
         """What a unit of each unknown is: a radian, or the size."""
         return np.array([1.0 if node.turn else self.tree.scale for node in self.tree.nodes[1:]])
 
+    @property
+    def conditions(self) -> int:
+        """How many rows there are, those of wheels too."""
+        return len(self._tables[1]) + len(self.tree.gears)
+
     def linearised(self, place: Place) -> tuple[Reals, Reals]:
         """By how much the conditions are open (conditions,), the derivatives (conditions, unknowns)."""
         return _core.open_linkage(*self._tables, place.q, place.turns)
 
-    def follow(self, passive: NDArray[np.intp], drives: NDArray[np.intp], values: Reals, rates: Reals) -> FollowedRows:
-        """Follow values (rows, drives) from the reference pose; rates are coefficients (orders, rows, drives)."""
+    def follow(
+        self,
+        passive: NDArray[np.intp],
+        drives: NDArray[np.intp],
+        values: Reals,
+        rates: Reals,
+        start: Place | None = None,
+    ) -> FollowedRows:
+        """Follow values (rows, drives) from a position; rates are coefficients (orders, rows, drives)."""
+        start = self.reference if start is None else start
         series, poses, derivatives, passed, rows, part, gap, *last = _core.follow_linkage(
             *self._tables,
-            self._balls,
+            start.q,
+            start.turns,
             passive.astype(np.int64),
             drives.astype(np.int64),
             self.links,
