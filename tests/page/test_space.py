@@ -174,6 +174,43 @@ def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):
     browser.close()
 
 
+def test_a_phone_sees_all_of_a_machine_and_two_fingers_come_nearer(tmp_path, chromium):
+    path = tmp_path / "bennett.html"
+    assert main(["explore", "bennett", "-o", str(path)]) == 0
+    browser, page, errors = browsed(chromium, path)
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.get_by_role("button", name="Stop").click()
+    right = "[...document.querySelectorAll('header *')].map(e => e.getBoundingClientRect().right)"
+    assert max(page.evaluate(right)) <= 390
+    extent = """() => { const c = document.querySelector('canvas'), g = c.getContext('webgl2');
+        const p = new Uint8Array(4 * c.width * c.height);
+        g.readPixels(0, 0, c.width, c.height, g.RGBA, g.UNSIGNED_BYTE, p);
+        const drawn = [];
+        for (let k = 0; k < c.width * c.height; k++)
+          if ([0, 1, 2].some((n) => p[4 * k + n] !== p[n])) drawn.push(k % c.width);
+        return [Math.min(...drawn) / c.width, Math.max(...drawn) / c.width]; }"""
+    slider = page.get_by_role("slider")
+    last = int(float(slider.get_attribute("max")))
+    sizes = []
+    for row in range(0, last + 1, last // 9):
+        slider.fill(str(row))
+        low, high = page.evaluate(extent)
+        assert low > 0.02, row
+        assert high < 0.98, row
+        sizes.append(high - low)
+    assert max(sizes) > 0.4  # nor is it small
+    fingers = """([gap, kind]) => { const c = document.querySelector('canvas');
+        c.setPointerCapture = () => {};
+        for (const [pointerId, x] of [[7, 200 - gap / 2], [8, 200 + gap / 2]])
+            c.dispatchEvent(new PointerEvent(kind, { pointerId, pointerType: "touch", clientX: x, clientY: 700 })); }"""
+    for gap, kind in ((60, "pointerdown"), (90, "pointermove"), (90, "pointerup")):
+        page.evaluate(fingers, [gap, kind])
+    low, high = page.evaluate(extent)
+    assert high - low == pytest.approx(1.5 * sizes[-1], rel=0.15)
+    assert errors == []
+    browser.close()
+
+
 def test_a_cell_of_a_notebook_has_the_page(tmp_path, chromium):
     shown = gr.explore(Bennett(200, 1, 0.5), height=300, lang="de")
     assert shown.save(tmp_path / "a.html").read_text(encoding="utf-8") == shown.html

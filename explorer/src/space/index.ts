@@ -34,6 +34,7 @@ interface Model {
 
 const SECONDS = 4;
 const NEAR = 8; // rows before and behind among which a pulled link looks for its place
+const WHOLE = 2.3; // distances of the eye from the middle of a ball that fills the picture, in its radii
 const STILL = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 
 const model: Model = JSON.parse(document.getElementById("gruebler-model")!.textContent!);
@@ -69,17 +70,24 @@ canvas.setAttribute("role", "img");
 canvas.setAttribute("aria-label", `${title}. ${words.help}`);
 element("p", document.body, { margin: "0", padding: "0.5em 1em", fontSize: "0.85em" }, words.help);
 
-const camera: Camera = { turn: 0.9, lift: 0.55, distance: 3.1 * model.size, middle: model.middle };
+const camera: Camera = { turn: 0.9, lift: 0.55, ...framed() };
 let motion = model.motions[0];
 let row = 0;
 let playing = motion !== undefined && !calm;
 let pulled: { link: number; at: Vector } | undefined;
 let traced: { link: number; at: Vector } | undefined;
 
-const button = element("button", bar, { minWidth: "5em" });
-const label = element("label", bar, { display: "flex", gap: "0.5em", alignItems: "center", flex: "1" });
-const choice = element("select", label);
-const slider = element("input", label, { flex: "1", minWidth: "8em" });
+const room = matchMedia("(pointer: coarse)").matches ? "44px" : ""; // for a finger
+const button = element("button", bar, { minWidth: "5em", minHeight: room });
+const label = element("label", bar, {
+  display: "flex",
+  flexWrap: "wrap",
+  gap: "0.5em",
+  alignItems: "center",
+  flex: "1",
+});
+const choice = element("select", label, { minHeight: room, maxWidth: "100%" });
+const slider = element("input", label, { flex: "1", minWidth: "8em", minHeight: room });
 const value = element("output", label, { minWidth: "5em" });
 slider.type = "range";
 slider.step = "any";
@@ -102,7 +110,7 @@ if (solver && live) {
   live.drives.forEach(({ low, high }, k) => {
     const own = element("label", all, { display: "flex", gap: "0.4em", alignItems: "center", fontSize: "0.85em" });
     element("span", own, {}, drives[k]);
-    const input = element("input", own, { width: "9em" });
+    const input = element("input", own, { width: "9em", minHeight: room });
     Object.assign(input, { type: "range", min: String(low), max: String(high), step: "any", value: "0" });
     input.addEventListener("input", () => {
       chosen = k;
@@ -111,6 +119,26 @@ if (solver && live) {
     });
     sliders.push({ input, output: element("output", own, { minWidth: "4.5em" }) });
   });
+}
+
+/** A camera that sees all bodies in all positions. */
+function framed(): { middle: Vector; distance: number } {
+  const all = model.motions.flatMap(({ poses }) => poses);
+  const positions = all.filter((_, k) => k % Math.ceil(all.length / 24) === 0);
+  const still = model.bodies.map(() => STILL);
+  const places = (positions.length ? positions : [still]).flatMap((poses) =>
+    model.bodies.flatMap(({ vertices }, link) => {
+      const corners = Array.from({ length: vertices.length / 3 }, (_, k) => vertices.slice(3 * k, 3 * k + 3) as Vector);
+      return corners.map((corner) => moved(poses[link]!, corner));
+    }),
+  );
+  const ends = [0, 1, 2].map((axis) => {
+    const values = places.map((place) => place[axis]!);
+    return [values.reduce((a, b) => Math.min(a, b), Infinity), values.reduce((a, b) => Math.max(a, b), -Infinity)];
+  });
+  const middle = ends.map(([low, high]) => (low! + high!) / 2) as Vector;
+  const far = places.reduce((most, place) => Math.max(most, Math.hypot(...place.map((v, k) => v - middle[k]!))), 0);
+  return far > 0 ? { middle, distance: WHOLE * far } : { middle: model.middle, distance: 3.1 * model.size };
 }
 
 /** Move one of the drives, the others staying where they are. */
@@ -255,8 +283,18 @@ function pull(x: number, y: number): void {
   stopAt(best);
 }
 
+/** How far apart two fingers are. */
+function apart(): number {
+  const [one, two] = [...fingers.values()];
+  return one && two ? Math.hypot(one.clientX - two.clientX, one.clientY - two.clientY) : 0;
+}
+
+const fingers = new Map<number, PointerEvent>();
 canvas.addEventListener("pointerdown", (event) => {
   canvas.setPointerCapture(event.pointerId);
+  fingers.set(event.pointerId, event);
+  pulled = undefined;
+  if (fingers.size > 1) return;
   pulled = hit(...placed(event));
   if (pulled) trails = trails.slice(0, model.points.length);
   traced = pulled ?? traced;
@@ -264,16 +302,24 @@ canvas.addEventListener("pointerdown", (event) => {
   if (pulled) stopAt(row);
 });
 canvas.addEventListener("pointermove", (event) => {
-  if (!canvas.hasPointerCapture(event.pointerId)) return;
+  if (!fingers.has(event.pointerId)) return;
+  const was = apart();
+  fingers.set(event.pointerId, event);
+  if (fingers.size > 1) {
+    camera.distance *= was / Math.max(apart(), 1);
+    return paint();
+  }
   if (pulled) return pull(...placed(event));
   camera.turn -= event.movementX / 150;
   camera.lift = Math.min(Math.max(camera.lift + event.movementY / 150, -1.5), 1.5);
   paint();
 });
-canvas.addEventListener("pointerup", () => {
-  pulled = undefined;
-  canvas.style.cursor = "grab";
-});
+for (const end of ["pointerup", "pointercancel"] as const)
+  canvas.addEventListener(end, (event) => {
+    fingers.delete(event.pointerId);
+    pulled = undefined;
+    canvas.style.cursor = "grab";
+  });
 canvas.addEventListener(
   "wheel",
   (event) => {

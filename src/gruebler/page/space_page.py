@@ -29,7 +29,7 @@ _WORDS = {
     "drive": message("Drive"),
     "help": message(
         "Drag beside the bodies to go round them, drag a body to pull it along; its point then draws its path. "
-        "Wheel: nearer and farther."
+        "Wheel or two fingers: nearer and farther."
     ),
     "none": message("No drive moves this linkage."),
 }
