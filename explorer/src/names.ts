@@ -4,7 +4,7 @@ import { convexHull, toHull } from "./hull";
 import type { Pair } from "./rows";
 import type { Viewport } from "./viewport";
 
-const HALF_LETTER = 3.4; // pixels
+const HALF_LETTER = 3.7; // pixels
 const BODY = 9; // pixels from the line between two joints to a name: half the width of a bar, and some room
 const INK = 6; // half the height of a name, in pixels
 const ROOM = 15; // pixels between a name in a body and the lines between its joints
