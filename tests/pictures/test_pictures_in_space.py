@@ -15,7 +15,7 @@ from gruebler.mechanics.space import Bennett, UniversalJoint
 from gruebler.mechanics.space.drive_range import spatial_range
 from gruebler.pictures.canvas.panels import draw_panels
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, TextShape
-from gruebler.pictures.canvas.styles import LINES
+from gruebler.pictures.canvas.styles import LINES, STYLES
 from gruebler.pictures.space import animate_spatial, draw_spatial, plot_point, plots
 from gruebler.pictures.space import scene as scenes
 from gruebler.pictures.space.painting import covering_order
@@ -197,13 +197,32 @@ def test_every_pair_has_a_picture(pair, view):
 
 def test_wheels_of_a_bevel_differential_lie_on_their_pitch_cones():
     scene = scene_of(entry("diff_bevel").placed(), VIEWS["oblique"])
-    cones = [part for part in scene.parts if part.look == "sleeve" and part.reach > 50]
-    assert len(cones) == 4  # two contacts, a wheel each
+    cones = [part for part in scene.parts if part.look == "wheel"]
+    assert sorted(cone.link for cone in cones) == ["planet", "sun1", "sun2"]  # the planet once, though it meshes twice
     for cone in cones:
-        rim = cone.points[2 + 32 :]
+        rim = cone.points[2:].reshape(2, -1, 3)[1]
         assert np.linalg.norm(rim, axis=1) == pytest.approx(130.0)  # on the sphere
         axis = cone.points[1] / np.linalg.norm(cone.points[1])
         assert rim @ axis / 130 == pytest.approx(cos(pi / 4))
+
+
+def test_what_is_behind_a_wheel_is_seen_through_it():
+    """All bearings of the cage lie behind some wheel in one view or the other; in the file the wheels hide nothing."""
+    figure = draw_spatial(entry("diff_bevel2p").placed())
+    assert sum(shape.style == "wheel" for shape in figure.shapes) == 4
+    assert STYLES["wheel"].opacity < 0.5
+    assert ".gr-wheel{" in figure.svg()
+    rule = figure.svg().split(".gr-wheel{")[1].split("}")[0]
+    assert "fill-opacity:0.4" in rule
+
+
+def test_bars_of_an_arc_meet_without_gaps_as_textbooks_have_them():
+    """On the sphere the links are arcs of eight bars, whose lines are the links in textbooks."""
+    shapes = draw_spatial(entry("universal_joint").placed()).shapes
+    ends = [[complex(*end) for end in shape.parts[0]] for shape in shapes if shape.style == "outline-rod"]
+    gaps = [min(abs(a[1] - b[k]) for k in (0, 1) for b in ends if b is not a) for a in ends]
+    assert len(ends) == 24  # three moving links
+    assert sum(gap < 0.2 for gap in gaps) >= 16  # of 21 seams; at the others something is painted in between
 
 
 def test_a_moving_picture_goes_round_or_to_and_fro():

@@ -38,6 +38,8 @@ def picture_styles() -> str:
             parts += [f"stroke:var(--{style.stroke})", f"stroke-width:{style.width:g}"]
         if style.dash:
             parts.append(f"stroke-dasharray:{' '.join(f'{length:g}' for length in style.dash)}")
+        if style.opacity < 1:
+            parts.append(f"fill-opacity:{style.opacity:g}")
         if style.size:
             parts.append(f"font-size:{style.size:g}px")
         rules.append(f".gr-{name}{{{';'.join(parts)}}}")

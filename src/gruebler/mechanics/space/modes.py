@@ -241,8 +241,8 @@ def _held(linkage: SpatialLinkage, row: Reals) -> tuple[ClosureTree, frozenset[i
     free = len(passive) - len(tree.rows)
     if free < 0:
         raise LinkageError(
-            "the linkage is overconstrained ({rows} closing conditions for {unknowns} unknowns) and closes with special "
-            "dimensions only; all modes can be found only of linkages that close with almost any dimensions",
+            "the linkage is overconstrained ({rows} closing conditions for {unknowns} unknowns) and closes with "
+            "special dimensions only; all modes can be found only of linkages that close with almost any dimensions",
             rows=len(tree.rows),
             unknowns=len(passive),
         )

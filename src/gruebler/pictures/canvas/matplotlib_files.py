@@ -91,7 +91,7 @@ def _paint(axes: Any, shape: Shape, order: int, point: float, dark: bool) -> Non
     axes.add_patch(
         PathPatch(
             outline,
-            facecolor=COLOURS[style.fill][dark] if style.fill else "none",
+            facecolor=(COLOURS[style.fill][dark], style.opacity) if style.fill else "none",
             edgecolor=COLOURS[style.stroke][dark] if style.stroke else "none",
             linewidth=style.width * point,
             linestyle=(0, [length / style.width for length in style.dash]) if style.dash else "-",

@@ -37,13 +37,14 @@ COLOURS = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Style:
-    """Fill and stroke by role (none where empty), width of the stroke, size of text, lengths of dashes and gaps."""
+    """Fill and stroke by role (none where empty), width of the stroke, size of text, dashes, opacity of the fill."""
 
     fill: str = ""
     stroke: str = ""
     width: float = 0.0
     size: float = 0.0
     dash: tuple[float, ...] = ()
+    opacity: float = 1.0
 
 
 _DASHED, _DOTTED, _MIXED = (7.0, 4.5), (0.5, 4.0), (9.0, 4.0, 0.5, 4.0)
@@ -65,6 +66,7 @@ STYLES = {
     "rail": Style(stroke="ink", width=2.6),
     "block": Style(fill="body", stroke="ink", width=1.6),
     "block-frame": Style(fill="frame", stroke="ink", width=1.6),
+    "wheel": Style(fill="body", stroke="ink", width=1.4, opacity=0.4),
     "dot": Style(fill="ink"),
     "drive": Style(stroke="accent", width=2.2),
     "head": Style(fill="accent"),

@@ -29,6 +29,8 @@ def _declarations(style: Style, ground: int) -> str:
         parts.append(f"stroke-width:{style.width:g}")
     if ground == 0 and style.dash:
         parts.append(f"stroke-dasharray:{' '.join(f'{length:g}' for length in style.dash)}")
+    if ground == 0 and style.opacity < 1:
+        parts.append(f"fill-opacity:{style.opacity:g}")
     if ground == 0 and style.size:
         parts.append(f"font-size:{style.size:g}px")
     return ";".join(parts if ground == 0 else [p for p in parts if p != "fill:none"])

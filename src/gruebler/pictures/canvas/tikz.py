@@ -124,6 +124,8 @@ def _tikz_shape(shape: Shape, unit: float) -> Iterator[str]:
         options.append(f"draw=gr{style.stroke},line width={style.width * unit:.2f}bp")
     if style.fill:
         options.append(f"fill=gr{style.fill}")
+    if style.opacity < 1:
+        options.append(f"fill opacity={style.opacity:g}")
     if style.dash:
         pairs = zip(style.dash[::2], style.dash[1::2], strict=True)
         options.append("dash pattern=" + " ".join(f"on {on * unit:.1f}bp off {off * unit:.1f}bp" for on, off in pairs))

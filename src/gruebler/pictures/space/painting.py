@@ -6,6 +6,7 @@ docs/theory/pictures-in-space.md has the rule and when it is right.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import groupby, pairwise
 
 import numpy as np
@@ -15,6 +16,7 @@ from gruebler.pictures.canvas.shapes import Shape
 from gruebler.pictures.space.parts import LOOKS, SpatialPart
 
 _SAME = 1e-3  # pixels: nearer depths do not decide
+_MEET = 0.1  # pixels
 _ROUNDS = 4  # of cutting; then what is left is painted by its depth
 
 
@@ -22,10 +24,24 @@ def painted_parts(parts: Sequence[SpatialPart]) -> list[Shape]:
     """The shapes of parts on paper, those behind first; bars of one link that follow each other become one body."""
     shapes: list[Shape] = []
     for _, run in groupby(covering_order(parts), key=lambda part: (part.link, part.look == "bar")):
-        looks = [LOOKS[part.look](part) for part in run]
+        looks = [LOOKS[part.look](part) for part in _joined(list(run))]
         shapes += [shape for below, _ in looks for shape in below]
         shapes += [shape for _, above in looks for shape in above]
     return shapes
+
+
+def _joined(run: Sequence[SpatialPart]) -> list[SpatialPart]:
+    """Bars that are painted together meet without a gap in their outlines, which in textbooks are the bars."""
+    ends = np.array([part.points[:2, :2] for part in run])
+
+    def goes_on(k: int, end: int) -> bool:
+        others = np.delete(ends, k, axis=0).reshape(-1, 2)
+        return bool(len(others) and np.linalg.norm(others - ends[k, end], axis=1).min() < _MEET)
+
+    return [
+        replace(part, cut=(part.cut[0] and not goes_on(k, 0), part.cut[1] and not goes_on(k, 1)))
+        for k, part in enumerate(run)
+    ]
 
 
 def covering_order(parts: Sequence[SpatialPart]) -> list[SpatialPart]:

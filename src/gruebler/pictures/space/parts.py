@@ -19,7 +19,7 @@ from gruebler.pictures.canvas.simplification import FINE, simplified
 from gruebler.pictures.canvas.styles import LINE, ROD
 from gruebler.pictures.canvas.symbols import ticks
 
-_SIDES = 32
+_SIDES, _SIDES_OF_WHEEL = 32, 64
 _SOCKET = 0.62 * pi  # of the arc around a ball, to both sides
 _GROUND = 11.0
 _FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
@@ -57,14 +57,22 @@ def line(link: str, points: Reals, look: str = "line") -> SpatialPart:
     return SpatialPart(link=link, look=look, points=np.concatenate([points[[0, -1]], points]), reach=2.0)
 
 
-def sleeve(link: str, start: Reals, end: Reals, radius: float, last: float | None = None) -> SpatialPart:
-    """A cylinder, or a cone's piece with another radius at its end."""
-    axis = end - start
-    u, v = across(axis)
-    turns = np.linspace(0, 2 * pi, _SIDES, endpoint=False)[:, None]
+def sleeve(link: str, start: Reals, end: Reals, radius: float) -> SpatialPart:
+    """A cylinder."""
+    return _turned("sleeve", link, start, end, (radius, radius), _SIDES)
+
+
+def wheel(link: str, start: Reals, end: Reals, radius: float, last: float | None = None) -> SpatialPart:
+    """A disc, or a cone's piece with another radius at its end; what is behind it is seen through it."""
+    return _turned("wheel", link, start, end, (radius, radius if last is None else last), _SIDES_OF_WHEEL)
+
+
+def _turned(look: str, link: str, start: Reals, end: Reals, radii: tuple[float, float], sides: int) -> SpatialPart:
+    u, v = across(end - start)
+    turns = np.linspace(0, 2 * pi, sides, endpoint=False)[:, None]
     ring = np.cos(turns) * u + np.sin(turns) * v
-    rims = [start + radius * ring, end + (radius if last is None else last) * ring]
-    return SpatialPart(link=link, look="sleeve", points=np.concatenate([[start, end], *rims]), reach=radius)
+    rims = [start + radii[0] * ring, end + radii[1] * ring]
+    return SpatialPart(link=link, look=look, points=np.concatenate([[start, end], *rims]), reach=radii[0])
 
 
 def block(link: str, middle: Reals, axes: Reals, halves: tuple[float, float, float]) -> SpatialPart:
@@ -133,13 +141,20 @@ def _thread(part: SpatialPart) -> tuple[list[Shape], list[Shape]]:
 
 def _sleeve(part: SpatialPart) -> tuple[list[Shape], list[Shape]]:
     """The outline of a cylinder and the end that is seen."""
+    return [], _cylinder(part, _filled(part), _filled(part))
+
+
+def _wheel(part: SpatialPart) -> tuple[list[Shape], list[Shape]]:
+    return [], _cylinder(part, "wheel", "axis")
+
+
+def _cylinder(part: SpatialPart, style: str, end: str) -> list[Shape]:
     points = np.round(part.points, 3)  # which of many places are corners hangs on no last bit
     rims = points[2:].reshape(2, -1, 3)
     near = rims[int(points[1, 2] > points[0, 2])]
-    style = _filled(part)
     hull = convex_hull(complex(x, y) for x, y in points[2:, :2].tolist())
     outline = Polylines((_fewer([Point(z.real, z.imag) for z in hull]),), style, closed=True)
-    return [], [outline, Polylines((_fewer(points_on_paper(near)),), style, closed=True)]
+    return [outline, Polylines((_fewer(points_on_paper(near)),), end, closed=True)]
 
 
 def _block(part: SpatialPart) -> tuple[list[Shape], list[Shape]]:
@@ -180,6 +195,7 @@ LOOKS: Mapping[str, Callable[[SpatialPart], tuple[list[Shape], list[Shape]]]] = 
     "line": _line,
     "thread": _thread,
     "sleeve": _sleeve,
+    "wheel": _wheel,
     "block": _block,
     "ball": _ball,
     "socket": _socket,

@@ -99,7 +99,7 @@ def scene_of(linkage: SpatialLinkage, view: View, poses: Reals | None = None) ->
     scale, middle = _scaled(linkage, view, poses)
     joints = _drawn_joints(linkage, scale, middle, _travels(linkage, poses))
     symbols = [SOLIDS[joint.pair.name](joint) for joint in joints]
-    parts = [part for symbol in symbols for part in symbol.parts]
+    parts = _distinct([part for symbol in symbols for part in symbol.parts])
     frame = linkage.mechanism.frame
     outlines = {}
     for link in linkage.mechanism.chain.links:
@@ -130,6 +130,16 @@ def scene_of(linkage: SpatialLinkage, view: View, poses: Reals | None = None) ->
         outlines=outlines,
         joints=np.array([joint.at for joint in joints]),
     )
+
+
+def _distinct(parts: Sequence[SpatialPart]) -> list[SpatialPart]:
+    """Without a wheel that meshes twice."""
+    kept: list[SpatialPart] = []
+    for part in parts:
+        same = [other for other in kept if other.look == part.look == "wheel" and other.link == part.link]
+        if not any(np.allclose(other.points, part.points, rtol=0, atol=_SHORT) for other in same):
+            kept.append(part)
+    return kept
 
 
 def _scaled(linkage: SpatialLinkage, view: View, poses: Reals) -> tuple[float, Reals]:

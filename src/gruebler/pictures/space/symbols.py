@@ -13,7 +13,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws.joint_places import JointPlace
-from gruebler.pictures.space.parts import SpatialPart, across, ball, block, line, sleeve, socket
+from gruebler.pictures.space.parts import SpatialPart, across, ball, block, line, sleeve, socket, wheel
 from gruebler.structure.chain.pairs import Pair
 
 _HALF, _RADIUS, _STOP = 11.0, 6.5, 19.0
@@ -208,7 +208,7 @@ def _contact(joint: PlacedJoint) -> Symbol:
         if joint.spherical:
             axis = cos(radius) * z + sign * sin(radius) * y
             end = SPHERE * cos(radius) * axis
-            parts.append(sleeve(link, 0.82 * end, end, 0.82 * SPHERE * sin(radius), SPHERE * sin(radius)))
+            parts.append(wheel(link, 0.82 * end, end, 0.82 * SPHERE * sin(radius), SPHERE * sin(radius)))
         elif not isfinite(radius):
             end = joint.at + sign * _GAP * y
             parts.append(block(link, end, joint.axes[:, [1, 2, 0]], (_GAP, 8.0, 2 * _PLATE)))
@@ -217,7 +217,7 @@ def _contact(joint: PlacedJoint) -> Symbol:
             parts.append(ball(link, end, _SMALL))
         else:
             end = joint.at + sign * radius * joint.scale * y
-            parts.append(sleeve(link, end - 3.0 * z, end + 3.0 * z, abs(radius) * joint.scale))
+            parts.append(wheel(link, end - 3.0 * z, end + 3.0 * z, abs(radius) * joint.scale))
         holds[link] = end
     return Symbol(parts=parts, holds=holds)
 
