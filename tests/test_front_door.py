@@ -183,7 +183,7 @@ MISTAKES = [
     (lambda: gr.draw(CRANK_ROCKER, curvs=["K"]), "no option 'curvs' (did you mean 'curves'?)"),
     (lambda: gr.move(CHAIN, [0.0]), "a Chain has no dimensions: realise(mechanism) finds some"),
     (lambda: gr.move(gr.FourBar, [0.0]), "expected a linkage, a FourBar"),
-    (lambda: gr.circuit(entry("loco3").placed()), "expected a planar linkage, but found a SpatialLinkage"),
+    (lambda: gr.motion_roles(entry("loco3").placed()), "expected a planar linkage, but found a SpatialLinkage"),
     (lambda: gr.inversions(CRANK_ROCKER), "but found FourBar: take its linkage().mechanism.chain"),
     (lambda: gr.code(CRANK_ROCKER.linkage()), "but found Linkage: take its mechanism.chain"),
     (lambda: gr.decompose(CRANK_ROCKER.linkage()), "but found Linkage: take its mechanism"),

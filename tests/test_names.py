@@ -20,6 +20,8 @@ SHARED = {
     "measures": "one question: in the plane, and at the front door in space as well (typed twice, for each answer)",
     "move": "one question: in the plane, and at the front door in space as well (typed twice, for each answer)",
     "assembly_modes": "one question: in the plane, and at the front door in space as well (typed twice, as `move`)",
+    "circuit": "one question: in the plane, and at the front door in space as well (typed twice, as `move`)",
+    "drive_range": "one question: in the plane, and at the front door in space as well (typed twice, as `move`)",
     "rotatability": "one question: in the plane, and at the front door in space as well (typed twice, as `move`)",
     "main": "where a process begins",
     "central_crank_rocker": "a fact of dead centres: constructed, and as an exercise",

@@ -9,17 +9,17 @@ from .files.values import write
 from .machines.cams import Cam
 from .machines.gears import Train
 from .machines.geneva import Geneva
-from .mechanics.analysis import drive_range, motion_roles
+from .mechanics.analysis import motion_roles
 from .mechanics.analysis.measuring import Measures
 from .mechanics.dynamics import equilibria, inverse_dynamics, linearised, simulate
 from .mechanics.forces import Gas, Loads, Motor, RigidBody, Spring, Statics, TorsionSpring, statics
 from .mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from .mechanics.geometry import coupler_curve
-from .mechanics.kinematics import Circuit, Motion, circuit, from_degrees, move_many
+from .mechanics.kinematics import Circuit, Motion, from_degrees, move_many
 from .mechanics.kinematics.drive_rows import rpm
 from .mechanics.linkages import Linkage
 from .mechanics.screws import SpatialLinkage, freedoms
-from .mechanics.space import assembly_modes, measures, move, rotatability
+from .mechanics.space import assembly_modes, circuit, drive_range, measures, move, rotatability
 from .page.notebook import explore
 from .pictures.values import animate, draw, plot
 from .structure.assur import assur_groups, decompose

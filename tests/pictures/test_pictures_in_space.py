@@ -12,7 +12,7 @@ from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import message
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space import Bennett, UniversalJoint
-from gruebler.mechanics.space.drive_range import spatial_range
+from gruebler.mechanics.space.drive_ranges import spatial_range
 from gruebler.pictures.canvas.panels import draw_panels
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, TextShape
 from gruebler.pictures.canvas.styles import LINES, STYLES
@@ -254,7 +254,7 @@ def test_the_range_of_a_drive_ends_where_the_distance_is_too_long():
     course = spatial_range(linkage)
     most = np.arccos((4 + 16 - (rod + 1) ** 2) / 16)
     assert not course.full
-    assert (course.low, course.high) == pytest.approx((-most, most), abs=1e-5)
+    assert (course.lowest, course.highest) == pytest.approx((-most, most), abs=1e-5)
     assert [stop.reason for stop in course.stops] == ["limit", "limit"]
 
 

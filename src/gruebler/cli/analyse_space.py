@@ -19,7 +19,7 @@ from gruebler.cli.tables import print_table, print_text
 from gruebler.files.screws import screws_to_json
 from gruebler.mechanics.screws import SpatialLinkage, freedoms
 from gruebler.mechanics.space import SpatialMeasures, SpatialModes, assembly_modes, measures
-from gruebler.mechanics.space.drive_range import followed
+from gruebler.mechanics.space.drive_ranges import followed
 from gruebler.mechanics.space.measuring import spatial_table
 from gruebler.mechanics.space.wheel_alignment import wheel_alignment
 

@@ -20,7 +20,7 @@ from gruebler.base.text import Message, message
 from gruebler.base.units import MILLIMETRES
 from gruebler.files.link_solids import Solid, link_solids
 from gruebler.mechanics.screws import SpatialLinkage
-from gruebler.mechanics.space.drive_range import RANGE_OF_ONE, followed, spatial_range
+from gruebler.mechanics.space.drive_ranges import RANGE_OF_ONE, followed, spatial_range
 from gruebler.mechanics.space.motion import SpatialMotion
 from gruebler.structure.chain.spaces import Space
 

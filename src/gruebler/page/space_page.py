@@ -16,7 +16,7 @@ from gruebler.base.text import LANGUAGES, message
 from gruebler.files.gltf import MovingSolids, link_colour, moving_solids, united
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.wheels import gear_rows
-from gruebler.mechanics.space.measuring import against_frame
+from gruebler.mechanics.space.outputs import against_frame
 from gruebler.page.page import data_page, module_text
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
 from gruebler.structure.chain.pairs import Alphabet

@@ -9,7 +9,7 @@ import gruebler as gr
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space import RSSR, Bennett, SphericalFourBar, measures
-from gruebler.mechanics.space.drive_range import followed
+from gruebler.mechanics.space.drive_ranges import followed
 from gruebler.mechanics.space.measuring import spatial_table
 from gruebler.teaching.catalog import entry
 from tests.mechanics.screws import machines
@@ -81,7 +81,7 @@ def test_ends_of_a_range_have_their_reasons():
     mechanism = gr.Mechanism.parse("spatial: R(0-1) S(1-2) S(2-3) R(0-3); drive=R(0-1)")
     measured = measures(SpatialLinkage(mechanism, places))
     assert not measured.range.full
-    assert measured.explain().count("the drives stand at a limit") == 2
+    assert measured.explain().count("the drive stands at its limit") == 2
     assert measured.to_json()["ends"] == [stop.explain() for stop in measured.range.stops]
 
 

@@ -244,7 +244,7 @@ def test_a_motion_ends_at_its_limit_with_the_joint_that_turns_back():
     closed = np.isfinite(rocker_of_rssr(linkage, turns)).all(axis=1)
     assert closed.tolist() == [True, False]  # the closed form has no solution beyond it
     assert "dead" not in motion.message()
-    assert "the drives stand at a limit" in motion.message()
+    assert "the drive stands at its limit and has to turn back, while R(0-3) could go on" in motion.message()
     assert "Grenz" in motion.message("de")
 
 

@@ -8,7 +8,7 @@ import pytest
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.screws import SpatialLinkage, exponential, follow_joint, freedoms
 from gruebler.mechanics.space import move
-from gruebler.mechanics.space.drive_range import followed, spatial_range
+from gruebler.mechanics.space.drive_ranges import followed, spatial_range
 from tests.mechanics.screws import machines
 
 QUARTER = pi / 2
@@ -90,7 +90,7 @@ def test_it_moves_closed_with_one_freedom_and_constant_rank_as_far_as_it_goes(ma
         assert singular[:, -2].min() > 1e-4
     if full:
         assert abs(motion.poses[0, -1] - motion.poses[0, 0]).max() < 1e-11 * linkage.size
-    turns = np.linspace(0, min(reach.high, 1.0), 4)[1:-1]
+    turns = np.linspace(0, min(reach.highest, 1.0), 4)[1:-1]
     poses = follow_joint(linkage, drive, turns)  # the other solver: poses of links, all joints closed by least squares
     poses[..., :3, 3] *= linkage.size
     poses[..., :3, 3] += linkage.centre - poses[..., :3, :3] @ linkage.centre

@@ -202,32 +202,7 @@ def slide_directions(linkage: LinkageLike | Circuit, *, branch: Branch = None) -
 
 @door_that_raises(LinkageError)
 def drive_range(linkage: LinkageLike | Circuit, *, branch: Branch = None) -> DriveRange:
-    """How far the drive can be moved, both ways, without passing a limit.
-
-    Args:
-        linkage: with one drive, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`, or its `Circuit`.
-        branch: the assembly mode, as for `move`; not with a circuit.
-
-    Returns:
-        `DriveRange`: ``full``, or the limits in radians or the linkage's unit.
-
-    Raises:
-        LinkageError: a linkage that cannot be assembled, several drives, a circuit together with a branch.
-
-    Cost:
-        That of the circuit, 10 to 200 ms.
-
-    Example:
-        >>> from gruebler.mechanics.fourbar import FourBar
-        >>> drive_range(FourBar(25, 70, 40, 70).linkage()).full
-        True
-
-    See Also:
-        `circuit`, `rotatability`, `measures`
-
-    Theory:
-        docs/theory/circuits.md
-    """
+    """As `gruebler.drive_range` in the plane."""
     traced = _circuit(linkage, branch)
     if not traced.drive_limits:
         low, high = sorted(traced.drive[[0, -1]].tolist())

@@ -7,7 +7,7 @@ others; nothing of the Assur decomposition is used on the way. docs/theory/circu
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite
@@ -22,7 +22,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import ChangePoint, Extremum
 from gruebler.base.notebook import brief
-from gruebler.base.text import joined_by_and, message
+from gruebler.base.text import Message, joined_by_and, message
 from gruebler.mechanics.kinematics.configuration_curve import (
     ClosureSystem,
     TracedCurve,
@@ -31,7 +31,7 @@ from gruebler.mechanics.kinematics.configuration_curve import (
     trace_circuit,
 )
 from gruebler.mechanics.kinematics.kernel_records import SampleBuffer
-from gruebler.mechanics.kinematics.messages import drive_values
+from gruebler.mechanics.kinematics.messages import Driven, drive_values
 from gruebler.mechanics.kinematics.poses import Poses
 from gruebler.mechanics.kinematics.root_finding import FunctionSamples, find_zeros
 from gruebler.mechanics.kinematics.solve import move_quietly
@@ -119,19 +119,9 @@ class Circuit:
 
         Raises `LinkageError` for places off the end of an open circuit. Cost: 10 to 100 us a position.
         """
+        traced = self.traced
+        place, laps = places_and_laps(arcs, self.length, self.closed)
         given = np.atleast_1d(np.asarray(arcs, np.float64))
-        if given.ndim != 1 or not np.isfinite(given).all():
-            raise LinkageError("expected finite positions on the circuit, but found {arcs!r}", arcs=arcs)
-        traced, laps = self.traced, np.zeros(len(given))
-        if self.closed:
-            laps = np.floor(given / self.length)
-        place = given - laps * self.length
-        if len(place) and not (place.min() >= 0 and place.max() <= self.length):
-            raise LinkageError(
-                "this circuit goes from 0 to {length:.9g} and is not closed, so no {arcs!r} on it",
-                length=self.length,
-                arcs=arcs,
-            )
         segments = np.clip(np.searchsorted(traced.arcs, place, side="right") - 1, 0, len(self) - 2)
         x, t = traced.poses[segments], traced.tangents[segments]
         between = np.flatnonzero(traced.arcs[segments] != place)
@@ -287,27 +277,79 @@ class Circuit:
         >>> circuit(FourBar(30, 30, 50, 60).linkage()).explain().splitlines()[1]
         'The drive turns back at R(frame-crank) = 121.9° and R(frame-crank) = -121.9°.'
         """
-        form = _CLOSED if self.closed else _OPENED
-        lines = [form.filled(length=self.length, count=len(self))]
-        if len(self.linkage.mechanism.drives) == 1:
-            limits = [drive_values(self.linkage, (limit.value,)) for limit in self.drive_limits]
-            back = message("The drive turns back at {values}.", values=joined_by_and(limits))
-            lines.append(back if limits else message("The drive never turns back."))
-        if self.change_points:
-            lines.append(message("Change points: {count}.", count=len(self.change_points)))
-        return "\n".join([*(line.in_language(lang) for line in lines), self.message(lang)]).rstrip()
+        driven = len(self.linkage.mechanism.drives) == 1
+        limits = [limit.value for limit in self.drive_limits] if driven else None
+        lines = circuit_lines(
+            self.linkage,
+            closed=self.closed,
+            length=self.length,
+            count=len(self),
+            limits=limits,
+            change_points=len(self.change_points),
+        )
+        return "\n".join(line.in_language(lang) for line in [*lines, *why_open(self.traced.ended)])
 
     def message(self, lang: str = "en") -> str:
         """Why it is not closed; empty if it is."""
-        return _OPEN[self.traced.ended].in_language(lang) if self.traced.ended else ""
+        return "".join(line.in_language(lang) for line in why_open(self.traced.ended))
 
 
+_NEVER = message("The drive never turns back.")
 _CLOSED = message("A closed circuit {length:.4g} sizes of the linkage long, {count} samples.")
 _OPENED = message("An open circuit {length:.4g} sizes of the linkage long, {count} samples.")
 _OPEN = {
     "long": message("The circuit was not followed to its end: it is longer than what was asked for."),
     "singular": message("The circuit ends in a singular position from which it cannot be followed."),
 }
+
+
+def circuit_lines(
+    linkage: Driven, *, closed: bool, length: float, count: int, limits: Sequence[float] | None, change_points: int
+) -> list[Message]:
+    """What is said of a circuit in the plane or in space; the limits of its drive are None without one."""
+    lines = [(_CLOSED if closed else _OPENED).filled(length=length, count=count)]
+    if limits is not None:
+        values = joined_by_and([drive_values(linkage, (value,)) for value in limits])
+        lines.append(message("The drive turns back at {values}.", values=values) if limits else _NEVER)
+    if change_points:
+        lines.append(message("Change points: {count}.", count=change_points))
+    return lines
+
+
+def places_and_laps(arcs: ArrayLike, length: float, closed: bool) -> tuple[Reals, Reals]:
+    """Arcs (k,) or one number as places from 0 to the length, and whole laps; `LinkageError` off the end of a curve."""
+    given = np.atleast_1d(np.asarray(arcs, np.float64))
+    if given.ndim != 1 or not np.isfinite(given).all():
+        raise LinkageError("expected finite positions on the circuit, but found {arcs!r}", arcs=arcs)
+    laps = np.floor(given / length) if closed else np.zeros(len(given))
+    places = given - laps * length
+    if len(places) and not (places.min() >= 0 and places.max() <= length):
+        raise LinkageError(
+            "this circuit goes from 0 to {length:.9g} and is not closed, so no {arcs!r} on it", length=length, arcs=arcs
+        )
+    return places, laps
+
+
+def why_open(ended: str) -> list[Message]:
+    """Why a circuit is not closed: a line, or none."""
+    return [_OPEN[ended]] if ended else []
+
+
+def check_steps(step: float, most: float) -> None:
+    """`LinkageError` for steps along a circuit that are too long or too short, or for no length."""
+    for name, value in {"step": step, "most": most}.items():
+        _check_number(name, value)
+    if not 1e-4 <= step <= 0.2 or not most > 0:
+        raise LinkageError(
+            "the step lies between 0.0001 and 0.2, the greatest length above 0, not {step:g}, {most:g}",
+            step=step,
+            most=most,
+        )
+
+
+def _check_number(name: str, value: float) -> None:
+    if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not isfinite(value):
+        raise LinkageError("{name}: expected a finite number, but found {value!r}", name=name, value=value)
 
 
 @door_that_raises(LinkageError)
@@ -319,53 +361,13 @@ def circuit(
     step: float = 0.1,
     most: float = 1000.0,
 ) -> Circuit:
-    """The circuit of a linkage with one freedom.
-
-    It starts from the linkage's reference pose if there is one and neither a branch nor a drive value is asked for;
-    else from the drive value, or from the first value of a fixed list at which the branch can be assembled. Redundant
-    joints are allowed from a reference pose. It begins in the direction in which the drive increases.
-
-    Args:
-        linkage: with one drive, or with a reference pose and none.
-        branch: the assembly mode at the start, as for `move`.
-        at: the drive value at the start, in radians or the unit.
-        step: the longest distance of samples, in sizes; extremes nearer to each other than that may be missed in pairs.
-        most: the length at which to give up, in sizes.
-
-    Returns:
-        `Circuit`: the closed curve of all connected positions by arc length (in sizes of the linkage), with limits of
-        the drive and change points.
-
-    Raises:
-        LinkageError: no start, several drives or freedoms, a start that cannot move or that is singular.
-
-    Cost:
-        10 (four-bar) to 200 us (ten links) a sample, some 100 to 1000 samples.
-
-    Example:
-        >>> from gruebler.mechanics.fourbar import FourBar
-        >>> made = circuit(FourBar(30, 30, 50, 60).linkage())
-        >>> made.closed, np.degrees([limit.value for limit in made.drive_limits]).round(6).tolist()
-        (True, [121.855431, -121.855431])
-
-    See Also:
-        `Circuit`, `move`, `rotatability`, `drive_range`
-
-    Theory:
-        docs/theory/circuits.md
-    """
+    """As `gruebler.circuit` in the plane."""
     linkage = as_linkage(linkage)
-    for name, value in {"at": 0.0 if at is None else at, "step": step, "most": most}.items():
-        if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not isfinite(value):
-            raise LinkageError("{name}: expected a finite number, but found {value!r}", name=name, value=value)
-    if at is not None and [each.turning for each in linkage.mechanism.drives] == [True]:
-        warn_of_degrees("at", at)
-    if not 1e-4 <= step <= 0.2 or not most > 0:
-        raise LinkageError(
-            "the step lies between 0.0001 and 0.2, the greatest length above 0, not {step:g}, {most:g}",
-            step=step,
-            most=most,
-        )
+    check_steps(step, most)
+    if at is not None:
+        _check_number("at", at)
+        if [each.turning for each in linkage.mechanism.drives] == [True]:
+            warn_of_degrees("at", at)
     lower = with_lower_pairs(linkage)
     count = len(linkage.mechanism.drives)
     if count > 1:

@@ -1,6 +1,7 @@
 from .bennett import Bennett
-from .circuits import SpatialCircuit, spatial_circuit
+from .circuits import SpatialCircuit, circuit
 from .crank_output import OutputMotion
+from .drive_ranges import SpatialRange, drive_range
 from .measuring import JointRange, SpatialMeasures, measures
 from .modes import SpatialModes, assembly_modes
 from .motion import SpatialMotion, SpatialStop
@@ -21,13 +22,15 @@ __all__ = [
     "SpatialMeasures",
     "SpatialModes",
     "SpatialMotion",
+    "SpatialRange",
     "SpatialStop",
     "SphericalFourBar",
     "SwashPlate",
     "UniversalJoint",
     "assembly_modes",
+    "circuit",
+    "drive_range",
     "measures",
     "move",
     "rotatability",
-    "spatial_circuit",
 ]

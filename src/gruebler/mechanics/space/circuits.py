@@ -1,36 +1,49 @@
-"""The circuit of a linkage in space: all positions that it reaches from its reference pose, as one curve.
+"""`circuit` of every linkage: all connected positions as one curve, in the plane or in space.
 
-The curve is followed by its length, as in the plane (docs/theory/circuits.md): the drive is an unknown like the others,
-so that positions in which it turns back are points like any others.
+In space the curve is followed by its length, as in the plane: the drive is an unknown like the others, so that
+positions in which it turns back are points like any others. docs/theory/space.md has the method.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
 from math import tau
+from typing import overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Reals, compared_by_value
+from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
+from gruebler.base.events import ChangePoint, DeadCentre, Extremum
 from gruebler.base.notebook import brief, explained
-from gruebler.base.text import joined, message
+from gruebler.base.text import Message, joined, joined_by_and, message
+from gruebler.mechanics.kinematics import circuits as plane
+from gruebler.mechanics.kinematics.circuits import Circuit, MonotonePiece
 from gruebler.mechanics.kinematics.messages import drive_values
+from gruebler.mechanics.kinematics.root_finding import FunctionSamples, find_zeros
+from gruebler.mechanics.linkages.branch import Branch
+from gruebler.mechanics.linkages.conversion import LinkageLike, linkage_made
+from gruebler.mechanics.screws.conversion import SpatialLike
 from gruebler.mechanics.screws.model import SpatialLinkage
-from gruebler.mechanics.space.closure import Place
-from gruebler.mechanics.space.following import RANK, Setting, setting
+from gruebler.mechanics.space.curve import ConfigurationCurve, CurvePoint, TracedPoints
+from gruebler.mechanics.space.following import setting
+from gruebler.mechanics.space.motion import SpatialMotion
+from gruebler.mechanics.space.outputs import against_frame, output_freedom
+from gruebler.structure.chain.spaces import Freedom
 
-_STEP = 0.05  # radians and sizes: the longest
-_LEAST = 1e-6
-_STEPS = 5_000
-_TURNS = 8  # of Newton's method
-_CLOSED = 1e-12
-_APART = 0.2  # of a step: a larger correction may lead to another curve
-_BENT = 0.9  # the cosine of the angle by which a step may bend
+_CONSTANT = 1e-11  # of the natural size: a derivative that is nowhere larger is none
+_ROUND = 1e-12  # of the length: a place so near the end of a closed circuit is its beginning
 
-_COMES_BACK = message("The circuit is closed; it was followed in {steps} steps.")
-_ENDS = message("The circuit was followed in {steps} steps to where another crosses it.")
-_LIMITS = message("The drive turns back at {limits}.")
+_CENTRES = message("Dead centres of the output {joint} at {centres}.")
+_NO_CENTRES = message("The output {joint} never turns back.")
+
+Quantity = Callable[[SpatialMotion, int], Reals]
+"""From a motion along the curve and 0, 1 or 2 to the value of something, or to its derivative by the arc; (rows,)."""
 
 
 @compared_by_value
@@ -38,154 +51,272 @@ _LIMITS = message("The drive turns back at {limits}.")
 @brief
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class SpatialCircuit:
-    """All positions of a linkage in space with one drive on one curve, from its reference pose on."""
+    """All positions of a linkage in space with one drive on one curve, with the reference pose.
 
-    linkage: SpatialLinkage
-    drives: Reals
-    """(samples,) the drive's values, with whole turns."""
-    unknowns: dict[tuple[int, str], Reals]
-    """(samples,): the values of the freedoms (joint, direction) that were solved for, with whole turns."""
-    arcs: Reals
-    """(samples,) where the samples lie on the curve: its length in radians and sizes of all unknowns."""
-    closed: bool
-    """Whether it comes back to the reference pose, which is then the last sample again."""
-    limits: tuple[float, ...]
-    """The drive's values where it turns back, in order along the curve."""
-
-    def __len__(self) -> int:
-        return len(self.drives)
-
-    def explain(self, lang: str = "en") -> str:
-        """Whether it is closed, and where the drive turns back: lines in English or German (``de``)."""
-        lines = [(_COMES_BACK if self.closed else _ENDS).filled(steps=len(self) - 1)]
-        if self.limits:
-            limits = joined([drive_values(self.linkage, (value,)) for value in self.limits])
-            lines.append(_LIMITS.filled(limits=limits))
-        return "\n".join(line.in_language(lang) for line in lines)
-
-
-def spatial_circuit(linkage: SpatialLinkage) -> SpatialCircuit:
-    """The circuit of a linkage in space with one drive, followed by its length from the reference pose.
-
-    Returns:
-        Samples of the curve, whether it is closed, and where the drive turns back. A curve that meets another one ends
-        there, and is not closed.
-
-    Raises:
-        LinkageError: not one drive, or one that does not fix the motion; loops with balls that are no rods' ends; a
-            curve that does not come back in 5,000 steps, such as that of a slide without end.
-
-    Cost:
-        Some 0.2 ms a step of at most 0.05 radians or sizes.
-
-    Example:
-        >>> from gruebler.mechanics.space import RSSR
-        >>> rssr = RSSR(a=60, b=90, c=50, d=70, crank_offset=10, rocker_offset=15, twist=0.9)
-        >>> print(spatial_circuit(rssr.linkage(3.0)))
-        The circuit is closed; it was followed in ... steps.
-        The drive turns back at R(frame-crank) = 139.9°, R(frame-crank) = -140°.
+    Places on the curve are given by the arc: its length from the first sample, in radians and sizes of all unknowns. On
+    a closed circuit arcs below 0 or above `length` wrap around.
 
     See Also:
-        `gruebler.mechanics.kinematics.circuit`, `gruebler.mechanics.space.move`
+        `circuit`, `gruebler.mechanics.kinematics.Circuit`
+
+    Theory:
+        docs/theory/space.md
+    """
+
+    linkage: SpatialLinkage
+    curve: ConfigurationCurve = field(compare=False)
+    traced: TracedPoints = field(compare=False)
+    arcs: Reals
+    """(samples,) where the samples are; a closed circuit has its first position once more at the end."""
+    start: float
+    """The arc of the reference pose; 0 on a closed circuit."""
+
+    def __len__(self) -> int:
+        return len(self.arcs)
+
+    @property
+    def closed(self) -> bool:
+        """Whether it comes back to the reference pose."""
+        return not self.traced.ended
+
+    @property
+    def length(self) -> float:
+        """The length of the curve, in radians and sizes."""
+        return float(self.arcs[-1])
+
+    @cached_property
+    def samples(self) -> SpatialMotion:
+        """The positions at `arcs`; derivatives up to the second are those by the arc."""
+        return self.curve.motion(self.traced.points)
+
+    @property
+    def drive(self) -> Reals:
+        """(samples,) the drive's value, with whole turns, 0 in the reference pose."""
+        return np.asarray(self.samples.drives[:, 0])
+
+    def at(self, arcs: ArrayLike) -> SpatialMotion:
+        """The positions at given arcs, (k,) or one number, each exact; derivatives up to the second by the arc.
+
+        Raises `LinkageError` for places off the end of an open circuit. Cost: some 0.5 ms a position.
+        """
+        places, laps = plane.places_and_laps(arcs, self.length, self.closed)
+        return self.curve.motion([self._point(*each) for each in zip(places.tolist(), laps.tolist(), strict=True)])
+
+    def _point(self, arc: float, laps: float) -> CurvePoint:
+        points = self.traced.points
+        k = int(np.clip(np.searchsorted(self.arcs, arc, side="right") - 1, 0, len(points) - 2))
+        point = self.curve.within(points[k], points[k + 1], (arc - self.arcs[k]) / (self.arcs[k + 1] - self.arcs[k]))
+        if point is None:
+            raise LinkageError(
+                "the position at {where:.9g} of the circuit cannot be found: it is singular there", where=arc
+            )
+        whole = self.curve.whole_turns(points[-1].place) * laps
+        return point._replace(place=self.curve.moved(point.place, whole))
+
+    # --- events --------------------------------------------------------------------------------------
+
+    def extremes(self, quantity: Quantity, *, natural: float = 1.0) -> tuple[Extremum, ...]:
+        """All extremes of something along the curve, in order; values to rounding.
+
+        ``natural`` is the size that it usually has: 1 for an angle, the linkage's size for a length.
+
+        >>> from gruebler.mechanics.space import SphericalFourBar
+        >>> made = circuit(SphericalFourBar(0.9, 0.8, 0.7, 1.0).linkage(0.5))
+        >>> [round(each.value, 6) for each in made.extremes(lambda motion, order: motion.joint(1, order=order))]
+        [1.082042, -3.058207]
+        """
+        known = np.array([quantity(self.samples, order) for order in (1, 2)])
+
+        def rates(arcs: Reals) -> Reals:
+            k = np.minimum(np.searchsorted(self.arcs, arcs), len(self) - 1)
+            new = self.arcs[k] != arcs
+            values = known[:, k]
+            if new.any():
+                motion = self.at(arcs[new])
+                values[:, new] = quantity(motion, 1), quantity(motion, 2)
+            return values
+
+        samples = FunctionSamples(grid=self.arcs, period=self.length if self.closed else None)
+        zeros = [zero for zero in find_zeros(rates, samples, least=_CONSTANT * natural) if zero.multiplicity != 2]
+        arcs = [self._wrapped(zero.at) if self.closed else zero.at for zero in zeros]
+        kinds = ["minimum" if zero.rises else "maximum" for zero in zeros]
+        values = self._values(quantity, np.array(arcs)).tolist() if arcs else []
+        return tuple(sorted(map(Extremum, arcs, values, kinds), key=lambda extremum: extremum.at))
+
+    def _values(self, quantity: Quantity, arcs: Reals) -> Reals:
+        """Values at arcs: of an angle with the whole turns of the samples."""
+        values = quantity(self.at(arcs), 0)
+        near = np.interp(arcs, self.arcs, quantity(self.samples, 0))
+        return np.where(abs(values - near) < tau / 2, values, values + tau * np.round((near - values) / tau))
+
+    def _wrapped(self, arc: float) -> float:
+        place = arc % self.length
+        return 0.0 if self.length - place < _ROUND * self.length else place
+
+    @cached_property
+    def drive_limits(self) -> tuple[Extremum, ...]:
+        """Where the drive turns back: dead centres of the linkage for this drive."""
+        (drive,) = self.linkage.mechanism.drives
+        sign = float(self.curve.closure.tree.signs[0])
+        return self.extremes(
+            lambda motion, order: sign * motion.joint(drive.joint, drive.direction, order),
+            natural=1.0 if drive.turning else self.linkage.size,
+        )
+
+    def dead_centres(self, output: str | None = None) -> tuple[DeadCentre, ...]:
+        """Where a joint turns back, in order along the curve, on all branches.
+
+        Args:
+            output: a joint; without it that of the first output at the frame, else the last one of the frame.
+
+        Returns:
+            The drive's value (of a turning drive with whole turns), the joint's value from the reference pose, and
+            whether it is a maximum or minimum; radians and lengths. Motion at the frame is counted against the frame.
+        """
+        number, freedom = output_freedom(self.linkage, output)
+        sign = against_frame(self.linkage, number)
+        extremes = self.extremes(
+            lambda motion, order: sign * motion.joint(number, freedom, order),
+            natural=1.0 if Freedom(freedom).turns else self.linkage.size,
+        )
+        drives = self.at([each.at for each in extremes]).drives[:, 0].tolist() if extremes else []
+        return tuple(
+            DeadCentre(drive=drive, output=each.value, kind=each.kind)
+            for drive, each in zip(drives, extremes, strict=True)
+        )
+
+    @property
+    def monotone_pieces(self) -> tuple[MonotonePiece, ...]:
+        """The pieces between limits of the drive, in order; the first one contains the first sample."""
+        ends = [limit.at for limit in self.drive_limits]
+        if not self.closed:
+            ends = [0.0, *ends, self.length]
+        else:
+            ends = [ends[-1] - self.length, *ends] if ends else [0.0, self.length]
+        values = self.at(ends).drives[:, 0].tolist()
+        pairs = itertools.pairwise(zip(ends, values, strict=True))
+        return tuple(MonotonePiece(first, second, (v, w)) for (first, v), (second, w) in pairs)
+
+    @cached_property
+    def change_points(self) -> tuple[ChangePoint, ...]:
+        """Where other curves of positions cross this one, to about 1e-6; it goes straight on there."""
+        changes = []
+        for k, point in self.traced.crossings:
+            chord = (point.place.q - self.traced.points[k].place.q)[self.curve.columns]
+            drive = float(self.curve.motion([point]).drives[0, 0])
+            changes.append(ChangePoint(drive=drive, arc=float(self.arcs[k] + np.linalg.norm(chord))))
+        return tuple(changes)
+
+    def explain(self, lang: str = "en") -> str:
+        """Whether it is closed, and where drive and output turn back: lines in English or German (``de``)."""
+        return "\n".join(line.in_language(lang) for line in self._lines())
+
+    def _lines(self) -> list[Message]:
+        lines = plane.circuit_lines(
+            self.linkage,
+            closed=self.closed,
+            length=self.length,
+            count=len(self),
+            limits=[limit.value for limit in self.drive_limits],
+            change_points=len(self.change_points),
+        )
+        try:
+            number, _ = output_freedom(self.linkage)
+        except LinkageError:  # a linkage whose joints have no values
+            return [*lines, *plane.why_open(self.traced.ended)]
+        joint = joined([self.linkage.mechanism.chain.joint_title(number)])
+        centres = [drive_values(self.linkage, (each.drive,)) for each in self.dead_centres()]
+        lines.append(
+            _CENTRES.filled(joint=joint, centres=joined_by_and(centres)) if centres else _NO_CENTRES.filled(joint=joint)
+        )
+        return [*lines, *plane.why_open(self.traced.ended)]
+
+    def message(self, lang: str = "en") -> str:
+        """Why it is not closed; empty if it is."""
+        return "\n".join(line.in_language(lang) for line in plane.why_open(self.traced.ended))
+
+
+@overload
+def circuit(
+    linkage: SpatialLike, *, branch: Branch = None, at: float | None = None, step: float = 0.1, most: float = 1000.0
+) -> SpatialCircuit: ...
+
+
+@overload
+def circuit(
+    linkage: LinkageLike, *, branch: Branch = None, at: float | None = None, step: float = 0.1, most: float = 1000.0
+) -> Circuit: ...
+
+
+@door_that_raises(LinkageError)
+def circuit(
+    linkage: LinkageLike | SpatialLike,
+    *,
+    branch: Branch = None,
+    at: float | None = None,
+    step: float = 0.1,
+    most: float = 1000.0,
+) -> Circuit | SpatialCircuit:
+    """The circuit of a linkage with one freedom: all positions that it can reach without being taken apart.
+
+    In the plane it starts from the linkage's reference pose if there is one and neither a branch nor a drive value is
+    asked for; else from the drive value, or from the first value of a fixed list at which the branch can be assembled.
+    Redundant joints are allowed from a reference pose. In space it starts from the reference pose. It begins in the
+    direction in which the drive increases.
+
+    Args:
+        linkage: with one drive, or in the plane with a reference pose and none.
+        branch: the assembly mode at the start, as for `move`. Not in space.
+        at: the drive value at the start, in radians or the unit. Not in space.
+        step: the longest distance of samples, in sizes (and in space radians); extremes nearer to each other than that
+            may be missed in pairs.
+        most: the length at which to give up, in sizes.
+
+    Returns:
+        `Circuit`: the closed curve of all connected positions by arc length (in sizes of the linkage), with limits of
+        the drive and change points. In space `SpatialCircuit`, with dead centres of every joint too.
+
+    Raises:
+        LinkageError: no start, several drives or freedoms, a start that cannot move or that is singular.
+
+    Cost:
+        10 (four-bar) to 200 us (ten links) a sample, some 100 to 1000 samples. In space 0.3 to 1 ms a sample.
+
+    Example:
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> made = circuit(FourBar(30, 30, 50, 60).linkage())
+        >>> made.closed, np.degrees([limit.value for limit in made.drive_limits]).round(6).tolist()
+        (True, [121.855431, -121.855431])
+        >>> from gruebler.mechanics.space import RSSR
+        >>> rssr = RSSR(a=60, b=90, c=50, d=70, crank_offset=10, rocker_offset=15, twist=0.9)
+        >>> print(circuit(rssr.linkage(3.0)).explain().splitlines()[1])
+        The drive turns back at R(frame-crank) = 139.9° and R(frame-crank) = -140°.
+
+    See Also:
+        `Circuit`, `move`, `rotatability`, `drive_range`
 
     Theory:
         docs/theory/circuits.md
     """
-    set_up = setting(linkage)
-    tree = set_up.closure.tree
+    placed = linkage_made(linkage)
+    if not isinstance(placed, SpatialLinkage):
+        return plane.circuit(placed, branch=branch, at=at, step=step, most=most)
+    if branch is not None or at is not None:
+        raise LinkageError("a circuit in space starts at the reference pose, without branch and without a drive value")
+    plane.check_steps(step, most)
+    set_up = setting(placed)
     if len(set_up.drives) != 1:
         raise LinkageError(
             "a circuit needs one drive, but the mechanism has {count}: {drives}",
             count=len(set_up.drives),
-            drives=", ".join(linkage.mechanism.drive_names()),
+            drives=", ".join(placed.mechanism.drive_names()),
         )
-    if tree.folds:
-        raise LinkageError("the circuit is followed in linkages whose balls are the ends of rods only")
-    curve = _Curve(set_up)
-    values, closed = curve.followed()
-    columns = {number: k for k, number in enumerate(curve.columns)}
-    units = set_up.closure.units
-    scale = float(tree.signs[0] * units[set_up.drives[0]])
-    lap = np.array([*values, values[1] + values[-1] - values[0]]) if closed else values
-    return SpatialCircuit(
-        linkage=linkage,
-        drives=values[:, 0] * scale,
-        unknowns={key: values[:, columns[k]] * units[k] for key, k in tree.unknown.items() if k in columns},
-        arcs=np.append(0.0, np.cumsum(np.linalg.norm(np.diff(values, axis=0), axis=1))),
-        closed=closed,
-        limits=tuple(scale * value for value in curve.turning_points(lap)),
-    )
-
-
-class _Curve:
-    """The curve of the drive and the passive unknowns."""
-
-    def __init__(self, set_up: Setting) -> None:
-        self.set_up, self.closure = set_up, set_up.closure
-        self.columns = [int(set_up.drives[0]), *set_up.passive.tolist()]
-        self.turns = np.array([self.closure.tree.nodes[1 + k].turn > 0 for k in self.columns])
-
-    def linearised(self, values: Reals) -> tuple[Reals, Reals, Reals, Reals]:
-        """By how much it is open, and the singular value decomposition of the derivatives."""
-        q = np.zeros(self.closure.tree.unknowns)
-        q[self.columns] = values
-        gap, by_unknown = self.closure.linearised(Place(q, self.closure.reference.turns))
-        return gap, *np.linalg.svd(by_unknown[:, self.columns])
-
-    def closed_next_to(self, values: Reals) -> tuple[Reals, Reals] | None:
-        """The position next to values, across the curve, and its tangent; None if there is none."""
-        rank = self.set_up.rank
-        for _ in range(_TURNS):
-            gap, left, sizes, right = self.linearised(values)
-            if sizes[rank - 1] < RANK * sizes[0]:
-                return None
-            if abs(gap).max(initial=0.0) < _CLOSED:
-                return values, right[-1]
-            values = values - (right[:rank].T / sizes[:rank]) @ (left[:, :rank].T @ gap)
-        return None
-
-    def followed(self) -> tuple[Reals, bool]:
-        """The samples, and whether the last is the first again, up to whole turns."""
-        start = np.zeros(len(self.columns))
-        first = self.closed_next_to(start)
-        assert first is not None  # the drive fixes the motion there
-        values, tangent = start, first[1] * (1.0 if first[1][0] > 0 else -1.0)
-        samples, begin, step = [start], tangent, _STEP
-        for _ in range(_STEPS):
-            while True:
-                guess = values + step * tangent
-                near = self.closed_next_to(guess)
-                if near is not None:
-                    new, slope = near
-                    slope = slope if slope @ tangent > 0 else -slope
-                    if np.linalg.norm(new - guess) < _APART * step and slope @ tangent > _BENT:
-                        break
-                step /= 2
-                if step < _LEAST:
-                    return np.array(samples), False
-            whole = np.where(self.turns, tau * np.round(new / tau), 0.0)
-            before, after = (values - whole) @ begin, (new - whole) @ begin
-            if len(samples) > 3 and before < 0 <= after and np.linalg.norm(new - whole) < 2 * step:
-                return np.array([*samples, whole]), True
-            samples.append(new)
-            values, tangent, step = new, slope, min(1.5 * step, _STEP)
-        raise LinkageError("the circuit does not come back within {steps} steps", steps=_STEPS)
-
-    def turning_points(self, samples: Reals) -> list[float]:
-        """The drive's values where it is largest or smallest, from the samples on both sides."""
-        points = []
-        drives = np.diff(samples[:, 0])
-        for k in np.flatnonzero(drives[:-1] * drives[1:] < 0).tolist():
-            low, high = samples[k], samples[k + 2]
-            sign = float(np.sign(drives[k]))
-            for _ in range(60):  # bisection on the tangent's share in the drive
-                between = self.closed_next_to((low + high) / 2)
-                if between is None:
-                    break
-                middle, slope = between
-                slope = slope if slope @ (high - low) > 0 else -slope
-                low, high = (middle, high) if slope[0] * sign > 0 else (low, middle)
-                if np.linalg.norm(high - low) < _CLOSED:
-                    break
-            points.append(float(low[0]))
-        return points
+    curve = ConfigurationCurve(set_up)
+    first = curve.begin()
+    traced = curve.traced(first, float(step), float(most))
+    start = 0.0
+    if traced.ended:
+        traced, start = curve.both_ways(traced, curve.traced(first._replace(tangent=-first.tangent), step, most))
+    if len(traced.points) < 3:
+        raise LinkageError("the linkage cannot be moved from its start: the position is isolated, or singular")
+    return SpatialCircuit(linkage=placed, curve=curve, traced=traced, arcs=traced.arcs, start=start)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import degrees, tau
+from math import tau
 from typing import Any, NamedTuple, overload
 
 import numpy as np
@@ -25,9 +25,11 @@ from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, linkage_made
 from gruebler.mechanics.screws.conversion import SpatialLike
 from gruebler.mechanics.screws.model import SpatialLinkage
-from gruebler.mechanics.space.bodies import motions
-from gruebler.mechanics.space.drive_range import SpatialRange, followed, spatial_range
+from gruebler.mechanics.space.curve import ConfigurationCurve
+from gruebler.mechanics.space.drive_ranges import SpatialRange, followed, spatial_range, value_message
+from gruebler.mechanics.space.following import setting
 from gruebler.mechanics.space.motion import SpatialMotion
+from gruebler.mechanics.space.outputs import against_frame, output_freedom, valued_freedoms
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.chain.spaces import Freedom
 
@@ -37,9 +39,6 @@ _STEPS = 3  # of Newton's method, which begins within 2.5 degrees by regula fals
 _STILL = 1e-9  # of the usual rate: smaller ones are 0 all the way
 _NOISE = 1e-10  # of the largest value in a table: rounding of closed positions, larger in their rates
 
-_TURNS = message("The drive {drive} turns fully.")
-_BETWEEN = message("The drive {drive} moves from {low} to {high}.")
-_OPEN = message("It was followed no farther than three sizes of the linkage.")
 _WITH = message("Output {joint}: it turns fully in the sense of the drive, {turns:g} : 1.")
 _AGAINST = message("Output {joint}: it turns fully against the sense of the drive, {turns:g} : 1.")
 _SWINGS = message("Output {joint}: from {low} to {high}, that is {travel}.")
@@ -110,7 +109,9 @@ class SpatialMeasures:
     def to_json(self) -> dict[str, Any]:
         """Plain data for `json.dumps`; angles in radians."""
         return {
-            **plain(self.range, "low high full"),
+            "low": self.range.lowest,
+            "high": self.range.highest,
+            "full": self.range.full,
             "ends": [None if stop is None else stop.explain() for stop in self.range.stops],
             **plain(self, "output freedom turns travel dead_centres least_ratio greatest_ratio joints"),
         }
@@ -124,13 +125,7 @@ class SpatialMeasures:
         def title(joint: str) -> Message:
             return joined([chain.joint_title(chain.joint_number(joint))])
 
-        driven = title(self.linkage.mechanism.drive_names()[0])
-        if self.range.full:
-            yield _TURNS.filled(drive=driven)
-        else:
-            low, high = (self._value(v, self._drive_turns) for v in (self.range.low, self.range.high))
-            yield _BETWEEN.filled(drive=driven, low=low, high=high)
-            yield from (_OPEN if stop is None else stop.message for stop in self.range.stops)
+        yield from self.range.lines()
         if self.turns:
             yield (_WITH if self.turns > 0 else _AGAINST).filled(joint=title(self.output), turns=abs(self.turns))
         else:
@@ -158,10 +153,7 @@ class SpatialMeasures:
         return self._value(row.highest - row.lowest, Freedom(row.freedom).turns)
 
     def _value(self, value: float, turns: bool) -> Message:
-        if turns:
-            return message("{angle:n}°", angle=round(degrees(value), 4) + 0.0)
-        length = 0.0 if abs(value) < _STILL * self.linkage.size else float(f"{value:.6g}")
-        return message("{length:n} {unit}", length=length, unit=self.linkage.unit)
+        return value_message(self.linkage, value, turns)
 
 
 def spatial_table(
@@ -285,7 +277,7 @@ def _measured(linkage: SpatialLinkage, output: str | None) -> SpatialMeasures:
     low, high = (_ASIDE, _ASIDE + tau) if span.full else (None, None)
     values = np.linspace(low, high, _ROWS) if low is not None and high is not None else span.inside(_ROWS)
     course = followed(linkage, values[:, None], order=3)
-    freedoms = list(_valued(linkage))
+    freedoms = list(valued_freedoms(linkage))
     rests = _zeros(linkage, course, [*((*each, 1) for each in freedoms), (number, freedom, 2)])
     sign = against_frame(linkage, number)
     names = linkage.mechanism.chain.joint_names()
@@ -305,7 +297,7 @@ def _measured(linkage: SpatialLinkage, output: str | None) -> SpatialMeasures:
         output=names[number],
         freedom=freedom,
         joints=tuple(
-            _joint_range(names[k], f, course.joint(k, f), span, found_zeros)
+            _joint_range(names[k], f, course.joint(k, f), _at_ends(linkage, span, k, f), span, found_zeros)
             for (k, f), found_zeros in zip(freedoms, rests, strict=False)
         ),
         dead_centres=tuple(
@@ -329,42 +321,6 @@ class _Zero(NamedTuple):
     rate: float
     next: float
     """The derivative of the next order."""
-
-
-def _valued(linkage: SpatialLinkage) -> Iterator[tuple[int, str]]:
-    """The freedoms that have values."""
-    chain = linkage.mechanism.chain
-    for number, joint in enumerate(chain.joints):
-        if joint.pair.is_ball or joint.pair.has_body_between or joint.pair.has_contours or len(joint.links) > 2:
-            continue
-        for each in motions(joint.pair, chain.space):
-            yield number, str(each)
-
-
-def output_freedom(linkage: SpatialLinkage, output: str | None = None) -> tuple[int, str]:
-    """The joint of the output and its first freedom; `LinkageError` for a joint that has no values."""
-    chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
-    known = dict(reversed(list(_valued(linkage))))  # the first freedom of each joint
-    if output is not None:
-        number = chain.joint_number(output, error=LinkageError)
-        if number not in known:
-            raise LinkageError(
-                "{joint}: expected a joint of two links that is no ball and no contact", joint=chain.joint_title(number)
-            )
-        return number, known[number]
-    driven = {drive.joint for drive in linkage.mechanism.drives}
-    at_frame = [k for k in sorted(known) if frame in chain.joints[k].links and k not in driven]
-    wanted = [k for k in at_frame if set(chain.joints[k].links) & set(linkage.outputs)]
-    others = [k for k in sorted(known) if k not in driven]
-    if not (wanted or at_frame or others):
-        raise LinkageError("no joint besides the drive has a motion that can be measured")
-    number = wanted[0] if wanted else (at_frame or others)[-1]
-    return number, known[number]
-
-
-def against_frame(linkage: SpatialLinkage, number: int) -> float:
-    """1 or -1: the motion of a joint of the frame is counted against the frame."""
-    return -1.0 if linkage.mechanism.chain.joints[number].links[1] == linkage.mechanism.frame else 1.0
 
 
 def _zeros(linkage: SpatialLinkage, course: SpatialMotion, wanted: Sequence[tuple[int, str, int]]) -> list[list[_Zero]]:
@@ -405,10 +361,28 @@ def _nearer(
     return min(max(at - step, low), high), low, high, n
 
 
-def _joint_range(name: str, freedom: str, value: Reals, span: SpatialRange, zeros: Sequence[_Zero]) -> JointRange:
+def _at_ends(linkage: SpatialLinkage, span: SpatialRange, joint: int, freedom: str) -> tuple[float | None, ...]:
+    """A joint's value where the range ends, up to whole turns; None without a stop, or where modes meet."""
+    curve = ConfigurationCurve(setting(linkage))
+    points = [None if stop is None else curve.near(stop.place) for stop in span.stops]
+    return tuple(None if each is None else float(curve.motion([each]).joint(joint, freedom)[0]) for each in points)
+
+
+def _joint_range(
+    name: str,
+    freedom: str,
+    value: Reals,
+    at_ends: tuple[float | None, ...],
+    span: SpatialRange,
+    zeros: Sequence[_Zero],
+) -> JointRange:
     extremes = [zero.value for zero in zeros]
     net = float(value[-1] - value[0])
     ends = [] if span.full and extremes else [0.0, net] if span.full else value[[0, -1]].tolist()
+    for side, exact in enumerate(at_ends):
+        if exact is not None and not span.full:
+            whole = round((ends[side] - exact) / tau) if Freedom(freedom).turns else 0
+            ends[side] = exact + tau * whole
     extent = [*extremes, *ends]
     turns = Freedom(freedom).turns
     return JointRange(

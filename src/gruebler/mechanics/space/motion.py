@@ -16,10 +16,16 @@ from gruebler.mechanics.kinematics.messages import drive_values
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.screws.rigid_motions import inverse_motion
 from gruebler.mechanics.space.bodies import motions
+from gruebler.mechanics.space.closure import Place
 from gruebler.mechanics.space.power_series import product
 from gruebler.structure.chain.spaces import Freedom
 
-_LIMIT = message("The motion ends at {drives}: there the drives stand at a limit, and {joints} would turn back.")
+_LIMIT = message(
+    "The motion ends at {drives}: there the drive stands at its limit and has to turn back, while {joints} could go on."
+)
+_LIMITS = message(
+    "The motion ends at {drives}: there the drives stand at a limit and have to turn back, while {joints} could go on."
+)
 _MEET = message("The motion ends at {drives}: there two assembly modes meet in {joints}.")
 _PASSED = message(
     "Before {drives} it passes a position in which two assembly modes meet, and goes straight on in its own."
@@ -39,18 +45,21 @@ class SpatialStop:
     row: float
     """The place on the path, in rows."""
     drives: tuple[float, ...]
-    """The drive values there, as near as the smallest step: a millionth of a tenth of a radian."""
+    """The drive values there: at a limit of one drive to rounding, else as near as the smallest step: a millionth of
+    a tenth of a radian."""
     joints: tuple[str, ...]
     """The joints that move fastest there."""
     reason: str
     """``limit`` (the drives can go no farther), ``singular`` (two assembly modes meet)."""
     linkage: SpatialLinkage = field(repr=False)
     """The linkage that moves."""
+    place: Place = field(repr=False, compare=False)
+    """The last position, at a limit of one drive that in which it turns back."""
 
     @property
     def message(self) -> Message:
         """What `explain` says, in any language."""
-        text = _LIMIT if self.reason == "limit" else _MEET
+        text = _MEET if self.reason != "limit" else _LIMIT if len(self.drives) == 1 else _LIMITS
         chain = self.linkage.mechanism.chain
         titles = joined(chain.joint_title(chain.joint_number(name)) for name in self.joints)
         return text.filled(drives=drive_values(self.linkage, self.drives), joints=titles)

@@ -20,6 +20,7 @@ from gruebler.mechanics.linkages.conversion import LinkageLike, linkage_made
 from gruebler.mechanics.screws.conversion import SpatialLike
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.closure import Place
+from gruebler.mechanics.space.curve import ConfigurationCurve, directed
 from gruebler.mechanics.space.following import Setting, is_limit, setting
 from gruebler.mechanics.space.motion import SpatialMotion, SpatialStop
 
@@ -177,11 +178,25 @@ def _stop(set_up: Setting, last: Place, row: float, change: Reals) -> SpatialSto
     names = chain.joint_names()
     joints = {names[joint]: share.get(k, 0.0) for (joint, _), k in tree.unknown.items()}
     most = max(joints.values(), default=0.0)
+    limit = is_limit(set_up, last, change)
+    if limit and len(set_up.drives) == 1:
+        last = _turning_point(set_up, last, change)
     values = last.q[list(tree.drives)] * set_up.closure.units[list(tree.drives)] * tree.signs
     return SpatialStop(
         row=max(row, 0.0),
         drives=tuple(map(float, values)),
         joints=tuple(name for name, value in joints.items() if value > _FAST * most > 0),
-        reason="limit" if is_limit(set_up, last, change) else "singular",
+        reason="limit" if limit else "singular",
         linkage=tree.linkage,
+        place=last,
     )
+
+
+def _turning_point(set_up: Setting, last: Place, change: Reals) -> Place:
+    """Where the one drive turns back, at most 0.1 along the curve from a place; that place if it is not found."""
+    curve = ConfigurationCurve(set_up)
+    start = curve.near(last)
+    if start is None:
+        return last
+    fold = curve.fold(directed(start, np.sign(change) * np.eye(len(curve.columns))[0]))
+    return last if fold is None else fold.place

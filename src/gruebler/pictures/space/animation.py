@@ -13,7 +13,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import translate
 from gruebler.mechanics.kinematics.drive_rows import path_of_values
 from gruebler.mechanics.screws import SpatialLinkage
-from gruebler.mechanics.space.drive_range import followed, spatial_range
+from gruebler.mechanics.space.drive_ranges import followed, spatial_range
 from gruebler.pictures.canvas.moving_frames import FramePicture, frame_picture
 from gruebler.pictures.canvas.moving_picture import Clock, always
 from gruebler.pictures.space.picture import path_on_paper

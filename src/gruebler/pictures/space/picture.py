@@ -12,7 +12,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space import SpatialMotion, move
-from gruebler.mechanics.space.drive_range import followed, spatial_range
+from gruebler.mechanics.space.drive_ranges import followed, spatial_range
 from gruebler.pictures.canvas.figure import MARGIN, Figure, figure_of
 from gruebler.pictures.canvas.labels import labels_or_numbers, note_near
 from gruebler.pictures.canvas.shapes import Polylines, Shape

@@ -10,8 +10,9 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import translate
 from gruebler.mechanics.screws import SpatialLinkage
-from gruebler.mechanics.space.drive_range import followed
-from gruebler.mechanics.space.measuring import SpatialMeasures, measures, output_freedom, spatial_table
+from gruebler.mechanics.space.drive_ranges import followed
+from gruebler.mechanics.space.measuring import SpatialMeasures, measures, spatial_table
+from gruebler.mechanics.space.outputs import output_freedom
 from gruebler.pictures.canvas.axes import Axis, angles, axis_name, decimals
 from gruebler.pictures.canvas.drive_axes import ROWS, bulk, drive_axis, drive_text, order_words
 from gruebler.pictures.canvas.figure import Figure

@@ -207,7 +207,7 @@ def _derived_in_space(entry: Entry, linkage: SpatialLinkage, claim: MotionQuanti
 
 def _course_in_space(entry: Entry, linkage: SpatialLinkage, claim: MotionQuantity) -> SpatialMotion:
     """The motion over the range of the claim, of the entry, or all there is; several drives move alike."""
-    from gruebler.mechanics.space.drive_range import followed, spatial_range
+    from gruebler.mechanics.space.drive_ranges import followed, spatial_range
 
     drives = linkage.mechanism.drives
     moving = [claim.drive in (None, name) for name in linkage.mechanism.drive_names()]

@@ -10,7 +10,7 @@ from gruebler.machines.gears import read_train, speeds
 from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES
 from gruebler.mechanics.linkages.quantities import as_positive
 from gruebler.mechanics.space import SphericalFourBar, UniversalJoint, move
-from gruebler.mechanics.space.drive_range import spatial_range
+from gruebler.mechanics.space.drive_ranges import spatial_range
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle
 
 _SPEED = "1/min"
