@@ -259,13 +259,60 @@ def test_a_ball_may_be_written_from_either_link():
     assert np.arccos((np.trace(motions[0].pose("body")[-1, :3, :3]) - 1) / 2) > 0.5
 
 
+def square(space, crossed=False):
+    """A parallelogram with its cranks upright, or crossed: then one pin is mirrored at the line of its neighbours."""
+    end = np.array([3.0, 1.0])
+    if crossed:
+        across = np.array([1.0, 3.0]) / np.sqrt(10)
+        end = end - 2 * across * (across @ (end - (3, 0)))
+    mechanism = Mechanism.parse(f"{space}R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
+    points = [(0, 0), (0, 1), tuple(map(float, end)), (3, 0)]
+    if not space:
+        return SpatialLinkage(mechanism, dict(enumerate(points)))
+    return SpatialLinkage(mechanism, {k: {"at": (*point, 0.0), "z": Z} for k, point in enumerate(points)})
+
+
+@pytest.mark.parametrize("space", ["", "spatial: "], ids=["plane", "space"])
+def test_rows_in_which_two_modes_meet_are_passed(space):
+    """A parallelogram meets its crossed mode where its cranks lie on one line; it stays one, its rocker as fast."""
+    rows = np.radians(np.arange(0, 721, 15))
+    motion = move(square(space), rows, speed=2.0, acceleration=3.0, jerk=5.0, order=3)
+    assert motion.complete
+    assert motion.changes == (6, 18, 30, 42)
+    assert motion.passed == ()
+    assert motion.gap < 1e-12
+    assert motion.joint(3) == pytest.approx(rows, abs=1e-11)
+    for order, rate, near in ((1, 2.0, 1e-10), (2, 3.0, 1e-8), (3, 5.0, 1e-6)):
+        assert motion.joint(3, order=order) == pytest.approx(rate, abs=near)
+    assert motion.smallest[6] < 1e-12 < motion.smallest[5]
+    assert "At R(0-1) = 90° two assembly modes meet; it goes straight on" in motion.message()
+    assert "Bei D(0-1) = 90° treffen zwei Montagearten zusammen" in motion.message("de")
+
+
+@pytest.mark.parametrize("space", ["", "spatial: "], ids=["plane", "space"])
+def test_a_crossed_parallelogram_passes_its_change_points_by_its_closed_form(space):
+    """tan(psi / 2) = -tan(phi / 2) (d + a) / (d - a) for cranks a on a frame d: it is folded at 0 and at pi."""
+    linkage = square(space, crossed=True)
+    rows = np.radians(np.arange(0, 361, 10))
+    motion = move(linkage, rows)
+    assert motion.complete
+    assert motion.changes == (9, 27)
+    phi = pi / 2 + rows
+    psi = np.pi + 2 * np.arctan2(np.cos(phi / 2) * (3 - 1), np.sin(phi / 2) * (3 + 1))
+    turned = motion.joint(3)
+    assert abs(np.exp(1j * (turned - turned[0])) - np.exp(1j * (psi - psi[0]))).max() < 1e-10
+
+
+def test_a_path_that_turns_in_a_change_point_passes_it_once():
+    motion = move(square(""), [0.0, pi / 2, 0.3, pi / 2, pi / 2, 2.0])
+    assert motion.changes == (1, 3, 4)
+    assert motion.passed == ()
+    assert motion.joint(3)[:5] == pytest.approx([0.0, pi / 2, 0.3, pi / 2, pi / 2], abs=1e-11)
+
+
 def test_a_change_of_mode_is_no_limit():
     """A parallelogram meets its crossed mode where its cranks lie on one line."""
-    square = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
-    linkage = SpatialLinkage(square, {0: (0, 0), 1: (0, 1), 2: (3, 1), 3: (3, 0)})
-    stop = move(linkage, [0.0, pi / 4, pi / 2]).stop
-    assert stop.reason == "singular"
-    assert stop.drives[0] == pytest.approx(pi / 2, abs=1e-5)
+    linkage = square("")
     through = move(linkage, np.linspace(0, 3.0, 8))
     assert through.complete
     assert through.passed == (4,)  # 3 / 7 times 4 is the first one beyond a quarter turn

@@ -176,4 +176,5 @@ def followed(linkage: SpatialLinkage, values: Reals, order: int = 0, speed: Arra
         unknowns={key: each[:, 1:] for key, each in motion.unknowns.items()},
         derivatives=motion.derivatives[1:],
         passed=tuple(row - 1 for row in motion.passed if row),
+        changes=tuple(row - 1 for row in motion.changes if row),
     )

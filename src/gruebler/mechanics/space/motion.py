@@ -30,6 +30,7 @@ _MEET = message("The motion ends at {drives}: there two assembly modes meet in {
 _PASSED = message(
     "Before {drives} it passes a position in which two assembly modes meet, and goes straight on in its own."
 )
+_CHANGE = message("At {drives} two assembly modes meet; it goes straight on in its own.")
 _POSITIONS = message("Positions: {count}, from {first} to {last}; derivatives up to order {order}.")
 _RANK = message(
     "{rows} closing conditions of rank {rank}, constant all the way; open by {gap:.0e} of the size at most."
@@ -96,6 +97,8 @@ class SpatialMotion:
     stop: SpatialStop | None
     passed: tuple[int, ...] = ()
     """Rows before which it went straight on through a position where two assembly modes meet."""
+    changes: tuple[int, ...] = ()
+    """Rows in which two assembly modes meet; it goes straight on there."""
 
     def __len__(self) -> int:
         return len(self.drives)
@@ -133,10 +136,11 @@ class SpatialMotion:
         return joined(self._remarks(), " ").in_language(lang)
 
     def _remarks(self) -> list[Message]:
-        values = [
-            drive_values(self.linkage, tuple(map(float, self.drives[row]))) for row in self.passed if row < len(self)
+        marks = [*((row, _PASSED) for row in self.passed if row < len(self)), *((row, _CHANGE) for row in self.changes)]
+        remarks = [
+            text.filled(drives=drive_values(self.linkage, tuple(map(float, self.drives[row]))))
+            for row, text in sorted(marks, key=lambda mark: mark[0])
         ]
-        remarks = [_PASSED.filled(drives=each) for each in values]
         return remarks if self.stop is None else [*remarks, self.stop.message]
 
     def explain(self, lang: str = "en") -> str:

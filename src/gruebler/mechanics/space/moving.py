@@ -19,6 +19,7 @@ from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, linkage_made
 from gruebler.mechanics.screws.conversion import SpatialLike
 from gruebler.mechanics.screws.model import SpatialLinkage
+from gruebler.mechanics.space.change_point_rows import follow_through
 from gruebler.mechanics.space.closure import Place
 from gruebler.mechanics.space.curve import ConfigurationCurve, directed
 from gruebler.mechanics.space.following import Setting, is_limit, setting
@@ -149,7 +150,7 @@ def moved(set_up: Setting, path: Reals, speeds: Reals) -> SpatialMotion:
     own = path[:, order] * scale
     factors = np.array([float(factorial(k)) for k in range(len(speeds) + 1)])
     rates = speeds[:, :, order] * scale / factors[1:, None, None]
-    rows = set_up.closure.follow(set_up.passive, set_up.drives, own, rates)
+    rows, changes = follow_through(set_up, own, rates)
     count = len(rows.derivatives)
     balls = {start + k for start in tree.folds for k in (-1, 0, 1)}
     stop = None if rows.end is None else _stop(set_up, rows.last, rows.end, own[count] - own[count - 1] * (count > 0))
@@ -166,6 +167,7 @@ def moved(set_up: Setting, path: Reals, speeds: Reals) -> SpatialMotion:
         idle=tuple(tree.linkage.mechanism.chain.links[rod.link] for rod in tree.rods),
         stop=stop,
         passed=tuple(rows.passed),
+        changes=changes,
     )
 
 
