@@ -70,6 +70,7 @@ await build({
   },
   outdir: target,
   bundle: true,
+  inject: [path.join(here, "short.mjs")],
   format: "esm",
   target: "es2022",
   minify: true,
