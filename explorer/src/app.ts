@@ -91,7 +91,9 @@ export class App implements Page {
     const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches || location.hash.length > 1;
     if ((this.model.get("machine") as Model).plays && !still) this.motion.transport.toggle();
     if (this.linkable) {
+      const { view } = (history.state ?? {}) as { view?: string }; // that of a page which is loaded again
       await this.read();
+      if (view && view in this.views) this.show(view);
       this.motion.forget();
       this.arrangeHeader();
       window.addEventListener("popstate", (event) => void this.goneBack(event));
@@ -201,7 +203,10 @@ export class App implements Page {
         this.views[key]!.element.setAttribute("role", "tabpanel");
         this.views[key]!.element.setAttribute("aria-label", names[key]!);
       }
-    if (this.linkable) document.title = this.name ? `${this.name} – gruebler` : "gruebler";
+    if (this.linkable) {
+      document.documentElement.lang = currentLanguage();
+      document.title = this.name ? `${this.name} – gruebler` : "gruebler";
+    }
     renew(
       this.header,
       h("h1", {}, "gruebler ", h("small", {}, this.name)),

@@ -74,7 +74,7 @@ export class BuildView implements View, Plane, Drawn {
   constructor(readonly page: Page) {
     this.viewport.scale = 4;
     const stage = h("div.stage", {}, this.root, this.hint);
-    this.element.append(stage, this.side, this.tools);
+    this.element.append(stage, this.tools, this.side);
     this.root.addEventListener("pointerdown", (event) => this.down(event));
     this.root.addEventListener("pointermove", (event) => this.hover(event));
     this.root.addEventListener("keydown", (event) => this.key(event));

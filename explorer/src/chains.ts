@@ -40,7 +40,7 @@ export class ChainList {
       "aria-label": t("Links"),
       onchange: () => {
         this.links = Number(links.value);
-        void this.ask(0);
+        this.typed(links);
       },
     });
     const mobility = h("input", {
@@ -50,7 +50,7 @@ export class ChainList {
       "aria-label": t("Mobility"),
       onchange: () => {
         this.mobility = Number(mobility.value);
-        void this.ask(0);
+        this.typed(mobility);
       },
     });
 
@@ -76,6 +76,14 @@ export class ChainList {
       card.setAttribute("aria-pressed", String(text.startsWith(card.dataset.chain!)));
   }
 
+  /** Ask for the chains of the numbers that are typed, if there can be such. */
+  private typed(field: HTMLInputElement): void {
+    const { min, max } = field;
+    if (field.checkValidity() && field.value) return void this.ask(0);
+    const text = t("Expected a whole number from {min} to {max}.", { min, max });
+    renew(this.status, h("span.error", { role: "alert" }, text));
+  }
+
   private async ask(start: number): Promise<void> {
     const question = { links: this.links, mobility: this.mobility, start };
     const number = ++this.asked;
@@ -92,6 +100,13 @@ export class ChainList {
     const { found } = this;
     if (!found) return renew(this.list);
     this.count.textContent = t("{shown} of {total} chains", { shown: found.items.length, total: found.total });
+    if (!found.total) {
+      const odd = (this.links + this.mobility) % 2 === 0;
+      const why = odd
+        ? t("There is none: F = 3(n − 1) − 2g, so that of links and mobility one is even and one is odd.")
+        : t("There is none with so few links.");
+      return renew(this.list, h("p.note", {}, why));
+    }
     const more =
       found.items.length < found.total
         ? h("button.plain", { onclick: () => void this.ask(found.items.length) }, t("More"))

@@ -18,6 +18,8 @@ export interface Length {
 }
 
 const LONGEST = 1e9;
+/** How near two pins of a link are dragged to each other, in sizes of the linkage; nearer ones are typed. */
+const NEAREST = 1e-3;
 /** How easily the joint that is dragged leaves its place, against others. */
 const DRAGGED = 1e-7;
 
@@ -91,6 +93,7 @@ export class Dragging {
     const pose = oneRow(linkage.pose, 0);
     const pivot = this.pivots[joint];
     const places = this.placesWith(joint, ...this.permitted(joint, toX, toY));
+    this.keepApart(places);
     const rigid = model.links.map((_, link) => this.isKept(link));
     const cylinders = model.joints.map((_, k) => sizes.cylinder(k)).filter((found) => found !== null);
     const ends = new Set(cylinders.flatMap(([, , one, two]) => [one, two]));
@@ -138,9 +141,24 @@ export class Dragging {
         ease.map((one, k) => (k === joint ? own * one : one)),
       );
     const places = eased(0) ?? eased(DRAGGED); // where it cannot come to, it comes near
-    if (!places) throw new Refused(null);
+    if (!places) throw new Refused(null, "kept");
     const others = places.map((at, k): [number, Pair] => [k, at]);
     return new Map(others.filter(([k, [u, v]]) => k === joint || u !== before[k]![0] || v !== before[k]![1]));
+  }
+
+  /** Refuse places at which two pins of a link would all but meet. */
+  private keepApart(places: ReadonlyMap<number, Pair>): void {
+    const { linkage } = this;
+    const { sizes } = linkage;
+    const least = NEAREST * linkage.size;
+    const placeOf = (k: number) => places.get(sizes.element(k).joint) ?? linkage.elementAt(k);
+    const pins = [...places.keys()].flatMap((moved) => sizes.elementsOf(moved)).filter((k) => sizes.is(k, "pin"));
+    for (const k of pins)
+      for (const m of sizes.elementsOn(sizes.element(k).link)) {
+        if (m === k || !sizes.is(m, "pin") || sizes.gap(k, m) < least) continue;
+        const [[x, y], [u, v]] = [placeOf(k), placeOf(m)];
+        if (Math.hypot(u - x, v - y) < least) throw new Refused(null, "near");
+      }
   }
 
   /** Whether all of a link is kept: it has pins only, and all their distances stay. */
@@ -170,7 +188,7 @@ export class Dragging {
     for (const k of sizes.elementsOn(link)) {
       const [x, y] = placeOf(k);
       const [u, v] = place(pose, 0, link, ...sizes.xy(k));
-      if (!(Math.hypot(u - x, v - y) < 1e-9 * sizes.unit)) throw new Refused(null);
+      if (!(Math.hypot(u - x, v - y) < 1e-9 * sizes.unit)) throw new Refused(null, "kept");
     }
   }
 
@@ -297,7 +315,7 @@ export class Dragging {
       goal[2 * line]! += s * more;
       goal[2 * line + 1]! -= c * more;
     } else {
-      if (length < sizes.near) throw new Refused(null);
+      if (length < sizes.near) throw new Refused(null, "near");
       const [x, y] = sizes.xy(first);
       const [u, v] = sizes.xy(second);
       const now = Math.hypot(u - x, v - y);
@@ -320,7 +338,7 @@ export class Dragging {
       [[number(first), number(second), length], ...distances],
       mine.map((k) => (k === first ? 0 : 1)),
     );
-    if (!places) throw new Refused(null);
+    if (!places) throw new Refused(null, "kept");
     for (const [m, k] of mine.entries()) goal.set(places[m]!, 2 * k);
   }
 }

@@ -24,7 +24,11 @@ export interface Snapshot {
 
 /** Why a change was refused. */
 export class Refused extends Error {
-  constructor(readonly stop: Stop | null) {
+  constructor(
+    readonly stop: Stop | null,
+    /** Why not, where nothing stops: joints of a link meet, or what is kept does not allow it. */
+    readonly reason: "" | "near" | "kept" = "",
+  ) {
     super("refused");
   }
 }
@@ -305,6 +309,24 @@ export class Linkage {
       throw error;
     }
     this.cycle = findCycle(this);
+  }
+
+  /** Change the sizes at the drive value nearest to the present one at which that is possible. */
+  elsewhere(edit: () => void): void {
+    const old = this.snapshot();
+    const { values } = this.cycle;
+    const here = this.drives[this.active]!;
+    const step = Math.max(1, Math.floor(values.length / 36));
+    const tried = values.filter((_, row) => row % step === 0).sort((a, b) => Math.abs(a - here) - Math.abs(b - here));
+    for (const [k, value] of tried.entries()) {
+      this.restore(old);
+      if (!this.moveTo(value)) continue;
+      try {
+        return edit();
+      } catch (error) {
+        if (k === tried.length - 1 || !(error instanceof Refused)) throw error;
+      }
+    }
   }
 
   /** Other sizes at the same drive values, in small steps, so that larger groups stay on their branch. */

@@ -91,7 +91,7 @@ export class MotionView implements View, Editor, Driven {
       },
       this.shown,
     );
-    this.element.append(this.stage.element, this.side, this.transport.element);
+    this.element.append(this.stage.element, this.transport.element, this.side);
   }
 
   // --- what is shown -------------------------------------------------------------------------------------------------
@@ -187,10 +187,14 @@ export class MotionView implements View, Editor, Driven {
 
   // --- changes -------------------------------------------------------------------------------------------------------
 
-  attempt(change: () => void): void {
+  attempt(change: () => void, elsewhere?: () => void): void {
     this.begin();
-    this.tryTo(change);
+    this.tryTo(change, elsewhere);
     this.end();
+  }
+
+  attemptAnywhere(change: () => void): void {
+    this.attempt(change, () => this.attempt(() => this.linkage.elsewhere(change)));
   }
 
   edit(change: () => void): void {
@@ -220,7 +224,8 @@ export class MotionView implements View, Editor, Driven {
     this.page.changed();
   }
 
-  private tryTo(change: () => void): void {
+  /** Change the sizes; what is refused at this drive value is offered where it fits, if that can be looked for. */
+  private tryTo(change: () => void, elsewhere?: () => void): void {
     const start = performance.now();
     try {
       change();
@@ -228,7 +233,14 @@ export class MotionView implements View, Editor, Driven {
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
       const stop = error.stop && { ...error.stop, status: Status.START };
-      this.page.say(stop ? stopText(this.linkage, stop) : t("This size is not possible."));
+      const why = {
+        "": t("This size is not possible."),
+        near: t("Two joints of a link cannot lie in one place."),
+        kept: t("What is kept does not allow it: release a length, a direction or a joint."),
+      };
+      const offer = t("Move the drive to where it fits");
+      const action = stop && elsewhere && h("button.plain", { "data-act": "elsewhere", onclick: elsewhere }, offer);
+      this.page.say(stop ? stopText(this.linkage, stop) : why[error.reason], "error", action || undefined);
     }
     this.followed();
     this.timed(start);

@@ -27,6 +27,8 @@ export interface Editor {
   readonly stage: { fit(): void };
   /** Change sizes; where that is impossible, say why. It can be undone. */
   attempt(change: () => void): void;
+  /** The same, and offer other drive values if it is refused at this one. */
+  attemptAnywhere(change: () => void): void;
   /** Change the points; it can be undone. */
   edit(change: () => void): void;
   addPoint(link: number, x: number, y: number): void;
@@ -94,7 +96,7 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
     onchange: () => {
       const wanted = parsed(input.value);
       const right = wanted >= 0;
-      if (right) editor.attempt(() => editor.dragging.setLength(first, second, wanted));
+      if (right) editor.attemptAnywhere(() => editor.dragging.setLength(first, second, wanted));
       input.setAttribute("aria-invalid", String(!right));
       if (right) return;
       editor.page.say(t("Expected a length, such as {value}.", { value: number(value, 4) }));

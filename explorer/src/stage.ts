@@ -4,7 +4,7 @@ import { Painter } from "./canvas";
 import { h, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import { type Icon, icon } from "./icons";
-import { t } from "./language";
+import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
 import { type Board, Pointer, type StageEvents } from "./pointer";
 import { type Pair, place } from "./rows";
@@ -144,7 +144,8 @@ export class Stage implements Board {
   build(): void {
     const { linkage, dragging } = this;
     if (!linkage || !dragging) return;
-    this.root.setAttribute("aria-label", linkage.model.name || linkage.model.source || t("The mechanism"));
+    const { name, names, source } = linkage.model;
+    this.root.setAttribute("aria-label", names[currentLanguage()] || name || source || t("The mechanism"));
     this.scene.build(linkage, dragging, this.shown);
     this.sized();
   }

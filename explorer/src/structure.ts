@@ -150,6 +150,9 @@ export class StructureView implements View {
           ),
           ...lines.map((line) => h("p.said", {}, line.trim())),
           strained ? h("p.note", {}, t("Orange: overconstrained links.")) : null,
+          found.links.some(({ rigid }) => rigid)
+            ? h("p.note", {}, t("Purple: links that are rigid against each other."))
+            : null,
         ),
       ),
     );

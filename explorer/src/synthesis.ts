@@ -318,7 +318,7 @@ export class SynthesisView implements View {
     const found = await awaited(this.status, (progress) => this.page.ask<Found>("synthesise", question, progress));
     if (!found) return;
     this.play(this.designs.show(found));
-    this.designs.element.scrollIntoView({ block: "nearest", behavior: "smooth" });
+    this.designs.element.scrollIntoView({ block: "nearest" });
   }
 
   // --- a design plays over its targets -------------------------------------------------------------------------------

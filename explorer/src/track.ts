@@ -13,6 +13,8 @@ export class Track {
   private from = 0;
   private to = 1;
   private limits: [number, number] = [0, 1];
+  private here = 0;
+  private textOf: (value: number) => string = String;
   /** Of what the marks tell. */
   private told = "";
 
@@ -23,6 +25,17 @@ export class Track {
       this.at(event);
     });
     this.element.addEventListener("pointermove", (event) => event.buttons && this.at(event));
+    this.element.addEventListener("keydown", (event) => {
+      const [low, high] = this.limits;
+      const part = (high - low) / (/^Page/.test(event.key) ? 12 : 360);
+      const { here } = this;
+      const ways: Record<string, number> = { ArrowUp: part, PageUp: part, ArrowDown: -part, PageDown: -part };
+      const ends: Record<string, number> = { Home: low, End: high };
+      const value = ends[event.key] ?? here + (ways[event.key] ?? NaN);
+      if (Number.isNaN(value)) return;
+      event.preventDefault();
+      this.pick(Math.max(low, Math.min(high, value)), value < low || value > high);
+    });
   }
 
   private at(event: PointerEvent): void {
@@ -77,7 +90,8 @@ export class Track {
       );
       parts.push(group);
     };
-    const shown = (value: number) => (turning ? angle(wrap(value), 5) : `${number(wrap(value), 5)} ${unit}`);
+    this.textOf = (value) => (turning ? angle(value, 5) : `${number(value, 5)} ${unit}`);
+    const shown = (value: number) => this.textOf(wrap(value));
     for (const value of dead)
       mark(value, "dead", "M0 8 L-5 0 H5 Z", t("Dead centre at {value}", { value: shown(value) }));
     if (least !== null)
@@ -111,8 +125,10 @@ export class Track {
 
   set(value: number): void {
     const here = this.cycle ? wrapped(this.cycle, value) : value;
+    this.here = here;
     this.knob.setAttribute("cx", `${Math.max(0, Math.min(1, (here - this.from) / (this.to - this.from))) * 100}%`);
     this.element.setAttribute("aria-valuenow", (here / this.unit).toFixed(3));
+    this.element.setAttribute("aria-valuetext", this.textOf(here));
   }
 }
 

@@ -4,7 +4,7 @@ import { TURN, wrapped } from "./cycle";
 import { h, renew } from "./dom";
 import { driveValue, type Found } from "./facts";
 import { type Fall, Falling } from "./falling";
-import { t } from "./language";
+import { parsed, t } from "./language";
 import type { Linkage } from "./linkage";
 import { later, Player } from "./player";
 import { place } from "./rows";
@@ -39,7 +39,7 @@ export class Transport {
   private speed = 12; // turns a minute; of a slide, strokes
   private way = 1;
   private readonly track = new Track((value, beyond) => this.pick(value, beyond));
-  private readonly value = h("span.value", {});
+  private readonly value = h("input.value", { size: 8, onchange: () => this.typed() });
 
   constructor(private readonly view: Driven) {}
 
@@ -68,6 +68,7 @@ export class Transport {
     );
     const drives = choices.length > 1 ? [h("select", { "aria-label": t("Drive"), onchange }, ...choices)] : [];
     const speedLabel = h("label.speed", {}, t("Speed"), speed, rate);
+    this.value.setAttribute("aria-label", t("Drive"));
     renew(this.element, this.player.button, ...drives, this.track.element, this.value, speedLabel);
   }
 
@@ -90,7 +91,7 @@ export class Transport {
 
   showValue(): void {
     const { linkage } = this.view;
-    this.value.textContent = this.falling?.text ?? driveValue(linkage);
+    this.value.value = this.falling?.text ?? driveValue(linkage);
     const drive = linkage.drives[linkage.active];
     if (drive !== undefined) this.track.set(drive);
   }
@@ -104,6 +105,17 @@ export class Transport {
     const { stops, low, high } = linkage.cycle;
     const stop = Math.abs(value - low) < Math.abs(value - high) ? stops[0] : stops[1];
     page.say(beyond && stop ? stopText(linkage, stop) : "");
+  }
+
+  /** A drive value that is typed, in degrees or in the unit of length. */
+  private typed(): void {
+    const { cycle, drive } = this.view.linkage;
+    const value = parsed(this.value.value.replace(/[^\d.,e−-]*$/, "")) * (drive?.turning ? TURN / 360 : 1);
+    const [low, high] = this.range;
+    if (!Number.isFinite(value)) return this.showValue();
+    if (cycle.full) this.pick(value);
+    else this.pick(Math.max(low, Math.min(high, value)), value < low || value > high);
+    this.showValue();
   }
 
   /** Move the drive by so many degrees, or hundredths of the size. */

@@ -2,6 +2,7 @@
 
 import io
 import json
+import math
 
 import numpy as np
 import pytest
@@ -135,6 +136,89 @@ def test_a_direction_that_is_kept_stays_in_the_link_and_is_undone(tab, crank_roc
     assert ends[0] == [0, 0]
     scale = page.page.evaluate("gruebler.motion.stage.viewport.scale")
     assert ends[1] == pytest.approx([70 + 40 / scale, 0], rel=0.1, abs=1e-9)
+
+
+def lengths(page) -> list[float]:
+    return page.page.evaluate("gruebler.motion.dragging.lengths().map(({ value }) => value)")
+
+
+def told(page) -> str:
+    return page.page.locator(".message").inner_text()
+
+
+def test_joints_of_a_link_are_not_dragged_onto_each_other(tab, crank_rocker):
+    page = tab().open(crank_rocker)
+    x, y = page.middle('[data-joint="R(coupler-rocker)"] .joint')
+    u, v = page.middle('[data-joint="R(frame-rocker)"] .joint')
+    page.drag((x, y), (u - x, v - y), steps=20)
+    assert "Two joints of a link cannot lie in one place." in told(page)
+    assert min(lengths(page)) > 0.07  # a thousandth of the linkage
+    page.page.keyboard.press("Control+z")
+    assert lengths(page) == pytest.approx([70, 25, 70, 40])
+    field = page.page.locator(".rows.sizes input").nth(3)
+    field.fill("0")
+    field.press("Enter")
+    assert "Two joints of a link cannot lie in one place." in told(page)
+
+
+def test_a_length_that_fits_elsewhere_only_is_offered_there(tab, crank_rocker):
+    """With the crank at 57.3° its end is 60.2 from the right bearing: coupler 15 and rocker 40 do not reach it.
+
+    At 0° it is 45 away, which they do.
+    """
+    page = tab().open(crank_rocker)
+    field = page.page.locator(".rows.sizes input").nth(2)
+    field.fill("15")
+    field.press("Enter")
+    assert "cannot be assembled at R(frame-crank) = 57.3" in told(page)
+    assert lengths(page) == pytest.approx([70, 25, 70, 40])
+    page.page.click('[data-act="elsewhere"]')
+    assert lengths(page) == pytest.approx([70, 25, 15, 40])
+    drive = page.page.evaluate("gruebler.motion.linkage.drives[0]")
+    away = math.hypot(70 - 25 * math.cos(drive), 25 * math.sin(drive))
+    assert 25 <= away <= 55
+    page.page.keyboard.press("Escape")
+    page.page.locator("h1").click()
+    page.page.keyboard.press("Control+z")
+    assert lengths(page) == pytest.approx([70, 25, 70, 40])
+
+
+def test_the_drive_is_typed_and_walked_by_keys(tab, crank_rocker):
+    page = tab().open(crank_rocker)
+    drive = "gruebler.motion.linkage.drives[0] * 180 / Math.PI"
+    field = page.page.locator(".transport .value")
+    field.fill("123,5")
+    field.press("Enter")
+    assert page.page.evaluate(drive) == pytest.approx(123.5)
+    assert field.input_value() == "123.5°"
+    field.fill("far")
+    field.press("Enter")
+    assert field.input_value() == "123.5°"
+    track = page.page.locator(".track")
+    track.focus()
+    page.page.keyboard.press("PageUp")
+    assert page.page.evaluate(drive) == pytest.approx(153.5)
+    assert track.get_attribute("aria-valuetext") == "153.5°"
+    page.page.keyboard.press("ArrowDown")
+    assert page.page.evaluate(drive) == pytest.approx(152.5)
+    page.page.keyboard.press("Home")
+    assert math.remainder(page.page.evaluate(drive), 360) == pytest.approx(0)  # perhaps a lap later
+    page.page.keyboard.press("PageUp")
+    page.page.keyboard.press("End")
+    assert math.remainder(page.page.evaluate(drive), 360) == pytest.approx(0)
+    # the row of the drive comes before the panel
+    order = "[...gruebler.motion.element.children].map((one) => one.className)"
+    assert page.page.evaluate(order) == ["stage", "transport", "side"]
+
+
+def test_a_page_that_is_loaded_again_shows_the_same_view(tab, server):
+    page = tab(locale="de-DE").open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-list="catalog"] .card').first.wait_for()
+    page.page.reload()
+    page.until("window.gruebler?.view === 'catalog'")
+    assert page.page.evaluate("document.documentElement.lang") == "de"
+    assert page.page.evaluate("gruebler.motion.stage.root.getAttribute('aria-label')") == "Kurbelschwinge"
 
 
 def test_the_focus_stays_and_the_panel_does_not_jump(tab, server):

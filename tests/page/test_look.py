@@ -80,7 +80,7 @@ def test_a_plot_says_the_value_at_the_pointer(tab, crank_rocker):
     domains = "gruebler.motion.plots.parts.map(({ plot }) => plot.domain.map((one) => (one * 180) / Math.PI))"
     for _ in range(2):
         page.page.locator("[data-plots=more]").click()
-    drive = float(page.page.locator(".transport .value").text_content().strip("°"))
+    drive = float(page.page.locator(".transport .value").input_value().strip("°"))
     for first, last in page.page.evaluate(domains):  # all of them, about the drive
         assert [first, last] == pytest.approx([0.75 * drive, 0.75 * drive + 90], abs=0.1)
     assert read.text_content() == here
@@ -184,7 +184,7 @@ def test_tools_of_a_phone_stand_in_one_row(tab, server):
     boxes = tools.evaluate_all("all => all.map((e) => e.getBoundingClientRect().toJSON())")
     assert len({box["y"] for box in boxes}) == 1
     assert min(box["height"] for box in boxes) >= 44
-    palette = page.page.locator(".palette")
+    palette = page.page.locator(".transport.palette")
     assert palette.evaluate("(e) => e.scrollWidth > e.clientWidth")  # the last ones are reached by a swipe
     page.page.locator('[data-tool="gears"]').click()
     assert page.page.locator("[data-page] .hint, .drawing + .hint").first.inner_text().startswith("Drei Klicks")

@@ -30,6 +30,25 @@ def test_a_linkage_of_another_chain_says_nothing():
     assert structure_record(text, "en", linkage=entries()["geneva"].linkage())["picture"] == alone["picture"]
 
 
+def test_numbers_without_chains_and_colours_are_explained(tab, server):
+    page = tab().open(server.address)
+    view = page.page
+    view.click('[data-view="structure"]')
+    view.locator('[data-list="chains"] .card').first.wait_for()
+    links = view.locator('[data-page="structure"] [aria-label="Links"]')
+    links.fill("40")
+    links.press("Enter")
+    most = links.get_attribute("max")
+    assert view.locator('[data-page="structure"] span[role="alert"]').inner_text() == (
+        f"Expected a whole number from 3 to {most}."
+    )
+    links.fill("7")  # F = 3·6 - 2g is even
+    links.press("Enter")
+    page.until("gruebler.views.structure.element.textContent.includes('one is even and one is odd')")
+    view.evaluate("gruebler.describe('R(a-b) R(b-c) R(c-d) R(d-a) R(a-c)')")
+    page.until("gruebler.views.structure.element.textContent.includes('Purple: links that are rigid')")
+
+
 def test_links_are_called_by_the_names_of_the_machine():
     """What is read has the German names; the texts, which the page sends back, keep those of the catalog."""
     text = "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); frame=frame; drive=R(frame-crank)"
