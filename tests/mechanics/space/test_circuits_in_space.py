@@ -11,6 +11,7 @@ from gruebler.mechanics.kinematics import circuits as plane
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space import RSSR, SphericalFourBar, UniversalJoint, circuit, drive_range, measures
 from gruebler.structure.mechanism import Mechanism
+from gruebler.teaching.catalog import entry
 from tests.mechanics.screws import machines
 from tests.mechanics.space.test_overconstrained_loops import trihedral
 
@@ -233,8 +234,10 @@ def test_a_ball_in_the_tree_is_followed_however_it_is_written(text):
     assert found.length == pytest.approx(gr.circuit(other).length, rel=1e-4)
 
 
-def test_a_slide_without_end_is_an_open_circuit():
-    found = gr.circuit(machines.winch().with_drives([2]), most=10)
+@pytest.mark.parametrize("drive", [0, 2], ids=["spindle", "nut"])
+def test_a_winch_never_comes_back(drive):
+    """After a turn of the spindle the nut is elsewhere."""
+    found = gr.circuit(machines.winch().with_drives([drive]), most=10)
     assert not found.closed
     assert 0 < found.start < found.length
     assert "longer than what was asked for" in found.explain()
@@ -264,6 +267,9 @@ def test_a_parallelogram_goes_straight_on_where_its_crossed_mode_crosses():
     assert found.samples.joint(3) == pytest.approx(found.drive, abs=1e-9)
     assert [point.drive for point in found.change_points] == pytest.approx([pi / 2, 3 * pi / 2], abs=1e-5)
     assert "Change points: 2." in found.explain()
+    there = found.at([point.arc for point in found.change_points])
+    assert there.joint(3) == pytest.approx(there.drives[:, 0], abs=1e-9)
+    assert there.joint(3, order=1) == pytest.approx(there.joint(0, order=1), abs=1e-9)
 
 
 def test_what_is_no_circuit_is_refused():
@@ -281,5 +287,7 @@ def test_what_is_no_circuit_is_refused():
             circuit(bennett, **wrong)
     with pytest.raises(LinkageError, match="no assembly mode to choose"):
         drive_range(bennett, branch="+")
+    with pytest.raises(LinkageError, match="cannot be moved from its start: it is shaky there"):
+        circuit(entry("pumpjack_rod").placed())
     with pytest.raises(LinkageError, match="no ball"):
         gr.circuit(FORMS["rssr"][0].linkage(3.0)).dead_centres("S(crank-rod)")

@@ -330,6 +330,12 @@ def places_and_laps(arcs: ArrayLike, length: float, closed: bool) -> tuple[Reals
     return places, laps
 
 
+def check_moves(closed: bool, length: float, least: float) -> None:
+    """`LinkageError` for an open curve that is shorter than the least."""
+    if not closed and length < least:
+        raise LinkageError("the linkage cannot be moved from its start: it is shaky there, or the position is isolated")
+
+
 def why_open(ended: str) -> list[Message]:
     """Why a circuit is not closed: a line, or none."""
     return [_OPEN[ended]] if ended else []
@@ -389,8 +395,7 @@ def circuit(
         if lower.mechanism.drives[0].turning:
             turned = 2 * np.pi * round(((at or 0.0) - value) / (2 * np.pi))
     traced = trace_circuit(system, pose, tangent, float(step), float(most))
-    if not traced.closed and traced.arcs[-1] < _SHAKY:
-        raise LinkageError("the linkage cannot be moved from its start: it is shaky there, or the position is isolated")
+    check_moves(traced.closed, float(traced.arcs[-1]), _SHAKY)
     return Circuit(linkage, system, traced, turned)
 
 

@@ -56,7 +56,9 @@ class ConfigurationCurve:
         self.columns = np.array([set_up.drives[0], *set_up.passive], np.intp)
         balls = {start + k for start in self.closure.balls for k in range(3)}
         nodes = self.closure.tree.nodes
-        self._turning = np.array([nodes[1 + k].turn > 0 and k not in balls for k in self.columns.tolist()])
+        self._turning = np.array(
+            [nodes[1 + k].turn > 0 and not nodes[1 + k].travel and k not in balls for k in self.columns.tolist()]
+        )
         places = {k: column for column, k in enumerate(self.columns.tolist())}
         self._balls = [[places[start + k] for k in range(3)] for start in self.closure.balls]
 
