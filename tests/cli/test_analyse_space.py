@@ -57,6 +57,19 @@ def test_idle_freedoms_are_told(capsys, machine, told):
     assert lines == [told] * (told is not None)
 
 
+def test_the_circuit_is_told(capsys):
+    _, text, _ = run_command(capsys, "analyse", "susp_spatial", "--at", "0")
+    assert "A closed circuit" in text
+    assert text.count("The drive turns back at R(body-lower_wishbone) = ") == 1
+    assert "Dead centres of the output R(body-upper_wishbone) at" in text
+    _, text, _ = run_command(capsys, "analyse", "susp_spatial", "--at", "0", "--json")
+    circuit, measures = (json.loads(text)[key] for key in ("circuit", "measures"))
+    assert circuit["closed"] is True
+    limits = sorted(limit["value"] for limit in circuit["drive_limits"])
+    assert limits == pytest.approx([measures["low"], measures["high"]], abs=1e-9)  # followed along the drive
+    assert {centre["kind"] for centre in circuit["dead_centres"]} == {"minimum", "maximum"}
+
+
 def test_without_drives_the_freedoms_are_said(capsys):
     status, text, _ = run_command(capsys, "analyse", "susp_5link", "--lang", "de")
     assert status == 0

@@ -18,12 +18,13 @@ from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table, print_text
 from gruebler.files.screws import screws_to_json
 from gruebler.mechanics.screws import SpatialLinkage, freedoms
-from gruebler.mechanics.space import SpatialMeasures, SpatialModes, assembly_modes, measures
+from gruebler.mechanics.space import SpatialCircuit, SpatialMeasures, SpatialModes, assembly_modes, circuit, measures
 from gruebler.mechanics.space.drive_ranges import followed
 from gruebler.mechanics.space.measuring import spatial_table
 from gruebler.mechanics.space.wheel_alignment import wheel_alignment
 
 _ONLY_IN_PLANE = ("speed", "acceleration", "jerk", "branch", "poles", "curvature", "planes")
+_LONGEST = 100.0  # radians and sizes: how far the circuit is followed
 _ROWS = 25  # of the table, where no rows are given
 
 
@@ -44,10 +45,13 @@ def analyse_in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> int
         write_table(arguments.out, table.columns, arguments.lang, decimal_comma=arguments.decimal_comma)
     freedom = freedoms(linkage)
     modes = _modes(linkage)
+    around = None if measured is None else _circuit(measured)
     if arguments.json:
         document: dict[str, Any] = {"linkage": screws_to_json(linkage), "freedoms": freedom.to_json()}
         if measured is not None:
             document["measures"] = measured.to_json()
+        if isinstance(around, SpatialCircuit):
+            document["circuit"] = around.to_json()
         if isinstance(modes, SpatialModes):
             document["assembly_modes"] = {"found": modes.number, "real": len(modes), "exact": modes.exact}
             document["assembly_modes"] |= {"generic": modes.generic, "far": modes.far}
@@ -56,6 +60,8 @@ def analyse_in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> int
     print_text(freedom.summary(arguments.lang))
     if measured is not None:
         print_text(measured.explain(arguments.lang))
+    if measured is not None and around is not None:
+        print_text(_circuit_text(around, measured.range.full, arguments.lang))
     if modes is not None:
         print_text(_said(modes, arguments.lang))
     if table is not None and not is_table(arguments.out):
@@ -89,6 +95,25 @@ def _wheel_points(text: str) -> tuple[str, ...]:
             found=text[:40],
         )
     return names
+
+
+def _circuit(measured: SpatialMeasures) -> SpatialCircuit | LinkageError | None:
+    """The circuit, or why it cannot be followed; None for a slide without end."""
+    if not measured.range.full and measured.range.stops == (None, None):
+        return None
+    try:
+        around = circuit(measured.linkage, most=_LONGEST)
+        around.to_json()  # its events are found, or not
+        return around
+    except LinkageError as error:
+        return error
+
+
+def _circuit_text(around: SpatialCircuit | LinkageError, full: bool, lang: str) -> str:
+    """With a drive that turns fully nothing of its limits, and the dead centres are those of the measures."""
+    if isinstance(around, SpatialCircuit):
+        return around.summary(lang) if full else around.explain(lang)
+    return translate("The circuit is not known: {reason}.", lang, reason=error_in_language(around, lang))
 
 
 def _modes(linkage: SpatialLinkage) -> SpatialModes | LinkageError | None:

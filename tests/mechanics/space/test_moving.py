@@ -286,7 +286,7 @@ def test_rows_in_which_two_modes_meet_are_passed(space):
         assert motion.joint(3, order=order) == pytest.approx(rate, abs=near)
     assert motion.smallest[6] < 1e-12 < motion.smallest[5]
     assert "At R(0-1) = 90° two assembly modes meet; it goes straight on" in motion.message()
-    assert "Bei D(0-1) = 90° treffen zwei Montagearten zusammen" in motion.message("de")
+    assert "Bei D(0-1) = 90° treffen sich zwei Einbaulagen" in motion.message("de")
 
 
 @pytest.mark.parametrize("space", ["", "spatial: "], ids=["plane", "space"])
