@@ -24,6 +24,8 @@ export class Scene {
   private marks: { element: SVGGElement; point: number }[] = [];
   private labels: Label[] = [];
   private backdrop: SVGElement | null = null;
+  /** Whether the pole is to be shown but lies outside of the picture. */
+  poleAside = false;
   private readonly arrows = svg("path.velocity", {});
   private readonly changes = svg("path.acceleration", {});
   private readonly forces = svg("path.force", {});
@@ -201,9 +203,11 @@ export class Scene {
     const { viewport } = this;
     const found = shown.poles || shown.inflection ? pole(linkage, linkage.pose, 0, shown.link) : null;
     this.pole.setAttribute("r", found ? "4" : "0");
+    this.poleAside = false;
     this.circle.setAttribute("r", "0");
     if (!found) return;
     const [x, y] = viewport.screen(found.x, found.y);
+    this.poleAside = !(x >= 0 && y >= 0 && x <= viewport.width && y <= viewport.height);
     this.pole.setAttribute("cx", x.toFixed(1));
     this.pole.setAttribute("cy", y.toFixed(1));
     const radius = (Math.hypot(found.dx, found.dy) / 2) * viewport.scale;

@@ -36,6 +36,7 @@ export class Stage implements Board {
   linkage: Linkage | null = null;
   dragging: Dragging | null = null;
   adding = false;
+  private readonly hint = h("div.hint", {});
   private readonly canvas = h("canvas", { "aria-hidden": "true" });
   private readonly scene: Scene;
   private readonly pointer: Pointer;
@@ -81,7 +82,7 @@ export class Stage implements Board {
       this.element.classList.toggle("adding", this.adding);
     });
     adder.setAttribute("aria-pressed", String(this.adding));
-    for (const old of this.element.querySelectorAll(".tools, .hint")) old.remove();
+    this.element.querySelector(".tools")?.remove();
     this.element.append(
       h(
         "div.tools",
@@ -91,7 +92,7 @@ export class Stage implements Board {
         button("fit", t("Show everything"), () => this.fit()),
         adder,
       ),
-      h("div.hint", {}, t("Drag a joint to change sizes, a link to move it.")),
+      this.hint,
     );
   }
 
@@ -161,6 +162,9 @@ export class Stage implements Board {
   draw(): void {
     if (!this.linkage) return;
     this.scene.draw(this.linkage, this.shown);
+    const aside = this.scene.poleAside ? ` ${t("The pole lies outside of the picture.")}` : "";
+    const said = t("Drag a joint to change sizes, a link to move it.") + aside;
+    if (this.hint.textContent !== said) this.hint.textContent = said;
     const pen = this.canvas.getContext("2d");
     if (!pen) return;
     new Painter(pen, this.viewport, this.colour).paint(this.linkage, this.shown);

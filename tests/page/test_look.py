@@ -116,6 +116,19 @@ def test_names_stand_beside_their_links(tab, crank_rocker):
         assert min(page.page.evaluate(near)) > 2, drive
 
 
+def test_a_pole_outside_of_the_picture_is_told(tab, crank_rocker):
+    """Where the lines of crank and rocker meet: with the crank at 180° in the right bearing, at 57.3° far above."""
+    page = tab().open(crank_rocker)
+    hint = page.page.locator(".stage .hint").last
+    said = "The pole lies outside of the picture."
+    assert said not in hint.inner_text()
+    page.page.evaluate("gruebler.motion.shown.poles = true")
+    page.page.evaluate("gruebler.motion.transport.pick(1)")
+    assert said in hint.inner_text()
+    page.page.evaluate("gruebler.motion.transport.pick(Math.PI)")
+    assert said not in hint.inner_text()
+
+
 def test_the_header_has_room_for_its_name_and_its_language_in_german(tab, server):
     page = tab(width=1024, height=768, locale="de-DE").open(server.address)
     name, language = (page.page.locator(f"header {tag}").bounding_box() for tag in ("h1", "select"))
