@@ -1,7 +1,7 @@
 // The door to the page: one call, all its numbers in one block of memory. `explorer/src/kernel.ts` is the other side.
 //
-// The block holds 64-bit words: the counts, the size, the arrays of a `Program`, the path with speeds, signs and start, then
-// what is found: the outcome and the arrays of `Poses`. It is kept from call to call, and grows.
+// The block holds 64-bit words: the counts, the size, the arrays of a `Program`, the path with speeds, signs, start and
+// smallest step, then what is found: the outcome and the arrays of `Poses`. It is kept from call to call, and grows.
 #include <string>
 #include <vector>
 
@@ -116,12 +116,13 @@ EXPORT const char* run() {
     const auto* speeds = words.next<double>(has.order * has.rows * has.drives);
     const auto* signs = words.next<double>(has.dyads);
     const auto* start = words.next<double>(has.unknowns);
+    const double least = *words.next<double>(1);
     auto* const found = words.next<Found>(1);
     const Poses poses = poses_of(has, words);
     OwnPlan plan;
     wrong = read_plan(program, plan);
     if (!wrong.empty()) return wrong.c_str();
-    const Path path{values, speeds, has.rows, static_cast<int>(has.drives), static_cast<int>(has.order)};
+    const Path path{values, speeds, has.rows, static_cast<int>(has.drives), static_cast<int>(has.order), least};
     Walk walk(plan.view(program), path, poses, baseline::sweep);
     int left = patience;
     Watch watch{goes_on, &left};

@@ -8,6 +8,7 @@ import { ownColour, type Shown } from "./shown";
 import type { Viewport } from "./viewport";
 
 const DASHES = [6, 4];
+const GHOST = 0.3; // how much is seen of the curves of other assembly modes
 const FARTHEST = 1e5; // pixels: what is farther off is not drawn
 
 export class Painter {
@@ -27,10 +28,14 @@ export class Painter {
     const { points } = linkage.sizes;
     const { rows, values } = linkage.cycle;
     if (shown.curves)
-      points.forEach((point, number) => {
-        const all = placesOf(rows, point.link, ...point.at);
-        this.trace(values.length, ownColour(number), 2, (row) => viewport.screen(all[2 * row]!, all[2 * row + 1]!));
-      });
+      for (const shape of linkage.dragged ? [...linkage.otherModes(), rows] : [rows]) {
+        pen.globalAlpha = shape === rows ? 1 : GHOST;
+        points.forEach((point, number) => {
+          const all = placesOf(shape, point.link, ...point.at);
+          const at = (row: number) => viewport.screen(all[2 * row]!, all[2 * row + 1]!);
+          this.trace(shape === rows ? values.length : shape.reached, ownColour(number), 2, at);
+        });
+      }
     this.paintTargets(linkage.beside.targets ?? []);
     if (rows.order < 1) return;
     if (shown.hodographs) this.paintHodographs(linkage);

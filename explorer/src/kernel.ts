@@ -104,8 +104,9 @@ export class Kernel {
     ];
   }
 
-  /** Move along rows of drive values, (rows * drives,); speeds are those of the drives for order 1 and 2. */
-  run(path: Float64Array, start: State, order = 0, speeds: readonly Float64Array[] = []): Rows {
+  /** Move along rows of drive values, (rows * drives,); speeds are those of the drives for order 1 and 2. Where it ends
+   * is found to the least step, in rows. */
+  run(path: Float64Array, start: State, order = 0, speeds: readonly Float64Array[] = [], least = 1e-14): Rows {
     const { dyads, drives, linkCount: links, size } = this.p;
     const count = drives ? path.length / drives : 1;
     const given: Numbers[] = [
@@ -116,6 +117,7 @@ export class Kernel {
       ...speeds.slice(0, order),
       start.signs,
       start.unknowns,
+      Float64Array.of(least),
     ];
     const lengths = [4, (order + 1) * 2 * links, 2 * links, order * links, dyads, this.unknowns];
     const found = lengths.map((length, k) => (k ? length * count : length));

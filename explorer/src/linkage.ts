@@ -11,6 +11,9 @@ import { Sizes } from "./sizes";
 
 /** Below this root a row is no place from which to go on. */
 const NEAR_CHANGE = 1e-5;
+/** The least step of a quick search, in rows: what is shown does not tell it from the end. */
+const QUICK = 1e-8;
+const MOST_MODES = 3;
 
 export interface Snapshot {
   at: number[];
@@ -49,6 +52,8 @@ export class Linkage {
   readonly opened: Snapshot;
   /** Whether it has wheels, whose turns are counted. */
   readonly wheels: boolean;
+  /** Whether a joint or a point of it is being dragged. */
+  dragged = false;
   private readonly kernel: Kernel;
   /** Of each element of the plan: its direction against that of its element in the linkage. */
   private readonly offsets: Float64Array;
@@ -183,7 +188,8 @@ export class Linkage {
       path.set(this.drives, row * D);
       path[row * D + this.active] = values[row]!;
     }
-    return this.kernel.run(path, state, order, order ? this.speeds(values.length) : []);
+    const speeds = order ? this.speeds(values.length) : [];
+    return this.kernel.run(path, state, order, speeds, this.quick ? QUICK : undefined);
   }
 
   /** Where the driven slide brings the two joints of its body nearest; there steps could pass a limit unseen. */
@@ -293,6 +299,30 @@ export class Linkage {
     this.state.signs.set(old.signs);
     this.state.unknowns.set(old.unknowns);
     this.writeSizes();
+  }
+
+  /** While it is dragged ends of larger groups are found less exactly, and half as many rows of their cycle. */
+  get quick(): boolean {
+    return this.dragged && this.program.roots.length > 0;
+  }
+
+  /** Begin to drag, or end: then its cycle is exact again. */
+  drag(on: boolean): void {
+    const was = this.quick;
+    this.dragged = on;
+    if (was && !on) this.cycle = findCycle(this);
+  }
+
+  /** The motions over the same drive values with one dyad assembled the other way, places alone. */
+  otherModes(): Rows[] {
+    const { cycle, model, program } = this;
+    if (program.roots.length) return [];
+    const dyads = model.groups.filter((group) => group.modes).slice(0, MOST_MODES);
+    return dyads.map(({ number }) => {
+      const state = stateAt(cycle.rows, 0);
+      state.signs[number]! *= -1;
+      return this.runAlong(cycle.values, state, 0);
+    });
   }
 
   /** Do something to the sizes; if it cannot be assembled then, everything is as before and `Refused` says why. */

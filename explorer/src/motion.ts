@@ -208,16 +208,20 @@ export class MotionView implements View, Editor, Driven {
   private begin(): void {
     if (this.transport.falling) this.transport.pause();
     this.before = this.state();
+    this.linkage.drag(true);
   }
 
   /** Give up the change that is going on. */
   private cancel(): void {
     const { before } = this;
     this.before = null;
+    this.linkage.drag(false);
     if (before) this.goTo(before);
   }
 
   private end(): void {
+    this.linkage.drag(false);
+    this.followed();
     if (this.before && !sameSizes(this.before.sizes, this.linkage.snapshot())) this.history.add(this.before);
     this.before = null;
     this.measured();

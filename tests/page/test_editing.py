@@ -9,6 +9,12 @@ import pytest
 
 from gruebler.cli import main
 from gruebler.files import linkage_from_json
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.linkages import Linkage
+from gruebler.page.model import model_of
+from gruebler.page.page import single_file
+from gruebler.structure.mechanism import Mechanism
 
 ROOT = "document.querySelector('.gruebler-explorer').shadowRoot"
 ACTIVE = f"{ROOT}.activeElement"
@@ -333,3 +339,100 @@ def test_names_are_readable_in_the_exported_picture(tab, crank_rocker, tmp_path)
     shown = dark(page, box["x"], box["y"])
     assert shown > 40
     assert dark(other, box["x"] - board["x"], box["y"] - board["y"]) > 0.7 * shown
+
+
+TRIAD = "R(0-1) R(1-2) R(2-3) R(3-4) R(0-4) R(3-5) R(0-5); drive=R(0-1)"
+TRIANGLE = {0: (0, 0), 1: (0, 20), 2: (40, 60), 3: (90, 70), 4: (110, 0), 5: (70, 40), 6: (60, 0)}
+
+
+def test_a_linkage_with_a_larger_group_is_exact_again_when_it_is_let_go(tab, tmp_path):
+    """While it is dragged its limits are found to a billionth of a degree or so; then those of the library."""
+    linkage = Linkage.from_drawing(Mechanism.parse(TRIAD), TRIANGLE, points={"K": ("3", 70.0, 90.0)})
+    file = tmp_path / "triad.html"
+    file.write_text(single_file(model_of(linkage)), encoding="utf-8")
+    page = tab().open(file.as_uri())
+    cycle = "(({ low, high, values }) => [low, high, values.length])(gruebler.motion.linkage.cycle)"
+    rows = page.page.evaluate(cycle)[2]
+    page.page.mouse.move(*page.middle('.stage [data-joint="R(3-4)"] .joint'))
+    page.page.mouse.down()
+    x, y = page.middle('.stage [data-joint="R(3-4)"] .joint')
+    page.page.mouse.move(x + 6, y - 5, steps=4)
+    page.until("gruebler.motion.linkage.quick")
+    page.page.wait_for_timeout(100)
+    *quick, few = page.page.evaluate(cycle)
+    page.page.mouse.up()
+    page.until("!gruebler.motion.linkage.quick")
+    *exact, many = page.page.evaluate(cycle)
+    assert few < 0.6 * rows < 1.2 * many
+    assert quick == pytest.approx(exact, abs=1e-6)
+    dragged = linkage_from_json(json.loads(page.page.evaluate("JSON.stringify(gruebler.motion.document())")))
+    span = drive_cycle(dragged).span
+    assert exact == pytest.approx([span.low, span.high], abs=1e-9)
+
+
+STROKES = """() => {
+  const { lineTo, stroke } = CanvasRenderingContext2D.prototype;
+  let path = [];
+  window.strokes = [];
+  CanvasRenderingContext2D.prototype.lineTo = function (x, y) { path.push(x, y); lineTo.call(this, x, y); };
+  CanvasRenderingContext2D.prototype.stroke = function () {
+    window.strokes.push([this.strokeStyle, this.globalAlpha, path]); path = []; stroke.call(this); };
+}"""
+
+
+def mirrored_curve(bar, angles) -> list[list[float]]:
+    """The curve of K where the coupler lies on the other side of the line from the crank's pin to the rocker's pivot.
+
+    By the intersection of two circles, with the rocker's pivot on the x axis.
+    """
+    a, b, c, d = (bar.length(*row) for row in (("crank", 0, 1), ("coupler", 1, 2), ("rocker", 2, 3), ("frame", 0, 3)))
+    side = np.sign(np.imag(np.conj(d - place_of(bar, 1)) * (place_of(bar, 2) - place_of(bar, 1))))
+    pin = a * np.exp(1j * angles)
+    way = d - pin
+    far = np.abs(way)
+    along = (far**2 + b**2 - c**2) / (2 * far)
+    coupler = way / far * (along - 1j * side * np.sqrt(b**2 - along**2)) / b
+    place = pin + coupler * complex(bar.points["K"].x, bar.points["K"].y)
+    return np.stack([place.real, place.imag], axis=1).tolist()
+
+
+def place_of(bar, joint: int) -> complex:
+    """Where a joint lies in the reference pose, by the pose of the coupler."""
+    pose, element = bar.required_pose["coupler"], bar.elements[joint, "coupler"]
+    return complex(pose.x, pose.y) + complex(element.x, element.y) * np.exp(1j * pose.angle)
+
+
+def test_all_curves_follow_a_drag_and_those_of_the_other_mode_shine_through(tab, tmp_path):
+    linkage = FourBar(25, 70, 40, 70).linkage({"K": (45, 40), "L": (20, -30)})
+    file = tmp_path / "points.html"
+    file.write_text(single_file(model_of(linkage)), encoding="utf-8")
+    page = tab().open(file.as_uri())
+    page.page.evaluate(STROKES)
+
+    def drawn():
+        """The strokes of the last picture that have the length of curves: colour, opacity, places."""
+        page.page.evaluate("() => { window.strokes.length = 0; gruebler.motion.redraw(); }")
+        return [(a, b, c) for a, b, c in page.page.evaluate("window.strokes") if len(c) > 600]
+
+    still = drawn()
+    assert [alpha for _, alpha, _ in still] == [1, 1]
+    x, y = page.middle('.stage [data-joint="R(coupler-rocker)"] .joint')
+    page.page.mouse.move(x, y)
+    page.page.mouse.down()
+    page.page.mouse.move(x + 8, y + 6, steps=4)
+    page.until("gruebler.motion.linkage.dragged")
+    page.page.wait_for_timeout(100)
+    moved = drawn()
+    assert [round(alpha, 2) for _, alpha, _ in moved] == [0.3, 0.3, 1, 1]
+    for before, now in zip(still, moved[2:], strict=True):
+        assert before[0] == now[0]
+        assert before[2] != now[2]
+    dragged = linkage_from_json(json.loads(page.page.evaluate("JSON.stringify(gruebler.motion.document())")))
+    expected = page.page.evaluate(
+        "(places) => places.map(([x, y]) => gruebler.motion.stage.viewport.screen(x, y))",
+        mirrored_curve(dragged, np.array(page.page.evaluate("[...gruebler.motion.linkage.cycle.values]"))),
+    )
+    assert np.ravel(expected[1:]) == pytest.approx(moved[0][2], abs=1e-6)
+    page.page.mouse.up()
+    page.until("!gruebler.motion.linkage.dragged")
+    assert [alpha for _, alpha, _ in drawn()] == [1, 1]

@@ -13,6 +13,7 @@ struct Path {
     const double* speeds;  // (orders, rows, drives)
     std::int64_t rows;
     int drives, orders;
+    double least = 1e-14;  // the smallest step, in rows: so exactly a limit is found
 };
 
 // A column for each row of the path.

@@ -11,7 +11,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double flat = 1e-12;   // a squared root below this is zero: an exact change point
-constexpr double least = 1e-14;  // the smallest step, in rows
 constexpr double noise = 1e-14;  // of squared roots: a hundred roundings
 constexpr int pause_rows = 16;   // to walk after a sweep was stopped
 constexpr double golden = 0.6180339887498949;  // of an interval: the golden section
@@ -233,7 +232,7 @@ Walk::Reached Walk::walk_to(std::int64_t row, Pace pace, Watch& watch) {
             at = place;
             if (at >= fault) fault = infinity;
             step = fault == infinity ? smaller(2 * step, longest) : (fault - at) / 2;
-            if (step < least * (1 + std::fabs(at)) && at < target) return ended(End::limit, number);
+            if (step < path_.least * (1 + std::fabs(at)) && at < target) return ended(End::limit, number);
         } else if (verdict == Verdict::approach && std::fabs(placing_.last[0].roots[number]) < near_change &&
                    fault == infinity) {
             const Pace next = approach(step, number);
@@ -248,7 +247,7 @@ Walk::Reached Walk::walk_to(std::int64_t row, Pace pace, Watch& watch) {
                 const double here = placing_.last[0].at;
                 step = larger(here - at, longest * behind_change);
                 at = here;
-            } else if (step < least * (1 + std::fabs(at))) {
+            } else if (step < path_.least * (1 + std::fabs(at))) {
                 return verdict == Verdict::lost ? ended(End::singular, -1 - number) : ended(End::limit, number);
             }
         }
