@@ -40,9 +40,25 @@ export class DesignWorker {
     return found && { ...found, name, document };
   }
 
+  /** The four-bars through the points of a request; its files are loaded when the first one is asked. */
   async found(id: number, asked: Asked, lang: Language, progress: (text: string) => void): Promise<Found> {
-    const { script, template, texts } = await pack<PointsPack>("points");
-    const { task, solutions } = await pack<GenericPack>("nine_points");
+    const givenUp = new Promise<never>((_, reject) => this.working.set(id, reject));
+    const files = Promise.all([pack<PointsPack>("points"), pack<GenericPack>("nine_points")]);
+    try {
+      return await this.worked(await Promise.race([givenUp, files]), givenUp, asked, lang, progress);
+    } finally {
+      this.working.delete(id);
+    }
+  }
+
+  /** What a worker finds, unless it is given up. */
+  private async worked(
+    [{ script, template, texts }, { task, solutions }]: [PointsPack, GenericPack],
+    givenUp: Promise<never>,
+    asked: Asked,
+    lang: Language,
+    progress: (text: string) => void,
+  ): Promise<Found> {
     const say = (text: keyof (typeof texts)["en"], values: Record<string, number>) =>
       texts[lang][text].replace(/\{(\w+)\}/g, (_, name: string) => String(values[name]));
     const question: Question = {
@@ -56,8 +72,7 @@ export class DesignWorker {
     const address = URL.createObjectURL(new Blob([plain], { type: "text/javascript" }));
     const worker = new Worker(address);
     try {
-      return await new Promise<Found>((resolve, reject) => {
-        this.working.set(id, reject);
+      const found = new Promise<Found>((resolve, reject) => {
         worker.onerror = (event) => reject(new Error(event.message || address));
         worker.onmessage = ({ data }: MessageEvent<Said>) => {
           if ("ready" in data) worker.postMessage(question);
@@ -68,16 +83,16 @@ export class DesignWorker {
             const [first, second] = [value].flat() as [number, number];
             reject(new Error(say(what, { first, second, count: first, most: 6 })));
           } else {
-            const { found, missing, real } = data;
-            this.models = found.items.map((design) => (design as { model?: Model }).model!);
-            const items = found.items.map(({ ...design }) => Object.assign(design, { model: undefined }));
+            const { missing, real } = data;
+            this.models = data.found.items.map((design) => (design as { model?: Model }).model!);
+            const items = data.found.items.map((design) => ({ ...design, model: undefined }));
             const count = missing ? say("missing", { count: missing }) : "";
-            resolve({ ...found, items, note: `${say("complete", { real })} ${count}`.trim() });
+            resolve({ ...data.found, items, note: `${say("complete", { real })} ${count}`.trim() });
           }
         };
       });
+      return await Promise.race([givenUp, found]);
     } finally {
-      this.working.delete(id);
       worker.terminate();
       URL.revokeObjectURL(address);
     }
