@@ -95,6 +95,7 @@ export class App implements Page {
       await this.read();
       if (view && view in this.views) this.show(view);
       this.motion.forget();
+      if (location.hash.length > 1) this.motion.recall();
       this.arrangeHeader();
       window.addEventListener("popstate", (event) => void this.goneBack(event));
     }
@@ -294,6 +295,7 @@ export class App implements Page {
     this.model.set("document", shared.document);
     this.model.save_changes();
     if (!this.linkable) return;
+    this.motion.keep();
     this.hash = `#${await packed(shared)}`;
     history.replaceState({ view: this.view }, "", this.hash);
   }

@@ -18,6 +18,11 @@ export class History<State> {
     this.future = [];
   }
 
+  /** All that can be undone, the oldest first. */
+  get all(): readonly State[] {
+    return this.past;
+  }
+
   /** What was before the last change, if there is one; what is now can be done again. */
   undo(now: State): State | undefined {
     return step(this.past, this.future, now);

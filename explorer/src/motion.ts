@@ -7,6 +7,7 @@ import { exportPanel } from "./export";
 import { type Found, factsOf } from "./facts";
 import { type Arrow, Forces } from "./forces";
 import { History } from "./history";
+import { keepSizes, keptSizes } from "./kept";
 import { Status } from "./kernel";
 import { t } from "./language";
 import { alike, floatingLink, Linkage, Refused, type Snapshot, sameSizes } from "./linkage";
@@ -116,6 +117,21 @@ export class MotionView implements View, Editor, Driven {
   /** Nothing can be undone from here on. */
   forget(): void {
     this.history.clear();
+  }
+
+  /** Keep what can be undone for the same page when it is loaded again. */
+  keep(): void {
+    const past = this.history.all.filter(({ linkage }) => linkage === this.linkage);
+    keepSizes(
+      this.linkage.model,
+      past.map(({ sizes }) => sizes),
+    );
+  }
+
+  /** What could be undone before the page was loaded again. */
+  recall(): void {
+    const { dragging, linkage } = this;
+    for (const sizes of keptSizes(linkage.model)) this.history.add({ linkage, dragging, sizes });
   }
 
   private state(): State {

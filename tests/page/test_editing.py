@@ -227,6 +227,29 @@ def test_a_page_that_is_loaded_again_shows_the_same_view(tab, server):
     assert page.page.evaluate("gruebler.motion.stage.root.getAttribute('aria-label')") == "Kurbelschwinge"
 
 
+def test_what_was_done_is_undone_after_the_page_was_loaded_again(tab, server):
+    page = tab().open(server.address)
+    field = page.page.locator(".rows.sizes input").nth(1)
+    for value in ("30", "35"):
+        field.fill(value)
+        field.press("Enter")
+    page.page.locator(".lock").first.click()
+    page.until("location.hash.length > 1 && sessionStorage.getItem('gruebler-undo')?.includes('[')")
+    page.page.wait_for_timeout(300)
+    page.page.reload()
+    page.until(f"window.gruebler?.motion?.linkage && {UNDOABLE}")
+    assert lengths(page) == pytest.approx([70, 35, 70, 40])
+    page.page.locator("h1").click()
+    for wanted in ([70, 35, 70, 40], [70, 30, 70, 40], [70, 25, 70, 40]):  # the lock, then the sizes
+        page.page.keyboard.press("Control+z")
+        assert lengths(page) == pytest.approx(wanted)
+    assert page.page.evaluate(UNDOABLE) is False
+    # another linkage does not take them
+    page.page.goto("about:blank")
+    page.open(server.address)
+    assert page.page.evaluate(UNDOABLE) is False
+
+
 def test_the_focus_stays_and_the_panel_does_not_jump(tab, server):
     page = tab(height=500).open(server.address)
     note = f"{ROOT}.querySelector('[data-panel=\"measures\"] .note').textContent"
