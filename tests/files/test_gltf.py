@@ -10,11 +10,13 @@ import pytest
 from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
 from gruebler.files import values as files
-from gruebler.files.gltf import stl_of_links
+from gruebler.files.gltf import moving_solids, stl_of_links
 from gruebler.files.link_solids import ball_solid, box_solid, cylinder_solid, link_solids
 from gruebler.mechanics.fourbar import FourBar
-from gruebler.mechanics.space import move
+from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.mechanics.space import RSSR, move
 from gruebler.structure.chain.spaces import Space
+from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entries, entry
 
 IN_SPACE = [id for id, one in entries().items() if one.screws is not None and one.chain().space is not Space.PLANAR]
@@ -117,6 +119,20 @@ def test_a_machine_with_several_drives_has_an_animation_for_each(tmp_path):
     assert [each["name"] for each in document["animations"]] == list(entry("delta").drives)
     nodes = [each["name"] for each in document["nodes"]]
     assert nodes == ["linkage", *entry("delta").links]
+
+
+def test_a_drive_that_cannot_go_far_is_shown_as_far_as_it_goes():
+    """The crank ends 0.2 radians below its reference pose, less than the 0.3 that are shown of others."""
+    form = RSSR(a=60, b=90, c=50, d=70, crank_offset=10, rocker_offset=15, twist=0.9)
+    (arc,) = form.limits
+    linkage = form.linkage(arc.start + 0.2)
+    text = f"{linkage.mechanism.chain} R(frame-fan); frame=frame"
+    places = dict(enumerate(linkage.places)) | {4: {"at": (0, 200, 0), "z": (0, 0, 1)}}
+    both = SpatialLinkage(Mechanism.parse(text), places).with_drives(["R(frame-crank)", "R(frame-fan)"])
+    first, second = moving_solids(both).motions
+    assert first.drives[:, 0].min() == pytest.approx(-0.2, abs=1e-2)
+    assert first.drives[:, 0].max() == pytest.approx(0.3, abs=1e-12)
+    assert second.drives[:, 1].min() == pytest.approx(-0.3, abs=1e-12)
 
 
 def test_a_range_is_of_one_drive_and_of_a_format_with_motion(tmp_path):

@@ -20,7 +20,7 @@ from gruebler.base.text import Message, message
 from gruebler.base.units import MILLIMETRES
 from gruebler.files.link_solids import Solid, link_solids
 from gruebler.mechanics.screws import SpatialLinkage
-from gruebler.mechanics.space.drive_ranges import RANGE_OF_ONE, followed, spatial_range
+from gruebler.mechanics.space.drive_ranges import RANGE_OF_ONE, SpatialRange, followed, spatial_range
 from gruebler.mechanics.space.motion import SpatialMotion
 from gruebler.structure.chain.spaces import Space
 
@@ -70,11 +70,11 @@ def moving_solids(
             full.append(span is not None and span.full)
         except LinkageError:
             motions.clear()
-    for number, drive in enumerate(drives if len(drives) > 1 else ()):
-        far = 0.3 if drive.turning else 0.15 * linkage.size
+    for number in range(len(drives) if len(drives) > 1 else 0):
         values = np.zeros((frames, len(drives)))
-        values[:, number] = np.linspace(-far, far, frames)
         try:
+            span = spatial_range(linkage, number)
+            values[:, number] = np.linspace(*_shown(span), frames)
             motions.append(followed(linkage, values))
             full.append(False)
         except LinkageError:
@@ -85,6 +85,15 @@ def moving_solids(
         motions=tuple(motions),
         round=tuple(full),
     )
+
+
+def _shown(span: SpatialRange) -> tuple[float, float]:
+    """Over which values one of several drives is shown: a part about the reference pose that it can reach."""
+    far = 0.3 if span.linkage.mechanism.drives[span.drive].turning else 0.15 * span.linkage.size
+    if span.full:
+        return -far, far
+    low, high = span.inside(2)
+    return max(-far, float(low)), min(far, float(high))
 
 
 def _travels(linkage: SpatialLinkage, motions: Sequence[SpatialMotion]) -> dict[int, tuple[float, float]]:

@@ -272,6 +272,29 @@ def test_a_parallelogram_goes_straight_on_where_its_crossed_mode_crosses():
     assert there.joint(3, order=1) == pytest.approx(there.joint(0, order=1), abs=1e-9)
 
 
+def test_one_of_several_drives_has_a_range_while_the_others_rest():
+    """The upper limit is that of the wishbones, which the suspension without a rack has too."""
+    linkage = entry("susp_rack").placed()
+    alone, other = drive_range(linkage, drive="R(body-lower_wishbone)"), drive_range(linkage, drive=1)
+    without = drive_range(entry("susp_spatial").placed())
+    assert alone.stops[0].reason == alone.stops[1].reason == "limit"
+    assert alone.highest == pytest.approx(without.highest, abs=1e-9)
+    assert "The drive P(body-rack) moves from" in other.explain()
+    beyond = [[alone.highest + 1e-6, 0.0], [0.0, other.lowest - 1e-3]]
+    inside = [[alone.highest - 1e-6, 0.0], [0.0, other.lowest + 1e-3]]
+    for row in beyond:
+        assert not gr.move(linkage, [row]).complete
+    for row in inside:
+        assert gr.move(linkage, [row]).complete
+    for drive in ("R(0-1)", 2, -1):
+        with pytest.raises(LinkageError, match="the drives are R"):
+            drive_range(linkage, drive=drive)
+    with pytest.raises(LinkageError, match="a range needs one drive, but the mechanism has 2"):
+        drive_range(linkage)
+    with pytest.raises(LinkageError, match="in the plane a range needs one drive"):
+        drive_range(gr.FourBar(25, 70, 40, 70), drive=0)
+
+
 def test_what_is_no_circuit_is_refused():
     with pytest.raises(LinkageError, match="a circuit needs one drive, but the mechanism has 2"):
         gr.circuit(machines.loop(8).with_drives([0, 1]))

@@ -49,11 +49,11 @@ class TracedPoints(NamedTuple):
 
 
 class ConfigurationCurve:
-    """The positions of the drive and of what it moves, around a linkage's reference pose."""
+    """The positions of one drive and of what it moves, around a linkage's reference pose; other drives rest."""
 
-    def __init__(self, set_up: Setting) -> None:
+    def __init__(self, set_up: Setting, drive: int = 0) -> None:
         self.set_up, self.closure = set_up, set_up.closure
-        self.columns = np.array([set_up.drives[0], *set_up.passive], np.intp)
+        self.columns = np.array([set_up.drives[drive], *set_up.passive], np.intp)
         balls = {start + k for start in self.closure.balls for k in range(3)}
         nodes = self.closure.tree.nodes
         self._turning = np.array(

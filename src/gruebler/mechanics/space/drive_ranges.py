@@ -50,6 +50,8 @@ class SpatialRange:
     """Where it ends below and above; None where it was not followed farther: a slide to three sizes of the linkage."""
     linkage: SpatialLinkage = field(repr=False)
     """The linkage that is driven."""
+    drive: int = 0
+    """The number of the drive; all others rest."""
 
     def inside(self, count: int, share: float = 1e-3) -> Reals:
         """Values evenly from end to end, ends that are stops left out by a share of the range."""
@@ -64,12 +66,12 @@ class SpatialRange:
     def lines(self) -> Iterator[Message]:
         """What `explain` says, in any language."""
         mechanism = self.linkage.mechanism
-        title = joined([mechanism.chain.joint_title(mechanism.drives[0].joint)])
+        drive = mechanism.drives[self.drive]
+        title = joined([mechanism.chain.joint_title(drive.joint)])
         if self.full:
             yield _TURNS.filled(drive=title)
             return
-        turns = mechanism.drives[0].turning
-        low, high = (value_message(self.linkage, value, turns) for value in (self.lowest, self.highest))
+        low, high = (value_message(self.linkage, value, drive.turning) for value in (self.lowest, self.highest))
         yield _BETWEEN.filled(drive=title, low=low, high=high)
         yield from (_OPEN if stop is None else stop.message for stop in self.stops)
 
@@ -83,16 +85,23 @@ def value_message(linkage: SpatialLinkage, value: float, turns: bool) -> Message
 
 
 @overload
-def drive_range(linkage: SpatialLike | SpatialCircuit, *, branch: Branch = None) -> SpatialRange: ...
+def drive_range(
+    linkage: SpatialLike | SpatialCircuit, *, branch: Branch = None, drive: str | int | None = None
+) -> SpatialRange: ...
 
 
 @overload
-def drive_range(linkage: LinkageLike | Circuit, *, branch: Branch = None) -> DriveRange: ...
+def drive_range(
+    linkage: LinkageLike | Circuit, *, branch: Branch = None, drive: str | int | None = None
+) -> DriveRange: ...
 
 
 @door_that_raises(LinkageError)
 def drive_range(
-    linkage: LinkageLike | SpatialLike | Circuit | SpatialCircuit, *, branch: Branch = None
+    linkage: LinkageLike | SpatialLike | Circuit | SpatialCircuit,
+    *,
+    branch: Branch = None,
+    drive: str | int | None = None,
 ) -> DriveRange | SpatialRange:
     """How far the drive can be moved, both ways, without passing a limit.
 
@@ -100,6 +109,7 @@ def drive_range(
         linkage: with one drive, in the plane or in space, or lengths that make one such as a `FourBar` or an `RSSR`; or
             its `Circuit`. In space the drive is followed from the reference pose.
         branch: the assembly mode, as for `move`; not with a circuit and not in space.
+        drive: which one of several drives in space is moved while the others rest, by its joint or its number.
 
     Returns:
         `DriveRange`: ``full``, or the limits ``lowest`` and ``highest`` in radians or the linkage's unit. In space
@@ -129,30 +139,46 @@ def drive_range(
     if isinstance(placed, SpatialCircuit):
         placed = placed.linkage
     if not isinstance(placed, SpatialLinkage):
+        if drive is not None:
+            raise LinkageError("a drive is chosen of linkages in space only; in the plane a range needs one drive")
         return circuit_ranges.drive_range(placed, branch=branch)
     if branch is not None:
         raise LinkageError("a linkage given by its reference pose has no assembly mode to choose")
-    return spatial_range(placed)
+    return spatial_range(placed, None if drive is None else _drive_number(placed, drive))
 
 
-def spatial_range(linkage: SpatialLinkage) -> SpatialRange:
-    """The range of the one drive of a linkage, followed from its reference pose upwards and downwards.
+def _drive_number(linkage: SpatialLinkage, drive: str | int) -> int:
+    """Of a drive by its joint or its number among the drives."""
+    names = linkage.mechanism.drive_names()
+    number = drive if isinstance(drive, int) else names.index(drive) if drive in names else -1
+    if not 0 <= number < len(names):
+        raise LinkageError("there is no drive {drive!r}; the drives are {drives}", drive=drive, drives=", ".join(names))
+    return number
 
-    Raises `LinkageError` for a linkage with several drives or none, or whose drive does not fix the motion.
+
+def spatial_range(linkage: SpatialLinkage, drive: int | None = None) -> SpatialRange:
+    """The range of the one drive of a linkage, or of one of several, followed from its reference pose both ways.
+
+    Raises `LinkageError` for a linkage without drives or with several of which none is given, or whose drives do not
+    fix the motion.
     """
     drives = linkage.mechanism.drives
-    if len(drives) != 1:
+    if not drives or (len(drives) > 1 and drive is None):
         raise LinkageError(RANGE_OF_ONE.filled(count=len(drives), drives=", ".join(linkage.mechanism.drive_names())))
-    turning = drives[0].turning
+    number = drive or 0
+    turning = drives[number].turning
     most = 2 * pi if turning else 3 * linkage.size
-    steps = np.linspace(0.0, most, _ROWS + 1)[:, None]
+    steps = np.zeros((_ROWS + 1, len(drives)))
+    steps[:, number] = np.linspace(0.0, most, _ROWS + 1)
     still = np.zeros((0, *steps.shape))
     up = moved(setting(linkage), steps, still)
     if turning and up.complete:
-        return SpatialRange(lowest=0.0, highest=2 * pi, full=True, stops=(None, None), linkage=linkage)
+        return SpatialRange(lowest=0.0, highest=2 * pi, full=True, stops=(None, None), linkage=linkage, drive=number)
     down = moved(setting(linkage), -steps, still)
-    ends = [-most if down.stop is None else down.stop.drives[0], most if up.stop is None else up.stop.drives[0]]
-    return SpatialRange(lowest=ends[0], highest=ends[1], full=False, stops=(down.stop, up.stop), linkage=linkage)
+    low, high = (
+        side * most if motion.stop is None else motion.stop.drives[number] for side, motion in ((-1.0, down), (1.0, up))
+    )
+    return SpatialRange(lowest=low, highest=high, full=False, stops=(down.stop, up.stop), linkage=linkage, drive=number)
 
 
 def followed(linkage: SpatialLinkage, values: Reals, order: int = 0, speed: ArrayLike = 1.0) -> SpatialMotion:

@@ -46,8 +46,8 @@ class SpatialStop:
     row: float
     """The place on the path, in rows."""
     drives: tuple[float, ...]
-    """The drive values there: at a limit of one drive to rounding, else as near as the smallest step: a millionth of
-    a tenth of a radian."""
+    """The drive values there: at a limit where one drive moves to rounding, else as near as the smallest step: a
+    millionth of a tenth of a radian."""
     joints: tuple[str, ...]
     """The joints that move fastest there."""
     reason: str
@@ -55,7 +55,7 @@ class SpatialStop:
     linkage: SpatialLinkage = field(repr=False)
     """The linkage that moves."""
     place: Place = field(repr=False, compare=False)
-    """The last position, at a limit of one drive that in which it turns back."""
+    """The last position; at a limit where one drive moves that in which it turns back."""
 
     @property
     def message(self) -> Message:

@@ -181,7 +181,7 @@ def _stop(set_up: Setting, last: Place, row: float, change: Reals) -> SpatialSto
     joints = {names[joint]: share.get(k, 0.0) for (joint, _), k in tree.unknown.items()}
     most = max(joints.values(), default=0.0)
     limit = is_limit(set_up, last, change)
-    if limit and len(set_up.drives) == 1:
+    if limit and np.count_nonzero(change) == 1:
         last = _turning_point(set_up, last, change)
     values = last.q[list(tree.drives)] * set_up.closure.units[list(tree.drives)] * tree.signs
     return SpatialStop(
@@ -195,10 +195,11 @@ def _stop(set_up: Setting, last: Place, row: float, change: Reals) -> SpatialSto
 
 
 def _turning_point(set_up: Setting, last: Place, change: Reals) -> Place:
-    """Where the one drive turns back, at most 0.1 along the curve from a place; that place if it is not found."""
-    curve = ConfigurationCurve(set_up)
+    """Where the one drive that moves turns back, at most 0.1 along the curve; the last place if it is not found."""
+    moving = int(np.argmax(abs(change)))
+    curve = ConfigurationCurve(set_up, moving)
     start = curve.near(last)
     if start is None:
         return last
-    fold = curve.fold(directed(start, np.sign(change) * np.eye(len(curve.columns))[0]))
+    fold = curve.fold(directed(start, np.sign(change[moving]) * np.eye(len(curve.columns))[0]))
     return last if fold is None else fold.place
