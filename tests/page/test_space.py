@@ -9,10 +9,12 @@ import pytest
 import gruebler as gr
 from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
+from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space import Bennett, move
 from gruebler.page.requests import answer
 from gruebler.page.space_page import machine_model, space_file, space_model
 from gruebler.page.static_site import FileGroup, write_site
+from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 
 
@@ -32,6 +34,20 @@ def test_poses_of_the_page_are_those_of_the_motion():
 def test_every_drive_of_a_delta_robot_has_a_motion():
     model = space_model(entry("delta").placed())
     assert [model["texts"]["en"]["drives"][each["drive"]] for each in model["motions"]] == list(entry("delta").drives)
+
+
+def test_a_joint_that_the_page_does_not_solve_is_named():
+    """Two cranks and their couplers on one pin with a rod to a slide: two drives, a joint of three links."""
+    mechanism = Mechanism.parse("R(0-1) R(0-2) R(1-3) R(2-4) R(3-4-5) R(5-6) P(0-6); frame=0")
+    points = [(0, 0), (4, 0), (-1, 1), (5, 1), (2, 3), (6, 4)]
+    linkage = SpatialLinkage(mechanism, dict(enumerate(points)) | {6: {"at": (6, 4), "x": (1, 0)}})
+    model = space_model(linkage.with_drives(["R(0-1)", "R(0-2)"]))
+    assert model["live"] is None
+    assert len(model["motions"]) == 2
+    texts = {lang: model["texts"][lang]["words"]["help"] for lang in ("en", "de")}
+    assert texts["en"].endswith("The drives move one at a time here, since the page does not solve R(3-4-5).")
+    assert texts["de"].endswith("Die Antriebe bewegen sich hier einzeln, da die Seite D(3-4-5) nicht löst.")
+    assert "one at a time" not in space_model(entry("delta").placed())["texts"]["en"]["words"]["help"]
 
 
 def test_the_file_loads_nothing():

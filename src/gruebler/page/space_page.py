@@ -12,7 +12,7 @@ import numpy as np
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import LANGUAGES, message
+from gruebler.base.text import LANGUAGES, joined, message
 from gruebler.files.gltf import MovingSolids, link_colour, moving_solids, united
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.wheels import gear_rows
@@ -33,6 +33,7 @@ _WORDS = {
     ),
     "none": message("No drive moves this linkage."),
 }
+_ALONE = message("The drives move one at a time here, since the page does not solve {joint}.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +74,9 @@ def space_model(
     moving = moving_solids(linkage, between=between)
     live = _live(moving)
     chain, mechanism = linkage.mechanism.chain, linkage.mechanism
+    words, unsolved = dict(_WORDS), _unsolved(linkage)
+    if len(moving.motions) > 1 and unsolved is not None:
+        words["help"] = joined([words["help"], _ALONE.filled(joint=chain.joint_title(unsolved))], " ")
     bodies = []
     for number, link in enumerate(chain.links):
         solids = moving.solids[link]
@@ -91,7 +95,7 @@ def space_model(
             lang: {
                 "title": (titles or {}).get(lang, str(chain)),
                 "drives": [*(drives or {}).get(lang, mechanism.drive_names(Alphabet.of_language(lang)))],
-                "words": {key: text.in_language(lang) for key, text in _WORDS.items()},
+                "words": {key: text.in_language(lang) for key, text in words.items()},
             }
             for lang in LANGUAGES
         },
@@ -121,12 +125,12 @@ def _live(moving: MovingSolids) -> dict[str, Any] | None:
     linkage, mechanism = moving.linkage, moving.linkage.mechanism
     chain = mechanism.chain
     ranges = {k: (float(m.drives[:, k].min()), float(m.drives[:, k].max())) for _, k, m, _ in moving.named()}
-    solved = [joint for joint in chain.joints if not joint.pair.has_contours]
-    if len(ranges) < 2 or any(joint.pair.has_body_between or len(joint.links) > 2 for joint in solved):
+    if len(ranges) < 2 or _unsolved(linkage) is not None:
         return None
     numbers = [k for k, joint in enumerate(chain.joints) if not joint.pair.has_contours]
     joints = []
-    for k, joint in zip(numbers, solved, strict=True):
+    for k in numbers:
+        joint = chain.joints[k]
         freedoms = joint.pair.freedoms[chain.space]
         joints.append(
             {
@@ -153,6 +157,12 @@ def _live(moving: MovingSolids) -> dict[str, Any] | None:
         ],
         "gears": [[[numbers.index(joint), weight] for joint, weight in row.turns] for row in gear_rows(linkage)],
     }
+
+
+def _unsolved(linkage: SpatialLinkage) -> int | None:
+    """The first joint that the page does not solve: with a body between its links, or of more than two links."""
+    joints = linkage.mechanism.chain.joints
+    return next((k for k, each in enumerate(joints) if each.pair.has_body_between or len(each.links) > 2), None)
 
 
 def machine_model(id: str) -> dict[str, Any]:
