@@ -13,7 +13,7 @@ import { Sizes } from "./sizes";
 const NEAR_CHANGE = 1e-5;
 /** The least step of a quick search, in rows: what is shown does not tell it from the end. */
 const QUICK = 1e-8;
-const MOST_MODES = 3;
+const MOST_MODES = 2;
 
 export interface Snapshot {
   at: number[];
@@ -163,9 +163,9 @@ export class Linkage {
   }
 
   /** Rows along values of the active drive, from a state at the first value; a slide stops where it is shortest. */
-  runAlong(values: Float64Array, state: State, order: number): Rows {
+  runAlong(values: Float64Array, state: State, order: number, quick = this.quick): Rows {
     const special = this.shortest();
-    if (special.length === 0) return this.runThrough(values, state, order);
+    if (special.length === 0) return this.runThrough(values, state, order, quick);
     const rows: number[] = [];
     const asked: number[] = [];
     values.forEach((value, row) => {
@@ -177,11 +177,11 @@ export class Linkage {
       asked.push(rows.length);
       rows.push(value);
     });
-    const found = this.runThrough(rows, state, order);
+    const found = this.runThrough(rows, state, order, quick);
     return asked.length === rows.length ? found : picked(found, asked, rows, values);
   }
 
-  private runThrough(values: ArrayLike<number>, state: State, order: number): Rows {
+  private runThrough(values: ArrayLike<number>, state: State, order: number, quick: boolean): Rows {
     const D = this.program.drives;
     const path = new Float64Array(values.length * D);
     for (let row = 0; row < values.length; row++) {
@@ -189,7 +189,7 @@ export class Linkage {
       path[row * D + this.active] = values[row]!;
     }
     const speeds = order ? this.speeds(values.length) : [];
-    return this.kernel.run(path, state, order, speeds, this.quick ? QUICK : undefined);
+    return this.kernel.run(path, state, order, speeds, quick ? QUICK : undefined);
   }
 
   /** Where the driven slide brings the two joints of its body nearest; there steps could pass a limit unseen. */
@@ -313,15 +313,16 @@ export class Linkage {
     if (was && !on) this.cycle = findCycle(this);
   }
 
-  /** The motions over the same drive values with one dyad assembled the other way, places alone. */
+  /** The motions over every third drive value with one dyad assembled the other way, places alone. */
   otherModes(): Rows[] {
     const { cycle, model, program } = this;
     if (program.roots.length) return [];
     const dyads = model.groups.filter((group) => group.modes).slice(0, MOST_MODES);
+    const values = cycle.values.filter((_, row) => row % 3 === 0);
     return dyads.map(({ number }) => {
       const state = stateAt(cycle.rows, 0);
       state.signs[number]! *= -1;
-      return this.runAlong(cycle.values, state, 0);
+      return this.runAlong(values, state, 0, true);
     });
   }
 
