@@ -234,7 +234,10 @@ MISTAKES = [
     (lambda: gr.read(7), "path: expected a text or PathLike, but found 7"),
     (lambda: gr.read("x.bmp"), "x.bmp: expected .toml, .json, .csv, .txt, .g6,"),
     (lambda: gr.read("missing.g6"), "missing.g6: cannot be read"),
-    (lambda: gr.synthesise(7), "task: expected PositionTask, PathTask, FunctionTask or DeadCentreTask, but found 7"),
+    (
+        lambda: gr.synthesise(7),
+        "task: expected PositionTask, PathTask, FunctionTask, DeadCentreTask or DwellTask, but found 7",
+    ),
     (lambda: gr.mobility_report("R(0-1)"), "expected Chain, but found 'R(0-1)'"),
     *(
         (lambda function=function: function(MECHANISM), FOUND_A_MECHANISM)

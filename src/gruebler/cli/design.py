@@ -15,6 +15,7 @@ from gruebler.cli.output import print_json, say_written
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
 from gruebler.design.synthesis.proposals import Proposals, TriedType, propose
+from gruebler.design.synthesis.tasks import DwellTask, PathTask
 from gruebler.files.designs import result_to_json
 from gruebler.files.linkages import write_linkage
 from gruebler.files.specifications import read_specification
@@ -100,8 +101,12 @@ def _print(proposals: Proposals, lang: str) -> None:
 
 
 def _type_row(each: TriedType) -> list[Cell]:
-    name: Message | str = message("four-bars and slider-cranks")
+    name: Message | str
     if each.mechanism is not None:
-        name = each.mechanism.text()
-    links = 4 if each.mechanism is None else len(each.mechanism.chain.links)
+        name, links = each.mechanism.text(), len(each.mechanism.chain.links)
+    elif isinstance(task := each.result.task, DwellTask):
+        name, links = message("four-bars with a rod to the output"), 6
+    else:
+        mixed = isinstance(task, PathTask) and task.mixed
+        name, links = message("four-bars") if mixed else message("four-bars and slider-cranks"), 4
     return [name, str(links), str(len(each.result.designs)), each.reason or ""]

@@ -1,4 +1,4 @@
-"""`gruebler synthesise`: linkages for positions, functions, points, dead centres."""
+"""`gruebler synthesise`: linkages for positions, functions, points, dead centres, rests."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ from gruebler.cli.parser import Parser
 from gruebler.design.synthesis import (
     DeadCentreTask,
     Demands,
+    DwellTask,
     FunctionLaw,
     FunctionTask,
     PathTask,
@@ -30,6 +31,7 @@ from gruebler.design.synthesis import (
     SynthesisResult,
     Task,
     synthesise_dead_centres,
+    synthesise_dwells,
     synthesise_function,
     synthesise_path,
     synthesise_positions,
@@ -46,6 +48,7 @@ _OPTIONS = {
     "stroke": "--stroke",
     "crank_angle": "--crank-angle",
     "time_ratio": "--time-ratio",
+    "dwell": "--dwell",
     "interval": "--interval",
     "input_swing": "--swings",
     "output_swing": "--swings",
@@ -63,19 +66,21 @@ _OPTIONS = {
 _TASK_OPTIONS = {
     "function": ("--interval", "--swings", "--starts", "--points", "--travel"),
     "dead-centres": ("--swing", "--stroke", "--crank-angle", "--time-ratio"),
+    "dwell": ("--dwell", "--swing", "--stroke"),
 }
 """The options that are a task by themselves."""
 _ALONE = ("--jobs", 1)
 """The default: this process does the work."""
 _STRUCTURE_OPTIONS = ("--link", "--initial-designs", "--jobs", "--scheduler")
 """The options that only --structure uses."""
-_LEAST = {PositionTask: 16, FunctionTask: 16, PathTask: 6, DeadCentreTask: 12}
+_LEAST = {PositionTask: 16, FunctionTask: 16, PathTask: 6, DeadCentreTask: 12, DwellTask: 1}
 """How many dyads or designs of an infinite family are taken at least, so that the best are among them."""
 _TASKS: dict[str, type[Task]] = {
     "positions": PositionTask,
     "function": FunctionTask,
     "path": PathTask,
     "dead-centres": DeadCentreTask,
+    "dwell": DwellTask,
 }
 
 
@@ -153,6 +158,22 @@ def add(parser: Parser) -> None:
         --time-ratio K float  time ratio of slow to quick travel
         """
     )
+    dwell = parser.add_command(
+        "dwell",
+        help="six-bars whose output rests while the crank turns on",
+        description="Six-bars with a crank that turns, whose output swings or slides and rests over a crank angle, the "
+        "most exact rest first. The output may stray by --tolerance of its swing or stroke (default: 0.005); the "
+        "transmission angles do not fall below 30 degrees unless --transmission says otherwise.",
+        epilog="Example: gruebler synthesise dwell --swing 30 --dwell 90 -o rest.toml --draw rest.html",
+    )
+    dwell.take(
+        """
+        task TASK ?  a .toml, .json or .csv file (or the options below)
+        --dwell DEG float  crank angle over which the output rests
+        --swing DEG float  swing of an output that turns
+        --stroke H float  stroke of an output that slides
+        """
+    )
     sphere = parser.add_command(
         "orientations",
         help="turn a body about a point through orientations",
@@ -161,7 +182,7 @@ def add(parser: Parser) -> None:
         epilog="Example: gruebler synthesise orientations turns.toml --crank -o best.toml",
     )
     synthesise_orientations.add(sphere)
-    for kind in (positions, function, path, dead):
+    for kind in (positions, function, path, dead, dwell):
         kind.take(
             """
             --region X1 Y1 X2 Y2 float  region for the fixed pivots
@@ -275,16 +296,30 @@ def _lengths(rows: Sequence[tuple[str, str]]) -> tuple[tuple[str, float], ...]:
         raise SynthesisError("--length: expected a link and its length, but found {found}", found=error) from None
 
 
+def _dead_centres(arguments: argparse.Namespace) -> Task:
+    return DeadCentreTask(
+        swing=_radians(arguments.swing),
+        stroke=arguments.stroke,
+        crank_angle=_radians(arguments.crank_angle),
+        time_ratio=arguments.time_ratio,
+    )
+
+
+def _rest(arguments: argparse.Namespace) -> Task:
+    if arguments.dwell is None:
+        raise SynthesisError("a rest needs {option}: see gruebler synthesise dwell --help", option="--dwell")
+    return DwellTask(dwell=radians(arguments.dwell), swing=_radians(arguments.swing), stroke=arguments.stroke)
+
+
+_OF_OPTIONS = {"dead-centres": _dead_centres, "dwell": _rest}
+"""Tasks that options can give."""
+
+
 def _task(arguments: argparse.Namespace) -> Task:
     """The task of the file or the options; `SynthesisError` for one of another kind."""
-    if arguments.action == "dead-centres" and arguments.task is None:
+    if arguments.action in _OF_OPTIONS and arguments.task is None:
         with _keys_as_options():
-            return DeadCentreTask(
-                swing=_radians(arguments.swing),
-                stroke=arguments.stroke,
-                crank_angle=_radians(arguments.crank_angle),
-                time_ratio=arguments.time_ratio,
-            )
+            return _OF_OPTIONS[arguments.action](arguments)
     if arguments.action == "function" and Path(arguments.task).suffix.lower() not in (".toml", ".json", ".csv"):
         with _keys_as_options():
             return _function_task(arguments)
@@ -369,18 +404,17 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
     if arguments.structure:
         return _fitted(arguments, task, demands, progress)
     more = {} if arguments.number is None else {"number": max(arguments.number, _LEAST[type(task)])}
-    match task:
-        case PositionTask():
-            return synthesise_positions(task, demands, sort=_orders(arguments), progress=progress, **more)
-        case FunctionTask() if arguments.six_bars:
+    if isinstance(task, PositionTask):
+        return synthesise_positions(task, demands, sort=_orders(arguments), progress=progress, **more)
+    if isinstance(task, FunctionTask):
+        if arguments.six_bars:
             return synthesise_six_bars(task, demands, progress=progress)
-        case FunctionTask():
-            return synthesise_function(task, demands, minimax=arguments.minimax, sort=_orders(arguments), **more)
-        case DeadCentreTask():
-            return synthesise_dead_centres(task, demands, sort=_orders(arguments), **more)
-        case PathTask():
-            return synthesise_path(task, demands, progress=progress, **more)
-    raise AssertionError(task)
+        return synthesise_function(task, demands, minimax=arguments.minimax, sort=_orders(arguments), **more)
+    if isinstance(task, DeadCentreTask):
+        return synthesise_dead_centres(task, demands, sort=_orders(arguments), **more)
+    with _keys_as_options():
+        method: Callable[..., SynthesisResult] = synthesise_dwells if isinstance(task, DwellTask) else synthesise_path
+        return method(task, demands, progress=progress, **more)
 
 
 def _fitted(

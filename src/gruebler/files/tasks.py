@@ -21,7 +21,15 @@ from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import SynthesisError, UnitWarning
 from gruebler.base.text import reason_of
 from gruebler.design.synthesis.formulas import FunctionLaw
-from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task, function_task
+from gruebler.design.synthesis.tasks import (
+    DeadCentreTask,
+    DwellTask,
+    FunctionTask,
+    PathTask,
+    PositionTask,
+    Task,
+    function_task,
+)
 from gruebler.files.angles import in_degrees, in_radians
 
 
@@ -73,11 +81,18 @@ class _DeadCentres(_Record, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     time_ratio: float | None = None
 
 
+class _Dwell(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    dwell: Any
+    swing: Any = None
+    stroke: float | None = None
+
+
 _KINDS: dict[str, type[_Record]] = {
     "function": _Law,
     "positions": _Positions,
     "points": _Path,
     "inputs": _Function,
+    "dwell": _Dwell,
     "swing": _DeadCentres,
     "stroke": _DeadCentres,
 }
@@ -106,7 +121,8 @@ def task_from_json(document: Mapping[str, Any]) -> Task:
     kind = next((record for key, record in _KINDS.items() if key in document), None)
     if kind is None:
         raise SynthesisError(
-            "a task has positions, points, inputs and outputs, a function, or a swing or stroke; found none of them"
+            "a task has positions, points, inputs and outputs, a function, or a swing or stroke, perhaps with a dwell; "
+            "found none of them"
         )
     given = dict(document)
     for key in ("points", *_TURNED, "tolerances"):  # null stands for what is free in JSON, "" in TOML
@@ -143,9 +159,9 @@ def _task(record: Any) -> Task:
         case _Law():
             return _function_task(record)
         case _:
-            for key in ("swing", "crank_angle"):
+            for key in _OF_OUTPUTS & data.keys():
                 data[key] = None if data[key] is None else _radians(data[key], key)
-            return DeadCentreTask(**data)
+            return (DwellTask if isinstance(record, _Dwell) else DeadCentreTask)(**data)
 
 
 def _function_task(record: _Law) -> FunctionTask:
@@ -214,11 +230,15 @@ def task_to_json(task: Task) -> dict[str, Any]:
                 "crank_angle": None if task.crank_angle is None else in_degrees(task.crank_angle),
                 "time_ratio": task.time_ratio,
             }
+        case DwellTask():
+            swing = None if task.swing is None else in_degrees(task.swing)
+            more = {"dwell": in_degrees(task.dwell), "swing": swing, "stroke": task.stroke}
     return document | {
         key: value for key, value in more.items() if value is not None and value is not False and value != []
     }
 
 
+_OF_OUTPUTS = {"swing", "crank_angle", "dwell"}
 _PIVOTS = ("moving_pivots", "fixed_pivots")
 _TURNED = ("angles", "crank_angles", "output_angles")
 """The angles that a path gives for its targets."""
@@ -235,7 +255,7 @@ def read_task(path: Path | str) -> Task:
     The columns of a CSV file say what it is: ``x,y,angle`` positions (an empty angle is free: a mixed task), ``x,y``
     points, perhaps with ``angle``, ``crank``, ``output``, ``tolerance``, ``weight`` (empty cells are free),
     ``input,output`` or ``input,travel`` a function, ``swing`` or ``stroke`` with ``crank_angle`` or ``time_ratio`` dead
-    centres. Without a header two columns are points, three
+    centres, with ``dwell`` a rest. Without a header two columns are points, three
     positions. With semicolons between the columns a comma is the decimal sign.
 
     Raises `SynthesisError` with file and key or line of the first thing that does not fit.
@@ -317,9 +337,9 @@ def _from_csv(text: str) -> Task:
             return task_from_json({"inputs": angles("input"), "outputs": angles("output")})
         case names if names == {"input", "travel"}:
             return task_from_json({"inputs": angles("input"), "outputs": numbers("travel"), "output": "travel"})
-        case names if names and names <= {"swing", "stroke", "crank_angle", "time_ratio"} and len(lines) == 2:
+        case names if names and names <= {"swing", "stroke", "crank_angle", "time_ratio", "dwell"} and len(lines) == 2:
             return task_from_json(
-                {name: angles(name)[0] if name in ("swing", "crank_angle") else numbers(name)[0] for name in header}
+                {name: angles(name)[0] if name in _OF_OUTPUTS else numbers(name)[0] for name in header}
             )
     raise SynthesisError(
         "line 1: expected the columns x,y,angle or x,y or x,y,crank or input,output or input,travel, but "

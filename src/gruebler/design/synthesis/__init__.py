@@ -1,11 +1,12 @@
 """Dimensional synthesis: linkages for a wanted motion.
 
-Tasks are positions of a body, points of a path, a function, dead centres; every answer is a `SynthesisResult`: all
-designs with their verdicts, and how many solutions there are by theorem, found and real. docs/theory/synthesis.md has
-the definitions, theorems and methods.
+Tasks are positions of a body, points of a path, a function, dead centres, a rest; every answer is a `SynthesisResult`:
+all designs with their verdicts, and how many solutions there are by theorem, found and real. docs/theory/synthesis.md
+has the definitions, theorems and methods.
 """
 
 from gruebler.design.synthesis.dead_centres import synthesise_dead_centres
+from gruebler.design.synthesis.dwells import synthesise_dwells
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.functions import synthesise_function
 from gruebler.design.synthesis.judging import Demands
@@ -18,13 +19,22 @@ from gruebler.design.synthesis.spherical import synthesise_orientations, synthes
 from gruebler.design.synthesis.structural_errors import structural_error
 from gruebler.design.synthesis.structures import synthesise_structures
 from gruebler.design.synthesis.synthesising import synthesise
-from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task, function_task
+from gruebler.design.synthesis.tasks import (
+    DeadCentreTask,
+    DwellTask,
+    FunctionTask,
+    PathTask,
+    PositionTask,
+    Task,
+    function_task,
+)
 
 __all__ = [
     "DeadCentreTask",
     "Demands",
     "Design",
     "DesignVerdict",
+    "DwellTask",
     "FunctionLaw",
     "FunctionTask",
     "PathTask",
@@ -38,6 +48,7 @@ __all__ = [
     "structural_error",
     "synthesise",
     "synthesise_dead_centres",
+    "synthesise_dwells",
     "synthesise_function",
     "synthesise_orientations",
     "synthesise_path",

@@ -15,7 +15,7 @@ from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis.closure import DesignClosure, PoseDerivatives
 from gruebler.design.synthesis.targets import GuidedCurve
-from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
+from gruebler.design.synthesis.tasks import DeadCentreTask, DwellTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.structure.mechanism import Mechanism
 
 _STEPS = 150
@@ -101,6 +101,8 @@ def fit_targets(task: Task, aside: float = _ASIDE[-1]) -> FitTargets:
             outputs = np.array([0.0, 0.0, reach, reach])
             travel = task.swing is None
             return FitTargets(size=reach if travel else 1.0, inputs=inputs, outputs=outputs, travel=travel)
+    if isinstance(task, DwellTask):
+        raise SynthesisError("a rest is made by a rod on a coupler curve, not by given structures")
     raise SynthesisError(
         "expected a task of positions, points, a function or dead centres, but found {found!r}", found=task
     )

@@ -17,7 +17,7 @@ from gruebler.design.synthesis.results import Design, ParetoRow, Progress, Solut
 from gruebler.design.synthesis.specification import Specification
 from gruebler.design.synthesis.structures import synthesise_structures
 from gruebler.design.synthesis.synthesising import synthesise
-from gruebler.design.synthesis.tasks import PathTask, output_travels
+from gruebler.design.synthesis.tasks import DwellTask, PathTask, output_travels
 from gruebler.structure.mechanism import Mechanism
 from gruebler.structure.mechanism.inversion import DrivenMechanism
 from gruebler.structure.type_synthesis import JointRequirement, Requirements, variants
@@ -83,13 +83,15 @@ def candidate_types(specification: Specification) -> tuple[Mechanism, ...]:
     """The mechanisms of more than four links that can do it: driven at the frame, with an output of the right kind.
 
     A guided body has no joint at the frame; an output turns or slides at it. Each mechanism once, those with fewer
-    sliding joints first. Targets of several kinds are met by four-bars alone.
+    sliding joints first. Targets of several kinds are met by four-bars alone; a
+    rest has six-bars of its own.
 
     >>> from gruebler.design.synthesis import DeadCentreTask
     >>> len(candidate_types(Specification(DeadCentreTask(swing=1.0, time_ratio=1.2))))
     9
     """
-    if isinstance(specification.task, PathTask) and specification.task.mixed:
+    task = specification.task
+    if isinstance(task, DwellTask) or (isinstance(task, PathTask) and task.mixed):
         return ()
     travels = output_travels(specification.task)
     place = "@moving" if specification.guides else "P@frame" if travels else "R@frame"

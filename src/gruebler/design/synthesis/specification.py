@@ -13,7 +13,7 @@ from gruebler.base.arrays import Complexes
 from gruebler.base.errors import SynthesisError
 from gruebler.base.immutable import settle
 from gruebler.design.synthesis.judging import Demands
-from gruebler.design.synthesis.tasks import Pair, PathTask, PositionTask, Task, number_rows, output_travels
+from gruebler.design.synthesis.tasks import DwellTask, Pair, PathTask, PositionTask, Task, number_rows, output_travels
 
 LINKS = (4, 6)
 """Numbers of links of the mechanisms with one drive that are made: an even number, by Grübler's equation."""
@@ -81,6 +81,8 @@ class Specification:
     def __post_init__(self) -> None:
         if isinstance(self.links, bool) or self.links not in LINKS:
             raise SynthesisError("{key}: expected 4 or 6, but found {found!r}", key="links", found=self.links)
+        if isinstance(self.task, DwellTask) and self.links < max(LINKS):
+            raise SynthesisError("{key}: an output rests by six links: links = 6", key="links")
         most = self.sliding_joints
         if most is not None and (isinstance(most, bool) or not isinstance(most, int) or most < self._needed):
             raise SynthesisError(

@@ -12,6 +12,7 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.dead_centres import synthesise_dead_centres
+from gruebler.design.synthesis.dwells import synthesise_dwells
 from gruebler.design.synthesis.functions import synthesise_function
 from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.paths import synthesise_path
@@ -19,7 +20,7 @@ from gruebler.design.synthesis.positions import synthesise_positions
 from gruebler.design.synthesis.results import Progress, SynthesisResult, in_order_of
 from gruebler.design.synthesis.six_bar_functions import synthesise_six_bars
 from gruebler.design.synthesis.structures import synthesise_structures
-from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
+from gruebler.design.synthesis.tasks import DeadCentreTask, DwellTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.structure.mechanism import Mechanism
 
 _MOST = 10_000  # designs of a family: more are no choice
@@ -44,7 +45,7 @@ def synthesise(
     """Linkages for a wanted motion, the accepted ones first.
 
     Args:
-        task: positions of a body, points of a path, a function, or dead centres; angles in radians.
+        task: positions of a body, points of a path, a function, dead centres, or a rest; angles in radians.
         structures: mechanisms that are fitted to the task instead of four-bars and slider-cranks.
         demands: what a design must do besides the task, such as a crank or a least transmission angle.
         sort: one or several of ``error``, ``transmission`` (on the way through the targets), ``range-transmission``
@@ -59,7 +60,7 @@ def synthesise(
         link: of structures: that is guided, or whose motion is the output.
         threads: of a path: how many follow it; as many as there are processors by default.
         executor: of structures: what runs the work; the answer is the same with any.
-        progress: of positions, a path, six-bars or structures: called with the work done and its amount.
+        progress: of positions, a path, a rest, six-bars or structures: called with the work done and its amount.
 
     Returns:
         A `SynthesisResult`: ``designs``, ``rejected`` with reasons, ``count`` with its theorem, ``notes``.
@@ -69,8 +70,8 @@ def synthesise(
             not take.
 
     Cost:
-        1 ms to 3 s (nine points) and 10 ms for each verdict; six-bars 20 to 60 s; a structure 1 to 3 s a start, by its
-        atlas 5 s.
+        1 ms to 3 s (nine points) and 10 ms for each verdict; a rest 20 s; six-bars 20 to 60 s; a structure
+        1 to 3 s a start, by its atlas 5 s.
 
     Example:
         >>> from gruebler.design.synthesis import DeadCentreTask
@@ -119,6 +120,7 @@ _METHODS: dict[type[Task], Callable[..., SynthesisResult]] = {
     PathTask: synthesise_path,
     FunctionTask: synthesise_function,
     DeadCentreTask: synthesise_dead_centres,
+    DwellTask: synthesise_dwells,
 }
 
 

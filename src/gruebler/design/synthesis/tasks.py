@@ -1,4 +1,4 @@
-"""What a designer asks for: positions of a body, points of a path, a function, dead centres.
+"""What a designer asks for: positions of a body, points of a path, a function, dead centres, a rest.
 
 Every task is a value, checked when it is constructed; lengths are in the task's unit, angles in radians.
 """
@@ -28,6 +28,7 @@ SAME = 1e-9
 LARGEST = 1e100
 MOST_PAIRS = 9
 """Precision pairs that a linkage coordinates exactly, with both starts free."""
+_LONGEST_DWELL = 5 * pi / 3  # an output that rests longer has no time to move
 MOST_POINTS = 9
 """A coupler curve of a four-bar passes through nine general points; more are met as well as possible."""
 
@@ -369,40 +370,14 @@ class DeadCentreTask:
     unit: str = "mm"
 
     def __post_init__(self) -> None:
-        for names in (("swing", "stroke"), ("crank_angle", "time_ratio")):
-            present = [name for name in names if getattr(self, name) is not None]
-            if len(present) != 1:
-                raise SynthesisError(
-                    "expected exactly one of {names}, but found {present}",
-                    names=joined_by_and(names),
-                    present=joined_by_and(present) if present else message("none"),
-                )
-            settle(self, **{present[0]: _number(getattr(self, present[0]), present[0])})
-        if self.swing is not None and not 0 < self.swing < pi:
-            raise SynthesisError(
-                "{key}: expected an angle between {low} and {high} degrees, but found {angle:g} degrees",
-                key="swing",
-                low=0,
-                high=180,
-                angle=np.degrees(self.swing),
-            )
-        if self.stroke is not None and not self.stroke > 0:
-            raise SynthesisError(
-                "{key}: expected a positive length, but found {stroke:g}", key="stroke", stroke=self.stroke
-            )
+        _check_reach(self)
+        _check_one(self, ("crank_angle", "time_ratio"))
+        _check_angle(self, "crank_angle", 2 * pi)
         if self.time_ratio is not None and not self.time_ratio >= 1:
             raise SynthesisError(
                 "{key}: expected slow to quick, at least 1, but found {time_ratio:g}",
                 key="time_ratio",
                 time_ratio=self.time_ratio,
-            )
-        if self.crank_angle is not None and not 0 < self.crank_angle < 2 * pi:
-            raise SynthesisError(
-                "{key}: expected an angle between {low} and {high} degrees, but found {angle:g} degrees",
-                key="crank_angle",
-                low=0,
-                high=360,
-                angle=np.degrees(self.crank_angle),
             )
 
     @property
@@ -414,16 +389,73 @@ class DeadCentreTask:
         return 2 * pi * self.time_ratio / (1 + self.time_ratio)
 
 
-Task = PositionTask | PathTask | FunctionTask | DeadCentreTask
+@dataclass(frozen=True)
+class DwellTask:
+    """An output that rests while the crank turns on by ``dwell``, and swings or travels in the rest of its turn.
+
+    Exactly one of ``swing`` (of a rocker, below half a turn) and ``stroke`` (of a slider). Angles in radians.
+
+    >>> DwellTask(dwell=2.0, swing=0.5).stroke is None
+    True
+    """
+
+    _: KW_ONLY
+    dwell: float
+    swing: float | None = None
+    stroke: float | None = None
+    unit: str = "mm"
+
+    def __post_init__(self) -> None:
+        settle(self, dwell=_number(self.dwell, "dwell"))
+        _check_reach(self)
+        _check_angle(self, "dwell", _LONGEST_DWELL)
+
+
+def _check_one(task: DeadCentreTask | DwellTask, names: tuple[str, str]) -> None:
+    """Exactly one of two fields is given, and it is a number."""
+    present = [name for name in names if getattr(task, name) is not None]
+    if len(present) != 1:
+        raise SynthesisError(
+            "expected exactly one of {names}, but found {present}",
+            names=joined_by_and(names),
+            present=joined_by_and(present) if present else message("none"),
+        )
+    settle(task, **{present[0]: _number(getattr(task, present[0]), present[0])})
+
+
+def _check_reach(task: DeadCentreTask | DwellTask) -> None:
+    """The output has a swing below half a turn or a stroke."""
+    _check_one(task, ("swing", "stroke"))
+    _check_angle(task, "swing", pi)
+    if task.stroke is not None and not task.stroke > 0:
+        raise SynthesisError(
+            "{key}: expected a positive length, but found {stroke:g}", key="stroke", stroke=task.stroke
+        )
+
+
+def _check_angle(task: DeadCentreTask | DwellTask, key: str, most: float) -> None:
+    """An angle, if it is given, lies between 0 and the most, both excluded."""
+    angle = getattr(task, key)
+    if angle is not None and not 0 < angle < most:
+        raise SynthesisError(
+            "{key}: expected an angle between {low} and {high} degrees, but found {angle:g} degrees",
+            key=key,
+            low=0,
+            high=round(np.degrees(most)),
+            angle=np.degrees(angle),
+        )
+
+
+Task = PositionTask | PathTask | FunctionTask | DeadCentreTask | DwellTask
 
 
 def output_travels(task: Task) -> bool:
     """Whether the output of a task slides."""
-    if isinstance(task, DeadCentreTask):
+    if isinstance(task, DeadCentreTask | DwellTask):
         return task.swing is None
     return isinstance(task, FunctionTask) and task.output == "travel"
 
 
 def gives_lengths(task: Task) -> bool:
     """Whether a task has lengths; angles alone are met by linkages of any size."""
-    return output_travels(task) or not isinstance(task, DeadCentreTask | FunctionTask)
+    return output_travels(task) or not isinstance(task, DeadCentreTask | DwellTask | FunctionTask)

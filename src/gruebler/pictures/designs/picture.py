@@ -14,7 +14,7 @@ from gruebler.design.synthesis.clearances import guided_link
 from gruebler.design.synthesis.dead_centres import DeadCentreFamily, FamilyMember, dead_centre_family
 from gruebler.design.synthesis.results import FITTED, Design, SynthesisResult
 from gruebler.design.synthesis.specification import Clearance
-from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
+from gruebler.design.synthesis.tasks import DeadCentreTask, DwellTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.pictures.canvas import gallery_html
@@ -25,6 +25,7 @@ from gruebler.pictures.designs.alt_construction import STRAIGHT, alt_steps
 from gruebler.pictures.designs.plots import burmester_plot, function_plot
 from gruebler.pictures.linkage.animation import animated_svg
 from gruebler.pictures.linkage.bodies import CarriedLine
+from gruebler.pictures.linkage.motion_plots import transfer_plot
 from gruebler.pictures.linkage.picture import draw_linkage
 
 _COLUMNS = 3
@@ -139,6 +140,8 @@ def _plots(result: SynthesisResult, lang: str) -> list[tuple[Figure, str]]:
         except SynthesisError:
             return []  # every point of the body can be a pivot, which the notes say
         return [(figure, figure.title)]
+    if isinstance(task, DwellTask) and best is not None and best.verdict.turns_fully:
+        return [(transfer_plot(best.linkage, "output", lang=lang), translate("Output over the crank angle", lang))]
     if isinstance(task, FunctionTask) and best is not None and best.drives:
         figure = function_plot(task, best, lang=lang)
         return [(figure, figure.title)]
@@ -149,7 +152,7 @@ def designs_page(result: SynthesisResult, *, lang: str = "en", most: int = 24, c
     """All accepted designs on one HTML page, moving, so many at most; rejected ones if there are no others.
 
     Before them stand the plots of the task: Burmester's curves of four positions, the structural error of a function;
-    of dead centres the construction, step by step.
+    of dead centres the construction, step by step; of a rest the output over a turn.
     """
     shown, heading = (result.designs, message("Accepted")) if result.designs else (result.rejected, message("Rejected"))
     items = []
