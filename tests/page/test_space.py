@@ -10,7 +10,7 @@ import gruebler as gr
 from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
 from gruebler.mechanics.screws import SpatialLinkage
-from gruebler.mechanics.space import Bennett, move
+from gruebler.mechanics.space import RSSR, Bennett, move
 from gruebler.page.requests import answer
 from gruebler.page.space_page import machine_model, space_file, space_model
 from gruebler.page.static_site import FileGroup, write_site
@@ -63,6 +63,18 @@ def test_a_machine_of_the_catalog_has_its_names_in_both_languages():
     assert texts["en"]["drives"] == ["R(body-crank)"]
     with pytest.raises(GrueblerError, match="no linkage in space"):
         machine_model("quad")
+
+
+def test_a_nameless_linkage_has_a_title_of_words():
+    texts = space_model(RSSR(a=1, b=4, c=3, d=4, twist=1.0).linkage())["texts"]
+    assert (texts["en"]["title"], texts["de"]["title"]) == ("RSSR linkage", "D-D3-D3-D-Getriebe")
+
+
+def test_a_page_is_called_by_the_file_that_it_shows(tmp_path):
+    path, page = tmp_path / "my loop.toml", tmp_path / "page.html"
+    gr.write(entry("bennett").placed(), path)
+    assert main(["explore", str(path), "-o", str(page)]) == 0
+    assert "<title>my loop</title>" in page.read_text(encoding="utf-8")
 
 
 def test_the_server_has_a_page_for_each_machine_in_space(server):

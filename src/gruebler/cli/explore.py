@@ -76,7 +76,7 @@ def _in_space(spatial: SpatialWord, arguments: argparse.Namespace) -> int:
     record = entry_of(word)
     if record is None:
         between = spatial.range if len(spatial.linkage.mechanism.drives) == 1 else None
-        model = space_model(spatial.linkage, titles=dict.fromkeys(LANGUAGES, word), between=between)
+        model = space_model(spatial.linkage, titles=dict.fromkeys(LANGUAGES, _name(word)), between=between)
     else:
         model = machine_model(word)
     page = space_file(model, arguments.lang)
@@ -128,8 +128,13 @@ def _model(word: str, lang: str) -> dict[str, Any]:
         return model_of(realisation.linkage)
     linkage, between = linkage_and_range(word, unit="mm")  # which the page writes into files
     record = entry_of(word)
-    model = model_of(linkage, name=word if record is None else record.name, source=word, between=between)
+    model = model_of(linkage, name=_name(word) if record is None else record.name, source=word, between=between)
     return with_document(model, linkage, own_document(Path(word))) if Path(word).is_file() else model
+
+
+def _name(word: str) -> str:
+    """What a page is called that shows a word: the name of a file without its folder and ending."""
+    return Path(word).stem if Path(word).is_file() else word
 
 
 def _serve(model: dict[str, Any], arguments: argparse.Namespace, *, in_space: str = "") -> int:

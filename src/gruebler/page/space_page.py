@@ -19,6 +19,7 @@ from gruebler.mechanics.screws.wheels import gear_rows
 from gruebler.mechanics.space.outputs import against_frame
 from gruebler.page.page import data_page, module_text
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
+from gruebler.pictures.structure.messages import title
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.chain.spaces import Space
 from gruebler.teaching.catalog import entry
@@ -93,7 +94,7 @@ def space_model(
     return {
         "texts": {
             lang: {
-                "title": (titles or {}).get(lang, str(chain)),
+                "title": (titles or {}).get(lang) or title(mechanism, lang),
                 "drives": [*(drives or {}).get(lang, mechanism.drive_names(Alphabet.of_language(lang)))],
                 "words": {key: text.in_language(lang) for key, text in words.items()},
             }
