@@ -141,6 +141,13 @@ def test_a_long_rest_is_less_exact_and_says_so():
     assert "strays from its rest" in found.explain()
 
 
+def test_a_swing_that_no_output_has_is_told():
+    """An output of at most ten cranks swings by more than some tenths of a degree where the crank turns."""
+    found = synthesise_dwells(DwellTask(dwell=np.radians(20), swing=np.radians(0.3)), number=1)
+    assert not found.designs
+    assert "No output that was tried swings by about 0.3°" in found.explain()
+
+
 @pytest.mark.parametrize(
     ("values", "wrong"),
     [

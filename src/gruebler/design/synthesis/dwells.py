@@ -112,6 +112,14 @@ def synthesise_dwells(
             chosen=len(chosen),
         )
     ]
+    if not starts and task.swing is not None:
+        notes.append(
+            message(
+                "No output that was tried swings by about {swing:.4g}°; none is longer than {longest:g} cranks.",
+                swing=np.degrees(task.swing),
+                longest=longest,
+            )
+        )
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(designs), real=len(designs))
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
 
