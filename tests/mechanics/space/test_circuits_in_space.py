@@ -182,6 +182,8 @@ def test_bricards_loops_turn_back_where_their_range_ends(linkage, drive):
     assert [limit.value for limit in found.drive_limits] == pytest.approx([reach.highest, reach.lowest], abs=1e-9)
     assert "turns back at" in found.explain()
     assert drive_range(found) == reach
+    assert gr.rotatability(found) == gr.rotatability(linkage)
+    assert "0x" not in repr(found)
 
 
 @pytest.mark.parametrize("make", [lambda: machines.bennett()[0], machines.sarrus, lambda: machines.goldberg(5)])

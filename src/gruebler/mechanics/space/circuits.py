@@ -68,8 +68,8 @@ class SpatialCircuit:
     """
 
     linkage: SpatialLinkage
-    curve: ConfigurationCurve = field(compare=False)
-    traced: TracedPoints = field(compare=False)
+    curve: ConfigurationCurve = field(compare=False, repr=False)
+    traced: TracedPoints = field(compare=False, repr=False)
     arcs: Reals
     """(samples,) where the samples are; a closed circuit has its first position once more at the end."""
     start: float

@@ -13,11 +13,12 @@ from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, linkage_made
 from gruebler.mechanics.screws.conversion import SpatialLike
 from gruebler.mechanics.screws.model import SpatialLinkage
+from gruebler.mechanics.space.circuits import SpatialCircuit
 from gruebler.mechanics.space.measuring import JointRange, measures
 
 
 @overload
-def rotatability(linkage: SpatialLike, *, branch: Branch = None) -> tuple[JointRange, ...]: ...
+def rotatability(linkage: SpatialLike | SpatialCircuit, *, branch: Branch = None) -> tuple[JointRange, ...]: ...
 
 
 @overload
@@ -26,7 +27,7 @@ def rotatability(linkage: LinkageLike | Circuit, *, branch: Branch = None) -> tu
 
 @door_that_raises(LinkageError)
 def rotatability(
-    linkage: LinkageLike | SpatialLike | Circuit, *, branch: Branch = None
+    linkage: LinkageLike | SpatialLike | Circuit | SpatialCircuit, *, branch: Branch = None
 ) -> tuple[Rotatability, ...] | tuple[JointRange, ...]:
     """Each pair of neighbouring links: whether they turn fully against each other, and how far they move.
 
@@ -64,6 +65,8 @@ def rotatability(
         docs/theory/circuits.md
     """
     placed = linkage_made(linkage)
+    if isinstance(placed, SpatialCircuit):
+        placed = placed.linkage
     if not isinstance(placed, SpatialLinkage):
         return circuit_ranges.rotatability(placed, branch=branch)
     if branch is not None:
