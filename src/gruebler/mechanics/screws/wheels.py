@@ -44,7 +44,7 @@ def is_gear(linkage: SpatialLinkage, joint: int) -> bool:
 
 
 def gear_rows(linkage: SpatialLinkage) -> tuple[GearRow, ...]:
-    """A row for each contact of wheels; `LinkageError` for wheels without a common carrier, and for other contacts."""
+    """A row for each contact of wheels; `LinkageError` for wheels without a common carrier, and for sliding cones."""
     chain = linkage.mechanism.chain
     rows = []
     for number, joint in enumerate(chain.joints):
@@ -52,8 +52,10 @@ def gear_rows(linkage: SpatialLinkage) -> tuple[GearRow, ...]:
             continue
         title = chain.joint_title(number)
         if not is_gear(linkage, number):
+            if chain.space is not Space.SPHERICAL:
+                continue
             raise LinkageError(
-                "{joint}: contours that slide on each other are not moved in space; wheels need the pressure angle of "
+                "{joint}: cones that slide on each other are not moved on a sphere; wheels need the pressure angle of "
                 "their teeth",
                 joint=title,
             )

@@ -215,7 +215,7 @@ def _check(linkage: SpatialLinkage) -> None:
             )
         if joint.pair.has_contours:
             raise LinkageError(
-                "{joint}: assembly modes are listed without wheels, whose teeth can mesh in several ways",
+                "{joint}: assembly modes are listed of linkages without wheels and cams",
                 joint=chain.joint_title(number),
             )
 

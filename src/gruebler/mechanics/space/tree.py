@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
@@ -110,8 +111,8 @@ class ClosureTree:
 def closure_tree(linkage: SpatialLinkage) -> ClosureTree:
     """The tree of a linkage, in which drives, wheels and screws stay and joints with many freedoms are cut.
 
-    Raises `LinkageError` for contacts that roll or slide without being wheels on one carrier, and for drives of joints
-    that no tree holds together.
+    Raises `LinkageError` for contacts that roll without being wheels on one carrier, for cones that slide on each other
+    on a sphere, and for drives of joints that no tree holds together.
 
     Cost O(joints²).
     """
@@ -194,8 +195,9 @@ class _Builder:
 
         group = list(range(self.chain.n))
         kept: list[Tie] = []
-        cut: list[Tie] = []
-        for tie in sorted(self._ties(), key=cost):
+        ties = self._ties()
+        cut = [tie for tie in ties if self.chain.joints[tie.joint].pair.has_contours]
+        for tie in sorted((tie for tie in ties if tie not in cut), key=cost):
             a, b = group[tie.first], group[tie.second]
             (cut if a == b else kept).append(tie)
             group = [a if g == b else g for g in group]
@@ -297,6 +299,9 @@ class _Builder:
         pair = self.chain.joints[tie.joint].pair
         first, second = self._on(tie.first, tie.joint), self._on(tie.second, tie.joint)
         free = pair.freedoms[self.space]
+        if pair.has_contours:
+            yield from self._contact(tie, first, second)
+            return
         if pair.has_pitch or pair.has_body_between:  # their values are unknowns, and then nothing may move
             first, free = self._moved(tie.joint, first, True, known=False), ()
         turns = ["xyz".index(freedom.axis) for freedom in free if freedom.turns]
@@ -317,6 +322,28 @@ class _Builder:
                 if axis not in shifts:
                     yield ClosingRow(kind=OFFSET, first=first, second=second, axis=axis)
 
+    def _contact(self, tie: Tie, first: FrameOn, second: FrameOn) -> Iterable[ClosingRow]:
+        """Two round contours that slide on each other in a plane, or a round and a flat one.
+
+        Two circles keep the distance of their centres; a flat contour keeps the other's centre at its height.
+        """
+        radii = self.linkage.places[tie.joint].radii
+        assert radii is not None  # checked with the linkage
+        one, other = (radius / self.linkage.size for radius in radii)
+        at = -one if isfinite(one) else other  # along y: the centre of the first contour, else that of the second
+        first = _shifted(first, at)
+        second = _shifted(second, other if isfinite(other) else at)
+        if not isfinite(other):
+            first, second = second, first
+        if self.space is Space.SPATIAL:
+            for axis in (0, 1):
+                yield ClosingRow(kind=ACROSS, first=first, second=second, axis=axis, other=2)
+            yield ClosingRow(kind=OFFSET, first=first, second=second, axis=2)
+        if isfinite(one) and isfinite(other):
+            yield ClosingRow(kind=LENGTH, first=first, second=second, length=abs(one + other))
+        else:
+            yield ClosingRow(kind=OFFSET, first=first, second=second, axis=1)
+
     def _length(self, rod: Rod) -> ClosingRow:
         first, second = self._on(rod.first, rod.joints[0]), self._on(rod.second, rod.joints[1])
         length = float(np.linalg.norm(np.subtract(*rod.balls)))
@@ -333,6 +360,13 @@ class _Builder:
                 joint=self.chain.joint_title(drive.joint),
             )
         return unknown, -1.0 if joint.links[1] == self.mechanism.frame else 1.0
+
+
+def _shifted(frame: FrameOn, along: float) -> FrameOn:
+    """A frame moved along its y axis."""
+    step = np.eye(4)
+    step[1, 3] = along
+    return FrameOn(frame.node, frame.at @ step, frame.dimension)
 
 
 def whole_numbers(values: Sequence[int]) -> NDArray[np.intp]:
