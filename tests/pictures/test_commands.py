@@ -92,7 +92,8 @@ def test_pictures_of_a_printed_gallery_stay_legible():
     from gruebler.pictures.canvas.matplotlib_files import _columns
 
     small, large = (
-        gallery._machine(id, arguments_of("gallery", "-o", "x.html", labels=True)) for id in ("mzc", "excavator")
+        gallery._machine(id, arguments_of("gallery", "--structure", "-o", "x.html", labels=True))
+        for id in ("mzc", "excavator")
     )
     assert _columns(Section("", (small,))) == 5
     assert _columns(Section("", (small, large))) < 4
@@ -112,7 +113,17 @@ def test_a_gallery_tells_higher_pairs_apart(tmp_path):
     pictures = set()
     for id in ("geartrain", "belt", "geneva"):
         path = tmp_path / "page.html"
-        assert gallery.run(arguments_of("gallery", id, "-o", str(path))) == 0
+        assert gallery.run(arguments_of("gallery", id, "--structure", "-o", str(path))) == 0
         figure = path.read_text(encoding="utf-8").partition("<svg")[2].partition("</svg>")[0]
         pictures.add(figure.partition('<rect class="gr-ground"')[2])
     assert len(pictures) == 3
+
+
+def test_a_gallery_shows_machines_and_with_structure_their_mechanisms(tmp_path):
+    """Of entries with dimensions, of those that only have a picture, and of those in space."""
+    for id, only_to_scale in (("lambda", "To scale."), ("scissor_lr", "To scale"), ("bennett", "Isometric view")):
+        page = tmp_path / f"{id}.html"
+        assert gallery.run(arguments_of("gallery", id, "-o", str(page))) == 0
+        assert only_to_scale in page.read_text(encoding="utf-8"), id
+        assert gallery.run(arguments_of("gallery", id, "--structure", "-o", str(page))) == 0
+        assert only_to_scale not in page.read_text(encoding="utf-8"), id

@@ -100,6 +100,7 @@ _SHARED = {
         --count  print only the number
         --assortment N2,N3,...  numbers of binary, ternary, ... links
         --labels  label the links
+        --structure  draw the structure of a catalog entry with dimensions
         linkage FILE|ID|LENGTHS  a .toml or .json file or one of another program (`gruebler convert --formats`), a
             catalog entry with dimensions, or lengths: four-bar:A,B,C,D, slider-crank:A,B[,E],
             inverted-slider-crank:A,D[,E]

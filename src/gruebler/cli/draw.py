@@ -109,7 +109,7 @@ def add(parser: Parser) -> None:
     take(
         parser.add_mutually_exclusive_group(),
         """
-        --structure  draw the structure of a catalog entry with dimensions
+        --structure
         --graph  draw the link graph instead
         --contracted  draw the contracted graph instead
         --loops  draw the independent loops instead

@@ -11,7 +11,7 @@ from typing import Any
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message, plural, reason_of, translate
-from gruebler.cli.draw import called, contacts_of, subject
+from gruebler.cli.draw import called, subject
 from gruebler.cli.inputs import assortment_of, outputs_of
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
@@ -25,9 +25,9 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.enumeration import Request, chains
 from gruebler.structure.enumeration.estimates import estimate
 from gruebler.structure.isomorphism import code
-from gruebler.structure.mechanism import Mechanism
 from gruebler.structure.mechanism.inversion import family, inversions
 from gruebler.teaching.catalog import entries, entry
+from gruebler.teaching.catalog.machine_pictures import draw_machine
 
 _MOST = 3000  # chains on a page; a browser still scrolls through them
 
@@ -35,7 +35,8 @@ _MOST = 3000  # chains on a page; a browser still scrolls through them
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="Draw all chains or mechanisms with given numbers, or the given ones, on one page.",
+        description="Draw all chains or mechanisms with given numbers, or the given ones, on one page; machines of the "
+        "catalog to scale, with --structure their mechanisms.",
         epilog="Examples: gruebler gallery --links 8 -o eight.html; gruebler gallery --poster joints -o joints.pdf; "
         "gruebler variants --links 6 --prismatic 1 | "
         "gruebler gallery - -o sliders.html. PDF needs matplotlib: pip install 'gruebler[plot]'.",
@@ -53,6 +54,7 @@ def add(parser: Parser) -> None:
         --multiple-joints K|any  as for gruebler enumerate (default: 0)
         --inversions  each chain with every frame that makes a difference
         --labels
+        --structure
         --side  draw gear trains from the side, their axes as lines
         """
     )
@@ -166,15 +168,11 @@ def _fits(number: int) -> None:
 
 def _machine(id: str, arguments: argparse.Namespace) -> Item:
     record = entry(id)
-    name, names = called(record, arguments.lang)
-    shown = subject(id, None, None, [])
+    name, _ = called(record, arguments.lang)
     if arguments.side:
-        figure = draw_side_view(shown, lang=arguments.lang, name=name)
+        figure = draw_side_view(subject(id, None, None, []), lang=arguments.lang, name=name)
     else:
-        contacts = contacts_of(record) if isinstance(shown, Mechanism) else None
-        figure = draw_structure(
-            shown, labels=arguments.labels, contacts=contacts, lang=arguments.lang, name=name, names=names
-        )
+        figure = draw_machine(record, labels=arguments.labels, structure=arguments.structure, lang=arguments.lang)
     return Item(figure, name, id)
 
 

@@ -96,23 +96,10 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
 
 
 def _catalog_picture(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
-    from gruebler.mechanics.screws import SpatialLinkage
-    from gruebler.pictures.linkage.picture import draw_linkage
-    from gruebler.pictures.space import draw_spatial
-    from gruebler.pictures.structure import draw_structure
-    from gruebler.structure.mechanism import Mechanism
     from gruebler.teaching.catalog import entry
+    from gruebler.teaching.catalog.machine_pictures import draw_machine
 
-    record = entry(asked.id)
-    name = record.name.in_language(lang)
-    if record.dimensions is not None and record.space == "planar":
-        figure = draw_linkage(record.linkage(), between=record.between, lang=lang, name=name)
-    elif isinstance(placed := record.placed() if record.in_space else None, SpatialLinkage):
-        figure = draw_spatial(placed, symbols=False, lang=lang, name=name)
-    else:
-        chain = record.chain()
-        figure = draw_structure(Mechanism(chain, record.frame or chain.links[0], record.drives), lang=lang, name=name)
-    return {"picture": figure.svg(styled=False)}
+    return {"picture": draw_machine(entry(asked.id), lang=lang).svg(styled=False)}
 
 
 def _moving(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
