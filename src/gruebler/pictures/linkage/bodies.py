@@ -17,7 +17,7 @@ from gruebler.base.convex_hull import convex_hull
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Element, Linkage, LinkPoint
 from gruebler.pictures.canvas.free_space import is_inside
-from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
+from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, bounds
 from gruebler.pictures.canvas.symbols import JointMember, joint_sign, ticks
 from gruebler.pictures.linkage.element_pictures import round_parts
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
@@ -35,6 +35,8 @@ _FOOT = Point(13.0, 21.0)  # of a pedestal
 _FLAT = 1e-6  # sizes: points nearer to a line lie on it
 _LEAST_HEIGHT = 1e-3  # pixels: corners that are flatter are not seen
 _CALLED_BLOCKS = ("block", "slider", "piston", "stein", "kolben")
+_DISCS = 420.0  # pixels of cams and wheels
+_STILL = 24.0  # pixels of a slide to both sides in a picture without a motion
 _WIDEST = 520.0  # pixels of an outline
 _LONGEST = 1.8  # times its shortest length: the largest length of a cylinder
 
@@ -96,6 +98,8 @@ def _slide(posed: PosedLinkage, number: int) -> Slide:
     beyond = _beyond_roller(posed, block, block_line.direction, high - low)
     middle, low, high = middle + beyond * cmath.rect(1, block_line.direction), low + beyond, high + beyond
     sign = "block"
+    if high - low < _FLAT * lower.size and len(posed.path) == 1:  # nothing moves in the picture: how far is not known
+        low, high = low - _STILL / posed.scale, high + _STILL / posed.scale
     if block not in posed.linkage.mechanism.chain.links and pins_of(lower, block):
         sign = "slot"
     elif _is_cylinder(lower, number, guide, start, along, low, high):
@@ -214,9 +218,15 @@ def body_parts(posed: PosedLinkage) -> tuple[BodyPart, ...]:
 
 
 def room_for(posed: PosedLinkage, outlines: Sequence[CarriedLine]) -> PosedLinkage:
-    """The linkage in a scale in which none of the outlines it carries is too large for the picture."""
+    """The linkage in a scale in which no disc and none of the outlines it carries is too large for the picture."""
     spread = max((abs(z - points[0]) for _, points, _ in outlines for z in points), default=0.0)
-    return replace(posed, scale=min(posed.scale, _WIDEST / spread)) if spread > 0 else posed
+    discs = [
+        shape for part in round_parts(posed) for shape in shapes_at_pose(posed, BodyPart(FRAME, part.link, part.shapes))
+    ]
+    of_discs = max(bounds(discs, 0.0)[1]) if discs else 0.0
+    scales = [_WIDEST / spread] if spread > 0 else []
+    scales += [posed.scale * _DISCS / of_discs] if of_discs > 0 else []
+    return replace(posed, scale=min([posed.scale, *scales]))
 
 
 def outline_parts(posed: PosedLinkage, outlines: Sequence[CarriedLine]) -> tuple[BodyPart, ...]:
