@@ -11,6 +11,7 @@ from gruebler.base.text import decimal_sign_in, raised
 _FEW = 7  # approximate number of ticks of an axis
 _ANGLES = (1, 2, 5, 10, 15, 30, 45, 60, 90, 180, 360, 720)  # degrees
 _TINY = 1e-9  # steps: the tolerance for a value beyond a tick
+_PLAIN = (-4, 5)  # powers of ten between which an axis shows plain numbers
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,16 +71,19 @@ def decades(low: float, high: float) -> Scale:
     >>> scale = decades(0.002, 0.3)
     >>> (scale.low, scale.high), [name for name in scale.names if name]
     ((0.001, 1.0), ['0.001', '0.01', '0.1', '1'])
+    >>> [name for name in decades(2e-5, 0.03).names if name]  # all of an axis alike
+    ['10⁻⁵', '10⁻⁴', '10⁻³', '10⁻²', '10⁻¹']
     """
     first, last = math.floor(math.log10(low) + 1e-9), math.ceil(math.log10(high) - 1e-9)
     last = max(last, first + 1)
     ticks = [(float(f"{k}e{n}"), k) for n in range(first, last + 1) for k in range(1, 10 if n < last else 2)]
+    plain = first > _PLAIN[0] and last < _PLAIN[1]
     return Scale(
         low=ticks[0][0],
         high=ticks[-1][0],
         ticks=tuple(value for value, _ in ticks),
         logarithmic=True,
-        names=tuple(_power(value) if k == 1 else "" for value, k in ticks),
+        names=tuple(_power(value, plain) if k == 1 else "" for value, k in ticks),
     )
 
 
@@ -134,9 +138,8 @@ def _with_power(value: float) -> str:
     return f"{float(digits):g}×10{raised(int(power))}".replace("-", "−")
 
 
-def _power(value: float) -> str:
-    power = round(math.log10(value))
-    return f"{value:g}" if -4 < power < 5 else f"10{raised(power)}"
+def _power(value: float, plain: bool) -> str:
+    return f"{value:g}" if plain else f"10{raised(round(math.log10(value)))}"
 
 
 def _apart(low: float, high: float) -> tuple[float, float]:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.pictures.canvas.axes import as_text, rate_unit
+from gruebler.pictures.canvas.labels import note_near
 from gruebler.pictures.canvas.shapes import Point, Polylines, Shape, TextShape, bounds
 from gruebler.pictures.canvas.symbols import arrow
 from gruebler.pictures.linkage.layer_context import LayerContext
+from gruebler.pictures.linkage.letters import joint_letters
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 
 _LONGEST = 74.0  # pixels of the longest arrow
@@ -18,56 +20,72 @@ _LEAST = 0.02  # of the longest: shorter ones are left out
 _REST = 1e-9  # sizes, for a drive of speed 1
 _LENGTH = 90.0  # pixels of the scale bar of lengths, at most
 _BELOW, _ROW = 20.0, 22.0  # pixels to the first bar, and from bar to bar
+_READ_AS = {"dm": (0.1, "m")}  # units that hardly anybody reads, as others
+_SYMBOLS = {1: "v", 2: "a"}
+_NAMED = 8  # arrows: more of them have no names
 _RIGHT, _DOWN = Point(1.0, 0.0), Point(0.0, 1.0)
 
 
 def velocity_arrows(context: LayerContext) -> list[Shape]:
     """Velocities of joints and named points for a drive of speed 1."""
-    return _arrows(context.posed, 1, "velocity")
+    return _arrows(context, 1, "velocity")
 
 
 def acceleration_arrows(context: LayerContext) -> list[Shape]:
     """Accelerations of joints and named points for a drive of even speed 1."""
-    return _arrows(context.posed, 2, "acceleration")
+    return _arrows(context, 2, "acceleration")
 
 
-def _rates(posed: PosedLinkage, order: int) -> list[tuple[complex, complex]]:
-    """Places of joints and named points, each once, with their velocities or accelerations."""
+class _Rate(NamedTuple):
+    """The velocity or acceleration of a joint or named point."""
+
+    letter: str
+    at: complex
+    value: complex
+
+
+def _rates(posed: PosedLinkage, order: int) -> list[_Rate]:
+    """Joints and named points, each place once, with their velocities or accelerations."""
     posed.driven()
-    pairs = {}
-    for place in _moving_points(posed):
-        at, rate = (complex(posed.pose.complex_point(place, order=k)[0]) for k in (0, order))
-        pairs[round(at.real, 9), round(at.imag, 9)] = at, rate
-    return list(pairs.values())
+    rates = {}
+    for letter, place in _moving_points(posed):
+        at, value = (complex(posed.pose.complex_point(place, order=k)[0]) for k in (0, order))
+        rates[round(at.real, 9), round(at.imag, 9)] = _Rate(letter, at, value)
+    return list(rates.values())
 
 
-def _longest(posed: PosedLinkage, rates: Sequence[tuple[complex, complex]]) -> float:
+def _longest(posed: PosedLinkage, rates: Sequence[_Rate]) -> float:
     """The length of the longest one; 0 if all are zero or one is infinite."""
-    longest = max((abs(rate) for _, rate in rates), default=0.0)
+    longest = max((abs(rate.value) for rate in rates), default=0.0)
     return longest if _REST * posed.lower.size < longest < math.inf else 0.0
 
 
-def _arrows(posed: PosedLinkage, order: int, style: str) -> list[Shape]:
+def _arrows(context: LayerContext, order: int, style: str) -> list[Shape]:
+    """Arrows with their names: v or a with the letter of the joint or point."""
+    posed = context.posed
     rates = _rates(posed, order)
     longest = _longest(posed, rates)
     shapes: list[Shape] = []
-    for at, rate in rates if longest else ():
+    names = []
+    for letter, at, rate in rates if longest else ():
         if abs(rate) > _LEAST * longest:
             vector = Point(_LONGEST * rate.real / longest, -_LONGEST * rate.imag / longest)
             tip = posed.local(at).plus(vector.unit, max(vector.length - 7.0, 1.0))
             shapes += arrow(posed.local(at), tip, style, f"{style}-head")
+            names.append((posed.local(at).plus(vector), f"{_SYMBOLS[order]}_{letter}"))
+    for end, name in names if len(names) <= _NAMED else ():
+        shapes.append(note_near(end, name, "value", [*context.drawn, *shapes]))
     return shapes
 
 
-def _moving_points(posed: PosedLinkage) -> list[LinkPoint]:
-    """Named points, and turning joints away from the frame."""
-    lower, mechanism = posed.lower, posed.lower.mechanism
-    places = list(lower.points.values())
+def _moving_points(posed: PosedLinkage) -> Iterator[tuple[str, LinkPoint]]:
+    """Named points, and turning joints away from the frame, with their letters."""
+    lower, mechanism, letters = posed.lower, posed.lower.mechanism, joint_letters(posed)
+    yield from lower.points.items()
     for number, joint in enumerate(mechanism.chain.joints):
         if joint.pair.is_turning and mechanism.frame not in joint.links:
             e = lower.elements[number, joint.links[0]]
-            places.append(LinkPoint(joint.links[0], e.x, e.y))
-    return places
+            yield letters[number], LinkPoint(joint.links[0], e.x, e.y)
 
 
 class _ScaleBar(NamedTuple):
@@ -100,7 +118,8 @@ def scale_bars(context: LayerContext, layers: Sequence[str]) -> list[Shape]:
 def _bar(posed: PosedLinkage, key: str) -> _ScaleBar | None:
     unit = posed.linkage.unit
     if key == "scale":
-        return _ScaleBar(_LENGTH, _LENGTH / posed.scale, unit, "measure")
+        most, shown = _LENGTH / posed.scale, _READ_AS.get(unit, (1.0, unit))
+        return _ScaleBar(_LENGTH, most * shown[0], shown[1], "measure")
     order = {"velocities": 1, "accelerations": 2}.get(key, 0)
     longest = _longest(posed, _rates(posed, order)) if order else 0.0
     if not longest:

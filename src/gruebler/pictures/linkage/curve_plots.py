@@ -11,7 +11,7 @@ import numpy as np
 from gruebler.base.arrays import Complexes
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import decimal_sign_in, message, translate
+from gruebler.base.text import decimal_sign_in, message, number_separator, translate
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.linkages.branch import Branch
@@ -162,17 +162,17 @@ def family_plot(
     Raises `LinkageError` for several drives, an unknown link, or one without two joints where a line is needed.
 
     >>> from gruebler.mechanics.fourbar import FourBar
-    >>> family_plot(FourBar(25, 70, 40, 70).linkage(), count=3).description[:35]
-    'Paths of −35, 0; 35, 0; 105, 0, dri'
+    >>> family_plot(FourBar(25, 70, 40, 70).linkage(), count=3).description[:36]
+    'Paths of (−35, 0); (35, 0); (105, 0)'
     """
     linkage = as_linkage(linkage, unit="")
-    return _paths(linkage, family_of(linkage, link, start, end, count), branch, between, lang, name)
+    return _paths(linkage, family_of(linkage, link, start, end, count, lang), branch, between, lang, name)
 
 
 def family_of(
-    linkage: Linkage, link: str | None, start: complex | None, end: complex | None, count: int
+    linkage: Linkage, link: str | None, start: complex | None, end: complex | None, count: int, lang: str = "en"
 ) -> dict[str, LinkPoint]:
-    """The points of a family, named by their coordinates in the link."""
+    """The points of a family, named by their coordinates in the link as the language writes them."""
     if not 2 <= count <= _MOST:
         raise LinkageError("a family has 2 to {most} points, not {count!r}", most=_MOST, count=count)
     chosen = floating_link(linkage) if link is None else link
@@ -195,7 +195,13 @@ def family_of(
     if not np.isfinite([start, end]).all() or start == end:
         raise LinkageError("expected two different finite points, but found {start} and {end}", start=start, end=end)
     points = [start + k / (count - 1) * (end - start) for k in range(count)]
-    return {f"{p.real:.4g}, {p.imag + 0.0:.4g}".replace("-", "−"): LinkPoint(chosen, p.real, p.imag) for p in points}
+    names = (
+        number_separator(lang).join(decimal_sign_in(f"{value + 0.0:.4g}", lang) for value in (p.real, p.imag))
+        for p in points
+    )
+    return {
+        f"({name})".replace("-", "−"): LinkPoint(chosen, p.real, p.imag) for name, p in zip(names, points, strict=True)
+    }
 
 
 def _paths(

@@ -230,7 +230,7 @@ def _cam(posed: PosedLinkage, _: int, link: str, disc: CamDisc) -> RoundPart:
 
 
 def _noncircular(posed: PosedLinkage, joint: int, link: str, wheel: NonCircular) -> RoundPart:
-    """The curve of a non-circular wheel, with its direction from the axis."""
+    """The curve of a non-circular wheel, with the line through it and its axis: the long axis of an ellipse."""
     pair: list[Any] = [(owner, e) for (number, owner), e in posed.linkage.elements.items() if number == joint]
     (near, non_circular), (far, other) = sorted(pair, key=lambda end: end[1].transfer == INVERSE)
     near_axis, far_axis = (
@@ -238,8 +238,8 @@ def _noncircular(posed: PosedLinkage, joint: int, link: str, wheel: NonCircular)
     )
     curve = transfer_of(non_circular, other).curves()[wheel is other] * abs(far_axis - near_axis)
     contour = _contour(posed, complex(wheel.x, wheel.y), wheel.angle, curve)
-    ends = _contour(posed, complex(wheel.x, wheel.y), wheel.angle, np.array([0, _ARM * curve[0]]))
-    return RoundPart(link, (Polylines((contour,), _area(posed, link), closed=True), Polylines((ends,), "hatch")))
+    ends = _contour(posed, complex(wheel.x, wheel.y), wheel.angle, np.array([curve[0], curve[len(curve) // 2]]))
+    return RoundPart(link, (Polylines((contour,), _area(posed, link), closed=True), Polylines((ends,), "pitch")))
 
 
 def _geneva_axes(posed: PosedLinkage, joint: int) -> tuple[GenevaShape, GenevaDriver, GenevaWheel, float]:

@@ -74,6 +74,12 @@ _LAST = ("dimensions", "joints")
 """Layers that give way to all others, and letters of joints to the lines of dimensions."""
 _CENTRODES = {"p": message("fixed centrode"), "q": message("moving centrode")}
 _POLES = {"P": message("pole P"), "W": message("inflection pole W")}
+_INFLECTION = {
+    "P": message("pole"),
+    "W": message("inflection pole"),
+    "t": message("pole tangent"),
+    "n": message("pole normal"),
+}
 
 
 @door_that_raises(LinkageError)
@@ -162,8 +168,10 @@ def draw_linkage(
     if "poles" in layers:
         numbers = pole_numbers(linkage.mechanism.chain.links)
         rows = {(names or {}).get(link, link): number for link, number in numbers.items() if number != link} | rows
-    for letter, meaning in _CENTRODES.items() if layer_shapes.get("centrodes") else ():
-        rows[meaning.in_language(lang)] = letter
+    meanings = _CENTRODES if layer_shapes.get("centrodes") else {}
+    written = {shape.text for shape in layer_shapes.get("inflection", ()) if isinstance(shape, TextShape)}
+    meanings = meanings | {letter: text for letter, text in _INFLECTION.items() if letter in written}
+    rows |= {meaning.in_language(lang): letter for letter, meaning in meanings.items()}
     if rows:
         shapes += legend(rows, [Point(0.0, 0.0)], shapes)
     sentences, missing = picture_notes(posed, curves, {key: layer_shapes[key] for key in layers}, lang, ghost or 0)

@@ -8,6 +8,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes
 from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.text import translate
 from gruebler.mechanics.kinematics import Motion
 from gruebler.pictures.canvas.labels import note_near
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape
@@ -82,7 +83,9 @@ def inflection_lines(context: LayerContext) -> list[Shape]:
     if not all(box.holds(posed.local(complex(z))) for z in circle[::30]):
         box = _Box.around(posed, _WIDE)
     lines = _within(posed, circle, box)
-    shapes: list[Shape] = [Polylines(tuple(lines), "inflection")] if lines else []
+    shapes: list[Shape] = []
+    if lines:
+        shapes.append(Polylines(tuple(lines), "inflection"))
     # The pole tangent t, to both sides of P, and the pole normal n, from P over W.
     for direction, first, last, name in ((shift, -0.5, 0.5, "t"), (-1j * shift, -0.1, 1.15, "n")):
         along: Complexes = np.asarray(pole + direction * np.linspace(first, last, _SAMPLES), dtype=np.complex128)
@@ -94,6 +97,9 @@ def inflection_lines(context: LayerContext) -> list[Shape]:
         if lines and box.holds(point):
             shapes.append(cross(point) if name == "P" else CircleShape(point, 3.2, "dot"))
             shapes.append(note_near(point, name, "value", [*context.drawn, *shapes]))
+    if lines:
+        longest, name = max(lines, key=len), translate("inflection circle", context.lang)
+        shapes.append(note_near(longest[len(longest) // 4], name, "value", [*context.drawn, *shapes]))
     return shapes
 
 

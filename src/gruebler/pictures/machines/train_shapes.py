@@ -186,7 +186,10 @@ def _names(stage: GearStage, moves: _Moves, paint: PaintOptions) -> Iterator[Bod
             carried = moves.on_carrier(paint)
             back = (Turn(tuple(-angle for angle in step.angles)) for step in carried if isinstance(step, Turn))
             steps = (*carried, *steps, *back)
-        yield Body((TextShape(Point(0.0, down), wheel.link, "name"),), steps)
+        wide, high = text_width(wheel.link) / 2 + 2.0, 8.0
+        corners = tuple(Point(x, down + y) for x, y in ((-wide, -high), (wide, -high), (wide, high), (-wide, high)))
+        plate = Polylines((corners,), "plate", closed=True)  # no line runs through the name
+        yield Body((plate, TextShape(Point(0.0, down), wheel.link, "name")), steps)
 
 
 # --- belts, racks, ropes and screws ----------------------------------------------------------------

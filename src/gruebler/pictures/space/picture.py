@@ -101,7 +101,7 @@ def _with_letters(scene: SpatialScene, shapes: list[Shape], poses: Reals | None,
     written = list(shapes)
     for joint, place in zip(chain.joints, scene.joints, strict=True):
         at = points_on_paper(scene.placed(place[None], _pose(scene, poses, joint.links[-1])))[0]
-        written.append(note_near(at, joint.pair.symbol(alphabet), "letter", written))
+        written.append(note_near(at, joint.pair.symbol(alphabet).replace("_", " "), "letter", written))
     return written
 
 
