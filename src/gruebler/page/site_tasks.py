@@ -47,7 +47,7 @@ def task_pack(id: str, langs: Sequence[str]) -> dict[str, Any]:
             known = [(m.value, m.hint) for m in solution.mistakes if m.key == result.key]
             answers[key] = _number_record(result, known, langs) | {"way": _said(way(solution, result), langs)}
     tried = tried_task(id)
-    chains = [structure_pack(mechanism_of_text(one["text"]), langs) for one in tried if "text" in one]
+    chains = [structure_pack(mechanism_of_text(each["text"]), langs) for each in tried if "text" in each]
     if chains:
         tried = [{"text": pack["text"]} for pack in chains]
     return {
