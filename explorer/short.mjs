@@ -2,6 +2,9 @@
 
 const { abs, atan2, ceil, cos, floor, hypot, max, min, PI, round, sin } = Math;
 const { isFinite: finite } = Number;
+const { from } = Array;
+const { parse, stringify } = JSON;
+const Numbers = Float64Array;
 
 export {
   abs as "Math.abs",
@@ -10,10 +13,14 @@ export {
   cos as "Math.cos",
   finite as "Number.isFinite",
   floor as "Math.floor",
+  from as "Array.from",
   hypot as "Math.hypot",
   max as "Math.max",
   min as "Math.min",
+  Numbers as Float64Array,
   PI as "Math.PI",
+  parse as "JSON.parse",
   round as "Math.round",
   sin as "Math.sin",
+  stringify as "JSON.stringify",
 };
