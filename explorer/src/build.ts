@@ -96,7 +96,7 @@ export class BuildView implements View, Plane, Drawn {
     const first = this.viewport.width < 2;
     Object.assign(this.viewport, { width, height });
     this.root.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    const part = width < 500 ? 0.5 : 1;
+    const part = width < 500 ? 0.75 : 1;
     if (first) this.viewport.fit({ left: -60 * part, right: 140 * part, bottom: -50 * part, top: 90 * part }, 1);
     this.draw();
   }
