@@ -45,6 +45,17 @@ def test_a_file_moves(capsys, bennett, tmp_path):
     assert text.count("<animate ") == 6
 
 
+def test_several_drives_need_their_ranges_which_is_said(capsys):
+    status, _, said = run_command(capsys, "animate", "diff_bevel2p")
+    assert status == 2
+    assert "the linkage has 2 drives: give --range FROM:TO:STEP once for each" in said
+    status, text, _ = run_command(
+        capsys, "animate", "diff_bevel2p", "--range", "0:90:45", "--range", "0:30:15", "--seconds", "0.2"
+    )
+    assert status == 0
+    assert text.startswith("<svg")
+
+
 @pytest.mark.parametrize(
     ("command", "words", "said"),
     [

@@ -6,7 +6,7 @@ import argparse
 
 from gruebler.base.errors import GrueblerError
 from gruebler.cli.draw import entry_of, linkage_and_range, picture_path, picture_suffix
-from gruebler.cli.drive_rows import driven_path, given_rows
+from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.linkage_inputs import SpatialWord, loads_and_speed, spatial_of_word, with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
@@ -86,8 +86,8 @@ def _in_space(arguments: argparse.Namespace, spatial: SpatialWord, suffix: str, 
     for option in ("branch", "loads"):
         if getattr(arguments, option):
             raise GrueblerError("--{option} does not go with a linkage in space", option=option)
-    drives = spatial.linkage.mechanism.drives
-    rows = given_rows(arguments.range, (), [drive.turning for drive in drives])
+    own = spatial.range is not None and not arguments.range
+    rows = None if own else driven_path(arguments.range, spatial.linkage)
     shown = animate_spatial(
         spatial.linkage,
         between=spatial.range,

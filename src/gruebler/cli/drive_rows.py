@@ -12,13 +12,14 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.kinematics import from_degrees
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.structure.mechanism import Mechanism
 
 _MOST_ROWS = 1_000_000
 _LARGEST = 1e9
 
 
-def turning_drives(linkage: Linkage) -> list[bool]:
+def turning_drives(linkage: Linkage | SpatialLinkage) -> list[bool]:
     """Which drives turn; the others slide. `GrueblerError` for a linkage without drives."""
     mechanism = linkage.mechanism
     if not mechanism.drives:
@@ -93,7 +94,7 @@ def given_speeds(given: Sequence[float], turning: Sequence[bool], *, from_rest: 
     return [speed * math.pi / 30 if turns else speed for speed, turns in zip(given, turning, strict=bool(given))]
 
 
-def driven_path(spans: Sequence[str], linkage: Linkage) -> Reals | None:
+def driven_path(spans: Sequence[str], linkage: Linkage | SpatialLinkage) -> Reals | None:
     """(rows, drives) of --range for a command that follows a straight path; None for the whole motion of one drive."""
     turning = turning_drives(linkage)
     if not spans and len(turning) > 1:
