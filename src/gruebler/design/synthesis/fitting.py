@@ -108,9 +108,14 @@ def fit_targets(task: Task, aside: float = _ASIDE[-1]) -> FitTargets:
     )
 
 
-def output_links(mechanism: Mechanism, travel: bool) -> tuple[str, ...]:
-    """The links whose motion may be an output: those that slide along the frame, or turn about it undriven."""
+def output_links(mechanism: Mechanism, travel: bool, named: str | None = "") -> tuple[str, ...]:
+    """The links whose motion may be an output: those that slide along the frame, or turn about it undriven.
+
+    Where one is named, it may turn off the frame, too.
+    """
     frame, driven = mechanism.frame, {link for drive in mechanism.drives for link in drive.between}
+    if named and not travel:
+        return tuple(link for link in mechanism.chain.links if link != frame and link not in driven)
     held = [
         [link for link in joint.links if link != frame]
         for joint in mechanism.chain.joints

@@ -106,7 +106,7 @@ def _check(mechanism: Mechanism, targets: FitTargets, link: str) -> None:
                 mechanism=mechanism.text(),
             )
     if targets.z is None:
-        outputs = output_links(mechanism, targets.travel)
+        outputs = output_links(mechanism, targets.travel, link)
         if not outputs:
             raise (
                 SynthesisError(
