@@ -2,7 +2,7 @@
 
 import { gripAt, gripped } from "./backdrop";
 import { gridStep } from "./canvas";
-import { h, renew, svg } from "./dom";
+import { h, ownPage, renew, svg } from "./dom";
 import {
   type Drawing,
   documentOfDrawing,
@@ -25,6 +25,7 @@ import {
   withoutLink,
   withSlider,
 } from "./drawing";
+import { Fingers } from "./fingers";
 import { History } from "./history";
 import { toHull } from "./hull";
 import { t } from "./language";
@@ -62,6 +63,9 @@ export class BuildView implements View, Plane, Drawn {
   chosen: Chosen | null = null;
   cursor: Pair = [0, 0];
   private snapping = true;
+  private readonly fingers = new Fingers();
+  /** What was there when the first finger came. */
+  private begun: [Drawing, Spot[]] = [EMPTY, []];
   private readonly history = new History<Drawing>();
   private readonly root = svg("svg", { role: "application", tabindex: 0, class: "drawing" });
   private readonly tools = h("div.transport.palette", {});
@@ -77,10 +81,13 @@ export class BuildView implements View, Plane, Drawn {
     this.element.append(stage, this.tools, this.side);
     this.root.addEventListener("pointerdown", (event) => this.down(event));
     this.root.addEventListener("pointermove", (event) => this.hover(event));
+    for (const end of ["pointerup", "pointercancel"] as const)
+      this.root.addEventListener(end, (event) => this.fingers.lift(event.pointerId));
     this.root.addEventListener("keydown", (event) => this.key(event));
     this.root.addEventListener(
       "wheel",
       (event) => {
+        if (!ownPage() && !event.ctrlKey) return; // a notebook scrolls past it
         event.preventDefault();
         this.viewport.zoom(Math.exp(-event.deltaY * 0.0015), ...this.pixel(event));
         this.draw();
@@ -281,6 +288,7 @@ export class BuildView implements View, Plane, Drawn {
   }
 
   private hover(event: PointerEvent): void {
+    if (this.fingers.move(event.pointerId, this.pixel(event), this.viewport)) return this.draw();
     if (this.tool === "move") return;
     this.cursor = this.spot(this.pixel(event), event.shiftKey).at;
     this.draw();
@@ -290,6 +298,9 @@ export class BuildView implements View, Plane, Drawn {
     if (event.button > 0) return;
     event.preventDefault();
     this.root.focus({ preventScroll: true });
+    this.fingers.put(event.pointerId, this.pixel(event));
+    if (this.fingers.count > 1) return this.takeBack();
+    this.begun = [this.drawing, [...this.spots]];
     const spot = this.spot(this.pixel(event), event.shiftKey);
     if (this.tool !== "move") return this.put(spot);
     const before = this.drawing;
@@ -301,6 +312,7 @@ export class BuildView implements View, Plane, Drawn {
     if (!grip) this.choose(spot, start);
     this.root.setPointerCapture(event.pointerId);
     const moves = (next: PointerEvent) => {
+      if (this.fingers.count > 1) return;
       const now = this.pixel(next);
       if (grip) {
         const place = this.viewport.world(...now);
@@ -324,6 +336,15 @@ export class BuildView implements View, Plane, Drawn {
     this.root.addEventListener("pointermove", moves);
     this.root.addEventListener("pointerup", up);
     this.root.addEventListener("pointercancel", up);
+  }
+
+  /** What the first of two fingers put was not meant. */
+  private takeBack(): void {
+    const [drawing, spots] = this.begun;
+    if (this.tool === "move") this.drawing = drawing;
+    else if (this.drawing !== drawing) this.undo();
+    this.spots = spots;
+    this.draw();
   }
 
   private choose(spot: Spot, place = spot.at): void {

@@ -1,6 +1,6 @@
 /** The catalog: every machine with its picture, found by words of either language and by its features. */
 
-import { choice, h, renew, thumbnail } from "./dom";
+import { choice, h, ownPage, renew, thumbnail } from "./dom";
 import { movesOnHover } from "./hover";
 import { currentLanguage, t } from "./language";
 import type { Model } from "./model";
@@ -166,7 +166,7 @@ export class CatalogView implements View {
   }
 
   private async choose(entry: Entry): Promise<void> {
-    if (entry.space && document.querySelector("[data-gruebler]"))
+    if (entry.space && ownPage())
       return void window.open(`space/${entry.id}.html#${currentLanguage()}`, "_blank", "noopener");
     if (!entry.moves) return this.page.describe(entry.text);
     try {

@@ -64,6 +64,11 @@ function selectorOf(element: Element): string {
   return element.tagName.toLowerCase() + (named ? `[${named.name}="${CSS.escape(named.value)}"]` : "");
 }
 
+/** Whether the page is a document of its own, not a cell of a notebook. */
+export function ownPage(): boolean {
+  return document.querySelector("[data-gruebler]") !== null;
+}
+
 /** Buttons of which one is pressed: values with their texts. */
 export function choice(
   label: string,

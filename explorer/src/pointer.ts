@@ -1,6 +1,8 @@
 /** What a pointer and the arrow keys do to the picture. */
 
+import { ownPage } from "./dom";
 import type { Dragging } from "./dragging";
+import { Fingers } from "./fingers";
 import { convexHull, toHull } from "./hull";
 import type { Linkage } from "./linkage";
 import { type Pair, place } from "./rows";
@@ -50,8 +52,7 @@ interface Follow {
 
 export class Pointer {
   private following: Follow | null = null;
-  /** Two fingers: the places where they are. */
-  private readonly fingers = new Map<number, Pair>();
+  private readonly fingers = new Fingers();
 
   constructor(
     private readonly board: Board,
@@ -68,9 +69,11 @@ export class Pointer {
       else if (this.pointNear(x, y, GRIP) === null)
         this.events.addPoint(this.linkNear(x, y, NEAR), ...viewport.world(x, y));
     });
-    root.addEventListener("pointermove", (event) => this.pinch(event));
+    root.addEventListener("pointermove", (event) => {
+      if (this.fingers.move(event.pointerId, this.at(event), viewport)) board.zoom(1, 0, 0);
+    });
     for (const name of ["pointerup", "pointercancel"] as const)
-      root.addEventListener(name, (event) => void this.fingers.delete(event.pointerId));
+      root.addEventListener(name, (event) => this.fingers.lift(event.pointerId));
   }
 
   /** Give up what is dragged; false if nothing is. */
@@ -80,24 +83,6 @@ export class Pointer {
     return true;
   }
 
-  /** Two fingers that move: the place between them goes with them, and what lies between is enlarged. */
-  private pinch(event: PointerEvent): void {
-    const before = this.fingers.get(event.pointerId);
-    const other = [...this.fingers].find(([id]) => id !== event.pointerId)?.[1];
-    if (!before || !other) return;
-    const now = this.at(event);
-    this.fingers.set(event.pointerId, now);
-    const wide = Math.hypot(before[0] - other[0], before[1] - other[1]);
-    if (!(wide > 1)) return;
-    const { board } = this;
-    board.viewport.pan((now[0] - before[0]) / 2, (now[1] - before[1]) / 2);
-    board.zoom(
-      Math.hypot(now[0] - other[0], now[1] - other[1]) / wide,
-      (now[0] + other[0]) / 2,
-      (now[1] + other[1]) / 2,
-    );
-  }
-
   /** The pixel of an event. */
   private at(event: MouseEvent): Pair {
     const box = this.board.root.getBoundingClientRect();
@@ -105,6 +90,7 @@ export class Pointer {
   }
 
   private wheel(event: WheelEvent): void {
+    if (!ownPage() && !event.ctrlKey) return; // a notebook scrolls past it
     event.preventDefault();
     this.board.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), ...this.at(event));
   }
@@ -162,8 +148,8 @@ export class Pointer {
     root.setPointerCapture(event.pointerId);
     if (this.following && event.pointerType === "touch") {
       this.fingers.clear();
-      this.fingers.set(this.following.id, this.following.at);
-      this.fingers.set(event.pointerId, [x, y]);
+      this.fingers.put(this.following.id, this.following.at);
+      this.fingers.put(event.pointerId, [x, y]);
       this.cancel();
       return;
     }

@@ -103,6 +103,28 @@ def test_two_fingers_enlarge_the_picture(tab, crank_rocker):
     assert same == sizes
 
 
+def test_two_fingers_enlarge_the_plane_that_is_drawn_on_and_put_nothing(tab, server):
+    page = tab(width=390, height=844, touch=True).open(server.address)
+    page.page.tap('[data-view="build"]')
+    page.page.tap('[data-tool="ground"]')
+    box = page.page.locator(".drawing").bounding_box()
+    x, y = box["x"] + 90, box["y"] + 150
+    view = "gruebler.views.build"
+    before = page.page.evaluate(f"{view}.viewport.scale")
+    send = touches(page)
+    send("touchStart", (x, y))
+    send("touchStart", (x, y), (x + 60, y))
+    for k in range(1, 7):
+        send("touchMove", (x, y), (x + 60 + 10 * k, y))
+    send("touchEnd")
+    page.page.wait_for_timeout(100)
+    assert page.page.evaluate(f"{view}.viewport.scale") == pytest.approx(2 * before, rel=0.02)
+    assert page.page.evaluate(f"{view}.drawing.knots.length") == 0
+    page.page.touchscreen.tap(x, y)  # one finger puts it
+    assert page.page.evaluate(f"{view}.drawing.knots.length") == 1
+    page.page.evaluate("localStorage.clear()")
+
+
 def test_a_finger_on_a_plot_scrolls_the_page(tab, crank_rocker):
     page = tab(width=390, height=844, touch=True).open(crank_rocker)
     plot = page.page.locator(".plot").first

@@ -100,6 +100,14 @@ def test_the_front_end_in_a_cell(tab, tmp_path):
     question = page.until("sent.find((one) => one.method === 'measures')")
     page.page.evaluate("(answer) => tell('msg:custom', answer)", {"id": question["id"], "result": {"lines": ["Gut."]}})
     page.until("document.querySelector('.gruebler-explorer').shadowRoot.textContent.includes('Gut.')")
+    # the notebook scrolls on over the picture, unless Ctrl is held
+    wheel = """(ctrlKey) => {
+        const stage = document.querySelector('.gruebler-explorer').shadowRoot.querySelector('.motion .stage > svg');
+        const event = new WheelEvent('wheel', { deltaY: 50, ctrlKey, cancelable: true });
+        stage.dispatchEvent(event);
+        return event.defaultPrevented;
+    }"""
+    assert [page.page.evaluate(wheel, ctrl) for ctrl in (False, True)] == [False, True]
     page.page.evaluate("end()")
     assert page.page.locator(".gruebler-explorer").count() == 0
 
