@@ -329,18 +329,18 @@ class _Builder:
         """
         radii = self.linkage.places[tie.joint].radii
         assert radii is not None  # checked with the linkage
-        one, other = (radius / self.linkage.size for radius in radii)
-        at = -one if isfinite(one) else other  # along y: the centre of the first contour, else that of the second
+        r, s = (radius / self.linkage.size for radius in radii)
+        at = -r if isfinite(r) else s  # along y: the centre of the first contour, else that of the second
         first = _shifted(first, at)
-        second = _shifted(second, other if isfinite(other) else at)
-        if not isfinite(other):
+        second = _shifted(second, s if isfinite(s) else at)
+        if not isfinite(s):
             first, second = second, first
         if self.space is Space.SPATIAL:
             for axis in (0, 1):
                 yield ClosingRow(kind=ACROSS, first=first, second=second, axis=axis, other=2)
             yield ClosingRow(kind=OFFSET, first=first, second=second, axis=2)
-        if isfinite(one) and isfinite(other):
-            yield ClosingRow(kind=LENGTH, first=first, second=second, length=abs(one + other))
+        if isfinite(r) and isfinite(s):
+            yield ClosingRow(kind=LENGTH, first=first, second=second, length=abs(r + s))
         else:
             yield ClosingRow(kind=OFFSET, first=first, second=second, axis=1)
 
