@@ -21,7 +21,7 @@ def run(capsys, *arguments):
 def test_a_path_in_words(capsys):
     status, out = run(capsys, "inverted-slider-crank:30,50", "coupler:90,0")
     assert status == 0
-    assert "The path is closed: length 190.3, area -2529." in out
+    assert "The path is closed: length 190.3, area 2529, run through clockwise." in out
     # E17: inflections at 80.55 and 147.09 degrees, mirrored; curvature 0.021088 and 1.233333 at 0 and 180
     rows = [line.split() for line in out.splitlines()]
     assert [row[1] for row in rows if row[:1] == ["inflection"]] == [

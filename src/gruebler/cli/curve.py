@@ -55,6 +55,12 @@ _GIVEN_WITH: Mapping[str, tuple[str, ...]] = {
 }
 """Options, and what they go with: the path itself, or one of the questions about it."""
 
+_CROSSED = message(
+    "The path is closed: length {length}, area {area}; what is run through clockwise counts as negative."
+)
+_CLOCKWISE = message("The path is closed: length {length}, area {area}, run through clockwise.")
+_COUNTERCLOCKWISE = message("The path is closed: length {length}, area {area}, run through counter-clockwise.")
+
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
@@ -190,14 +196,12 @@ def _print(
 ) -> None:
     unit = curve.point_path.cycle.linkage.unit
     if curve.area is not None:
-        print(
-            translate(
-                "The path is closed: length {length}, area {area}.",
-                lang,
-                length=length_message(curve.length, unit),
-                area=length_message(round(curve.area, 9) + 0.0, f"{unit}²" if unit else ""),
-            )
+        closed = _CROSSED if curve.double_points else _CLOCKWISE if curve.area < 0 else _COUNTERCLOCKWISE
+        length = length_message(curve.length, unit)
+        area = length_message(
+            round(curve.area if curve.double_points else abs(curve.area), 9) + 0.0, f"{unit}²" if unit else ""
         )
+        print(closed.filled(length=length, area=area).in_language(lang))
     else:
         span = curve.point_path.cycle.span
         low, high = (_drive(curve, value, lang) for value in (span.low, span.high))
