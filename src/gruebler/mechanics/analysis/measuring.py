@@ -344,7 +344,7 @@ def measures(
     Raises:
         LinkageError: more drives than one, a linkage that cannot be assembled, a wrong name or number.
     """
-    linkage = as_linkage(linkage)
+    linkage = as_linkage(linkage, unit="")
     looked_at = find_output(linkage, output)
     checked = _speed(speed)
     cycle = drive_cycle(linkage, branch=branch)

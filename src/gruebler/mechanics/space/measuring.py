@@ -263,7 +263,7 @@ def measures(
     Theory:
         docs/theory/events.md
     """
-    placed = linkage_made(linkage)
+    placed = linkage_made(linkage, unit="")
     if not isinstance(placed, SpatialLinkage):
         return measuring.measures(placed, branch=branch, speed=speed, output=output)
     if branch is not None or speed is not None:
