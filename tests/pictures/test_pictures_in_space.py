@@ -16,6 +16,7 @@ from gruebler.mechanics.space.drive_ranges import spatial_range
 from gruebler.pictures.canvas.panels import draw_panels
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, TextShape
 from gruebler.pictures.canvas.styles import LINES, STYLES
+from gruebler.pictures.canvas.tikz import tikz
 from gruebler.pictures.space import animate_spatial, draw_spatial, plot_point, plots
 from gruebler.pictures.space import scene as scenes
 from gruebler.pictures.space.painting import covering_order
@@ -214,6 +215,7 @@ def test_what_is_behind_a_wheel_is_seen_through_it():
     assert ".gr-wheel{" in figure.svg()
     rule = figure.svg().split(".gr-wheel{")[1].split("}")[0]
     assert "fill-opacity:0.4" in rule
+    assert tikz(figure).count("fill opacity=0.4") == 4
 
 
 def test_bars_of_an_arc_meet_without_gaps_as_textbooks_have_them():
