@@ -4,9 +4,10 @@ const { abs, atan2, ceil, cos, floor, hypot, max, min, PI, round, sin } = Math;
 const { isFinite: finite } = Number;
 const { from } = Array;
 const { parse, stringify } = JSON;
-const Numbers = Float64Array;
+const [Amount, Numbers, Text] = [Number, Float64Array, String];
 
 export {
+  Amount as Number,
   abs as "Math.abs",
   atan2 as "Math.atan2",
   ceil as "Math.ceil",
@@ -23,4 +24,5 @@ export {
   round as "Math.round",
   sin as "Math.sin",
   stringify as "JSON.stringify",
+  Text as String,
 };

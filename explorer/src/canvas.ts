@@ -1,5 +1,6 @@
 /** The canvas under the picture: grid, curves of points, centrodes, hodographs. */
 
+import { number } from "./language";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
 import type { PointRecord, Target } from "./model";
@@ -24,16 +25,16 @@ export class Painter {
     const ratio = pen.canvas.width / viewport.width;
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, viewport.width, viewport.height);
-    if (shown.grid) this.paintGrid();
+    if (shown.grid) this.paintGrid(linkage.model.unit);
     const { points } = linkage.sizes;
     const { rows, values } = linkage.cycle;
     if (shown.curves)
       for (const shape of linkage.dragged ? [...linkage.otherModes(), rows] : [rows]) {
         pen.globalAlpha = shape === rows ? 1 : GHOST;
-        points.forEach((point, number) => {
+        points.forEach((point, k) => {
           const all = placesOf(shape, point.link, ...point.at);
           const at = (row: number) => viewport.screen(all[2 * row]!, all[2 * row + 1]!);
-          this.trace(shape === rows ? values.length : shape.reached, ownColour(number), 2, at);
+          this.trace(shape === rows ? values.length : shape.reached, ownColour(k), 2, at);
         });
       }
     this.paintTargets(linkage.beside.targets ?? []);
@@ -121,8 +122,8 @@ export class Painter {
     });
     const most = Math.max(...fastest, 1e-12 * linkage.size);
     const end = ([u, v]: Pair): Pair => [x + (reach * u) / most, y - (reach * v) / most];
-    points.forEach((point, number) => {
-      this.trace(values.length, ownColour(number), 1.4, (row) => end(velocity(point, row)));
+    points.forEach((point, k) => {
+      this.trace(values.length, ownColour(k), 1.4, (row) => end(velocity(point, row)));
       pen.beginPath();
       pen.moveTo(x, y);
       pen.lineTo(...end(place(linkage.pose, 0, point.link, ...point.at, 1)));
@@ -134,24 +135,30 @@ export class Painter {
     pen.fill();
   }
 
-  private paintGrid(): void {
+  /** Lines with their numbers along the upper and the left edge, in whose corner the unit stands. */
+  private paintGrid(unit: string): void {
     const { pen, viewport } = this;
     const { width, height } = viewport;
     const step = gridStep(70 / viewport.scale);
     pen.strokeStyle = this.colour("--grid");
+    pen.fillStyle = this.colour("--faint");
+    pen.font = "11px system-ui, sans-serif";
     pen.lineWidth = 1;
     pen.beginPath();
+    pen.fillText(unit, 6, 14);
     const [left, top] = viewport.world(0, 0);
     const [right, bottom] = viewport.world(width, height);
     for (let k = Math.ceil(left / step); k * step <= right; k++) {
       const x = Math.round(viewport.screen(k * step, 0)[0]) + 0.5;
       pen.moveTo(x, 0);
       pen.lineTo(x, height);
+      if (x > 40 && x < width - 60) pen.fillText(number(k * step), x + 3, 14);
     }
     for (let k = Math.ceil(bottom / step); k * step <= top; k++) {
       const y = Math.round(viewport.screen(0, k * step)[1]) + 0.5;
       pen.moveTo(0, y);
       pen.lineTo(width, y);
+      if (y > 40 && y < height - 50) pen.fillText(number(k * step), 6, y - 3);
     }
     pen.stroke();
   }

@@ -116,6 +116,22 @@ def test_names_stand_beside_their_links(tab, crank_rocker):
         assert min(page.page.evaluate(near)) > 2, drive
 
 
+def test_the_grid_has_numbers(tab, crank_rocker):
+    page = tab().open(crank_rocker)
+    written = """(on) => {
+        const { motion } = gruebler;
+        motion.shown.grid = on;
+        motion.redraw();
+        const { canvas, viewport } = motion.stage;
+        const ratio = canvas.width / viewport.width;
+        const strip = [44, 4, viewport.width - 110, 11].map((one) => one * ratio);
+        const { data } = canvas.getContext("2d").getImageData(...strip);
+        return data.filter((value, k) => k % 4 === 0 && data[k + 3] > 0 && value < 180).length;  // darker than lines
+    }"""
+    assert page.page.evaluate(written, True) > 40
+    assert page.page.evaluate(written, False) == 0
+
+
 def test_a_pole_outside_of_the_picture_is_told(tab, crank_rocker):
     """Where the lines of crank and rocker meet: with the crank at 180° in the right bearing, at 57.3° far above."""
     page = tab().open(crank_rocker)
