@@ -100,7 +100,7 @@ def test_english_pictures_have_international_letters():
 def test_sheets_and_commands_have_german_letters(id, tmp_path):
     record = entries()[id]
     joints = record.chain().joints
-    for number, command in enumerate((f"draw {id}", f"sheet draw {id}", f"gallery {id}")):
+    for number, command in enumerate((f"draw {id}", f"sheet draw {id}", f"gallery {id} --structure")):
         path = tmp_path / f"{number}{'.svg' if command.startswith('draw') else '.html'}"
         assert main([*command.split(), "-o", str(path), "--lang", "de"]) == 0
         found = Counter(re.findall(rf"<text[^>]*>({LETTERS.pattern})</text>", path.read_text(encoding="utf-8")))
