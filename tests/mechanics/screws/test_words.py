@@ -35,7 +35,7 @@ def test_every_evidence_has_a_sentence():
         (m.hooke(), "all axes pass through one point", "alle Achsen gehen durch einen Punkt"),
         (m.friction(), "touch on the line of their centres", "berühren sich auf der Mittenlinie"),
         (m.bevel_in_space(2), "no known geometric reason", "bekannter geometrischer Grund wurde nicht erkannt"),
-        (m.locomotive(2, angle=0.0), "2 branches meet in this pose", "treffen sich 2 Zweige"),
+        (m.locomotive(2, angle=0.0), "2 branches meet in this pose", "treffen sich 2 Einbaulagen"),
         (m.geneva_dwell(), "Joints at rest: R(0-2)", "Ruhende Gelenke: D(0-2)"),
         (m.strut(0.1), "nothing moves even for an instant", "auch momentan ruht alles"),
     ],
