@@ -87,7 +87,7 @@ def circular_arcs(rest: float, least: float, longest: float, number: int) -> lis
         number: of arcs.
     """
     places = max(4, round(rest / (2 * np.pi) * _TURN) + 1)
-    found: list[tuple[float, Arc]] = []
+    ranked: list[tuple[float, Arc]] = []
     for b, c, d in product([length for length in _LENGTHS if length <= longest], repeat=3):
         ends = [abs(b * b + c * c - (d - a) ** 2) / (2 * b * c) for a in (1, -1)]
         if 1 + max(b, c, d) >= b + c + d - max(b, c, d) or max(ends) >= np.cos(least):
@@ -104,9 +104,9 @@ def circular_arcs(rest: float, least: float, longest: float, number: int) -> lis
             at = begin[k]
             if np.isfinite(share[k, at]):
                 arc = Arc(tuple(numbers[k].tolist()), _PHI[at], centres[k, at], radii[k, at], share[k, at])
-                found.append((round(float(share[k, at]), 12), arc))
-    found.sort(key=lambda row: row[0])
-    return [arc for _, arc in found[:number]]
+                ranked.append((round(float(share[k, at]), 12), arc))
+    ranked.sort(key=lambda row: row[0])
+    return [arc for _, arc in ranked[:number]]
 
 
 Followed = tuple[Reals, Reals]
@@ -199,7 +199,7 @@ def placed_outputs(arc: Arc, kind: OutputKind, swing: float, least: float, numbe
     tries = kind.own(arc.centre)
     numbers = np.column_stack([np.full(len(tries), arc.radius), tries])
     first = round(arc.start / (2 * np.pi) * _TURN) % _TURN
-    found: list[tuple[float, RestingSixBar]] = []
+    placed: list[tuple[float, RestingSixBar]] = []
     for side in (1, -1):
         values, cosine = kind.follow(z, numbers, side)
         good = np.abs(cosine).max(axis=1) < np.cos(least)
@@ -209,9 +209,9 @@ def placed_outputs(arc: Arc, kind: OutputKind, swing: float, least: float, numbe
         cost = np.abs(np.log(size / swing)) if kind.fixed_size else np.abs(cosine).max(axis=1)
         for k in np.flatnonzero(good):
             own = np.concatenate([arc.numbers, [arc.start], numbers[k]])
-            found.append((round(float(cost[k]), 9), RestingSixBar(kind, own, side)))
-    found.sort(key=lambda row: row[0])
-    return [six_bar for cost, six_bar in found[:number] if cost < 0.5 or not kind.fixed_size]
+            placed.append((round(float(cost[k]), 9), RestingSixBar(kind, own, side)))
+    placed.sort(key=lambda row: row[0])
+    return [six_bar for cost, six_bar in placed[:number] if cost < 0.5 or not kind.fixed_size]
 
 
 def _rests_at_centre(kind: OutputKind, value: Reals, numbers: Reals, centre: complex) -> NDArray[np.bool_]:
@@ -223,7 +223,7 @@ def _rests_at_centre(kind: OutputKind, value: Reals, numbers: Reals, centre: com
     return np.asarray(np.abs(pin - centre) < 0.2 * numbers[:, 0])
 
 
-def improved(
+def with_least_deviation(
     start: RestingSixBar, rest: float, swing: float, least: float, *, shortest: float, longest: float
 ) -> RestingSixBar:
     """The six-bar nearby whose output strays least from a value during the rest, by sequential quadratic programming.

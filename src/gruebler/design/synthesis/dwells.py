@@ -18,9 +18,9 @@ from gruebler.design.synthesis.dwell_search import (
     RestingSixBar,
     circular_arcs,
     coupler_points,
-    improved,
     placed_outputs,
     swing_of,
+    with_least_deviation,
     with_swing,
 )
 from gruebler.design.synthesis.judging import Demands, faults_of_size, size_ratio, transmission_fault
@@ -89,18 +89,18 @@ def synthesise_dwells(
     arcs = circular_arcs(task.dwell, least, longest, _ARCS)
     starts = [start for arc in arcs for start in placed_outputs(arc, kind, size, least)]
     chosen = _apart(starts, 2 * number, 0.15)
-    found: list[RestingSixBar] = []
+    six_bars: list[RestingSixBar] = []
     for done, start in enumerate(chosen, 1):
-        six_bar = improved(start, task.dwell, size, least, shortest=shortest, longest=longest)
+        six_bar = with_least_deviation(start, task.dwell, size, least, shortest=shortest, longest=longest)
         try:
-            found.append(with_swing(six_bar, task.dwell, size) if kind.fixed_size else six_bar)
+            six_bars.append(with_swing(six_bar, task.dwell, size) if kind.fixed_size else six_bar)
         except ValueError:  # no such swing nearby
             continue
         finally:
             if progress is not None:
                 progress(done, len(chosen))
-    found.sort(key=lambda six_bar: round(_strays(six_bar, task.dwell), 12))
-    designs = [_judged(task, six_bar, wanted, tolerance) for six_bar in _apart(found, number, _ALIKE)]
+    six_bars.sort(key=lambda six_bar: round(_strays(six_bar, task.dwell), 12))
+    designs = [_judged(task, six_bar, wanted, tolerance) for six_bar in _apart(six_bars, number, _ALIKE)]
     accepted = tuple(sorted((d for d in designs if d.verdict.accepted), key=lambda d: float(f"{d.verdict.error:.6g}")))
     rejected = tuple(d for d in designs if not d.verdict.accepted)
     notes = [
