@@ -75,8 +75,7 @@ def test_no_text_lies_over_a_line_and_no_leader_ends_in_the_empty():
         linkage, between = linkage_and_range(id, "de")
         found[id] = list(faults(draw_linkage(linkage, between=between, labels=True, lang="de")))
     assert len(found) > 60
-    # Twelve links in little space: one number touches the circle of its joint by half a pixel.
-    assert {id: fault for id, fault in found.items() if fault} == {"excavator": ["'10' over a line"]}
+    assert not any(found.values()), {id: fault for id, fault in found.items() if fault}
 
 
 def test_the_same_holds_for_their_structures():

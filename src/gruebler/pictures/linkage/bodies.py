@@ -220,9 +220,8 @@ def body_parts(posed: PosedLinkage) -> tuple[BodyPart, ...]:
 def room_for(posed: PosedLinkage, outlines: Sequence[CarriedLine]) -> PosedLinkage:
     """The linkage in a scale in which no disc and none of the outlines it carries is too large for the picture."""
     spread = max((abs(z - points[0]) for _, points, _ in outlines for z in points), default=0.0)
-    discs = [
-        shape for part in round_parts(posed) for shape in shapes_at_pose(posed, BodyPart(FRAME, part.link, part.shapes))
-    ]
+    parts = () if posed.linkage.outlines else round_parts(posed)  # else discs are among outlines of any size
+    discs = [shape for part in parts for shape in shapes_at_pose(posed, BodyPart(FRAME, part.link, part.shapes))]
     of_discs = max(bounds(discs, 0.0)[1]) if discs else 0.0
     scales = [_WIDEST / spread] if spread > 0 else []
     scales += [posed.scale * _DISCS / of_discs] if of_discs > 0 else []

@@ -28,10 +28,9 @@ from gruebler.structure.mechanism import Mechanism
 
 _FARTHEST = 1e9  # of drive values that are shown: beyond, an angle has lost its sense
 _PIXELS = 380.0  # for the longer side of all that the pins reach
-_WITH_WHEELS = 440.0  # for that of all that wheels reach, too
+_WITH_WHEELS = 520.0  # for that of all that wheels reach, too
 _SHORTEST = 34.0  # pixels between two pins of one link, unless the picture becomes too large
 _LARGEST = 1.6  # times the usual size
-_LARGEST_WITH_WHEELS = 1.2  # the same where wheels or outlines set it
 _ROWS = 72  # poses of a turn, or of a range
 _INSIDE = 1e-6  # of the range: the distance of the last pose from a limit
 _ENDLESS = 1.5  # sizes on both sides of the start of a slide without limits
@@ -327,15 +326,13 @@ def _scale(lower: Linkage, path: Motion) -> float:
     """Pixels to a unit, so that all poses fit and short links are longer than the diameter of their pins."""
     links, z = lower.mechanism.chain.links, _reached(lower, path)
     extent = max(float(np.ptp(z.real)), float(np.ptp(z.imag)), 1e-9 * lower.size)
-    usual, with_wheels = _PIXELS / extent, _WITH_WHEELS / max(_round_extent(lower, path), extent)
-    largest = min(_LARGEST * usual, _LARGEST_WITH_WHEELS * with_wheels)
-    usual = min(usual, with_wheels)
+    usual = min(_PIXELS / extent, _WITH_WHEELS / max(_round_extent(lower, path), extent))
     pins = {
         link: {(e.x, e.y) for (_, owner), e in lower.elements.items() if owner == link and e.is_pin} for link in links
     }
     pins.pop(lower.mechanism.frame)
     sides = [math.dist(a, b) for link_pins in pins.values() for a, b in combinations(sorted(link_pins), 2)]
-    return min(max(usual, _SHORTEST / min(sides, default=math.inf)), largest)
+    return min(max(usual, _SHORTEST / min(sides, default=math.inf)), _LARGEST * usual)
 
 
 def _of_drive(given: ArrayLike | None, number: int, drives: int) -> Reals:
