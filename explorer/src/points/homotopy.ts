@@ -15,6 +15,7 @@ const POINTS = 8;
 const [QUICK, CAREFUL] = [1e-3, 1e-6]; // how far the corrector may change a prediction
 const BLOCK = 32; // paths between two messages of how far it is
 const SAME = 1e-7; // relative: solutions nearer to each other are one
+const REGULAR = 1e-8; // the last relative step of Newton's method at a regular solution, with what rounding leaves
 const NEAR = 1e-4; // an end and what Newton's method makes of it are the same
 const BENDS = [0.02, 0.1]; // how far bent ways lead aside, relative to the task
 const FEW = 0.05; // where more than this part of the paths is lost, the task itself is special, not the way to it
@@ -136,18 +137,13 @@ export class Homotopy {
     return { solutions: found, missing: CLASSES - found.length / WIDTH };
   }
 
-  /** Ends sharpened, those that are proved to be solutions, each a different one. */
+  /** Ends sharpened, those that are solutions, each a different one: proved, or regular as far as rounding tells. */
   private proved(ends: Float64Array, task: Float64Array): Float64Array {
-    const { z } = this.refined(ends, task);
+    const { z, said: steps } = this.refined(ends, task);
     const sharp = this.certified(z, task);
-    const apart = (k: number) =>
-      Math.max(...Array.from({ length: WIDTH }, (_, i) => Math.abs(z[k + i]! - ends[k + i]!)));
-    return distinct(
-      chosen(
-        z,
-        rows(sharp.length, (k) => sharp[k]! && apart(k * WIDTH) < NEAR),
-      ),
-    );
+    const gap = (k: number) => Math.max(...Array.from({ length: WIDTH }, (_, i) => Math.abs(z[k + i]! - ends[k + i]!)));
+    const holds = (k: number) => gap(k * WIDTH) < NEAR && (sharp[k]! || steps[k]! < REGULAR);
+    return distinct(chosen(z, rows(sharp.length, holds)));
   }
 }
 
