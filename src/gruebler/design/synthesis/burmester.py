@@ -25,6 +25,7 @@ from gruebler.design.synthesis.dyads import (
     misfit,
     sliding_dyads,
 )
+from gruebler.design.synthesis.polar_cubics import PolarCubic
 from gruebler.design.synthesis.tasks import PositionTask
 
 _STEPS = 30  # along a curve to the point nearest to a place
@@ -140,9 +141,8 @@ def burmester_curves(task: PositionTask, points: int = 400) -> BurmesterCurves:
             "every point of the body can be a pivot: the four positions belong to a rotation, a translation or "
             "repeat one another"
         )
-    real = _real_cubic(cubic)
     pieces = []
-    for curve in _traced(real, _known_point(displacements, real), points):
+    for curve in _traced(PolarCubic.of(displacements), points):
         fixed, good = _centres(displacements, curve)
         for part in _runs(good):
             moving = curve[part]
@@ -152,104 +152,24 @@ def burmester_curves(task: PositionTask, points: int = 400) -> BurmesterCurves:
     return BurmesterCurves(task, tuple(pieces), sliding)
 
 
-def _real_cubic(cubic: Complexes) -> Reals:
-    """The coefficients of x^i y^j in Cartesian coordinates: (4, 4)."""
-    from math import comb
-
-    from gruebler.design.synthesis.dyads import _CUBIC
-
-    cartesian = np.zeros((4, 4), np.complex128)
-    for value, (m, n) in zip(cubic, _CUBIC, strict=True):
-        for a in range(m + 1):
-            for b in range(n + 1):
-                i, j = m + n - a - b, a + b
-                cartesian[i, j] += value * comb(m, a) * comb(n, b) * (1j) ** a * (-1j) ** b
-    # Real up to a common factor of modulus one.
-    largest = cartesian.ravel()[np.argmax(np.abs(cartesian))]
-    return np.asarray((cartesian / largest).real)
-
-
-def _known_point(given: Displacements, cubic: Reals) -> complex:
-    """A finite point of the circle-point curve: a pole of the body, else any."""
-    poles = [complex(t / (1 - q)) for q, t in zip(*given, strict=True) if abs(q - 1) > 1e-6]
-    if poles:
-        return min(poles, key=abs)
-    for angle in (0.3, 1.1, 1.9, 2.7):  # a line through the origin meets a cubic at least once
-        line = np.exp(1j * angle)
-        along = [sum(cubic[i, n - i] * line.real**i * line.imag ** (n - i) for i in range(n + 1)) for n in range(4)]
-        roots = np.polynomial.polynomial.polyroots(np.trim_zeros(along, "b"))
-        real = roots[np.abs(roots.imag) < 1e-9 * (1 + np.abs(roots))].real
-        if len(real):
-            return complex(line * real[np.argmin(np.abs(real))])
-    raise SynthesisError("the circle-point curve has no finite point")
-
-
-def _traced(cubic: Reals, start: complex, points: int) -> list[Complexes]:
+def _traced(cubic: PolarCubic, points: int) -> list[Complexes]:
     """The curve as connected pieces; a piece that runs to infinity is open."""
-    # About the start: along the direction (c, s) the cubic is r (A2 r^2 + A1 r + A0), A0 = 0 up to rounding.
-    moved = _shifted(cubic, start)
-
-    def forms(angle: Reals) -> tuple[Reals, Reals, Reals]:
-        c, s = np.cos(angle), np.sin(angle)
-        parts = [sum(moved[i, n - i] * c**i * s ** (n - i) for i in range(n + 1)) for n in (1, 2, 3)]
-        return parts[0], parts[1], parts[2]
-
-    def discriminant(angle: Reals) -> Reals:
-        linear, square, cube = forms(angle)
-        return np.asarray(square**2 - 4 * cube * linear)
-
-    cuts = _zeros_of_form(discriminant)
     loops: list[Complexes] = []
-    spans = [(0.0, np.pi)] if not len(cuts) else list(zip(cuts, [*cuts[1:], cuts[0] + np.pi], strict=True))
-    for low, high in spans:
-        if discriminant(np.array([(low + high) / 2]))[0] <= 0:
-            continue
+    for low, high in cubic.spans:
         # Dense where the two roots meet at the ends.
         share = (1 - np.cos(np.linspace(0, np.pi, points))) / 2
         angle = low + (high - low) * share
-        linear, square, _ = forms(angle)
-        root = np.sqrt(np.maximum(discriminant(angle), 0.0))
+        linear, square, _ = cubic.forms(angle)
+        root = np.sqrt(np.maximum(cubic.discriminant(angle), 0.0))
         direction = np.exp(1j * angle)
         # The quadratic's roots without cancellation, as 2 A0 / (-A1 -+ root).
         with np.errstate(divide="ignore", invalid="ignore"):
             first, second = 2 * linear / (-square + root), 2 * linear / (-square - root)
-        loop = np.concatenate([start + direction * first, (start + direction * second)[::-1]])
-        if not len(cuts):
-            loops += [start + direction * first, start + direction * second]
+        if cubic.closes:
+            loops.append(np.concatenate([cubic.start + direction * first, (cubic.start + direction * second)[::-1]]))
         else:
-            loops.append(loop)
+            loops += [cubic.start + direction * first, cubic.start + direction * second]
     return [piece for loop in loops for piece in _finite(loop)]
-
-
-def _shifted(cubic: Reals, start: complex) -> Reals:
-    """The coefficients about another origin."""
-    from math import comb
-
-    shifted = np.zeros((4, 4))
-    for i in range(4):
-        for j in range(4 - i):
-            for a in range(i + 1):
-                for b in range(j + 1):
-                    shifted[a, b] += (
-                        cubic[i, j] * comb(i, a) * comb(j, b) * start.real ** (i - a) * start.imag ** (j - b)
-                    )
-    return shifted
-
-
-def _zeros_of_form(form: object) -> Reals:
-    """The zeros of a quartic form in cosine and sine, in [0, pi): from nine values by its Fourier coefficients."""
-    count = 9
-    angles = np.pi * np.arange(count) / count
-    values = form(angles)  # type: ignore[operator]
-    # A form of degree four is a trigonometric polynomial of degree two in the doubled angle.
-    coefficients = np.fft.fft(values) / count
-    polynomial = np.concatenate([coefficients[-2:], coefficients[:3]])
-    largest = np.abs(polynomial).max()
-    if largest == 0:
-        return np.zeros(0)
-    roots = np.polynomial.polynomial.polyroots(polynomial)
-    on_circle = roots[np.abs(np.abs(roots) - 1) < 1e-6]
-    return np.sort(np.angle(on_circle) / 2 % np.pi)
 
 
 def _finite(loop: Complexes) -> list[Complexes]:

@@ -202,15 +202,15 @@ def sliding_dyads(given: Displacements) -> tuple[GuidingDyad, ...]:
 
 # Of the ten monomials of a cubic in x, x*, w two are missing, the pure powers of x and x*, since the cubics of four
 # positions pass through the circular points: eight are left, by exponents of x and x*.
-_CUBIC = ((2, 1), (1, 2), (2, 0), (1, 1), (0, 2), (1, 0), (0, 1), (0, 0))
+CUBIC = ((2, 1), (1, 2), (2, 0), (1, 1), (0, 2), (1, 0), (0, 1), (0, 0))
 _BASE = ((1, 1), (1, 0), (0, 1), (0, 0))
-"""Monomials of degree two whose products with x, x* and w are all among `_CUBIC`."""
+"""Monomials of degree two whose products with x, x* and w are all among `CUBIC`."""
 _FORMS = np.array([[0.61, 0.37 + 0.29j, 0.53], [0.23 - 0.41j, 0.47, -0.67]])
 """Two linear forms in x, x*, w in general position; their ratio tells the solutions apart."""
 
 
 def circle_point_cubics(given: Displacements) -> Complexes:
-    """The cubics on which the pivots on the body lie, for each three displacements: (choices, 8) by `_CUBIC`.
+    """The cubics on which the pivots on the body lie, for each three displacements: (choices, 8) by `CUBIC`.
 
     A pivot on the body has a centre for three displacements if three conditions, linear in the centre, are dependent:
     their determinant is zero.
@@ -224,12 +224,12 @@ def circle_point_cubics(given: Displacements) -> Complexes:
 
 
 def _collected() -> Reals:
-    """(27, 8): to which monomial of `_CUBIC` each product of three coordinates belongs; the pure powers vanish."""
-    collected = np.zeros((27, len(_CUBIC)))
+    """(27, 8): to which monomial of `CUBIC` each product of three coordinates belongs; the pure powers vanish."""
+    collected = np.zeros((27, len(CUBIC)))
     for row, numbers in enumerate(product(range(3), repeat=3)):
         exponents = numbers.count(0), numbers.count(1)
-        if exponents in _CUBIC:
-            collected[row, _CUBIC.index(exponents)] = 1.0
+        if exponents in CUBIC:
+            collected[row, CUBIC.index(exponents)] = 1.0
     return collected
 
 
@@ -275,7 +275,7 @@ def all_dyads(given: Displacements) -> Dyads:
 
 
 def _times(kernel: Complexes, shift: tuple[int, int]) -> Complexes:
-    return kernel[[_CUBIC.index((i + shift[0], j + shift[1])) for i, j in _BASE]]
+    return kernel[[CUBIC.index((i + shift[0], j + shift[1])) for i, j in _BASE]]
 
 
 def _point(products: Complexes) -> Complexes:

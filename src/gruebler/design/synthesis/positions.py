@@ -32,6 +32,7 @@ from gruebler.design.synthesis.dyads import (
     misfit,
     sliding_dyads,
 )
+from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design
 from gruebler.design.synthesis.pair_search import FoundPairs, Nearby, best_pairs
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
@@ -55,6 +56,7 @@ _BULGES = (0.25, -0.25, 1.0, -1.0)
 """How far a third position between two lies beside them, by their distance: four pivots for a point of the plane."""
 _PLANE = 40.0  # sizes of the task: the plane in which pivots are sought counts as so long
 
+_FOUR_BAR = f"{CRANK.form}-{CRANK.form}"
 DYADS = message("dyads")
 _FAMILIES = {
     2: message(
@@ -223,6 +225,9 @@ def synthesise_positions(
     if len(dyads) < 2:
         notes.append(message("A linkage needs two dyads."))
     designs, rejected = ranked(candidates)
+    if searched and len(task) == 4 and sum(not dyad.slides for dyad in dyads) > 1:
+        angles = [design.verdict.transmission for design in designs if design.form == _FOUR_BAR]
+        notes += bound_notes(task, wanted, max(angles, default=None))
     return SynthesisResult(
         task=task,
         designs=designs,

@@ -1,0 +1,258 @@
+"""Proofs for the family of four positions: that no four-bar of it meets the demands, by branch and bound.
+
+Pairs of cells of dyads are excluded where enclosures show that a demand fails for all of their four-bars, else one of
+the two cells is halved. docs/theory/synthesis-positions.md, "Proofs in the family of four positions".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from math import ceil, degrees, radians
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.base.arrays import Flags, Integers, Reals
+from gruebler.base.errors import SynthesisError
+from gruebler.base.text import Message, message
+from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, halves, short_cells
+from gruebler.design.synthesis.dyads import Displacements
+from gruebler.design.synthesis.enclosures import Enclosure
+from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.tasks import PositionTask
+
+_BUDGET = 150_000  # pairs of cells that are looked at
+_CHUNK = 20_000  # of them at a time
+_NARROW = 1e-7  # sizes: cells shorter than this are not halved, as rounding is near
+_MARGINS = (0.05, 1.0, 10.0)  # degrees above the best transmission angle found, tried in turn
+_LAP = 2 * np.pi
+
+
+_NONE = message("Proved: no four-bar of this family with pivots within {far:g} sizes of the task meets all demands.")
+_AT_MOST = message(
+    "Proved: no four-bar of this family with pivots within {far:g} sizes of the task meets all demands with a "
+    "transmission angle above {angle:.1f}°."
+)
+_UNDECIDED = message(
+    "Not decided: whether a four-bar of this family with pivots within {far:g} sizes of the task meets all demands; a "
+    "part of {left:.1g} of all pairs of dyads is not excluded, such as that of the fixed pivots ({x:.5g}, {y:.5g}) and "
+    "({u:.5g}, {v:.5g})."
+)
+_UNKNOWN = message("No bound of the transmission angle could be proved for this family of four-bars.")
+
+
+class Exclusion(NamedTuple):
+    """How much of a family is excluded."""
+
+    left: float
+    """The part of all pairs of dyads, by the parameters of the curve, that is not excluded; 0 is a proof."""
+    example: tuple[complex, complex, complex, complex] | None
+    """Of a pair that is left: the driven dyad's pivots on the frame and on the body, then those of the other."""
+    pairs: int
+    """Pairs of cells that were looked at."""
+
+
+def excluded(task: PositionTask, demands: Demands, budget: int = _BUDGET) -> Exclusion:
+    """Whether enclosures exclude every four-bar of four positions, with pivots within 30 sizes, under the demands.
+
+    Lengths that are demanded and tolerances are not asked: what is excluded is so without them. Cost: 0.2 s, with the
+    whole budget 0.5 s.
+    """
+    given, origin, size = Displacements.of(task.origins, task.turns)
+    try:
+        curve = DyadCurve(given)
+    except SynthesisError:  # no point of it is known
+        return Exclusion(left=1.0, example=None, pairs=0)
+    if not curve.fits:
+        return Exclusion(left=1.0, example=None, pairs=0)
+    cells, singular = short_cells(curve)
+    whole = len(curve.spans) * (1 if curve.cubic.closes else 2) * curve.end
+    beyond = float(np.sum(singular[:, 3] - singular[:, 2])) / whole if len(singular) else 0.0
+    search = _Search(curve, demands, origin, size)
+    seen = DyadCells(curve, cells)
+    drivers, others = search.kept(seen)
+    i, j = (side.ravel() for side in np.meshgrid(np.flatnonzero(drivers), np.flatnonzero(others), indexing="ij"))
+    looked = 0
+    settled: list[tuple[DyadCells, Integers, Integers]] = []
+    while len(i):
+        looked += len(i)
+        parts = [slice(k, k + _CHUNK) for k in range(0, len(i), _CHUNK)]
+        stays = ~np.concatenate([search.fails(seen, i[part], j[part]) for part in parts])
+        i, j = i[stays], j[stays]
+        narrow = np.maximum(seen.extent[i], seen.extent[j]) < _NARROW
+        if looked + 2 * len(i) > budget:
+            narrow[:] = True
+        if narrow.any():
+            settled.append((seen, i[narrow], j[narrow]))
+        seen, i, j = _halved(curve, seen, i[~narrow], j[~narrow])
+        drivers, others = search.kept(seen)
+        stays = drivers[i] & others[j]
+        i, j = i[stays], j[stays]
+    left = sum(float(_widths(some)[i] @ _widths(some)[j]) for some, i, j in settled) / whole**2
+    example = None
+    for some, i, j in settled[:1]:
+        k = int(np.argmax(_widths(some)[i] * _widths(some)[j]))
+        pivots = (some.fixed.value[i[k]], some.moving.value[i[k]], some.fixed.value[j[k]], some.moving.value[j[k]])
+        first, second, third, fourth = (complex(pivot) * size + origin for pivot in pivots)
+        example = first, second, third, fourth
+    return Exclusion(left=left + 2 * beyond, example=example, pairs=looked)
+
+
+def bound_notes(task: PositionTask, demands: Demands, best: float | None) -> Iterator[Message]:
+    """What is proved of the family: of its best transmission angle is known, in radians, or None where none was found.
+
+    Cost: 0.3 s, at most 2 s.
+    """
+    left = None
+    if best is None:
+        left = excluded(task, demands)
+        if not left.left:
+            yield _NONE.filled(far=FAR)
+            return
+    begin = degrees(demands.transmission if best is None else best)
+    for margin in _MARGINS:
+        angle = ceil(10 * (begin + margin)) / 10
+        if angle < 90 and not excluded(task, replace(demands, transmission=radians(angle))).left:
+            yield _AT_MOST.filled(far=FAR, angle=angle)
+            return
+        if left is not None and left.example is not None:
+            first, _, second, _ = left.example
+            yield _UNDECIDED.filled(far=FAR, left=left.left, x=first.real, y=first.imag, u=second.real, v=second.imag)
+            left = None
+    yield _UNKNOWN
+
+
+def _widths(cells: DyadCells) -> Reals:
+    return np.asarray(cells.cells[:, 3] - cells.cells[:, 2])
+
+
+def _halved(curve: DyadCurve, seen: DyadCells, i: Integers, j: Integers) -> tuple[DyadCells, Integers, Integers]:
+    """The longer cell of each pair in two."""
+    first = seen.extent[i] > seen.extent[j]
+    split = np.unique(np.concatenate([i[first], j[~first]]))
+    same = np.unique(np.concatenate([i[~first], j[first]]))
+    at = np.zeros((2, len(seen.cells)), np.int64)
+    at[0, split], at[1, same] = 2 * np.arange(len(split)), 2 * len(split) + np.arange(len(same))
+    cells = DyadCells(curve, np.concatenate([halves(seen.cells[split]), seen.cells[same]]))
+    own, other = np.where(first, at[0, i], at[1, i]), np.where(first, at[1, j], at[0, j])
+    return cells, np.concatenate([own, own + first]), np.concatenate([other, other + ~first])
+
+
+class _Search:
+    """The demands as tests of pairs of cells: true where all four-bars of a pair certainly fail."""
+
+    def __init__(self, curve: DyadCurve, demands: Demands, origin: complex, size: float) -> None:
+        self.curve, self.demands = curve, demands
+        least = demands.transmission
+        # Without one branch there is no way on which a transmission angle could be kept.
+        self.on_a_branch = demands.one_branch or least > 0
+        self.ordered = demands.one_branch and demands.in_order
+        self.cosine = float(np.cos(least))
+        turns = [complex(np.exp(1j * least)), complex(np.exp(-1j * least))]
+        self.sides = turns if least > 0 else turns[:1]
+        """Factors of the product of coupler and rocker whose imaginary parts have one sign where the angle is kept."""
+        corner = np.array([origin.real, origin.imag, origin.real, origin.imag])
+        self.region = None if demands.region is None else (np.array(demands.region) - corner) / size
+
+    def kept(self, seen: DyadCells) -> tuple[Flags, Flags]:
+        """Cells whose dyads may be driven, and those that may be the other dyad."""
+        kept = ~seen.far
+        if self.region is not None:
+            kept &= ~seen.outside(self.region)
+        return (kept & ~seen.keeps_no_order if self.ordered and self.demands.crank else kept), kept
+
+    def fails(self, seen: DyadCells, i: Integers, j: Integers) -> Flags:
+        """Pairs of cells, the driven one first."""
+        moving = seen.moving.at(j).placed(1) - seen.moving.at(i).placed(0)
+        frame = seen.fixed.at(j).placed(1) - seen.fixed.at(i).placed(0)
+        a, b, c, d = seen.length.at(i).placed(0), moving.modulus, seen.length.at(j).placed(1), frame.modulus
+        longest = np.maximum.reduce([length.low for length in (a, b, c, d)])
+        shortest = np.minimum.reduce([length.high for length in (a, b, c, d)])
+        fails: Flags = longest > self.demands.size_ratio * shortest
+        # The crank passes pi if b + c > a + d, and 0 if |a - d| < |b - c| does not hold: a product of two factors.
+        inner, first, second = b + c - a - d, a + c - b - d, a + b - c - d
+        pi_free, pi_shut = inner.low > 0, inner.high <= 0
+        plus, minus = (first.low > 0, second.low > 0), (first.high < 0, second.high < 0)
+        zero_free = (plus[0] & plus[1]) | (minus[0] & minus[1])
+        zero_shut = (plus[0] & minus[1]) | (minus[0] & plus[1])
+        turns_not = pi_shut | zero_shut
+        if self.demands.crank:
+            fails |= turns_not
+        if self.on_a_branch:
+            fails |= self._leaves_branch(moving, seen.back.at(j).placed(1))
+        if not self.demands.one_branch:
+            return fails
+        phi = seen.angle.at(i).placed(0) - frame.angle.column
+        at_zero, at_pi = self._too_flat(a, b, c, d)
+        front = _Angles.cut(phi, -np.pi, 0.0)
+        behind = _Angles.cut(phi, 0.0, np.pi)
+        steps = seen.steps[1][i]
+        no_front, no_behind = (
+            angles.keep_no_order(steps) if self.ordered else np.zeros(len(i), bool) for angles in (front, behind)
+        )
+        split = front.both_sides | no_front | pi_free | zero_free
+        about_zero = no_front | (front.both_sides & at_zero) | pi_free | zero_shut
+        about_pi = no_behind | (behind.both_sides & at_pi) | pi_shut | zero_free
+        if self.ordered:
+            onward, back = (least[i] for least in seen.ways)
+            begin, reach = phi.value[:, 0], phi.reach[:, 0]
+            turns_not |= _way_fails(begin, reach, onward, at_zero, at_pi) & _way_fails(
+                -begin, reach, back, at_zero, at_pi
+            )
+        return np.asarray(fails | (split & about_zero & about_pi & turns_not))
+
+    def _leaves_branch(self, moving: Enclosure, back: Enclosure) -> Flags:
+        """Whether some position certainly has its coupler on one side of the rocker, and some on the other.
+
+        With a transmission angle: certainly not far enough on that side. The product of coupler, seen from the crank's
+        pin and by the body, and rocker has the argument by which they turn against each other.
+        """
+        product = moving.conjugate.column * back
+        turned = [(product * factor).imaginary for factor in self.sides]
+        right = np.any([(part.high < 0).any(axis=1) for part in turned], axis=0)
+        left = np.any([(part.low > 0).any(axis=1) for part in turned], axis=0)
+        return np.asarray(right & left)
+
+    def _too_flat(self, a: Enclosure, b: Enclosure, c: Enclosure, d: Enclosure) -> tuple[Flags, Flags]:
+        """Whether the transmission angle is certainly too small where the crank passes 0, and where it passes pi."""
+        if not self.demands.transmission:
+            return (np.zeros(len(a.value), bool),) * 2
+        squares, allowed = b * b + c * c, 2 * self.cosine * (b * c)
+        return tuple(  # type: ignore[return-value]
+            ((squares - far * far - allowed).low > 0) | ((squares - far * far + allowed).high < 0)
+            for far in (d - a, d + a)
+        )
+
+
+class _Angles(NamedTuple):
+    """Crank angles at the positions in a range of one turn that the crank does not leave."""
+
+    middle: Reals
+    sure: Flags
+    """Whether it certainly lies within the range; nothing is said of the others."""
+    both_sides: Flags
+    """Whether some certainly lie on one side of the middle of the range and some on the other."""
+
+    @classmethod
+    def cut(cls, phi: Enclosure, begin: float, at: float) -> _Angles:
+        middle = (phi.value - begin) % _LAP + begin
+        low, high = middle - phi.reach, middle + phi.reach
+        sure = (low >= begin) & (high <= begin + _LAP)
+        both = ((low > at) & sure).any(axis=1) & ((high < at) & sure).any(axis=1)
+        return cls(middle, sure, np.asarray(both))
+
+    def keep_no_order(self, reach: Reals) -> Flags:
+        """Whether they certainly neither rise nor fall; steps are wrong by so much at most."""
+        steps, sure = np.diff(self.middle, axis=1), self.sure[:, 1:] & self.sure[:, :-1]
+        rises, falls = ((steps - reach > 0) & sure).any(axis=1), ((steps + reach < 0) & sure).any(axis=1)
+        return np.asarray(rises & falls)
+
+
+def _way_fails(begin: Reals, reach: Reals, travel: Reals, at_zero: Flags, at_pi: Flags) -> Flags:
+    """Whether an angle that rises through a way from about its begin takes a lap, or passes where it must not."""
+    fails = travel >= _LAP
+    for at, flat in ((0.0, at_zero), (np.pi, at_pi)):
+        passed = np.floor((begin - reach + travel - at) / _LAP) > np.floor((begin + reach - at) / _LAP)
+        fails |= passed & flat
+    return fails
