@@ -75,3 +75,19 @@ def test_a_row_that_two_commands_have_is_written_once():
     assert {row: count for row, count in rows.items() if row[2] and count > 1} == {}
     assert taken.keys() == arguments._SHARED.keys()
     assert [name for name, count in taken.items() if count < 2] == []
+
+
+@pytest.mark.parametrize(
+    ("words", "option"),
+    [
+        (["draw", "vcomp", "--label"], "--labels"),
+        (["draw", "vcomp", "--sho=scale"], "--show"),
+        (["exercise", "sheet", "--kin", "mobility"], "--kind"),
+        (["catalog", "list", "--al"], "--all"),
+    ],
+)
+def test_the_beginning_of_an_option_is_not_taken_for_it(words, option, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(words)
+    assert stop.value.code == 2
+    assert f"(did you mean '{option}'?)" in capsys.readouterr().err

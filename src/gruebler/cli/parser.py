@@ -80,11 +80,12 @@ def british(word: str) -> str:
 class Parser(argparse.ArgumentParser):
     """argparse whose help is translated and whose errors are one sentence with the nearest known word.
 
-    Every parser takes ``--lang``. Help texts are given in English; they are translated when they are shown.
+    Every parser takes ``--lang``; options are written out in full. Help texts are given in English; they are
+    translated when they are shown.
     """
 
     def __init__(self, *, lang: str = LANGUAGES[0], **settings: Any) -> None:
-        super().__init__(formatter_class=partial(_HelpFormatter, lang=lang), **settings)
+        super().__init__(formatter_class=partial(_HelpFormatter, lang=lang), allow_abbrev=False, **settings)
         self.lang = lang
         self.names_of_links: list[str] | None = None
         """The arguments that name links, joints or points, once some were read."""
@@ -182,7 +183,7 @@ class Parser(argparse.ArgumentParser):
             if word == "--":
                 return
             option = word.partition("=")[0]
-            if option.startswith("--") and " " not in word and not any(o.startswith(option) for o in self._known()):
+            if option.startswith("--") and " " not in word and option not in self._known():
                 self._complain_of_unknown([word])
 
     def _known(self) -> Iterable[str]:
