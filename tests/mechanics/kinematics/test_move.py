@@ -446,3 +446,23 @@ def test_a_long_row_behind_short_ones_is_walked_in_small_steps() -> None:
     path = [1.0, 2.5, 3.0, 3.15, 3.25, 5.5]
     motion = move(linkage, path)
     assert motion.angle("2") - motion.angle("2")[0] == pytest.approx(np.array(path) - 1, rel=0, abs=1e-9)
+
+
+@pytest.mark.parametrize("branch", ["+", "-"])
+@pytest.mark.parametrize("turned", [0.0, 2.0])
+def test_a_start_more_than_half_a_turn_from_the_reference_pose(branch, turned):
+    """A drive with a range of 283 degrees: the shorter way to the other end leads out of it, the longer one is gone.
+
+    cos phi_max = (a^2 + d^2 - (b + c)^2)/2ad = -0.782; the pose is that of the way in small steps.
+    """
+    bar = FourBar(63.447, 156.019, 90.951, 194.187).linkage()
+    start = move(bar, [2.3], branch=branch)
+    posed = bar.with_reference_pose(start.pose(0))
+    whole = turned * np.pi
+    direct = move(posed, [whole - 2.3])
+    walked = move(posed, np.linspace(2.3, -2.3, 400))
+    assert direct.complete
+    assert walked.complete
+    for link in bar.mechanism.chain.links:
+        gap = np.exp(1j * direct.angle(link)[0]) - np.exp(1j * walked.angle(link)[-1])
+        assert abs(gap) < 1e-9

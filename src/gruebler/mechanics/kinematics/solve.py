@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
+from itertools import product
 from operator import attrgetter
 
 import numpy as np
@@ -63,7 +64,8 @@ def move(
         drives: (rows,) for one drive, (rows, drives) for several: angles in radians, displacements in the linkage's
             unit. Between rows the drives move on straight lines.
         branch: the assembly mode at the first row, such as ``"+-"`` (`kinematics.branches`); without it the
-            one that leads from the linkage's reference pose to the first row, or all ``+`` and 1.
+            one that leads from the linkage's reference pose to the first row, by the shortest way that the drives can
+            go, or all ``+`` and 1.
         speed: the drives' velocity, one number or like ``drives``; 1 if only an order is given.
         acceleration: likewise.
         jerk: likewise.
@@ -114,7 +116,7 @@ def move(
     if motion.stop is not None and motion.stop.reason == "open" and from_reference:
         # the start may be a change point of the independent part: the way from the reference pose tells the way on
         motion = motion_from_rows(plan, path, _from_reference(plan, path, speeds, upto))
-    start = pose_at_reference(plan, path[0]) if from_reference else ReferencePose(path[0], signs, unknowns)
+    start = _way_to(plan, path[0])[0] if from_reference else ReferencePose(path[0], signs, unknowns)
     at_change = set_change_point_rows(plan, motion, path, speeds, start)
     return _with_warning(replace(motion, **at_change._asdict(), speeds=speeds[:, : len(motion)]))
 
@@ -133,16 +135,36 @@ def starting_configuration(plan: Plan, first: Reals, branch: Branch) -> tuple[Re
     """Signs of dyads and unknowns of larger groups at the first row."""
     if not plan.wheels and (branch is not None or plan.lower.reference_pose is None or not labelled_groups(plan)):
         return starting_state(plan, read_branch(plan, branch), first)
-    begin = pose_at_reference(plan, first)
-    if branch is not None:
-        begin = begin._replace(signs=_other_signs(plan, begin.signs, read_branch(plan, branch)))
-    path = np.array([begin.drives, first])
-    rows = run_rows(plan.program, plan, path, None, 0, begin.signs, begin.unknowns)
+    _, rows = _way_to(plan, first, branch)
     if rows.reached and branch is None:
         check_reference(plan, rows.places[0, 0], rows.turns[0])
     if rows.reached < 2:
         raise Unassembled(part_at_fault(plan, rows.fault))
     return np.where(rows.roots[1] < 0, -1.0, 1.0), rows.unknowns[1]
+
+
+def _way_to(plan: Plan, first: Reals, branch: Branch = None) -> tuple[ReferencePose, SolvedRows]:
+    """The reference pose and the way from it to the first row: the shortest of those that drives can go.
+
+    A drive that does not turn fully may have a range of more than half a turn; then the shorter way leads out of it.
+    """
+    begin = pose_at_reference(plan, first)
+    if branch is not None:
+        begin = begin._replace(signs=_other_signs(plan, begin.signs, read_branch(plan, branch)))
+
+    def gone(start: Reals) -> SolvedRows:
+        return run_rows(plan.program, plan, np.array([start, first]), None, 0, begin.signs, begin.unknowns)
+
+    rows = gone(begin.drives)
+    if rows.reached < 2 and not plan.wheels:
+        turning = [drive.turning for drive in plan.linkage.mechanism.drives]
+        behind = 2 * np.pi * np.where(first >= begin.drives, 1.0, -1.0)
+        for others in sorted(product(*((0, 1) if turns else (0,) for turns in turning)), key=sum)[1:]:
+            start = begin.drives + behind * np.array(others)
+            other = gone(start)
+            if other.reached == 2:
+                return begin._replace(drives=start), other
+    return begin, rows
 
 
 def _other_signs(plan: Plan, signs: Reals, labels: tuple[str, ...]) -> Reals:
@@ -175,7 +197,7 @@ def _is_doubtful_start(plan: Plan, rows: SolvedRows) -> bool:
 
 def _from_reference(plan: Plan, path: Reals, speeds: Reals, order: int) -> SolvedRows:
     """A path that starts in a change point: what is placed there, and the way on, is known from the way to it."""
-    begin = pose_at_reference(plan, path[0])
+    begin, _ = _way_to(plan, path[0])
     path, speeds = np.concatenate([[begin.drives], path]), np.concatenate([speeds[:, :1], speeds], axis=1)
     return without_first(follow_path(plan, path, speeds, order, begin.signs, begin.unknowns))
 
