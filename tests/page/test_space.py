@@ -81,9 +81,10 @@ def test_the_server_has_a_page_for_each_machine_in_space(server):
     with urlopen(server.address + "space/universal_joint.html", timeout=60) as page:
         assert "Kreuzgelenk" in page.read().decode("utf-8")
         assert "script-src" not in page.headers["Content-Security-Policy"]  # the page brings its own policy
-    for name in ("quad", "opened", "../ws"):
-        with pytest.raises(HTTPError, match="404"):
+    for name, reason in (("quad", "'quad'"), ("lambda", "lambda"), ("opened", "Open the address"), ("../ws", "Open")):
+        with pytest.raises(HTTPError, match="404") as refused:
             urlopen(f"{server.address}space/{name}.html", timeout=60)
+        assert reason in refused.value.read().decode("utf-8")
 
 
 def test_a_site_has_the_machines_in_space(tmp_path):

@@ -136,8 +136,8 @@ class ExplorerServer:
             assert self._workers is not None
             try:
                 text = await self._workers.ask("space", {"id": id}, self.lang or "en", lambda _: None, asyncio.Event())
-            except GrueblerError:
-                return self._refusal()
+            except GrueblerError as error:
+                return PlainTextResponse(f"{error}\n", status_code=404, headers=_HEADERS)
         headers = _HEADERS | {"Content-Security-Policy": "frame-ancestors 'none'"}
         return Response(text, media_type="text/html", headers=headers) if text else self._refusal()
 
