@@ -140,7 +140,8 @@ def test_a_saved_notebook_shows_the_widget(tab):
     notebook = nbformat.read(path, as_version=4)
     nbclient.NotebookClient(notebook, timeout=300, store_widget_state=True).execute()
     saved = json.loads(nbformat.writes(notebook))
-    shown = next(output for output in saved["cells"][1]["outputs"] if "data" in output)["data"]
+    outputs = [output.get("data", {}) for cell in saved["cells"] for output in cell.get("outputs", [])]
+    shown = next(data for data in outputs if "application/vnd.jupyter.widget-view+json" in data)
     kept = saved["metadata"]["widgets"]["application/vnd.jupyter.widget-state+json"]["state"]
     state = kept[shown["application/vnd.jupyter.widget-view+json"]["model_id"]]["state"]
     text = json.dumps({key: value for key, value in state.items() if key != "_esm"}).replace("<", "\\u003c")
