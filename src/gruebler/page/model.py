@@ -6,6 +6,7 @@ round trip. docs/theory/explorer.md says what may be changed there without a new
 
 from __future__ import annotations
 
+import re
 from cmath import rect
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -29,7 +30,7 @@ from gruebler.structure.chain.pairs import Pair
 from gruebler.structure.chain.spaces import Space
 from gruebler.teaching.catalog import entries
 
-_COMMON = ("frame", "crank", "coupler", "rocker", "slider", "block")  # links of four-bars and slider-cranks
+_NUMBERED = re.compile(r"(frame|crank|coupler|rocker|slider|block|wheel)(\d*)")  # of four-bars and by roles
 
 _SAME = 1e-12  # sizes: elements of the plan are copies of the linkage's, but for rounding of turned ones
 
@@ -133,7 +134,8 @@ def link_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
     record = entries().get(source)
     if record is not None and record.chain().links == links:
         return dict(zip(links, record.in_language(lang).chain().links, strict=True))
-    return {link: translate(link, lang) if link in _COMMON else link for link in links}
+    parts = {link: _NUMBERED.fullmatch(link) for link in links}
+    return {link: translate(part[1], lang) + part[2] if part else link for link, part in parts.items()}
 
 
 def names_of_points(linkage: Linkage, source: str, lang: str) -> dict[str, str]:

@@ -176,16 +176,11 @@ def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
 
 
 def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:
-    from gruebler.design.realisation.realising import realise
-    from gruebler.page.model import model_of
-    from gruebler.page.structures import mechanism_of_text
+    from gruebler.page.realised import realised
 
     progress(translate("Looking for dimensions with which it moves", lang))
-    realisation = realise(mechanism_of_text(asked.text), seed=asked.seed)
-    if realisation.linkage is None:
-        raise GrueblerError("{message}", message=realisation.explain(lang))
-    linkage = realisation.linkage
-    return {"model": model_of(linkage, name=""), "message": realisation.explain(lang)}
+    found = realised(asked.text, asked.seed)
+    return found | {"message": found["message"][lang]}
 
 
 def _synthesise(asked: SynthesiseTask, lang: str, progress: Progress) -> dict[str, Any]:

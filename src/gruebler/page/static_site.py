@@ -140,6 +140,7 @@ def _chain_packs(links: int, mobility: int) -> _Packs:
 
 
 def _structure_packs(links: int, mobility: int, first: int) -> _Packs:
+    from gruebler.page.realised import realised
     from gruebler.page.site_structures import structure_pack
 
     for number, chain in enumerate(islice(chains(links, mobility), first, first + _TOGETHER), first):
@@ -147,19 +148,7 @@ def _structure_packs(links: int, mobility: int, first: int) -> _Packs:
         pack = structure_pack(Mechanism(chain, chain.links[0]), LANGUAGES)
         yield f"structure-{name}", pack
         if mobility == 1 and links <= _MOVED:
-            yield f"moving-{name}", {text: _realised(text) for text, *_ in pack["driven"]}
-
-
-def _realised(text: str) -> dict[str, Any]:
-    """A mechanism with dimensions, and how they were found."""
-    from gruebler.design.realisation.realising import realise
-    from gruebler.page.model import model_of
-
-    realisation = realise(Mechanism.parse(text))
-    if realisation.linkage is None:
-        raise GrueblerError("{message}", message=realisation.explain(LANGUAGES[0]))
-    said = {lang: realisation.explain(lang) for lang in LANGUAGES}
-    return {"model": model_of(realisation.linkage), "message": said}
+            yield f"moving-{name}", {text: realised(text) for text, *_ in pack["driven"]}
 
 
 def _machine_packs(id: str) -> _Packs:

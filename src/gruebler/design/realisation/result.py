@@ -97,11 +97,5 @@ class Realisation:
                 sentences.append(text.filled(drive=name, low=low, high=high, unit=self.linkage.unit))
         text = message("Smallest measure of conditioning {quality:.2f} (1 is best, 0 singular).")
         sentences.append(text.filled(quality=self.quality))
-        tried = plural(
-            "Tried: {count} layout (seed {seed}).",
-            "Tried: {count} layouts (seed {seed}).",
-            self.tries,
-            lang,
-            seed=self.seed,
-        )
+        tried = plural("Tried: {count} layout.", "Tried: {count} layouts.", self.tries, lang)
         return f"{joined(sentences, ' ').in_language(lang)} {tried}"

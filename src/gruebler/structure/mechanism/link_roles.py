@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from enum import StrEnum
+from itertools import count
 
 from gruebler.base.text import message
 from gruebler.structure.mechanism.model import Mechanism
@@ -62,3 +64,21 @@ def roles(mechanism: Mechanism) -> dict[str, Role]:
             role = Role.COUPLER
         named[link] = role
     return named
+
+
+def named_by_roles(mechanism: Mechanism) -> Mechanism:
+    """The mechanism with roles for names where its links have only numbers; several of a role are counted.
+
+    >>> watt = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3) R(3-4) R(4-5) R(0-5); drive=R(0-1)")
+    >>> named_by_roles(watt).chain.links
+    ('frame', 'crank', 'coupler1', 'rocker1', 'coupler2', 'rocker2')
+    >>> print(named_by_roles(Mechanism.parse("R(a-b) R(b-c) R(c-d) R(d-a); drive=R(a-b)")))
+    R(a-b) R(b-c) R(c-d) R(d-a); frame=a; drive=R(a-b)
+    """
+    if not all(link.isdigit() for link in mechanism.chain.links):
+        return mechanism
+    named = roles(mechanism)
+    total, numbers = Counter(named.values()), {role: count(1) for role in Role}
+    return mechanism.renamed(
+        {link: f"{role}{next(numbers[role])}" if total[role] > 1 else str(role) for link, role in named.items()}
+    )
