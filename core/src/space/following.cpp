@@ -285,12 +285,15 @@ private:
     // Predicts `guess_` and closes it, with the drives at the target if there is one; false if that leads elsewhere.
     bool step(double length, const double* target) {
         const auto unknowns = static_cast<std::size_t>(conditions_.structure.unknowns);
-        double moved = 0;
+        double moved = 0, bent = 0;
         for (std::size_t k = 0; k < unknowns; ++k) {
             const double* own = series_.q.data() + k;
-            guess_[k] = q_[k] + length * (own[unknowns] + length * (own[2 * unknowns] + length * own[3 * unknowns]));
-            moved = larger(moved, length * std::fabs(own[unknowns]));
+            const double along = length * own[unknowns];
+            const double aside = length * length * (own[2 * unknowns] + length * own[3 * unknowns]);
+            guess_[k] = q_[k] + along + aside;
+            moved = larger(moved, std::fabs(along)), bent = larger(bent, std::fabs(aside));
         }
+        if (bent > moved) return false;  // beyond where the series holds any closed position may be the nearest
         for (std::size_t k = 0; target && k < begin_.size(); ++k) guess_[static_cast<std::size_t>(path_.drive[k])] = target[k];
         predicted_ = guess_;
         if (!close()) return false;

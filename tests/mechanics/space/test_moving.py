@@ -87,6 +87,28 @@ def test_random_rssr_as_its_closed_form(seed):
     assert abs(apart).min(axis=1).max() < 1e-10
 
 
+@pytest.mark.parametrize(
+    ("second", "foot", "axis"),
+    [
+        ((2.0, -2.6, 0.4), (-0.6, -0.5, -0.2), (-2.0, -0.2, -0.9)),
+        ((1.8, -3.1, 1.0), (0.1, 1.3, 0.4), (1.8, 0.0, -0.5)),
+        ((1.4, 0.1, 0.3), (0.9, 0.4, 1.5), (-1.2, 0.9, 0.1)),
+    ],
+)
+def test_a_step_back_from_a_limit_keeps_the_assembly_mode(second, foot, axis):
+    """Next to a limit the power series holds for short steps only; whole turns beyond it other modes lie as near."""
+    linkage = rssr(1.0, second, foot, axis)
+    low, high = gr.drive_range(linkage).lowest, gr.drive_range(linkage).highest
+    path = [0.0, low + 0.001 * (high - low), low + 0.04 * (high - low)]
+    motion = move(linkage, path)
+    wanted = rocker_of_rssr(linkage, path)
+    mode = abs(np.sin(wanted[0] / 2)).argmin()  # the one of the reference pose, in which the rocker's angle is 0
+    assert motion.complete
+    assert not motion.passed
+    assert same_angle(motion.joint(3), wanted[:, mode], 1e-10)
+    assert abs(motion.joint(3)).max() < pi
+
+
 @pytest.mark.parametrize("bend", [0.2, pi / 6, 1.2])
 def test_hookes_joint(bend):
     """tan β = tan α / cos δ; its speed ratio lies between cos δ and 1 / cos δ."""
