@@ -320,3 +320,9 @@ def test_a_table_is_not_written_under_the_name_of_a_picture(capsys, tmp_path):
         assert status == 2
         assert "expected a name that ends with .txt, .json, .csv or .parquet" in err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_units_and_origins_of_atlas_columns_are_german_but_not_their_names(capsys):
+    lines = run(capsys, "atlas", "columns", "--all", "--lang", "de")[1].splitlines()
+    row = next(line.split() for line in lines if line.split()[:2] == ["chains", "joints"])
+    assert (row[3], row[-2:]) == ("Gelenke", ["die", "Kette"])

@@ -6,6 +6,7 @@ import math
 import re
 import tomllib
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 from hypothesis import assume, given
@@ -15,6 +16,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import error_in_language
 from gruebler.files.angles import in_degrees, in_radians
 from gruebler.files.linkages import linkage_from_json, linkage_to_json, linkage_to_toml, read_linkage, write_linkage
+from gruebler.files.screws import read_any_linkage
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
@@ -25,6 +27,15 @@ SLOT = Mechanism.parse("R(wall-lever) R(lever-door) G(wall-door); frame=wall; dr
 
 number = st.floats(-1e6, 1e6)
 place = st.tuples(number, number)
+
+
+@pytest.mark.parametrize(
+    ("machine", "read"), [("wiper", read_linkage), ("wiper", read_any_linkage), ("sarrus", read_any_linkage)]
+)
+def test_the_file_of_a_catalog_entry_is_called_so(machine, read):
+    path = Path(__file__).parents[2] / f"catalogs/machines/{machine}.toml"
+    with pytest.raises(LinkageError, match=rf"{machine}\.toml: is a catalog entry; .* \[dimensions\]"):
+        read(path)
 
 
 @given(angle=st.floats(-1e6, 1e6))

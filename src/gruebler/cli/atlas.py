@@ -161,6 +161,22 @@ _HEADS = (
 )
 
 
+_WORDS = {
+    str(word): word
+    for word in (
+        message("links"),
+        message("joints"),
+        message("loops"),
+        message("freedoms"),
+        message("crossings"),
+        message("request"),
+        message("the chain"),
+        message("table chains"),
+    )
+}
+"""Units and origins of columns; other origins are names in the code."""
+
+
 def _columns(arguments: argparse.Namespace) -> int:
     from gruebler.structure.atlas import columns_of
     from gruebler.structure.atlas.schema import TABLES, arrow_library
@@ -172,10 +188,19 @@ def _columns(arguments: argparse.Namespace) -> int:
         for column in columns_of(table)
     ]
     if arguments.out is None and not arguments.json:
-        print_table([head.in_language(arguments.lang) for head in _HEADS], [[*row.values()] for row in rows])
+        heads = [head.in_language(arguments.lang) for head in _HEADS]
+        spoken = [
+            [_in_words(value, arguments.lang) if key in ("unit", "origin") else value for key, value in row.items()]
+            for row in rows
+        ]
+        print_table(heads, spoken)
         return 0
     _answer(arrow_library().Table.from_pylist(rows), arguments)
     return 0
+
+
+def _in_words(value: str, lang: str) -> str:
+    return _WORDS[value].in_language(lang) if value in _WORDS else value
 
 
 def _answer(table: pa.Table, arguments: argparse.Namespace) -> None:

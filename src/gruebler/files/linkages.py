@@ -56,10 +56,21 @@ def read_linkage(path: Path | str) -> Linkage:
             "{path} --explain` shows how it moves",
             path=path,
         )
+    refuse_entry(data, path)
     try:
         return linkage_from_json(data)
     except LinkageError as error:
         raise LinkageError("{path}: {error}", path=path, error=error) from None
+
+
+def refuse_entry(data: object, path: Path) -> None:
+    """`LinkageError` for the document of a catalog entry, which a linkage file resembles."""
+    if isinstance(data, Mapping) and {"id", "name", "joints"} <= data.keys():
+        raise LinkageError(
+            "{path}: is a catalog entry; a linkage file has its joints, frame and drives, and beside them the keys of "
+            "its table [dimensions]",
+            path=path,
+        )
 
 
 def read_loads(path: Path | str) -> Loads:

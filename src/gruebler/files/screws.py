@@ -17,7 +17,7 @@ from gruebler.base.atomic_files import atomic_file
 from gruebler.base.documents import convert_document, infinities_as_words, load_document
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.files.linkage_records import PointRecord
-from gruebler.files.linkages import check_linkage_path, linkage_from_json, toml_key, toml_value
+from gruebler.files.linkages import check_linkage_path, linkage_from_json, refuse_entry, toml_key, toml_value
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.screws import JointPlace, SpatialLinkage
 from gruebler.structure.chain import Chain
@@ -165,6 +165,7 @@ def read_any_linkage(path: Path | str) -> Linkage | SpatialLinkage:
     if path.suffix.lower() not in (".toml", ".json"):
         raise LinkageError("{path}: a linkage is in a .toml or .json file", path=path)
     data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
+    refuse_entry(data, path)
     try:
         if isinstance(data, Mapping) and "screws" in data:
             return spatial_from_json(data)
