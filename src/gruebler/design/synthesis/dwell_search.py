@@ -32,7 +32,8 @@ _STEP = 1e-7  # of a derivative by differences
 _ITERATIONS = 80
 
 
-class Arc(NamedTuple):
+@dataclass(frozen=True, kw_only=True)
+class Arc:
     """A coupler curve and a part of it that is nearly a circle."""
 
     numbers: tuple[float, float, float, float, float]
@@ -103,7 +104,13 @@ def circular_arcs(rest: float, least: float, longest: float, number: int) -> lis
         for k in np.argsort(share[own, begin])[:_PER_FOUR_BAR]:
             at = begin[k]
             if np.isfinite(share[k, at]):
-                arc = Arc(tuple(numbers[k].tolist()), _PHI[at], centres[k, at], radii[k, at], share[k, at])
+                arc = Arc(
+                    numbers=tuple(numbers[k].tolist()),
+                    start=float(_PHI[at]),
+                    centre=complex(centres[k, at]),
+                    radius=float(radii[k, at]),
+                    deviation=float(share[k, at]),
+                )
                 ranked.append((round(float(share[k, at]), 12), arc))
     ranked.sort(key=lambda row: row[0])
     return [arc for _, arc in ranked[:number]]
