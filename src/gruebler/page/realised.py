@@ -16,17 +16,19 @@ from gruebler.structure.mechanism.link_roles import named_by_roles
 def realised(text: str, seed: int = 0) -> dict[str, Any]:
     """The model of a linkage for the mechanism of a text, and what was found in each language.
 
-    Links that have only numbers are named by their roles. Raises `GrueblerError` where no dimensions are found.
+    Links that have only numbers are named by their roles, with the drives that were found where the text has none.
+    Raises `GrueblerError` where no dimensions are found.
 
-    >>> found = realised("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)")
+    >>> found = realised("R(0-1) R(1-2) R(2-3) R(3-0)")
     >>> found["model"]["links"][:4], found["message"]["de"][:30]
     (['frame', 'crank', 'coupler', 'rocker'], 'D(Gestell-Kurbel) läuft um. Kl')
     """
-    realisation = realise(named_by_roles(mechanism_of_text(text)), seed=seed)
-    if realisation.linkage is None:
-        raise GrueblerError("{message}", message=realisation.explain())
-    names = {lang: link_names(realisation.linkage, "", lang) for lang in LANGUAGES}
+    found = realise(mechanism_of_text(text), seed=seed)
+    if found.linkage is None:
+        raise GrueblerError("{message}", message=found.explain())
+    named = named_by_roles(found.mechanism)
+    linkage = found.linkage.renamed(dict(zip(found.mechanism.chain.links, named.chain.links, strict=True)))
     said = {
-        lang: replace(realisation, mechanism=realisation.mechanism.renamed(names[lang])).explain(lang) for lang in names
+        lang: replace(found, mechanism=named.renamed(link_names(linkage, "", lang))).explain(lang) for lang in LANGUAGES
     }
-    return {"model": model_of(realisation.linkage), "message": said}
+    return {"model": model_of(linkage), "message": said}
