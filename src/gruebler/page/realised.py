@@ -19,16 +19,17 @@ def realised(text: str, seed: int = 0) -> dict[str, Any]:
     Links that have only numbers are named by their roles, with the drives that were found where the text has none.
     Raises `GrueblerError` where no dimensions are found.
 
-    >>> found = realised("R(0-1) R(1-2) R(2-3) R(3-0)")
-    >>> found["model"]["links"][:4], found["message"]["de"][:30]
+    >>> answer = realised("R(0-1) R(1-2) R(2-3) R(3-0)")
+    >>> answer["model"]["links"][:4], answer["message"]["de"][:30]
     (['frame', 'crank', 'coupler', 'rocker'], 'D(Gestell-Kurbel) läuft um. Kl')
     """
-    found = realise(mechanism_of_text(text), seed=seed)
-    if found.linkage is None:
-        raise GrueblerError("{message}", message=found.explain())
-    named = named_by_roles(found.mechanism)
-    linkage = found.linkage.renamed(dict(zip(found.mechanism.chain.links, named.chain.links, strict=True)))
+    realisation = realise(mechanism_of_text(text), seed=seed)
+    if realisation.linkage is None:
+        raise GrueblerError("{message}", message=realisation.explain())
+    named = named_by_roles(realisation.mechanism)
+    linkage = realisation.linkage.renamed(dict(zip(realisation.mechanism.chain.links, named.chain.links, strict=True)))
     said = {
-        lang: replace(found, mechanism=named.renamed(link_names(linkage, "", lang))).explain(lang) for lang in LANGUAGES
+        lang: replace(realisation, mechanism=named.renamed(link_names(linkage, "", lang))).explain(lang)
+        for lang in LANGUAGES
     }
     return {"model": model_of(linkage), "message": said}

@@ -179,8 +179,8 @@ def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:
     from gruebler.page.realised import realised
 
     progress(translate("Looking for dimensions with which it moves", lang))
-    found = realised(asked.text, asked.seed)
-    return found | {"message": found["message"][lang]}
+    answer = realised(asked.text, asked.seed)
+    return answer | {"message": answer["message"][lang]}
 
 
 def _synthesise(asked: SynthesiseTask, lang: str, progress: Progress) -> dict[str, Any]:
