@@ -131,6 +131,8 @@ class OutputKind:
     """From coupler points, the numbers behind those of the arc (rod, then its own) and the side."""
     own: Callable[[complex], NDArray[np.float64]]
     """Numbers of the output to be tried about a centre, (tries, numbers)."""
+    pin: Callable[[Reals, Reals], Complexes]
+    """Where the pin of the rod lies, from the numbers behind those of the arc and the value of the output."""
     lengths: Callable[[Reals], Reals]
     """The lengths that it adds to the linkage, from all numbers."""
     fixed_size: bool
@@ -152,6 +154,16 @@ def _follow_slider(z: Complexes, numbers: Reals, side: int) -> Followed:
     seen = np.exp(-1j * direction) * z
     across = (seen.imag - offset) / rod
     return seen.real + side * rod * np.sqrt(np.maximum(1 - across * across, 0)), across
+
+
+def _pin_of_rocker(numbers: Reals, value: Reals) -> Complexes:
+    _, x, y, own = (numbers[..., k] for k in range(4))
+    return np.asarray(x + 1j * y + own * np.exp(1j * value))
+
+
+def _pin_of_slider(numbers: Reals, value: Reals) -> Complexes:
+    _, direction, offset = (numbers[..., k] for k in range(3))
+    return np.asarray(np.exp(1j * direction) * (value + 1j * offset))
 
 
 def _rockers_about(centre: complex) -> Reals:
@@ -177,12 +189,18 @@ def _rocker_lengths(numbers: Reals) -> Reals:
 
 
 ROCKER = OutputKind(
-    "R(output-frame)", follow=_follow_rocker, own=_rockers_about, lengths=_rocker_lengths, fixed_size=True
+    "R(output-frame)",
+    follow=_follow_rocker,
+    own=_rockers_about,
+    pin=_pin_of_rocker,
+    lengths=_rocker_lengths,
+    fixed_size=True,
 )
 SLIDER = OutputKind(
     "P(output-frame)",
     follow=_follow_slider,
     own=_slides_about,
+    pin=_pin_of_slider,
     lengths=lambda numbers: np.stack(_four_bar_lengths(numbers), axis=-1),
     fixed_size=False,
 )
@@ -199,6 +217,10 @@ class RestingSixBar(NamedTuple):
         """Values of the output at crank angles, and the cosine of the transmission angle at it."""
         return self.kind.follow(coupler_points(self.numbers, phi), self.numbers[6:], self.side)
 
+    def pin(self, phi: Reals) -> Complexes:
+        """Places of the rod's pin on the output at crank angles."""
+        return self.kind.pin(self.numbers[6:], self.outputs(phi)[0])
+
 
 def placed_outputs(arc: Arc, kind: OutputKind, swing: float, least: float, number: int = 2) -> list[RestingSixBar]:
     """Outputs on an arc that keep a transmission angle over the whole turn, with a swing near the wanted one."""
@@ -211,7 +233,8 @@ def placed_outputs(arc: Arc, kind: OutputKind, swing: float, least: float, numbe
         values, cosine = kind.follow(z, numbers, side)
         good = np.abs(cosine).max(axis=1) < np.cos(least)
         good &= np.abs(values[:, -1] - values[:, 0]) < 3  # it swings, it does not turn
-        good &= _rests_at_centre(kind, values[:, first], numbers, arc.centre)
+        # The rod reaches two places: the output's pin is to rest at the centre.
+        good &= np.abs(kind.pin(numbers, values[:, first]) - arc.centre) < 0.2 * arc.radius
         size = np.ptp(values, axis=1)
         cost = np.abs(np.log(size / swing)) if kind.fixed_size else np.abs(cosine).max(axis=1)
         for k in np.flatnonzero(good):
@@ -219,15 +242,6 @@ def placed_outputs(arc: Arc, kind: OutputKind, swing: float, least: float, numbe
             placed.append((round(float(cost[k]), 9), RestingSixBar(kind, own, side)))
     placed.sort(key=lambda row: row[0])
     return [six_bar for cost, six_bar in placed[:number] if cost < 0.5 or not kind.fixed_size]
-
-
-def _rests_at_centre(kind: OutputKind, value: Reals, numbers: Reals, centre: complex) -> NDArray[np.bool_]:
-    """Whether the output's pin rests at the centre, not at the other place where the rod reaches."""
-    if kind.fixed_size:
-        pin = numbers[:, 1] + 1j * numbers[:, 2] + numbers[:, 3] * np.exp(1j * value)
-    else:
-        pin = np.exp(1j * numbers[:, 1]) * (value + 1j * numbers[:, 2])
-    return np.asarray(np.abs(pin - centre) < 0.2 * numbers[:, 0])
 
 
 def with_least_deviation(
@@ -297,8 +311,7 @@ def with_swing(six_bar: RestingSixBar, rest: float, swing: float) -> RestingSixB
 
     numbers = six_bar.numbers
     pivot, own = complex(numbers[7], numbers[8]), numbers[9]
-    angle = float(six_bar.outputs(numbers[5] + np.array([0, rest / 2]))[0][1])
-    pin = pivot + own * np.exp(1j * angle)
+    pin = six_bar.pin(numbers[5] + np.array([0, rest / 2]))[1]
 
     def scaled(share: float) -> RestingSixBar:
         moved = pin + share * (pivot - pin)

@@ -81,7 +81,7 @@ def synthesise_dwells(
     if wanted.region is not None or wanted.lengths:
         key = "region" if wanted.region is not None else "lengths"
         raise SynthesisError("{key}: a rest is designed without given lengths or places of pivots", key=key)
-    tolerance = wanted.tolerance if wanted.tolerance > EXACT else NEAR
+    tolerance = NEAR if wanted.tolerance == Demands.tolerance else wanted.tolerance
     least = (wanted.transmission or _USUAL) + _MARGIN
     shortest = 0.5 if wanted.size_ratio >= 2 * _LONGEST else max(0.5, min(1.0, _LONGEST / wanted.size_ratio))
     longest = min(_LONGEST, shortest * wanted.size_ratio)
@@ -150,22 +150,18 @@ def _linkage(task: DwellTask, six_bar: RestingSixBar) -> Linkage:
     start = numbers[5:6]
     pin, point = complex(np.exp(1j * start)[0]), complex(coupler_points(numbers, start)[0])
     along = (point - pin) / complex(numbers[3], numbers[4])
-    value = float(six_bar.outputs(start)[0][0])
+    end = complex(six_bar.pin(start)[0])
     places: dict[str, complex] = {
         "R(frame-crank)": 0j,
         "R(crank-coupler)": pin,
         "R(coupler-rocker)": pin + b * along,
         "R(rocker-frame)": complex(d),
         "R(coupler-rod)": point,
+        "R(rod-output)": end,
     }
     drawn: dict[str | int, object] = {name: (z.real, z.imag) for name, z in places.items()}
-    if kind is ROCKER:
-        end = complex(numbers[7], numbers[8]) + numbers[9] * np.exp(1j * value)
-        drawn[kind.joint] = (numbers[7], numbers[8])
-    else:
-        end = np.exp(1j * numbers[7]) * (value + 1j * numbers[8])
-        drawn[kind.joint] = (end.real, end.imag, float(numbers[7]))
-    drawn["R(rod-output)"] = (end.real, end.imag)
+    slide = (end.real, end.imag, float(numbers[7]))
+    drawn[kind.joint] = (numbers[7], numbers[8]) if kind is ROCKER else slide
     points = {"P": ("coupler", point.real, point.imag)}
     mechanism = Mechanism.parse(f"{_JOINTS} {kind.joint}; frame=frame; drive=R(frame-crank)")
     linkage = Linkage.from_drawing(mechanism, drawn, points=points, unit=task.unit, outputs=["output"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -35,15 +36,15 @@ class ChangePointRows(NamedTuple):
 
 
 def set_change_point_rows(
-    plan: Plan, motion: Motion, path: Reals, speeds: Reals, start: ReferencePose
+    plan: Plan, motion: Motion, path: Reals, speeds: Reals, start: Callable[[], ReferencePose]
 ) -> ChangePointRows:
     """Put limits where the linkage passes an exact change point: of the rates, and of poses that it leaves open.
 
     The linear equations of the rates fail there, and a dyad whose outer joints meet may have any direction. Along a
     branch poses and rates are analytic in the drive. They are found at eight places around the row and interpolated by
     a polynomial of degree 7: relative error of the order of 1e-12 for motions that are smooth over 0.16 radians.
-    Where all rows are such points, the branch is that of a pose at the start or before it. A linkage that only passes
-    near a change point keeps what the equations give.
+    Where all rows are such points, the branch is that of a pose at the start or before it, which ``start`` gives. A
+    linkage that only passes near a change point keeps what the equations give.
     """
     branching = np.array(plan.branching, dtype=np.int64)
     small = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0) < _SINGULAR
@@ -102,7 +103,7 @@ def _set_pose(motion: Motion, row: int, around: SolvedRows) -> float:
 
 
 def _rows_around(
-    plan: Plan, motion: Motion, path: Reals, speeds: Reals, start: ReferencePose, row: int
+    plan: Plan, motion: Motion, path: Reals, speeds: Reals, begin: Callable[[], ReferencePose], row: int
 ) -> SolvedRows | None:
     """A row beside the change point, where the branch is known, and eight around it; None if one cannot be reached."""
     scale = np.array([1.0 if d.turning else plan.lower.size for d in plan.linkage.mechanism.drives])
@@ -113,6 +114,8 @@ def _rows_around(
     if len(behind) or len(before):
         k = row + 1 + int(behind[0]) if len(behind) else int(before[-1])
         start = ReferencePose(path[k], np.where(motion.roots[k] < 0, -1.0, 1.0), motion.unknowns[k])
+    else:
+        start = begin()
     towards = start.drives - path[row]
     velocity = speeds[0, row] if len(speeds) else towards
     if not velocity.any():  # at rest: any direction does

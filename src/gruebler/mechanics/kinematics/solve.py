@@ -116,7 +116,10 @@ def move(
     if motion.stop is not None and motion.stop.reason == "open" and from_reference:
         # the start may be a change point of the independent part: the way from the reference pose tells the way on
         motion = motion_from_rows(plan, path, _from_reference(plan, path, speeds, upto))
-    start = _way_to(plan, path[0])[0] if from_reference else ReferencePose(path[0], signs, unknowns)
+
+    def start() -> ReferencePose:
+        return _way_to(plan, path[0])[0] if from_reference else ReferencePose(path[0], signs, unknowns)
+
     at_change = set_change_point_rows(plan, motion, path, speeds, start)
     return _with_warning(replace(motion, **at_change._asdict(), speeds=speeds[:, : len(motion)]))
 

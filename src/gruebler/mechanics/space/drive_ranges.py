@@ -18,6 +18,7 @@ from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.analysis import circuit_ranges
 from gruebler.mechanics.analysis.circuit_ranges import DriveRange
 from gruebler.mechanics.kinematics.circuits import Circuit
+from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import Branch
 from gruebler.mechanics.linkages.conversion import LinkageLike, linkage_made
 from gruebler.mechanics.screws.conversion import SpatialLike
@@ -135,16 +136,24 @@ def drive_range(
     Theory:
         docs/theory/circuits.md
     """
-    placed = linkage_made(linkage)
-    if isinstance(placed, SpatialCircuit):
-        placed = placed.linkage
+    placed = without_circuit(linkage, branch)
     if not isinstance(placed, SpatialLinkage):
         if drive is not None:
             raise LinkageError("a drive is chosen of linkages in space only; in the plane a range needs one drive")
         return circuit_ranges.drive_range(placed, branch=branch)
-    if branch is not None:
-        raise LinkageError("a linkage given by its reference pose has no assembly mode to choose")
     return spatial_range(placed, None if drive is None else _drive_number(placed, drive))
+
+
+def without_circuit(
+    linkage: LinkageLike | SpatialLike | Circuit | SpatialCircuit, branch: Branch
+) -> Linkage | Circuit | SpatialLinkage:
+    """What is asked about: the linkage of a circuit in space, without a branch, which its reference pose decides."""
+    placed: Linkage | Circuit | SpatialLinkage | SpatialCircuit = linkage_made(linkage)
+    if isinstance(placed, SpatialCircuit):
+        placed = placed.linkage
+    if isinstance(placed, SpatialLinkage) and branch is not None:
+        raise LinkageError("a linkage given by its reference pose has no assembly mode to choose")
+    return placed
 
 
 def _drive_number(linkage: SpatialLinkage, drive: str | int) -> int:

@@ -10,10 +10,11 @@ from gruebler.mechanics.analysis import circuit_ranges
 from gruebler.mechanics.analysis.circuit_ranges import Rotatability
 from gruebler.mechanics.kinematics.circuits import Circuit
 from gruebler.mechanics.linkages.branch import Branch
-from gruebler.mechanics.linkages.conversion import LinkageLike, linkage_made
+from gruebler.mechanics.linkages.conversion import LinkageLike
 from gruebler.mechanics.screws.conversion import SpatialLike
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.circuits import SpatialCircuit
+from gruebler.mechanics.space.drive_ranges import without_circuit
 from gruebler.mechanics.space.measuring import JointRange, measures
 
 
@@ -64,11 +65,7 @@ def rotatability(
     Theory:
         docs/theory/circuits.md
     """
-    placed = linkage_made(linkage)
-    if isinstance(placed, SpatialCircuit):
-        placed = placed.linkage
-    if not isinstance(placed, SpatialLinkage):
-        return circuit_ranges.rotatability(placed, branch=branch)
-    if branch is not None:
-        raise LinkageError("a linkage given by its reference pose has no assembly mode to choose")
-    return measures(placed).joints
+    placed = without_circuit(linkage, branch)
+    if isinstance(placed, SpatialLinkage):
+        return measures(placed).joints
+    return circuit_ranges.rotatability(placed, branch=branch)
