@@ -109,7 +109,9 @@ def sources(module: Module) -> list[Path]:
         if file in found:
             continue
         found[file] = None
-        waiting += [CORE / "src" / name for name in re.findall(r'#include "(.+)"', file.read_text(encoding="utf-8"))]
+        for name in re.findall(r'#include "(.+)"', file.read_text(encoding="utf-8")):
+            beside = file.parent / name
+            waiting.append(beside if beside.exists() else CORE / "src" / name)
     return [*sorted(found), Path(__file__)]
 
 

@@ -6,15 +6,7 @@
 #include <vector>
 
 #include "motion/walk.hpp"
-
-#define EXPORT extern "C" __attribute__((visibility("default"), used))
-
-// What the standard library says before it gives up would bring half of it along: without it nothing of the system is needed.
-namespace std {
-inline namespace __1 {
-[[noreturn]] void __libcpp_verbose_abort(const char*, ...) noexcept { __builtin_trap(); }
-}  // namespace __1
-}  // namespace std
+#include "exports.hpp"
 
 namespace gruebler::motion {
 namespace {

@@ -8,15 +8,7 @@
 
 #include "algebra/certificate.hpp"
 #include "algebra/tracking.hpp"
-
-#define EXPORT extern "C" __attribute__((visibility("default"), used))
-
-// What the standard library says before it gives up would bring half of it along.
-namespace std {
-inline namespace __1 {
-[[noreturn]] void __libcpp_verbose_abort(const char*, ...) noexcept { __builtin_trap(); }
-}  // namespace __1
-}  // namespace std
+#include "exports.hpp"
 
 namespace gruebler::algebra {
 namespace {

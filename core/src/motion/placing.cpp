@@ -195,8 +195,16 @@ double Placing::zero_ahead(int group) const {
     return (last[0].at - last[1].at) * now / (past - now);
 }
 
+// Whether the last poses let expect that a larger group can be followed so far: not beyond where its determinant vanishes.
+bool Placing::is_within_reach(int number, double at) const {
+    if (filled == 0 || (singular == Singular::jumped && singular_group == number)) return true;
+    if (last[0].determinants[number] == 0) return false;  // the start is singular: its side is not known
+    const double ahead = filled > 1 ? zero_ahead(number) : infinity;
+    return !(at - last[0].at > ahead_part * ahead && ahead > nearest * unit);
+}
+
 // Whether the trial of a larger group is near its prediction, and on the same side of singular positions.
-bool Placing::is_expected(const Group& group, int number, double at) const {
+bool Placing::is_expected(const Group& group, int number) const {
     const int first = 3 * group.first_body, end = 3 * group.last_body;
     double missed = 0, moved = 0;
     for (int k = first; k < end; ++k) {
@@ -208,10 +216,7 @@ bool Placing::is_expected(const Group& group, int number, double at) const {
     if (missed > no_deviation * plan_.size) {
         if (missed > (filled > 1 ? deviation * moved : first_deviation * plan_.size)) return false;
     }
-    const double ahead = filled > 1 ? zero_ahead(number) : infinity;
-    if (at - last[0].at > ahead_part * ahead && ahead > nearest * unit) return false;
-    const double kept_from = last[0].determinants[number];  // zero where the start is singular: its side is not known
-    return kept_from != 0 && trial.determinants[number] / kept_from > determinant_kept;
+    return trial.determinants[number] / last[0].determinants[number] > determinant_kept;
 }
 
 // Angles that count whole turns are near what they were in the last pose.
@@ -280,6 +285,8 @@ void Placing::set_group_rates(const Group& group, const Conditions& conditions, 
 // Places the bodies of a larger group by Newton's method from what the last poses let expect.
 bool Placing::place_group(int number, int order, double at) {
     const Group& group = plan_.groups[number];
+    const bool in_it = singular == Singular::in_it && singular_group == number;
+    if (!in_it && !is_within_reach(number, at)) return false;  // before any work: near a limit most tries end here
     const int bodies = bodies_of(group), n = 3 * bodies, count = conditions_of(group);
     for (int c = 0; c < count; ++c) {
         for (int side = 0; side < 2; ++side) {
@@ -292,7 +299,6 @@ bool Placing::place_group(int number, int order, double at) {
     std::copy(x, x + n, predicted_.begin());
     set_conditions(group);
     const Conditions conditions{conditions_.data(), sides_.data(), count, plan_.laws, plan_.size};
-    const bool in_it = singular == Singular::in_it && singular_group == number;
     if (in_it) {
         close_near_singular(conditions, x, n, room_);
     } else {
@@ -300,7 +306,7 @@ bool Placing::place_group(int number, int order, double at) {
         if (filled == 0 && is_singular(conditions, x, n, end.steps >= 0, room_)) end = {0, 0};
         trial.determinants[number] = end.determinant;
         if (end.steps < 0) return false;
-        if (filled > 0 && !is_expected(group, number, at)) return false;
+        if (filled > 0 && !is_expected(group, number)) return false;
     }
     if (!wind(group)) return false;
     for (int b = 0; b < bodies; ++b) bodies_[b] = {{{x[3 * b], x[3 * b + 1]}}, unit_vector(x[3 * b + 2]), {}};

@@ -106,7 +106,8 @@ private:
     Verdict trust_sine(double sine, int number) const;
     void predict(const Group& group, double at);
     void set_conditions(const Group& group);
-    bool is_expected(const Group& group, int number, double at) const;
+    bool is_within_reach(int number, double at) const;
+    bool is_expected(const Group& group, int number) const;
     bool wind(const Group& group);
     void set_group_rates(const Group& group, const Conditions& conditions, int order, bool known);
 };
