@@ -1,7 +1,7 @@
 """The page of a linkage in space: it moves, is gone round and pulled, without a server and without the network."""
 
 from urllib.error import HTTPError
-from urllib.request import urlopen
+from urllib.request import Request, urlopen
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ import gruebler as gr
 from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
 from gruebler.mechanics.screws import SpatialLinkage
-from gruebler.mechanics.space import RSSR, Bennett, move
+from gruebler.mechanics.space import RSSR, Bennett, drive_range, move
 from gruebler.page.requests import answer
 from gruebler.page.space_page import machine_model, space_file, space_model
 from gruebler.page.static_site import FileGroup, write_site
@@ -85,6 +85,48 @@ def test_the_server_has_a_page_for_each_machine_in_space(server):
         with pytest.raises(HTTPError, match="404") as refused:
             urlopen(f"{server.address}space/{name}.html", timeout=60)
         assert reason in refused.value.read().decode("utf-8")
+
+
+def test_a_reason_is_in_the_language_that_the_browser_asks_for(server):
+    """This server has no language of its own."""
+    for asked, reason in (("de-CH,de;q=0.9,en;q=0.8", "hat kein"), ("fr, en;q=0.5", "has no"), ("", "has no")):
+        with pytest.raises(HTTPError, match="404") as refused:
+            urlopen(Request(server.address + "space/quad.html", headers={"Accept-Language": asked}), timeout=60)
+        assert reason in refused.value.read().decode("utf-8")
+    with pytest.raises(HTTPError, match="404") as refused:
+        urlopen(server.address + "nothing", timeout=60)
+    assert "Öffne die Adresse" in refused.value.read().decode("utf-8")
+
+
+def test_a_drive_turns_round_and_one_at_its_limit_says_so(tmp_path, chromium):
+    """Both in the page: a wheel's differential has no limits; two pistons push a platform to where it cannot go."""
+    path = tmp_path / "train.html"
+    assert main(["explore", "diff_bevel", "-o", str(path)]) == 0
+    browser, page, errors = browsed(chromium, path)
+    page.get_by_role("button", name="Stop").click()
+    carrier = page.get_by_role("slider").nth(1)
+    start = page.evaluate("gruebler.values()")[1]
+    for part in (1, 3, -1.5, 0.5):
+        carrier.fill(str(part))
+    shift = page.evaluate("gruebler.values()")[1] - 0.5
+    assert shift / (2 * np.pi) == pytest.approx(round(shift / (2 * np.pi)), abs=1e-6)
+    assert abs(start) < 7
+    model = machine_model("diff_bevel")["live"]
+    assert [drive["round"] for drive in model["drives"]] == [True, True]
+    assert [drive["high"] for drive in model["drives"]] == pytest.approx([np.pi] * 2)
+    path = tmp_path / "platform.html"
+    gr.write(entry("gough").placed(), tmp_path / "platform.toml")
+    assert main(["explore", str(tmp_path / "platform.toml"), "-o", str(path)]) == 0
+    page.goto(path.as_uri() + "#de")
+    sliders = page.get_by_role("slider").all()
+    low, high = (float(sliders[0].get_attribute(end)) for end in ("min", "max"))
+    alone = drive_range(entry("gough").placed(), drive=0)
+    assert [low, high] == pytest.approx([alone.lowest, alone.highest], rel=3e-3)
+    for number, slider in enumerate(sliders):
+        slider.fill(str(high if number % 2 else low))
+    assert "nicht weiter, solange" in page.locator("header").inner_text()
+    assert errors == []
+    browser.close()
 
 
 def test_a_site_has_the_machines_in_space(tmp_path):

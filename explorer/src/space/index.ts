@@ -18,7 +18,7 @@ interface Motion {
 interface Texts {
   title: string;
   drives: string[];
-  words: { play: string; stop: string; drive: string; help: string; none: string };
+  words: { play: string; stop: string; drive: string; help: string; none: string; end: string };
 }
 
 interface Model {
@@ -103,6 +103,7 @@ const solver = live ? new Solver(live, model.size, model.middle, model.bodies.le
 const TRAIL = 600; // places of a point that are remembered
 let trails: Vector[][] = [];
 let chosen = 0;
+let ended = false; // the chosen drive could not go where it was sent
 const sliders: { input: HTMLInputElement; output: HTMLOutputElement }[] = [];
 if (solver && live) {
   label.remove();
@@ -115,7 +116,8 @@ if (solver && live) {
     input.addEventListener("input", () => {
       chosen = k;
       playing = false;
-      together(k, Number(input.value));
+      const to = Number(input.value);
+      together(k, live.drives[k]!.round ? to + 2 * Math.PI * Math.round((solver.values[k]! - to) / (2 * Math.PI)) : to);
     });
     sliders.push({ input, output: element("output", own, { minWidth: "4.5em" }) });
   });
@@ -143,7 +145,8 @@ function framed(): { middle: Vector; distance: number } {
 
 /** Move one of the drives, the others staying where they are. */
 function together(number: number, to: number): void {
-  if (!solver!.drive(solver!.values.map((v, k) => (k === number ? to : v)))) playing = false;
+  ended = !solver!.drive(solver!.values.map((v, k) => (k === number ? to : v)));
+  if (ended) playing = false;
   leave();
 }
 
@@ -196,8 +199,11 @@ function paint(): void {
   sliders.forEach(({ input, output }, k) => {
     const at = solver!.values[k]!;
     const unit = model.motions.find((each) => each.drive === k)?.unit ?? "";
-    input.value = String(at);
-    output.textContent = `${written(live!.drives[k]!.turns ? (at * 180) / Math.PI : at)}${unit}`;
+    const { turns, round } = live!.drives[k]!;
+    const shown = round ? at - 2 * Math.PI * Math.round(at / (2 * Math.PI)) : at;
+    input.value = String(shown);
+    output.textContent = `${written(turns ? (shown * 180) / Math.PI : shown)}${unit}`;
+    if (ended && k === chosen) output.textContent += `: ${words.end}`;
   });
   if (!motion || solver) return;
   const low = Math.min(Math.floor(row), motion.values.length - 2);
@@ -213,13 +219,14 @@ function tick(now: number): void {
   const passed = Math.min(now - last, 100) / 1000;
   last = now;
   if (playing && solver) {
-    const { low, high } = live!.drives[chosen]!;
+    const { low, high, round } = live!.drives[chosen]!;
+    const way = (2 * Math.PI * passed) / SECONDS;
     const [mid, half] = [(low + high) / 2, (high - low) / 2];
     // On from where it stands, in the sense of the phase: a swing to and fro.
     const part = Math.asin(Math.min(Math.max((solver.values[chosen]! - mid) / half, -1), 1));
-    const turn = (Math.cos(phase) < 0 ? Math.PI - part : part) + (2 * Math.PI * passed) / SECONDS;
+    const turn = (Math.cos(phase) < 0 ? Math.PI - part : part) + way;
     phase = turn;
-    together(chosen, mid + half * Math.sin(turn));
+    together(chosen, round ? solver.values[chosen]! + way : mid + half * Math.sin(turn));
   } else if (playing && motion) {
     phase = (phase + passed / SECONDS) % 1;
     const part = motion.round ? phase : 1 - Math.abs(1 - 2 * phase);
@@ -266,6 +273,7 @@ function pull(x: number, y: number): void {
   const { link, at } = pulled;
   const view = projection(camera, wide());
   if (solver) {
+    ended = false;
     solver.pull(link, (pose) => {
       const [u, v] = seen(view, moved(pose, at));
       return [wide() * (u - x), v - y];

@@ -3,7 +3,7 @@
 // A joint has a frame in the reference pose, common to its links. The frame E of its second link, seen from its first,
 // keeps the directions in which the joint does not slide and turn; drives, and wheels on common carriers, add rows.
 
-import type { Vector } from "./algebra";
+import { moved, type Vector } from "./algebra";
 
 export interface Joint {
   links: [number, number];
@@ -25,6 +25,8 @@ export interface Drive {
   /** Radians or lengths. */
   low: number;
   high: number;
+  /** Whether it turns fully, past its ends. */
+  round: boolean;
 }
 
 export interface Live {
@@ -39,6 +41,8 @@ type Pose = number[];
 type Row = { value: number; links: number[]; of: (poses: Pose[]) => number };
 
 const STEP = 0.08; // radians, or parts of the size, from one solution to the next
+const SHORTEST = 1 / 64; // of it
+const LEAP = 0.25; // radians or sizes: a link that goes farther in a step is in another assembly mode
 const CLOSED = 1e-9;
 const MOST = 12;
 const SMALL = 1e-6; // of the differences by which rows are derived
@@ -82,8 +86,8 @@ function nudged(pose: Pose, by: ArrayLike<number>, from: number, about: Vector, 
   ];
   const turn: Pose = [0, 1, 2].flatMap((k) => {
     const row = r.slice(3 * k, 3 * k + 3);
-    const moved = row[0]! * about[0] + row[1]! * about[1] + row[2]! * about[2];
-    return [...row, about[k]! - moved + size * by[from + 3 + k]!];
+    const turned = row[0]! * about[0] + row[1]! * about[1] + row[2]! * about[2];
+    return [...row, about[k]! - turned + size * by[from + 3 + k]!];
   });
   return times(turn, pose);
 }
@@ -209,19 +213,42 @@ export class Solver {
   /** Move all drives on straight ways to values within their ranges; false where that ends before. */
   drive(wanted: number[]): boolean {
     const { drives } = this.live;
-    const ends = wanted.map((v, k) => Math.min(Math.max(v, drives[k]!.low), drives[k]!.high));
+    const ends = wanted.map((v, k) => {
+      const { low, high, round } = drives[k]!;
+      return round ? v : Math.min(Math.max(v, low), high);
+    });
     const starts = [...this.values];
     const far = Math.max(...ends.map((v, k) => Math.abs(v - starts[k]!) / (drives[k]!.turns ? 1 : this.size)));
     const count = Math.max(1, Math.ceil(far / STEP));
-    for (let step = 1; step <= count; step++) {
-      const targets = ends.map((v, k) => starts[k]! + ((v - starts[k]!) * step) / count);
+    let [part, step] = [0, 1 / count];
+    while (part < 1) {
+      const next = Math.min(part + step, 1);
+      const targets = ends.map((v, k) => starts[k]! + (v - starts[k]!) * next);
       const { poses, miss } = this.solved(this.rows(targets, 1), this.poses, MOST);
-      if (!(miss < 1e-6)) return false;
-      this.poses = poses;
-      this.turned = this.live.joints.map((_, k) => this.angle(poses, k));
-      this.values.splice(0, targets.length, ...targets);
+      if (miss < 1e-6 && this.leap(poses) < LEAP) {
+        this.poses = poses;
+        this.turned = this.live.joints.map((_, k) => this.angle(poses, k));
+        this.values.splice(0, targets.length, ...targets);
+        part = next;
+      } else {
+        step /= 2;
+        if (step < SHORTEST / count) return false;
+      }
     }
     return true;
+  }
+
+  /** How far any link has gone since the last poses, in radians or sizes: far leads into another assembly mode. */
+  private leap(poses: Pose[]): number {
+    return this.moving.reduce((most, link) => {
+      const [a, b] = [this.poses[link]!, poses[link]!];
+      const shift = moved(a, this.middle).map((v, k) => (v - moved(b, this.middle)[k]!) / this.size);
+      return Math.max(
+        most,
+        ...[0, 1, 2, 4, 5, 6, 8, 9, 10].map((k) => Math.abs(a[k]! - b[k]!)),
+        ...shift.map(Math.abs),
+      );
+    }, 0);
   }
 
   /** Bring a place of a link as near as can be to where two functions of it are 0, by all drives. */

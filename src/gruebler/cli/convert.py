@@ -54,7 +54,7 @@ def _write_value(word: str, target: str, form: str | None, notes: list[Message])
     from gruebler.teaching.catalog import entry
 
     if (spatial := spatial_of_word(word)) is not None:
-        moves = len(spatial.linkage.mechanism.drives) == 1 and format_of(target, form).write_between is not None
+        moves = format_of(target, form).write_between is not None
         write(spatial.linkage, target, between=spatial.range if moves else None, format_name=form, left_out=notes)
         return
     lengths = is_lengths(word) or (":" in word and "(" not in word)

@@ -75,8 +75,7 @@ def _in_space(spatial: SpatialWord, arguments: argparse.Namespace) -> int:
         raise GrueblerError("a site opens with a linkage in the plane; it has the machines in space beside it")
     record = entry_of(word)
     if record is None:
-        between = spatial.range if len(spatial.linkage.mechanism.drives) == 1 else None
-        model = space_model(spatial.linkage, titles=dict.fromkeys(LANGUAGES, _name(word)), between=between)
+        model = space_model(spatial.linkage, titles=dict.fromkeys(LANGUAGES, _name(word)), between=spatial.range)
     else:
         model = machine_model(word)
     page = space_file(model, arguments.lang)

@@ -20,7 +20,7 @@ from gruebler.base.text import Message, message
 from gruebler.base.units import MILLIMETRES
 from gruebler.files.link_solids import Solid, link_solids
 from gruebler.mechanics.screws import SpatialLinkage
-from gruebler.mechanics.space.drive_ranges import RANGE_OF_ONE, SpatialRange, followed, spatial_range
+from gruebler.mechanics.space.drive_ranges import followed, spatial_range
 from gruebler.mechanics.space.motion import SpatialMotion
 from gruebler.structure.chain.spaces import Space
 
@@ -52,31 +52,24 @@ class MovingSolids:
 def moving_solids(
     linkage: SpatialLinkage, frames: int = _FRAMES, between: tuple[float, float] | None = None
 ) -> MovingSolids:
-    """Bodies and motions: of one drive over its whole range, of several each alone about the reference pose.
+    """Bodies and motions: of each drive over its whole range while the others rest in the reference pose.
 
-    ``between`` are other values of the one drive.
+    ``between`` are other values of the drives, of all that turn or slide as the first one does.
 
     Cost: a second.
     """
     motions, full = [], []
     drives = linkage.mechanism.drives
-    if between is not None and len(drives) != 1:
-        raise LinkageError(RANGE_OF_ONE.filled(count=len(drives), drives=", ".join(linkage.mechanism.drive_names())))
-    if len(drives) == 1:
-        try:
-            span = spatial_range(linkage) if between is None else None
-            values = np.linspace(*(between or (0.0, 0.0)), frames) if span is None else span.inside(frames)
-            motions.append(followed(linkage, values[:, None]))
-            full.append(span is not None and span.full)
-        except LinkageError:
-            motions.clear()
-    for number in range(len(drives) if len(drives) > 1 else 0):
+    for number, drive in enumerate(drives):
         values = np.zeros((frames, len(drives)))
         try:
-            span = spatial_range(linkage, number)
-            values[:, number] = np.linspace(*_shown(span), frames)
+            if between is not None and drive.turning == drives[0].turning:
+                values[:, number], turns = np.linspace(*between, frames), False
+            else:
+                span = spatial_range(linkage, number)
+                values[:, number], turns = span.inside(frames), span.full
             motions.append(followed(linkage, values))
-            full.append(False)
+            full.append(turns)
         except LinkageError:
             continue
     return MovingSolids(
@@ -85,15 +78,6 @@ def moving_solids(
         motions=tuple(motions),
         round=tuple(full),
     )
-
-
-def _shown(span: SpatialRange) -> tuple[float, float]:
-    """Over which values one of several drives is shown: a part about the reference pose that it can reach."""
-    far = 0.3 if span.linkage.mechanism.drives[span.drive].turning else 0.15 * span.linkage.size
-    if span.full:
-        return -far, far
-    low, high = span.inside(2)
-    return max(-far, float(low)), min(far, float(high))
 
 
 def _travels(linkage: SpatialLinkage, motions: Sequence[SpatialMotion]) -> dict[int, tuple[float, float]]:
@@ -137,7 +121,7 @@ def glb_from_linkage(
 ) -> bytes:
     """The bytes of a ``.glb`` file: bodies of links in metres, an animation for each drive.
 
-    ``between`` are values of the one drive over which it moves, in place of all that it can reach.
+    ``between`` are values over which the drives move one by one, in place of all that they can reach.
     """
     if linkage.unit not in MILLIMETRES and linkage.mechanism.chain.space is not Space.SPHERICAL:
         left_out.append(message("the unit {unit}", unit=linkage.unit))

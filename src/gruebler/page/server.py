@@ -29,7 +29,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.errors import GrueblerError, RunError
 from gruebler.base.private_folder import private_folder
-from gruebler.base.text import error_in_language, reason_of
+from gruebler.base.text import LANGUAGES, error_in_language, message, reason_of
 from gruebler.page.page import module_text, served_page
 from gruebler.page.workers import CancelledError, Workers
 
@@ -40,6 +40,7 @@ OPENED = "opened"
 MOST_WAITING = 200
 """Requests of one page that may wait; more are refused."""
 _FRAME = 4_000_000  # bytes of a frame: beyond it the connection is closed by the protocol itself
+_NOT_HERE = message("Open the address that gruebler explore has printed.")
 _HOST = re.compile(r"(\[[0-9a-fA-F:.]+\]|[^:]+)(?::\d{1,5})?")
 _POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; connect-src 'self'; img-src data: blob:; "
@@ -134,8 +135,9 @@ class ExplorerServer:
         text = self.in_space
         if id != OPENED:
             assert self._workers is not None
+            lang = self.lang or _language(request)
             try:
-                text = await self._workers.ask("space", {"id": id}, self.lang or "en", lambda _: None, asyncio.Event())
+                text = await self._workers.ask("space", {"id": id}, lang, lambda _: None, asyncio.Event())
             except GrueblerError as error:
                 return PlainTextResponse(f"{error}\n", status_code=404, headers=_HEADERS)
         headers = _HEADERS | {"Content-Security-Policy": "frame-ancestors 'none'"}
@@ -148,7 +150,7 @@ class ExplorerServer:
         return self._refusal()
 
     def _refusal(self) -> Response:
-        text = "Open the address that gruebler explore has printed.\n"
+        text = "".join(f"{_NOT_HERE.in_language(lang)}\n" for lang in LANGUAGES)
         return PlainTextResponse(text, status_code=404, headers=_HEADERS)
 
     async def _socket(self, socket: WebSocket) -> None:
@@ -160,6 +162,12 @@ class ExplorerServer:
         await socket.accept()
         assert self._workers is not None
         await _Conversation(socket, self._workers).run()
+
+
+def _language(request: Request) -> str:
+    """The one of our languages that the browser asks for first."""
+    asked = re.findall(r"[a-z]+", request.headers.get("accept-language", "").lower())
+    return next((lang for lang in asked if lang in LANGUAGES), LANGUAGES[0])
 
 
 class _Lane:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
+from math import pi
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +34,7 @@ _WORDS = {
         "Wheel or two fingers: nearer and farther."
     ),
     "none": message("No drive moves this linkage."),
+    "end": message("no farther while the other drives stand here"),
 }
 _ALONE = message("The drives move one at a time here, since the page does not solve {joint}.")
 
@@ -68,7 +70,8 @@ def space_model(
 ) -> dict[str, Any]:
     """What the page shows: bodies, named points, and the poses of all links over the range of the one drive.
 
-    With several drives the page moves them itself, from joints, ranges of the drives and rows of wheels.
+    With several drives the page moves them itself, from joints, ranges of the drives and rows of wheels. ``between``
+    are values of the drives in place of all that they can reach.
 
     ``titles`` and names of ``drives`` by language are those of the linkage unless they are given.
     """
@@ -125,7 +128,10 @@ def _live(moving: MovingSolids) -> dict[str, Any] | None:
     """
     linkage, mechanism = moving.linkage, moving.linkage.mechanism
     chain = mechanism.chain
-    ranges = {k: (float(m.drives[:, k].min()), float(m.drives[:, k].max())) for _, k, m, _ in moving.named()}
+    ranges = {
+        k: (-pi, pi, True) if full else (float(motion.drives[0, k]), float(motion.drives[-1, k]), False)
+        for _, k, motion, full in moving.named()
+    }
     if len(ranges) < 2 or _unsolved(linkage) is not None:
         return None
     numbers = [k for k, joint in enumerate(chain.joints) if not joint.pair.has_contours]
@@ -151,8 +157,7 @@ def _live(moving: MovingSolids) -> dict[str, Any] | None:
                 "axis": "xyz".index(drive.direction[-1]),
                 "turns": drive.turning,
                 "sign": against_frame(linkage, drive.joint),
-                "low": ranges.get(k, (0.0, 0.0))[0],
-                "high": ranges.get(k, (0.0, 0.0))[1],
+                **dict(zip(("low", "high", "round"), ranges.get(k, (0.0, 0.0, False)), strict=True)),
             }
             for k, drive in enumerate(mechanism.drives)
         ],
@@ -182,7 +187,7 @@ def machine_model(id: str) -> dict[str, Any]:
             for lang, each in placed.items()
             if each is not None
         },
-        between=record.between if len(linkage.mechanism.drives) == 1 else None,
+        between=record.between,
     )
 
 
