@@ -4,8 +4,8 @@
 import { readFile } from "node:fs/promises";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
+import zopfli from "@gfx/zopfli";
 import { build, transform } from "esbuild";
-import { gzipSync, strToU8 } from "fflate";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const target = process.argv[2] ?? path.join(here, "../src/gruebler/page/static");
@@ -52,7 +52,7 @@ const packed = {
       const code = table
         ? JSON.stringify(JSON.parse(text))
         : (await transform(text, { loader: "css", charset: "utf8", minify: true })).code.trim();
-      const unpacked = `await textOf(${written(gzipSync(strToU8(code), { level: 9, mtime: 0 }))})`;
+      const unpacked = `await textOf(${written(await zopfli.gzipAsync(Buffer.from(code), {}))})`;
       const value = table ? `JSON.parse(${unpacked})` : unpacked;
       const contents = `import { textOf } from "./packed";\nexport default ${value};`;
       return { contents, loader: "js", resolveDir: path.join(here, "src") };
