@@ -7,8 +7,11 @@ import pytest
 
 from gruebler.mechanics.kinematics import move
 from gruebler.teaching.exercises import exercise, solve
-from gruebler.teaching.worksheets.blocks import Pictures
+from gruebler.teaching.sheets.page import PlacedPicture, TextLine
+from gruebler.teaching.worksheets.blocks import Document, Heading, Paragraph, Pictures, Rows
 from gruebler.teaching.worksheets.exercise_figures import exercise_linkage
+from gruebler.teaching.worksheets.files import document_bytes
+from gruebler.teaching.worksheets.paged import document_pages
 from gruebler.teaching.worksheets.solution_figures import solution_figures
 from gruebler.teaching.worksheets.tasks import exercise_figure, solution_document
 
@@ -54,15 +57,49 @@ def test_solutions_contain_the_drawings_asked_for(id, count):
     task = exercise(id)
     drawn = list(solution_figures(task, solve(task)))
     assert len(drawn) == count
-    assert len({caption for _, caption in drawn}) == count
+    assert len({each.caption for each in drawn}) == count
     pictures = [block for block in solution_document([task]).blocks if isinstance(block, Pictures)]
-    assert {figure.title for figure, _ in drawn} <= {each.figures[0].title for each in pictures}
+    assert {each.figure.title for each in drawn} <= {figure.title for each in pictures for figure in each.figures}
+
+
+@pytest.mark.parametrize(("suffix", "mark"), [("html", "<svg"), ("md", "!["), ("tex", r"\begin{tikzpicture}")])
+def test_each_machine_is_drawn_beside_its_own_count(suffix, mark):
+    """In exercise 5 drawings and counts of links take turns."""
+    text = document_bytes(solution_document([exercise("5")]), suffix).decode("utf-8")
+    assert re.findall(f"{re.escape(mark)}|2. Links: ", text) == 5 * [mark, "2. Links: "]
+
+
+@pytest.mark.parametrize("id", ["5", "5b", "6"])
+def test_the_drawing_stands_below_its_heading_on_the_page(id):
+    document = solution_document([exercise(id)])
+    level = 3 if id == "5" else 2
+    headings = [block.text for block in document.blocks if isinstance(block, Heading) and block.level == level]
+    pages = document_pages(document)
+    for text in headings:
+        ((page, y),) = (
+            (page, item.y)
+            for page in pages
+            for item in page.items
+            if isinstance(item, TextLine) and item.bold and item.text == text
+        )
+        assert any(0 < item.y - y < 80 for item in page.items if isinstance(item, PlacedPicture)), text
+
+
+def test_a_title_stays_with_its_table():
+    """However many lines stand before them."""
+    for before in range(40):
+        filling = tuple(Paragraph(f"line {k}") for k in range(before))
+        document = Document("a", (*filling, Paragraph("the title"), Rows(("letter",), (("a",), ("b",)))))
+        for page in document_pages(document):
+            texts = [item.text for item in page.items if isinstance(item, TextLine)]
+            assert ("the title" in texts) == ("letter" in texts)
 
 
 @pytest.mark.parametrize("id", ["2", "15"])
 def test_the_plotted_stroke_is_that_of_the_table(id):
     """Each dot of the plot lies on the drawn line: rows by trigonometry, the line by complex numbers."""
-    ((figure, _),) = solution_figures(exercise(id), solve(exercise(id)))
+    (drawn,) = solution_figures(exercise(id), solve(exercise(id)))
+    figure = drawn.figure
     (line,) = (shape for shape in figure.shapes if shape.style == "line-1")
     dots = [shape.at for shape in figure.shapes if shape.style == "dot"]
     assert len(dots) == 13

@@ -105,7 +105,7 @@ def bounds(shapes: Iterable[Shape], margin: float = 10.0) -> tuple[Point, Point]
     return Point(left, top), Point(right - left, bottom - top)
 
 
-_LOWERED = re.compile(r"(?<![^\W₀-₉])([^\W\d_])_(\w{1,4})(?!\w)")
+_LOWERED = re.compile(r"(?<![^\W₀-₉])([^\W\d_])_([^\W²³]{1,4})(?![^\W²³])")
 
 
 def split_subscripts(text: str) -> list[tuple[str, bool]]:
@@ -113,6 +113,8 @@ def split_subscripts(text: str) -> list[tuple[str, bool]]:
 
     >>> split_subscripts("μ_min = 3°, left_arm")
     [('μ', False), ('min', True), (' = 3°, left_arm', False)]
+    >>> split_subscripts("ω_b²")
+    [('ω', False), ('b', True), ('²', False)]
     >>> split_subscripts("B₀K_I")
     [('B₀K', False), ('I', True)]
     """

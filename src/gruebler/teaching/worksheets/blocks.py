@@ -116,7 +116,8 @@ class Document:
 
 
 _NUMBERED = re.compile(r"(?<![\w=])([^\W\d_])([0-9])(?:_(\w)(?!\w))?(?![\w])")
-_MINUS = re.compile(r"(?<=\s)-(?=\s)|(?<![\w)\]…-])-(?=[\d(√∞])|(?:(?<=\()|(?<==\s))-(?=[^\W\d_])")
+_PIVOTS = re.compile(r"(?<!\w)(?=[A-Z0]*[A-Z]0)(?:[A-Z]0?){2,}(?!\w)")
+_MINUS = re.compile(r"(?<=\s)-(?=\s)|(?<![\w)\]…-])-(?=[\d(√∞])|(?:(?<=\()|(?<==\s)|(?<=;\s))-(?=[^\W\d_])")
 
 
 def typeset(text: str) -> str:
@@ -124,12 +125,15 @@ def typeset(text: str) -> str:
 
     >>> typeset("3n - 4 - 2 g1 = -φ/2 at K1_x of D(1-2), and exercise-1"), typeset("Zug- und Druckkraft (-0,5)")
     ('3n − 4 − 2 g₁ = −φ/2 at K_1x of D(1-2), and exercise-1', 'Zug- und Druckkraft (−0,5)')
+    >>> typeset("|B0B| = |AB0| at (a; -c/2)")
+    '|B₀B| = |AB₀| at (a; −c/2)'
     """
 
     def index(match: re.Match[str]) -> str:
         letter, digit, of = match.groups()
         return f"{letter}_{digit}{of}" if of else letter + chr(0x2080 + int(digit))
 
+    text = _PIVOTS.sub(lambda match: match[0].replace("0", "₀"), text)
     return _MINUS.sub("−", _NUMBERED.sub(index, text))
 
 

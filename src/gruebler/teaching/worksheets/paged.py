@@ -29,7 +29,8 @@ _SIZES = {1: 17.0, 2: 13.5, 3: 12.0}
 _GAP = 12.0
 _HEAD = 10.0
 _LOGO, _LOGO_WIDTH = 26.0, 220.0  # at most, above the head of a page
-_KEPT = 0.45 * HEIGHT  # what is higher than that may be divided
+_KEPT = 0.33 * HEIGHT  # what is higher than that may be divided
+_KEPT_TASK = 0.45 * HEIGHT  # with the space for its answers
 _WHOLE_TABLE = 0.2 * HEIGHT
 _PASSES = 4
 _SMALLEST = 0.62  # scale of a picture that would else begin a page: names of 13 pixels are then 6 points high
@@ -66,7 +67,7 @@ def _divided(document: Document, numbers: Mapping[str, int]) -> tuple[list[list[
                 y = _TOP
             continue
         # A heading stays with all that it heads, or with the beginning if that is much.
-        more = _headed(blocks[number:]) if isinstance(block, Heading) else 0.0
+        more = _headed(blocks[number:]) if isinstance(block, Heading) else _entitled(blocks[number : number + 2])
         for part, whole in enumerate(_parts(block)):
             items, high = whole
             if isinstance(block, Pictures) and y + high > _BOTTOM and pages[-1]:
@@ -227,9 +228,10 @@ def _headed(blocks: Sequence[Block]) -> float:
         ends = isinstance(block, Heading) and isinstance(heading, Heading) and block.level <= heading.level
         return not ends and not isinstance(block, PageBreak)
 
-    heights = [[high for _, high in _parts(block)] for block in takewhile(belongs, others)]
+    headed = list(takewhile(belongs, others))
+    heights = [[high for _, high in _parts(block)] for block in headed]
     whole = sum(map(sum, heights))
-    if whole <= _KEPT:
+    if whole <= (_KEPT_TASK if any(isinstance(block, AnswerLines) for block in headed) else _KEPT):
         return whole
     # A picture that follows at once, or after one paragraph, stays there too.
     first = next((k + 1 for k, block in enumerate(others[:2]) if isinstance(block, Pictures)), 0)
@@ -242,6 +244,14 @@ def _shortened(document: Document) -> str:
     wide = _RIGHT - _LEFT - text_width(document.subtitle, _HEAD * _FILL) - 2 * _GAP
     first, *others = wrapped_text(document.title, wide, _HEAD * _FILL)
     return f"{first.rstrip(',')} …" if others else first
+
+
+def _entitled(blocks: Sequence[Block]) -> float:
+    """The height of the beginning of a table whose title is the paragraph before it."""
+    if len(blocks) < 2 or not isinstance(blocks[0], Paragraph) or not isinstance(blocks[1], Rows):
+        return 0.0
+    title, table = (list(_parts(block)) for block in blocks)
+    return table[0][1] + title[-1][1] if len(title) == 2 else 0.0  # one or two lines
 
 
 def _page(document: Document, items: list[Item], number: int, count: int) -> Page:

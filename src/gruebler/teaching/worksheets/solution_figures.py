@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,31 +17,46 @@ from gruebler.pictures.canvas.shapes import Point
 from gruebler.pictures.structure import draw_structure
 from gruebler.structure.chain import Chain
 from gruebler.teaching.catalog import entry
-from gruebler.teaching.exercises import Solution, TeachingTable
+from gruebler.teaching.exercises import PartHeading, Solution, TeachingTable
 
 _SIZE = Point(460.0, 230.0)
 _FINE = 361  # points of a curve
 
 
-def solution_figures(exercise: Exercise, solution: Solution, lang: str = "en") -> Iterator[tuple[Figure, str]]:
-    """Each with its caption; the linkage itself is drawn by `linkage_figure`.
+@dataclass(frozen=True, slots=True)
+class SolutionFigure:
+    """A drawing that an exercise asks for."""
+
+    figure: Figure
+    caption: str
+    before: int
+    """The number of the part before which it stands: that of the steps that count the drawn chain, or the part after a
+    table that it shows."""
+
+
+def solution_figures(exercise: Exercise, solution: Solution, lang: str = "en") -> Iterator[SolutionFigure]:
+    """Each drawing with its place among the parts; the linkage itself is drawn by `linkage_figure`.
 
     >>> from gruebler.teaching.exercises import exercise, solve
-    >>> [caption for _, caption in solution_figures(exercise("6"), solve(exercise("6")))]
-    ['Double joint at the crank pin']
+    >>> [(drawing.caption, drawing.before) for drawing in solution_figures(exercise("6"), solve(exercise("6")))]
+    [('Double joint at the crank pin', 0)]
     """
     if exercise.method == "mobility.machines":
-        for case in exercise.cases:
+        begins = [k + 1 for k, part in enumerate(solution.parts) if isinstance(part, PartHeading)] or [0]
+        for case, before in zip(exercise.cases, begins, strict=True):
             machine, name = entry(case.machine), case.name.in_language(lang)
             names = machine.link_names(lang)
             figure = draw_structure(machine.chain(), labels=True, lang=lang, name=name, names=names)
-            yield figure, name
-    for table in solution.tables:
+            yield SolutionFigure(figure, name, before)
+    for after, table in enumerate(solution.parts, 1):
+        if not isinstance(table, TeachingTable):
+            continue
         if exercise.method in ("transfer.gear_pair", "dead_centres.stroke_table"):
-            yield _transfer_function(exercise, table, lang), table.title.in_language(lang)
+            yield SolutionFigure(_transfer_function(exercise, table, lang), table.title.in_language(lang), after)
         elif exercise.method in ("dyads.dyad", "dyads.coupler"):
             for called, chain, *_ in table.rows:
-                yield draw_structure(Chain.parse(str(chain)), labels=True, lang=lang), str(called)
+                figure = draw_structure(Chain.parse(str(chain)), labels=True, lang=lang)
+                yield SolutionFigure(figure, str(called), after)
 
 
 def _transfer_function(exercise: Exercise, table: TeachingTable, lang: str) -> Figure:

@@ -52,7 +52,7 @@ from gruebler.teaching.worksheets.blocks import (
 )
 from gruebler.teaching.worksheets.exercise_figures import linkage_figure
 from gruebler.teaching.worksheets.moodle import Task, gift, moodle_xml
-from gruebler.teaching.worksheets.solution_figures import solution_figures
+from gruebler.teaching.worksheets.solution_figures import SolutionFigure, solution_figures
 
 _MOST = 60
 _TRIES = 20  # seeds, for a task with other answers
@@ -157,7 +157,7 @@ def _task_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Block]:
     if figure is not None:
         yield Pictures((figure,), height=170.0)
     asked = [solution.results[question.key] for question in exercise.asked]
-    names = tuple(f"{_symbol(solution, result, lang)}: {asked_text(result, lang)}" for result in asked)
+    names = tuple(_named(_symbol(solution, result, lang), asked_text(result, lang)) for result in asked)
     yield AnswerLines(names, _SPACE.get(_kind(exercise), 110.0))
 
 
@@ -254,8 +254,10 @@ def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Blo
     yield Paragraph(exercise.task.in_language(lang))
     if number == 0 and (figure := exercise_figure(exercise, lang)) is not None:
         yield Pictures((figure,), height=170.0)
+    drawings = list(solution_figures(exercise, solution, lang))
     count = 0
-    for part in solution.parts:
+    for before, part in enumerate(solution.parts):
+        yield from _drawings_before(before, drawings)
         if isinstance(part, PartHeading):
             count = 0
             yield Heading(part.text.in_language(lang), 3)
@@ -266,8 +268,7 @@ def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Blo
         else:
             count += 1
             yield Paragraph("\n".join(line.strip() for line in step_lines(part, count, lang)))
-    for drawing, caption in solution_figures(exercise, solution, lang):
-        yield Pictures((drawing,), (caption,), height=200.0)
+    yield from _drawings_before(len(solution.parts), drawings)
     if exercise.asked:
         yield _answers(exercise, solution, lang)
     if exercise.remark is not None:
@@ -283,12 +284,19 @@ def _solution_blocks(exercise: Exercise, number: int, lang: str) -> Iterator[Blo
         yield Paragraph("\n".join(f"{k}. {step.text.in_language(lang)}" for k, step in enumerate(whole.steps, 1)))
 
 
+def _drawings_before(part: int, drawings: Sequence[SolutionFigure]) -> Iterator[Block]:
+    """The drawings of one place, two side by side."""
+    here = [drawing for drawing in drawings if drawing.before == part]
+    for pair in (here[k : k + 2] for k in range(0, len(here), 2)):
+        yield Pictures(tuple(each.figure for each in pair), tuple(each.caption for each in pair), height=200.0)
+
+
 def _answers(exercise: Exercise, solution: Solution, lang: str) -> Rows:
     """The results, and beside them what the source prints where it prints anything."""
     comparisons = compare(exercise, solution)
     rows = tuple(
         (
-            f"{_symbol(solution, each.result, lang)}: {each.result.name.in_language(lang)}",
+            _named(_symbol(solution, each.result, lang), each.result.name.in_language(lang)),
             result_text(each.result, lang),
             printed_note(each, lang),
         )
@@ -303,6 +311,15 @@ def _symbol(solution: Solution, result: Result, lang: str) -> str:
     """The name under which an answer is marked: its symbol, or its key where other results have the same symbol."""
     alone = sum(other.symbol == result.symbol for other in solution.results.values()) == 1
     return key_in_language(result.symbol if alone else ascii_key(result.key), lang)
+
+
+def _named(symbol: str, name: str) -> str:
+    """Symbol and name; the name alone where they are the same word.
+
+    >>> _named("H", "stroke"), _named("type", "Type")
+    ('H: stroke', 'Type')
+    """
+    return name if name.casefold() == symbol.casefold() else f"{symbol}: {name}"
 
 
 def _marking_key(exercises: Sequence[Exercise], lang: str) -> Iterator[Block]:
