@@ -448,3 +448,46 @@ def test_bad_orientations_are_told_in_a_sentence(tmp_path, capsys, text, options
     error = capsys.readouterr().err
     assert sentence in error
     assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize("task", ["a file", "an expression"])
+def test_pairs_give_a_four_bar_on_the_sphere(tmp_path, capsys, task):
+    """Its output link turns as x^2 asks at Chebyshev's points, by `move`."""
+    best, pairs = tmp_path / "best.toml", tmp_path / "pairs.csv"
+    x = 0.5 - 0.5 * np.cos((2 * np.arange(1, 6) - 1) * np.pi / 10)
+    rows = [f"{60 * value!r},{60 * value**2!r}" for value in x.tolist()]
+    pairs.write_text("input,output\n" + "\n".join(rows), encoding="utf-8")
+    expression = ["x^2", "--interval", "0", "1", "--swings", "60", "60"]
+    given = [str(pairs), "--free-starts"] if task == "a file" else expression
+    assert main(["synthesise", "spherical-function", *given, "--frame", "90", "-o", str(best)]) == 0
+    out = capsys.readouterr().out
+    assert "Solutions: 5 by theorem (linkages), 5 found, 1 real." in out
+    steps = np.radians(60) * np.interp(np.arange(33) / 8, np.arange(5), x - x[0])
+    motion = gr.move(gr.read(best), steps)
+    turned = Rotation.from_matrix(motion.pose("rocker")[::8, :3, :3]).magnitude()
+    assert turned == pytest.approx(np.radians(60) * (x**2 - x[0] ** 2), abs=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "sentence"),
+    [
+        ("0,0\n10,5\n20,15\n30,30", ["--free-starts"], "free starts need the arc of the frame"),
+        ("0,0\n10,5\n20,15\n30,30", ["--frame", "80"], "expected 3 pairs of angles, but found 4 inputs"),
+        ("0,0\n10,5\n20,15\n30,30", ["--starts", "0", "0"], "--starts: the file"),
+        ("0,0\n10,5\n20,15", ["--frame", "180"], "frame: expected an angle between 0 and 180 degrees"),
+    ],
+)
+def test_bad_pairs_for_the_sphere_are_told_in_a_sentence(tmp_path, capsys, text, options, sentence):
+    task = tmp_path / "pairs.csv"
+    task.write_text(f"input,output\n{text}", encoding="utf-8")
+    assert main(["synthesise", "spherical-function", str(task), *options]) == 2
+    error = capsys.readouterr().err
+    assert sentence in error
+    assert error.count("\n") == 1
+
+
+def test_a_travel_is_nothing_on_the_sphere(tmp_path, capsys):
+    task = tmp_path / "pairs.csv"
+    task.write_text("input,travel\n0,0\n10,5\n20,15\n30,25", encoding="utf-8")
+    assert main(["synthesise", "spherical-function", str(task)]) == 2
+    assert "coordinate angles, not a travel" in capsys.readouterr().err

@@ -13,7 +13,7 @@ from typing import Any
 
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, joined_by_and, translate
-from gruebler.cli import synthesise_orientations
+from gruebler.cli import synthesise_sphere
 from gruebler.cli.design_files import check_demands, check_picture, design_to_write, draw_designs
 from gruebler.cli.design_tables import print_clearance, print_designs, print_optimum
 from gruebler.cli.executors import executor_of
@@ -67,6 +67,7 @@ _TASK_OPTIONS = {
     "function": ("--interval", "--swings", "--starts", "--points", "--travel"),
     "dead-centres": ("--swing", "--stroke", "--crank-angle", "--time-ratio"),
     "dwell": ("--dwell", "--swing", "--stroke"),
+    "spherical-function": ("--interval", "--swings", "--starts", "--points"),
 }
 """The options that are a task by themselves."""
 _ALONE = ("--jobs", 1)
@@ -81,6 +82,7 @@ _TASKS: dict[str, type[Task]] = {
     "path": PathTask,
     "dead-centres": DeadCentreTask,
     "dwell": DwellTask,
+    "spherical-function": FunctionTask,
 }
 
 
@@ -174,14 +176,40 @@ def add(parser: Parser) -> None:
         --stroke H float  stroke of an output that slides
         """
     )
-    sphere = parser.add_command(
+    orientations = parser.add_command(
         "orientations",
         help="turn a body about a point through orientations",
         description="Four-bars on the sphere whose coupler takes three to five orientations: all of five, the best of "
         "the families of three and four.",
         epilog="Example: gruebler synthesise orientations turns.toml --crank -o best.toml",
     )
-    synthesise_orientations.add(sphere)
+    orientations.take(
+        """
+        task TASK  a .toml or .json file: orientations = [[x, y, z, angle], ...], axis and angle in degrees
+        """
+    )
+    spherical = parser.add_command(
+        "spherical-function",
+        help="coordinate two angles by a four-bar on the sphere",
+        description="Four-bars on the sphere whose output is a function of the crank angle: four pairs, or three with "
+        "--frame, exactly; with --frame and free starts all of five pairs, the best of the families of three and four.",
+        epilog="Example: gruebler synthesise spherical-function 'x^2' --interval 0 1 --swings 60 60 --frame 90",
+    )
+    spherical.take(
+        """
+        task TASK|EXPRESSION  a .toml, .json or .csv file (CSV columns input,output), or an expression such as 'x^2',
+            its angles in radians
+        --interval FROM TO float  interval of x
+        --swings INPUT OUTPUT float  ranges in degrees
+        --starts INPUT OUTPUT float  fixed start values, counted from the arc of the frame (default: free)
+        --points N int  number of precision points (default: 5, with fixed starts 4, with --frame as well 3)
+        --free-starts  count the pairs of a file from start values that are free
+        --frame DEG float  the angle between the fixed axes
+        """
+    )
+    spherical.set_defaults(travel=False, six_bars=False)
+    for kind in (orientations, spherical):
+        synthesise_sphere.add(kind)
     for kind in (positions, function, path, dead, dwell):
         kind.take(
             """
@@ -221,7 +249,11 @@ def add(parser: Parser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Solve the task, print designs, write and draw the best. Status 1: no design was accepted."""
     if arguments.action == "orientations":
-        return synthesise_orientations.run(arguments)
+        return synthesise_sphere.turn_body(arguments)
+    if arguments.action == "spherical-function":
+        task = _task(arguments)
+        assert isinstance(task, FunctionTask)
+        return synthesise_sphere.coordinate(arguments, task)
     if arguments.draw is not None:
         check_picture(arguments.draw)
     demands = _demands(arguments)
@@ -320,7 +352,7 @@ def _task(arguments: argparse.Namespace) -> Task:
     if arguments.action in _OF_OPTIONS and arguments.task is None:
         with _keys_as_options():
             return _OF_OPTIONS[arguments.action](arguments)
-    if arguments.action == "function" and Path(arguments.task).suffix.lower() not in (".toml", ".json", ".csv"):
+    if arguments.action.endswith("function") and Path(arguments.task).suffix.lower() not in (".toml", ".json", ".csv"):
         with _keys_as_options():
             return _function_task(arguments)
     task = read_task(arguments.task)
@@ -378,7 +410,9 @@ def _radians(value: float | None) -> float | None:
 def _function_task(arguments: argparse.Namespace) -> FunctionTask:
     from gruebler.design.synthesis import function_task
 
-    usual = 9 if arguments.six_bars else 5 if arguments.starts is None else 3
+    on_sphere = arguments.action == "spherical-function"
+    fixed = 4 if on_sphere and arguments.frame is None else 3
+    usual = 9 if arguments.six_bars else 5 if arguments.starts is None else fixed
     points = usual if arguments.points is None else arguments.points
     return function_task(_law(arguments), points, output="travel" if arguments.travel else "angle")
 
@@ -386,7 +420,11 @@ def _function_task(arguments: argparse.Namespace) -> FunctionTask:
 def _law(arguments: argparse.Namespace) -> FunctionLaw:
     for option, value in (("--interval", arguments.interval), ("--swings", arguments.swings)):
         if value is None:
-            raise SynthesisError("an expression needs {option}: see gruebler synthesise function --help", option=option)
+            raise SynthesisError(
+                "an expression needs {option}: see gruebler synthesise {action} --help",
+                option=option,
+                action=arguments.action,
+            )
     unit = 1.0 if arguments.travel else math.pi / 180
     starts = arguments.starts or (None, None)
     return FunctionLaw(

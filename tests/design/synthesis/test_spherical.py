@@ -9,12 +9,9 @@ import gruebler as gr
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands
 from gruebler.design.synthesis.dyads import Displacements, all_dyads
-from gruebler.design.synthesis.spherical import (
-    _displacements,
-    five_orientation_dyads,
-    synthesise_orientations,
-    synthesise_spherical_function,
-)
+from gruebler.design.synthesis.spherical import synthesise_orientations
+from gruebler.design.synthesis.spherical_dyads import displacements, five_orientation_dyads
+from gruebler.design.synthesis.spherical_functions import synthesise_spherical_function
 from gruebler.mechanics.space import SphericalFourBar
 
 
@@ -41,7 +38,7 @@ def _coupler_task(bar, phi, branch="+"):
 @pytest.mark.parametrize("seed", range(4))
 def test_all_real_dyads_against_newtons_method_from_many_starts(seed):
     """Second method: w . (A g - g) = 0 with both axes as points of a chart, from 400 random starts."""
-    turns = _displacements(_random_task(seed))
+    turns = displacements(_random_task(seed))
     dyads, found = five_orientation_dyads(turns)
     assert found == 6
     for dyad in dyads:
@@ -122,9 +119,9 @@ def test_small_caps_are_the_plane():
         for x, y, angle in rows
     ]
     origins = np.array([complex(x, y) for x, y, _ in rows])
-    displacements, _, size = Displacements.of(origins, np.exp(1j * np.radians([angle for *_, angle in rows])))
-    plane = [dyad for dyad in all_dyads(displacements).real if not dyad.slides]
-    sphere = five_orientation_dyads(_displacements(task)).real
+    given, _, size = Displacements.of(origins, np.exp(1j * np.radians([angle for *_, angle in rows])))
+    plane = [dyad for dyad in all_dyads(given).real if not dyad.slides]
+    sphere = five_orientation_dyads(displacements(task)).real
     places = [complex(*(dyad.moving[:2] / dyad.moving[2])) / far / size for dyad in sphere]
     assert len(plane) == 4
     for dyad in plane:
@@ -142,6 +139,93 @@ def test_pairs_of_a_four_bar_give_it_back(arcs, branch):
     assert design.branch == branch
     (same,) = synthesise_spherical_function(phi[:3], psi[:3], frame=bar.d).designs
     assert same.four_bar.b == pytest.approx(bar.b, abs=1e-9)
+
+
+def test_pairs_of_a_universal_joint_give_it_back():
+    """tan(output) cos(30°) = tan(input), as textbooks have it of Hooke's joint, whose fork is a right angle ahead."""
+    turns, bend = np.radians([10.0, 30, 50, 80]), np.radians(30)
+    outputs = np.pi / 2 + _hooke(turns)
+    (design,) = synthesise_spherical_function(turns, outputs).designs
+    assert [getattr(design.four_bar, arc) for arc in "abcd"] == pytest.approx(np.radians([90, 90, 90, 30]), abs=1e-9)
+    (same,) = synthesise_spherical_function(turns[:3], outputs[:3], frame=bend).designs
+    assert same.four_bar.b == pytest.approx(np.pi / 2, abs=1e-9)
+    free = synthesise_spherical_function(
+        [0, 0.3, 0.7, 1.2, 1.4], [0, *_hooke([0.3, 0.7, 1.2, 1.4])], frame=bend, free_starts=True
+    )
+    assert free.count.theorem == 5
+    arcs = [[getattr(each.four_bar, arc) for arc in "abc"] for each in free.designs]
+    assert min(np.abs(np.array(arcs) - np.pi / 2).max(axis=1)) < 1e-7
+
+
+def _hooke(turns):
+    return np.arctan2(np.sin(turns), np.cos(turns) * np.cos(np.radians(30)))
+
+
+def _random_pairs(seed):
+    """Five pairs of a random four-bar, counted from the first one; its arcs."""
+    rng = np.random.default_rng(seed)
+    bar = SphericalFourBar(*np.radians([30, 80, 60, 70]) + rng.uniform(-0.15, 0.15, 4))
+    phi = np.sort(rng.uniform(0, 5.5, 5))
+    psi = bar.motion(phi).output.value
+    return phi - phi[0], psi - psi[0], bar
+
+
+def _coupler_arcs(phi, psi, d, starts=400):
+    """Second method: arcs of all real linkages by Newton's method on A . B = cos b, the starts unknown, too."""
+    rng = np.random.default_rng(0)
+    found = []
+    for _ in range(starts):
+
+        def gaps(x):
+            k0, k1, k2, first, second = x
+            u, v = phi + first, psi + second
+            return k0 * np.cos(u) + k1 * np.cos(v) + k2 + np.cos(d) * np.cos(u) * np.cos(v) + np.sin(u) * np.sin(v)
+
+        begin = [*rng.normal(0, 1, 3), *rng.uniform(0, 2 * np.pi, 2)]
+        x, _, ended, _ = fsolve(gaps, begin, full_output=True, xtol=1e-13)
+        if ended != 1 or np.abs(gaps(x)).max() > 1e-11 or np.abs(x[:3]).max() > 1e3:
+            continue
+        a, c = np.arctan2(np.sin(d), -x[1]), np.arctan2(np.sin(d), x[0])
+        cosine = np.cos(a) * np.cos(c) * np.cos(d) - x[2] * np.sin(a) * np.sin(c)
+        row = np.array([min(a, np.pi - a), min(c, np.pi - c), abs(cosine)])  # opposite axes are the same ones
+        if abs(cosine) < 1 and all(np.abs(row - other).max() > 1e-6 for other in found):
+            found.append(row)
+    return np.array(found)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_free_starts_against_newtons_method_from_many_starts(seed):
+    phi, psi, bar = _random_pairs(seed)
+    result = synthesise_spherical_function(phi, psi, frame=bar.d, free_starts=True)
+    assert (result.count.theorem, result.count.found) == (5, 5)
+    own = [design.four_bar for design in (*result.designs, *result.rejected)]
+    assert len(own) == result.count.real
+    assert len(own) % 2 == 1  # the frame is the sixth dyad, and real ones are even in number
+    assert min(np.abs(np.array([each.a, each.b, each.c]) - [bar.a, bar.b, bar.c]).max() for each in own) < 1e-8
+    rows = np.array([[min(arc, np.pi - arc) for arc in (each.a, each.c)] + [abs(np.cos(each.b))] for each in own])
+    other = _coupler_arcs(phi, psi, bar.d)
+    assert len(other) == len(rows)
+    assert np.abs(other[:, None] - rows).max(axis=2).min(axis=1).max() < 1e-7
+
+
+@pytest.mark.parametrize("count", [3, 4, 5])
+def test_accepted_functions_by_another_solver(count):
+    """The output link turns by the wanted angles when `move`, which knows closing conditions only, turns the crank."""
+    judged = 0
+    for seed in range(5):
+        phi, psi, bar = (part[:count] if k < 2 else part for k, part in enumerate(_random_pairs(seed)))
+        for design in synthesise_spherical_function(phi, psi, frame=bar.d, free_starts=True, number=3).designs[:3]:
+            assert np.diff(design.drives) % (2 * np.pi) == pytest.approx(np.diff(phi), abs=1e-9)
+            steps = np.interp(
+                np.arange(count * 8 - 7) / 8, np.arange(count), np.array(design.drives) - design.drives[0]
+            )
+            motion = gr.move(design.linkage, steps)
+            assert motion.complete
+            turns = Rotation.from_matrix(motion.pose("rocker")[::8, :3, :3])
+            wanted = Rotation.from_rotvec(psi[:, None] * design.axes[3])
+            assert (turns * wanted.inv()).magnitude().max() < 1e-7
+            judged += 1
+    assert judged >= 4
 
 
 def test_pairs_without_a_real_linkage_say_so():
@@ -163,6 +247,20 @@ def test_pairs_without_a_real_linkage_say_so():
 def test_tasks_that_cannot_be_solved_say_why(task, words):
     with pytest.raises(SynthesisError, match=words):
         synthesise_orientations(task)
+
+
+@pytest.mark.parametrize(
+    ("pairs", "options", "words"),
+    [
+        (4, {"free_starts": True}, "need the arc of the frame"),
+        (4, {"frame": 1.0}, "expected 3 pairs of angles, but found 4 inputs"),
+        (6, {"frame": 1.0, "free_starts": True}, "expected 3, 4 or 5 pairs"),
+        (3, {"frame": 3.2}, "between 0 and 180 degrees, but found 183.346"),
+    ],
+)
+def test_functions_that_cannot_be_solved_say_why(pairs, options, words):
+    with pytest.raises(SynthesisError, match=words):
+        synthesise_spherical_function(np.arange(pairs) / 3, np.arange(pairs) / 4, **options)
 
 
 def test_demands_for_the_plane_are_refused():

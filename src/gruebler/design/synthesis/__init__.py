@@ -15,7 +15,8 @@ from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions
 from gruebler.design.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult, pareto
 from gruebler.design.synthesis.six_bar_functions import synthesise_six_bars
-from gruebler.design.synthesis.spherical import synthesise_orientations, synthesise_spherical_function
+from gruebler.design.synthesis.spherical import synthesise_orientations
+from gruebler.design.synthesis.spherical_functions import synthesise_spherical_function
 from gruebler.design.synthesis.structural_errors import structural_error
 from gruebler.design.synthesis.structures import synthesise_structures
 from gruebler.design.synthesis.synthesising import synthesise

@@ -1,4 +1,4 @@
-"""`gruebler synthesise orientations`: four-bars on the sphere that turn a body through orientations."""
+"""`gruebler synthesise orientations` and `spherical-function`: four-bars on the sphere."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from math import degrees, radians
 from typing import Any
 
+from gruebler.base.errors import SynthesisError
 from gruebler.base.plain_data import plain
 from gruebler.base.text import joined, message, number, translate
 from gruebler.cli.design_files import check_demands, check_picture, chosen_design
@@ -14,8 +15,13 @@ from gruebler.cli.design_tables import print_rejected, print_solutions, transmis
 from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
-from gruebler.design.synthesis import Demands
-from gruebler.design.synthesis.spherical import SphericalDesign, SphericalResult, synthesise_orientations
+from gruebler.design.synthesis import (
+    Demands,
+    FunctionTask,
+    synthesise_orientations,
+    synthesise_spherical_function,
+)
+from gruebler.design.synthesis.spherical import SphericalDesign, SphericalResult
 from gruebler.files.orientations import read_orientations
 from gruebler.files.screws import screws_to_json, write_screws
 from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
@@ -29,13 +35,13 @@ _COLUMNS = (
     message("error"),
     message("crank angles"),
 )
+_OUTPUTS = message("output angles")
 
 
 def add(parser: Parser) -> None:
-    """Add the arguments."""
+    """Add the arguments that both commands have after their tasks."""
     parser.take(
         """
-        task TASK  a .toml or .json file: orientations = [[x, y, z, angle], ...], axis and angle in degrees
         --crank
         --transmission
         --size-ratio
@@ -53,15 +59,40 @@ def add(parser: Parser) -> None:
     )
 
 
-def run(arguments: argparse.Namespace) -> int:
-    """Print the designs, write and draw the best. Status 1: no design was accepted."""
+def turn_body(arguments: argparse.Namespace) -> int:
+    """The designs for orientations. Status 1: no design was accepted."""
+    demands = _demands(arguments)
+    result = synthesise_orientations(read_orientations(arguments.task), demands, number=arguments.number)
+    return _tell(arguments, result, coordinates=False)
+
+
+def coordinate(arguments: argparse.Namespace, task: FunctionTask) -> int:
+    """The designs for pairs of angles. Status 1: no design was accepted."""
+    demands = _demands(arguments)
+    if task.output != "angle":
+        raise SynthesisError("output: four-bars on the sphere coordinate angles, not a travel")
+    if task.start_input != task.start_output:
+        raise SynthesisError("on the sphere both starts are given, or both are free")
+    result = synthesise_spherical_function(
+        task.inputs,
+        task.outputs,
+        demands,
+        frame=None if arguments.frame is None else radians(arguments.frame),
+        free_starts=not task.start_input,
+        number=arguments.number,
+    )
+    return _tell(arguments, result, coordinates=True)
+
+
+def _demands(arguments: argparse.Namespace) -> Demands:
     if arguments.draw is not None:
         check_picture(arguments.draw, SUFFIXES)
     check_demands(arguments)
-    demands = Demands(
-        crank=arguments.crank, transmission=radians(arguments.transmission), size_ratio=arguments.size_ratio
-    )
-    result = synthesise_orientations(read_orientations(arguments.task), demands, number=arguments.number)
+    return Demands(crank=arguments.crank, transmission=radians(arguments.transmission), size_ratio=arguments.size_ratio)
+
+
+def _tell(arguments: argparse.Namespace, result: SphericalResult, *, coordinates: bool) -> int:
+    """Print the designs, write and draw the best."""
     written = chosen_design(arguments, result.designs)
     if written is not None:
         write_screws(arguments.out, written.linkage)
@@ -71,7 +102,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(_document(result))
     else:
-        _print(result, arguments.rejected, arguments.lang)
+        _print(result, arguments.rejected, arguments.lang, coordinates=coordinates)
     return 0 if result.designs else 1
 
 
@@ -101,6 +132,7 @@ def _document(result: SphericalResult) -> dict[str, Any]:
                 "arcs": {arc: degrees(getattr(design.four_bar, arc)) for arc in "abcd"},
                 "branch": design.branch,
                 "drives": [degrees(value) for value in design.drives],
+                "outputs": [degrees(value) for value in design.outputs],
                 "linkage": screws_to_json(design.linkage),
             }
             for design in designs
@@ -114,7 +146,7 @@ def _document(result: SphericalResult) -> dict[str, Any]:
     }
 
 
-def _print(result: SphericalResult, rejected: bool, lang: str) -> None:
+def _print(result: SphericalResult, rejected: bool, lang: str, *, coordinates: bool) -> None:
     print_solutions(result.count, result.notes, (len(result.designs), len(result.rejected)), lang)
     rows: list[list[Cell]] = [
         [
@@ -123,12 +155,15 @@ def _print(result: SphericalResult, rejected: bool, lang: str) -> None:
             transmission_text(design.verdict.transmission, lang),
             _arcs(design, lang),
             "< 1e-9" if design.verdict.error < 1e-9 else number(design.verdict.error, lang, ".1e"),
-            joined((f"{number(degrees(value), lang, '.1f')}°" for value in design.drives), " "),
+            *(
+                joined((f"{number(degrees(value), lang, '.1f')}°" for value in values), " ")
+                for values in (design.drives, design.outputs)[: 1 + coordinates]
+            ),
         ]
         for k, design in enumerate(result.designs, 1)
     ]
     if rows:
-        print_table(_COLUMNS, rows, lang=lang)
+        print_table((*_COLUMNS, _OUTPUTS) if coordinates else _COLUMNS, rows, lang=lang)
     else:
         print(translate("None of the designs examined meets the task.", lang))
     print_rejected([(f"RR-RR {_arcs(d, lang)}", d.verdict.reasons) for d in result.rejected], not rows, rejected, lang)
