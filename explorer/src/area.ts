@@ -1,7 +1,7 @@
 /** The plane of the synthesis: how much of it is seen, its grid, and how large its marks are. */
 
-import { gridStep } from "./canvas";
 import { svg } from "./dom";
+import { gridStep } from "./grid";
 import { number } from "./language";
 import type { Box } from "./viewport";
 

@@ -1,7 +1,6 @@
 /** The view in which a mechanism is drawn on an empty plane; its mobility is told while it grows. */
 
 import { gripAt, gripped } from "./backdrop";
-import { gridStep } from "./canvas";
 import { h, ownPage, renew, svg } from "./dom";
 import {
   type Drawing,
@@ -26,6 +25,7 @@ import {
   withSlider,
 } from "./drawing";
 import { Fingers } from "./fingers";
+import { stepOf } from "./grid";
 import { History } from "./history";
 import { toHull } from "./hull";
 import { t } from "./language";
@@ -280,7 +280,7 @@ export class BuildView implements View, Plane, Drawn {
   }
 
   get step(): number {
-    return gridStep(70 / this.viewport.scale);
+    return stepOf(this.viewport);
   }
 
   private draw(): void {

@@ -1,6 +1,5 @@
-/** The canvas under the picture: grid, curves of points, centrodes, hodographs. */
+/** The canvas under the picture: curves of points, centrodes, hodographs. */
 
-import { number } from "./language";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
 import type { PointRecord, Target } from "./model";
@@ -25,7 +24,6 @@ export class Painter {
     const ratio = pen.canvas.width / viewport.width;
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, viewport.width, viewport.height);
-    if (shown.grid) this.paintGrid(linkage.model.unit);
     const { points } = linkage.sizes;
     const { rows, values } = linkage.cycle;
     if (shown.curves)
@@ -134,38 +132,4 @@ export class Painter {
     pen.arc(x, y, 2.5, 0, 7);
     pen.fill();
   }
-
-  /** Lines with their numbers along the upper and the left edge, in whose corner the unit stands. */
-  private paintGrid(unit: string): void {
-    const { pen, viewport } = this;
-    const { width, height } = viewport;
-    const step = gridStep(70 / viewport.scale);
-    pen.strokeStyle = this.colour("--grid");
-    pen.fillStyle = this.colour("--faint");
-    pen.font = "11px system-ui, sans-serif";
-    pen.lineWidth = 1;
-    pen.beginPath();
-    pen.fillText(unit, 6, 14);
-    const [left, top] = viewport.world(0, 0);
-    const [right, bottom] = viewport.world(width, height);
-    for (let k = Math.ceil(left / step); k * step <= right; k++) {
-      const x = Math.round(viewport.screen(k * step, 0)[0]) + 0.5;
-      pen.moveTo(x, 0);
-      pen.lineTo(x, height);
-      if (x > 40 && x < width - 60) pen.fillText(number(k * step), x + 3, 14);
-    }
-    for (let k = Math.ceil(bottom / step); k * step <= top; k++) {
-      const y = Math.round(viewport.screen(0, k * step)[1]) + 0.5;
-      pen.moveTo(0, y);
-      pen.lineTo(width, y);
-      if (y > 40 && y < height - 50) pen.fillText(number(k * step), 6, y - 3);
-    }
-    pen.stroke();
-  }
-}
-
-/** The least of 1, 2, 5 times a power of ten that is not below a length. */
-export function gridStep(wanted: number): number {
-  const power = 10 ** Math.floor(Math.log10(wanted));
-  return [1, 2, 5, 10].map((m) => m * power).find((value) => value >= wanted)!;
 }

@@ -3,6 +3,7 @@
 import { type Backdrop, backdropElement, cornersOf, gripsOf, putBackdrop } from "./backdrop";
 import { svg } from "./dom";
 import { type Drawing, isPin, type Knot, linksOf, type Spot } from "./drawing";
+import { gridOf, stepOf } from "./grid";
 import { convexHull } from "./hull";
 import { angle, number } from "./language";
 import { namePlace, nameSpot } from "./names";
@@ -19,8 +20,6 @@ export interface Plane {
   /** What the tool has got already. */
   readonly spots: readonly Spot[];
   readonly cursor: Pair;
-  /** Between lines of the grid. */
-  readonly step: number;
 }
 
 /** The hull of the knots of a link, in pixels. */
@@ -122,25 +121,13 @@ function knotElement({ chosen, drawing, viewport }: Plane, k: number, at: Pair):
   return element;
 }
 
-/** Lines with their numbers, and a bar as long as a step. */
-function grid({ viewport, step }: Plane): SVGElement[] {
+/** The grid, and a bar as long as a step. */
+function grid({ viewport }: Plane): SVGElement[] {
   const { width, height } = viewport;
-  const [left, top] = viewport.world(0, 0);
-  const [right, bottom] = viewport.world(width, height);
-  const out: SVGElement[] = [];
-  for (let k = Math.ceil(left / step); k * step <= right; k++) {
-    const [x] = viewport.screen(k * step, 0);
-    out.push(svg("path.mesh", { d: `M${x} 0V${height}` }));
-    out.push(svg("text.tick", { x: x + 3, y: height - 8 }, number(k * step)));
-  }
-  for (let k = Math.ceil(bottom / step); k * step <= top; k++) {
-    const [, y] = viewport.screen(0, k * step);
-    out.push(svg("path.mesh", { d: `M0 ${y}H${width}` }));
-    if (y > 20) out.push(svg("text.tick", { x: 6, y: y - 3 }, number(k * step)));
-  }
+  const step = stepOf(viewport);
   const long = step * viewport.scale;
   const d = `M${width - 20 - long} 24v6h${long}v-6`;
   const text = svg("text.tick", { x: width - 20 - long / 2, y: 22, "text-anchor": "middle" });
   text.append(`${number(step)} mm`);
-  return [...out, svg("path.scale", { d }), text];
+  return [...gridOf(viewport, "mm", height - 8), svg("path.scale", { d }), text];
 }

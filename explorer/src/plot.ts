@@ -1,7 +1,7 @@
 /** Small plots over the drive, linked with it by a cursor; the value at the drive, or at the pointer, stands above. */
 
-import { gridStep } from "./canvas";
 import { svg } from "./dom";
+import { gridStep } from "./grid";
 import { number } from "./language";
 import type { Pair } from "./rows";
 import { Span } from "./span";

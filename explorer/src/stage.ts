@@ -1,8 +1,9 @@
 /** The picture: links in SVG over curves on one canvas. */
 
 import { Painter } from "./canvas";
-import { h, svg } from "./dom";
+import { h, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
+import { gridOf } from "./grid";
 import { type Icon, icon } from "./icons";
 import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
@@ -37,6 +38,9 @@ export class Stage implements Board {
   dragging: Dragging | null = null;
   adding = false;
   private readonly hint = h("div.hint", {});
+  private readonly grid = svg("svg.grid", { "aria-hidden": "true" });
+  /** Of what the grid is: drawn anew each time, it took a third of a frame. */
+  private ruled = "";
   private readonly canvas = h("canvas", { "aria-hidden": "true" });
   private readonly scene: Scene;
   private readonly pointer: Pointer;
@@ -55,7 +59,7 @@ export class Stage implements Board {
     events: StageEvents,
     private shown: Shown,
   ) {
-    this.element = h("div.stage", {}, this.canvas, this.root);
+    this.element = h("div.stage", {}, this.grid, this.canvas, this.root);
     this.pointer = new Pointer(this, events);
     this.scene = new Scene(this.root, this.viewport, {
       joint: (event, joint) => {
@@ -161,6 +165,7 @@ export class Stage implements Board {
   /** Put everything where the pose has it. */
   draw(): void {
     if (!this.linkage) return;
+    this.rule(this.linkage.model.unit);
     this.scene.draw(this.linkage, this.shown);
     const aside = this.scene.poleAside ? ` ${t("The pole lies outside of the picture.")}` : "";
     const said = t("Drag a joint to change sizes, a link to move it.") + aside;
@@ -168,6 +173,12 @@ export class Stage implements Board {
     const pen = this.canvas.getContext("2d");
     if (!pen) return;
     new Painter(pen, this.viewport, this.colour).paint(this.linkage, this.shown);
+  }
+
+  private rule(unit: string): void {
+    const ruled = this.shown.grid ? JSON.stringify([this.viewport, unit, currentLanguage()]) : "";
+    if (ruled !== this.ruled) renew(this.grid, ...(ruled ? gridOf(this.viewport, unit, 14) : []));
+    this.ruled = ruled;
   }
 
   /** Draw in the colours of another theme. */

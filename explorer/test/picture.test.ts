@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { gridStep } from "../src/canvas";
 import { TURN } from "../src/cycle";
+import { gridStep } from "../src/grid";
 import { convexHull, toHull } from "../src/hull";
 import { Linkage } from "../src/linkage";
 import { later } from "../src/player";

@@ -1,0 +1,37 @@
+/** The lines of a plane with their numbers. */
+
+import { svg } from "./dom";
+import { number } from "./language";
+import type { Viewport } from "./viewport";
+
+/** The least of 1, 2, 5 times a power of ten that is not below a length. */
+export function gridStep(wanted: number): number {
+  const power = 10 ** Math.floor(Math.log10(wanted));
+  return [1, 2, 5, 10].map((m) => m * power).find((value) => value >= wanted)!;
+}
+
+/** Between lines of the grid, some 70 pixels. */
+export function stepOf({ scale }: Viewport): number {
+  return gridStep(70 / scale);
+}
+
+/** Lines, numbers along the left edge and in a row at a height, and the unit in their corner. */
+export function gridOf(viewport: Viewport, unit: string, foot: number): SVGElement[] {
+  const { width, height } = viewport;
+  const step = stepOf(viewport);
+  const numbers = [svg("text.tick", { x: 6, y: foot }, unit)];
+  const [left, top] = viewport.world(0, 0);
+  const [right, bottom] = viewport.world(width, height);
+  let d = "";
+  for (let k = Math.ceil(left / step); k * step <= right; k++) {
+    const x = Math.round(viewport.screen(k * step, 0)[0]) + 0.5;
+    d += `M${x} 0V${height}`;
+    if (x > 40 && x < width - 60) numbers.push(svg("text.tick", { x: x + 3, y: foot }, number(k * step)));
+  }
+  for (let k = Math.ceil(bottom / step); k * step <= top; k++) {
+    const y = Math.round(viewport.screen(0, k * step)[1]) + 0.5;
+    d += `M0 ${y}H${width}`;
+    if (y > 40 && y < height - 50) numbers.push(svg("text.tick", { x: 6, y: y - 3 }, number(k * step)));
+  }
+  return [svg("path.mesh", { d }), ...numbers];
+}
