@@ -1,0 +1,123 @@
+"""Points, or three positions, that the coupler reaches at given crank angles.
+
+docs/theory/synthesis-points.md has the equations and the counts.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gruebler.base.errors import LinkageError, SynthesisError
+from gruebler.base.text import message
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
+from gruebler.design.synthesis.judging import Demands, judge_design
+from gruebler.design.synthesis.pair_search import best_pairs
+from gruebler.design.synthesis.positions import (
+    guiding_dyads,
+    near_in_plane,
+    ranked,
+    sliding_sample,
+)
+from gruebler.design.synthesis.results import Design, SolutionCount, SynthesisResult
+from gruebler.design.synthesis.targets import Probe, Targets, position_targets
+from gruebler.design.synthesis.tasks import SAME, PathTask, PositionTask
+
+TIMED_POSITIONS = 3
+_TIMED_SAMPLE = 1600
+"""Dyads that are tried with the one crank of three positions with crank angles."""
+
+
+def timed_positions(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
+    """Three positions with crank angles: one crank does it, with any other dyad of the positions; the best are sought.
+
+    With w from the crank's pivot to its pin and v on to the point, w e^(i phi) + v e^(i theta) moves as the point does.
+    """
+    turned, carried = (np.exp(1j * (np.array(a) - a[0])) for a in (task.crank_angles, [a or 0.0 for a in task.angles]))
+    matrix = np.stack([turned[1:] - 1, carried[1:] - 1], axis=1)
+    if abs(np.linalg.det(matrix)) < SAME:
+        raise SynthesisError("the crank turns as the coupler does: no crank has these angles, or any has")
+    w, v = np.linalg.solve(matrix, task.z[1:] - task.z[0])
+    pin = complex(task.z[0] - v)
+    own = GuidingDyad(CRANK, pin, complex(pin - w))
+    if own.length < SAME * task.size:
+        raise SynthesisError("the crank with these angles has no length")
+    positions = PositionTask(tuple((z.real, z.imag, a or 0.0) for z, a in zip(task.z, task.angles, strict=True)))
+
+    def near(dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
+        return [] if dyad == own else near_in_plane(positions, dyad, width)
+
+    # One crank leaves time for a wide plane: five sizes about the first point.
+    x, y, far = task.z[0].real, task.z[0].imag, 5 * task.size
+    region = demands.region or (x - far, y - far, x + far, y + far)
+    others = [dyad for dyad in guiding_dyads(positions, _TIMED_SAMPLE, region) if not dyad.slides]
+    families = [[dyad for dyad in others if dyad != own]]
+    families += [sliding_sample(positions, kind, demands) for kind in (SLIDER, BLOCK)]
+    searches = [best_pairs(positions, [own], demands, near, second=family, number=2 * number) for family in families]
+    designs = [
+        design
+        for search in searches
+        for _, other in search.pairs
+        for design in _judged_timed(task, demands, own, other)
+    ]
+    accepted, rejected = ranked(designs)
+    notes = [note for search in searches for note in search.notes]
+    notes.append(message("Three positions with crank angles have one crank; the other dyad is any of the positions."))
+    count = SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
+
+
+def timed_points(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
+    """Points with crank angles: twice the problem of guiding a body, first seen from the crank, then the coupler."""
+    if len(task) > 5:
+        from gruebler.design.synthesis.curves import fit_path
+
+        return fit_path(task, demands, number=number)
+    if len(task) < 3:
+        raise SynthesisError("crank angles need at least three points: two are met by any crank")
+    timing = np.array(task.crank_angles)
+    # The body of the crank seen with the coupler point at rest: its point A - A0 goes to exp(i angle) (A - A0) - P.
+    within = np.angle(np.exp(1j * timing))  # a body looks the same after a whole turn
+    seen = PositionTask(tuple((-z.real, -z.imag, a) for z, a in zip(task.z, within, strict=True)))
+    designs: list[Design] = []
+    cranks = [d for d in guiding_dyads(seen, number) if not d.slides]
+    real = 0
+    for crank in cranks:
+        # Placed in the first position: fixed = -A0, moving = (A - A0) - P1 as the place of the body's point.
+        pivot, pin = -crank.fixed, crank.moving + task.z[0] - crank.fixed
+        turned = np.exp(1j * (timing - timing[0]))
+        pins = pivot + (pin - pivot) * turned
+        coupler = np.angle((task.z - pins) / (task.z[0] - pin))
+        carried = PositionTask(tuple((z.real, z.imag, a) for z, a in zip(task.z, coupler, strict=True)))
+        own = GuidingDyad(CRANK, complex(pin), complex(pivot))
+        for other in guiding_dyads(carried, number):
+            same = abs(other.moving - own.moving) + abs(other.fixed - own.fixed)
+            if not other.slides and same < 1e-6 * (task.size + abs(own.moving) + abs(own.fixed)):
+                continue
+            real += 1
+            designs += _judged_timed(task, demands, own, other)
+    accepted, rejected = ranked(designs)
+    theorem = 12 if len(task) == 5 else None
+    family = message("There are infinitely many solutions; some dyads of each family were taken.")
+    count = SolutionCount(what=message("linkages"), theorem=theorem, found=theorem or real, real=real)
+    return SynthesisResult(
+        task=task, designs=accepted, rejected=rejected, count=count, notes=() if theorem else (family,)
+    )
+
+
+def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: GuidingDyad) -> list[Design]:
+    from gruebler.design.synthesis.positions import linkage_of_dyads
+
+    try:
+        linkage = linkage_of_dyads(own, other, complex(task.z[0]), task.unit)
+    except LinkageError:
+        return []
+    timing = np.array(task.crank_angles)
+    crank = task.size * np.exp(1j * (linkage.required_pose["crank"].angle + timing - timing[0]))
+    first = linkage.required_pose["coupler"].angle
+    angles: list[float | None] = [None] * len(task)
+    if task.angles:
+        angles = [first + (a or 0.0) - (task.angles[0] or 0.0) for a in task.angles]
+    placed = position_targets("P", "coupler", task.z, angles, task.size)
+    probes = (*placed.probes, Probe(link="crank", length=task.size))
+    targets = Targets(probes, np.concatenate([placed.values, crank[:, None]], axis=1), task.size)
+    return [judge_design(linkage, targets, demands, f"{own.kind.form}-{other.kind.form}")]
