@@ -3,10 +3,10 @@
 import pytest
 
 from gruebler.base.errors import ChainError
+from gruebler.pictures.canvas.contacts import CONTACTS
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, TextShape
-from gruebler.pictures.canvas.symbols import CONTACTS
 from gruebler.pictures.linkage.element_pictures import contact_shapes
-from gruebler.pictures.structure import draw_structure
+from gruebler.pictures.structure import draw_structure, place_joints
 from gruebler.teaching.catalog import entries
 from gruebler.teaching.catalog.feature_query import entry_mechanism
 
@@ -56,6 +56,47 @@ def test_gear_pairs_show_pitch_circles_that_touch():
     )
     inside = [s for s in others if abs(ring.at.minus(s.at).length - (ring.radius - s.radius)) < 1e-6]
     assert len(inside) == 1  # the planet runs within the ring
+
+
+def test_round_bodies_are_centred_on_their_bearings_and_touch():
+    found = 0
+    for entry in entries().values():
+        if entry.space == "planar" and entry.dimensions is not None:
+            mechanism, contacts = entry_mechanism(entry), contact_shapes(entry.linkage())
+            placed = place_joints(mechanism, contacts)
+            chain = placed.chain
+            bearings = {
+                link: [placed.joints[k] for k, j in enumerate(chain.joints) if j.pair.is_turning and link in j.links]
+                for link in chain.links
+            }
+            for (joint, link), wheel in placed.wheels.items():
+                found += 1
+                assert wheel.centre in bearings[link], (entry.id, link)
+                assert wheel.radius == pytest.approx(wheel.centre.minus(placed.joints[joint]).length), (entry.id, link)
+            for number, joint in enumerate(chain.joints):
+                pair = [placed.wheels[number, link] for link in joint.links if (number, link) in placed.wheels]
+                if len(pair) == 2:
+                    apart = pair[1].centre.minus(pair[0].centre).length
+                    inside = "ring" in {placed.contacts[number, link] for link in joint.links}
+                    assert apart == pytest.approx(abs(pair[0].radius + (-1 if inside else 1) * pair[1].radius)), (
+                        entry.id
+                    )
+    assert found > 20
+
+
+def test_coaxial_wheels_have_one_bearing_and_one_size_each():
+    """Of the differential with two planets: the suns and the carrier turn about one axis, the ring encloses all."""
+    entry = entries()["diff2p"]
+    placed = place_joints(entry_mechanism(entry), contact_shapes(entry.linkage()))
+    sizes = {
+        link: {round(w.radius, 6) for (_, owner), w in placed.wheels.items() if owner == link} for link in placed.bare
+    }
+    assert {link: len(radii) for link, radii in sizes.items() if radii} == dict.fromkeys(
+        ("sun1", "sun2", "planet1", "planet2"), 1
+    )
+    centres = {w.centre for (_, owner), w in placed.wheels.items() if owner.startswith("sun")}
+    assert len(centres) == 1
+    assert {placed.joints[k] for k, joint in enumerate(placed.chain.joints) if "frame" in joint.links} == centres
 
 
 def test_a_belt_has_two_strands():

@@ -117,8 +117,7 @@ def _drawn(
     ]
     heads = [shapes[len(bodies) :] for shapes in arrows]
     outlines = {link: placed.outlines[link] for link in chain.links}
-    closed = {link: degree > 2 for link, degree in chain.degrees.items()}
-    labelled = labels_or_numbers(outlines, closed, bodies, called)
+    labelled = labels_or_numbers(outlines, placed.closed, bodies, called)
     corner, size = bounds([*labelled, *(shape for head in heads for shape in head)], 10.0)
     back = Point(-corner.x, -corner.y)
 

@@ -62,8 +62,9 @@ def structure_record(
     few = chain.n <= _MOST_LINKS
     called = {link: names[link] for link in chain.links} if names and set(chain.links) <= set(names) else {}
     shown = mechanism.renamed(called)
-    closed = {link: degree > 2 for link, degree in chain.degrees.items()}
-    shapes = labels_or_numbers({link: placed.outlines[link] for link in closed}, closed, paint(placed, lang), called)
+    shapes = labels_or_numbers(
+        {link: placed.outlines[link] for link in chain.links}, placed.closed, paint(placed, lang), called
+    )
     corner, _ = bounds(shapes, 10.0)
     return {
         "text": mechanism.text() if ";" in text else chain.text(),

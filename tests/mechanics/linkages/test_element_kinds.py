@@ -23,7 +23,7 @@ from gruebler.mechanics.linkages.elements import (
     Wheel,
     read_element,
 )
-from gruebler.pictures.canvas.symbols import CONTACTS as SIGNS
+from gruebler.pictures.canvas.contacts import CONTACTS as SIGNS
 from gruebler.pictures.linkage.element_pictures import PICTURES
 from gruebler.structure.chain.pairs import PAIRS
 

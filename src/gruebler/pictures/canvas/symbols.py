@@ -11,12 +11,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
+from gruebler.pictures.canvas.contacts import CONTACTS, WHEEL, TouchingBody
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
 from gruebler.pictures.canvas.styles import BAR
 from gruebler.structure.chain.pairs import Pair
 
 RADIUS = 6.2
 """Of a turning joint."""
+FOOT = Point(13.0, 21.0)
+"""Half the width and the height of a pedestal."""
 _RING = 3.6
 _BLOCK = Point(12.5, 7.0)
 _GUIDE = Point(20.0, 10.0)
@@ -31,6 +34,10 @@ class JointMember:
 
     towards: Point
     is_frame: bool = False
+    centre: Point | None = None
+    """Of a round body that has a bearing: its place."""
+    is_new: bool = True
+    """Whether the round body is not drawn at another joint."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,6 +52,8 @@ class JointSign:
     """The direction of sliding, or the common tangent; for turning joints without meaning."""
     reach: float
     """The greatest distance of the sign from its middle."""
+    wheels: tuple[tuple[float, tuple[Shape, ...]], ...] = ()
+    """Round bodies on their bearings, below all links, with their sizes: the larger ones are drawn first."""
 
 
 def joint_sign(
@@ -147,166 +156,59 @@ def _roll_slide(at: Point, members: Sequence[JointMember]) -> JointSign:
     return JointSign(below=(), above=above, holds=(at.plus(n, -5.0), middle), axis=t, reach=2 * _DISC)
 
 
-_BELOW = {"ring-body": 0, "ring-hole": 1}
-_WHEEL = 12.0  # radius of wheels and cams in a sign
-
-
 def _contact(at: Point, members: Sequence[JointMember], shapes: Sequence[str]) -> JointSign:
-    """Two bodies that touch, each as what it is: wheels, cam and roller, driver and cross, pin and slot."""
+    """Two bodies that touch, each as what it is: wheels, cam and roller, driver and cross, pin and slot.
+
+    A body whose centre is given is as large as its distance, and lies below the links.
+    """
+    to_centre = [None if member.centre is None else member.centre.minus(at) for member in members]
     n = _normal(members)
-    apart = 5.0 if "belt" in shapes or "crossed" in shapes else 0.0
+    for side, arm in zip((-1.0, 1.0), to_centre, strict=True):
+        n = n if arm is None else Point(side * arm.unit.x, side * arm.unit.y)
+    sizes = [0.0 if arm is None else arm.length for arm in to_centre]
+    belt = "belt" in shapes or "crossed" in shapes
+    apart = 0.0 if not belt else _BELT * min(sizes) if all(sizes) else 5.0
     holds: list[Point] = []
     above: list[Shape] = []
-    for side, shape, member in zip((-1.0, 1.0), shapes, members, strict=True):
-        towards = Point(n.x * side, n.y * side)
-        hold, parts = CONTACTS[shape](at.plus(towards, apart), towards, "block-frame" if member.is_frame else "block")
+    wheels: list[tuple[float, tuple[Shape, ...]]] = []
+    for number, (shape, member, arm, size) in enumerate(zip(shapes, members, to_centre, sizes, strict=True)):
+        side = -1.0 if number == 0 else 1.0
+        towards = Point(n.x * side, n.y * side) if arm is None else arm.unit
+        if arm is not None and shape == "ring":
+            towards = Point(-towards.x, -towards.y)
+        is_second = number == 1 if abs(sizes[0] - sizes[1]) < 1e-6 * sum(sizes) else size == max(sizes)
+        style = "block-frame" if member.is_frame else "block"
+        body = TouchingBody(at.plus(towards, apart), towards, style, max(0.0, size - apart), is_second)
+        hold, parts = CONTACTS[shape](body)
         holds.append(hold)
-        above += parts
-    if apart:
-        middles = [at.plus(n, side * (apart + _WHEEL)) for side in (-1.0, 1.0)]
+        if arm is None:
+            above += parts
+        elif member.is_new:
+            wheels.append((size, tuple(parts)))
+    if belt:
+        radius = min(sizes) - apart if all(sizes) else WHEEL
         turn = -1.0 if "crossed" in shapes else 1.0
         t = n.across
-        sides = [(middles[0].plus(t, s * _WHEEL), middles[1].plus(t, turn * s * _WHEEL)) for s in (1, -1)]
-        above.append(Polylines(tuple(sides), "edge"))
+        above.append(
+            Polylines(
+                tuple((holds[0].plus(t, s * radius), holds[1].plus(t, turn * s * radius)) for s in (1, -1)), "edge"
+            )
+        )
     # Rings and slots lie below what runs in them.
     above.sort(key=lambda shape: _BELOW.get(shape.style, len(_BELOW)))
-    return JointSign(below=(), above=tuple(above), holds=tuple(holds), axis=n.across, reach=2 * _WHEEL + apart)
+    return JointSign(
+        below=(),
+        above=tuple(above),
+        holds=tuple(holds),
+        axis=n.across,
+        reach=2 * WHEEL + apart,
+        wheels=tuple(wheels),
+    )
 
 
-_Part = tuple[Point, list[Shape]]
+_BELOW = {"ring-body": 0, "ring-hole": 1}
+_BELT = 0.4  # of half the distance of two bearings: between a wheel of a belt and the middle
 
-
-def _wheel(at: Point, towards: Point, style: str) -> _Part:
-    """A smooth wheel: of a friction drive or a belt."""
-    middle = at.plus(towards, _WHEEL)
-    return middle, [CircleShape(middle, _WHEEL - 0.7, style)]
-
-
-def _gear(at: Point, towards: Point, style: str) -> _Part:
-    """A toothed wheel with its pitch circle."""
-    middle = at.plus(towards, _WHEEL)
-    rim = []
-    for k in range(12):
-        for part, radius in ((-0.3, -2.2), (-0.18, 2.0), (0.18, 2.0), (0.3, -2.2)):
-            turn = 2 * math.pi * (k + part) / 12
-            rim.append(middle.plus(Point(math.cos(turn), math.sin(turn)), _WHEEL + radius))
-    return middle, [Polylines((tuple(rim),), style, closed=True), CircleShape(middle, _WHEEL, "pitch")]
-
-
-def _ring_gear(at: Point, towards: Point, style: str) -> _Part:
-    """An internal wheel around the other one, which lies on the far side of the contact; hatched if it is held."""
-    middle = at.plus(towards, -1.6 * _WHEEL)
-    parts: list[Shape] = [
-        CircleShape(middle, 1.6 * _WHEEL + 6.0, "ring-body"),
-        CircleShape(middle, 1.6 * _WHEEL, "ring-hole"),
-        CircleShape(middle, 1.6 * _WHEEL, "pitch"),
-    ]
-    if style == "block-frame":
-        turns = [2 * math.pi * k / 30 for k in range(30)]
-        outer = [Point(math.cos(x), math.sin(x)) for x in turns]
-        strokes = [
-            (middle.plus(u, 1.6 * _WHEEL + 6), middle.plus(u, 1.6 * _WHEEL + 10).plus(u.across, 3)) for u in outer
-        ]
-        parts.append(Polylines(tuple(strokes), "hatch"))
-    return at.plus(towards, 3.0), parts
-
-
-def _rack(at: Point, towards: Point, style: str) -> _Part:
-    """A toothed rod along the common tangent."""
-    t = towards.across
-    top = [at.plus(t, -18 + 3.0 * k).plus(towards, 2.2 if k % 4 in (0, 3) else -1.6) for k in range(13)]
-    foot = [at.plus(t, s * 18.0).plus(towards, 10.0) for s in (1, -1)]
-    return at.plus(towards, 6.0), [Polylines(((*top, *foot),), style, closed=True)]
-
-
-def _cam(at: Point, towards: Point, style: str) -> _Part:
-    """A cam: an egg, its nose at the contact."""
-    middle = at.plus(towards, 1.35 * _WHEEL)
-    rim = []
-    for k in range(48):
-        turn = 2 * math.pi * k / 48
-        u = towards.unit
-        outward = Point(
-            -u.x * math.cos(turn) - u.across.x * math.sin(turn), -u.y * math.cos(turn) - u.across.y * math.sin(turn)
-        )
-        rim.append(middle.plus(outward, 0.85 * _WHEEL + 0.5 * _WHEEL * max(0.0, math.cos(turn)) ** 2))
-    return middle, [Polylines((tuple(rim),), style, closed=True)]
-
-
-def _roller(at: Point, towards: Point, _style: str) -> _Part:
-    """A roller with its pin."""
-    middle = at.plus(towards, 0.6 * _WHEEL)
-    return middle, [CircleShape(middle, 0.6 * _WHEEL - 0.7, "joint"), CircleShape(middle, 1.8, "dot")]
-
-
-def _flat(at: Point, towards: Point, style: str) -> _Part:
-    """A flat face along the common tangent."""
-    t = towards.across
-    plate = tuple(at.plus(t, a * 15.0).plus(towards, b) for a, b in ((-1, 0.5), (1, 0.5), (1, 7.0), (-1, 7.0)))
-    return at.plus(towards, 4.0), [Polylines((plate,), style, closed=True)]
-
-
-def _geneva_driver(at: Point, towards: Point, style: str) -> _Part:
-    """A disc with a pin."""
-    middle = at.plus(towards, _WHEEL + 3)
-    return middle, [CircleShape(middle, _WHEEL, style), CircleShape(at.plus(towards, 3.0), 3.0, "joint")]
-
-
-def _geneva_wheel(at: Point, towards: Point, style: str) -> _Part:
-    """A cross with four slots, one of them at the contact."""
-    middle = at.plus(towards, _WHEEL)
-    rim = []
-    for k in range(4):
-        u = towards.unit
-        for _ in range(k):
-            u = u.across
-        u = Point(-u.x, -u.y)
-        v = u.across
-        rim += [middle.plus(u, a * _WHEEL).plus(v, b * _WHEEL) for a, b in ((1, -0.62), (1, -0.2), (0.3, -0.2))]
-        rim += [middle.plus(u, a * _WHEEL).plus(v, b * _WHEEL) for a, b in ((0.3, 0.2), (1, 0.2), (1, 0.62))]
-        rim.append(middle.plus(u, 0.62 * _WHEEL).plus(v, 0.62 * _WHEEL))
-    return middle, [Polylines((tuple(rim),), style, closed=True)]
-
-
-def _oval(at: Point, towards: Point, style: str) -> _Part:
-    """A wheel that is not round: an ellipse about a focus."""
-    middle, u = at.plus(towards, 0.8 * _WHEEL), towards.unit
-    turns = [2 * math.pi * k / 36 for k in range(36)]
-    rim = [middle.plus(u, 0.8 * _WHEEL * math.cos(x)).plus(u.across, 1.25 * _WHEEL * math.sin(x)) for x in turns]
-    return middle, [Polylines((tuple(rim),), style, closed=True)]
-
-
-def _slot(at: Point, towards: Point, _style: str) -> _Part:
-    """A plate with a slot along the common tangent."""
-    t = towards.across
-    plate = tuple(at.plus(t, a * 19.0).plus(towards, b * 8.0) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
-    slot = tuple(at.plus(t, a * 15.0).plus(towards, b * 4.2) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
-    body = Polylines((plate,), "ring-body", closed=True)
-    return at.plus(towards, 6.0), [body, Polylines((slot,), "ring-hole", closed=True)]
-
-
-def _pin(at: Point, _towards: Point, _style: str) -> _Part:
-    """A pin at the contact."""
-    return at, [CircleShape(at, 4.0, "joint"), CircleShape(at, 1.6, "dot")]
-
-
-CONTACTS = {
-    "gear": _gear,
-    "ring": _ring_gear,
-    "rack": _rack,
-    "wheel": _wheel,
-    "belt": _wheel,
-    "crossed": _wheel,
-    "cam": _cam,
-    "roller": _roller,
-    "flat": _flat,
-    "geneva-driver": _geneva_driver,
-    "geneva-wheel": _geneva_wheel,
-    "oval": _oval,
-    "slot": _slot,
-    "pin": _pin,
-}
-"""What a body of a higher pair can be."""
 
 SIGNS = {
     "revolute": _turning,
@@ -393,6 +295,22 @@ def ticks(a: Point, b: Point, outward: Point) -> Polylines:
     return Polylines(tuple((p.plus(outward, 1.3), p.plus(outward, 1.3).plus(lean, 6.5)) for p in places), "hatch")
 
 
+def foot(at: Point) -> tuple[Point, Point]:
+    """The ends of the line on which the support of a bearing stands."""
+    return Point(at.x - FOOT.x - 5.0, at.y + FOOT.y), Point(at.x + FOOT.x + 5.0, at.y + FOOT.y)
+
+
+def pedestal(at: Point) -> list[Shape]:
+    """The support of a bearing of the frame, hatched below."""
+    base = foot(at)
+    left, right = base[0].plus(Point(5.0, 0.0)), base[1].plus(Point(-5.0, 0.0))
+    return [
+        Polylines(((at, right, left),), "block-frame", closed=True),
+        Polylines((base,), "rail"),
+        ticks(*base, Point(0.0, 1.0)),
+    ]
+
+
 def _slant(outward: Point) -> Point:
     """The direction of hatching: one for all lines, at 45 degrees, except for lines that nearly have it themselves."""
     rising, falling = Point(-1.0, 1.0).unit, Point(1.0, 1.0).unit
@@ -412,9 +330,8 @@ def widest_gap(angles: Sequence[float]) -> float:
     return begin + width / 2
 
 
-def turning_drive(at: Point, radius: float, away: float) -> list[Shape]:
+def turning_drive(at: Point, radius: float, away: float, extent: float = math.radians(-230)) -> list[Shape]:
     """A curved arrow around a joint, its middle in the direction given by an angle."""
-    extent = math.radians(-230)
     arc = ArcShape(at, radius=radius, begin=away - extent / 2, extent=extent, style="drive")
     return [arc, arrow_head(arc)]
 

@@ -18,7 +18,7 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Element, Linkage, LinkPoint
 from gruebler.pictures.canvas.free_space import is_inside
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, bounds
-from gruebler.pictures.canvas.symbols import JointMember, joint_sign, ticks
+from gruebler.pictures.canvas.symbols import FOOT, JointMember, joint_sign, pedestal, ticks
 from gruebler.pictures.linkage.element_pictures import round_parts
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 
@@ -31,7 +31,6 @@ _BEYOND = 5.0  # pixels by which a guide extends beyond the block
 _SLOT_END = 9.0  # pixels by which a slot extends beyond the pin
 _SLOT_HALF = 8.5  # half the width of a slot between rails
 _RAIL = 2.5  # pixels between a block and its rail
-_FOOT = Point(13.0, 21.0)  # of a pedestal
 _FLAT = 1e-6  # sizes: points nearer to a line lie on it
 _LEAST_HEIGHT = 1e-3  # pixels: corners that are flatter are not seen
 _CALLED_BLOCKS = ("block", "slider", "piston", "stein", "kolben")
@@ -211,7 +210,7 @@ def body_parts(posed: PosedLinkage) -> tuple[BodyPart, ...]:
         BodyPart(BODIES, link, tuple(bodies[link])) for link in sorted(links, key=lambda link: -_extent(bodies[link]))
     ]
     hidden = [pin for pin in _covered(posed, joint_slides) if not _in_frame(posed, pin)]
-    parts += [BodyPart(BODIES, frame, tuple(_pedestal(posed, pin))) for pin in hidden]
+    parts += [BodyPart(BODIES, frame, tuple(pedestal(posed.local(pin)))) for pin in hidden]
     parts += [_block(posed, slide) for slide in joint_slides if slide.sign != "slot"]
     parts += _pin_parts(posed)
     return tuple(part for part in parts if part.shapes)
@@ -369,7 +368,7 @@ def _ground(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[Shape]
     covered = set(_covered(posed, joint_slides))
     for pin in dict.fromkeys(pins_of(lower, frame)):
         if pin not in covered and not _in_frame(posed, pin):
-            shapes += _pedestal(posed, pin)
+            shapes += pedestal(posed.local(pin))
     return shapes
 
 
@@ -383,17 +382,6 @@ def _inside(place: complex, corners: Sequence[complex]) -> bool:
     return bool(is_inside(np.array([place]), np.array(corners))[0])
 
 
-def _pedestal(posed: PosedLinkage, pin: complex) -> list[Shape]:
-    at = posed.local(pin)
-    left, right = (Point(at.x + s * _FOOT.x, at.y + _FOOT.y) for s in (-1, 1))
-    base = left.plus(Point(-5.0, 0.0)), right.plus(Point(5.0, 0.0))
-    return [
-        Polylines(((at, right, left),), "block-frame", closed=True),
-        Polylines((base,), "rail"),
-        ticks(*base, Point(0.0, 1.0)),
-    ]
-
-
 def _covered(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[complex]:
     """The pins of the frame whose pedestals the body of another link would cover: they are drawn above it."""
     lower, frame = posed.lower, posed.lower.mechanism.frame
@@ -403,7 +391,7 @@ def _covered(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[compl
         element = lower.elements.get((number, frame))
         if element is None or not element.is_pin:
             continue
-        foot = complex(*posed.place(LinkPoint(frame, element.x, element.y))) + 0.5j * _FOOT.y
+        foot = complex(*posed.place(LinkPoint(frame, element.x, element.y))) + 0.5j * FOOT.y
         for link in lower.mechanism.chain.links:
             if link == frame or joint in joints[link]:
                 continue

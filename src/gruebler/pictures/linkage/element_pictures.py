@@ -51,7 +51,7 @@ class ElementPicture:
     """How a kind of element is drawn."""
 
     sign: Callable[[Any, Element, bool], str]
-    """The key of `symbols.CONTACTS` for it, with the other element, if they roll on each other or not."""
+    """The key of `contacts.CONTACTS` for it, with the other element, if they roll on each other or not."""
     on_line: str = "flat"
     """That of a line with which it makes a joint."""
     part: Callable[[PosedLinkage, int, str, Any], RoundPart] | None = None
@@ -87,7 +87,7 @@ def round_parts(posed: PosedLinkage) -> Iterator[RoundPart]:
 
 
 def contact_shapes(linkage: Linkage) -> dict[tuple[int, str], str]:
-    """For every joint that rolls or slides in a point, by number and link: a word of `symbols.CONTACTS`.
+    """For every joint that rolls or slides in a point, by number and link: a word of `contacts.CONTACTS`.
 
     >>> from gruebler.structure.mechanism import Mechanism
     >>> pair = Mechanism.parse("R(0-1) R(0-2) G(1-2); drive=R(0-1)")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import pairwise
 
@@ -22,7 +22,9 @@ from gruebler.pictures.canvas.symbols import (
     JointSign,
     arrow,
     bar,
+    foot,
     joint_sign,
+    pedestal,
     polygon,
     straight_drive,
     turning_drive,
@@ -32,6 +34,7 @@ from gruebler.pictures.structure.bodies import LayoutBodies
 from gruebler.pictures.structure.layout import Layout, lay_out
 from gruebler.pictures.structure.messages import describe, title
 from gruebler.pictures.structure.orientation import upright
+from gruebler.pictures.structure.wheels import Wheel, wheel_points
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Alphabet, Pair
 from gruebler.structure.chain.spaces import Freedom, Space
@@ -40,6 +43,7 @@ from gruebler.structure.mechanism import Mechanism
 
 _LENGTH = 78.0  # pixels from joint to joint, on average
 _ASIDE = 17.0  # pixels between the middle of a link and its output arrow
+_RING_DRIVE = 14.0  # pixels outside a driven ring
 _NARROW = 30.0  # pixels between a joint and another link, at least, unless the picture becomes too large
 
 
@@ -59,6 +63,12 @@ class PlacedChain:
     faces: tuple[tuple[int, ...], ...] = ()
     contacts: Mapping[tuple[int, str], str] = field(default_factory=dict)
     """What the bodies of higher pairs are, by joint and link."""
+    wheels: Mapping[tuple[int, str], Wheel] = field(default_factory=dict)
+    """Round bodies on their bearings, by joint and link."""
+    closed: Mapping[str, bool]
+    """For each link whether its outline is closed: that of a polygon or a wheel."""
+    bare: frozenset[str] = frozenset()
+    """Links without a bar or polygon: wheels, and a frame that is the support of one bearing."""
 
 
 def draw_structure(
@@ -80,7 +90,7 @@ def draw_structure(
         symbols: whether to write the symbol of its pair beside every joint whose sign is none, in the alphabet of the
             language.
         contacts: what the bodies of higher pairs are, by joint number and link, in the words of
-            `gruebler.pictures.canvas.symbols.CONTACTS`: ``gear``, ``cam``, ``roller``, ...
+            `gruebler.pictures.canvas.contacts.CONTACTS`: ``gear``, ``cam``, ``roller``, ...
         outputs: links that get a double arrow.
         lang: language of title and description, ``en`` or ``de``.
         name: the title; by default a name derived from the structure.
@@ -105,9 +115,8 @@ def draw_structure(
                 symbol = joint.pair.symbol(Alphabet.of_language(lang))
                 shapes.append(note_near(at, symbol, "letter", shapes))
     if labels:
-        degrees = chain_of(structure).degrees
-        outlines = {link: placed.outlines[link] for link in degrees}
-        shapes = labels_or_numbers(outlines, {link: degrees[link] > 2 for link in degrees}, shapes, names)
+        outlines = {link: placed.outlines[link] for link in chain_of(structure).links}
+        shapes = labels_or_numbers(outlines, placed.closed, shapes, names)
     return figure_of(shapes, title(structure, lang, name), describe(structure, lang))
 
 
@@ -124,22 +133,39 @@ def place_joints(structure: Chain | Mechanism, contacts: Mapping[tuple[int, str]
     frame, drives = (None, ()) if isinstance(structure, Chain) else (structure.frame, structure.drives)
     chain, number = _ordered(chain_of(structure), frame, {drive.joint for drive in drives})
     plain, places = _ordered(chain)
-    layout = _layout_of(
-        tuple((joint.pair.name, tuple(sorted(map(plain.index, joint.links)))) for joint in plain.joints), chain.n
-    )
+    touching = _renumbered(chain_of(structure), plain, contacts or {})
+    spots = wheel_points(plain, frame, touching)
+    bodies = spots.bodies(plain, frame)
+    kinds: dict[int, str] = {}
+    for joint, p in zip(plain.joints, spots.point_of, strict=True):
+        if p is not None:
+            kinds.setdefault(p, joint.pair.name)
+    inner = tuple(bodies.values())
+    layout = _layout_of(tuple(kinds[p] for p in range(len(kinds))), (*inner, *spots.sides(inner)))
+    number_of = {link: k for k, link in enumerate(bodies)}
     scale = mean_scale(layout)
-    low = None if frame is None else plain.index(frame)
-    points = [Point(scale * x, -scale * y) for x, y in upright(layout, low).tolist()]
+    turned = upright(layout, None if frame is None else number_of.get(frame))
+    points = [Point(scale * x, -scale * y) for x, y in turned.tolist()]
+    at, wheels = spots.touching(points)
+    outlines = {link: tuple(points[p] for p in layout.outlines[number_of[link]]) for link in bodies}
+    for (contact, link), wheel in sorted(wheels.items(), key=lambda item: item[1].radius):
+        if link not in bodies:
+            outlines[link] = wheel.outline(touching[contact, link])
+    if frame is not None and frame not in outlines:
+        outlines[frame] = foot(next(p for p, joint in zip(at, plain.joints, strict=True) if frame in joint.links))
     back = {p: k for k, p in places.items()}
     return PlacedChain(
         chain=chain,
-        joints=tuple(points[places[k]] for k in range(len(chain.joints))),
-        outlines={link: tuple(points[p] for p in layout.outlines[plain.index(link)]) for link in chain.links},
+        joints=tuple(at[places[k]] for k in range(len(chain.joints))),
+        outlines={link: outlines[link] for link in chain.links},
         frame=frame,
         drives=tuple(sorted((number[drive.joint], drive.direction) for drive in drives)),
-        crossing=frozenset(plain.links[max(pair)] for pair in layout.crossings),
-        faces=tuple(tuple(back[p] for p in face if p in back) for face in layout.faces),
+        crossing=frozenset(list(bodies)[max(pair)] for pair in layout.crossings if max(pair) < len(bodies)),
+        faces=() if wheels else tuple(tuple(back[p] for p in face if p in back) for face in layout.faces),
         contacts=_renumbered(chain_of(structure), chain, contacts or {}),
+        wheels={(back[joint], link): wheel for (joint, link), wheel in wheels.items()},
+        closed={link: len(bodies[link]) > 2 if link in bodies else link != frame for link in chain.links},
+        bare=frozenset({*chain.links} - {*bodies}),
     )
 
 
@@ -162,11 +188,9 @@ def _ordered(chain: Chain, frame: str | None = None, drives: Collection[int] = (
 
 
 @lru_cache(maxsize=4096)
-def _layout_of(rows: tuple[tuple[str, tuple[int, ...]], ...], links: int) -> Layout:
-    kinds = list(dict.fromkeys(kind for kind, _ in rows))
-    colours = [kinds.index(kind) for kind, _ in rows]
-    bodies = [[p for p, (_, members) in enumerate(rows) if link in members] for link in range(links)]
-    return lay_out(LayoutBodies.of(colours, bodies))
+def _layout_of(kinds: tuple[str, ...], bodies: tuple[tuple[int, ...], ...]) -> Layout:
+    different = list(dict.fromkeys(kinds))
+    return lay_out(LayoutBodies.of([different.index(kind) for kind in kinds], bodies))
 
 
 def mean_scale(layout: Layout) -> float:
@@ -179,14 +203,19 @@ def mean_scale(layout: Layout) -> float:
 def paint(placed: PlacedChain, lang: str = "en") -> list[Shape]:
     """Links, joints and drives, in the order of painting; letters of joints in the alphabet of the language."""
     signs = [_sign(placed, number, lang) for number in range(len(placed.chain.joints))]
-    shapes = [shape for sign, _ in signs for shape in sign.below]
+    discs = sorted((disc for sign, _ in signs for disc in sign.wheels), key=lambda disc: -disc[0])
+    shapes = [shape for _, parts in discs for shape in parts]
+    shapes += [shape for sign, _ in signs for shape in sign.below]
     holds = {
         (link, number): hold
         for number, (sign, members) in enumerate(signs)
         for link, hold in zip(members, sign.holds, strict=True)
     }
     for link in sorted(placed.chain.links, key=lambda link: (link in placed.crossing, -placed.chain.degrees[link])):
-        shapes += _link(placed, link, holds)
+        if link not in placed.bare:
+            shapes += _link(placed, link, holds)
+    if placed.frame in placed.bare:
+        shapes += pedestal(next(placed.joints[k] for k, j in enumerate(placed.chain.joints) if placed.frame in j.links))
     shapes += [shape for sign, _ in signs for shape in sign.above]
     for number, direction in placed.drives:
         shapes += _drive(placed, number, direction, signs[number][0])
@@ -197,7 +226,7 @@ def _link(placed: PlacedChain, link: str, holds: dict[tuple[str, int], Point]) -
     """The body of a link, its corners moved to its points of attachment at the joints."""
     moved = {placed.joints[n]: holds[link, n] for n, j in enumerate(placed.chain.joints) if link in j.links}
     corners = [moved.get(corner, corner) for corner in placed.outlines[link]]
-    shape = polygon if placed.chain.degrees[link] > 2 else bar
+    shape = polygon if placed.closed[link] else bar
     return shape(corners, is_frame=link == placed.frame, halo=link in placed.crossing)
 
 
@@ -205,7 +234,7 @@ def towards(placed: PlacedChain, link: str, number: int) -> Point:
     """The direction from a joint to the link."""
     at = placed.joints[number]
     corners = placed.outlines[link]
-    if placed.chain.degrees[link] < 3:
+    if not placed.closed[link] and at in corners:
         k = corners.index(at)
         return corners[k + 1 if k == 0 else k - 1].minus(at)
     middle = Point(sum(p.x for p in corners) / len(corners), sum(p.y for p in corners) / len(corners))
@@ -213,14 +242,24 @@ def towards(placed: PlacedChain, link: str, number: int) -> Point:
 
 
 def _sign(placed: PlacedChain, number: int, lang: str) -> tuple[JointSign, list[str]]:
-    """The sign of a joint and its links in the order of the sign: the frame first, then the larger ones."""
-    joint = placed.chain.joints[number]
-    links = sorted(joint.links, key=lambda link: _precedence(placed, link))
-    members = [JointMember(towards(placed, link, number), link == placed.frame) for link in links]
+    """The sign of a joint and its links in the order of the sign: the frame first, then the larger ones.
+
+    Bearings on one axis have one sign, which the first of them draws.
+    """
+    joint, at = placed.chain.joints[number], placed.joints[number]
+    together = [k for k in range(len(placed.joints)) if placed.joints[k] == at and joint.pair.is_turning]
+    on_axis = {link for k in together for link in placed.chain.joints[k].links} or {*joint.links}
+    links = sorted(on_axis, key=lambda link: _precedence(placed, link))
+    members = []
+    for link in links:
+        wheel = placed.wheels.get((number, link))
+        centre, is_new = (None, True) if wheel is None else (wheel.centre, wheel.is_new)
+        members.append(JointMember(towards(placed, link, number), link == placed.frame, centre, is_new))
     has_sign = placed.chain.space is Space.PLANAR and joint.pair.name in SIGNS
     letter = "" if has_sign else letters(joint.pair, lang)
     known = [placed.contacts[number, link] for link in links if (number, link) in placed.contacts]
-    return joint_sign(joint.pair, placed.joints[number], members, letter=letter, shapes=known), links
+    sign = joint_sign(joint.pair, at, members, letter=letter, shapes=known)
+    return (sign if number == min([*together, number]) else replace(sign, below=(), above=())), links
 
 
 def _precedence(placed: PlacedChain, link: str) -> tuple[bool, int, int]:
@@ -249,9 +288,19 @@ def _output(placed: PlacedChain, link: str, shapes: list[Shape]) -> list[Shape]:
 
 def _drive(placed: PlacedChain, number: int, direction: str, sign: JointSign) -> list[Shape]:
     at = placed.joints[number]
-    directions = [towards(placed, link, number) for link in placed.chain.joints[number].links]
+    members = placed.chain.joints[number].links
+    directions = [towards(placed, link, number) for link in members]
     if Freedom(direction).travels:
         side = sign.axis.across
         lean = sum(side.dot(d.unit) for d in directions)
         return straight_drive(at, sign.axis, Point(-side.x, -side.y) if lean > 0 else side)
-    return turning_drive(at, sign.reach + 9.0, widest_gap([math.atan2(d.y, d.x) for d in directions]))
+    on_axis = [each for each, _ in placed.drives if placed.joints[each] == at]
+    rings = [
+        wheel.radius
+        for (contact, link), wheel in placed.wheels.items()
+        if link in members and placed.contacts[contact, link] == "ring" and wheel.centre == at
+    ]
+    if len(on_axis) > 1 and rings:  # the arrow stands outside the ring
+        return turning_drive(at, max(rings) + _RING_DRIVE, -math.pi / 4, math.radians(-50))
+    away = widest_gap([math.atan2(d.y, d.x) for d in directions if d.length > 1.0] or [math.pi / 2])
+    return turning_drive(at, sign.reach + 9.0 + 9.0 * on_axis.index(number), away)

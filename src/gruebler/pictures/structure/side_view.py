@@ -7,8 +7,8 @@ from axis to axis. Rules: docs/theory/drawing.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from itertools import combinations, product
+from collections.abc import Callable, Sequence
+from itertools import combinations
 from typing import NamedTuple
 
 from gruebler.base.errors import GrueblerError
@@ -16,6 +16,7 @@ from gruebler.pictures.canvas.figure import Figure, figure_of
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape, text_width
 from gruebler.pictures.structure.messages import describe, title
 from gruebler.pictures.structure.picture import chain_of
+from gruebler.pictures.structure.wheels import coaxial
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
@@ -75,37 +76,9 @@ def _axes(chain: Chain, frame: str | None) -> list[tuple[str, ...]]:
     wheels = all(joint.pair.rolls_and_slides and joint.count == 1 for joint in gears)
     if not tree or not wheels or chain.space is not Space.PLANAR:
         raise GrueblerError("a side view shows planar gear trains: turning joints without a loop, and gear joints (G)")
-    central = {link: (link == frame, joints) for link, joints in chain.degrees.items()}
     for joint in gears:
-        axes = _coaxial(axes, joint.links, central)
+        axes = coaxial(axes, joint.links, frame, chain.degrees)
     return axes
-
-
-def _coaxial(
-    axes: list[tuple[str, ...]], gears: Sequence[str], central: Mapping[str, tuple[bool, int]]
-) -> list[tuple[str, ...]]:
-    """The axes, those of two meshing wheels on different links with the bearing of these links on one of them.
-
-    Both wheels keep their distance while the two links turn against each other only if that bearing is on one of the
-    axes: on that of the wheel which the frame holds, else the link with more joints.
-    """
-    a, b = gears
-    bearings = []
-    for first, second in product(*([axis for axis in axes if wheel in axis] for wheel in (a, b))):
-        holders = [(f, c) for f in first for c in second if {f, c}.isdisjoint(gears)]
-        if any(f == c for f, c in holders):
-            return axes
-        bearings += [
-            (first if central[f] >= central[c] else second, bearing)
-            for f, c in holders
-            for bearing in axes
-            if bearing not in (first, second) and f in bearing and c in bearing
-        ]
-    if not bearings:
-        return axes
-    kept, bearing = bearings[0]
-    merged = tuple(dict.fromkeys(kept + bearing))
-    return [merged if axis == kept else axis for axis in axes if axis != bearing]
 
 
 def _wheels(chain: Chain, axes: Sequence[tuple[str, ...]], links: Sequence[str]) -> _Column:
