@@ -51,7 +51,6 @@ const KEYS: Record<string, Tool> = {
 };
 const WAYS: Record<string, Pair> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const GRIP = 16; // pixels
-const SNAP = 7;
 const KEPT = "gruebler-drawing";
 
 export class BuildView implements View, Plane, Drawn {
@@ -263,12 +262,10 @@ export class BuildView implements View, Plane, Drawn {
     const pins = drawing.knots.filter((one, k) => isPin(one) && k !== but);
     let [u, v] = viewport.world(x, y);
     if (this.snapping)
-      [u, v] = snapped([u, v], {
+      [u, v] = snapped([u, v], viewport, {
         places: [...pins, ...this.spots].map(({ at }) => at),
-        from: last?.at,
+        from: last ? [last.at] : [],
         lengths: lengthsOf(drawing),
-        grid: this.step / 5,
-        reach: SNAP / viewport.scale,
       });
     if (upright && last) {
       if (Math.abs(u - last.at[0]) > Math.abs(v - last.at[1])) v = last.at[1];

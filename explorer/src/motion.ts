@@ -15,8 +15,9 @@ import { deadCentres, leastTransmission } from "./measures";
 import type { LinkageDocument, Model } from "./model";
 import { type Editor, modesPanel, optionsPanel, pointsPanel, SizeRows } from "./panels";
 import { Plots } from "./plots";
-import { place } from "./rows";
+import { type Pair, place } from "./rows";
 import type { Shown } from "./shown";
+import { snappedOn } from "./snapping";
 import { Stage } from "./stage";
 import { tableOf } from "./table";
 import { type Driven, Transport } from "./transport";
@@ -44,6 +45,7 @@ export class MotionView implements View, Editor, Driven {
     inflection: false,
     labels: true,
     grid: true,
+    snap: false,
     link: 0,
     forces: () => this.arrows(),
     springs: () => this.forces.springs,
@@ -73,10 +75,11 @@ export class MotionView implements View, Editor, Driven {
     this.stage = new Stage(
       {
         dragStart: () => this.begin(),
-        dragJoint: (joint, x, y) => this.tryTo(() => this.dragging.dragJoint(joint, x, y)),
+        dragJoint: (joint, at, snap) =>
+          this.tryTo(() => this.dragging.dragJoint(joint, ...this.meant(joint, at, snap))),
         dragEnd: () => this.end(),
         dragCancel: () => this.cancel(),
-        dragPoint: (point, x, y) => this.putPoint(point, x, y),
+        dragPoint: (point, at, snap) => this.putPoint(point, ...this.meant(null, at, snap)),
         movePointBy: (point, dx, dy) => this.movePointBy(point, dx, dy),
         pull: (link, u, v, x, y) => this.transport.pull(link, u, v, x, y),
         addPoint: (link, x, y) => this.addPoint(link ?? this.shown.link, x, y),
@@ -321,6 +324,11 @@ export class MotionView implements View, Editor, Driven {
       while (taken.has(`K${number}`)) number++;
       this.linkage.addPoint(`K${number}`, link, x, y);
     });
+  }
+
+  /** Where a joint or a point is meant that is dragged to a place. */
+  private meant(joint: number | null, at: Pair, snap: boolean): Pair {
+    return snap || this.shown.snap ? snappedOn(this.linkage, joint, at, this.stage.viewport) : at;
   }
 
   /** Take a point of a link to a place in the plane. */

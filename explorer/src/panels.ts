@@ -301,5 +301,6 @@ export function optionsPanel(editor: Editor): HTMLElement {
     h("label", {}, t("of the link"), link),
     option("labels", t("Names")),
     option("grid", t("Grid")),
+    option("snap", t("Snap")),
   );
 }

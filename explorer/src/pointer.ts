@@ -10,7 +10,8 @@ import type { Viewport } from "./viewport";
 
 export interface StageEvents {
   dragStart(): void;
-  dragJoint(joint: number, x: number, y: number): void;
+  /** A joint is dragged to a place; with Shift it snaps. */
+  dragJoint(joint: number, place: Pair, snap: boolean): void;
   dragEnd(): void;
   /** A place of a link is pulled to a place in the plane: the drive follows. */
   pull(link: number, u: number, v: number, x: number, y: number): void;
@@ -18,7 +19,7 @@ export interface StageEvents {
   dragCancel(): void;
   /** A point is wanted at a place: on this link, or, beside all of them, on the chosen one. */
   addPoint(link: number | null, x: number, y: number): void;
-  dragPoint(point: number, x: number, y: number): void;
+  dragPoint(point: number, place: Pair, snap: boolean): void;
   movePointBy(point: number, dx: number, dy: number): void;
   moveJointBy(joint: number, dx: number, dy: number): void;
   /** A joint is to stay where it is, or not any more. */
@@ -52,6 +53,7 @@ interface Follow {
 
 export class Pointer {
   private following: Follow | null = null;
+  private shift = false;
   private readonly fingers = new Fingers();
 
   constructor(
@@ -172,7 +174,7 @@ export class Pointer {
   private jointMove(joint: number, x: number, y: number): (u: number, v: number) => void {
     const { linkage, viewport } = this.board;
     const [px, py] = viewport.screen(...linkage!.jointAt(joint));
-    return (u, v) => this.events.dragJoint(joint, ...viewport.world(u + px - x, v + py - y));
+    return (u, v) => this.events.dragJoint(joint, viewport.world(u + px - x, v + py - y), this.shift);
   }
 
   /** Take a point of a link along in the same way. */
@@ -180,7 +182,7 @@ export class Pointer {
     const { linkage, viewport } = this.board;
     const { link, at } = linkage!.sizes.points[point]!;
     const [px, py] = viewport.screen(...place(linkage!.pose, 0, link, ...at));
-    return (u, v) => this.events.dragPoint(point, ...viewport.world(u + px - x, v + py - y));
+    return (u, v) => this.events.dragPoint(point, viewport.world(u + px - x, v + py - y), this.shift);
   }
 
   private pan(x: number, y: number): (u: number, v: number) => void {
@@ -205,6 +207,7 @@ export class Pointer {
     const moved = (next: PointerEvent) => {
       if (next.pointerId !== first.pointerId) return;
       latest = this.at(next);
+      this.shift = next.shiftKey;
       mine.at = latest;
       frame ||= requestAnimationFrame(flush);
     };

@@ -11,6 +11,8 @@ export interface Shown {
   inflection: boolean;
   labels: boolean;
   grid: boolean;
+  /** Whether what is dragged stops in line with others, at round angles and lengths. */
+  snap: boolean;
   /** The link whose poles are shown. */
   link: number;
   /** The forces that are drawn: joints, with parts against the largest force. */

@@ -1,22 +1,24 @@
 /** Where a place that is pointed at is meant: in line with others, on the grid, at a round angle, at a known length. */
 
+import { stepOf } from "./grid";
+import type { Linkage } from "./linkage";
 import type { Pair } from "./rows";
+import type { Viewport } from "./viewport";
 
 const ROUND = Math.PI / 12;
+const REACH = 7; // pixels
 
 export interface Surroundings {
   /** The places with which it may be in line. */
   places: readonly Pair[];
-  /** From where a link leads to it, if one does, and lengths that links have already. */
-  from: Pair | undefined;
+  /** From where links lead to it, and lengths that links have already. */
+  from: readonly Pair[];
   lengths: readonly number[];
-  /** Between lines of the grid. */
-  grid: number;
-  /** How near is near. */
-  reach: number;
 }
 
-export function snapped([x, y]: Pair, { places, from, lengths, grid, reach }: Surroundings): Pair {
+export function snapped([x, y]: Pair, viewport: Viewport, { places, from, lengths }: Surroundings): Pair {
+  const reach = REACH / viewport.scale;
+  const grid = stepOf(viewport) / 5;
   const nearest = (values: readonly number[], value: number) =>
     values.reduce((best, one) => (Math.abs(one - value) < Math.abs(best - value) ? one : best), Infinity);
   const onAxis = (value: number, axis: 0 | 1) => {
@@ -27,21 +29,38 @@ export function snapped([x, y]: Pair, { places, from, lengths, grid, reach }: Su
     if (Math.abs(other - value) < reach) return other;
     return grid * Math.round(value / grid);
   };
-  const found: Pair = [onAxis(x, 0), onAxis(y, 1)];
-  if (!from) return found;
-  const [dx, dy] = [x - from[0], y - from[1]];
-  const far = Math.hypot(dx, dy);
-  const angle = Math.atan2(dy, dx);
-  const round = ROUND * Math.round(angle / ROUND);
-  const length = nearest(lengths, far);
-  const turned = far * Math.abs(angle - round) < reach;
-  const known = Math.abs(length - far) < reach;
-  if (!turned && !known) return found;
-  const [r, phi] = [known ? length : far, turned ? round : angle];
   const part = (value: number) => (Math.abs(value) < 1e-12 ? 0 : value); // exactly upright, exactly level
-  const polar: Pair = [from[0] + r * part(Math.cos(phi)), from[1] + r * part(Math.sin(phi))];
   const away = ([u, v]: Pair) => Math.hypot(u - x, v - y);
-  return away(polar) < away(found) ? polar : found;
+  let found: Pair = [onAxis(x, 0), onAxis(y, 1)];
+  for (const [u, v] of from) {
+    const [dx, dy] = [x - u, y - v];
+    const far = Math.hypot(dx, dy);
+    const angle = Math.atan2(dy, dx);
+    const round = ROUND * Math.round(angle / ROUND);
+    const length = nearest(lengths, far);
+    const turned = far * Math.abs(angle - round) < reach;
+    const known = Math.abs(length - far) < reach;
+    if (!turned && !known) continue;
+    const [r, phi] = [known ? length : far, turned ? round : angle];
+    const polar: Pair = [u + r * part(Math.cos(phi)), v + r * part(Math.sin(phi))];
+    if (away(polar) < away(found)) found = polar;
+  }
+  return found;
+}
+
+/** Where a joint of a linkage is meant to come to, or a point: seen from the other joints of its links. */
+export function snappedOn(linkage: Linkage, joint: number | null, at: Pair, viewport: Viewport): Pair {
+  const { model, sizes } = linkage;
+  const others = [...model.joints.keys()].filter((k) => k !== joint);
+  const links = model.joints[joint ?? -1]?.links ?? [];
+  const beside = others.filter((k) => model.joints[k]!.links.some((link) => links.includes(link)));
+  const pins = (link: number) =>
+    sizes.elementsOn(link).filter((k) => sizes.is(k, "pin") && sizes.element(k).joint !== joint);
+  const lengths = [...model.links.keys()].flatMap((link) =>
+    pins(link).flatMap((k, j, mine) => mine.slice(0, j).map((m) => sizes.gap(m, k))),
+  );
+  const placesOf = (joints: number[]) => joints.map((k) => linkage.jointAt(k));
+  return snapped(at, viewport, { places: placesOf(others), from: placesOf(beside), lengths });
 }
 
 /** Lines from a place to the nearest others that lie level with it or above it. */

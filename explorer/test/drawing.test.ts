@@ -27,6 +27,7 @@ import {
 } from "../src/drawing";
 import { setLanguage } from "../src/language";
 import { guidelines, snapped } from "../src/snapping";
+import { Viewport } from "../src/viewport";
 import { near } from "./near";
 
 const place = (x: number, y: number): Spot => ({ at: [x, y], knot: null, link: null });
@@ -176,16 +177,24 @@ test("a place snaps to what is in line, to round angles and known lengths, else 
       [0, 0],
       [31, 17],
     ] as [number, number][],
-    from: undefined,
+    from: [],
     lengths: [],
-    grid: 5,
-    reach: 2,
   };
-  assert.deepEqual(snapped([29.5, 43], around), [31, 45]);
-  assert.deepEqual(snapped([12, 43], around), [10, 45]);
-  const linked = { ...around, places: [], from: [0, 0] as [number, number], lengths: [40] };
-  near(snapped([28, 29], linked), [40 * Math.SQRT1_2, 40 * Math.SQRT1_2]); // 45 degrees, 40 long
-  near(snapped([3, 33], linked), [5, 35]); // 85 degrees, 33 long: neither
+  const viewport = new Viewport();
+  viewport.scale = 3.5; // lines of the grid every 20, a fifth of that to stop at; seven pixels are 2
+  assert.deepEqual(snapped([29.5, 43], viewport, around), [31, 44]);
+  assert.deepEqual(snapped([11.5, 43], viewport, around), [12, 44]);
+  const linked = { places: [], from: [[0, 0]] as [number, number][], lengths: [40] };
+  near(snapped([28, 29], viewport, linked), [40 * Math.SQRT1_2, 40 * Math.SQRT1_2]); // 45 degrees, 40 long
+  near(snapped([3, 33], viewport, linked), [4, 32]); // 85 degrees, 33 long: neither
+  const between = {
+    ...linked,
+    from: [
+      [0, 0],
+      [80, 0],
+    ] as [number, number][],
+  };
+  near(snapped([79.4, 41.5], viewport, between), [80, 40]); // of both links the nearer one: upright, 40 long
   assert.deepEqual(guidelines([31, 0], around.places), [
     [
       [31, 17],

@@ -459,3 +459,29 @@ def test_all_curves_follow_a_drag_and_those_of_the_other_mode_shine_through(tab,
     page.page.mouse.up()
     page.until("!gruebler.motion.linkage.dragged")
     assert [alpha for _, alpha, _ in drawn()] == [1, 1]
+
+
+def test_a_joint_snaps_while_it_is_dragged(tab, crank_rocker):
+    """With the option, and with Shift: the right bearing, (70, 0), stops level with the left one."""
+    page = tab().open(crank_rocker)
+    scale = page.page.evaluate("gruebler.motion.stage.viewport.scale")
+    bearing = page.page.evaluate(
+        "gruebler.motion.linkage.model.joints.findIndex((one) => one.name === 'R(frame-rocker)')"
+    )
+    at = f"gruebler.motion.linkage.jointAt({bearing})"
+
+    def dragged(*ends: tuple[float, float]) -> list[float]:
+        x, y = page.page.evaluate(f"gruebler.motion.stage.viewport.screen(...{at})")
+        box = page.page.locator(".stage").first.bounding_box()
+        page.drag((box["x"] + x, box["y"] + y), *[(scale * u, -scale * v) for u, v in ends])
+        return page.page.evaluate(at)
+
+    free = dragged((3.3, 0.9))
+    assert free[1] == pytest.approx(0.9, abs=0.3)
+    page.page.keyboard.down("Shift")
+    assert dragged((0.4, -0.4))[1] == 0
+    page.page.keyboard.up("Shift")
+    page.page.locator("[data-panel=show] summary").click()
+    page.page.get_by_label("Snap").check()
+    assert dragged((0.3, 0.7))[1] == 0
+    assert dragged((0.3, 6.3))[1] != 0
