@@ -27,10 +27,11 @@ def test_a_file_is_drawn_in_both_views(capsys, bennett):
 def test_entries_in_space_are_drawn_in_space(capsys):
     status, text, _ = run_command(capsys, "draw", "diff_bevel", "--labels", "--lang", "de")
     assert status == 0
-    assert "Isometrische Ansicht" in text
+    assert "Schrägansicht" in text  # bevel wheels, their axes in the plane of the paper
+    assert "Isometrische Ansicht" in run_command(capsys, "draw", "diff_bevel", "--view", "isometric", "--lang", "de")[1]
     assert "Kegelraddifferential" in text
     _, structure, _ = run_command(capsys, "draw", "diff_bevel", "--structure")
-    assert "Isometric" not in structure
+    assert "Oblique" not in structure
     _, geneva, _ = run_command(capsys, "draw", "geneva")
     assert "Isometric" not in geneva
 

@@ -207,6 +207,41 @@ def test_wheels_of_a_bevel_differential_lie_on_their_pitch_cones():
         assert rim @ axis / 130 == pytest.approx(cos(pi / 4))
 
 
+def test_drives_about_one_axis_are_apart():
+    """A differential drives a sun and the cage: one on each side."""
+    scene = scene_of(entry("diff_bevel").placed(), VIEWS["oblique"])
+    first, second = (places.mean(axis=0) for _, style, places in scene.lines if style == "drive")
+    assert first[0] * second[0] < 0
+
+
+def test_a_thread_reaches_to_the_bearing_of_its_screw():
+    """In pixels of the scene: 40 mm between bearing and nut."""
+    linkage = entry("winch_screw").placed()
+    scene = scene_of(linkage, VIEWS["oblique"])
+    (rod,) = [rod for rod in scene.rods if rod.thread]
+    places = np.concatenate([part.points[2:] for part in rod.parts() if part.look == "thread"])
+    along = (places / scene.scale + scene.middle)[:, 0]
+    assert along.min() * scene.scale < 25.0  # of the bearing's symbol
+    assert along.max() > 40.0
+
+
+def test_a_plate_that_wobbles_is_a_disc_around_all_its_balls():
+    """Its ball between the walls is farthest out: 55 mm from the journal, by the catalog entry's places."""
+    scene = scene_of(entry("wobble_plate").placed(), VIEWS["isometric"])
+    (disc,) = [part for part in scene.parts if part.look == "wheel"]
+    rim = disc.points[2:].reshape(2, -1, 3)[0] - disc.points[0]
+    assert disc.link == "plate"
+    assert np.linalg.norm(rim, axis=1) / scene.scale == pytest.approx(np.hypot(51.683094143, 18.811107883))
+
+
+def test_platforms_are_shaded_and_bodies_in_no_plane_are_not():
+    shaded = {id: scene_of(entry(id).placed(), VIEWS["isometric"]).solids for id in ("gough", "susp_5link_lift")}
+    assert shaded["gough"] == ("platform",)
+    assert shaded["susp_5link_lift"] == ()
+    figure = draw_spatial(entry("gough").placed())
+    assert figure.shapes[0].style == "solid"
+
+
 def test_what_is_behind_a_wheel_is_seen_through_it():
     """All bearings of the cage lie behind some wheel in one view or the other; in the file the wheels hide nothing."""
     figure = draw_spatial(entry("diff_bevel2p").placed())

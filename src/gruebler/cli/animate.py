@@ -13,7 +13,6 @@ from gruebler.cli.parser import Parser
 from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.linkage.animation import AnimationOptions, animated_svg
 from gruebler.pictures.linkage.animation_page import animated_page
-from gruebler.pictures.space.views import VIEWS
 
 _SUFFIXES = ("svg", "html", "gif", "webp", "png")
 
@@ -93,7 +92,7 @@ def _in_space(arguments: argparse.Namespace, spatial: SpatialWord, suffix: str, 
         between=spatial.range,
         drives=rows,
         curves=arguments.curve,
-        view=arguments.view or next(iter(VIEWS)),
+        view=arguments.view or "",
         seconds=arguments.seconds,
         lang=arguments.lang,
         name=name,

@@ -111,7 +111,7 @@ _SHARED = {
         --at VALUE[,VALUE] ...  a row at these drive values, one per drive; repeatable
         --loads  draw masses and springs of the file or entry, and the forces at its usual speed as arrows
         --curve POINT ...  the path of a named point, a joint, or LINK:X,Y (repeatable)
-        --view {isometric,oblique}  of a linkage in space: the view (default: isometric)
+        --view {isometric,oblique}  of a linkage in space: the view (default: oblique for bevel wheels, else isometric)
         --jobs N int =1  number of processes (default: 1)
         --scheduler ADDRESS  send the work to a Dask scheduler, such as tcp://host:8786
         --crank  only designs whose drive turns fully

@@ -29,7 +29,6 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.canvas import Figure
 from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
 from gruebler.pictures.canvas.textbook import textbook
-from gruebler.pictures.space.views import VIEWS
 from gruebler.pictures.structure import (
     draw_block,
     draw_contracted,
@@ -321,7 +320,7 @@ def _in_space(arguments: argparse.Namespace, spatial: SpatialWord, moving: Mappi
         at=pose_of(moving["at"], spatial.linkage.mechanism) if moving["at"] else None,
         between=spatial.range,
         curves=moving["curve"],
-        view=arguments.view or next(iter(VIEWS)),
+        view=arguments.view or "",
         labels=arguments.labels,
         lang=arguments.lang,
         name=name,

@@ -192,7 +192,7 @@ def draw(
         planets: of a train: the numbers of equal planets by name.
         teeth: of a train: whether gears have involute teeth.
         plot: of a cam or Geneva drive: whether diagrams stand below.
-        view: of a `SpatialLinkage`: ``isometric`` or ``oblique``.
+        view: of a `SpatialLinkage`: ``isometric`` or ``oblique``; without it oblique for bevel wheels, else isometric.
         names: of a chain, mechanism or linkage: other names for links in the picture.
         letters: of a linkage: names of its turning joints in their order, for ``joints``; by default A₀, A, B, B₀.
         name: the title; by default the kind.
@@ -260,7 +260,7 @@ def animate(
         planets: of a train: the numbers of equal planets by name.
         teeth: of a train: whether gears have involute teeth.
         plot: of a cam or Geneva drive: whether the diagram with a cursor stands below.
-        view: of a `SpatialLinkage`: ``isometric`` or ``oblique``.
+        view: of a `SpatialLinkage`: ``isometric`` or ``oblique``; without it oblique for bevel wheels, else isometric.
         most: of a train: the number of turns after which the picture may begin again though it does not repeat.
         seconds: for a turn of the drive, or for there and back.
         name: the title; by default the kind.

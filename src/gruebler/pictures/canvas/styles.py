@@ -67,6 +67,7 @@ STYLES = {
     "block": Style(fill="body", stroke="ink", width=1.6),
     "block-frame": Style(fill="frame", stroke="ink", width=1.6),
     "wheel": Style(fill="body", stroke="ink", width=1.4, opacity=0.4),
+    "solid": Style(fill="body", opacity=0.4),
     "dot": Style(fill="ink"),
     "drive": Style(stroke="accent", width=2.2),
     "head": Style(fill="accent"),

@@ -18,7 +18,7 @@ from gruebler.pictures.canvas.moving_frames import FramePicture, frame_picture
 from gruebler.pictures.canvas.moving_picture import Clock, always
 from gruebler.pictures.space.picture import path_on_paper
 from gruebler.pictures.space.scene import scene_of
-from gruebler.pictures.space.views import view_named
+from gruebler.pictures.space.views import usual_view, view_named
 from gruebler.pictures.structure.messages import describe, title
 
 _RATE, _MOST = 15, 90  # frames a second, and in all
@@ -31,7 +31,7 @@ def animate_spatial(
     between: tuple[float, float] | None = None,
     drives: ArrayLike | Mapping[str, object] | None = None,
     curves: Sequence[str] = (),
-    view: str = "isometric",
+    view: str = "",
     seconds: float = 4.0,
     lang: str = "en",
     name: str = "",
@@ -43,7 +43,7 @@ def animate_spatial(
         between: values of its first drive between which it moves to and fro; others stay at 0.
         drives: (rows, drives) a piecewise straight path of its drives, there and back.
         curves: points or joints whose paths are drawn.
-        view: ``isometric`` or ``oblique``.
+        view: ``isometric`` or ``oblique``; without it oblique for bevel wheels, else isometric.
         seconds: for a turn, or for there and back.
         lang: language of title and description.
         name: the title.
@@ -64,7 +64,7 @@ def animate_spatial(
     rows = np.arange(len(path)) / (len(path) - 1)
     values = np.stack([np.interp(part, rows, column) for column in path.T], axis=1)
     motion = followed(linkage, values)
-    scene = scene_of(linkage, view_named(view), motion.poses[0])
+    scene = scene_of(linkage, view_named(view or usual_view(linkage)), motion.poses[0])
     paths = [path_on_paper(scene, motion, point) for point in curves]
     frames = [[*scene.shapes(poses), *paths] for poses in motion.poses[0]]
     turning = linkage.mechanism.drives[0].turning

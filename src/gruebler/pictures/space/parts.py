@@ -116,6 +116,12 @@ def points_on_paper(places: Reals) -> tuple[Point, ...]:
     return tuple(Point(x, y) for x, y in places[:, :2].tolist())
 
 
+def outline_on_paper(places: Reals, style: str) -> Polylines:
+    """The convex outline of places on paper."""
+    hull = convex_hull(complex(x, y) for x, y in np.round(places[:, :2], 3).tolist())
+    return Polylines((_fewer([Point(z.real, z.imag) for z in hull]),), style, closed=True)
+
+
 def _fewer(points: Sequence[Point]) -> tuple[Point, ...]:
     return tuple(simplified(points, FINE))
 
@@ -152,9 +158,7 @@ def _cylinder(part: SpatialPart, style: str, end: str) -> list[Shape]:
     points = np.round(part.points, 3)  # which of many places are corners hangs on no last bit
     rims = points[2:].reshape(2, -1, 3)
     near = rims[int(points[1, 2] > points[0, 2])]
-    hull = convex_hull(complex(x, y) for x, y in points[2:, :2].tolist())
-    outline = Polylines((_fewer([Point(z.real, z.imag) for z in hull]),), style, closed=True)
-    return [outline, Polylines((_fewer(points_on_paper(near)),), end, closed=True)]
+    return [outline_on_paper(points[2:], style), Polylines((_fewer(points_on_paper(near)),), end, closed=True)]
 
 
 def _block(part: SpatialPart) -> tuple[list[Shape], list[Shape]]:

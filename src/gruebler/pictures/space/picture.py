@@ -19,7 +19,7 @@ from gruebler.pictures.canvas.shapes import Polylines, Shape
 from gruebler.pictures.canvas.simplification import FINE, simplified
 from gruebler.pictures.space.parts import points_on_paper
 from gruebler.pictures.space.scene import SpatialScene, scene_of
-from gruebler.pictures.space.views import view_named
+from gruebler.pictures.space.views import usual_view, view_named
 from gruebler.pictures.structure.messages import describe, title
 from gruebler.structure.chain.pairs import Alphabet
 
@@ -31,7 +31,7 @@ def draw_spatial(
     at: float | Sequence[float] | None = None,
     between: tuple[float, float] | None = None,
     curves: Sequence[str] = (),
-    view: str = "isometric",
+    view: str = "",
     labels: bool = False,
     symbols: bool = True,
     names: Mapping[str, str] | None = None,
@@ -45,7 +45,7 @@ def draw_spatial(
         at: the values of its drives, to which it moves from its reference pose; without them that pose.
         between: values of its drive, over which curves are drawn; without them its whole range.
         curves: points or joints whose paths are drawn.
-        view: ``isometric`` or ``oblique``.
+        view: ``isometric`` or ``oblique``; without it oblique for bevel wheels, else isometric.
         labels: whether to name the links.
         symbols: whether to write the letters of the joints.
         names: other names for links.
@@ -58,7 +58,7 @@ def draw_spatial(
     course = course_of(linkage, between) if curves else None
     seen = [each for each in (None if course is None else course.poses[0], poses) if each is not None]
     all_poses = np.concatenate([each.reshape(-1, *each.shape[-3:]) for each in seen]) if seen else None
-    scene = scene_of(linkage, view_named(view), all_poses)
+    scene = scene_of(linkage, view_named(view or usual_view(linkage)), all_poses)
     shapes = scene.shapes(poses)
     if course is not None:
         shapes += [path_on_paper(scene, course, point) for point in curves]

@@ -13,19 +13,22 @@ from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, Shape
 from gruebler.pictures.space.painting import painted_parts
-from gruebler.pictures.space.parts import SpatialPart, across, ground_support, link_bar, points_on_paper
+from gruebler.pictures.space.parts import SpatialPart, across, ground_support, link_bar, points_on_paper, wheel
 from gruebler.pictures.space.symbols import SOLIDS, SPHERE, PlacedJoint, SlidingRod, drive_arrow
 from gruebler.pictures.space.views import View
 from gruebler.structure.chain import Joint
 from gruebler.structure.chain.spaces import Space
 
 _WIDE = 330.0  # pixels of the reference pose
+_MANY = 10  # joints: with more of them a picture is larger, so that their symbols and letters have room
 _APART = 32.0  # pixels between the symbols of two joints
 _STEP = 42.0  # pixels by which a symbol is shifted along its axis
 _SUPPORT = 26.0
 _SHORT = 1.0  # pixels: shorter bars are left out
 _FLAT = 1e-6  # of the extent: points nearer to a line lie on it
 _INSIDE = 0.25  # of the farthest place from the middle: nearer ones lie inside a ring
+_PLANE = 0.1  # of the extent: places that are no farther from a plane make a plate
+_THICK = 6.0  # pixels of a disc
 _PIECES = 8  # of the arc of a link on a sphere
 _POINT = 2.6
 
@@ -44,6 +47,8 @@ class SpatialScene:
     rods: tuple[SlidingRod, ...]
     lines: tuple[tuple[str, str, Reals], ...]
     """Link, style and places of lines below everything: axes; or above: drives."""
+    solids: tuple[str, ...]
+    """The links that are shown as plates: with three joints or points and more in a plane."""
     outlines: Mapping[str, Reals]
     """The corners of each link, to which its name is put."""
     joints: Reals
@@ -79,7 +84,11 @@ class SpatialScene:
             CircleShape(points_on_paper(self.placed(self._point(at_), pose(link)))[0], _POINT, "dot")
             for link, at_ in self.linkage.points.values()
         ]
-        return [*below, *solid, *above, *points]
+        bodies = [
+            Polylines((points_on_paper(self.placed(self.outlines[link], pose(link))),), "solid", closed=True)
+            for link in self.solids
+        ]
+        return [*bodies, *below, *solid, *above, *points]
 
     def _shift(self, rod: SlidingRod, shaft: Reals, sleeve: Reals) -> float:
         """How far the sleeve has gone along the rod."""
@@ -101,7 +110,7 @@ def scene_of(linkage: SpatialLinkage, view: View, poses: Reals | None = None) ->
     symbols = [SOLIDS[joint.pair.name](joint) for joint in joints]
     parts = _distinct([part for symbol in symbols for part in symbol.parts])
     frame = linkage.mechanism.frame
-    outlines = {}
+    outlines, solids = {}, []
     for link in linkage.mechanism.chain.links:
         ends = [(s.holds[link], s.clear.get(link, 0.0)) for s in symbols if link in s.holds]
         if link == frame:
@@ -112,13 +121,20 @@ def scene_of(linkage: SpatialLinkage, view: View, poses: Reals | None = None) ->
         ends += [(scale * (np.array(at) - middle), 0.0) for of, at in linkage.points.values() if of == link]
         order, spurs = _round_trip(np.array([place for place, _ in ends]))
         outlines[link] = np.array([ends[k][0] for k in dict.fromkeys(order)])
+        disc = _disc(link, joints)
+        if disc is not None:
+            parts.append(disc)
+            continue
+        if order[0] == order[-1] and not spherical and _is_flat(outlines[link]):
+            solids.append(link)
         for first, second in [*pairwise(order), *spurs]:
             parts += _bars(link, *ends[first], *ends[second], spherical)
     lines = [(joint.links[0], "pitch", np.array(s.axis)) for joint, s in zip(joints, symbols, strict=True) if s.axis]
     for number in {drive.joint for drive in linkage.mechanism.drives}:
         if joints[number].pair.motion[0].turns or not joints[number].pair.is_higher:
-            line, head = drive_arrow(joints[number])
-            lines += [(frame, "drive", line), (frame, "head", head)]
+            line, head = drive_arrow(joints[number], view.sight)
+            held = joints[number].links[-1]
+            lines += [(held, "drive", line), (held, "head", head)]
     return SpatialScene(
         linkage=linkage,
         view=view,
@@ -128,8 +144,30 @@ def scene_of(linkage: SpatialLinkage, view: View, poses: Reals | None = None) ->
         parts=tuple(replace(part, fixed=part.link == frame) for part in parts),
         lines=tuple(lines),
         outlines=outlines,
+        solids=tuple(solids),
         joints=np.array([joint.at for joint in joints]),
     )
+
+
+def _disc(link: str, joints: Sequence[PlacedJoint]) -> SpatialPart | None:
+    """A disc for a link that turns on a journal and has three balls and more around it, such as a wobble plate."""
+    own = [joint for joint in joints if link in joint.links]
+    balls = [joint.at for joint in own if sum(freedom.turns for freedom in joint.pair.motion) == 3]
+    journals = [joint for joint in own if joint.pair.name in ("revolute", "cylindrical")]
+    if len(journals) != 1 or len(balls) < 3 or len(own) > 1 + len(balls):
+        return None
+    at, z = journals[0].at, journals[0].axes[:, 2]
+    away = np.array(balls) - at
+    radius = float(np.linalg.norm(away, axis=1).max())
+    if abs(away @ z).max() > _PLANE * radius:
+        return None
+    return wheel(link, at - _THICK / 2 * z, at + _THICK / 2 * z, radius)
+
+
+def _is_flat(places: Reals) -> bool:
+    """Whether places are about in a plane."""
+    extents = np.linalg.svd(places - places.mean(axis=0), compute_uv=False)
+    return bool(extents[-1] <= _PLANE * extents[0]) if len(places) > 3 else True
 
 
 def _distinct(parts: Sequence[SpatialPart]) -> list[SpatialPart]:
@@ -155,7 +193,8 @@ def _scaled(linkage: SpatialLinkage, view: View, poses: Reals) -> tuple[float, R
     moved = np.einsum("rkij,kj->rki", poses[:, [chain.index(link) for link, _ in on_links]], at)
     seen = view.on_paper(np.concatenate([at, moved.reshape(-1, 4)])[:, :3])[:, :2]
     extent = float(np.ptp(seen, axis=0).max())
-    return _WIDE / (extent if extent > _FLAT * linkage.size else linkage.size), linkage.centre
+    wide = _WIDE * max(1.0, len(chain.joints) / _MANY) ** 0.5
+    return wide / (extent if extent > _FLAT * linkage.size else linkage.size), linkage.centre
 
 
 def _drawn_joints(
@@ -230,6 +269,11 @@ def _sides(linkage: SpatialLinkage) -> dict[int, float]:
         ]
         if touched and not joint.pair.has_contours:
             sides[number] = 1.0 if sum(float(t @ linkage.frames[number, :3, 2]) for t in touched) > -_FLAT else -1.0
+    driven = {drive.joint for drive in linkage.mechanism.drives}
+    axes = linkage.frames[:, :3, 2]
+    for number in driven - set(sides):  # apart from the other drives about its axis
+        others = sum(sides[k] * float(axes[k] @ axes[number]) for k in driven & set(sides))
+        sides[number] = -1.0 if others > 1 - _FLAT else 1.0
     return sides
 
 

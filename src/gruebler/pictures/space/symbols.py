@@ -18,7 +18,8 @@ from gruebler.structure.chain.pairs import Pair
 
 _HALF, _RADIUS, _STOP = 11.0, 6.5, 19.0
 _ROD = 30.0  # pixels of a rod beyond what slides on it
-_THREAD = 4.0
+_THREAD = 5.0
+_ON_AXIS = 1.0  # pixels from an axis
 _BALL, _SOCKET = 6.5, 9.5
 _FORK, _ARM = 14.0, 8.0
 _PLATE, _GAP = 15.0, 3.0
@@ -77,8 +78,8 @@ class SlidingRod:
         pieces = [(low, shift - self.outer), (shift + self.outer, high)]
         parts = [line(self.link, np.array([self.at + a * self.axis, self.at + b * self.axis])) for a, b in pieces]
         if self.thread:
-            u = _THREAD * across(self.axis)[0]
-            rows = [np.arange(a + 2.0, b - 2.0, _THREAD) for a, b in pieces if b - a > 3 * _THREAD]
+            u = 1.2 * _THREAD * across(self.axis)[0]
+            rows = [np.arange(a + 2.0, b - 2.0, 0.7 * _THREAD) for a, b in pieces if b - a > 3 * _THREAD]
             winding = [[self.at + s * self.axis + (u if k % 2 else -u) for k, s in enumerate(row)] for row in rows]
             parts += [line(self.link, np.array(points), "thread") for points in winding]
         return parts
@@ -104,7 +105,7 @@ def _on_shaft(joint: PlacedJoint, stops: bool, thread: bool = False) -> Symbol:
     middles = [joint.at + (2 * k - len(others) + 1) * (half + 1.0) * z for k in range(len(others))]
     parts = [sleeve(link, m - half * z, m + half * z, _RADIUS) for link, m in zip(others, middles, strict=True)]
     outer = len(others) * (half + 1.0) - 1.0
-    rod = _rod_of(joint, z, outer, _STOP - _HALF if stops else _ROD - _HALF, thread)
+    rod = _rod_of(joint, z, outer, _STOP - _HALF if stops else (2 * _ROD if thread else _ROD) - _HALF, thread)
     if stops:
         parts += [sleeve(first, joint.at + (e - 1.5) * z, joint.at + (e + 1.5) * z, 5.0) for e in rod.ends]
     side = int((joint.middles[first] - joint.at) @ z >= 0)
@@ -119,13 +120,19 @@ def _on_shaft(joint: PlacedJoint, stops: bool, thread: bool = False) -> Symbol:
 
 def _rod_of(joint: PlacedJoint, axis: Reals, outer: float, beyond: float, thread: bool = False) -> SlidingRod:
     low, high = joint.travel
+    ends = (low - outer - beyond, high + outer + beyond)
+    if thread:  # up to the bearing of the screw on its axis
+        middle = joint.middles[joint.links[0]] - joint.at
+        other = float(2.0 * middle @ axis)
+        if np.linalg.norm(middle - (middle @ axis) * axis) < _ON_AXIS:
+            ends = min(ends[0], other + _STOP), max(ends[1], other - _STOP)
     return SlidingRod(
         link=joint.links[0],
         sleeve=joint.links[1],
         at=joint.at,
         axis=axis,
         outer=outer,
-        ends=(low - outer - beyond, high + outer + beyond),
+        ends=ends,
         thread=thread,
     )
 
@@ -254,8 +261,11 @@ SOLIDS: Mapping[str, Callable[[PlacedJoint], Symbol]] = {
 """The symbol of each pair, by its name."""
 
 
-def drive_arrow(joint: PlacedJoint) -> tuple[Reals, Reals]:
-    """An arrow in space around the axis of a turning drive or along that of a sliding one: its line, its head."""
+def drive_arrow(joint: PlacedJoint, sight: Reals) -> tuple[Reals, Reals]:
+    """An arrow in space around the axis of a turning drive or along that of a sliding one: its line, its head.
+
+    That of a sliding one lies beside it as seen along the line of sight.
+    """
     if joint.pair.motion[0].turns:
         z, radius = joint.axes[:, 2], 15.0
         u, v = across(z)
@@ -265,7 +275,10 @@ def drive_arrow(joint: PlacedJoint) -> tuple[Reals, Reals]:
         along = -np.sin(turns[-1]) * u + np.cos(turns[-1]) * v
         wide = np.cos(turns[-1]) * u + np.sin(turns[-1]) * v
     else:
-        along, wide = joint.axes[:, 0], joint.axes[:, 1]
-        ring = joint.at + 15.0 * joint.axes[:, 2] + np.linspace(-18, 14, 2)[:, None] * along
+        along = joint.axes[:, 0]
+        wide = np.cross(along, sight)
+        size = float(np.linalg.norm(wide))
+        wide = joint.axes[:, 2] if size < _SMALL / SPHERE else wide / size
+        ring = joint.at + 15.0 * wide + np.linspace(-18, 14, 2)[:, None] * along
     tip = ring[-1]
     return ring, np.array([tip + 7.0 * along, tip + 4.0 * wide, tip - 4.0 * wide])

@@ -11,6 +11,8 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import GrueblerError, nearest
 from gruebler.base.text import Message, message
+from gruebler.mechanics.screws.model import SpatialLinkage
+from gruebler.structure.chain.spaces import Space
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +23,13 @@ class View:
     rows: tuple[tuple[float, float, float], ...]
     """What a vector moves to the right, down and towards the eye; lines of sight move only the last, by their
     length."""
+
+    @property
+    def sight(self) -> Reals:
+        """The direction of the lines of sight."""
+        right, down, near = np.array(self.rows)
+        along = np.cross(right, down)
+        return np.asarray(along / np.linalg.norm(along) * np.sign(along @ near))
 
     def on_paper(self, places: Reals) -> Reals:
         """Right, down and near of places, (..., 3)."""
@@ -44,7 +53,14 @@ VIEWS: Mapping[str, View] = {
         ((1.0, _HALF, 0.0), (0.0, -_HALF, -1.0), (_NEAR * _HALF, -_NEAR, _NEAR * _HALF)),
     ),
 }
-"""The first is the usual one."""
+"""By their names."""
+
+
+def usual_view(linkage: SpatialLinkage) -> str:
+    """Oblique for bevel wheels, whose axes lie in the plane of the paper then, as in textbooks; else isometric."""
+    chain = linkage.mechanism.chain
+    wheels = chain.space is Space.SPHERICAL and any(joint.pair.has_contours for joint in chain.joints)
+    return "oblique" if wheels else "isometric"
 
 
 def view_named(name: str) -> View:
