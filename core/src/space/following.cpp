@@ -6,9 +6,9 @@
 namespace gruebler::space {
 namespace {
 
-constexpr double closed = 1e-12;       // sizes and radians: joints that are open by less are closed
+constexpr double closed = 1e-12;       // extents and radians: joints that are open by less are closed
 constexpr double settled_at = 1e-14;   // one turn more would only change by rounding
-constexpr double independent = 1e-7;   // of the largest pivot: below it the rank has changed
+constexpr double independent = 1e-7;   // of the largest pivot: below it the rank has changed; lengths in extents
 constexpr double largest_step = 0.1;   // radians and sizes, of a drive
 constexpr double smallest_step = 1e-6; // of the largest: a step that is halved so often has met something
 constexpr int most_turns = 8;          // of Newton's method in a step
@@ -18,13 +18,14 @@ constexpr std::int64_t work_of_a_step = 3000;  // nanoseconds
 
 double larger(double a, double b) { return b > a ? b : a; }
 
-double largest(const std::vector<double>& numbers) {  // infinite if one is none
+double size(double x) {  // infinite if it is no number
+    const double own = std::fabs(x);
+    return own <= std::numeric_limits<double>::max() ? own : std::numeric_limits<double>::infinity();
+}
+
+double largest(const std::vector<double>& numbers) {
     double most = 0;
-    for (const double x : numbers) {
-        const double size = std::fabs(x);
-        if (!(size <= std::numeric_limits<double>::max())) return std::numeric_limits<double>::infinity();
-        most = larger(most, size);
-    }
+    for (const double x : numbers) most = larger(most, size(x));
     return most;
 }
 
@@ -224,13 +225,23 @@ public:
           begin_(static_cast<std::size_t>(path.drives)),
           change_(static_cast<std::size_t>(path.passives)),
           passive_(path.passive, path.passive + path.passives),
-          placed_(static_cast<std::size_t>(path.links * terms)) {
-        conditions_.turns.assign(path.turns, path.turns + linkage.structure.balls * turn_size);
+          placed_(static_cast<std::size_t>(path.links * terms)),
+          is_length_(conditions_.values.size()),
+          is_shift_(q_.size()) {
+        const Structure& structure = linkage.structure;
+        conditions_.turns.assign(path.turns, path.turns + structure.balls * turn_size);
+        for (int row = 0; row < structure.rows; ++row)
+            is_length_[static_cast<std::size_t>(row)] = static_cast<RowKind>(structure.row_at(row)[0]) != RowKind::across;
+        for (int k = 0; k < structure.nodes; ++k) {
+            const std::int64_t* own = structure.node_at(k);
+            if (own[4] < 0 || static_cast<Kind>(own[1]) != Kind::shifts) continue;
+            is_shift_[static_cast<std::size_t>(own[4])] = true, shifts_.push_back(static_cast<int>(own[4]));
+        }
     }
 
     bool follow(Followed& followed, Watch& watch) {
         conditions_.evaluate(q_.data());
-        bool sound = factor(here_);
+        bool sound = factor(here_, extent(q_));
         for (std::int64_t row = 0; row < path_.rows; ++row) {
             bool passes = false;
             double part = 0;
@@ -254,13 +265,34 @@ private:
     std::vector<double> q_, guess_, predicted_, begin_, change_;
     std::vector<int> passive_;
     static constexpr int terms = most_orders + 1;
-    std::vector<Frame<double>> placed_;  // [links, terms]
+    std::vector<Frame<double>> placed_;       // [links, terms]
+    std::vector<char> is_length_, is_shift_;  // of rows, of unknowns
+    std::vector<int> shifts_;                 // unknowns
+
+    // The extent of a position: its longest shift, at least a size; a power of 2, so that to scale by it does not round.
+    double extent(const std::vector<double>& q) const {
+        double most = 1;
+        for (const int k : shifts_) most = larger(most, std::fabs(q[static_cast<std::size_t>(k)]));
+        int power = 0;
+        const double part = std::frexp(most, &power);
+        return std::ldexp(1.0, part > 0.5 ? power : power - 1);
+    }
+
+    // By how much the position that was evaluated last is open, lengths in extents.
+    double gap(double extent) const {
+        double most = 0;
+        for (std::size_t row = 0; row < conditions_.values.size(); ++row)
+            most = larger(most, size(conditions_.values[row]) / (is_length_[row] ? extent : 1));
+        return most;
+    }
 
     // Of the position that was evaluated last; false if the rank is not full.
-    bool factor(LeastSquares& matrix) {
+    bool factor(LeastSquares& matrix, double extent) {
         const auto unknowns = static_cast<std::size_t>(conditions_.structure.unknowns);
+        for (std::size_t row = 0; row < is_length_.size(); ++row) matrix.row_units()[row] = is_length_[row] ? extent : 1;
         for (std::size_t k = 0; k < passive_.size(); ++k) {
             double* column = matrix.column(static_cast<int>(k));
+            matrix.column_units()[k] = is_shift_[static_cast<std::size_t>(passive_[k])] ? extent : 1;
             for (std::size_t row = 0; row < conditions_.values.size(); ++row)
                 column[row] = conditions_.derivatives[row * unknowns + static_cast<std::size_t>(passive_[k])];
         }
@@ -272,10 +304,10 @@ private:
         double last = std::numeric_limits<double>::infinity();
         for (int turn = 0; turn < most_turns; ++turn) {
             conditions_.evaluate(guess_.data());
-            const double gap = largest(conditions_.values);
-            if (!(gap <= std::numeric_limits<double>::max()) || !factor(there_)) return false;
-            if (gap < settled_at || (gap < closed && gap > last / 4)) return true;
-            last = gap;
+            const double unit = extent(guess_), open = gap(unit);
+            if (!(open <= std::numeric_limits<double>::max()) || !factor(there_, unit)) return false;
+            if (open < settled_at || (open < closed && open > last / 4)) return true;
+            last = open;
             there_.solve(conditions_.values.data(), change_.data());
             for (std::size_t k = 0; k < passive_.size(); ++k) guess_[static_cast<std::size_t>(passive_[k])] -= change_[k];
         }
@@ -334,7 +366,7 @@ private:
             std::swap(here_, there_);
             if (count_anew()) {
                 conditions_.evaluate(q_.data());
-                if (!factor(here_)) return true;
+                if (!factor(here_, extent(q_))) return true;
             }
             length = length * 2 < most ? length * 2 : most;
         }

@@ -21,10 +21,13 @@ LeastSquares::LeastSquares(int rows, int columns) : rows_(rows), columns_(column
     original_.resize(rows > columns ? matrix_.size() : 0);
     factors_.resize(static_cast<std::size_t>(columns)), diagonal_.resize(static_cast<std::size_t>(columns));
     order_.resize(static_cast<std::size_t>(columns));
+    row_units_.assign(static_cast<std::size_t>(rows), 1), column_units_.assign(static_cast<std::size_t>(columns), 1);
 }
 
 bool LeastSquares::factor(double share) {
     const auto rows = static_cast<std::size_t>(rows_), columns = static_cast<std::size_t>(columns_);
+    for (std::size_t k = 0; k < columns; ++k)
+        for (std::size_t i = 0; i < rows; ++i) matrix_[k * rows + i] *= column_units_[k] / row_units_[i];
     if (rows > columns) original_ = matrix_;
     mirrors_ = false;
     for (std::size_t k = 0; k < columns; ++k) order_[k] = static_cast<int>(k);
@@ -79,10 +82,11 @@ void LeastSquares::reflect(double* b) const {
 
 void LeastSquares::solve(double* b, double* x) const {
     const auto rows = static_cast<std::size_t>(rows_), columns = static_cast<std::size_t>(columns_);
+    for (std::size_t i = 0; i < rows; ++i) b[i] /= row_units_[i];
     reflect(b);
     for (std::size_t k = columns; k-- > 0;) {
         const double value = b[k] / diagonal_[k];
-        x[order_[k]] = value;
+        x[order_[k]] = value * column_units_[static_cast<std::size_t>(order_[k])];
         const double* a = matrix_.data() + k * rows;
         for (std::size_t i = 0; i < k; ++i) b[i] -= value * a[i];
     }

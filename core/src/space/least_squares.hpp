@@ -13,6 +13,11 @@ public:
     // Written by the caller before `factor`: column k of the matrix begins at `column(k)`.
     double* column(int k) { return matrix_.data() + static_cast<std::size_t>(k) * static_cast<std::size_t>(rows_); }
 
+    // Written by the caller before `factor`: what one of each row and of each column stands for. Pivots are those of the
+    // matrix with rows divided and columns multiplied by that; `solve` takes and gives what was not scaled.
+    double* row_units() { return row_units_.data(); }
+    double* column_units() { return column_units_.data(); }
+
     // Whether no pivot falls below that share of the first.
     bool factor(double share);
 
@@ -24,7 +29,7 @@ public:
 
 private:
     int rows_, columns_;
-    std::vector<double> matrix_, original_, factors_, diagonal_;
+    std::vector<double> matrix_, original_, factors_, diagonal_, row_units_, column_units_;
     std::vector<int> order_;
     bool mirrors_ = false;
 

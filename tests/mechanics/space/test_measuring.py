@@ -11,6 +11,8 @@ from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space import RSSR, Bennett, SphericalFourBar, measures
 from gruebler.mechanics.space.drive_ranges import followed
 from gruebler.mechanics.space.measuring import spatial_table
+from gruebler.structure.chain import Chain
+from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 from tests.mechanics.screws import machines
 
@@ -111,3 +113,120 @@ def test_links_of_a_spherical_crank_rocker_turn_as_grashof_says():
     assert [row.full for row in gr.rotatability(lengths)] == [True, True, False, False]
     with pytest.raises(LinkageError, match="no assembly mode to choose"):
         gr.rotatability(lengths, branch="+")
+
+
+def loop(kinds, *places, driven=0):
+    """A loop of joints by their points and axes z, the first at the frame."""
+    links = ["frame", *"abcdefg"[: len(kinds) - 1], "frame"]
+    text = " ".join(f"{kind}({links[k]}-{links[k + 1]})" for k, kind in enumerate(kinds))
+    mechanism = Mechanism(Chain.parse(f"spatial: {text}"), "frame", [driven])
+    return SpatialLinkage(mechanism, {k: {"at": at, "z": z} if z else {"at": at} for k, (at, z) in enumerate(places)})
+
+
+def limits_of_directions(*axes):
+    """Where the directions of four axes close a spherical four-bar no longer: three of them, the first of which the
+    drive turns, have the Gram determinant 0. It is C + A cos φ + B sin φ in squares of c = u(φ) · w, so that zeros are
+    those of a quadratic in c: 1 + 2 a b c - a² - b² - c² = 0."""
+    first, second, third, fourth = (np.array(axis) / np.linalg.norm(axis) for axis in axes)
+    a, b = second @ third, third @ fourth
+    along = (first @ second) * (first @ fourth)
+    even, odd = second @ fourth - along, np.cross(first, second) @ fourth
+    found = []
+    for c in (a * b + side * np.sqrt((1 - a * a) * (1 - b * b)) for side in (-1, 1)):
+        share = (c - along) / np.hypot(even, odd)
+        if abs(share) <= 1:
+            found += [np.arctan2(odd, even) + side * np.arccos(share) for side in (-1, 1)]
+    return np.sort(np.array(found) % tau)
+
+
+RCCC = [
+    ((0, 0, 0), (0, 0, 1)),
+    ((1, 0.3, 0), (0.2, 0.5, 1)),
+    ((1, 2, 0.3), (-0.3, 0.9, 1)),
+    ((3, 0, 0), (0.9, -0.3, 1)),
+]
+
+
+@pytest.mark.parametrize("size", [1e-4, 1.0, 1e6])
+def test_an_rccc_whose_shifts_grow_without_end_says_so(size):
+    """Its drive goes as far as the directions do, and the shifts with the inverse root of the distance from there."""
+    linkage = loop("RCCC", *((tuple(size * x for x in at), axis) for at, axis in RCCC))
+    limits = limits_of_directions(*(axis for _, axis in RCCC))
+    measured = measures(linkage)
+    span = measured.range
+    for found in (span.lowest, span.highest):
+        assert min(abs(np.exp(1j * found) - np.exp(1j * limits))) < 1e-12
+    assert [stop.reason for stop in span.stops] == ["endless", "endless"]
+    assert "the shifts in C(a-b), C(b-c), C(c-frame) grow without end" in span.explain()
+    assert measured.travel == np.inf
+    assert "Output C(c-frame): unbounded, from " in measured.explain()
+    near = followed(linkage, span.highest - np.array([[1e-4], [1e-6]]))
+    far, nearer = (near.joint(1, "Tz") / size).tolist()
+    assert nearer / far == pytest.approx(10, rel=0.05)
+    sides = [
+        np.sign(followed(linkage, np.array([[end]])).joint(3, "Tz")[0])
+        for end in (span.lowest + 1e-6, span.highest - 1e-6)
+    ]
+    (row,) = (row for row in measured.joints if (row.joint, row.freedom) == ("C(c-frame)", "Tz"))
+    assert (row.lowest == -np.inf, row.highest == np.inf) == (-1 in sides, 1 in sides)
+
+
+def test_random_rccc_reach_the_limits_of_their_directions():
+    rng = np.random.default_rng(5)
+    bounded = 0
+    for _ in range(40):
+        places = [(tuple(rng.normal(size=3)), tuple(rng.normal(size=3))) for _ in range(4)]
+        limits = limits_of_directions(*(axis for _, axis in places))
+        span = gr.drive_range(loop("RCCC", *places))
+        assert span.full == (not len(limits))
+        if span.full:
+            continue
+        bounded += 1
+        below, above = (limits - tau).max() if limits.size else 0, limits.min()
+        assert [span.lowest, span.highest] == pytest.approx([below, above], abs=1e-11)
+        assert [stop.reason for stop in span.stops] == ["endless", "endless"]
+    assert bounded > 10
+
+
+@pytest.mark.parametrize("space", ["planar", "spatial"])
+def test_a_slide_across_a_turning_slot_goes_to_infinity(space):
+    """The slot stands at right angles to its slide after a quarter turn: x = h tan φ."""
+    chain = Chain.parse(f"{space}: R(frame-slot) P(slot-block) R(block-slide) P(slide-frame)")
+    places = [
+        {"at": (0, 0, 0)},
+        {"at": (0, 0, 0), "x": (0, 1, 0)},
+        {"at": (0, 2, 0)},
+        {"at": (0, 2, 0), "x": (1, 0, 0)},
+    ]
+    for number in (0, 2):
+        places[number] |= {"z": (0, 0, 1)} if space == "spatial" else {}
+    linkage = SpatialLinkage(Mechanism(chain, "frame", [0]), dict(enumerate(places)))
+    span = gr.drive_range(linkage)
+    assert [span.lowest, span.highest] == pytest.approx([-pi / 2, pi / 2], abs=1e-12)
+    measured = measures(linkage)
+    (row,) = (row for row in measured.joints if row.joint == "P(slide-frame)")
+    assert (row.lowest, row.highest, measured.travel) == (-np.inf, np.inf, np.inf)
+    assert abs(followed(linkage, np.array([[1.2]])).joint(3, "Tx")[0]) == pytest.approx(2 * np.tan(1.2), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "second",
+    [
+        pytest.param([((1, 0, 0), None), ((2, 0, 0), (0, 0, 1))], id="cranks touch"),
+        pytest.param([((2, 0, 3), None), ((2, 0, 0), (0, 0, 1))], id="the rocker's ball is on its axis"),
+    ],
+)
+def test_an_isolated_position_is_no_range(second):
+    """Two circles that touch; a rod that is shortest to a point that rests: next to the position nothing closes."""
+    linkage = loop("RSSR", ((0, 0, 0), (0, 0, 1)), ((1, 0, 0), None), *second)
+    for ask in (gr.drive_range, measures):
+        with pytest.raises(LinkageError, match=r"isolated, S\(a-b\), S\(b-c\), R\(c-frame\) close there"):
+            ask(linkage)
+    motion = gr.move(linkage, [0.0, 1.0])
+    assert (len(motion), motion.stop.reason, motion.stop.drives) == (1, "isolated", (0.0,))
+
+
+def test_two_cranks_on_one_axis_with_one_ball_turn_together():
+    linkage = loop("RSSR", ((0, 0, 0), (0, 0, 1)), ((1, 0, 0), None), ((1, 1e-12, 0), None), ((0, 0, 2), (0, 0, 1)))
+    measured = measures(linkage)
+    assert (measured.range.full, measured.turns) == (True, 1)

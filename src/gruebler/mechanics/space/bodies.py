@@ -18,6 +18,7 @@ from gruebler.structure.chain.pairs import Pair
 from gruebler.structure.chain.spaces import Freedom, Space
 
 _SQUARE = 1e-9  # the cosine of a right angle
+_SHORTEST = 1e-9  # sizes: two balls nearer to each other than that are in one point, and no rod has its direction
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -127,7 +128,7 @@ class Bodies:
             joints = joints[::-1]
         own, others = zip(*(sorted(links, key=lambda link: self.of[link] != body) for _, links in joints), strict=True)
         first, second = ((self.poses[link] @ self.frames[k])[:3, 3] for (k, _), link in zip(joints, own, strict=True))
-        if self.of[others[0]] == self.of[others[1]] or not (first - second).any():
+        if self.of[others[0]] == self.of[others[1]] or np.linalg.norm(first - second) < _SHORTEST:
             return None
         numbers = (joints[0][0], joints[1][0])
         cross = None

@@ -8,6 +8,7 @@ the two if the joint lies between the row's frames. Rates of any order come from
 from __future__ import annotations
 
 from collections.abc import Collection
+from copy import copy
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -85,6 +86,17 @@ class ClosingConditions:
     def units(self) -> Reals:
         """What a unit of each unknown is: a radian, or the size."""
         return np.array([1.0 if node.turn else self.tree.scale for node in self.tree.nodes[1:]])
+
+    def shrunk(self) -> ClosingConditions | None:
+        """With all dimensions shrunk to 0: of lengths only shifts are left. None with rods and round contours."""
+        nodes, rows, frames, pitches, lengths, gears = self._tables
+        if lengths.any():
+            return None
+        at_origin = frames.copy()
+        at_origin[:, :3, 3] = 0.0
+        other = copy(self)
+        other._tables = (nodes, rows, at_origin, 0.0 * pitches, lengths, gears)
+        return other
 
     @property
     def conditions(self) -> int:

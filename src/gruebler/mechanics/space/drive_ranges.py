@@ -183,6 +183,8 @@ def spatial_range(linkage: SpatialLinkage, drive: int | None = None) -> SpatialR
     up = moved(setting(linkage), steps, still)
     if turning and up.complete:
         return SpatialRange(lowest=0.0, highest=2 * pi, full=True, stops=(None, None), linkage=linkage, drive=number)
+    if up.stop is not None and up.stop.reason == "isolated":
+        raise LinkageError("{reason}", reason=up.stop.message)
     down = moved(setting(linkage), -steps, still)
     low, high = (
         side * most if motion.stop is None else motion.stop.drives[number] for side, motion in ((-1.0, down), (1.0, up))

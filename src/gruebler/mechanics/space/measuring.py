@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import tau
+from math import isfinite, tau
 from typing import Any, NamedTuple, overload
 
 import numpy as np
@@ -27,8 +27,9 @@ from gruebler.mechanics.screws.conversion import SpatialLike
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.curve import ConfigurationCurve
 from gruebler.mechanics.space.drive_ranges import SpatialRange, followed, spatial_range, value_message
+from gruebler.mechanics.space.ends import endless
 from gruebler.mechanics.space.following import setting
-from gruebler.mechanics.space.motion import SpatialMotion
+from gruebler.mechanics.space.motion import SpatialMotion, SpatialStop
 from gruebler.mechanics.space.outputs import against_frame, output_freedom, valued_freedoms
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.chain.spaces import Freedom
@@ -42,6 +43,7 @@ _NOISE = 1e-10  # of the largest value in a table: rounding of closed positions,
 _WITH = message("Output {joint}: it turns fully in the sense of the drive, {turns:g} : 1.")
 _AGAINST = message("Output {joint}: it turns fully against the sense of the drive, {turns:g} : 1.")
 _SWINGS = message("Output {joint}: from {low} to {high}, that is {travel}.")
+_ENDLESS = message("Output {joint}: unbounded, from {low} to {high}.")
 _CENTRES = message("Dead centres of the output at {centres}.")
 _RATIO = message("Speed ratio, output by drive: from {least:.4g} at {first} to {most:.4g} at {second} of the drive.")
 _CONSTANT = message("Speed ratio, output by drive: {ratio:.4g}, constant.")
@@ -57,7 +59,7 @@ class JointRange:
     """Such as ``Rz``."""
     lowest: float
     highest: float
-    """Radians or lengths, counted from the reference pose."""
+    """Radians or lengths, counted from the reference pose; infinite for a shift that grows without end."""
     full: bool
     """Whether its links turn fully against each other."""
 
@@ -93,7 +95,7 @@ class SpatialMeasures:
 
     @property
     def travel(self) -> float:
-        """How far the output goes, in radians or lengths."""
+        """How far the output goes, in radians or lengths; infinite for a slide that goes on without end."""
         (row,) = (row for row in self.joints if (row.joint, row.freedom) == (self.output, self.freedom))
         return row.highest - row.lowest
 
@@ -131,7 +133,8 @@ class SpatialMeasures:
         else:
             (row,) = (row for row in self.joints if (row.joint, row.freedom) == (self.output, self.freedom))
             texts = [self._value(v, Freedom(row.freedom).turns) for v in (row.lowest, row.highest, self.travel)]
-            yield _SWINGS.filled(joint=title(self.output), low=texts[0], high=texts[1], travel=texts[2])
+            text = _SWINGS if isfinite(self.travel) else _ENDLESS
+            yield text.filled(joint=title(self.output), low=texts[0], high=texts[1], travel=texts[2])
         if self.dead_centres:
             yield _CENTRES.filled(centres=joined([drive(each.drive) for each in self.dead_centres], "; "))
         least, greatest = self.least_ratio, self.greatest_ratio
@@ -150,6 +153,8 @@ class SpatialMeasures:
     def _extent(self, row: JointRange) -> Message:
         if row.full:
             return message("full turns")
+        if not isfinite(row.highest - row.lowest):
+            return message("unbounded")
         return self._value(row.highest - row.lowest, Freedom(row.freedom).turns)
 
     def _value(self, value: float, turns: bool) -> Message:
@@ -363,9 +368,19 @@ def _nearer(
 
 def _at_ends(linkage: SpatialLinkage, span: SpatialRange, joint: int, freedom: str) -> tuple[float | None, ...]:
     """A joint's value where the range ends, up to whole turns; None without a stop, or where modes meet."""
-    curve = ConfigurationCurve(setting(linkage))
-    points = [None if stop is None else curve.near(stop.place) for stop in span.stops]
-    return tuple(None if each is None else float(curve.motion([each]).joint(joint, freedom)[0]) for each in points)
+    set_up = setting(linkage)
+    curve = ConfigurationCurve(set_up)
+
+    def value(stop: SpatialStop | None, side: float) -> float | None:
+        if stop is not None and stop.reason == "endless":
+            beyond = endless(set_up, 0, stop.place, side * set_up.closure.tree.signs[0])
+            known = None if beyond is None else beyond.value(joint, freedom)
+            if known is not None:
+                return known
+        point = None if stop is None else curve.near(stop.place)
+        return None if point is None else float(curve.motion([point]).joint(joint, freedom)[0])
+
+    return tuple(value(stop, side) for stop, side in zip(span.stops, (-1.0, 1.0), strict=True))
 
 
 def _joint_range(

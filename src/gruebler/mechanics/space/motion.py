@@ -27,6 +27,11 @@ _LIMITS = message(
     "The motion ends at {drives}: there the drives stand at a limit and have to turn back, while {joints} could go on."
 )
 _MEET = message("The motion ends at {drives}: there two assembly modes meet in {joints}.")
+_ENDLESS = message("The motion ends at {drives}: towards it the shifts in {joints} grow without end.")
+_ISOLATED = message(
+    "The linkage cannot move from {drives}, neither way: the position is isolated, {joints} close there and nowhere "
+    "next to it."
+)
 _PASSED = message(
     "Before {drives} it passes a position in which two assembly modes meet, and goes straight on in its own."
 )
@@ -49,9 +54,10 @@ class SpatialStop:
     """The drive values there: at a limit where one drive moves to rounding, else as near as the smallest step: a
     millionth of a tenth of a radian."""
     joints: tuple[str, ...]
-    """The joints that move fastest there."""
+    """The joints that move fastest there, or that shift without end; in an isolated position all but the driven."""
     reason: str
-    """``limit`` (the drives can go no farther), ``singular`` (two assembly modes meet)."""
+    """``limit`` (the drives can go no farther), ``endless`` (shifts grow without end), ``singular`` (two assembly modes
+    meet), ``isolated`` (no motion at all)."""
     linkage: SpatialLinkage = field(repr=False)
     """The linkage that moves."""
     place: Place = field(repr=False, compare=False)
@@ -60,7 +66,8 @@ class SpatialStop:
     @property
     def message(self) -> Message:
         """What `explain` says, in any language."""
-        text = _MEET if self.reason != "limit" else _LIMIT if len(self.drives) == 1 else _LIMITS
+        limit = _LIMIT if len(self.drives) == 1 else _LIMITS
+        text = {"limit": limit, "endless": _ENDLESS, "isolated": _ISOLATED}.get(self.reason, _MEET)
         chain = self.linkage.mechanism.chain
         titles = joined(chain.joint_title(chain.joint_number(name)) for name in self.joints)
         return text.filled(drives=drive_values(self.linkage, self.drives), joints=titles)

@@ -20,13 +20,11 @@ from gruebler.mechanics.linkages.conversion import LinkageLike, linkage_made
 from gruebler.mechanics.screws.conversion import SpatialLike
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.change_point_rows import follow_through
-from gruebler.mechanics.space.closure import Place
-from gruebler.mechanics.space.curve import ConfigurationCurve, directed
-from gruebler.mechanics.space.following import Setting, is_limit, setting
-from gruebler.mechanics.space.motion import SpatialMotion, SpatialStop
+from gruebler.mechanics.space.ends import stop_of
+from gruebler.mechanics.space.following import Setting, setting
+from gruebler.mechanics.space.motion import SpatialMotion
 
 _LONGEST_WAY = 1e9  # radians and sizes from row to row, as the kernel has it
-_FAST = 0.5  # of the fastest joint: joints that move so fast in a last position are named
 
 
 @overload
@@ -153,7 +151,7 @@ def moved(set_up: Setting, path: Reals, speeds: Reals) -> SpatialMotion:
     rows, changes = follow_through(set_up, own, rates)
     count = len(rows.derivatives)
     balls = {start + k for start in tree.folds for k in (-1, 0, 1)}
-    stop = None if rows.end is None else _stop(set_up, rows.last, rows.end, own[count] - own[count - 1] * (count > 0))
+    stop = None if rows.end is None else stop_of(set_up, rows.last, rows.end, own[count] - own[count - 1] * (count > 0))
     return SpatialMotion(
         linkage=tree.linkage,
         drives=path[:count],
@@ -169,37 +167,3 @@ def moved(set_up: Setting, path: Reals, speeds: Reals) -> SpatialMotion:
         passed=tuple(rows.passed),
         changes=changes,
     )
-
-
-def _stop(set_up: Setting, last: Place, row: float, change: Reals) -> SpatialStop:
-    tree = set_up.closure.tree
-    chain = tree.linkage.mechanism.chain
-    by_unknown = set_up.closure.linearised(last)[1]
-    fast = np.linalg.svd(by_unknown[:, set_up.passive])[2][set_up.rank - 1]
-    share = dict(zip(set_up.passive.tolist(), abs(fast), strict=True))
-    names = chain.joint_names()
-    joints = {names[joint]: share.get(k, 0.0) for (joint, _), k in tree.unknown.items()}
-    most = max(joints.values(), default=0.0)
-    limit = is_limit(set_up, last, change)
-    if limit and np.count_nonzero(change) == 1:
-        last = _turning_point(set_up, last, change)
-    values = last.q[list(tree.drives)] * set_up.closure.units[list(tree.drives)] * tree.signs
-    return SpatialStop(
-        row=max(row, 0.0),
-        drives=tuple(map(float, values)),
-        joints=tuple(name for name, value in joints.items() if value > _FAST * most > 0),
-        reason="limit" if limit else "singular",
-        linkage=tree.linkage,
-        place=last,
-    )
-
-
-def _turning_point(set_up: Setting, last: Place, change: Reals) -> Place:
-    """Where the one drive that moves turns back, at most 0.1 along the curve; the last place if it is not found."""
-    moving = int(np.argmax(abs(change)))
-    curve = ConfigurationCurve(set_up, moving)
-    start = curve.near(last)
-    if start is None:
-        return last
-    fold = curve.fold(directed(start, np.sign(change[moving]) * np.eye(len(curve.columns))[0]))
-    return last if fold is None else fold.place
