@@ -207,7 +207,8 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
                 reasons=tuple(reasons),
             )
             return Design(linkage=linkage, verdict=verdict, form=form)
-        path, full = path_through(course, met, limit), _turns_fully(course)
+        path = path_through(course, met, limit, in_order=demands.in_order)
+        full = _turns_fully(course)
         drives: tuple[float, ...] = ()
         missed_by, transmission = met.error if path.in_order else path.error, np.nan
         misses = np.full(len(targets.values), np.nan)

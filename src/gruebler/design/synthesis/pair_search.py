@@ -46,7 +46,8 @@ class PairFacts:
     """They do, and the crank meets them in order."""
     turns: Flags
     transmission: Reals
-    """The least transmission angle on the way through the positions, in radians."""
+    """The least transmission angle on the way through the positions, in radians; where the crank does not meet them in
+    order, on the shortest way through all of them."""
     inside: Flags
     """Both fixed pivots lie in the region."""
     most: float
@@ -161,11 +162,30 @@ def motion_of_pairs(closure: PairClosure) -> PairMotion:
     ordered = np.where(turns, within_lap, (steps > 0).all(axis=2) | (steps < 0).all(axis=2))
     travel = np.where(onward <= back, onward, -back)  # of two positions both ways lead there: the shorter is taken
     travel = np.where(turns, travel, angle[..., -1] - angle[..., 0])
+    begin, width = shortest_arc(angle, closed=turns)
+    begin, travel = np.where(ordered, angle[..., 0], begin), np.where(ordered, travel, width)
     same_part = ~split | (np.sign(angle) == np.sign(angle[..., :1])).all(axis=2)
     branch = (side == side[..., :1]).all(axis=2) & (side[..., 0] != 0) & same_part
-    cosines = [closure.cosine(_extreme(angle[..., 0], travel, at)) for at in (0.0, np.pi)]
+    cosines = [closure.cosine(_extreme(begin, travel, at)) for at in (0.0, np.pi)]
     transmission = np.arccos(np.clip(np.maximum(*map(np.abs, cosines)), 0, 1))
     return PairMotion(*map(np.asarray, (branch, branch & ordered, turns, transmission)))
+
+
+def shortest_arc(angles: Reals, *, closed: Flags | bool) -> tuple[Reals, Reals]:
+    """Begin and width of the shortest range with all angles of the last axis; beyond a whole turn where it is closed.
+
+    >>> begin, width = shortest_arc(np.radians([0, 170, 200]), closed=True)
+    >>> np.degrees([begin, width]).round(9).tolist()
+    [170.0, 190.0]
+    """
+    turned = np.sort(np.where(np.asarray(closed)[..., None], angles % (2 * np.pi), angles), axis=-1)
+    widths = np.concatenate(
+        [turned[..., -1:] - turned[..., :1], turned[..., :-1] + 2 * np.pi - turned[..., 1:]], axis=-1
+    )
+    widths[..., 1:] = np.where(np.asarray(closed)[..., None], widths[..., 1:], np.inf)
+    first = np.argmin(np.round(widths, 9), axis=-1, keepdims=True)
+    begin, width = (np.take_along_axis(part, first, axis=-1)[..., 0] for part in (turned, widths))
+    return np.asarray(begin), np.asarray(width)
 
 
 Places = tuple[Complexes, Complexes]

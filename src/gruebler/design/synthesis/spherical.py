@@ -16,7 +16,7 @@ from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.judging import Demands, transmission_fault
-from gruebler.design.synthesis.pair_search import PairClosure, motion_of_pairs
+from gruebler.design.synthesis.pair_search import PairClosure, motion_of_pairs, shortest_arc
 from gruebler.design.synthesis.results import TOO_SLENDER, DesignVerdict, SolutionCount
 from gruebler.design.synthesis.spherical_dyads import (
     COMPLEX_DYADS,
@@ -240,6 +240,9 @@ def judged_four_bar(bar: SphericalFourBar, pins: Reals, demands: Demands) -> Sph
         if full and in_order:
             turned = np.cumsum(steps % (2 * pi)) if onward <= back else -np.cumsum((-steps) % (2 * pi))
             path = path[0] + np.append(0.0, turned)
+        elif full:
+            begin, _ = shortest_arc(phi, closed=True)
+            path = begin + (phi - begin) % (2 * pi)
         low, high = path.min(), path.max()
         dead = [k * pi for k in range(int(np.ceil(low / pi)), int(np.floor(high / pi)) + 1)]
         motion = bar.motion(path, branch="+" if sides[0] > 0 else "-")

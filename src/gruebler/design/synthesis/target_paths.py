@@ -23,16 +23,23 @@ class TargetPath(NamedTuple):
     """How far the farthest target is missed in order, relative to the size; NaN if no way in order is known."""
 
 
-def path_through(course: Circuit, met: TargetPlaces, limit: float) -> TargetPath:
-    """The best way through the targets: in order and without a limit of the drive if there is one within a limit."""
+def path_through(course: Circuit, met: TargetPlaces, limit: float, *, in_order: bool = True) -> TargetPath:
+    """The best way through the targets: in order and without a limit of the drive if there is one within a limit.
+
+    Where there is none and the order is free, a way in another order without a limit of the drive is better.
+    """
     branches, whole = _branches(course), None if course.closed else (0.0, course.length)
     ways = [match for branch in branches if (match := met.in_order(branch)) is not None]
     if ways and (best := preferred(ways, 1.0)).error <= limit:
         return TargetPath(best.arcs, True, True, best.error)
     match = met.in_order(whole) if branches != [whole] else ways[0] if ways else None
+    through = None
     if match is not None and match.error <= limit:
-        return TargetPath(match.arcs, True, False, match.error)
-    return _unordered(course, met.places, np.nan if match is None else match.error)
+        through = TargetPath(match.arcs, True, False, match.error)
+        if in_order:
+            return through
+    free = _unordered(course, met.places, np.nan if match is None else match.error)
+    return free if free.one_branch or through is None else through
 
 
 def limit_before(course: Circuit, arc: float) -> bool:
@@ -58,32 +65,30 @@ def _branches(course: Circuit) -> list[Piece]:
 
 
 def _unordered(course: Circuit, places: Places, error: float) -> TargetPath:
-    """The shortest way through the targets in any order, without a limit of the drive if there is one."""
-    limits = np.array([extreme.at for extreme in course.drive_limits])
-    laps = (-1, 0, 1) if course.closed else (0,)
-    met = places.best_of_each
-    ways = []
-    for start in met[0]:
-        arcs = _nearest(course, met, float(start), limits)
-        low, high = arcs.min(), arcs.max()
-        free = all(not ((limits + k * course.length > low) & (limits + k * course.length < high)).any() for k in laps)
-        ways.append((not free, float(high - low), arcs))
-    crosses, _, arcs = min(ways, key=lambda each: each[:2])
-    return TargetPath(arcs, False, not crosses, error)
+    """The way through the targets in any order on which the drive travels least, without a limit of it if there is one.
+
+    From each place of a target on to the next places of all others.
+    """
+    met, laps = places.best_of_each, _laps(course)
+    starts = np.sort(np.concatenate(met))
+    arcs = np.full((len(met), len(starts)), np.inf)
+    for target, own in enumerate(met):
+        there = np.append(np.sort(np.concatenate([own + lap for lap in laps])), np.inf)
+        arcs[target] = there[np.searchsorted(there, starts)]
+    low, high = starts, arcs.max(axis=0)
+    starts, low, high, arcs = (part[..., np.isfinite(high)] for part in (starts, low, high, arcs))
+    limits = np.array([extreme.at + lap for extreme in course.drive_limits for lap in laps])
+    crosses = np.asarray(((limits[:, None] > low) & (limits[:, None] < high)).any(axis=0))
+    travel = np.where(crosses, high - low, np.abs(_drive_at(course, high) - _drive_at(course, low)))
+    best = np.lexsort([np.round(travel, 9), crosses])[0]
+    chosen = arcs[:, best]
+    return TargetPath(
+        chosen - (chosen[0] // course.length) * course.length * course.closed, False, not crosses[best], error
+    )
 
 
-def _nearest(course: Circuit, met: list[Reals], start: float, limits: Reals) -> Reals:
-    """An arc of each target without order: on the branch of the start if possible."""
-    low, high = -np.inf, np.inf
-    shifted = np.concatenate([limits + k * course.length for k in ((-1, 0, 1) if course.closed else (0,))])
-    if len(shifted):
-        low = max([v for v in shifted if v <= start], default=-np.inf)
-        high = min([v for v in shifted if v > start], default=np.inf)
-    chosen_arcs = [start]
-    for arcs in met[1:]:
-        laps = (-1, 0, 1) if course.closed else (0,)
-        all_arcs = np.concatenate([arcs + k * course.length for k in laps])
-        within = all_arcs[(all_arcs >= low) & (all_arcs <= high)]
-        chosen = within if len(within) else all_arcs
-        chosen_arcs.append(float(chosen[np.argmin(np.abs(chosen - start))]))
-    return np.array(chosen_arcs)
+def _drive_at(course: Circuit, arcs: Reals) -> Reals:
+    """The drive there between samples, to compare ways with; each lap goes on where the one before ended."""
+    laps = np.floor(arcs / course.length) if course.closed else np.zeros_like(arcs)
+    drive = course.drive
+    return np.asarray(np.interp(arcs - laps * course.length, course.arcs, drive) + laps * (drive[-1] - drive[0]))
