@@ -51,6 +51,23 @@ def test_the_worked_example_with_four_real_dyads():
     assert all(design.verdict.reasons for design in found.rejected)
 
 
+def test_a_body_that_is_only_shifted_is_carried_by_parallelograms():
+    """Each of its points is on a circle of the same radius a b c / (4 area), that about the three positions."""
+    task = task_of([(-40, 0, 30), (0, 25, 30), (35, 10, 30)])
+    one, two, three = (complex(x, y) for x, y, _ in task.positions)
+    area = abs(((two - one).conjugate() * (three - one)).imag) / 2
+    radius = abs(one - two) * abs(two - three) * abs(three - one) / (4 * area)
+    found = synthesise_positions(task)
+    assert {design.form for design in found.designs} == {"RR-RR"}
+    for design in found.designs:
+        length = design.linkage.length
+        crank = length("crank", "R(frame-crank)", "R(crank-coupler)")
+        coupler = length("coupler", "R(crank-coupler)", "R(rocker-coupler)")
+        rocker = length("rocker", "R(rocker-coupler)", "R(frame-rocker)")
+        frame = length("frame", "R(frame-crank)", "R(frame-rocker)")
+        assert [crank, rocker, coupler] == pytest.approx([radius, radius, frame], rel=1e-9)
+
+
 def test_five_positions_of_a_four_bar_give_exactly_that_one():
     task, motion = positions_of(KNOWN, np.radians([10.0, 35.0, 60.0, 85.0, 110.0]))
     found = synthesise_positions(task)

@@ -158,7 +158,7 @@ def sliding_family(task: PositionTask, kind: DyadKind, places: Iterable[complex]
             along = place
             rows = np.conj(1j * along) * (seen.q - 1)
             matrix = np.stack([rows.real, -rows.imag], axis=1)
-            if abs(np.linalg.det(matrix)) < SAME * np.abs(matrix).max() ** 2:
+            if abs(np.linalg.det(matrix)) <= SAME * np.abs(matrix).max() ** 2:  # or the body is only shifted
                 continue
             point = complex(*np.linalg.solve(matrix, -np.real(np.conj(1j * along) * seen.t)))
         if abs(along) > SAME and abs(point) < _FARTHEST:
