@@ -65,6 +65,15 @@ def test_the_page_shows_kinds_figure_and_hints(exercises):
     assert page.page.locator(".score").text_content().endswith("0 of 1 solved")
 
 
+@pytest.mark.parametrize("level", [1, 2, 3])
+def test_the_figure_has_the_numbers_that_the_text_names(level):
+    task = task_record(f"mobility-{level}-5", "en")
+    joints = re.findall(r"[A-Z]\((\d+(?:-\d+)+)\)", task["task"])
+    assert len(joints) > 4
+    written = re.findall(r"<text[^>]*>(?:<tspan[^>]*>)?(\d+)<", task["figures"][0]["picture"])
+    assert sorted(written) == sorted({link for joint in joints for link in joint.split("-")})
+
+
 OF_THE_TEXT = [task["id"] for task in task_kinds("en")[-1]["tasks"]]
 
 

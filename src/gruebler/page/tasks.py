@@ -91,7 +91,7 @@ def _figures(task: Exercise, lang: str) -> list[dict[str, str]]:
     """The pictures of a task, each with its name where there are several."""
     linkages = exercise_linkages(task)
     if not linkages:
-        figure = exercise_figure(task, lang)
+        figure = exercise_figure(task, lang, named=True)
         return [] if figure is None else [{"name": "", "picture": figure.svg(styled=False)}]
     return [
         {"name": drawn.name.in_language(lang) if drawn.name else "", "picture": drawn.figure(lang).svg(styled=False)}

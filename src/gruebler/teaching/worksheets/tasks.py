@@ -182,8 +182,10 @@ def _chain(exercise: Exercise) -> Chain:
     return Chain.parse(str(exercise.given["chain"]))
 
 
-def exercise_figure(exercise: Exercise, lang: str = "en") -> Figure | None:
+def exercise_figure(exercise: Exercise, lang: str = "en", *, named: bool = False) -> Figure | None:
     """The figure of a task: the drawn chain, or the linkage to scale with the letters of its lengths; None without.
+
+    Names of links would give away how many are to be counted: they stand there if they are ``named`` in the text too.
 
     >>> from gruebler.teaching.exercises import exercise
     >>> exercise_figure(exercise("mobility-1-7")).title
@@ -191,8 +193,8 @@ def exercise_figure(exercise: Exercise, lang: str = "en") -> Figure | None:
     """
     given = exercise.given
     if isinstance(given.get("chain"), str):
-        # Names of the links would give away how many there are; a dyad is put between named links.
-        return draw_structure(_chain(exercise), labels=exercise.method != "mobility.chain", lang=lang)
+        # A dyad is put between named links.
+        return draw_structure(_chain(exercise), labels=named or exercise.method != "mobility.chain", lang=lang)
     return linkage_figure(exercise, lang)
 
 
