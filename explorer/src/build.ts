@@ -118,7 +118,7 @@ export class BuildView implements View, Plane, Drawn {
           onclick: () => this.take(key),
         },
         text,
-        h("span.letter", {}, ` (${letter})`),
+        h("span.letter.keys", {}, ` (${letter})`),
       );
     renew(
       this.tools,
@@ -161,8 +161,9 @@ export class BuildView implements View, Plane, Drawn {
           {},
           t(
             "Ends meet what is near them, and stop in line with others, at round angles and " +
-              "at lengths of other links. With Shift links are level or upright. Keys: arrows and Enter.",
+              "at lengths of other links.",
           ),
+          h("span.keys", {}, " ", t("With Shift links are level or upright. Keys: arrows and Enter.")),
         ),
         h("button.plain", { "data-act": "empty", onclick: () => this.change(EMPTY) }, t("Empty plane")),
       ),

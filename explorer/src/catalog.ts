@@ -26,7 +26,7 @@ export class CatalogView implements View {
   private features: Record<string, string> = {};
   private refining = false;
   private readonly cards = h("div.cards", { "data-list": "catalog" });
-  private readonly note = h("p.note", { role: "status" });
+  private readonly note = h("p.note", { role: "status" }, "\u00a0"); // as high as its text
   private typing = 0;
   private asked = 0;
   private filled = false;

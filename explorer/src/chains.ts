@@ -18,8 +18,8 @@ export class ChainList {
   private found: Chains | null = null;
   /** The text of the chain that is described. */
   private chosen = "";
-  private readonly list = h("div", {});
-  private readonly count = h("span.note", {});
+  private readonly list = h("div.chains", {});
+  private readonly count = h("span.note.count", {}, "\u00a0");
   private readonly status = h("div.form", {});
   private asked = 0;
 
@@ -87,7 +87,8 @@ export class ChainList {
   private async ask(start: number): Promise<void> {
     const question = { links: this.links, mobility: this.mobility, start };
     const number = ++this.asked;
-    const found = await awaited(this.status, (progress) => this.page.ask<Chains>("chains", question, progress));
+    const place = this.found ? this.status : this.list;
+    const found = await awaited(place, (progress) => this.page.ask<Chains>("chains", question, progress));
     if (number !== this.asked) return; // another list is wanted by now
     if (found) {
       const before = start && this.found ? this.found.items : [];
@@ -98,7 +99,7 @@ export class ChainList {
 
   private show(): void {
     const { found } = this;
-    if (!found) return renew(this.list);
+    if (!found) return;
     this.count.textContent = t("{shown} of {total} chains", { shown: found.items.length, total: found.total });
     if (!found.total) {
       const odd = (this.links + this.mobility) % 2 === 0;

@@ -81,7 +81,7 @@ export class ExercisesView implements View {
   }
 
   private async fillKinds(): Promise<void> {
-    if (!this.task) renew(this.place, moment());
+    if (!this.task) renew(this.kinds, moment());
     this.listed = await this.page.ask<Kind[]>("exercise_kinds", {});
     const options = this.listed.map(({ kind, name }): [string, string] => [kind, name]);
     const choose = (kind: string) => {

@@ -55,8 +55,9 @@ export class MobilityPanel {
     const { frame } = drawing;
     this.element.classList.remove("asking");
     if (frame === null || linksOf(drawing).length < 3) {
-      const text = frame === null ? t("Put a ground: key G.") : t("Draw links: a mechanism has at least three.");
-      return renew(this.element, ...(linksOf(drawing).length ? [count] : []), h("p.note", {}, text));
+      const text = frame === null ? t("Put a ground") : t("Draw links: a mechanism has at least three.");
+      const key = frame === null && h("span.keys", {}, " (G)");
+      return renew(this.element, ...(linksOf(drawing).length ? [count] : []), h("p.note", {}, text, key));
     }
     if (this.element.querySelector('[data-fact="freedoms"]')) this.element.firstChild!.replaceWith(count);
     else renew(this.element, count, moment());

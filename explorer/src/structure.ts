@@ -31,9 +31,10 @@ export class StructureView implements View {
   private joint = -1;
   private atFrame = true;
   private readonly chains: ChainList;
-  private readonly shown = h("div", {});
+  private readonly shown = h("div.described", {});
   private readonly detail = h("div.contents", {});
   private readonly error = h("p.error", { role: "alert" });
+  private readonly words = h("details.words", { hidden: true }); // until there is one
   private readonly field = h("textarea", { spellcheck: false, "data-field": "chain" });
   private typing = 0;
   private asked = 0;
@@ -53,18 +54,10 @@ export class StructureView implements View {
 
   arrange(): void {
     this.field.setAttribute("aria-label", t("The chain as text"));
+    renew(this.words, h("summary", {}, t("The chain as text")), this.field);
     renew(
       this.element,
-      h(
-        "div.page",
-        {},
-        step(1, t("Chain")),
-        this.chains.element,
-        this.shown,
-        h("details.words", {}, h("summary", {}, t("The chain as text")), this.field),
-        this.error,
-        this.detail,
-      ),
+      h("div.page", {}, step(1, t("Chain")), this.chains.element, this.shown, this.words, this.error, this.detail),
     );
     this.chains.arrange();
     if (this.text) void this.describe(this.text);
@@ -85,6 +78,7 @@ export class StructureView implements View {
       if (number !== this.asked) return;
       this.text = text;
       this.structure = found;
+      this.words.hidden = false;
       if (this.joint >= found.joints.length) this.joint = -1;
       this.error.textContent = "";
       this.field.setAttribute("aria-invalid", "false");
@@ -95,7 +89,8 @@ export class StructureView implements View {
       if (!this.structure) renew(this.shown);
       const said = (error as Error).message;
       this.field.setAttribute("aria-invalid", "true");
-      this.field.closest("details")!.open = true;
+      this.words.hidden = false;
+      this.words.open = true;
       const place = /(?:character|Stelle) (\d+)/.exec(said);
       renew(this.error, said);
       if (place) {

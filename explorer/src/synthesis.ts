@@ -156,7 +156,6 @@ export class SynthesisView implements View {
           h(
             "div",
             {},
-            this.list,
             h(
               "div.form",
               {},
@@ -173,6 +172,7 @@ export class SynthesisView implements View {
                 : null,
             ),
             this.status,
+            this.list, // grows, and moves nothing
           ),
         ),
         this.designs.element,
@@ -300,6 +300,9 @@ export class SynthesisView implements View {
           )
         : h("p.note", {}, t("No points yet.")),
       this.kind === "function" ? h("button.plain", { "data-act": "pair", onclick: add }, t("Another pair")) : "",
+      this.kind === "positions" && this.points.length > 1 && this.points.every(([, , angle]) => angle === last[2])
+        ? h("p.note", {}, t("All at one angle: the link is shifted and does not turn."))
+        : "",
     );
   }
 

@@ -225,6 +225,14 @@ def test_tools_of_a_phone_stand_in_one_row(tab, server):
     assert last["x"] + last["width"] <= 390  # it stays in sight when it is chosen
 
 
+def test_tools_stand_in_one_row_on_a_small_desk(tab, server):
+    page = tab(width=1024, height=768, locale="de-DE").open(server.address)
+    page.page.click('[data-view="build"]')
+    boxes = page.page.locator("[data-tool]").evaluate_all("all => all.map((e) => e.getBoundingClientRect().toJSON())")
+    assert np.ptp([box["y"] for box in boxes]) < min(box["height"] for box in boxes) / 2
+    assert max(box["right"] for box in boxes) < page.page.locator('[data-page="build"] .side').bounding_box()["x"]
+
+
 def test_tabs_of_a_phone_show_that_they_scroll_and_cards_have_one_height(tab, server):
     page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
     nav = page.page.locator("header nav")
@@ -240,3 +248,73 @@ def test_tabs_of_a_phone_show_that_they_scroll_and_cards_have_one_height(tab, se
     wide.page.click('[data-view="synthesis"]')
     plane = wide.page.locator(".page .plane").bounding_box()
     assert plane["width"] > 850  # of 1440
+
+
+SHIFTS = """
+    window.shifts = [];
+    new PerformanceObserver((list) => list.getEntries().forEach(({ value, sources }) => shifts.push([value,
+        ...sources.map(({ previousRect: a, currentRect: b }) => [a.y, a.height, b.y, b.height])])))
+        .observe({ type: "layout-shift", buffered: true });
+"""
+FILLED = {
+    "build": "[data-place=mobility], .mobility, [data-page=build] .note",
+    "structure": "[data-fact=counted]",
+    "synthesis": ".plane",
+    "exercises": "[data-answer]",
+    "catalog": "[data-list=catalog] .card svg",
+}
+
+
+@pytest.mark.parametrize(("width", "locale"), [(1440, "en-US"), (390, "en-US"), (390, "de-DE")])
+def test_nothing_moves_while_a_view_is_filled(tab, server, width, locale):
+    """What stands on the screen stays there when the answers come: the layout does not shift, in no view."""
+    page = tab(width=width, height=844, locale=locale, touch=width < 500)
+    page.page.add_init_script(SHIFTS)
+    page.open(server.address)
+    for view, part in FILLED.items():
+        page.page.evaluate(f"gruebler.show('{view}')")
+        page.page.locator(part).first.wait_for()
+        if view == "structure":
+            page.page.locator("[data-chain]").first.wait_for()
+        page.page.wait_for_timeout(100)
+    assert page.page.evaluate("shifts") == []
+    # and a shift would be seen
+    page.page.evaluate("gruebler.root.prepend(Object.assign(document.createElement('p'), { textContent: 'p' }))")
+    page.until("shifts.length > 0")
+
+
+def test_the_button_that_finds_stays_while_positions_are_added(tab, server):
+    page = tab(width=1440, height=900).open(server.address)
+    page.page.click('[data-view="synthesis"]')
+    page.page.click('[data-value="positions"]')
+    before = page.page.locator('[data-act="synthesise"]').bounding_box()
+    for x, y in ((-40, 0), (0, 25), (35, 10)):
+        page.page.mouse.click(*page.target(x, y))
+    assert page.page.locator(".points tr").count() == 4
+    assert page.page.locator('[data-act="synthesise"]').bounding_box() == before
+    assert "does not turn" in page.page.locator(".points + .note, .points ~ .note").first.inner_text()
+    page.page.locator('[aria-label="Position 2 φ [°]"]').fill("30")
+    page.page.locator('[aria-label="Position 2 φ [°]"]').press("Enter")
+    assert page.page.locator(".points ~ .note").count() == 0
+
+
+def test_a_screen_that_is_touched_is_not_told_of_keys(tab, server):
+    for touch in (True, False):
+        page = tab(width=1024, height=768, touch=touch).open(server.address)
+        page.page.click('[data-view="build"]')
+        side = page.page.locator('[data-page="build"] .side')
+        side.get_by_text("Put a ground").wait_for()
+        said = side.inner_text()
+        assert [("(G)" in said), ("Shift" in said)] == [not touch] * 2
+        assert page.page.locator('[data-icon="keys"]').is_visible() is not touch
+
+
+def test_a_press_of_no_length_opens_the_choice_of_a_file(tab, server):
+    page = tab().open(server.address)
+    pressed = (
+        "addEventListener('click', (event) => { if (event.composedPath()[0].type === 'file') window.chosen = 1; })"
+    )
+    page.page.evaluate(pressed)
+    page.page.on("filechooser", lambda _: None)  # else a browser without a screen has nothing to open
+    page.page.mouse.click(*page.middle('[data-icon="open"]'))
+    page.until("window.chosen")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from math import degrees, isfinite, radians
 from typing import Any
 
@@ -27,6 +28,8 @@ from gruebler.pictures.linkage.posed_linkage import posed_linkage
 
 _MOST_DESIGNS = 24
 _COLUMNS = 3  # of a position: x, y, angle
+_NAMES = {"RR-RR": "four-bar", "RR-PR": "slider-crank", "RR-RP": "inverted-slider-crank"}
+"""Forms that have a name of their own."""
 _FRAMES = 48  # of a motion, there and back if it does not turn fully
 
 
@@ -80,7 +83,7 @@ def _record(design: Design, lang: str) -> dict[str, Any]:
     return {
         "document": linkage_to_json(linkage),
         "picture": draw_linkage(linkage, curves=list(linkage.points), lang=lang).svg(styled=False),
-        "form": design.form_in_language(lang),
+        "form": replace(design, form=_NAMES.get(design.form, design.form)).form_in_language(lang),
         "transmission": angle if isfinite(angle) else None,
         "error": verdict.error if isfinite(verdict.error) else None,
         "size": linkage.size,
