@@ -1,16 +1,22 @@
-"""Frames of the page in a real browser: a joint is dragged, the linkage and its whole cycle drawn anew each time."""
+"""Frames of the page in a real browser: a joint is dragged, the linkage and its whole cycle drawn anew each time.
+
+Machines in space are played.
+"""
 
 import shutil
 import statistics
 import tempfile
 from pathlib import Path
+from typing import Any
 
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.linkages import Linkage
 from gruebler.page.model import model_of
 from gruebler.page.page import single_file
+from gruebler.page.space_page import machine_model, space_file
 from gruebler.structure.mechanism import Mechanism
 
+IN_SPACE = ("wiper_rssr", "schatz", "diff_bevel", "delta", "gough")
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 
 JANSEN = "R(0-1) R(1-2-4) R(2-3) R(0-3-5) R(3-6) R(6-7) R(4-5-7); frame=0; drive=R(0-1)"
@@ -84,6 +90,36 @@ def main() -> None:
             print(f"{name:22} {cycle} poses: work {shown(work)}, frame to frame {shown(beats[1:])}, {len(work)} frames")
             page.close()
         browser.close()
+        options = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
+        browser = play.chromium.launch(executable_path=path, args=options)
+        for id in IN_SPACE:
+            file = Path(made) / "space.html"
+            file.write_text(space_file(machine_model(id)), encoding="utf-8")
+            page = browser.new_page(viewport={"width": 900, "height": 700})
+            page.goto(file.as_uri())
+            work = [played(page) for _ in range(3)]
+            print(f"{id:22} played: {min(work):.1f} ms of processor time a frame")
+            page.close()
+        browser.close()
+
+
+def played(page: Any, seconds: float = 4.0) -> float:
+    """Milliseconds of processor time of the page's thread for a frame, while the machine plays."""
+    session = page.context.new_cdp_session(page)
+    session.send("Performance.enable", {"timeDomain": "threadTicks"})
+    page.evaluate(
+        "() => { window.frames_ = 0; const count = () => { window.frames_++; requestAnimationFrame(count); };"
+        "requestAnimationFrame(count); }"
+    )
+
+    def state() -> tuple[float, int]:
+        metrics = {each["name"]: each["value"] for each in session.send("Performance.getMetrics")["metrics"]}
+        return metrics["TaskDuration"], page.evaluate("window.frames_")
+
+    start, first = state()
+    page.wait_for_timeout(1000 * seconds)
+    end, last = state()
+    return 1000 * (end - start) / (last - first)
 
 
 def shown(values: list[float]) -> str:
