@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from html import escape
 
 from gruebler.base.errors import GrueblerError
@@ -157,31 +157,76 @@ def _markdown_block(block: Block) -> Iterator[str]:
 # --- LaTeX -------------------------------------------------------------------------------------------
 
 _LATEX_WIDTH = 620.0  # of the lines on A4 with margins of 20 mm
+_POINTS = 170 / 25.4 * 72.27 / _LATEX_WIDTH  # of LaTeX in a pixel
+_LINE = 14.0  # points
+_KEPT_ROWS = 14  # a table of so many rows is not divided
+_NEED_SPACE = r"""\makeatletter
+\newcommand{\needspace}[1]{\par\begingroup\setlength{\dimen@}{#1}\vskip\z@\@plus\dimen@\penalty-100\vskip\z@\@plus-\dimen@
+\vskip\dimen@\penalty9999\vskip-\dimen@\vskip\z@skip\endgroup}
+\makeatother"""
+"""As the package needspace has it, which is not in every installation."""
 
 
 def _latex(document: Document) -> bytes:
     babel = {"de": "ngerman"}.get(document.lang, "english")
     colours = "\n".join(colour_definitions())
-    body = "\n".join(part for block in document.blocks for part in _latex_block(block))
+    body = "\n".join(
+        part
+        for k, block in enumerate(document.blocks)
+        for part in (_latex_space(document.blocks[k:]), *_latex_block(block))
+        if part
+    )
     name = document.logo.name if document.logo else ""  # a file beside this one
     logo = f"\\IfFileExists{{{name}}}{{\\hfill\\includegraphics[height=10mm]{{{name}}}\\par}}{{}}\n" if name else ""
     return (
         "\\documentclass[a4paper,11pt]{article}\n\\usepackage[T1]{fontenc}\n\\usepackage[utf8]{inputenc}\n"
         "\\IfFileExists{lmodern.sty}{\\usepackage{lmodern}}{}\n"
         f"\\usepackage[{babel}]{{babel}}\n\\usepackage[margin=20mm]{{geometry}}\n\\usepackage{{tikz}}\n"
-        "\\usepackage{longtable}\n\\setlength{\\parindent}{0pt}\n\\setlength{\\parskip}{6pt}\n"
-        f"{colours}\n\\begin{{document}}\n{logo}\\section*{{{latex_text(document.title)}}}\n"
+        "\\usepackage{longtable}\n\\setlength{\\parindent}{0pt}\n\\setlength{\\parskip}{6pt}\\setlength{\\emergencystretch}{3em}\n"
+        f"{_NEED_SPACE}\n{colours}\n\\begin{{document}}\n{logo}\\section*{{{latex_text(document.title)}}}\n"
         f"{{\\small {latex_text(document.subtitle)}\\par}}\n\n{body}\n\\end{{document}}\n"
     ).encode()
+
+
+def _latex_space(blocks: Sequence[Block]) -> str:
+    """What asks for the space of blocks that stay together: a heading with what it begins, a table with its title."""
+    first, *others = blocks
+    high = _LINE
+    match first, *others[:1]:
+        case Heading(), *_:
+            for block in others[:3]:
+                high += _latex_height(block)
+                if isinstance(block, Pictures):
+                    break
+        case Paragraph(text), Rows() as table if len(text) < 2 * _LATEX_LETTERS:
+            high += _latex_height(table)
+        case _:
+            return ""
+    return f"\\needspace{{{high:.0f}pt}}"
+
+
+def _latex_height(block: Block) -> float:
+    """About the height of what is not divided of a block, in points."""
+    match block:
+        case Paragraph(text):
+            return _LINE * min(3, 1 + len(text) // _LATEX_LETTERS)
+        case Pictures(figures):
+            scales = block.scales(_LATEX_WIDTH)
+            return _POINTS * max(s * figure.height for s, figure in zip(scales, figures, strict=True)) + 2 * _LINE
+        case Rows(_, rows):
+            return _LINE * (1 + (len(rows) if len(rows) <= _KEPT_ROWS else 2))
+        case AnswerLines(asked, space):
+            return 0.75 * space + 1.6 * _LINE * len(asked)
+        case _:
+            return 2 * _LINE
 
 
 def _latex_block(block: Block) -> Iterator[str]:
     match block:
         case Heading(text, level, key):
             command = {1: "section", 2: "subsection", 3: "subsubsection"}[level]
-            # Pages end before headings if they can.
             label = f"\\label{{{key}}}" if key else ""
-            yield f"\\filbreak\n\\{command}*{{{latex_text(text)}}}{label}"
+            yield f"\\{command}*{{{latex_text(text)}}}{label}"
         case Paragraph(text, small):
             lines = r"\\ ".join(map(latex_text, text.split("\n")))
             yield f"{{\\small {lines}\\par}}\n" if small else f"{lines}\\par\n"
@@ -195,13 +240,15 @@ def _latex_block(block: Block) -> Iterator[str]:
                 yield f"\\begin{{minipage}}[b]{{{wide:.2f}\\linewidth}}{picture}{caption}\\end{{minipage}}%"
             yield "\\par\n"
         case Rows(headers, rows):
-            yield f"\\begin{{longtable}}[l]{{@{{}}{_latex_columns(headers, rows)}@{{}}}}"
-            yield " & ".join(map(latex_text, headers)) + r" \\ \hline \endhead"
+            short = len(rows) <= _KEPT_ROWS
+            table = "tabular}" if short else "longtable}[l]"
+            yield f"\\begin{{{table}{{@{{}}{_latex_columns(headers, rows)}@{{}}}}"
+            yield " & ".join(map(latex_text, headers)) + r" \\ \hline" + ("" if short else r" \endhead")
             for number, row in enumerate(rows, 1):
-                # The first two rows stay with the head, the last two together.
-                kept = "*" if number < len(rows) and number in (1, len(rows) - 1) else ""
-                yield " & ".join(map(latex_text, row)) + r" \\" + kept
-            yield "\\end{longtable}\n"
+                # The first two rows stay with the head, the last two together, and below the last one no page begins.
+                kept = "*" if number in (1, len(rows) - 1) else ""
+                yield " & ".join(map(latex_text, row)) + (r" \\" + kept if number < len(rows) else "")
+            yield f"\\end{{{'tabular' if short else 'longtable'}}}\\par\n"
         case Contents(headers, rows):
             paragraphs = r"p{0.4\linewidth}" * (len(headers) - 2)
             yield f"\\begin{{longtable}}[l]{{@{{}}l{paragraphs}r@{{}}}}"
