@@ -159,3 +159,12 @@ def test_an_error_names_pairs_and_spaces_in_the_language_of_the_reader():
     assert "Kugelgelenk" in error_in_language(refused.value, "de")
     assert str(pair("prismatic").title) == "prismatic"
     assert pickle.loads(pickle.dumps(pair("prismatic").title)).in_language("de") == "Schubgelenk"
+
+
+def test_a_pair_that_a_space_does_not_have_is_told_in_german_words():
+    with pytest.raises(PairError) as caught:
+        read_symbols(["D3", "D"], Space.PLANAR)
+    german = error_in_language(caught.value, "de")
+    assert "Kugelgelenk" in german
+    assert "D (Drehgelenk), S (Schubgelenk)" in german
+    assert [pair.name for pair in PAIRS if pair.name in german] == []

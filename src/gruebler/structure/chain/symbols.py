@@ -121,8 +121,8 @@ def _impossible(readings: dict[Alphabet, dict[str, tuple[Pair, ...]]], space: Sp
         freedom=freedom,
         space=space.adjective,
         greatest_freedom=space.greatest_freedom,
-        pairs=", ".join(
-            p.name if p.symbol(alphabet) == p.name else f"{p.symbol(alphabet)} ({p.name})"
+        pairs=joined(
+            p.title if p.symbol(alphabet) == p.name else joined([p.symbol(alphabet), " (", p.title, ")"], "")
             for p in PAIRS
             if space in p.freedoms
         ),
