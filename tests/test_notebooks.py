@@ -2,9 +2,11 @@
 
 import ast
 import json
+from html import escape
 
 import pytest
 
+import gruebler as gr
 from tests.docs_session import DOCS
 
 NOTEBOOKS = [DOCS / "notebooks" / f"{name}.ipynb" for name in ("lesson", "design", "research", "forces")]
@@ -56,3 +58,25 @@ def test_jupyter_runs_them(path, tmp_path):
     nbclient.NotebookClient(notebook, timeout=600, resources={"metadata": {"path": str(tmp_path)}}).execute()
     kinds = {kind for cell in notebook.cells for output in cell.get("outputs", []) for kind in output.get("data", {})}
     assert "image/svg+xml" in kinds
+
+
+def test_what_is_explained_in_words_shows_them_in_a_cell():
+    """IPython's own formatter: a picture, or the words of `explain`; never the line of `repr` alone."""
+    formatters = pytest.importorskip("IPython.core.formatters")
+    size = gr.FourBar(25, 70, 40, 70)
+    motion = gr.move(size, gr.from_degrees(0, 360, 10))
+    values = [
+        gr.measures(size),
+        gr.freedoms(size),
+        gr.circuit(size),
+        gr.statics(motion, gr.Loads()),
+        gr.decompose(size.linkage().mechanism),
+        gr.teaching.worksheet(["grashof"], 1),
+    ]
+    for value in values:
+        shown, _ = formatters.DisplayFormatter().format(value)
+        assert "text/html" in shown, type(value)
+        assert "\n" not in shown["text/plain"]
+        assert len(shown["text/plain"]) < 1500
+    shown, _ = formatters.DisplayFormatter().format(values[0])
+    assert shown["text/html"] == f"<pre>{escape(values[0].explain())}</pre>"

@@ -44,12 +44,21 @@ def brief(cls: _Class) -> _Class:
 
 
 def explained(cls: _Class) -> _Class:
-    """A class of which ``print`` shows what its method ``explain`` says in English."""
+    """A class of which ``print`` shows what its method ``explain`` says in English, a notebook too unless it draws it.
+
+    >>> class Stroke:
+    ...     def explain(self, lang="en"):
+    ...         return "H < 40"
+    >>> print(explained(Stroke)(), Stroke()._repr_html_())
+    H < 40 <pre>H &lt; 40</pre>
+    """
 
     def told(self: Any) -> str:
         return str(self.explain())
 
     cls.__str__ = told  # type: ignore[assignment,method-assign]
+    if not any(hasattr(cls, f"_repr_{form}_") for form in ("svg", "html", "mimebundle")):
+        cls._repr_html_ = lambda self: f"<pre>{escape(told(self))}</pre>"  # type: ignore[attr-defined]
     return cls
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from html import escape
 from itertools import cycle, islice
 from pathlib import Path
 
@@ -51,6 +52,7 @@ from gruebler.teaching.worksheets.blocks import (
     Rows,
 )
 from gruebler.teaching.worksheets.exercise_figures import linkage_figure
+from gruebler.teaching.worksheets.files import document_bytes
 from gruebler.teaching.worksheets.moodle import Task, gift, moodle_xml
 from gruebler.teaching.worksheets.solution_figures import SolutionFigure, solution_figures
 
@@ -59,13 +61,21 @@ _TRIES = 20  # seeds, for a task with other answers
 _SPACE = {"mobility": 60.0, "grashof": 80.0, "dyad": 60.0}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class TaskSheet:
     """A sheet with its tasks, and the sheet of their solutions with the marking key."""
 
     tasks: Document
     solutions: Document
     ids: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        return f"<TaskSheet {', '.join(self.ids)}>"
+
+    def _repr_html_(self) -> str:
+        """The sheet in a frame, for notebooks."""
+        page = escape(document_bytes(self.tasks, "html").decode("utf-8"))
+        return f'<iframe srcdoc="{page}" sandbox style="width: 100%; height: 480px; border: 0"></iframe>'
 
     def moodle(self) -> bytes:
         """The tasks as questions of Moodle, marked there by the same rule (Moodle XML)."""
