@@ -60,6 +60,18 @@ const packed = {
   },
 };
 
+/** Long names of methods and fields of the page's own, which get short ones; nobody outside, neither tests nor the
+ * library, calls them. */
+const own = `
+  addPoint appeared arrange arrangeHeader atFrame attemptAnywhere cancelDrag dragCancel dragStart
+  fillKinds firstLanguage firstTheme forceArrows holdJoint jointName jointNear leftOf lineFirst
+  linkList linkName linkNear linkable moveElement moveJointBy movePointBy openDocument openFile
+  openShared paintCentrodes paintHodographs paintTargets placesWith plottedAngle pointName pointNear
+  pointed poleAside putPoint readAnew recoloured remember runAlong setTheme shiftLine showChoice
+  showJoint showPose showRange showScore showStructure showValue shownDesign sized snapping springRows
+  straighten toLocal turnTo unread writeSizes
+`.match(/\w+/g);
+
 await build({
   absWorkingDir: here,
   entryPoints: {
@@ -74,6 +86,7 @@ await build({
   format: "esm",
   target: "es2022",
   minify: true,
+  mangleProps: new RegExp(`^(${own.join("|")})$`),
   charset: "utf8",
   legalComments: "none",
   plugins: [packed],

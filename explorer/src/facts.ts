@@ -4,6 +4,7 @@ import { TURN, wrapped } from "./cycle";
 import { angle, number, t } from "./language";
 import type { Linkage } from "./linkage";
 import { type DeadCentre, type Least, output, transmission } from "./measures";
+import { readingsOf } from "./rulers";
 import { driveText, placeOf, rateUnit } from "./wording";
 
 /** From here on a transmission angle is good. */
@@ -60,6 +61,7 @@ export function factsOf(linkage: Linkage, { dead, least }: Found, inLap: (angle:
     const part = `${driveText(linkage, cycle.low, 4)} … ${driveText(linkage, cycle.high, 4)}`;
     facts.push({ name: t("Range of the drive"), text: cycle.full ? full : part });
   }
+  for (const { name, text } of readingsOf(linkage)) facts.push({ name, text });
   return facts;
 }
 

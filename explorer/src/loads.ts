@@ -107,7 +107,7 @@ export class LoadForm {
     const select = (
       id: string,
       label: string,
-      options: [unknown, string][],
+      options: [unknown, string, string?][],
       chosen: unknown,
       take: (k: number) => void,
     ) => {
@@ -147,7 +147,9 @@ export class LoadForm {
       });
       if (!spring) break;
       const { ends, turning } = spring;
-      const options: [End, string][] = turning ? links.map((link) => [[link, 0, 0], linkage.linkName(link)]) : places;
+      const options: [End, string, string?][] = turning
+        ? links.map((link) => [[link, 0, 0], linkage.linkName(link)])
+        : places;
       for (const side of [0, 1] as const)
         select(`spring-${k}-${side}`, side ? t("to") : t("from"), options, ends[side], (which) => {
           const other = [...ends] as Spring["ends"];

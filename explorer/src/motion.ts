@@ -13,7 +13,7 @@ import { t } from "./language";
 import { alike, floatingLink, Linkage, Refused, type Snapshot, sameSizes } from "./linkage";
 import { deadCentres, leastTransmission } from "./measures";
 import type { LinkageDocument, Model } from "./model";
-import { type Editor, modesPanel, optionsPanel, pointsPanel, SizeRows } from "./panels";
+import { type Editor, modesPanel, optionsPanel, pointsPanel, rulersPanel, SizeRows } from "./panels";
 import { Plots } from "./plots";
 import { type Pair, place } from "./rows";
 import type { Shown } from "./shown";
@@ -168,7 +168,7 @@ export class MotionView implements View, Editor, Driven {
     const { scrollTop } = this.side; // before its parts leave it for new panels
     renew(
       this.side,
-      this.panel("measures", t("Measures"), this.facts, this.words),
+      this.panel("measures", t("Measures"), this.facts, rulersPanel(this), this.words),
       this.panel("sizes", t("Sizes"), this.sizes.element),
       this.panel("plots", t("Plots"), this.plots.element),
       this.panel("forces", t("Forces"), this.forces.element),

@@ -1,5 +1,6 @@
 /** The panels beside the stage: sizes, coupler points, assembly modes, options. */
 
+import type { Ruler } from "./beside";
 import { applyDocument, documentOf } from "./document";
 import { h, renew } from "./dom";
 import type { Dragging, Length } from "./dragging";
@@ -8,7 +9,9 @@ import { inLetters, number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
 import type { Kept } from "./locks";
 import type { LinkageDocument } from "./model";
+import { renameEnds } from "./rulers";
 import { ownColour, type Shown } from "./shown";
+import { endsOf } from "./springs";
 import type { Page } from "./view";
 import { awaited } from "./waiting";
 
@@ -180,7 +183,11 @@ function pointRow(editor: Editor, k: number): HTMLElement {
   const rename = (field: HTMLInputElement) => {
     const name = field.value.trim();
     const taken = [...linkage.model.links, ...points.filter((one) => one !== point).map((one) => one.name)];
-    if (/^[^\s=(){};,]+$/.test(name) && !taken.includes(name)) editor.edit(() => (point.name = name));
+    if (/^[^\s=(){};,]+$/.test(name) && !taken.includes(name))
+      editor.edit(() => {
+        renameEnds(linkage, point.name, name);
+        point.name = name;
+      });
     else editor.page.say(t("Expected a name that nothing else has, without spaces and brackets."));
   };
   const coordinate = (axis: 0 | 1) => (field: HTMLInputElement) => {
@@ -223,6 +230,46 @@ function numberText(value: number): string {
 /** After the browser has moved the focus: a field that was left must not be replaced before. */
 function later(act: () => void): void {
   setTimeout(act, 0);
+}
+
+// --- measurement lines ---------------------------------------------------------------------------------------------
+
+/** Where measurement lines are put and removed. */
+export function rulersPanel(editor: Editor): HTMLElement {
+  const { linkage } = editor;
+  const { rulers = [], ...rest } = linkage.beside;
+  const ends = endsOf(linkage);
+  const put = (next: Ruler[]) =>
+    editor.edit(() => {
+      linkage.beside = { ...rest, ...(next.length && { rulers: next }) };
+    });
+  const select = (text: string, chosen: number) =>
+    h(
+      "select",
+      { "aria-label": text },
+      ...ends.map(([, shownAs, name], k) => h("option", { value: name, selected: k === chosen }, shownAs)),
+    );
+  const [from, to] = [select(t("from"), 0), select(t("to"), ends.length - 1)];
+  const add = () => {
+    if (from.value !== to.value) put([...rulers, [from.value, to.value]]);
+  };
+  const called = (name: string) => ends.find((end) => end[2] === name)?.[1] ?? name;
+  return h(
+    "details.words",
+    {},
+    h("summary", {}, t("Measurement lines")),
+    h("div.form", {}, from, to, h("button.plain", { "data-act": "measure", onclick: add }, t("Add"))),
+    ...rulers.map((ruler, k) => {
+      const name = ruler.map(called).join(" – ");
+      const remove = () => put(rulers.filter((_, other) => other !== k));
+      return h(
+        "div.form",
+        {},
+        name,
+        h("button.quiet", { "aria-label": t("Remove {name}", { name }), onclick: remove }, "×"),
+      );
+    }),
+  );
 }
 
 // --- assembly modes --------------------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ import type { Linkage } from "./linkage";
 import { pole } from "./measures";
 import { halfOf, namePlace, nameSpot } from "./names";
 import { direction, origin, type Pair, place, turn } from "./rows";
+import { readingsOf } from "./rulers";
 import { ownColour, type Shown } from "./shown";
 import { springPath } from "./springs";
 import type { Viewport } from "./viewport";
@@ -30,6 +31,7 @@ export class Scene {
   private readonly changes = svg("path.acceleration", {});
   private readonly forces = svg("path.force", {});
   private readonly springs = svg("path.spring-path", {});
+  private readonly rulers = svg("path.ruler", {});
   private readonly circle = svg("circle.inflection", { r: 0 });
   private readonly pole = svg("circle.pole", { r: 4 });
 
@@ -89,6 +91,7 @@ export class Scene {
       this.changes,
       this.forces,
       this.springs,
+      this.rulers,
       this.circle,
       this.pole,
     );
@@ -167,6 +170,8 @@ export class Scene {
     this.forces.setAttribute("d", this.forceArrows(linkage, shown));
     const springs = shown.springs().map((spring) => springPath(linkage, viewport, spring));
     this.springs.setAttribute("d", springs.join(""));
+    const lines = readingsOf(linkage).map(({ ends }) => `M${ends.map((at) => viewport.screen(...at)).join("L")}`);
+    this.rulers.setAttribute("d", lines.join(""));
     this.drawPole(linkage, shown);
   }
 

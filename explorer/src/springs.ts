@@ -20,16 +20,16 @@ export interface Spring {
   known: number | null;
 }
 
-/** Places at which a spring may end, with what they are called: joints, then points. */
-export function endsOf(linkage: Linkage): [End, string][] {
+/** Places at which a spring may end, with what they are called and their names: joints, then points. */
+export function endsOf(linkage: Linkage): [End, string, string][] {
   const { model, sizes } = linkage;
-  const joints = model.joints.flatMap(({ name }, joint): [End, string][] => {
+  const joints = model.joints.flatMap(({ name }, joint): [End, string, string][] => {
     const pin = sizes.elementsOf(joint).find((k) => sizes.is(k, "pin"));
-    return pin === undefined ? [] : [[[sizes.element(pin).link, ...sizes.xy(pin)], linkage.jointName(name)]];
+    return pin === undefined ? [] : [[[sizes.element(pin).link, ...sizes.xy(pin)], linkage.jointName(name), name]];
   });
   return [
     ...joints,
-    ...sizes.points.map(({ at, link, name }): [End, string] => [[link, ...at], linkage.pointName(name)]),
+    ...sizes.points.map(({ at, link, name }): [End, string, string] => [[link, ...at], linkage.pointName(name), name]),
   ];
 }
 

@@ -485,3 +485,37 @@ def test_a_joint_snaps_while_it_is_dragged(tab, crank_rocker):
     page.page.get_by_label("Snap").check()
     assert dragged((0.3, 0.7))[1] == 0
     assert dragged((0.3, 6.3))[1] != 0
+
+
+def test_a_measurement_line_follows_the_motion(tab, crank_rocker):
+    """From the crank's bearing, (0, 0), to the point K1, which gets another name: the law is that of two places."""
+    page = tab().open(crank_rocker)
+    x, y = page.middle('[data-link="coupler"] .bar')
+    page.page.mouse.dblclick(x, y - 70)
+    facts = page.page.locator(".facts")
+    page.page.get_by_text("Measurement lines").click()
+    page.page.get_by_label("to", exact=True).select_option(label="K1")
+    page.page.locator("[data-act=measure]").click()
+    for drive in (0.3, 2.0, 5.1):
+        page.page.evaluate(f"gruebler.motion.transport.pick({drive})")
+        x, y = page.page.evaluate(
+            "(() => { const { pose, sizes } = gruebler.motion.linkage; const { link, at: [u, v] } = sizes.points[0];"
+            "const [c, s] = [pose.turns[2 * link], pose.turns[2 * link + 1]];"
+            "return [pose.places[2 * link] + c * u - s * v, pose.places[2 * link + 1] + s * u + c * v]; })()"
+        )
+        said = facts.locator("div", has_text="R(frame-crank) – K1").locator("dd").inner_text()
+        length, unit, degrees = said.replace("−", "-").replace("°", "").replace(",", "").split()
+        assert unit == "mm"
+        assert float(length) == pytest.approx(math.hypot(x, y), rel=1e-4)
+        assert float(degrees) == pytest.approx(math.degrees(math.atan2(y, x)), abs=1e-2)
+    drawn = page.page.locator(".stage path.ruler").get_attribute("d")
+    assert drawn.count("M") == 1
+    page.page.locator("[data-panel=points] summary").click()
+    field = page.page.locator("[data-field=point-name-0]")
+    field.fill("tip")
+    field.press("Enter")
+    page.until(f"{ROOT}.querySelector('.facts').textContent.includes('– tip')")
+    kept = page.page.evaluate("gruebler.motion.document().page.rulers")
+    assert kept == [["R(frame-crank)", "tip"]]
+    page.page.evaluate("gruebler.motion.undo(), gruebler.motion.undo()")
+    assert page.page.locator(".stage path.ruler").get_attribute("d") == ""
