@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -248,11 +249,14 @@ def _pieces(panel: Panel, curve: PlottedCurve) -> list[tuple[Point, ...]]:
     drawable = np.isfinite(curve.x) & np.isfinite(curve.y)
     if axis.scale.logarithmic:
         drawable &= curve.y > 0
+    places = [
+        panel.place(x, y, curve.right) if shown else None
+        for x, y, shown in zip(curve.x.tolist(), curve.y.tolist(), drawable.tolist(), strict=True)
+    ]
     parts: list[list[Point]] = []
-    for k in range(len(curve.x) - 1):
-        if not (drawable[k] and drawable[k + 1]):
+    for start, end in pairwise(places):
+        if start is None or end is None:
             continue
-        start, end = (panel.place(float(curve.x[m]), float(curve.y[m]), curve.right) for m in (k, k + 1))
         inside = _clipped(start, end, panel.size)
         if inside is None:
             continue
@@ -265,6 +269,8 @@ def _pieces(panel: Panel, curve: PlottedCurve) -> list[tuple[Point, ...]]:
 
 def _clipped(a: Point, b: Point, size: Point) -> tuple[Point, Point] | None:
     """The part of a segment within a panel (Liang and Barsky 1984); None if there is none."""
+    if all(0.0 <= p.x <= size.x and -size.y <= p.y <= 0.0 for p in (a, b)):
+        return a, b
     along = b.minus(a)
     first, last = 0.0, 1.0
     for step, low, high in ((along.x, -a.x, size.x - a.x), (along.y, -size.y - a.y, -a.y)):
