@@ -34,3 +34,4 @@ gc.disable()
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtestloop():
     gc.enable()  # not frozen: Hypothesis 6.100 then takes examples for flaky
+    gc.set_threshold(20_000, 20, 20)  # all that was collected is looked through less often

@@ -41,13 +41,19 @@ ALLOWED = {
 
 
 @cache
-def definitions(kinds):
-    """The public classes or functions at the top of all files, each with the files that define it."""
+def all_definitions():
+    """The public classes and functions at the top of all files: kind, name, file."""
+    kinds = ast.ClassDef | ast.FunctionDef
+    tops = ((module, node) for module in FILES for node in tree(module).body if isinstance(node, kinds))
+    return [(type(node), node.name, module) for module, node in tops if not node.name.startswith("_")]
+
+
+def definitions(kind):
+    """The public classes or functions, each with the files that define it."""
     places = defaultdict(list)
-    for module in FILES:
-        for node in tree(module).body:
-            if isinstance(node, kinds) and not node.name.startswith("_"):
-                places[node.name].append(module)
+    for other, name, module in all_definitions():
+        if other is kind:
+            places[name].append(module)
     return places
 
 

@@ -6,6 +6,7 @@ import ast
 import re
 import subprocess
 from collections.abc import Mapping, Sequence
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -57,7 +58,7 @@ def _asserts(node: ast.stmt, helpers: Helpers) -> bool:
         case ast.Assert():
             return True
         case ast.Expr(value) | ast.Assign(value=value) | ast.Return(value=ast.expr() as value):
-            return any(_called(part) & (helpers | NAMES) or _numpy(part) for part in ast.walk(value))
+            return any(name in NAMES or name in helpers or name.startswith("assert_") for name in _called_in(value))
         case ast.With(items, body):
             return any(_called(item.context_expr) & NAMES for item in items) or always(body, helpers)
         case ast.For(body=body) | ast.While(body=body):
@@ -75,8 +76,10 @@ def _called(node: ast.AST) -> Helpers:
     return frozenset({getattr(node.func, "attr", "") or getattr(node.func, "id", "")})
 
 
-def _numpy(node: ast.AST) -> bool:
-    return any(word.startswith("assert_") for word in _called(node))
+@cache
+def _called_in(value: ast.expr) -> Helpers:
+    """What an expression calls; asked again in each round of `asserting`."""
+    return frozenset[str]().union(*map(_called, ast.walk(value)))
 
 
 def asserting(trees: Mapping[Path, ast.Module]) -> dict[Path, Helpers]:

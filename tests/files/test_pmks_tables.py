@@ -141,7 +141,6 @@ def test_names_that_are_equal_or_missing_are_made_different(tmp_path):
         ("?data=" + compressed("gears"), "no tables of joints"),
         ("?data=" + compressed("[" * 5000), "no tables of joints"),
         ("?data=" + compressed('{"l":[]}'), "no tables of joints"),
-        ("?data=" + compressed("a" * 2_000_001), "more than 2,000,000 characters"),
         (address([["0", "A"]], []), "expected rows of 8 values"),
         (address([joint("0", "A", "x", "0")], []), "joint A: expected a number, but found 'x'"),
         (address(PINS, [["0", "AB", "0", "#1", 1, 1, "0|9"]]), "has the joint '9', which is not there"),
@@ -152,6 +151,10 @@ def test_names_that_are_equal_or_missing_are_made_different(tmp_path):
     ids=lambda text: text[:30],
 )
 def test_addresses_that_do_not_fit_are_one_sentence(text, words, tmp_path):
+    address_is_refused(text, words, tmp_path)
+
+
+def address_is_refused(text, words, tmp_path):
     path = tmp_path / "a.pmks"
     path.write_text(text)
     tracemalloc.start()
@@ -162,6 +165,10 @@ def test_addresses_that_do_not_fit_are_one_sentence(text, words, tmp_path):
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
     assert peak < 50_000_000
+
+
+def test_an_address_of_too_many_characters_is_refused(tmp_path):
+    address_is_refused("?data=" + compressed("a" * 2_000_001), "more than 2,000,000 characters", tmp_path)
 
 
 def test_links_that_are_not_there_are_not_welded(tmp_path):
