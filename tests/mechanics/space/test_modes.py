@@ -283,6 +283,61 @@ def test_where_two_modes_meet_it_says_that_some_may_lie_together():
     )
 
 
+def placed_loop(kinds, places):
+    """A loop of joints, the first driven, by their points and axes."""
+    links = ["frame", *"abcdefg"[: len(kinds) - 1], "frame"]
+    text = " ".join(f"{kind}({links[k]}-{links[k + 1]})" for k, kind in enumerate(kinds))
+    axes = [
+        {} if kind == "S" else {"x" if kind == "P" else "z": axis}
+        for kind, (_, axis) in zip(kinds, places, strict=True)
+    ]
+    joints = {k: {"at": at} | axes[k] for k, (at, _) in enumerate(places)}
+    return SpatialLinkage(Mechanism(Chain.parse(f"spatial: {text}"), "frame", [0]), joints)
+
+
+@pytest.mark.parametrize("drive", [0.0, 0.3])
+def test_an_rccc_with_parallel_axes_has_modes_that_are_not_isolated(drive):
+    """It is a four-bar of the plane whose shifts along the axes are free; in space no mode is isolated."""
+    axis = (0, 0, 1)
+    linkage = placed_loop("RCCC", [((0, 0, 0), axis), ((1, 0.3, 0), axis), ((1, 2, 0.3), axis), ((3, 0, 0), axis)])
+    modes = assembly_modes(linkage, drive)
+    assert (modes.reached, modes.exact) == (False, False)
+    assert "the position in which the linkage stands is none of them" in modes.explain()
+    assert "These are not all." in modes.explain()
+    assert "das sind nicht alle" in modes.explain("de").lower()
+
+
+def test_these_are_all_is_said_only_with_the_reference_pose_among_them():
+    """Random special dimensions: points on a grid, axes along its lines; of the sizes 1e-3 to 1e3.
+
+    Of an RSSR the modes are the angles with A cos + B sin = C of the circle of the rocker's ball and the rod's sphere:
+    two if the rod's other end is not on the rocker's axis and its ball is not either; else all angles or none.
+    """
+    rng = np.random.default_rng(3)
+    counted = loose = 0
+    for seed in range(90):
+        kinds = ("RSSR", "RSSP", "RRSS", "RCCC", "PSSP", "RRRRRRR")[seed % 6]
+        size, axes = 10.0 ** rng.integers(-3, 4), np.eye(3)[rng.integers(3, size=len(kinds))]
+        points = size * rng.integers(-1, 2, (len(kinds), 3))
+        try:
+            linkage = placed_loop(kinds, list(zip(points.tolist(), axes.tolist(), strict=True)))
+            modes = assembly_modes(linkage, 0.0)
+        except LinkageError:
+            continue
+        stands = is_among(modes.poses, np.tile(np.eye(4), (len(linkage.mechanism.chain.links), 1, 1)), linkage.size)
+        assert stands == modes.reached
+        assert stands or not modes.exact
+        counted, loose = counted + modes.exact, loose + (not modes.exact)
+        if kinds == "RSSR" and (points[1] != points[2]).any():
+            crank, ball = ((point - points[3]) / size for point in points[1:3])
+            across = [vector - axes[3] * (axes[3] @ vector) for vector in (crank, ball)]
+            fixed = min(np.linalg.norm(each) for each in across) > 0.5
+            meet = np.linalg.norm(np.cross(*across)) < 0.5  # the sine of the rocker's angle from there: a double root
+            assert modes.exact == (fixed and not meet)
+    assert counted > 30
+    assert loose > 3
+
+
 @pytest.mark.parametrize(
     ("linkage", "reason"),
     [

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from math import tau
 from typing import overload
 
 import numpy as np
@@ -31,10 +32,12 @@ from gruebler.mechanics.space.generic_modes import (
     arrived,
     arrived_or_far,
     generic_modes,
+    is_regular,
     shifted,
     structure_of,
 )
 from gruebler.mechanics.space.mode_numbers import known_number
+from gruebler.mechanics.space.moving import moved
 from gruebler.mechanics.space.rods import place_rods
 from gruebler.mechanics.space.tree import ClosureTree, locked_tree
 from gruebler.structure.chain.spaces import Space
@@ -44,6 +47,7 @@ _VAIN = 3  # of them that show nothing new end the search
 _NEXT = 0.3  # sizes and radians: how far dimensions next to the target lie from it
 _REAL = 1e-7  # of the largest entry: imaginary parts that are rounding
 _CLOSED = 1e-9
+_SAME = 1e-5  # radians and sizes: poses that differ by less are one, where two modes almost meet
 
 _REFERENCE = message("In the reference pose")
 _AT = message("At {drives}")
@@ -59,6 +63,14 @@ _FOUND = message(
 _SPECIAL = message(
     "{where}: {found} assembly modes, {real} of them real, where almost all dimensions have {generic}: for these, "
     "{far} lie at infinity or beyond a thousand sizes, the others together, or they were not found."
+)
+_MISSED = message(
+    "{where}: {found} assembly modes were found, {real} of them real, and the position in which the linkage stands is "
+    "none of them: modes that are not isolated, or that meet, are not found. These are not all."
+)
+_LOOSE = message(
+    "{where}: {found} assembly modes were found, {real} of them real; at {singular} of them the closing conditions "
+    "repeat each other: they are not isolated, or they meet others. These may not be all."
 )
 
 
@@ -87,14 +99,18 @@ class SpatialModes:
     """How many loops of the dimensions the search for the generic modes took."""
     gap: float
     """By how much joints of the modes are open at most, of the size."""
+    singular: int = 0
+    """At how many of them the closing conditions repeat each other: they are not isolated, or they meet others."""
+    reached: bool | None = None
+    """Whether the position is among them to which the reference pose leads; None where that is not known."""
 
     def __len__(self) -> int:
         return len(self.poses)
 
     @property
     def exact(self) -> bool:
-        """Whether these are all: with those far out as many as the theorem says."""
-        return self.known and self.number + self.far == self.generic
+        """Whether these are all: with those far out as many as the theorem says, the reference pose among them."""
+        return self.known and self.number + self.far == self.generic and not self.singular and self.reached is not False
 
     def pose(self, link: str) -> Reals:
         """Where a link is, (modes, 4, 4), against the reference pose."""
@@ -131,7 +147,11 @@ class SpatialModes:
 
     def explain(self, lang: str = "en") -> str:
         """How many modes there are and were found, a sentence in English or German (``de``)."""
-        if self.exact:
+        if self.reached is False:
+            text = _MISSED
+        elif self.singular and self.number + self.far == self.generic:
+            text = _LOOSE
+        elif self.exact:
             text = _OTHERS_FAR if self.far else _ALL
         else:
             text = _FOUND if self.number == self.generic else _SPECIAL
@@ -143,6 +163,7 @@ class SpatialModes:
             real=len(self),
             generic=self.generic,
             loops=self.loops,
+            singular=self.singular,
         ).in_language(lang)
 
 
@@ -304,6 +325,8 @@ def _modes(
     scale, centre = tree.scale, linkage.centre
     poses[..., :3, 3] *= scale
     poses[..., :3, 3] += centre - poses[..., :3, :3] @ centre
+    singular = [k for k in range(ends.number) if not is_regular(structure, target, ends.at([k]))]
+    there = _led_to(linkage, np.array(drives), structure.unknowns == tree.unknowns)
     return SpatialModes(
         linkage=linkage,
         drives=drives,
@@ -314,7 +337,31 @@ def _modes(
         known=known is not None and generic.positions.number == known,
         loops=generic.loops,
         gap=float(structure.openings(target, ends.frames).max(initial=0.0)),
+        singular=len(singular),
+        reached=None if there is None else _is_among(there, poses, tree),
     )
+
+
+def _led_to(linkage: SpatialLinkage, drives: Reals, unique: bool) -> Reals | None:
+    """The poses (links, 4, 4) to which a motion leads from the reference pose, within a turn of the drives.
+
+    None if it ends before; where unknowns are held that are idle, a motion may hold others.
+    """
+    if not drives.any():
+        return np.tile(np.eye(4), (linkage.mechanism.chain.n, 1, 1))
+    turning = np.array([drive.turning for drive in linkage.mechanism.drives])
+    if not unique or (abs(drives) > np.where(turning, tau, 3 * linkage.size)).any():
+        return None
+    motion = moved(setting(linkage), drives[None], np.zeros((0, 1, len(drives))))
+    return motion.poses[0, -1] if motion.complete else None
+
+
+def _is_among(there: Reals, poses: Reals, tree: ClosureTree) -> bool:
+    """Whether poses (links, 4, 4) are one of those (modes, links, 4, 4); rods may lie as they do."""
+    links = [link for link, place in enumerate(tree.links) if place is not None]
+    apart = abs(poses[:, links] - there[links])
+    apart[..., :3, 3] /= tree.scale + abs(there[links][..., :3, 3]).max(initial=0.0)
+    return bool((apart.max(axis=(1, 2, 3), initial=0.0) < _SAME).any())
 
 
 def _poses(tree: ClosureTree, g: Reals) -> Reals:
