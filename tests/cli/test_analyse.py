@@ -161,7 +161,7 @@ def test_two_drives_give_poses(capsys, tmp_path):
     assert "measures" not in document
     status, _, err = run(capsys, path)
     assert status == 2
-    assert "the linkage has 2 drives: give --range FROM:TO:STEP for each, or --at VALUE,VALUE" in err
+    assert "the linkage has 2 drives: give --range FROM:TO:STEP for each, in the order R(0-1), R(0-4), or --at" in err
 
 
 def test_too_few_and_too_many_drives(capsys, tmp_path):
@@ -267,7 +267,7 @@ def test_several_drives_with_speeds(capsys, tmp_path):
     assert found["R(2-3) vx mm/s"][0] == pytest.approx(-2 * 2 * math.pi)
     status, _, err = run(capsys, *five, "--speed", "60")
     assert status == 2
-    assert "expected --speed once for each drive, 2 times, but found it 1 times" in err
+    assert "expected --speed once for each drive, 2 times, but found it once" in err
 
 
 def test_acceleration_and_jerk_of_one_drive(capsys):
@@ -308,7 +308,7 @@ def test_acceleration_and_jerk_of_several_drives(capsys):
         (["--acceleration", "3"], "--acceleration needs --speed"),
         (
             ["--speed", "1", "--jerk", "3", "--jerk", "4"],
-            "expected --jerk once for each --speed, 1 times, but found it 2 times",
+            "expected --jerk once for each --speed, once, but found it 2 times",
         ),
         (["--speed", "1", "--jerk", "nan"], "--jerk: expected a finite number"),
     ],

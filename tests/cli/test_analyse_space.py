@@ -86,3 +86,28 @@ def test_rounding_is_printed_as_zero(capsys):
     """Schatz's second shaft has its largest speed at 120 degrees; the second derivative was printed as 3.3e-12."""
     _, text, _ = run_command(capsys, "analyse", "schatz", "--range", "0:120:120")
     assert text.splitlines()[-1].split() == ["120", "-106.1", "-2", "0"]
+
+
+def test_without_rows_it_says_what_a_motion_needs(capsys):
+    """The five rods of susp_5link hold the wheel by balls, which nothing drives; on the lift it moves."""
+    _, text, _ = run_command(capsys, "analyse", "susp_5link")
+    assert "No joint is driven, and a ball cannot be" in text
+    assert text.rstrip().endswith("With a drive: susp_5link_lift.")
+    status, _, message = run_command(capsys, "analyse", "susp_5link", "--range", "0:1:1")
+    assert (status, "no joint is driven" in message) == (2, True)
+    _, text, _ = run_command(capsys, "analyse", "diff_bevel")
+    assert "give --range FROM:TO:STEP for each drive, in the order R(frame-carrier), R(frame-sun1)" in text
+
+
+def test_ranges_go_to_the_drives_as_the_file_names_them(capsys):
+    """drive = ["R(frame-carrier)", "R(frame-sun1)"]; by Willis sun2 = 2 carrier - sun1."""
+    _, text, _ = run_command(capsys, "analyse", "diff_bevel", "--range", "10", "--range", "4", "--json")
+    document = json.loads(text)
+    assert [column["name"] for column in document["columns"]][:2] == ["R(frame-carrier)", "R(frame-sun1)"]
+    assert document["rows"][0][:3] == pytest.approx([10, 4, 16])
+    status, _, message = run_command(capsys, "analyse", "diff_bevel", "--range", "0:10:5")
+    assert status == 2
+    assert "expected --range once for each drive, in the order R(frame-carrier), R(frame-sun1), but it was" in message
+    assert message.rstrip().endswith("given once")
+    _, _, message = run_command(capsys, "analyse", "diff_bevel", "--at", "1")
+    assert "2 finite numbers separated by commas, for R(frame-carrier), R(frame-sun1)," in message

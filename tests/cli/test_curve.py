@@ -129,7 +129,10 @@ def test_a_drive_is_held_and_one_drive_goes_a_part(capsys):
     ("arguments", "words"),
     [
         ([], "the linkage has 2 drives: give --range FROM:TO:STEP once for each"),
-        (["--range=0:90:5"], "the linkage has 2 drives, but --range was given 1 times"),
+        (
+            ["--range=0:90:5"],
+            "expected --range once for each drive, in the order R(1-2), R(1-5), but it was given once",
+        ),
         (["--range=0:90:5", "--range=0:90:10"], "10 rows where another drive has 19"),
         (["--range=10", "--range=20"], "has no length"),
         (["--range=0:90:5", "--range=0:90:5", "--contact=3"], "leave --range out"),

@@ -15,7 +15,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.columns import Column, Table, shown
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import Message, error_in_language, joined, message, translate
-from gruebler.cli.drive_rows import given_rows, given_speeds, turning_drives
+from gruebler.cli.drive_rows import given_rows, given_speeds, times, titles_of_drives, turning_drives
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import linkage_of_word, spatial_of_word, with_points
 from gruebler.cli.output import print_json, write_table
@@ -95,14 +95,16 @@ def run(arguments: argparse.Namespace) -> int:
     outputs = [find_output(linkage, name) for name in arguments.output or linkage.outputs or [None]]
     if arguments.branch is not None:
         read_branch(plan, arguments.branch)
-    given = given_rows(arguments.range, arguments.at, turning)
+    given = given_rows(arguments.range, arguments.at, linkage.mechanism)
     if len(turning) > 1:
         if arguments.poles or arguments.curvature or arguments.planes:
             raise GrueblerError("--poles, --curvature and --planes need a linkage with one drive")
         if given is None:
             raise GrueblerError(
-                "the linkage has {count} drives: give --range FROM:TO:STEP for each, or --at VALUE,VALUE",
+                "the linkage has {count} drives: give --range FROM:TO:STEP for each, in the order {drives}, or --at "
+                "VALUE,VALUE",
                 count=len(turning),
+                drives=titles_of_drives(linkage.mechanism),
             )
         if speeds:
             motion = move_quietly(
@@ -166,10 +168,10 @@ def _higher(option: str, given: Sequence[float], speeds: Sequence[float]) -> lis
         if not speeds:
             raise GrueblerError("{option} needs --speed", option=option)
         raise GrueblerError(
-            "expected {option} once for each --speed, {speeds} times, but found it {count} times",
+            "expected {option} once for each --speed, {speeds}, but found it {count}",
             option=option,
-            speeds=len(speeds),
-            count=len(given),
+            speeds=times(len(speeds)),
+            count=times(len(given)),
         )
     for value in given:
         if not math.isfinite(value) or not abs(value) < 1e12:
@@ -218,7 +220,7 @@ def _planes(linkage: Linkage, arguments: argparse.Namespace) -> LinkPlanes:
     """The planes over the rows of --range, else over the whole motion."""
     from gruebler.mechanics.analysis.link_planes import link_planes
 
-    rows = given_rows(arguments.range, [], turning_drives(linkage))
+    rows = given_rows(arguments.range, [], linkage.mechanism)
     between = None if rows is None else (float(np.min(rows)), float(np.max(rows)))
     return link_planes(linkage, between=between)
 

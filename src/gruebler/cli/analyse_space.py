@@ -10,18 +10,20 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.columns import Table, shown
 from gruebler.base.errors import GrueblerError, LinkageError
-from gruebler.base.text import error_in_language, translate
-from gruebler.cli.drive_rows import given_rows
+from gruebler.base.text import Message, error_in_language, joined, message, translate
+from gruebler.cli.drive_rows import given_rows, titles_of_drives
 from gruebler.cli.linkage_inputs import SpatialWord
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.printed_file import is_table
 from gruebler.cli.tables import print_table, print_text
+from gruebler.files.catalog_records import Entry
 from gruebler.files.screws import screws_to_json
 from gruebler.mechanics.screws import SpatialLinkage, freedoms
 from gruebler.mechanics.space import SpatialCircuit, SpatialMeasures, SpatialModes, assembly_modes, circuit, measures
 from gruebler.mechanics.space.drive_ranges import followed
 from gruebler.mechanics.space.measuring import spatial_table
 from gruebler.mechanics.space.wheel_alignment import wheel_alignment
+from gruebler.teaching.catalog import entries
 
 _ONLY_IN_PLANE = ("speed", "acceleration", "jerk", "branch", "poles", "curvature", "planes")
 _LONGEST = 100.0  # radians and sizes: how far the circuit is followed
@@ -35,7 +37,7 @@ def analyse_in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> int
         if getattr(arguments, option):
             raise GrueblerError("--{option} does not go with a linkage in space", option=option)
     drives = linkage.mechanism.drives
-    rows = given_rows(arguments.range, arguments.at, [drive.turning for drive in drives])
+    rows = given_rows(arguments.range, arguments.at, linkage.mechanism)
     measured: SpatialMeasures | None = None
     if len(drives) == 1:
         measured = measures(linkage, output=arguments.output[0] if arguments.output else None)
@@ -47,15 +49,8 @@ def analyse_in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> int
     modes = _modes(linkage)
     around = None if measured is None else _circuit(measured)
     if arguments.json:
-        document: dict[str, Any] = {"linkage": screws_to_json(linkage), "freedoms": freedom.to_json()}
-        if measured is not None:
-            document["measures"] = measured.to_json()
-        if isinstance(around, SpatialCircuit):
-            document["circuit"] = around.to_json()
-        if isinstance(modes, SpatialModes):
-            document["assembly_modes"] = {"found": modes.number, "real": len(modes), "exact": modes.exact}
-            document["assembly_modes"] |= {"generic": modes.generic, "far": modes.far}
-        print_json(document | (Table(()) if table is None else table).to_json())
+        found = {"linkage": screws_to_json(linkage), "freedoms": freedom.to_json()} | _found(measured, around, modes)
+        print_json(found | (Table(()) if table is None else table).to_json())
         return 0
     print_text(freedom.summary(arguments.lang))
     if measured is not None:
@@ -64,12 +59,57 @@ def analyse_in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> int
         print_text(_circuit_text(around, measured.range.full, arguments.lang))
     if modes is not None:
         print_text(_said(modes, arguments.lang))
-    if table is not None and not is_table(arguments.out):
+    if table is None:
+        print_text(_how_to_move(linkage, arguments.linkage).in_language(arguments.lang))
+    elif not is_table(arguments.out):
         print()
         print_table(
             [column.header for column in table], shown(table.columns, arguments.lang), numbers=range(len(table.columns))
         )
     return 0
+
+
+def _found(measured: SpatialMeasures | None, around: object, modes: object) -> dict[str, Any]:
+    """What was found, as plain data."""
+    document: dict[str, Any] = {}
+    if measured is not None:
+        document["measures"] = measured.to_json()
+    if isinstance(around, SpatialCircuit):
+        document["circuit"] = around.to_json()
+    if isinstance(modes, SpatialModes):
+        document["assembly_modes"] = {"found": modes.number, "real": len(modes), "exact": modes.exact}
+        document["assembly_modes"] |= {"generic": modes.generic, "far": modes.far}
+    return document
+
+
+def _how_to_move(linkage: SpatialLinkage, word: str) -> Message:
+    """What is missing for a motion: a drive, with those catalog entries of the linkage that have one, or rows."""
+    mechanism = linkage.mechanism
+    if mechanism.drives:
+        return message(
+            "For a table of its motion give --range FROM:TO:STEP for each drive, in the order {drives}, or --at "
+            "VALUE,VALUE.",
+            drives=titles_of_drives(mechanism),
+        )
+    chain = mechanism.chain
+    names = [
+        name
+        for name, joint in zip(chain.joint_names(), chain.joints, strict=True)
+        if not joint.pair.is_ball and not joint.pair.has_contours and joint.count == 1
+    ]
+    texts = [
+        message("No joint is driven; name one in drives, such as {joint}.", joint=names[0])
+        if names
+        else message("No joint is driven, and a ball cannot be: a joint of another kind has to move one of the links.")
+    ]
+    driven = [name for name, entry in entries().items() if name.startswith(f"{word}_") and _is_driven(entry)]
+    if driven:
+        texts.append(message("With a drive: {entries}.", entries=", ".join(driven)))
+    return joined(texts, " ")
+
+
+def _is_driven(entry: Entry) -> bool:
+    return entry.screws is not None and bool(entry.screws.shown_drives or entry.drives)
 
 
 def _table(linkage: SpatialLinkage, rows: Reals | None, arguments: argparse.Namespace) -> Table | None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import Message, message
+from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.kinematics import from_degrees
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.screws import SpatialLinkage
@@ -21,7 +21,10 @@ _LARGEST = 1e9
 
 def turning_drives(linkage: Linkage | SpatialLinkage) -> list[bool]:
     """Which drives turn; the others slide. `GrueblerError` for a linkage without drives."""
-    mechanism = linkage.mechanism
+    return _turning(linkage.mechanism)
+
+
+def _turning(mechanism: Mechanism) -> list[bool]:
     if not mechanism.drives:
         raise GrueblerError(
             "no joint is driven; name one in drives, such as {joint}", joint=mechanism.chain.joint_names()[0]
@@ -29,8 +32,10 @@ def turning_drives(linkage: Linkage | SpatialLinkage) -> list[bool]:
     return [drive.turning for drive in mechanism.drives]
 
 
-def given_rows(spans: Sequence[str], at: Sequence[str], turning: Sequence[bool], *, grid: bool = False) -> Reals | None:
+def given_rows(spans: Sequence[str], at: Sequence[str], mechanism: Mechanism, *, grid: bool = False) -> Reals | None:
     """(rows, drives) of --range, or of --at, a row each; None if neither is given.
+
+    The drives are taken in their order in the file.
 
     Several drives go through their ranges side by side; as a grid in all combinations, to and fro.
     """
@@ -38,17 +43,20 @@ def given_rows(spans: Sequence[str], at: Sequence[str], turning: Sequence[bool],
         return None
     if spans and at:
         raise GrueblerError("--range and --at do not go together")
+    turning = _turning(mechanism)
     if at:
         if len(at) == len(turning) > 1 and not any("," in text for text in at):
             raise GrueblerError(
                 "one --at gives the values of all drives: --at {values}", values=",".join(text.strip() for text in at)
             )
-        return np.array([_pose(text, turning) for text in at])
+        return np.array([pose_of(text, mechanism) for text in at])
     if len(spans) != len(turning):
         raise GrueblerError(
-            "the linkage has {drives}, but --range was given {count} times",
-            drives=_drives(len(turning)),
-            count=len(spans),
+            "expected --range once for each drive, in the order {drives}, but it was given {times}"
+            if len(turning) > 1
+            else "the linkage has one drive, {drives}, but --range was given {times}",
+            drives=titles_of_drives(mechanism),
+            times=times(len(spans)),
         )
     paths = [_path(text, turns) for text, turns in zip(spans, turning, strict=True)]
     if grid:
@@ -84,9 +92,9 @@ def given_speeds(given: Sequence[float], turning: Sequence[bool], *, from_rest: 
     """
     if given and len(given) != len(turning):
         raise GrueblerError(
-            "expected --speed once for each drive, {drives} times, but found it {count} times",
-            drives=len(turning),
-            count=len(given),
+            "expected --speed once for each drive, {drives}, but found it {count}",
+            drives=times(len(turning)),
+            count=times(len(given)),
         )
     for speed in given:
         if not math.isfinite(speed) or not abs(speed) < 1e12 or (speed == 0 and len(given) == 1 and not from_rest):
@@ -99,35 +107,43 @@ def driven_path(spans: Sequence[str], linkage: Linkage | SpatialLinkage) -> Real
     turning = turning_drives(linkage)
     if not spans and len(turning) > 1:
         raise GrueblerError(
-            "the linkage has {drives}: give --range FROM:TO:STEP once for each; a single number keeps a drive at rest",
-            drives=_drives(len(turning)),
+            "the linkage has {count} drives: give --range FROM:TO:STEP once for each, in the order {drives}; a single "
+            "number keeps a drive at rest",
+            count=len(turning),
+            drives=titles_of_drives(linkage.mechanism),
         )
-    return given_rows(spans, (), turning)
+    return given_rows(spans, (), linkage.mechanism)
 
 
 def pose_of(text: str, mechanism: Mechanism) -> list[float]:
     """The drive values of --at, in radians where the drive turns."""
-    return _pose(text, [drive.turning for drive in mechanism.drives])
-
-
-def _pose(text: str, turning: Sequence[bool]) -> list[float]:
+    turning = [drive.turning for drive in mechanism.drives]
     try:
         values = [float(part) for part in text.split(",")]
     except ValueError:
         values = []
     if len(values) != len(turning) or not all(math.isfinite(value) and abs(value) < _LARGEST for value in values):
+        several = message(
+            "{count} finite numbers separated by commas, for {drives},",
+            count=len(turning),
+            drives=titles_of_drives(mechanism),
+        )
         raise GrueblerError(
             "--at: expected {numbers} below 1e9, degrees where a drive turns, but found {found!r}",
-            numbers=message("one finite number")
-            if len(turning) == 1
-            else message("{count} finite numbers separated by commas", count=len(turning)),
+            numbers=message("one finite number") if len(turning) == 1 else several,
             found=text,
         )
     return [math.radians(value) if turns else value for value, turns in zip(values, turning, strict=True)]
 
 
-def _drives(count: int) -> Message:
-    return message("one drive") if count == 1 else message("{count} drives", count=count)
+def titles_of_drives(mechanism: Mechanism) -> Message:
+    """The driven joints in the order in which their values are given."""
+    return joined(mechanism.chain.joint_title(drive.joint) for drive in mechanism.drives)
+
+
+def times(count: int) -> Message:
+    """How often."""
+    return message("once") if count == 1 else message("{count} times", count=count)
 
 
 def _path(text: str, turning: bool) -> Reals:

@@ -31,7 +31,7 @@ def driven_motion(
     Several ranges are passed side by side, as a grid in all combinations.
     """
     turning = turning_drives(linkage)
-    rows = given_rows(spans, at, turning, grid=grid)
+    rows = given_rows(spans, at, linkage.mechanism, grid=grid)
     if rows is None and len(turning) > 1:
         raise GrueblerError("{count} drives: give --range FROM:TO:STEP once for each, or --at", count=len(turning))
     if rows is not None:

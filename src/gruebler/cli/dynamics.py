@@ -84,7 +84,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _rows(linkage: Linkage, between: tuple[float, float] | None, arguments: argparse.Namespace) -> Reals:
     """The rows that were asked for, or a full turn."""
     turning = turning_drives(linkage)
-    rows = given_rows(arguments.range, arguments.at, turning)
+    rows = given_rows(arguments.range, arguments.at, linkage.mechanism)
     if rows is not None:
         return rows
     if len(turning) > 1:

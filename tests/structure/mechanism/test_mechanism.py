@@ -108,3 +108,11 @@ def test_a_mechanism_does_not_change():
     mechanism = Mechanism.parse("R(0-1-2) R(1-3) R(3-0) R(2-3); drive=R(0-1-2):0-1")
     with pytest.raises(AttributeError, match=r"cannot assign"):
         mechanism.frame = "1"
+
+
+def test_drives_keep_their_order_which_equality_and_code_leave_out():
+    text = "R(0-1) R(1-2) R(2-3) R(3-4) R(4-0); drive={}; drive={}"
+    one, other = Mechanism.parse(text.format("R(4-0)", "R(0-1)")), Mechanism.parse(text.format("R(0-1)", "R(4-0)"))
+    assert one.drive_names() == ("R(4-0)", "R(0-1)")
+    assert other.drive_names() == ("R(0-1)", "R(4-0)")
+    assert (one == other, one.code() == other.code(), one.written_form == other.written_form) == (True, True, False)

@@ -221,7 +221,8 @@ class SpatialLinkage(Immutable):
         return SpatialLinkage(self.mechanism, places, unit=self.unit, points=points, outputs=self.outputs)
 
     def _identity(self) -> tuple[object, ...]:
-        return self.mechanism, self.places, self.unit, tuple(sorted(self.points.items())), self.outputs
+        points = tuple(sorted(self.points.items()))
+        return self.mechanism.written_form, self.places, self.unit, points, self.outputs
 
     def __repr__(self) -> str:
         places = ("(" + ", ".join(f"{number:.6g}" for number in place.at) + ")" for place in self.places)

@@ -16,6 +16,8 @@ SUFFIXES = ("svg", "png", "pdf", "tex")
 def suffix_of(path: Path, known: tuple[str, ...] = SUFFIXES) -> str:
     """The file format of a name; `GrueblerError` if it is not a known one."""
     suffix = path.suffix.lower().removeprefix(".")
+    if suffix in ("gltf", "glb"):
+        raise GrueblerError("{path!r}: a model is no picture; gruebler convert writes it, as .glb", path=str(path))
     if suffix not in known:
         raise GrueblerError(
             "{path!r} names no kind of picture: end it with {endings}",

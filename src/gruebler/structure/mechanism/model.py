@@ -45,7 +45,7 @@ class Mechanism(Immutable):
         frame: the fixed link.
         drives: each a joint number, a joint written as in the chain's text (``R(frame-crank)``), or a `Drive`. A joint
             with several freedoms needs the direction, a multiple joint the two links: ``C(a-b):Tz``,
-            ``R(a-b-c):a-b``.
+            ``R(a-b-c):a-b``. Their order is that of the values with which they are moved.
 
     Raises:
         ChainError: a frame or joint that the chain does not have, a direction that is no freedom of the joint, or
@@ -68,7 +68,7 @@ class Mechanism(Immutable):
     @door_that_raises(ChainError)
     def __init__(self, chain: Chain, frame: str, drives: Iterable[int | str | Drive | DriveMark] = ()) -> None:
         chain.index(frame)
-        checked = tuple(sorted((_drive(chain, d) for d in drives), key=lambda d: (d.joint, d.direction, d.between)))
+        checked = tuple(_drive(chain, d) for d in drives)
         keys = [(d.joint, d.direction, frozenset(d.between)) for d in checked]
         for k, key in enumerate(keys):
             if key in keys[:k]:
