@@ -145,6 +145,24 @@ def test_a_range_is_of_all_drives_of_one_kind():
         assert np.ptp(motion.drives, axis=0).max() == pytest.approx(0.3)
 
 
+@pytest.mark.parametrize(("id", "joint"), [("winch_screw", "P(frame-nut)"), ("gough", "P(cylinder1-piston1)")])
+def test_a_sleeve_stays_on_its_rod(id, joint):
+    """The rod is as long as its sleeve goes, and on that side: the nut of a winch goes one way only, by its lead."""
+    linkage = entry(id).placed()
+    moving = moving_solids(linkage)
+    number = linkage.mechanism.chain.joint_number(joint)
+    shaft, sleeve = ("nut", "frame") if id == "winch_screw" else ("cylinder1", "piston1")
+    axis, at = linkage.frames[number, :3, 0], linkage.frames[number, :3, 3]
+    ends = np.concatenate([solid.vertices - at for solid in moving.solids[shaft]])
+    near = np.linalg.norm(ends - np.outer(ends @ axis, axis), axis=1) < linkage.size / 45  # about the axis
+    low, high = (ends[near] @ axis).min(), (ends[near] @ axis).max()
+    for motion in moving.motions:
+        back = np.linalg.inv(motion.pose(shaft)) @ motion.pose(sleeve)
+        along = (back @ np.append(at, 1.0))[:, :3] @ axis - at @ axis
+        assert low <= along.min()
+        assert along.max() <= high
+
+
 def test_a_range_is_of_a_format_with_motion(tmp_path):
     with pytest.raises(GrueblerError, match="only glTF has a motion between values of the drive"):
         files.write(FourBar(25, 70, 40, 70), tmp_path / "a.toml", between=(0, 1))

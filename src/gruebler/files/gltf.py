@@ -22,6 +22,7 @@ from gruebler.files.link_solids import Solid, link_solids
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space.drive_ranges import followed, spatial_range
 from gruebler.mechanics.space.motion import SpatialMotion
+from gruebler.mechanics.space.sleeves import sleeve_travels
 from gruebler.structure.chain.spaces import Space
 
 _FRAMES = 73
@@ -72,29 +73,14 @@ def moving_solids(
             full.append(turns)
         except LinkageError:
             continue
+    still = np.tile(np.eye(4), (1, linkage.mechanism.chain.n, 1, 1))
+    poses = np.concatenate([still, *(motion.poses[0] for motion in motions)])
     return MovingSolids(
         linkage=linkage,
-        solids=link_solids(linkage, _travels(linkage, motions)),
+        solids=link_solids(linkage, sleeve_travels(linkage, poses)),
         motions=tuple(motions),
         round=tuple(full),
     )
-
-
-def _travels(linkage: SpatialLinkage, motions: Sequence[SpatialMotion]) -> dict[int, tuple[float, float]]:
-    """Between which values the sliding joints of two links move."""
-    chain, travels = linkage.mechanism.chain, {}
-    for number, joint in enumerate(chain.joints):
-        sliding = [str(f) for f in joint.pair.freedoms[chain.space] if f.travels]
-        if len(sliding) == 1 and len(joint.links) == 2 and not joint.pair.has_contours:
-            if joint.pair.has_body_between:
-                continue
-            values = [motion.joint(number, sliding[0]) for motion in motions]
-            sign = -1.0 if joint.links[1] == linkage.mechanism.frame else 1.0
-            along = sign * np.concatenate([[0.0], *values])
-            if linkage.mechanism.frame not in joint.links:
-                along = -along  # the last link is the sleeve
-            travels[number] = float(along.min()), float(along.max())
-    return travels
 
 
 def metres_a_unit(linkage: SpatialLinkage) -> float:

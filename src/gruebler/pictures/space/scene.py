@@ -11,12 +11,12 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.mechanics.space.sleeves import shaft_first, sleeve_travels
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, Shape
 from gruebler.pictures.space.painting import painted_parts
 from gruebler.pictures.space.parts import SpatialPart, across, ground_support, link_bar, points_on_paper, wheel
 from gruebler.pictures.space.symbols import SOLIDS, SPHERE, PlacedJoint, SlidingRod, drive_arrow
 from gruebler.pictures.space.views import View
-from gruebler.structure.chain import Joint
 from gruebler.structure.chain.spaces import Space
 
 _WIDE = 330.0  # pixels of the reference pose
@@ -106,7 +106,7 @@ def scene_of(linkage: SpatialLinkage, view: View, poses: Reals | None = None) ->
     if poses is None:
         poses = np.tile(np.eye(4), (1, linkage.mechanism.chain.n, 1, 1))
     scale, middle = _scaled(linkage, view, poses)
-    joints = _drawn_joints(linkage, scale, middle, _travels(linkage, poses))
+    joints = _drawn_joints(linkage, scale, middle, sleeve_travels(linkage, poses))
     symbols = [SOLIDS[joint.pair.name](joint) for joint in joints]
     parts = _distinct([part for symbol in symbols for part in symbol.parts])
     frame = linkage.mechanism.frame
@@ -232,29 +232,6 @@ def _drawn_joints(
         )
         for number, joint in enumerate(chain.joints)
     ]
-
-
-def shaft_first(joint: Joint, frame: str) -> tuple[str, ...]:
-    """The links of a joint in the order of its symbol: the frame, which has the sleeve, last; of others as written."""
-    if joint.pair.has_contours or joint.pair.is_cross:
-        return joint.links
-    return tuple(sorted(joint.links, key=lambda link: link == frame))
-
-
-def _travels(linkage: SpatialLinkage, poses: Reals) -> dict[int, tuple[float, float]]:
-    """Between which values the sleeve of each joint slides on its shaft, over poses (rows, links, 4, 4)."""
-    chain = linkage.mechanism.chain
-    travels: dict[int, tuple[float, float]] = {}
-    for number, joint in enumerate(chain.joints):
-        sliding = [f.axis for f in joint.pair.freedoms[chain.space] if f.travels or f.has_pitch]
-        if len(sliding) != 1 or joint.pair.has_contours or joint.pair.has_body_between:
-            continue
-        shaft, *others = (chain.index(link) for link in shaft_first(joint, linkage.mechanism.frame))
-        frame = linkage.frames[number]
-        back = np.linalg.inv(poses[:, shaft] @ frame)
-        along = [(back @ poses[:, k] @ frame)[:, "xyz".index(sliding[0]), 3] for k in others]
-        travels[number] = float(min(0.0, np.min(along))), float(max(0.0, np.max(along)))
-    return travels
 
 
 def _sides(linkage: SpatialLinkage) -> dict[int, float]:
