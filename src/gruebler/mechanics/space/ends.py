@@ -65,8 +65,8 @@ def endless(set_up: Setting, drive: int, place: Place, sense: float) -> Endless 
     point = far.near(Place(q, place.turns), own)
     if point is None or abs(point.place.q - q).max() > _NEAR:
         return None
-    way = sense * float(point.place.q[curve.columns[0]] - q[curve.columns[0]])
-    return Endless(far, directed(point, own)) if -_ISOLATED < way < _NEAR_DRIVE else None
+    left = sense * float(point.place.q[curve.columns[0]] - q[curve.columns[0]])
+    return Endless(far, directed(point, own)) if -_ISOLATED < left < _NEAR_DRIVE else None
 
 
 def stop_of(set_up: Setting, last: Place, row: float, change: Reals) -> SpatialStop:

@@ -34,7 +34,7 @@ from gruebler.pictures.structure.bodies import LayoutBodies
 from gruebler.pictures.structure.layout import Layout, lay_out
 from gruebler.pictures.structure.messages import describe, title
 from gruebler.pictures.structure.orientation import upright
-from gruebler.pictures.structure.wheels import Wheel, wheel_points
+from gruebler.pictures.structure.wheels import RoundBody, wheel_points
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Alphabet, Pair
 from gruebler.structure.chain.spaces import Freedom, Space
@@ -63,7 +63,7 @@ class PlacedChain:
     faces: tuple[tuple[int, ...], ...] = ()
     contacts: Mapping[tuple[int, str], str] = field(default_factory=dict)
     """What the bodies of higher pairs are, by joint and link."""
-    wheels: Mapping[tuple[int, str], Wheel] = field(default_factory=dict)
+    wheels: Mapping[tuple[int, str], RoundBody] = field(default_factory=dict)
     """Round bodies on their bearings, by joint and link."""
     closed: Mapping[str, bool]
     """For each link whether its outline is closed: that of a polygon or a wheel."""

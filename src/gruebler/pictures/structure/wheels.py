@@ -31,7 +31,7 @@ _SEEN = {"cam": 0.7, "oval": 0.55, "belt": 0.6, "crossed": 0.6, "geneva-driver":
 """Of the radius to the contact: that of the outline, for bodies that are mostly smaller."""
 
 
-class Wheel(NamedTuple):
+class RoundBody(NamedTuple):
     """A round body in a picture."""
 
     centre: Point
@@ -47,7 +47,7 @@ class Wheel(NamedTuple):
         return tuple(self.centre.plus(Point(math.cos(x), math.sin(x)), radius) for x in turns)
 
 
-class Contact(NamedTuple):
+class RoundContact(NamedTuple):
     """A joint of a round body; the bearing of a body is a point of the layout, None for one that is not round."""
 
     joint: int
@@ -61,7 +61,7 @@ class WheelPoints(NamedTuple):
 
     point_of: tuple[int | None, ...]
     """For each joint its point; None where two round bodies touch between their bearings."""
-    contacts: tuple[Contact, ...]
+    contacts: tuple[RoundContact, ...]
 
     def bodies(self, chain: Chain, frame: str | None) -> dict[str, tuple[int, ...]]:
         """The points of each link that is more than a wheel or a single bearing of the frame."""
@@ -72,7 +72,7 @@ class WheelPoints(NamedTuple):
             if at is not None
         }
         small = {link for _, link in rims} | ({frame} if rims else set())
-        found = {}
+        bodies = {}
         for link in chain.links:
             own = [
                 self.point_of[k]
@@ -81,28 +81,28 @@ class WheelPoints(NamedTuple):
             ]
             places = tuple(dict.fromkeys(p for p in own if p is not None))
             if len(places) > 1 or link not in small:
-                found[link] = places
-        return found
+                bodies[link] = places
+        return bodies
 
     def sides(self, bodies: Sequence[tuple[int, ...]]) -> list[tuple[int, int]]:
         """The lines between bearings, or bearing and contact, along which no body lies."""
-        found: list[tuple[int, int]] = []
+        lines: list[tuple[int, int]] = []
         for contact in self.contacts:
             a, b = self._ends(contact)
-            if not any({a, b} <= set(body) for body in (*bodies, *found)):
-                found.append((a, b))
-        return found
+            if not any({a, b} <= set(body) for body in (*bodies, *lines)):
+                lines.append((a, b))
+        return lines
 
-    def _ends(self, contact: Contact) -> tuple[int, int]:
+    def _ends(self, contact: RoundContact) -> tuple[int, int]:
         """The bearings of a contact; for a body that is not round the contact itself."""
         a, b = (self.point_of[contact.joint] if at is None else at for at in contact.bearings)
         assert a is not None  # a contact between two bearings has both
         assert b is not None
         return a, b
 
-    def touching(self, points: list[Point]) -> tuple[list[Point], dict[tuple[int, str], Wheel]]:
+    def touching(self, points: list[Point]) -> tuple[list[Point], dict[tuple[int, str], RoundBody]]:
         """The place of every joint and the wheels by joint and link; points of contacts move to their wheels."""
-        wheels: dict[tuple[int, str], Wheel] = {}
+        wheels: dict[tuple[int, str], RoundBody] = {}
         between: dict[int, Point] = {}
         for contact in sorted(self.contacts, key=lambda contact: ("ring" not in contact.shapes, contact.joint)):
             own = self.point_of[contact.joint]
@@ -117,15 +117,17 @@ class WheelPoints(NamedTuple):
             for link, at, centre, radius in zip(contact.links, contact.bearings, ends, radii, strict=True):
                 if at is not None:
                     new = not any(_is_same(w, centre, radius) for (_, owner), w in wheels.items() if owner == link)
-                    wheels[contact.joint, link] = Wheel(centre, radius, new)
+                    wheels[contact.joint, link] = RoundBody(centre, radius, new)
         return [between.get(k) or points[p or 0] for k, p in enumerate(self.point_of)], wheels
 
 
-def _is_same(wheel: Wheel, centre: Point, radius: float) -> bool:
+def _is_same(wheel: RoundBody, centre: Point, radius: float) -> bool:
     return wheel.centre == centre and abs(wheel.radius - radius) <= _SAME * radius
 
 
-def _radii(contact: Contact, a: Point, b: Point, wheels: Mapping[tuple[int, str], Wheel]) -> tuple[float, float]:
+def _radii(
+    contact: RoundContact, a: Point, b: Point, wheels: Mapping[tuple[int, str], RoundBody]
+) -> tuple[float, float]:
     """The radii of two bodies that touch, those of wheels that are there already kept if that is possible."""
     apart = b.minus(a).length
     known = [
@@ -177,7 +179,7 @@ def wheel_points(chain: Chain, frame: str | None, shapes: Mapping[tuple[int, str
             for k, b in zip(turning, own, strict=True)
         }
     contacts = [
-        Contact(k, (chain.joints[k].links[0], chain.joints[k].links[1]), kinds, bearings)
+        RoundContact(k, (chain.joints[k].links[0], chain.joints[k].links[1]), kinds, bearings)
         for k, kinds in pairs.items()
         if (bearings := _bearings(chain, k, kinds, first, frame)) != (None, None)
     ]
