@@ -1,27 +1,23 @@
 /** The view in which a mechanism is drawn on an empty plane; its mobility is told while it grows. */
 
 import { gripAt, gripped } from "./backdrop";
+import { choiceOf, removeChosen } from "./choice";
 import { h, ownPage, renew, svg } from "./dom";
 import {
   type Drawing,
   documentOfDrawing,
-  driven,
   EMPTY,
   isPin,
   joined,
   lengthsOf,
   linksOf,
   moved,
-  renamed,
   type Spot,
-  split,
   withCylinder,
   withDyad,
   withGears,
   withGround,
   withLink,
-  without,
-  withoutLink,
   withSlider,
 } from "./drawing";
 import { Fingers } from "./fingers";
@@ -366,7 +362,7 @@ export class BuildView implements View, Plane, Drawn {
       const spot = this.spot(this.viewport.screen(...this.cursor), false);
       if (this.tool === "move") this.choose(spot);
       else this.put(spot);
-    } else if (event.key === "Delete" || event.key === "Backspace") this.remove();
+    } else if (event.key === "Delete" || event.key === "Backspace") removeChosen(this);
     else if (event.key === "Escape") {
       this.spots = [];
       this.draw();
@@ -376,51 +372,10 @@ export class BuildView implements View, Plane, Drawn {
     event.stopPropagation();
   }
 
-  private remove(): void {
-    const { chosen, drawing } = this;
-    if (!chosen) return;
-    if ("picture" in chosen) this.change({ ...drawing, picture: undefined });
-    else this.change("knot" in chosen ? without(drawing, chosen.knot) : withoutLink(drawing, chosen.link));
-  }
-
   // --- beside it -----------------------------------------------------------------------------------------------------
 
   private showChoice(): void {
-    const { chosen, drawing } = this;
-    const button = (key: string, text: string, act: () => void) =>
-      h("button.plain", { "data-act": key, onclick: act }, text);
-    const removing = button("remove", t("Remove"), () => this.remove());
-    if (!chosen) return renew(this.choice, h("p.note", {}, t("Nothing. Take Move and click on a joint or a link.")));
-    if ("picture" in chosen) {
-      const how = t("The picture: drag it; its corner sizes it, the grip on its side turns it.");
-      return renew(this.choice, h("p.note", {}, how), h("div.form", {}, removing));
-    }
-    if ("link" in chosen) {
-      const { link } = chosen;
-      const name = h("input", {
-        value: link,
-        "aria-label": t("Name"),
-        "data-field": "link-name",
-        onchange: () =>
-          this.change(
-            renamed(drawing, link, name.value.trim()),
-            t("Expected a name that nothing else has, without spaces and brackets."),
-          ),
-      });
-      const frame = button("frame", t("Hold as frame"), () => this.change({ ...drawing, frame: link, drives: [] }));
-      return renew(this.choice, h("div.form", {}, name, frame, removing));
-    }
-    const { links } = drawing.knots[chosen.knot]!;
-    const parts: HTMLElement[] = [removing];
-    if (links.length > 1) {
-      const is = drawing.drives.includes(chosen.knot);
-      parts.unshift(
-        button("drive", is ? t("Not driven") : t("Drive"), () => this.change(driven(drawing, chosen.knot))),
-      );
-      if (isPin(drawing.knots[chosen.knot]!))
-        parts.push(button("split", t("Split"), () => this.change(split(drawing, chosen.knot, this.step / 2))));
-    }
-    renew(this.choice, h("p.note", {}, links.join(" – ")), h("div.form", {}, ...parts));
+    renew(this.choice, ...choiceOf(this));
   }
 
   async move(): Promise<void> {

@@ -4,6 +4,7 @@ import { applyDocument, documentOf, savedDocument } from "./document";
 import { h, renew } from "./dom";
 import { Dragging } from "./dragging";
 import { exportPanel } from "./export";
+import { FactList, InWords } from "./factlist";
 import { type Found, factsOf } from "./facts";
 import { type Arrow, Forces } from "./forces";
 import { History } from "./history";
@@ -25,7 +26,6 @@ import type { Page, View } from "./view";
 import { stopText } from "./wording";
 
 const MOST_FRAMES = 2000;
-const ASKED_AFTER = 350; // milliseconds
 
 /** What is shown, to be shown again. */
 interface State {
@@ -63,15 +63,14 @@ export class MotionView implements View, Editor, Driven {
   /** What was before the change that is going on. */
   private before: State | null = null;
   private readonly side = h("div.side", {});
-  private readonly facts = h("dl.facts", {});
+  private readonly facts = new FactList();
   private readonly sizes = new SizeRows(this);
-  private readonly checked = h("p.note", {});
-  private readonly words = h("details.words", {});
+  private readonly words: InWords;
   private readonly opened = new Set(["sizes", "measures", "plots"]);
   private readonly forces = new Forces(this, () => this.opened.has("forces"));
-  private measuring = 0;
 
   constructor(readonly page: Page) {
+    this.words = new InWords(page);
     this.stage = new Stage(
       {
         dragStart: () => this.begin(),
@@ -163,12 +162,11 @@ export class MotionView implements View, Editor, Driven {
   arrange(): void {
     this.stage.arrange();
     this.transport.arrange();
-    renew(this.words, h("summary", {}, t("In words")), this.checked);
-    this.words.hidden = !this.page.served;
+    this.words.arrange();
     const { scrollTop } = this.side; // before its parts leave it for new panels
     renew(
       this.side,
-      this.panel("measures", t("Measures"), this.facts, rulersPanel(this), this.words),
+      this.panel("measures", t("Measures"), this.facts.element, rulersPanel(this), this.words.element),
       this.panel("sizes", t("Sizes"), this.sizes.element),
       this.panel("plots", t("Plots"), this.plots.element),
       this.panel("forces", t("Forces"), this.forces.element),
@@ -374,29 +372,8 @@ export class MotionView implements View, Editor, Driven {
     this.refresh("export", exportPanel(this.page, this));
     if (this.opened.has("plots")) this.plots.draw(this.linkage);
     this.forces.changed();
-    this.ask();
-  }
-
-  private ask(): void {
     const { linkage } = this;
-    if (!this.page.served || !linkage.drive || linkage.model.drives.length > 1) {
-      this.checked.textContent = "";
-      return;
-    }
-    this.checked.classList.add("waiting"); // it keeps its room until there is another one
-    clearTimeout(this.measuring);
-    const said = (text: string) => {
-      if (linkage !== this.linkage) return;
-      this.checked.classList.remove("waiting");
-      this.checked.textContent = text;
-    };
-    this.measuring = window.setTimeout(() => {
-      const document = documentOf(linkage, linkage.cycle.rows, linkage.cycle.home);
-      this.page.ask<{ lines: string[] }>("measures", { document, source: linkage.model.source }).then(
-        ({ lines }) => said(lines.join(" ")),
-        (error: Error) => said(error.message),
-      );
-    }, ASKED_AFTER);
+    this.words.ask(linkage, () => documentOf(linkage, linkage.cycle.rows, linkage.cycle.home));
   }
 
   private showPose(): void {
@@ -408,20 +385,7 @@ export class MotionView implements View, Editor, Driven {
       this.forces.at(drive);
     }
     const facts = factsOf(linkage, this.found, (angle) => this.plots.plottedAngle(linkage, angle));
-    facts.forEach(({ name, text, style, note }, k) => {
-      const told = [name, text, style, note].join();
-      const old = this.facts.children[k] as HTMLElement | undefined;
-      if (old?.dataset.told === told) return; // most stay as they are
-      const made = h(
-        "div",
-        { "data-told": told },
-        h("dt", {}, name),
-        h("dd", { class: style ?? "" }, text, note ? h("small", {}, ` ${note}`) : null),
-      );
-      if (old) old.replaceWith(made);
-      else this.facts.append(made);
-    });
-    while (this.facts.childElementCount > facts.length) this.facts.lastChild!.remove();
+    this.facts.show(facts);
   }
 
   // --- what is taken away --------------------------------------------------------------------------------------------

@@ -141,7 +141,11 @@ export class SynthesisView implements View {
         h("p.note", {}, hints[this.kind]),
         this.page.served
           ? null
-          : h("p.note", {}, t("Here four-bars through nine points are found; everything else needs the library.")),
+          : h(
+              "p.note",
+              {},
+              t("Here four-bars through nine points are found; everything else needs the library: gruebler explore"),
+            ),
         h(
           "div.two.wide",
           {},

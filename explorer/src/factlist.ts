@@ -1,0 +1,70 @@
+/** The measures beside the stage, and what the library says of them in words. */
+
+import { h, renew } from "./dom";
+import type { Fact } from "./facts";
+import { t } from "./language";
+import type { Linkage } from "./linkage";
+import type { LinkageDocument } from "./model";
+import type { Page } from "./view";
+
+const ASKED_AFTER = 350; // milliseconds
+
+export class FactList {
+  readonly element = h("dl.facts", {});
+
+  /** From pose to pose most stay as they are. */
+  show(facts: readonly Fact[]): void {
+    const { children } = this.element;
+    facts.forEach(({ name, text, style, note }, k) => {
+      const told = [name, text, style, note].join();
+      const old = children[k] as HTMLElement | undefined;
+      if (old?.dataset.told === told) return;
+      const made = h(
+        "div",
+        { "data-told": told },
+        h("dt", {}, name),
+        h("dd", { class: style ?? "" }, text, note ? h("small", {}, ` ${note}`) : null),
+      );
+      if (old) old.replaceWith(made);
+      else this.element.append(made);
+    });
+    while (children.length > facts.length) this.element.lastChild!.remove();
+  }
+}
+
+export class InWords {
+  readonly element = h("details.words", {});
+  private readonly said = h("p.note", {});
+  private asked: Linkage | null = null;
+  private timer = 0;
+
+  constructor(private readonly page: Page) {}
+
+  arrange(): void {
+    renew(this.element, h("summary", {}, t("In words")), this.said);
+    this.element.hidden = !this.page.served;
+  }
+
+  /** Ask for it after a while without a change; meanwhile what was said keeps its room. */
+  ask(linkage: Linkage, documentOf: () => LinkageDocument): void {
+    this.asked = linkage;
+    if (!this.page.served || !linkage.drive || linkage.model.drives.length > 1) {
+      this.said.textContent = "";
+      return;
+    }
+    this.said.classList.add("waiting");
+    clearTimeout(this.timer);
+    const tell = (text: string) => {
+      if (linkage !== this.asked) return;
+      this.said.classList.remove("waiting");
+      this.said.textContent = text;
+    };
+    this.timer = window.setTimeout(() => {
+      const question = { document: documentOf(), source: linkage.model.source };
+      this.page.ask<{ lines: string[] }>("measures", question).then(
+        ({ lines }) => tell(lines.join(" ")),
+        (error: Error) => tell(error.message),
+      );
+    }, ASKED_AFTER);
+  }
+}
