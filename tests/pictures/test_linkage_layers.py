@@ -353,6 +353,18 @@ if __name__ == "__main__":  # writes the golden file anew
     )
 
 
+def test_of_a_large_inflection_circle_the_arc_next_to_the_linkage_is_drawn_with_its_radius():
+    figure = draw_linkage(CRANK_ROCKER.linkage(), at=np.radians(60), show=["inflection"])
+    motion = move(CRANK_ROCKER.linkage(), [np.radians(60)], speed=1.0, order=2)
+    radius = inflection_circle(motion, "coupler").diameter[0] / 2
+    (text,) = [shape.text for shape in figure.shapes if isinstance(shape, TextShape) and "r = " in shape.text]
+    assert float(text.split("r = ")[1].split()[0]) == pytest.approx(radius, rel=5e-3)
+    joints = [shape.at for shape in figure.shapes if isinstance(shape, CircleShape)]
+    reach = max(np.ptp([p.x for p in joints]), np.ptp([p.y for p in joints]))
+    ends = points(figure, "inflection")[[0, -1]]
+    assert 0.5 * reach < abs(ends[1] - ends[0]) < 1.5 * reach
+
+
 def test_the_inflection_circle_is_whole_with_tangent_and_normal():
     figure = draw_linkage(CRANK_ROCKER.linkage(), at=np.radians(200), show=["inflection"])
     motion = move(CRANK_ROCKER.linkage(), np.radians([200]), speed=1.0, order=2)

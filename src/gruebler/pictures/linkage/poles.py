@@ -10,6 +10,7 @@ from gruebler.base.arrays import Complexes
 from gruebler.base.errors import LinkageError, nearest
 from gruebler.base.text import translate
 from gruebler.mechanics.kinematics import Motion
+from gruebler.pictures.canvas.axes import as_text
 from gruebler.pictures.canvas.labels import note_near
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape
 from gruebler.pictures.canvas.simplification import FINE, simplified
@@ -18,6 +19,7 @@ from gruebler.pictures.linkage.posed_linkage import PosedLinkage, drive_rows, fl
 
 _WIDE = 0.3  # of the figure's longer side: the margin in which centrodes and inflection circles are visible
 _WHOLE = 1.6  # of it: an inflection circle within this margin is drawn whole
+_ARC = 0.4  # of it: half the arc that is visible of another one
 _SAMPLES = 1440  # points of a centrode or circle
 _TURNING = 1e-6  # for a drive of speed 1: the pole of a link that turns more slowly is far away
 _PARTS = (0.1, 0.3, 0.5, 0.7, 0.9)  # of a centrode: where its letter may stand, far from the joints
@@ -78,16 +80,21 @@ def inflection_lines(context: LayerContext) -> list[Shape]:
     shift = velocity / w + 1j * (acceleration - velocity * change / w) / w**2
     if abs(shift) < _POINT * posed.lower.size:
         return []
-    circle = pole - 0.5j * shift * (1 - np.exp(2j * np.pi * np.linspace(0, 1, _SAMPLES + 1)))
-    box = _Box.around(posed, _WHOLE)
+    centre, radius = pole - 0.5j * shift, abs(shift) / 2
+    circle = centre + 0.5j * shift * np.exp(2j * np.pi * np.linspace(0, 1, _SAMPLES + 1))
+    box, called = _Box.around(posed, _WHOLE), translate("inflection circle", context.lang)
     if not all(box.holds(posed.local(complex(z))) for z in circle[::30]):
         box = _Box.around(posed, _WIDE)
+        circle = _near_arc(posed, centre, radius)
+        called += f", r = {as_text(float(f'{radius:.3g}'), posed.linkage.unit, context.lang)}"
     lines = _within(posed, circle, box)
     shapes: list[Shape] = []
     if lines:
         shapes.append(Polylines(tuple(lines), "inflection"))
     # The pole tangent t, to both sides of P, and the pole normal n, from P over W.
     for direction, first, last, name in ((shift, -0.5, 0.5, "t"), (-1j * shift, -0.1, 1.15, "n")):
+        if not box.holds(posed.local(pole)):
+            break  # of two lines through a pole outside nothing is to be read
         along: Complexes = np.asarray(pole + direction * np.linspace(first, last, _SAMPLES), dtype=np.complex128)
         (line, *_) = _within(posed, along, box) or [()]
         if lines and line:
@@ -98,9 +105,18 @@ def inflection_lines(context: LayerContext) -> list[Shape]:
             shapes.append(cross(point) if name == "P" else CircleShape(point, 3.2, "dot"))
             shapes.append(note_near(point, name, "value", [*context.drawn, *shapes]))
     if lines:
-        longest, name = max(lines, key=len), translate("inflection circle", context.lang)
-        shapes.append(note_near(longest[len(longest) // 4], name, "value", [*context.drawn, *shapes]))
+        longest = max(lines, key=len)
+        shapes.append(note_near(longest[len(longest) // 4], called, "value", [*context.drawn, *shapes]))
     return shapes
+
+
+def _near_arc(posed: PosedLinkage, centre: complex, radius: float) -> Complexes:
+    """The arc of a circle next to the linkage, about as long as the linkage is."""
+    upper, lower = posed.reach
+    middle = complex(*upper.plus(lower.minus(upper), 0.5)).conjugate() / posed.scale
+    half = _ARC * max(lower.x - upper.x, lower.y - upper.y) / posed.scale / radius
+    turns = np.angle(middle - centre) + min(half, np.pi) * np.linspace(-1, 1, _SAMPLES + 1)
+    return np.asarray(centre + radius * np.exp(1j * turns), dtype=np.complex128)
 
 
 def centrode_lines(context: LayerContext) -> list[Shape]:
