@@ -52,14 +52,17 @@ def dimension_lines(context: LayerContext) -> list[Shape]:
     """A dimension line for every length of every link, clear of bodies and of each other where there is space.
 
     The axis of a slide with an offset is drawn too. As in technical drawings (ISO 129), millimetres are not written.
+    Thin positions of the links do not drive the lines away: they stop at the numbers.
     """
     posed = context.posed
+    solid = [shape for shape in context.drawn if shape.style not in ("ghost", "ghost-pin")]
     shapes: list[Shape] = [*_axes(posed)]
     unit = "" if posed.linkage.unit == "mm" else posed.linkage.unit
     for measure in _measures(posed):
         text = as_text(measure.length, unit, context.lang)
-        shapes += _dimension(posed.place(measure.first), posed.place(measure.second), text, [*context.drawn, *shapes])
-    return shapes
+        shapes += _dimension(posed.place(measure.first), posed.place(measure.second), text, [*solid, *shapes])
+    thin = len(solid) < len(context.drawn)
+    return [*(_ground(shape) for shape in shapes if thin and isinstance(shape, TextShape)), *shapes]
 
 
 # --- dimensioned lengths ---------------------------------------------------------------------------
@@ -178,6 +181,13 @@ def _dimension(a: Point, b: Point, text: str, drawn: Sequence[Shape]) -> list[Sh
     shapes: list[Shape] = [Polylines(tuple(lines), "dimension"), *(_head(at, direction) for at, direction in heads)]
     number = TextShape(middle, text, "value") if number_fits else note_near(middle, text, "value", [*drawn, *shapes])
     return [*shapes, number]
+
+
+def _ground(number: TextShape) -> Polylines:
+    """Paper below a number."""
+    x, y = text_width(number.text, STYLES[number.style].size) / 2 + 1.0, HALF
+    corners = tuple(number.at.plus(Point(a * x, b * y)) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    return Polylines((corners,), "ground", closed=True)
 
 
 def _extension(foot: Point, outward: Point, off: float, room: Obstacles) -> tuple[Point, Point]:
