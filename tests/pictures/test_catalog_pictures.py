@@ -16,7 +16,7 @@ from gruebler.files.linkages import linkage_from_json, linkage_to_json, linkage_
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.linkages import Outline
 from gruebler.pictures.canvas.free_space import distance_between
-from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, TextShape, text_width
+from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, TextShape, bounds, text_width
 from gruebler.pictures.canvas.styles import STYLES
 from gruebler.pictures.linkage.bodies import slides
 from gruebler.pictures.linkage.element_pictures import contact_shapes
@@ -115,6 +115,41 @@ def test_the_same_holds_in_space():
             found[id] = list(faults(figure))
     assert len(found) > 15
     assert not any(found.values()), found
+
+
+def test_nothing_is_drawn_outside_the_window():
+    """Every corner, circle and text of the structures lies within the figure; gear trains have wide rings."""
+    for id, record in entries().items():
+        if record.space == "planar" and record.dimensions is not None:
+            figure = draw_structure(entry_mechanism(record), labels=True, contacts=contact_shapes(record.linkage()))
+            for shape in figure.shapes:
+                corner, size = bounds([shape], 0.0)
+                assert corner.x >= 0, (id, shape)
+                assert corner.y >= 0, (id, shape)
+                assert corner.x + size.x <= figure.width + 1e-9, (id, shape)
+                assert corner.y + size.y <= figure.height + 1e-9, (id, shape)
+
+
+def test_an_angle_takes_the_place_of_the_arrow_of_its_drive():
+    """Two arcs with arrows about one joint cannot be told apart."""
+    drawn = 0
+    for id in ("crankrocker", "quad", "slidercrank", "compressor", "whitworth", "pent"):
+        linkage, between = linkage_and_range(id, "en")
+        figure = draw_linkage(linkage, between=between, show=["angles", "lengths", "joints"])
+        arcs = [shape for shape in figure.shapes if isinstance(shape, ArcShape)]
+        angles = [arc.at for arc in arcs if arc.style == "measure"]
+        drives = [arc.at for arc in arcs if arc.style == "drive"]
+        drawn += len(angles)
+        assert all(math.dist(a, b) > 1 for a in angles for b in drives), id
+    assert drawn > 6
+
+
+def test_a_roller_has_no_arrow_of_a_drive():
+    """Its drive is an idle turn: the arrow of the cam alone is drawn."""
+    for id in ("cam_roller", "cam_rocker"):
+        linkage, between = linkage_and_range(id, "en")
+        figure = draw_linkage(linkage, between=between)
+        assert [shape.style for shape in figure.shapes if isinstance(shape, ArcShape)] == ["drive"]
 
 
 def test_the_check_itself_notices():

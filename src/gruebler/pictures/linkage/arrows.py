@@ -9,7 +9,7 @@ from typing import NamedTuple
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.pictures.canvas.axes import as_text, rate_unit
 from gruebler.pictures.canvas.labels import note_near
-from gruebler.pictures.canvas.shapes import Point, Polylines, Shape, TextShape, bounds
+from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape, bounds
 from gruebler.pictures.canvas.symbols import arrow
 from gruebler.pictures.linkage.layer_context import LayerContext
 from gruebler.pictures.linkage.letters import joint_letters
@@ -23,6 +23,7 @@ _BELOW, _ROW = 20.0, 22.0  # pixels to the first bar, and from bar to bar
 _READ_AS = {"dm": (0.1, "m")}  # units that hardly anybody reads, as others
 _SYMBOLS = {1: "v", 2: "a"}
 _NAMED = 8  # arrows: more of them have no names
+_AWAY = 26.0  # pixels from a joint: the name of an arrow that ends nearer to one stands at its middle
 _RIGHT, _DOWN = Point(1.0, 0.0), Point(0.0, 1.0)
 
 
@@ -72,7 +73,10 @@ def _arrows(context: LayerContext, order: int, style: str) -> list[Shape]:
             vector = Point(_LONGEST * rate.real / longest, -_LONGEST * rate.imag / longest)
             tip = posed.local(at).plus(vector.unit, max(vector.length - 7.0, 1.0))
             shapes += arrow(posed.local(at), tip, style, f"{style}-head")
-            names.append((posed.local(at).plus(vector), f"{_SYMBOLS[order]}_{letter}"))
+            pins = [shape.at for shape in context.drawn if isinstance(shape, CircleShape) and shape.style == "joint"]
+            end = posed.local(at).plus(vector)
+            free = min((pin.minus(end).length for pin in pins), default=_AWAY) >= _AWAY
+            names.append((end if free else posed.local(at).plus(vector, 0.5), f"{_SYMBOLS[order]}_{letter}"))
     for end, name in names if len(names) <= _NAMED else ():
         shapes.append(note_near(end, name, "value", [*context.drawn, *shapes]))
     return shapes

@@ -16,8 +16,9 @@ import numpy as np
 from gruebler.base.convex_hull import convex_hull
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Element, Linkage, LinkPoint
-from gruebler.pictures.canvas.free_space import is_inside
+from gruebler.pictures.canvas.free_space import distance_between, is_inside
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, bounds
+from gruebler.pictures.canvas.styles import BAR
 from gruebler.pictures.canvas.symbols import FOOT, JointMember, joint_sign, pedestal, ticks
 from gruebler.pictures.linkage.element_pictures import round_parts
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
@@ -34,7 +35,7 @@ _RAIL = 2.5  # pixels between a block and its rail
 _FLAT = 1e-6  # sizes: points nearer to a line lie on it
 _LEAST_HEIGHT = 1e-3  # pixels: corners that are flatter are not seen
 _CALLED_BLOCKS = ("block", "slider", "piston", "stein", "kolben")
-_DISCS = 420.0  # pixels of cams and wheels
+_DISCS = 300.0  # pixels of cams and wheels
 _STILL = 24.0  # pixels of a slide to both sides in a picture without a motion
 _WIDEST = 520.0  # pixels of an outline
 _LONGEST = 1.8  # times its shortest length: the largest length of a cylinder
@@ -383,7 +384,7 @@ def _inside(place: complex, corners: Sequence[complex]) -> bool:
 
 
 def _covered(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[complex]:
-    """The pins of the frame whose pedestals the body of another link would cover: they are drawn above it."""
+    """The pins of the frame whose pedestals another link, no neighbour, would cover: they are drawn above it."""
     lower, frame = posed.lower, posed.lower.mechanism.frame
     joints = {link: set(lower.mechanism.chain.joints_of(link)) for link in lower.mechanism.chain.links}
     covered = []
@@ -399,7 +400,9 @@ def _covered(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[compl
                 complex(*posed.place(LinkPoint(link, p.x / posed.scale, -p.y / posed.scale)))
                 for p in corners_of(posed, link, joint_slides)
             ]
-            if len(corners) > 2 and _inside(foot, corners):
+            bars = np.array([corners, corners[1:] + corners[:1]]) if len(corners) == 2 else np.empty((2, 0))
+            crossed = distance_between(np.array([foot]), np.array([foot]), *bars) < (FOOT.y + BAR) / 2
+            if crossed.any() or (len(corners) > 2 and _inside(foot, corners)):
                 covered.append(complex(element.x, element.y))
                 break
     return covered

@@ -23,6 +23,7 @@ from gruebler.mechanics.analysis.plates import plates_of
 from gruebler.mechanics.analysis.transmission import PushingLink, pushing_links
 from gruebler.mechanics.kinematics import Motion, circuit
 from gruebler.mechanics.linkages import LinkPoint
+from gruebler.mechanics.linkages.elements import Circle
 from gruebler.mechanics.linkages.points import PointLike, place_of
 from gruebler.pictures.canvas.labels import note_near
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
@@ -93,16 +94,21 @@ def curve_of(posed: PosedLinkage, z: Complexes, style: str) -> Polylines:
 # --- drives --------------------------------------------------------------------------------------
 
 
-def drive_arrows(posed: PosedLinkage) -> list[Shape]:
-    """A curved arrow at every turning drive, a straight one beside every sliding one, in their positive sense."""
-    return [shape for part in drive_parts(posed) for shape in shapes_at_pose(posed, part)]
+def drive_arrows(posed: PosedLinkage, measured: int | None = None) -> list[Shape]:
+    """A curved arrow at every turning drive, a straight one beside every sliding one, in their positive sense.
+
+    None stands at the joint whose angle is ``measured``: the arrow of the angle takes its place.
+    """
+    return [shape for part in drive_parts(posed, measured) for shape in shapes_at_pose(posed, part)]
 
 
-def drive_parts(posed: PosedLinkage) -> list[BodyPart]:
-    """The arrows of the drives, each as a part of a link of its joint."""
+def drive_parts(posed: PosedLinkage, measured: int | None = None) -> list[BodyPart]:
+    """The arrows of the drives, each as a part of a link of its joint; none at a roller, which turns idly."""
     lower = posed.lower
     body_parts: list[BodyPart] = []
     for number, drive in enumerate(lower.mechanism.drives if posed.linkage.mechanism.drives else ()):
+        if drive.joint == measured or _is_roller(posed, drive.joint):
+            continue
         first, other = lower.reference(number)
         e, f = lower.elements[drive.joint, first], lower.elements[drive.joint, other]
         at = posed.place(LinkPoint(other, f.x, f.y))
@@ -118,6 +124,16 @@ def drive_parts(posed: PosedLinkage) -> list[BodyPart]:
             arrow = turning_drive(at, RADIUS + 10.0, _free_direction(posed, drive.joint, at))
             body_parts.append(in_link(posed, first, arrow))
     return body_parts
+
+
+def _is_roller(posed: PosedLinkage, joint: int) -> bool:
+    """Whether a link of a turning joint away from the frame only rolls on another one."""
+    linkage, mechanism = posed.linkage, posed.linkage.mechanism
+    links = mechanism.chain.joints[joint].links if joint < len(mechanism.chain.joints) else ()
+    if mechanism.frame in links:
+        return False
+    others = [[(n, e) for (n, owner), e in linkage.elements.items() if owner == link and n != joint] for link in links]
+    return any(len(own) == 1 and isinstance(own[0][1], Circle) for own in others)
 
 
 def _free_direction(posed: PosedLinkage, joint: int, at: Point) -> float:
@@ -202,6 +218,7 @@ def ghost(posed: PosedLinkage, motion: Motion, row: int) -> list[Shape]:
         guides = [slide for slide in joint_slides if slide.guide == link and slide.sign != "cylinder"]
         lines += [moved(map(posed.local, (slide.low, slide.high))) for slide in guides]
         pins = [posed.local(complex(e.x, e.y)) for (_, holder), e in lower.elements.items() if holder == link]
+        pins += [posed.local(complex(p.x, p.y)) for p in lower.points.values() if p.link == link]
         joints |= {(round(p.x, 1), round(p.y, 1)): p for p in moved(pins)}
     return [Polylines(tuple(lines), "ghost"), *(CircleShape(at, 4.0, "ghost-pin") for at in joints.values())]
 

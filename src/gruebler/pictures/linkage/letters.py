@@ -95,15 +95,23 @@ def length_letters(context: LayerContext) -> list[Shape]:
     return shapes
 
 
+def driven_angle(posed: PosedLinkage) -> int | None:
+    """The first driven joint that turns at the frame, whose angle is φ."""
+    mechanism = posed.linkage.mechanism
+    turning = (d.joint for d in mechanism.drives if mechanism.chain.joints[d.joint].pair.is_turning)
+    return next((k for k in turning if mechanism.frame in mechanism.chain.joints[k].links), None)
+
+
 def angle_marks(context: LayerContext) -> list[Shape]:
     """φ of the driven link and ψ of the output at their joints with the frame, measured from its x-axis."""
     posed, mechanism = context.posed, context.posed.lower.mechanism
     joints = mechanism.chain.joints
     turning = [k for k, joint in enumerate(joints) if joint.pair.is_turning and mechanism.frame in joint.links]
     output = find_output(posed.linkage, context.output).link
-    driven = [drive.joint for drive in mechanism.drives if drive.joint in turning]
-    asked = [("φ", k, link) for k in driven[:1] for link in joints[k].links if link != mechanism.frame][:1]
-    asked += [("ψ", k, output) for k in turning if output in joints[k].links and k not in driven][:1]
+    driven = driven_angle(posed)
+    asked = [("φ", k, link) for k in turning if k == driven for link in joints[k].links if link != mechanism.frame][:1]
+    drives = {drive.joint for drive in mechanism.drives}
+    asked += [("ψ", k, output) for k in turning if output in joints[k].links and k not in drives][:1]
     shapes: list[Shape] = []
     for (letter, number, link), radius in zip(asked, _ARCS, strict=False):
         at = _pin(posed, number)

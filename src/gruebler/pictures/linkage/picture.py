@@ -41,7 +41,7 @@ from gruebler.pictures.linkage.bodies import (
 from gruebler.pictures.linkage.instant_centres import pole_numbers
 from gruebler.pictures.linkage.layer_context import LayerContext
 from gruebler.pictures.linkage.layers import BELOW, coupler_curve_lines, drive_arrows, ghosts, layer, point_names
-from gruebler.pictures.linkage.letters import joint_names
+from gruebler.pictures.linkage.letters import driven_angle, joint_names
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.pictures.structure.messages import describe, title
 from gruebler.pictures.structure.picture import draw_structure
@@ -151,11 +151,11 @@ def draw_linkage(
         *bodies,
         *curve,
         *pins,
-        *drive_arrows(posed),
+        *drive_arrows(posed, measured=driven_angle(posed) if "angles" in layers else None),
         *(shape for shape in below if shape.style in _MARKS),
         *_of_loads(posed, loads, speed),
     ]
-    for key in (key for key in layers if key not in BELOW and key not in _LAST):
+    for key in sorted((key for key in layers if key not in BELOW and key not in _LAST), key="poles".__eq__):
         layer_shapes[key] = layers[key](context._replace(drawn=shapes))
         shapes += layer_shapes[key]
     shapes += point_names(posed, shapes)
