@@ -6,7 +6,7 @@ docs/theory/synthesis-dead-centres.md derives the one-parameter family and its l
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import cos, degrees, pi, sin, sqrt
 from typing import NamedTuple
@@ -19,7 +19,7 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.judging import Demands, faults_of_size, pivots_inside, size_ratio, transmission_fault
 from gruebler.design.synthesis.pair_search import tightest
-from gruebler.design.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.results import PASSED, Design, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.tasks import DeadCentreTask
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 
@@ -354,11 +354,8 @@ def _design(task: DeadCentreTask, member: FamilyMember, demands: Demands) -> Des
     centres = member.linkage.dead_centres
     assert centres is not None
     error = abs(centres.travel - (task.swing if task.swing is not None else 1.0))
-    verdict = DesignVerdict(
-        assembles=True,
-        one_circuit=True,
-        one_branch=True,
-        in_order=True,
+    verdict = replace(
+        PASSED,
         turns_fully=True,
         transmission=member.transmission,
         size_ratio=ratio,

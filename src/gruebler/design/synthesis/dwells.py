@@ -5,6 +5,7 @@ docs/theory/synthesis-dwells.md.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -24,7 +25,7 @@ from gruebler.design.synthesis.dwell_search import (
     with_swing,
 )
 from gruebler.design.synthesis.judging import Demands, faults_of_size, size_ratio, transmission_fault
-from gruebler.design.synthesis.results import EXACT, Design, DesignVerdict, Progress, SolutionCount, SynthesisResult
+from gruebler.design.synthesis.results import EXACT, PASSED, Design, Progress, SolutionCount, SynthesisResult
 from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import DwellTask
 from gruebler.mechanics.analysis.drive_cycles import drive_cycle
@@ -190,11 +191,8 @@ def _judged(task: DwellTask, six_bar: RestingSixBar, demands: Demands, tolerance
             reasons.append(
                 message("the output strays from its rest by {error:.2g} of its swing or stroke", error=error)
             )
-    verdict = DesignVerdict(
-        assembles=True,
-        one_circuit=True,
-        one_branch=True,
-        in_order=True,
+    verdict = replace(
+        PASSED,
         turns_fully=turning.complete,
         transmission=transmission,
         size_ratio=ratio,

@@ -18,7 +18,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.immutable import settle
 from gruebler.base.text import Message, joined, message
-from gruebler.design.synthesis.results import EXACT, TOO_SLENDER, Design, DesignVerdict
+from gruebler.design.synthesis.results import EXACT, PASSED, TOO_SLENDER, Design, DesignVerdict
 from gruebler.design.synthesis.target_paths import TargetPath, limit_before, path_through
 from gruebler.design.synthesis.target_places import places_approached, places_met
 from gruebler.design.synthesis.targets import GuidedCurve, Targets
@@ -185,27 +185,18 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     True
     """
     ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
-    reasons = faults_of_size(linkage, ratio, inside, demands)
+    reasons, known = faults_of_size(linkage, ratio, inside, demands), DesignVerdict(size_ratio=ratio, inside=inside)
     try:
         course = circuit(linkage, step=0.05)
         limit = demands.tolerance + _ROUNDING * linkage.size / targets.size
         met = (places_met if demands.tolerance <= EXACT_AT_MOST else places_approached)(course, targets, limit)
         if met.places.empty:
             reasons.append(_missed([k + 1 for k in met.places.empty], met.error))
-            verdict = DesignVerdict(
-                assembles=True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons)
-            )
+            verdict = replace(known, assembles=True, error=met.error, reasons=tuple(reasons))
             return Design(linkage=linkage, verdict=verdict, form=form)
         if demands.in_order and not met.ordered:
             reasons.append(_in_another_order(np.nan))
-            verdict = DesignVerdict(
-                assembles=True,
-                one_circuit=True,
-                size_ratio=ratio,
-                inside=inside,
-                error=met.error,
-                reasons=tuple(reasons),
-            )
+            verdict = replace(known, assembles=True, one_circuit=True, error=met.error, reasons=tuple(reasons))
             return Design(linkage=linkage, verdict=verdict, form=form)
         path = path_through(course, met, limit, in_order=demands.in_order)
         full = _turns_fully(course)
@@ -219,9 +210,7 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
             missed_by = float(misses.max())
     except LinkageError as error:
         reasons.append(message("it cannot be followed from its first position: {error}", error=error))
-        return Design(
-            linkage=linkage, verdict=DesignVerdict(size_ratio=ratio, inside=inside, reasons=tuple(reasons)), form=form
-        )
+        return Design(linkage=linkage, verdict=replace(known, reasons=tuple(reasons)), form=form)
     if not path.in_order and demands.in_order:
         reasons.append(_in_another_order(path.error))
         missed_by = max(missed_by, path.error)
@@ -245,15 +234,14 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
             )
         )
     reasons += _faults_of_drive(demands, full=full, transmission=float(transmission))
-    verdict = DesignVerdict(
+    verdict = replace(
+        known,
         assembles=True,
         one_circuit=True,
         one_branch=path.one_branch,
         in_order=path.in_order,
         turns_fully=full,
         transmission=float(transmission),
-        size_ratio=ratio,
-        inside=inside,
         error=float(missed_by),
         between=piece.distance,
         reasons=tuple(reasons),
@@ -326,17 +314,11 @@ def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form
         reasons.append(message("with several drives none has to turn fully"))
     if demands.transmission > 0:
         reasons.append(message("with several drives there is no transmission angle"))
-    moved = bool(np.isfinite(error))
-    verdict = DesignVerdict(
-        assembles=moved,
-        one_circuit=moved,
-        one_branch=moved,
-        in_order=moved,
-        turns_fully=False,
-        transmission=np.nan,
+    verdict = replace(
+        PASSED if np.isfinite(error) else DesignVerdict(),
         size_ratio=ratio,
         inside=inside,
-        error=error if moved else np.nan,
+        error=error if np.isfinite(error) else np.nan,
         reasons=tuple(reasons),
     )
     return Design(

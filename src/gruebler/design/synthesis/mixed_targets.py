@@ -1,6 +1,6 @@
 """Targets of several kinds at once: points, coupler, crank and output angles, exactly, within a band or nearly.
 
-docs/theory/synthesis-mixed.md has the equations.
+docs/theory/synthesis-points.md, "Targets of several kinds".
 """
 
 from __future__ import annotations

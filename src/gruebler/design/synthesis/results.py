@@ -78,6 +78,10 @@ class DesignVerdict:
         return joined(parts, " ").in_language(lang)
 
 
+PASSED = DesignVerdict(assembles=True, one_circuit=True, one_branch=True, in_order=True)
+"""Of a linkage that passes all targets in order on one branch."""
+
+
 _TRANSMISSION = message("Smallest transmission angle on the way: {angle:.4g}°.")
 TOO_SLENDER = message("its lengths differ too much (ratio {ratio:.3g})")
 Progress = Callable[[int, int], None]
