@@ -15,7 +15,10 @@ from gruebler.cli.draw import linkage_and_range
 from gruebler.files.linkages import linkage_from_json, linkage_to_json, linkage_to_toml, read_linkage
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.linkages import Outline
+from gruebler.pictures.canvas.arrangement import gallery_figure
+from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.free_space import distance_between
+from gruebler.pictures.canvas.gallery import Item, Section
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, TextShape, bounds, text_width
 from gruebler.pictures.canvas.styles import STYLES
 from gruebler.pictures.linkage.bodies import slides
@@ -218,3 +221,16 @@ def test_the_guide_of_a_tappet_ends_above_its_roller():
     lowest = tappet.low.imag - (14 + 5) / posed.scale  # half a block and the guide's end below the lowest middle
     assert lowest > 70 + 10
     assert tappet.high.imag - tappet.low.imag == pytest.approx(20, rel=1e-3)
+
+
+def test_pictures_of_unlike_width_fill_the_rows_of_a_poster():
+    """Four pictures, one of them wide: with columns as wide as that one the fourth would stand alone below."""
+    wide, narrow = (
+        Figure((CircleShape(Point(size / 2, 50.0), 9.0, "joint"),), width=size, height=100.0, title="", description="")
+        for size in (450.0, 300.0)
+    )
+    page = gallery_figure("", [Section("", tuple(Item(figure, "") for figure in (wide, narrow, narrow, narrow)))])
+    circles = [shape.at for shape in page.shapes if isinstance(shape, CircleShape)]
+    assert len({at.y for at in circles}) == 1
+    assert [round(b.x - a.x) for a, b in itertools.pairwise(circles)] == [375, 300, 300]
+    assert page.width == 450 + 3 * 300

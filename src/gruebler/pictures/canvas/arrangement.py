@@ -55,6 +55,16 @@ def stacked(figures: Sequence[Figure], title: str) -> Figure:
     )
 
 
+def _rows(figures: Sequence[Figure]) -> list[list[Figure]]:
+    """The figures in reading order, as many in a row as its width holds."""
+    rows: list[list[Figure]] = [[]]
+    for figure in figures:
+        if rows[-1] and sum(other.width for other in rows[-1]) + figure.width > _WIDE:
+            rows.append([])
+        rows[-1].append(figure)
+    return rows
+
+
 def gallery_figure(title: str, sections: Sequence[Section]) -> Figure:
     """A gallery as one picture: each section under its heading, as many pictures side by side as fit."""
     parts = []
@@ -62,6 +72,9 @@ def gallery_figure(title: str, sections: Sequence[Section]) -> Figure:
         figures = [captioned(item.figure, item.caption) for item in section.items]
         columns = max(1, int(_WIDE / max(figure.width for figure in figures)))
         page = pictures_in_one(figures, section.heading or title, columns)
+        rows = _rows(figures)
+        if len(rows) < -(-len(figures) // columns):  # of pictures of unlike width
+            page = stacked([pictures_in_one(row, "", len(row)) for row in rows], section.heading or title)
         if section.heading:
             heading = TextShape(Point(10.0, _HEADING / 2), section.heading, "name", "start")
             shapes = (heading, *(moved_shape(shape, Point(0.0, _HEADING)) for shape in page.shapes))
