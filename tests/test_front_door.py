@@ -406,3 +406,33 @@ def test_the_method_is_chosen_and_said():
         gr.mobility_report(slider, method="both")
     with pytest.raises(gr.GrueblerError, match=r"no method 'pebbles' .did you mean 'pebble'"):
         gr.mobility_report(CHAIN, method="pebbles")
+
+
+def test_a_linkage_without_a_unit_has_none_anywhere(tmp_path):
+    """Columns, reports and files; inertia alone needs to know how long the unit is."""
+    size = gr.FourBar(25, 70, 40, 70)
+    linkage = size.linkage(unit="")
+    motion = gr.move(linkage, gr.from_degrees(0, 360, 30))
+    assert [column.unit for column in motion.table(points=["coupler:30,20"]).columns] == ["°", "°", "", ""]
+    curve = gr.coupler_curve(size, "coupler:30,20")
+    assert curve.explain().startswith("Closed path, 138.2 long, around an area of 1282.\n")
+    gr.write(linkage, tmp_path / "a.toml")
+    assert gr.read(tmp_path / "a.toml") == linkage
+    with pytest.raises(gr.GrueblerError, match=r"inertia needs the unit of the lengths: FourBar\(.*unit='mm'\)"):
+        gr.inverse_dynamics(gr.move(linkage, 1.0, speed=10), gr.Loads(bodies={"coupler": gr.RigidBody(1, (30, 0), 1)}))
+    with pytest.raises(gr.GrueblerError, match=r"motions and tables go to .csv or .parquet, not '.json'"):
+        gr.write(motion, tmp_path / "a.json")
+
+
+@pytest.mark.parametrize(
+    ("call", "hint"),
+    [
+        (gr.inversions, "linkage().mechanism.chain"),
+        (gr.realise, "linkage().mechanism"),
+        (gr.decompose, "linkage().mechanism"),
+    ],
+    ids=["inversions", "realise", "decompose"],
+)
+def test_what_is_asked_of_lengths_names_the_part_to_pass(call, hint):
+    with pytest.raises(gr.GrueblerError, match=rf"found FourBar: take its {re.escape(hint)}$"):
+        call(gr.FourBar(2, 5, 4, 5))

@@ -104,6 +104,10 @@ def metres_of(unit: str) -> float:
     >>> metres_of("mm")
     0.001
     """
+    if not unit:
+        raise GrueblerError(
+            "inertia needs the unit of the lengths: FourBar(25, 70, 40, 70).linkage(unit='mm'), in a file unit = \"mm\""
+        )
     if unit not in MILLIMETRES:
         raise GrueblerError(
             "inertia needs to know how long the linkage's unit {unit!r} is; known are {units}",

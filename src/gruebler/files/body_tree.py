@@ -74,7 +74,7 @@ class BodyTree:
     def __init__(self, linkage: Linkage, left_out: list[Message]) -> None:
         """Of a linkage of turning and sliding joints; `GrueblerError` for others, and if slides alone close a loop."""
         self.lower = lower = lower_linkage(linkage)
-        if lower.unit not in MILLIMETRES:
+        if lower.unit and lower.unit not in MILLIMETRES:
             left_out.append(message("the unit {unit}", unit=lower.unit))
         if linkage.outputs:
             left_out.append(message("which links are outputs: {links}", links=", ".join(linkage.outputs)))

@@ -141,7 +141,7 @@ def _new_document(unit: str, left_out: list[Message]) -> Any:
         raise GrueblerError('DXF needs ezdxf: pip install "gruebler[cad]"') from None
     document = new("R2000")
     document.header["$INSUNITS"] = _UNITS.get(unit, 0)
-    if unit not in _UNITS:
+    if unit and unit not in _UNITS:
         left_out.append(message("the unit {unit}", unit=unit))
     document.header["$MEASUREMENT"] = 0 if unit in ("in", "ft") else 1
     return document

@@ -126,6 +126,10 @@ def _write_own_document(value: Any, path: Path, left_out: list[Message]) -> None
         from gruebler.files.tasks import write_task
 
         write_task(path, value)
+    elif type(value).__name__ in ("Motion", "SpatialMotion", "Table"):
+        raise GrueblerError(
+            "{path}: motions and tables go to .csv or .parquet, not {suffix!r}", path=path, suffix=suffix
+        )
     elif suffix == ".json":
         document = value.to_json() if isinstance(value, Chain) else [chain.to_json() for chain in value]
         _write_text(path, json.dumps(document, ensure_ascii=False, indent=1) + "\n")

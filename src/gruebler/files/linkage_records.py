@@ -117,7 +117,7 @@ def _linkage(sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str,
             key="reference_pose",
             form=form,
         )
-    if not sizes.unit.strip() or len(sizes.unit) > 20 or not sizes.unit.isprintable():
+    if (sizes.unit and not sizes.unit.strip()) or len(sizes.unit) > 20 or not sizes.unit.isprintable():
         raise LinkageError(
             "unit: expected the name of a unit of length such as 'mm', but found {unit!r}", unit=sizes.unit[:20]
         )

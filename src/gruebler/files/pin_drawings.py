@@ -426,7 +426,12 @@ def drawing_in(drawing: PinDrawing, unit: str, left_out: list[Message]) -> PinDr
     """
     known = drawing.unit if drawing.unit in MILLIMETRES else unit
     if known != drawing.unit:
-        left_out.append(message("the unit {unit}: the numbers are written as {wanted}", unit=drawing.unit, wanted=unit))
+        said = (
+            message("the unit {unit}: the numbers are written as {wanted}", unit=drawing.unit)
+            if drawing.unit
+            else message("no unit: the numbers are written as {wanted}")
+        )
+        left_out.append(said.filled(wanted=unit))
     joints = (
         replace(joint, x=in_unit(joint.x, known, unit), y=in_unit(joint.y, known, unit)) for joint in drawing.joints
     )

@@ -42,7 +42,7 @@ def urdf_from_linkage(linkage: Linkage | SpatialLinkage, left_out: list[Message]
     if linkage.outputs:
         left_out.append(message("which links are outputs: {links}", links=", ".join(linkage.outputs)))
     robot = _Robot(_in_plane(lower_linkage(linkage)) if isinstance(linkage, Linkage) else linkage)
-    if not robot.spherical and linkage.unit not in MILLIMETRES:
+    if not robot.spherical and linkage.unit and linkage.unit not in MILLIMETRES:
         left_out.append(message("the unit {unit}", unit=linkage.unit))
     cut = ", ".join(dict.fromkeys(robot.tree.names[number] for number, _, _ in robot.tree.closing))
     if cut:

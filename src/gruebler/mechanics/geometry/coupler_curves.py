@@ -39,6 +39,8 @@ _TOLERANCE = 1e-4  # of the reach of linkage and path
 
 _CLOSED = message("Closed path, {length:n} {unit} long, around {area:n} {unit}².")
 _OPEN = message("Path from one limit of the drive to the other, {length:n} {unit} long.")
+_CLOSED_WITHOUT_UNIT = message("Closed path, {length:n} long, around an area of {area:n}.")
+_OPEN_WITHOUT_UNIT = message("Path from one limit of the drive to the other, {length:n} long.")
 _EXTENT = message("It reaches from x = {left:n} to {right:n} and from y = {bottom:n} to {top:n}.")
 _EVENTS = message("Cusps: {cusps}; points of inflection: {inflections}; double points: {doubles}.")
 _RETRACED = message("It runs to and fro along itself.")
@@ -154,7 +156,8 @@ class CouplerCurve:
         Cusps: 0; points of inflection: 2; double points: 0.
         """
         unit = self.point_path.cycle.linkage.unit
-        length = _OPEN if self.area is None else _CLOSED.filled(area=abs(self.area))
+        opened, closed = (_OPEN, _CLOSED) if unit else (_OPEN_WITHOUT_UNIT, _CLOSED_WITHOUT_UNIT)
+        length = opened if self.area is None else closed.filled(area=abs(self.area))
         x, y = self.points.real, self.points.imag
         numbers = {"cusps": self.cusps, "inflections": self.inflections, "doubles": self.double_points}
         lines = (
@@ -225,5 +228,5 @@ def coupler_curve(
     Theory:
         docs/theory/coupler-curves.md
     """
-    trail = point_path(as_linkage(linkage), point, branch=branch, drives=drives)
+    trail = point_path(as_linkage(linkage, unit=""), point, branch=branch, drives=drives)
     return CouplerCurve(trail, _TOLERANCE * trail.reach if tolerance is None else tolerance)

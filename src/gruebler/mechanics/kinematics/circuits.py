@@ -368,7 +368,7 @@ def circuit(
     most: float = 1000.0,
 ) -> Circuit:
     """As `gruebler.circuit` in the plane."""
-    linkage = as_linkage(linkage)
+    linkage = as_linkage(linkage, unit="")
     check_steps(step, most)
     if at is not None:
         _check_number("at", at)

@@ -349,7 +349,7 @@ def circuit(
     Theory:
         docs/theory/circuits.md
     """
-    placed = linkage_made(linkage)
+    placed = linkage_made(linkage, unit="")
     if not isinstance(placed, SpatialLinkage):
         return plane.circuit(placed, branch=branch, at=at, step=step, most=most)
     if branch is not None or at is not None:
