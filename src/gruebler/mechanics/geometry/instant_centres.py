@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, compared_by_value
-from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief
 from gruebler.mechanics.geometry.relative import relative_motion, resting_and_translating
 from gruebler.mechanics.kinematics import Motion
+from gruebler.mechanics.linkages.points import link_number
 
 
 @compared_by_value
@@ -40,26 +41,16 @@ class Poles:
         >>> found.of("frame", "coupler").round(6)[0], found.of("crank", "rocker").round(6)[0]
         (np.complex128(127.802871+182.521416j), np.complex128(-64.233472+0j))
         """
-        return self.at[:, self._number(first), self._number(second)]
+        return self.at[:, link_number(first, self.links), link_number(second, self.links)]
 
     def towards(self, first: str, second: str) -> Complexes:
         """The direction of the pole of a pair of links where it lies at infinity, else NaN; (rows,)."""
-        return self.direction[:, self._number(first), self._number(second)]
+        return self.direction[:, link_number(first, self.links), link_number(second, self.links)]
 
     @property
     def at_infinity(self) -> NDArray[np.bool_]:
         """(rows, links, links): which pairs translate against one another."""
         return np.isfinite(self.direction)
-
-    def _number(self, link: str) -> int:
-        if link not in self.links:
-            raise LinkageError(
-                "there is no link {link!r}{suggestion}; the links are {links}",
-                link=link,
-                suggestion=nearest(str(link), self.links),
-                links=", ".join(self.links),
-            )
-        return self.links.index(link)
 
 
 @compared_by_value

@@ -60,10 +60,10 @@ class LinkPoses(ABC):
         if link not in self.links:
             known = self.linkage.mechanism.chain.links
             raise LinkageError(
-                "there is no link {link!r}{suggestion}; the links are {known}",
+                "there is no link {link!r}{suggestion}; the links are {links}",
                 link=link,
                 suggestion=nearest(str(link), known),
-                known=", ".join(known),
+                links=", ".join(known),
             )
         return self.links.index(link)
 

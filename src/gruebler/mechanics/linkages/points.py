@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from math import isfinite
 from numbers import Real
 from typing import Annotated, Protocol
@@ -72,16 +72,26 @@ def points_of(linkage: Dimensioned, point: PointLike) -> tuple[LinkPoint, ...]:
                 "expected a point: its name, (link, x, y), or (x, y) on the coupler of a four-bar, not {raw}",
                 raw=repr(point),
             )
-    if link not in chain.links:
-        raise LinkageError(
-            "there is no link {link!r}{suggestion}; the links are {links}",
-            link=link,
-            suggestion=nearest(link, chain.links),
-            links=", ".join(chain.links),
-        )
+    link_number(link, chain.links)
     if not (isfinite(x) and isfinite(y)):
         raise LinkageError("a point has finite coordinates, not {x}, {y}", x=x, y=y)
     return (LinkPoint(link, float(x), float(y)),)
+
+
+def link_number(link: str, links: Sequence[str]) -> int:
+    """Where a link is among those of a linkage; `LinkageError` offers the nearest name.
+
+    >>> link_number("coupler", ("frame", "crank", "coupler"))
+    2
+    """
+    if link not in links:
+        raise LinkageError(
+            "there is no link {link!r}{suggestion}; the links are {links}",
+            link=link,
+            suggestion=nearest(str(link), links),
+            links=", ".join(links),
+        )
+    return links.index(link)
 
 
 def place_of(linkage: Dimensioned, point: PointLike) -> LinkPoint:

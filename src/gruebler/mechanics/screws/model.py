@@ -15,6 +15,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError, nearest
 from gruebler.base.immutable import Immutable, settle
+from gruebler.mechanics.linkages.points import link_number
 from gruebler.mechanics.screws.joint_places import JointPlace, Vector, joint_axes, read_place
 from gruebler.mechanics.screws.rigid_motions import exponential
 from gruebler.structure.chain import Chain
@@ -87,7 +88,7 @@ class SpatialLinkage(Immutable):
         named = {name: _point(mechanism, name, point) for name, point in (points or {}).items()}
         wanted = tuple(outputs)
         for link in wanted:
-            _check_link(mechanism, link)
+            link_number(link, mechanism.chain.links)
         settle(self, mechanism=mechanism, places=places, unit=unit, points=MappingProxyType(named), outputs=wanted)
 
     @classmethod
@@ -229,23 +230,12 @@ class SpatialLinkage(Immutable):
         return f"<{self.mechanism.chain.space} linkage {self.mechanism.text()}; {' '.join(places)}>"
 
 
-def _check_link(mechanism: Mechanism, link: str) -> None:
-    links = mechanism.chain.links
-    if link not in links:
-        raise LinkageError(
-            "there is no link {link!r}{suggestion}; the links are {links}",
-            link=link,
-            suggestion=nearest(link, links),
-            links=", ".join(links),
-        )
-
-
 def _point(mechanism: Mechanism, name: str, raw: Sequence[object]) -> tuple[str, Vector]:
     given = list(raw) if isinstance(raw, Sequence) and not isinstance(raw, str) else [None]
     link, *at = given
     if not isinstance(link, str) or len(at) != 3:
         raise LinkageError("{name}: expected a link and three coordinates, but found {raw!r}", name=name, raw=raw)
-    _check_link(mechanism, link)
+    link_number(link, mechanism.chain.links)
     numbers = [float(x) for x in at if isinstance(x, int | float | np.number) and isfinite(x)]
     if len(numbers) != 3:
         raise LinkageError("{name}: a point has finite coordinates, not {raw!r}", name=name, raw=raw)

@@ -9,10 +9,11 @@ from math import factorial
 import numpy as np
 
 from gruebler.base.arrays import Reals, compared_by_value
-from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief, explained
 from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.kinematics.messages import drive_values
+from gruebler.mechanics.linkages.points import link_number
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.screws.rigid_motions import inverse_motion
 from gruebler.mechanics.space.bodies import motions
@@ -179,15 +180,7 @@ class SpatialMotion:
 
     def link_index(self, link: str) -> int:
         """Where a link is in the arrays; `LinkageError` offers the nearest name."""
-        links = self.linkage.mechanism.chain.links
-        if link not in links:
-            raise LinkageError(
-                "there is no link {link!r}{suggestion}; the links are {known}",
-                link=link,
-                suggestion=nearest(str(link), links),
-                known=", ".join(links),
-            )
-        return links.index(link)
+        return link_number(link, self.linkage.mechanism.chain.links)
 
     def pose(self, link: str) -> Reals:
         """Where a link is, (rows, 4, 4), against the reference pose."""
