@@ -25,6 +25,8 @@ export class App implements Page {
   readonly motion: MotionView;
   private readonly views: Record<string, View>;
   private view = "motion";
+  /** The views that were shown: others are laid out when they are. */
+  private readonly laid = new Set(["motion"]);
   private readonly header = h("header", {});
   private readonly message = h("div.message", { role: "status", hidden: true });
   private readonly lost = h("div.lost", { role: "status", hidden: true });
@@ -62,7 +64,6 @@ export class App implements Page {
         exercises: new ExercisesView(this),
       };
     }
-    for (const view of Object.values(this.views)) if (view !== this.motion) view.arrange();
     this.root = h(
       "div.app",
       {},
@@ -154,6 +155,8 @@ export class App implements Page {
     for (const [key, view] of Object.entries(this.views)) view.element.classList.toggle("shown", key === name);
     if (name !== "motion") this.motion.transport.pause();
     this.arrangeHeader();
+    if (!this.laid.has(name)) this.views[name]!.arrange();
+    this.laid.add(name);
     this.views[name]!.appeared?.();
   }
 
@@ -229,7 +232,7 @@ export class App implements Page {
 
   /** Everything anew, in another language. */
   arrange(): void {
-    for (const view of Object.values(this.views)) view.arrange();
+    for (const name of this.laid) this.views[name]!.arrange();
     this.motion.measured();
     this.motion.stage.build();
     this.show(this.view);

@@ -23,6 +23,11 @@ export interface Found {
   note?: string;
 }
 
+/** Whether what is asked for is met, to rounding. */
+function exact(error: number | null): boolean {
+  return Math.abs(error ?? 0) < 1e-9;
+}
+
 type Order = "error" | "size" | "transmission";
 
 export class DesignCards {
@@ -38,15 +43,16 @@ export class DesignCards {
   /** Show others, or none; returns the first. */
   show(found: Found | null): Design | null {
     this.found = found;
+    // exact ones do not differ in their deviation
+    this.order = found?.items.some(({ error }) => !exact(error)) ? "error" : "size";
     this.arrange();
     return this.sorted()[0] ?? null;
   }
 
   private sorted(): Design[] {
     const worth = ({ error, size, transmission }: Design) =>
-      ({ error: Math.abs(error ?? 0), size, transmission: -(transmission ?? 0) })[this.order];
-    const tiny = (value: number) => (Math.abs(value) < 1e-9 ? 0 : value);
-    return [...(this.found?.items ?? [])].sort((one, two) => tiny(worth(one)) - tiny(worth(two)) || 0);
+      ({ error: exact(error) ? 0 : Math.abs(error!), size, transmission: -(transmission ?? 0) })[this.order];
+    return [...(this.found?.items ?? [])].sort((one, two) => worth(one) - worth(two) || 0);
   }
 
   /** Write them, in the language of the page. */
@@ -75,7 +81,7 @@ export class DesignCards {
 
   private card(design: Design): HTMLElement {
     const { form, transmission, error, size } = design;
-    const deviation = error === null ? null : 100 * (Math.abs(error) < 1e-9 ? 0 : error);
+    const deviation = error === null ? null : 100 * (exact(error) ? 0 : error);
     const play = () => this.play(design);
     return h(
       "button.card",

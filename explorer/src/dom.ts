@@ -52,9 +52,10 @@ export function svg<K extends keyof SVGElementTagNameMap>(
 export function renew(place: Element, ...children: (Node | string)[]): void {
   const focused = (place.getRootNode() as Document | ShadowRoot).activeElement;
   const name = focused && focused !== place && place.contains(focused) ? selectorOf(focused) : "";
-  const { scrollTop } = place;
+  // to ask others would lay out the page for each of them
+  const scrollTop = place.matches(".view, .side") ? place.scrollTop : 0;
   place.replaceChildren(...children);
-  place.scrollTop = scrollTop;
+  if (scrollTop) place.scrollTop = scrollTop;
   if (name) place.querySelector<HTMLElement>(name)?.focus({ preventScroll: true });
 }
 

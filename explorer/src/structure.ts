@@ -109,8 +109,11 @@ export class StructureView implements View {
     return higher && text.split(";")[0]!.trim() === String(model.document.joints).trim() ? model.document : {};
   }
 
+  /** Show it; what was chosen among frames and drives stays where it is on the screen. */
   private showStructure(): void {
     const found = this.structure!;
+    const top = () => this.detail.firstElementChild?.getBoundingClientRect().top ?? 0;
+    const before = this.detail.matches(":focus-within") && top();
     const drawn = chainPicture(found, this.joint, (joint) => this.pick(joint));
     const strained = found.links.some((link) => link.overconstrained);
     const lines = [...found.lines.slice(1), ...found.drives.split("\n")].filter((line) => line.trim());
@@ -186,6 +189,7 @@ export class StructureView implements View {
         found.drives ? "" : h("span.note", {}, t("Choose a frame and a drive first.")),
       ),
     );
+    if (before !== false) for (const scrolled of [this.element, window]) scrolled.scrollBy(0, top() - before);
   }
 
   /** Mechanisms of which one is chosen. */

@@ -269,6 +269,7 @@ FILLED = {
 def test_nothing_moves_while_a_view_is_filled(tab, server, width, locale):
     """What stands on the screen stays there when the answers come: the layout does not shift, in no view."""
     page = tab(width=width, height=844, locale=locale, touch=width < 500)
+    page.page.set_default_timeout(60_000)
     page.page.add_init_script(SHIFTS)
     page.open(server.address)
     for view, part in FILLED.items():

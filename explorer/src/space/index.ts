@@ -62,7 +62,13 @@ const ink = dark ? "#eee" : "#222";
 Object.assign(document.body.style, { margin: "0", font: "16px system-ui, sans-serif", color: ink, overflow: "hidden" });
 Object.assign(document.body.style, { display: "flex", flexDirection: "column", height: "100dvh" });
 document.body.style.background = dark ? "#171717" : "#fff";
-const bar = element("header", document.body, { display: "flex", flexWrap: "wrap", gap: "0.8em", padding: "0.6em 1em" });
+const bar = element("header", document.body, {
+  display: "flex",
+  flexWrap: "wrap",
+  gap: "0.8em",
+  alignItems: "center",
+  padding: "0.6em 1em",
+});
 element("h1", bar, { font: "600 1em system-ui, sans-serif", margin: "0.3em 0" }, title);
 const canvas = element("canvas", document.body, { flex: "1", minHeight: "0", touchAction: "none", cursor: "grab" });
 canvas.tabIndex = 0;
@@ -78,7 +84,7 @@ let pulled: { link: number; at: Vector } | undefined;
 let traced: { link: number; at: Vector } | undefined;
 
 const room = matchMedia("(pointer: coarse)").matches ? "44px" : ""; // for a finger
-const button = element("button", bar, { minWidth: "5em", minHeight: room });
+const button = element("button", bar, { font: "inherit", minWidth: "5em", minHeight: room });
 const label = element("label", bar, {
   display: "flex",
   flexWrap: "wrap",
@@ -86,7 +92,7 @@ const label = element("label", bar, {
   alignItems: "center",
   flex: "1",
 });
-const choice = element("select", label, { minHeight: room, maxWidth: "100%" });
+const choice = element("select", label, { font: "inherit", minHeight: room, maxWidth: "100%" });
 const slider = element("input", label, { flex: "1", minWidth: "8em", minHeight: room });
 const value = element("output", label, { minWidth: "5em" });
 slider.type = "range";
