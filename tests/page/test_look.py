@@ -319,3 +319,24 @@ def test_a_press_of_no_length_opens_the_choice_of_a_file(tab, server):
     page.page.on("filechooser", lambda _: None)  # else a browser without a screen has nothing to open
     page.page.mouse.click(*page.middle('[data-icon="open"]'))
     page.until("window.chosen")
+
+
+def test_what_is_chosen_among_drives_stays_where_it_is(tab, server):
+    """With a drive the text above says more; on a phone the cards under the finger would go down by it."""
+    page = tab(width=390, height=844, touch=True).open(server.address)
+    page.page.set_default_timeout(60_000)
+    page.page.locator('[data-view="structure"]').tap()
+    page.page.locator("[data-chain]").first.tap()
+    chosen = "gruebler.views.structure.structure?.inversions.some(({ frame }) => frame === '0')"
+    page.until(chosen)
+    page.page.locator('[data-list="inversions"] .card').first.tap()
+    page.until("gruebler.views.structure.structure.chosen")
+    card = page.page.locator('[data-list="driven"] .card').first
+    card.scroll_into_view_if_needed()
+    said = page.page.locator(".said").count()
+    before = card.bounding_box()
+    card.tap()
+    page.until("gruebler.views.structure.structure.drives")
+    page.page.locator('[data-list="driven"] .card[aria-pressed="true"]').wait_for()
+    assert page.page.locator(".said").count() > said
+    assert abs(card.bounding_box()["y"] - before["y"]) < 1
