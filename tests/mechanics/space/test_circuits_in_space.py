@@ -267,11 +267,23 @@ def test_a_parallelogram_goes_straight_on_where_its_crossed_mode_crosses():
     found = gr.circuit(linkage)
     assert found.closed
     assert found.samples.joint(3) == pytest.approx(found.drive, abs=1e-9)
-    assert [point.drive for point in found.change_points] == pytest.approx([pi / 2, 3 * pi / 2], abs=1e-5)
+    assert [point.drive for point in found.change_points] == pytest.approx([pi / 2, 3 * pi / 2], abs=1e-11)
     assert "Change points: 2." in found.explain()
     there = found.at([point.arc for point in found.change_points])
-    assert there.joint(3) == pytest.approx(there.drives[:, 0], abs=1e-9)
+    assert there.drives[:, 0] == pytest.approx([pi / 2, 3 * pi / 2], abs=1e-9)
+    assert abs(np.exp(1j * there.joint(3)) - np.exp(1j * there.drives[:, 0])).max() < 1e-9
     assert there.joint(3, order=1) == pytest.approx(there.joint(0, order=1), abs=1e-9)
+
+
+@pytest.mark.parametrize("stretched", [False, True])
+def test_change_points_of_spherical_four_bars_are_those_positions_in_which_all_arcs_lie_on_one_circle(stretched):
+    """With a + d = b + c they do where the crank's angle is 180°, with a + b = c + d at 0: multiples of 180°."""
+    a, b, d = 0.45, 0.85, 1.05
+    bar = SphericalFourBar(a, b, b + d - a if stretched else a + d - b, d)
+    changes = gr.circuit(bar.linkage(1.0)).change_points
+    assert len(changes) == 2
+    for change in changes:
+        assert abs(sin(1.0 + change.drive)) < 1e-11
 
 
 def test_one_of_several_drives_has_a_range_while_the_others_rest():

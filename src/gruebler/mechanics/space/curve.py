@@ -25,6 +25,9 @@ _SETTLED = 1e-14  # one turn more would only change by rounding
 _APART = 0.2  # of a step: a larger correction may lead to another curve
 _BENT = 0.9  # the cosine of the angle by which a step may bend
 _SAME = 1e-6  # radians and sizes: positions that differ by less are one
+_AROUND = 0.01  # radians and sizes: how far apart positions around a crossing are, between which that is found
+_OFFSETS = np.array([-4.0, -3, -2, -1, 1, 2, 3, 4])
+_CROSSES = 1e-9  # radians and sizes: open by more, a position between others is no crossing
 _FOLD = 0.1  # radians and sizes: how far a position in which the drive turns back is looked for
 
 
@@ -157,7 +160,7 @@ class ConfigurationCurve:
         behind = float(self.away(self.counted_anew(there).place) @ plane)
         if not before < 0 <= behind or behind - before > tau / 2:
             return None
-        chord = self._way(here, there)
+        chord = self.way(here, there)
         if np.linalg.norm(self.away(here.place)) > 2 * np.linalg.norm(chord):
             return None
         last = self.near(self.moved(here.place, chord * before / (before - behind)), here.tangent)
@@ -174,7 +177,7 @@ class ConfigurationCurve:
 
     def _crossing(self, here: CurvePoint, there: CurvePoint) -> CurvePoint:
         """Where between two points another curve crosses."""
-        chord = self._way(here, there)
+        chord = self.way(here, there)
         low, high, middle = 0.0, 1.0, here
         while high - low > _SAME:
             share = (low + high) / 2
@@ -183,15 +186,41 @@ class ConfigurationCurve:
                 break
             middle = directed(reached, chord)
             low, high = (low, share) if _mirrored(here, middle) else (share, high)
-        return middle
+        return self._sharper(here, there, (low + high) / 2) or middle
+
+    def _sharper(self, here: CurvePoint, there: CurvePoint, share: float) -> CurvePoint | None:
+        """The crossing near a share of the way, by polynomials of degree 7 through eight positions around it.
+
+        Along the curve the determinant of derivatives and tangent is analytic, as all else is; there it vanishes.
+        """
+        chord = self.way(here, there)
+        step = _AROUND / float(np.linalg.norm(chord))
+        eight = [self.within(here, there, share + step * offset) for offset in _OFFSETS.tolist()]
+        points = [point for point in eight if point is not None]
+        if len(points) < len(_OFFSETS):
+            return None
+        seen = _row_space(here)
+        values = np.array([_determinant(seen, point) for point in points])
+        coefficients = np.linalg.solve(np.vander(_OFFSETS), values)
+        roots = np.roots(coefficients)
+        near = roots[np.argmin(abs(roots))]
+        if not abs(near) < 1 or near.imag:
+            return None
+        weights = np.linalg.solve(np.vander(_OFFSETS).T, np.vander([near.real], len(_OFFSETS))[0])
+        place = Place(weights @ np.array([point.place.q for point in points]), here.place.turns)
+        gap, by_unknown = self.closure.linearised(place)
+        tangent = weights @ np.array([point.tangent for point in points])
+        if abs(gap).max(initial=0.0) > _CROSSES:
+            return None
+        return CurvePoint(place, tangent / np.linalg.norm(tangent), by_unknown[:, self.columns])
 
     def within(self, here: CurvePoint, there: CurvePoint, share: float) -> CurvePoint | None:
         """The position at a share of the way between two neighbouring points, in the plane across that way."""
-        chord = self._way(here, there)
+        chord = self.way(here, there)
         reached = self.near(self.moved(here.place, share * chord), chord)
         return None if reached is None else directed(reached, chord)
 
-    def _way(self, here: CurvePoint, there: CurvePoint) -> Reals:
+    def way(self, here: CurvePoint, there: CurvePoint) -> Reals:
         """From a point to a neighbour, in its own counting of the turns of balls."""
         chord = (there.place.q - here.place.q)[self.columns]
         for k, columns in enumerate(self._balls):
@@ -302,10 +331,18 @@ def directed(point: CurvePoint, along: Reals) -> CurvePoint:
 
 def _mirrored(a: CurvePoint, b: CurvePoint) -> bool:
     """Whether a crossing lies between two points: derivatives and tangent together change their orientation there."""
-    rank = len(a.tangent) - 1
-    seen = np.linalg.svd(a.derivatives)[0][:, :rank].T
-    signs = [np.linalg.slogdet(np.vstack([seen @ point.derivatives, point.tangent]))[0] for point in (a, b)]
-    return bool(signs[0] * signs[1] < 0)
+    seen = _row_space(a)
+    return bool(_determinant(seen, a) * _determinant(seen, b) < 0)
+
+
+def _row_space(point: CurvePoint) -> Reals:
+    """The combinations of rows (rank, conditions) that count in a position."""
+    return np.linalg.svd(point.derivatives)[0][:, : len(point.tangent) - 1].T
+
+
+def _determinant(seen: Reals, point: CurvePoint) -> float:
+    """Of the rows that count and the tangent."""
+    return float(np.linalg.det(np.vstack([seen @ point.derivatives, point.tangent])))
 
 
 def _turn(axis: int, angle: float) -> Reals:

@@ -49,14 +49,14 @@ def endless(set_up: Setting, drive: int, place: Place, sense: float) -> Endless 
     the position is one like any other, next to the place in all turns, its shifts those of the tangent.
     """
     shrunk = set_up.closure.shrunk()
-    curve = ConfigurationCurve(set_up, drive)
-    here = None if shrunk is None else curve.near(place)
-    if shrunk is None or here is None:
+    if shrunk is None:
         return None
-    here = directed(here, sense * np.eye(len(curve.columns))[0])
+    curve = ConfigurationCurve(set_up, drive)
+    tangent = np.linalg.svd(set_up.closure.linearised(place)[1][:, curve.columns])[2][-1]
+    tangent = tangent * (sense if tangent[0] > 0 else -sense)
     nodes = set_up.closure.tree.nodes[1:]
     shifts = np.array([not node.turn for node in nodes])
-    own = np.where(shifts[curve.columns], here.tangent, 0.0)
+    own = np.where(shifts[curve.columns], tangent, 0.0)
     if shifts[curve.columns[0]] or not np.linalg.norm(own) > _SHIFTS:
         return None
     q = np.where(shifts, 0.0, place.q)
