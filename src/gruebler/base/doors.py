@@ -215,8 +215,8 @@ def _refusal(error: type[GrueblerError], name: str, hint: Any, value: object) ->
 def _path_to(kind: type, value: object) -> str:
     """The attributes that lead from a value to what was wanted, such as mechanism.chain; empty if none do."""
     name = kind.__name__.lower()
-    made = "linkage()", f"linkage().{name}", f"linkage().mechanism.{name}"
-    for path in (name, f"mechanism.{name}", f"linkage.mechanism.{name}", *made):
+    called = "linkage()", f"linkage().{name}", f"linkage().mechanism.{name}"
+    for path in (name, f"mechanism.{name}", f"linkage.mechanism.{name}", *called):
         reached: object = value
         for word in path.split("."):
             reached = getattr(reached, word.removesuffix("()"), None)
