@@ -246,8 +246,8 @@ class SpatialCircuit:
         unit = float(closure.units[drive] * closure.tree.signs[0])
         for k, point in self.traced.crossings:
             here, there = self.traced.points[k : k + 2]
-            way = self.curve.way(here, there)
-            share = float(way @ self.curve.way(here, point)) / float(way @ way)
+            chord = self.curve.way(here, there)
+            share = float(chord @ self.curve.way(here, point)) / float(chord @ chord)
             arc = float(self.arcs[k] + share * (self.arcs[k + 1] - self.arcs[k]))
             changes.append(ChangePoint(drive=float(point.place.q[drive]) * unit, arc=arc))
         return tuple(changes)
