@@ -8,11 +8,12 @@ import pytest
 from gruebler.design.synthesis import Demands, PositionTask, synthesise_positions
 from gruebler.design.synthesis.burmester import burmester_curves
 from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, halves, short_cells
-from gruebler.design.synthesis.dyads import Displacements
+from gruebler.design.synthesis.dyads import SLIDER, Displacements
 from gruebler.design.synthesis.enclosures import Enclosure
 from gruebler.design.synthesis.family_bounds import bound_notes, excluded
 from gruebler.design.synthesis.pair_search import pair_facts
 from gruebler.design.synthesis.positions import guiding_dyads
+from gruebler.design.synthesis.slide_bounds import left_of_cranks
 
 FOUR = [(2.071235, -0.032527, 19.8126), (2.036152, 1.429641, 44.4843), (0.706012, 1.606846, 68.1715)]
 FOUR += [(0.329970, 2.223983, 92.2134)]
@@ -207,3 +208,48 @@ def test_what_is_not_decided_is_told():
         assert np.ptp(lengths) < 1e-2 * lengths.max()
     notes = [str(note) for note in bound_notes(TASK, Demands(crank=True), None)]  # as if none had been found
     assert notes[0].startswith("Not decided: whether a four-bar of this family"), notes
+
+
+def _slides_below_a_sample(seeds, count):
+    """How often a sample of cranks beside a slide has a best angle; below it nothing may be excluded."""
+    checked = 0
+    for seed in seeds:
+        task = _task(np.random.default_rng(seed))
+        dyads = guiding_dyads(task, count)
+        cranks = [dyad for dyad in dyads if not dyad.slides]
+        for slide in [dyad for dyad in dyads if dyad.slides]:
+            for wish in (*WISHES, Demands(in_order=False)):
+                facts = pair_facts(task, cranks, [slide], wish)
+                good = np.logical_and.reduce([flags for _, flags in facts.met(wish)])
+                best = float(facts.transmission[good].max(initial=0.0))
+                if best > 1e-3:
+                    checked += 1
+                    assert left_of_cranks(task, replace(wish, transmission=best - 1e-4), slide) > 0, (seed, wish)
+    return checked
+
+
+def test_no_crank_beside_a_slide_is_excluded_that_a_sample_finds():
+    assert _slides_below_a_sample(range(12), 200) > 8
+
+
+@pytest.mark.slow
+def test_no_crank_beside_a_slide_is_excluded_that_a_denser_sample_of_more_tasks_finds():
+    assert _slides_below_a_sample(range(40), 400) > 40
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_task_with_a_known_slider_crank_is_never_proved_empty(seed):
+    """A slider-crank by hand: A on a circle about 0, B on the line y = e at the length b from A."""
+    rng = np.random.default_rng(seed)
+    a, e = rng.uniform(0.5, 1), rng.uniform(-0.4, 0.4)
+    b = a + abs(e) + rng.uniform(0.3, 2)
+    pin = a * np.exp(1j * np.sort(rng.uniform(0, 2 * np.pi, 4)))
+    coupler = (np.sqrt(b * b - (e - pin.imag) ** 2) + 1j * (e - pin.imag)) / b
+    points = pin + complex(*rng.normal(size=2)) * coupler
+    task = PositionTask([(p.real, p.imag, np.angle(turn)) for p, turn in zip(points, coupler, strict=True)])
+    own = Demands(crank=True, transmission=float(np.arccos((a + abs(e)) / b)) - 1e-6, region=(-0.1, -0.1, 0.1, 0.1))
+    slides = [dyad for dyad in guiding_dyads(task, 200) if dyad.kind == SLIDER]
+    assert max(left_of_cranks(task, own, slide) for slide in slides) > 0
+    # No crank keeps nearly a right angle at all four positions.
+    steep = replace(own, transmission=np.radians(89))
+    assert not any(left_of_cranks(task, steep, slide) for slide in slides)

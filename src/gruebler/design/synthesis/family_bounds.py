@@ -24,8 +24,8 @@ from gruebler.design.synthesis.tasks import PositionTask
 
 _BUDGET = 150_000  # pairs of cells that are looked at
 _CHUNK = 20_000  # of them at a time
-_NARROW = 1e-7  # sizes: cells shorter than this are not halved, as rounding is near
-_MARGINS = (0.05, 1.0, 10.0)  # degrees above the best transmission angle found, tried in turn
+NARROW = 1e-7  # sizes: cells shorter than this are not halved, as rounding is near
+MARGINS = (0.05, 1.0, 10.0)  # degrees above the best transmission angle found, tried in turn
 _LAP = 2 * np.pi
 
 
@@ -80,7 +80,7 @@ def excluded(task: PositionTask, demands: Demands, budget: int = _BUDGET) -> Exc
         parts = [slice(k, k + _CHUNK) for k in range(0, len(i), _CHUNK)]
         stays = ~np.concatenate([search.fails(seen, i[part], j[part]) for part in parts])
         i, j = i[stays], j[stays]
-        narrow = np.maximum(seen.extent[i], seen.extent[j]) < _NARROW
+        narrow = np.maximum(seen.extent[i], seen.extent[j]) < NARROW
         if looked + 2 * len(i) > budget:
             narrow[:] = True
         if narrow.any():
@@ -111,7 +111,7 @@ def bound_notes(task: PositionTask, demands: Demands, best: float | None) -> Ite
             yield _NONE.filled(far=FAR)
             return
     begin = degrees(demands.transmission if best is None else best)
-    for margin in _MARGINS:
+    for margin in MARGINS:
         angle = ceil(10 * (begin + margin)) / 10
         if angle < 90 and not excluded(task, replace(demands, transmission=radians(angle))).left:
             yield _AT_MOST.filled(far=FAR, angle=angle)
@@ -184,23 +184,8 @@ class _Search:
         if not self.demands.one_branch:
             return fails
         phi = seen.angle.at(i).placed(0) - frame.angle.column
-        at_zero, at_pi = self._too_flat(a, b, c, d)
-        front = _Angles.cut(phi, -np.pi, 0.0)
-        behind = _Angles.cut(phi, 0.0, np.pi)
-        steps = seen.steps[1][i]
-        no_front, no_behind = (
-            angles.keep_no_order(steps) if self.ordered else np.zeros(len(i), bool) for angles in (front, behind)
-        )
-        split = front.both_sides | no_front | pi_free | zero_free
-        about_zero = no_front | (front.both_sides & at_zero) | pi_free | zero_shut
-        about_pi = no_behind | (behind.both_sides & at_pi) | pi_shut | zero_free
-        if self.ordered:
-            onward, back = (least[i] for least in seen.ways)
-            begin, reach = phi.value[:, 0], phi.reach[:, 0]
-            turns_not |= _way_fails(begin, reach, onward, at_zero, at_pi) & _way_fails(
-                -begin, reach, back, at_zero, at_pi
-            )
-        return np.asarray(fails | (split & about_zero & about_pi & turns_not))
+        ranges = Ranges(pi_free=pi_free, pi_shut=pi_shut, zero_free=zero_free, zero_shut=zero_shut)
+        return np.asarray(fails | no_way(phi, seen, i, ranges, self._too_flat(a, b, c, d), self.demands))
 
     def _leaves_branch(self, moving: Enclosure, back: Enclosure) -> Flags:
         """Whether some position certainly has its coupler on one side of the rocker, and some on the other.
@@ -223,6 +208,47 @@ class _Search:
             ((squares - far * far - allowed).low > 0) | ((squares - far * far + allowed).high < 0)
             for far in (d - a, d + a)
         )
+
+
+class Ranges(NamedTuple):
+    """Whether the crank certainly passes the crank angles 0 and pi, and whether it certainly does not."""
+
+    pi_free: Flags
+    pi_shut: Flags
+    zero_free: Flags
+    zero_shut: Flags
+
+
+def no_way(
+    phi: Enclosure, seen: DyadCells, i: Integers, ranges: Ranges, flat: tuple[Flags, Flags], demands: Demands
+) -> Flags:
+    """Whether no range of the crank has a way through the positions: one about 0, about pi, both, or a full turn.
+
+    Args:
+        phi: (rows, positions) the crank angles.
+        seen: the cells of the cranks.
+        i: (rows,) which of them.
+        ranges: what ends the ranges.
+        flat: whether the transmission angle is certainly too small where the crank passes 0, and where it passes pi.
+        demands: what is demanded.
+    """
+    at_zero, at_pi = flat
+    pi_free, pi_shut, zero_free, zero_shut = ranges
+    turns_not = pi_shut | zero_shut
+    front = _Angles.cut(phi, -np.pi, 0.0)
+    behind = _Angles.cut(phi, 0.0, np.pi)
+    steps = seen.steps[1][i]
+    no_front, no_behind = (
+        angles.keep_no_order(steps) if demands.in_order else np.zeros(len(i), bool) for angles in (front, behind)
+    )
+    split = front.both_sides | no_front | pi_free | zero_free
+    about_zero = no_front | (front.both_sides & at_zero) | pi_free | zero_shut
+    about_pi = no_behind | (behind.both_sides & at_pi) | pi_shut | zero_free
+    if demands.in_order:
+        onward, back = (least[i] for least in seen.ways)
+        begin, reach = phi.value[:, 0], phi.reach[:, 0]
+        turns_not |= _way_fails(begin, reach, onward, at_zero, at_pi) & _way_fails(-begin, reach, back, at_zero, at_pi)
+    return np.asarray(split & about_zero & about_pi & turns_not)
 
 
 class _Angles(NamedTuple):

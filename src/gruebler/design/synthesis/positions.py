@@ -36,6 +36,7 @@ from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design
 from gruebler.design.synthesis.pair_search import FoundPairs, Nearby, best_pairs
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.slide_bounds import slide_notes
 from gruebler.design.synthesis.targets import Targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PositionTask
 from gruebler.mechanics.fourbar import grashof
@@ -228,6 +229,11 @@ def synthesise_positions(
     if searched and len(task) == 4 and sum(not dyad.slides for dyad in dyads) > 1:
         angles = [design.verdict.transmission for design in designs if design.form == _FOUR_BAR]
         notes += bound_notes(task, wanted, max(angles, default=None))
+        for kind in (SLIDER, BLOCK):
+            form, slides = f"{CRANK.form}-{kind.form}", [dyad for dyad in dyads if dyad.kind == kind]
+            angles = [design.verdict.transmission for design in designs if design.form == form]
+            if slides:
+                notes += slide_notes(task, wanted, slides, max(angles, default=None), form)
     return SynthesisResult(
         task=task,
         designs=designs,
