@@ -106,8 +106,8 @@ def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, demands: D
     if not demands.one_branch:
         return fails
     ranges = Ranges(pi_free=pi_free, pi_shut=pi_shut, zero_free=zero_free, zero_shut=zero_shut)
-    way = no_way(phi, seen, np.arange(len(seen.cells)), ranges, (at_zero, at_pi), demands)
-    return np.asarray(fails | way)
+    closed = no_way(phi, seen, np.arange(len(seen.cells)), ranges, (at_zero, at_pi), demands)
+    return np.asarray(fails | closed)
 
 
 def _slack(measured: Enclosure) -> Enclosure:
@@ -127,16 +127,16 @@ def slide_notes(
     task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad], best: float | None, form: str
 ) -> Iterator[Message]:
     """What is proved of cranks with these sliding dyads of one kind; see `family_bounds.bound_notes`. Cost: 0.1 s."""
-    told = form_symbols(form)
+    symbols = form_symbols(form)
     if best is None and not any(left_of_cranks(task, demands, dyad) for dyad in dyads):
-        yield _NONE.filled(form=told, far=FAR)
+        yield _NONE.filled(form=symbols, far=FAR)
         return
     begin = degrees(demands.transmission if best is None else best)
     for margin in MARGINS:
         angle = ceil(10 * (begin + margin)) / 10
         bound = replace(demands, transmission=radians(min(angle, 90)))
         if angle < 90 and not any(left_of_cranks(task, bound, dyad) for dyad in dyads):
-            yield _AT_MOST.filled(form=told, far=FAR, angle=angle)
+            yield _AT_MOST.filled(form=symbols, far=FAR, angle=angle)
             return
     if best is None:
-        yield _UNKNOWN.filled(form=told)
+        yield _UNKNOWN.filled(form=symbols)
