@@ -49,8 +49,8 @@ def analyse_in_space(arguments: argparse.Namespace, spatial: SpatialWord) -> int
     modes = _modes(linkage)
     around = None if measured is None else _circuit(measured)
     if arguments.json:
-        found = {"linkage": screws_to_json(linkage), "freedoms": freedom.to_json()} | _found(measured, around, modes)
-        print_json(found | (Table(()) if table is None else table).to_json())
+        document = {"linkage": screws_to_json(linkage), "freedoms": freedom.to_json()} | _found(measured, around, modes)
+        print_json(document | (Table(()) if table is None else table).to_json())
         return 0
     print_text(freedom.summary(arguments.lang))
     if measured is not None:
