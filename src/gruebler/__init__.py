@@ -84,6 +84,7 @@ notebook.svg_of = _picture
 
 _TABLES = {
     "Motion": ("analysis.table", "motion_table"),
+    "SpatialMotion": ("space.motion_tables", "spatial_table"),
     "Statics": ("forces.tables", "statics_table"),
     "InverseDynamics": ("dynamics.tables", "dynamics_table"),
     "Simulation": ("dynamics.tables", "simulation_table"),

@@ -21,7 +21,7 @@ from gruebler.files.screws import screws_to_json
 from gruebler.mechanics.screws import SpatialLinkage, freedoms
 from gruebler.mechanics.space import SpatialCircuit, SpatialMeasures, SpatialModes, assembly_modes, circuit, measures
 from gruebler.mechanics.space.drive_ranges import followed
-from gruebler.mechanics.space.measuring import spatial_table
+from gruebler.mechanics.space.motion_tables import spatial_table
 from gruebler.mechanics.space.wheel_alignment import wheel_alignment
 from gruebler.teaching.catalog import entries
 
@@ -119,7 +119,7 @@ def _table(linkage: SpatialLinkage, rows: Reals | None, arguments: argparse.Name
             raise GrueblerError("--wheel needs rows: give --range FROM:TO:STEP for each drive, or --at VALUE,VALUE")
         return None
     motion = followed(linkage, np.asarray(rows), order=2 if len(linkage.mechanism.drives) == 1 else 0)
-    table = spatial_table(motion, arguments.output, arguments.point, arguments.lang)
+    table = spatial_table(motion, arguments.output, arguments.point, by_drive=True, lang=arguments.lang)
     if arguments.wheel is None:
         return table
     return Table((*table, *wheel_alignment(motion, *_wheel_points(arguments.wheel), lang=arguments.lang)))

@@ -10,7 +10,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space import RSSR, Bennett, SphericalFourBar, measures
 from gruebler.mechanics.space.drive_ranges import followed
-from gruebler.mechanics.space.measuring import spatial_table
+from gruebler.mechanics.space.motion_tables import spatial_table
 from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
@@ -91,17 +91,32 @@ def test_a_table_has_rates_by_the_drive():
     linkage = machines.hooke(0.5).with_drives([0])
     h = 1e-4
     motion = followed(linkage, np.array([[0.7 - h], [0.7], [0.7 + h]]), order=2)
-    table = spatial_table(motion, points=["R(in-cross)"])
+    table = spatial_table(motion, points=["R(in-cross)"], by_drive=True)
     output = np.radians(table["R(0-out)"])
     assert table["R(0-out)′"][1] == pytest.approx((output[2] - output[0]) / (2 * h), abs=1e-7)
     assert [column.unit for column in table][:4] == ["°", "°", "", "1/rad"]
-    german = [column.name for column in spatial_table(motion, lang="de")]
+    german = [column.name for column in spatial_table(motion, by_drive=True, lang="de")]
     assert german == ["D(0-in)", "D(0-out)", "D(0-out)′", "D(0-out)′′"]
     assert table["R(in-cross) vx"][1] == pytest.approx(0, abs=1e-12)  # the middle of the cross stays
     with pytest.raises(LinkageError, match="without branch and speed"):
         measures(linkage, speed=3.0)
     with pytest.raises(LinkageError, match="expected a joint of two links that is no ball"):
         measures(WIPER.linkage(0.3), output="S(crank-rod)")
+
+
+def test_a_motion_has_its_table_with_rates_in_time():
+    """A joint bent by 30 degrees, driven at 5 rad/s: 5 cos δ / (1 - sin² δ cos² φ), and the derivative of that."""
+    motion = gr.move(entry("universal_joint").placed(), [0.0, 0.4], speed=5.0)
+    table = motion.table(points=["R(frame-input)"])
+    phi, delta = motion.drives[:, 0], pi / 6
+    below = 1 - (np.sin(delta) * np.cos(phi)) ** 2
+    assert table["ω R(frame-output)"] == pytest.approx(5 * cos(delta) / below, rel=1e-12)
+    slope = -5 * cos(delta) * np.sin(delta) ** 2 * np.sin(2 * phi) / below**2
+    assert table["α R(frame-output)"] == pytest.approx(5 * slope, rel=1e-9, abs=1e-9)
+    assert [column.unit for column in table][:4] == ["°", "°", "rad/s", "rad/s²"]
+    assert table["R(frame-input) vz"] == pytest.approx(0, abs=1e-12)
+    assert motion.table(lang="de").columns[0].name == "D(frame-input)"
+    assert len(motion.to_dataframe()) == 2
 
 
 def test_a_piston_begins_at_zero_and_not_at_its_rounding():

@@ -11,7 +11,6 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 
 from gruebler.base.arrays import Reals
-from gruebler.base.columns import Column, Table
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import DeadCentre, Extremum
@@ -31,14 +30,12 @@ from gruebler.mechanics.space.ends import endless
 from gruebler.mechanics.space.following import setting
 from gruebler.mechanics.space.motion import SpatialMotion, SpatialStop
 from gruebler.mechanics.space.outputs import against_frame, output_freedom, valued_freedoms
-from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.chain.spaces import Freedom
 
 _ROWS = 145
 _ASIDE = 0.0123  # radians: rows do not begin at the reference pose, where a symmetric linkage often stops
 _STEPS = 3  # of Newton's method, which begins within 2.5 degrees by regula falsi
 _STILL = 1e-9  # of the usual rate: smaller ones are 0 all the way
-_NOISE = 1e-10  # of the largest value in a table: rounding of closed positions, larger in their rates
 
 _WITH = message("Output {joint}: it turns fully in the sense of the drive, {turns:g} : 1.")
 _AGAINST = message("Output {joint}: it turns fully against the sense of the drive, {turns:g} : 1.")
@@ -159,58 +156,6 @@ class SpatialMeasures:
 
     def _value(self, value: float, turns: bool) -> Message:
         return value_message(self.linkage, value, turns)
-
-
-def spatial_table(
-    motion: SpatialMotion, outputs: Sequence[str] = (), points: Sequence[str] = (), lang: str = "en"
-) -> Table:
-    """A motion as a table: drives, outputs, places of points, and their derivatives by the drive as far as it has them.
-
-    It is taken to be moved with a speed of 1. Angles are in degrees, in rates in radians; joints have the language's
-    letters.
-    """
-    linkage, unit, alphabet = motion.linkage, motion.linkage.unit, Alphabet.of_language(lang)
-    turning = [drive.turning for drive in linkage.mechanism.drives]
-    columns = [
-        Column(name, unit="°" if turns else unit, values=np.degrees(values) if turns else values)
-        for name, turns, values in zip(linkage.mechanism.drive_names(alphabet), turning, motion.drives.T, strict=True)
-    ]
-    below = "rad" if turning[0] else unit
-    for output in outputs or (None,):
-        number, freedom = output_freedom(linkage, output)
-        name, turns = linkage.mechanism.chain.joint_names(alphabet)[number], Freedom(freedom).turns
-        for order in range(min(motion.order, 2) + 1):
-            values = against_frame(linkage, number) * motion.joint(number, freedom, order)
-            degree = turns and not order
-            shown = "°" if degree else _unit_of_rate("rad" if turns else unit, below, order)
-            columns.append(
-                Column(
-                    name + "′" * order,
-                    unit=shown,
-                    values=np.degrees(values) if degree else values,
-                    natural=1.0 if turns else linkage.size,
-                    noise=_NOISE,
-                )
-            )
-    for point in points:
-        for order, letter in enumerate(("", "v", "a")[: motion.order + 1]):
-            for axis, values in zip("xyz", motion.point(point, order=order).T, strict=True):
-                shown = _unit_of_rate(unit, below, order)
-                columns.append(
-                    Column(f"{point} {letter}{axis}", unit=shown, values=values, natural=linkage.size, noise=_NOISE)
-                )
-    return Table(tuple(columns))
-
-
-def _unit_of_rate(above: str, below: str, order: int) -> str:
-    """Of a derivative of an order; radians by radians are left out.
-
-    >>> _unit_of_rate("rad", "rad", 2), _unit_of_rate("mm", "rad", 2), _unit_of_rate("rad", "mm", 1)
-    ('1/rad', 'mm/rad²', 'rad/mm')
-    """
-    if above == below:
-        above, order = ("1" if order > 1 else "" if order else above), order - 1
-    return f"{above}/{below}{'²' * (order > 1)}" if order > 0 else above
 
 
 @overload

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import factorial
+from typing import Any
 
 import numpy as np
 
+from gruebler.base import notebook
 from gruebler.base.arrays import Reals, compared_by_value
+from gruebler.base.columns import Table
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief, explained
 from gruebler.base.text import Message, joined, message
@@ -141,7 +145,12 @@ class SpatialMotion:
 
     def message(self, lang: str = "en") -> str:
         """Where it passed a change of mode, where and why it stopped; else empty."""
-        return joined(self._remarks(), " ").in_language(lang)
+        return self.reason.in_language(lang)
+
+    @property
+    def reason(self) -> Message:
+        """What `message` says, in any language."""
+        return joined(self._remarks(), " ")
 
     def _remarks(self) -> list[Message]:
         marks = [*((row, _PASSED) for row in self.passed if row < len(self)), *((row, _CHANGE) for row in self.changes)]
@@ -236,6 +245,26 @@ class SpatialMotion:
     def acceleration(self, point: str | tuple[str, float, float, float]) -> Reals:
         """The acceleration of a point, (rows, 3), in lengths per second squared."""
         return self.point(point, order=2)
+
+    # --- tables ----------------------------------------------------------------------------------------------------
+
+    def table(self, *, outputs: Sequence[str] | None = None, points: Sequence[str] = (), lang: str = "en") -> Table:
+        """Drives, outputs and points row by row, with derivatives in time.
+
+        `Table.to_dataframe`, `Table.csv` and others give it to other programs.
+
+        Args:
+            outputs: joints, by their names; without them the linkage's output where it is a joint.
+            points: names of points or joints.
+            lang: language of the headers.
+        """
+        assert notebook.table_of is not None  # set by the front door
+        table: Table = notebook.table_of(self, outputs, points, lang=lang)
+        return table
+
+    def to_dataframe(self) -> Any:
+        """The `table` with all named points as a `pandas.DataFrame`, a row for each pose; needs pandas."""
+        return self.table(points=tuple(self.linkage.points)).to_dataframe()
 
     # --- joints ----------------------------------------------------------------------------------------------------
 

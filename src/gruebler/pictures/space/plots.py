@@ -11,7 +11,8 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import translate
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space.drive_ranges import followed
-from gruebler.mechanics.space.measuring import SpatialMeasures, measures, spatial_table
+from gruebler.mechanics.space.measuring import SpatialMeasures, measures
+from gruebler.mechanics.space.motion_tables import spatial_table
 from gruebler.mechanics.space.outputs import output_freedom
 from gruebler.pictures.canvas.axes import Axis, angles, axis_name, decimals
 from gruebler.pictures.canvas.drive_axes import ROWS, bulk, drive_axis, drive_text, order_words
@@ -41,7 +42,7 @@ def plot_spatial(
 
     Of several drives one moves, and the others stay at 0; dead centres are not marked then.
 
-    The values are those of `gruebler.mechanics.space.measuring.spatial_table`, 0 in the reference pose.
+    The values are those of `gruebler.mechanics.space.motion_tables.spatial_table`, 0 in the reference pose.
 
     Args:
         linkage: with a drive.
@@ -77,7 +78,7 @@ def plot_spatial(
     alone = np.eye(len(mechanism.drives))[moving]
     motion = followed(linkage, row[:, None] * alone, order=2, speed=alone)
     names = mechanism.chain.joint_names()
-    columns = spatial_table(motion, (names[number],), (), lang).columns[len(alone) :]
+    columns = spatial_table(motion, (names[number],), (), by_drive=True, lang=lang).columns[len(alone) :]
     x = np.degrees(row) if turning else row
     marks = [] if measured is None else _dead_centres(measured, float(row.min()), float(row.max()), lang)
     full = measured.range.full if measured is not None else turning
