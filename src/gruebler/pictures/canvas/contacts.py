@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape
 
@@ -16,7 +16,8 @@ WHEEL = 12.0
 """Radius of wheels and cams in a sign, in pixels."""
 
 
-class TouchingBody(NamedTuple):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TouchingBody:
     """Where a body touches another one."""
 
     at: Point

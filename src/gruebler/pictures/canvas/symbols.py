@@ -178,7 +178,13 @@ def _contact(at: Point, members: Sequence[JointMember], shapes: Sequence[str]) -
             towards = Point(-towards.x, -towards.y)
         is_second = number == 1 if abs(sizes[0] - sizes[1]) < 1e-6 * sum(sizes) else size == max(sizes)
         style = "block-frame" if member.is_frame else "block"
-        body = TouchingBody(at.plus(towards, apart), towards, style, max(0.0, size - apart), is_second)
+        body = TouchingBody(
+            at=at.plus(towards, apart),
+            towards=towards,
+            style=style,
+            size=max(0.0, size - apart),
+            is_second=is_second,
+        )
         hold, parts = CONTACTS[shape](body)
         holds.append(hold)
         if arm is None:

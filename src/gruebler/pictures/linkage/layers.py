@@ -23,7 +23,6 @@ from gruebler.mechanics.analysis.plates import plates_of
 from gruebler.mechanics.analysis.transmission import PushingLink, pushing_links
 from gruebler.mechanics.kinematics import Motion, circuit
 from gruebler.mechanics.linkages import LinkPoint
-from gruebler.mechanics.linkages.elements import Circle
 from gruebler.mechanics.linkages.points import PointLike, place_of
 from gruebler.pictures.canvas.labels import note_near
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
@@ -133,7 +132,7 @@ def _is_roller(posed: PosedLinkage, joint: int) -> bool:
     if mechanism.frame in links:
         return False
     others = [[(n, e) for (n, owner), e in linkage.elements.items() if owner == link and n != joint] for link in links]
-    return any(len(own) == 1 and isinstance(own[0][1], Circle) for own in others)
+    return any(len(own) == 1 and own[0][1].is_smooth and own[0][1].rim > 0 for own in others)
 
 
 def _free_direction(posed: PosedLinkage, joint: int, at: Point) -> float:
