@@ -202,3 +202,9 @@ def test_bodies_of_one_link_share_no_edge(id):
 def test_bodies_are_of_linkages_in_space(tmp_path):
     with pytest.raises(GrueblerError, match="bodies are written of linkages in space only"):
         files.write(FourBar(25, 70, 40, 70), tmp_path / "a.glb")
+
+
+@pytest.mark.parametrize(("name", "hint"), [("x.stl", "--to stl"), ("x.gltf", ".glb")])
+def test_an_ending_that_is_no_format_by_itself_is_told_how_to_be_had(name: str, hint: str):
+    with pytest.raises(GrueblerError, match=hint):
+        files.format_of(name)

@@ -47,6 +47,8 @@ def format_of(path: str | PathLike[str], name: str | None = None) -> Format:
     for form in FORMATS:
         if lower.endswith(form.suffixes):
             return form
+    if lower.endswith(".stl"):
+        raise GrueblerError("{path}: STL is a file for each link: give a folder and --to stl", path=path)
     if lower.endswith(".gltf"):
         raise GrueblerError("{path}: glTF is written as one file, which ends with .glb", path=path)
     endings = [ending for form in FORMATS for ending in form.suffixes if not ending.endswith(".gz")]

@@ -16,7 +16,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.events import DeadCentre, Extremum
 from gruebler.base.notebook import brief, explained
 from gruebler.base.plain_data import plain
-from gruebler.base.text import Message, joined, message
+from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.mechanics.analysis import measuring
 from gruebler.mechanics.analysis.measuring import Measures
 from gruebler.mechanics.kinematics.messages import drive_values
@@ -41,7 +41,7 @@ _WITH = message("Output {joint}: it turns fully in the sense of the drive, {turn
 _AGAINST = message("Output {joint}: it turns fully against the sense of the drive, {turns:g} : 1.")
 _SWINGS = message("Output {joint}: from {low} to {high}, that is {travel}.")
 _ENDLESS = message("Output {joint}: unbounded, from {low} to {high}.")
-_CENTRES = message("Dead centres of the output at {centres}.")
+_CENTRES = message("Dead centres of the output {joint} at {centres}.")
 _RATIO = message("Speed ratio, output by drive: from {least:.4g} at {first} to {most:.4g} at {second} of the drive.")
 _CONSTANT = message("Speed ratio, output by drive: {ratio:.4g}, constant.")
 _JOINTS = message("Relative motion at the joints: {joints}.")
@@ -133,7 +133,8 @@ class SpatialMeasures:
             text = _SWINGS if isfinite(self.travel) else _ENDLESS
             yield text.filled(joint=title(self.output), low=texts[0], high=texts[1], travel=texts[2])
         if self.dead_centres:
-            yield _CENTRES.filled(centres=joined([drive(each.drive) for each in self.dead_centres], "; "))
+            centres = joined_by_and([drive(each.drive) for each in self.dead_centres])
+            yield _CENTRES.filled(joint=title(self.output), centres=centres)
         least, greatest = self.least_ratio, self.greatest_ratio
         if greatest.value - least.value < _STILL * max(abs(greatest.value), 1.0):
             yield _CONSTANT.filled(ratio=greatest.value)
