@@ -175,6 +175,13 @@ def test_a_machine_without_drives_says_that_it_stands_still(tmp_path):
     assert [str(each) for each in left_out] == ["a motion: the drives do not move the linkage"]
 
 
+def test_a_linkage_without_a_unit_leaves_none_out(tmp_path):
+    placed, left_out = entry("sarrus").placed(), []
+    files.write(SpatialLinkage(placed.mechanism, placed.places, unit=""), tmp_path / "a.glb", left_out=left_out)
+    files.write(SpatialLinkage(placed.mechanism, placed.places, unit="pt"), tmp_path / "b.glb", left_out=left_out)
+    assert [str(each) for each in left_out] == ["the unit pt"]
+
+
 def test_stl_has_a_file_for_each_link(tmp_path, capsys):
     assert main(["convert", "sarrus", str(tmp_path / "bodies"), "--to", "stl"]) == 0
     assert "motion, colours and the unit" in capsys.readouterr().err

@@ -109,7 +109,7 @@ def glb_from_linkage(
 
     ``between`` are values over which the drives move one by one, in place of all that they can reach.
     """
-    if linkage.unit not in MILLIMETRES and linkage.mechanism.chain.space is not Space.SPHERICAL:
+    if linkage.unit and linkage.unit not in MILLIMETRES and linkage.mechanism.chain.space is not Space.SPHERICAL:
         left_out.append(message("the unit {unit}", unit=linkage.unit))
     moving = moving_solids(linkage, between=between)
     if not moving.motions:
