@@ -166,7 +166,7 @@ class ExplorerServer:
 
 def _language(request: Request) -> str:
     """The one of our languages that the browser asks for first."""
-    asked = re.findall(r"[a-z]+", request.headers.get("accept-language", "").lower())
+    asked = re.findall(r"(?:^|,)\s*([a-z]+)", request.headers.get("accept-language", "").lower())  # without regions
     return next((lang for lang in asked if lang in LANGUAGES), LANGUAGES[0])
 
 
