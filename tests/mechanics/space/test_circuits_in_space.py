@@ -275,11 +275,11 @@ def test_a_parallelogram_goes_straight_on_where_its_crossed_mode_crosses():
     assert there.joint(3, order=1) == pytest.approx(there.joint(0, order=1), abs=1e-9)
 
 
-@pytest.mark.parametrize("stretched", [False, True])
-def test_change_points_of_spherical_four_bars_are_those_positions_in_which_all_arcs_lie_on_one_circle(stretched):
-    """With a + d = b + c they do where the crank's angle is 180°, with a + b = c + d at 0: multiples of 180°."""
+@pytest.mark.parametrize("folded", [False, True])
+def test_change_points_of_spherical_four_bars_are_those_positions_in_which_all_arcs_lie_on_one_circle(folded):
+    """With a + d = b + c they do where the crank's angle is 180°, with a + c = b + d at 0: multiples of 180°."""
     a, b, d = 0.45, 0.85, 1.05
-    bar = SphericalFourBar(a, b, b + d - a if stretched else a + d - b, d)
+    bar = SphericalFourBar(a, b, b + d - a if folded else a + d - b, d)
     changes = gr.circuit(bar.linkage(1.0)).change_points
     assert len(changes) == 2
     for change in changes:
