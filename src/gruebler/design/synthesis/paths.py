@@ -20,10 +20,8 @@ from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.positions import ranked, synthesise_positions
 from gruebler.design.synthesis.results import EXACT, Design, Progress, SolutionCount, SynthesisResult
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask, PositionTask
-from gruebler.design.synthesis.timed_points import TIMED_POSITIONS, timed_points, timed_positions
+from gruebler.design.synthesis.timed_points import MOST_TIMED, TIMED_POSITIONS, timed_points, timed_positions
 
-MOST_TIMED = 5
-"""Points that are met with any crank angles."""
 _TURNS = (90, 150, 210, 270)
 """Degrees by which the crank turns from the first point to the last, in one sense and the other, where it is free."""
 _SHARES = {5: 2, 4: 3}

@@ -134,8 +134,10 @@ def slide_notes(
     begin = degrees(demands.transmission if best is None else best)
     for margin in MARGINS:
         angle = ceil(10 * (begin + margin)) / 10
-        bound = replace(demands, transmission=radians(min(angle, 90)))
-        if angle < 90 and not any(left_of_cranks(task, bound, dyad) for dyad in dyads):
+        if angle >= 90:
+            break
+        bound = replace(demands, transmission=radians(angle))
+        if not any(left_of_cranks(task, bound, dyad) for dyad in dyads):
             yield _AT_MOST.filled(form=symbols, far=FAR, angle=angle)
             return
     if best is None:

@@ -14,6 +14,7 @@ from gruebler.design.synthesis.judging import Demands, judge_design
 from gruebler.design.synthesis.pair_search import best_pairs
 from gruebler.design.synthesis.positions import (
     guiding_dyads,
+    linkage_of_dyads,
     near_in_plane,
     ranked,
     sliding_sample,
@@ -23,6 +24,8 @@ from gruebler.design.synthesis.targets import Probe, Targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PathTask, PositionTask
 
 TIMED_POSITIONS = 3
+MOST_TIMED = 5
+"""Points that are met with any crank angles."""
 _TIMED_SAMPLE = 1600
 """Dyads that are tried with the one crank of three positions with crank angles."""
 
@@ -68,7 +71,7 @@ def timed_positions(task: PathTask, demands: Demands, number: int) -> SynthesisR
 
 def timed_points(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
     """Points with crank angles: twice the problem of guiding a body, first seen from the crank, then the coupler."""
-    if len(task) > 5:
+    if len(task) > MOST_TIMED:
         from gruebler.design.synthesis.curves import fit_path
 
         return fit_path(task, demands, number=number)
@@ -96,7 +99,7 @@ def timed_points(task: PathTask, demands: Demands, number: int) -> SynthesisResu
             real += 1
             designs += _judged_timed(task, demands, own, other)
     accepted, rejected = ranked(designs)
-    theorem = 12 if len(task) == 5 else None
+    theorem = 12 if len(task) == MOST_TIMED else None
     family = message("There are infinitely many solutions; some dyads of each family were taken.")
     count = SolutionCount(what=message("linkages"), theorem=theorem, found=theorem or real, real=real)
     return SynthesisResult(
@@ -105,8 +108,6 @@ def timed_points(task: PathTask, demands: Demands, number: int) -> SynthesisResu
 
 
 def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: GuidingDyad) -> list[Design]:
-    from gruebler.design.synthesis.positions import linkage_of_dyads
-
     try:
         linkage = linkage_of_dyads(own, other, complex(task.z[0]), task.unit)
     except LinkageError:

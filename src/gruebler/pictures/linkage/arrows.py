@@ -66,6 +66,7 @@ def _arrows(context: LayerContext, order: int, style: str) -> list[Shape]:
     posed = context.posed
     rates = _rates(posed, order)
     longest = _longest(posed, rates)
+    pins = [shape.at for shape in context.drawn if isinstance(shape, CircleShape) and shape.style == "joint"]
     shapes: list[Shape] = []
     names = []
     for letter, at, rate in rates if longest else ():
@@ -73,7 +74,6 @@ def _arrows(context: LayerContext, order: int, style: str) -> list[Shape]:
             vector = Point(_LONGEST * rate.real / longest, -_LONGEST * rate.imag / longest)
             tip = posed.local(at).plus(vector.unit, max(vector.length - 7.0, 1.0))
             shapes += arrow(posed.local(at), tip, style, f"{style}-head")
-            pins = [shape.at for shape in context.drawn if isinstance(shape, CircleShape) and shape.style == "joint"]
             end = posed.local(at).plus(vector)
             free = min((pin.minus(end).length for pin in pins), default=_AWAY) >= _AWAY
             names.append((end if free else posed.local(at).plus(vector, 0.5), f"{_SYMBOLS[order]}_{letter}"))
