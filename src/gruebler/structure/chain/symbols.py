@@ -113,11 +113,10 @@ def _impossible(readings: dict[Alphabet, dict[str, tuple[Pair, ...]]], space: Sp
     ]
     freedom = len(next(iter(meaning.freedoms.values())))
     return PairError(
-        "{symbol!r} is the {name} pair ({german}, f = {freedom}), which {space} chains do not have: "
+        "{symbol!r} is the {name} pair (f = {freedom}), which {space} chains do not have: "
         "their joints have at most f = {greatest_freedom} and are {pairs}{hints}",
         symbol=symbol,
-        name=meaning.name,
-        german=meaning.german,
+        name=meaning.title,
         freedom=freedom,
         space=space.adjective,
         greatest_freedom=space.greatest_freedom,
