@@ -241,6 +241,35 @@ def test_an_isolated_position_is_no_range(second):
     assert (len(motion), motion.stop.reason, motion.stop.drives) == (1, "isolated", (0.0,))
 
 
+def test_a_reference_pose_in_a_limit_is_not_called_isolated():
+    """The rocker's ball moves across the rod: the drive turns back there, and the linkage moves on to one side.
+
+    With q from the centre of the rocker's circle to the crank's ball the rod closes at an angle x of the rocker if
+    A cos x + B sin x = C: while A² + B² - C² is not negative.
+    """
+    rng = np.random.default_rng(3)
+    for size in np.resize([1e-6, 1.0, 1e6], 12):
+        axis, own, middle, arm, at = rng.normal(size=(5, 3))
+        axis, own = axis / np.linalg.norm(axis), own / np.linalg.norm(own)
+        arm = arm - axis * (axis @ arm)
+        across = np.cross(axis, arm)
+        rod = np.cross(across, rng.normal(size=3))
+
+        def excess(angle, own=own, middle=middle, arm=arm, across=across, at=at, rod=rod):
+            crank = middle + arm - rod - at
+            turned = crank * cos(angle) + np.cross(own, crank) * np.sin(angle) + own * (own @ crank) * (1 - cos(angle))
+            q = at + turned - middle
+            return (q @ arm) ** 2 + (q @ across) ** 2 - ((q @ q + arm @ arm - rod @ rod) / 2) ** 2
+
+        assert excess(0.0) == pytest.approx(0, abs=1e-9)
+        assert excess(1e-3) * excess(-1e-3) < 0
+        joints = [(at, tuple(own)), (middle + arm - rod, None), (middle + arm, None), (middle, tuple(axis))]
+        linkage = loop("RSSR", *((tuple(size * place), z) for place, z in joints))
+        for ask in (gr.drive_range, measures):
+            with pytest.raises(LinkageError, match="another reference pose if this one is singular"):
+                ask(linkage)
+
+
 def test_two_cranks_on_one_axis_with_one_ball_turn_together():
     linkage = loop("RSSR", ((0, 0, 0), (0, 0, 1)), ((1, 0, 0), None), ((1, 1e-12, 0), None), ((0, 0, 2), (0, 0, 1)))
     measured = measures(linkage)

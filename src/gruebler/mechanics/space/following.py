@@ -22,6 +22,7 @@ from gruebler.structure.mobility import mobility_report
 
 RANK = 1e-7
 """Of the largest singular value: below it a row repeats others, or an unknown does not matter."""
+_ROUNDING = 1e-11  # sizes and radians: a singular value below it is 0, also where it is the only one
 _ALIKE = 1e-3  # the share of a drive in what its own motion opens, from which on it meets a limit
 
 
@@ -50,7 +51,7 @@ class Inverse(NamedTuple):
     @property
     def rank(self) -> int:
         """How many singular values count."""
-        return int(np.sum(self.values > RANK * self.values.max(initial=0.0)))
+        return int(np.sum(self.values > max(RANK * self.values.max(initial=0.0), _ROUNDING)))
 
 
 @lru_cache(maxsize=64)
