@@ -153,7 +153,7 @@ def _disc(link: str, joints: Sequence[PlacedJoint]) -> SpatialPart | None:
     """A disc for a link that turns on a journal and has three balls and more around it, such as a wobble plate."""
     own = [joint for joint in joints if link in joint.links]
     balls = [joint.at for joint in own if sum(freedom.turns for freedom in joint.pair.motion) == 3]
-    journals = [joint for joint in own if joint.pair.name in ("revolute", "cylindrical")]
+    journals = [j for j in own if j.pair.is_turning or (j.pair.guides and any(f.turns for f in j.pair.motion))]
     if len(journals) != 1 or len(balls) < 3 or len(own) > 1 + len(balls):
         return None
     at, z = journals[0].at, journals[0].axes[:, 2]
