@@ -40,6 +40,14 @@ def test_what_is_saved_in_a_format_of_another_program_is_opened_again():
         assert ratios(linkage_from_json(found)) == pytest.approx([1, 40 / 25, 70 / 25, 70 / 25], rel=1e-4), name
 
 
+def test_the_endings_told_for_an_unknown_file_are_those_that_can_be_opened():
+    asked = {"name": "leg.bmp", "base64": base64.b64encode(b"BM").decode()}
+    with pytest.raises(GrueblerError, match=r"^leg\.bmp: expected .*linkage2") as told:
+        answer("open_file", asked, "en", print)
+    for written_only in (".dxf", ".mjcf", ".urdf", ".glb", ".parquet"):
+        assert written_only not in str(told.value)
+
+
 @pytest.mark.parametrize("kind", ["toml", "json"])
 def test_our_own_files_keep_what_the_page_shows_beside_a_linkage(kind, tmp_path):
     from gruebler.cli.explore import _model

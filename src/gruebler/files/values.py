@@ -26,8 +26,8 @@ class FormatWarning(UserWarning):
     """A file has something that the value does not have, or the other way round."""
 
 
-def format_of(path: str | PathLike[str], name: str | None = None) -> Format:
-    """The format of a name, else of the ending of a path; `GrueblerError` lists those there are.
+def format_of(path: str | PathLike[str], name: str | None = None, *, to_read: bool = False) -> Format:
+    """The format of a name, else of the ending of a path; `GrueblerError` lists those there are, or those to read.
 
     >>> format_of("chains.g6.gz").name, format_of("leg.json", "pylinkage").name
     ('graph6', 'pylinkage')
@@ -51,7 +51,8 @@ def format_of(path: str | PathLike[str], name: str | None = None) -> Format:
         raise GrueblerError("{path}: STL is a file for each link: give a folder and --to stl", path=path)
     if lower.endswith(".gltf"):
         raise GrueblerError("{path}: glTF is written as one file, which ends with .glb", path=path)
-    endings = [ending for form in FORMATS for ending in form.suffixes if not ending.endswith(".gz")]
+    listed = [form for form in FORMATS if form.read is not None or not to_read]
+    endings = [ending for form in listed for ending in form.suffixes if not ending.endswith(".gz")]
     raise GrueblerError(
         "{path}: expected {endings}, not {suffix!r}", path=path, endings=joined_by_or(endings), suffix=Path(path).suffix
     )
@@ -83,7 +84,7 @@ def read(path: str | PathLike[str], *, format_name: str | None = None, left_out:
     """
     path = Path(path)
     refuse_folder(path)
-    form = format_of(path, format_name)
+    form = format_of(path, format_name, to_read=True)
     if form.read is None:
         raise GrueblerError("{path}: the format {name} is written only", path=path, name=form.name)
     notes: list[Message] = []
