@@ -38,20 +38,14 @@ export class ChainList {
       ...this.page.limits.links,
       value: this.links,
       "aria-label": t("Links"),
-      onchange: () => {
-        this.links = Number(links.value);
-        this.typed(links);
-      },
+      onchange: () => this.typed(links, mobility),
     });
     const mobility = h("input", {
       type: "number",
       ...this.page.limits.mobility,
       value: this.mobility,
       "aria-label": t("Mobility"),
-      onchange: () => {
-        this.mobility = Number(mobility.value);
-        this.typed(mobility);
-      },
+      onchange: () => this.typed(links, mobility),
     });
 
     renew(
@@ -76,10 +70,15 @@ export class ChainList {
       card.setAttribute("aria-pressed", String(text.startsWith(card.dataset.chain!)));
   }
 
-  /** Ask for the chains of the numbers that are typed, if there can be such. */
-  private typed(field: HTMLInputElement): void {
-    const { min, max } = field;
-    if (field.checkValidity() && field.value) return void this.ask(0);
+  /** Ask for the chains of the numbers that are typed, if there can be such; else the list stays that of the last. */
+  private typed(links: HTMLInputElement, mobility: HTMLInputElement): void {
+    const wrong = [links, mobility].find((field) => !field.value || !field.checkValidity());
+    if (!wrong) {
+      this.links = Number(links.value);
+      this.mobility = Number(mobility.value);
+      return void this.ask(0);
+    }
+    const { min, max } = wrong;
     const text = t("Expected a whole number from {min} to {max}.", { min, max });
     renew(this.status, h("span.error", { role: "alert" }, text));
   }

@@ -21,7 +21,7 @@ export async function awaited<Result>(
   place: HTMLElement,
   ask: (progress: (text: string) => void) => Request<Result>,
 ): Promise<Result | null> {
-  const bar = h("span", {}, "…");
+  const bar = h("span", {}, t("One moment …"));
   const request = ask((text) => (bar.textContent = text));
   const cancel = h("button.plain", { "data-act": "cancel", onclick: () => request.cancel() }, t("Cancel"));
   renew(place, h("progress", {}), bar, cancel);

@@ -39,9 +39,13 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     links.fill("40")
     links.press("Enter")
     most = links.get_attribute("max")
-    assert view.locator('[data-page="structure"] span[role="alert"]').inner_text() == (
-        f"Expected a whole number from 3 to {most}."
-    )
+    refused = f"Expected a whole number from 3 to {most}."
+    said = view.locator('[data-page="structure"] span[role="alert"]')
+    assert said.inner_text() == refused
+    view.locator('[data-page="structure"] [aria-label="Mobility"]').press("ArrowUp")  # nobody is asked for 40 links
+    assert said.inner_text() == refused
+    assert view.evaluate("gruebler.views.structure.chains.mobility") == 1
+    view.locator('[data-page="structure"] [aria-label="Mobility"]').press("ArrowDown")
     links.fill("7")  # F = 3·6 - 2g is even
     links.press("Enter")
     page.until("gruebler.views.structure.element.textContent.includes('one is even and one is odd')")
