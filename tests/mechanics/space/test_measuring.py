@@ -84,6 +84,10 @@ def test_ends_of_a_range_have_their_reasons():
     measured = measures(SpatialLinkage(mechanism, places))
     assert not measured.range.full
     assert measured.explain().count("the drive stands at its limit") == 2
+    ratios = measured.least_ratio, measured.greatest_ratio  # the rocker moves on where the crank turns back
+    assert [each.value for each in ratios] == [-np.inf, np.inf]
+    assert sorted(each.at for each in ratios) == [measured.range.lowest, measured.range.highest]
+    assert "from -∞ at" in measured.explain()
     assert measured.to_json()["ends"] == [stop.explain() for stop in measured.range.stops]
 
 
@@ -268,6 +272,23 @@ def test_a_reference_pose_in_a_limit_is_not_called_isolated():
         for ask in (gr.drive_range, measures):
             with pytest.raises(LinkageError, match="another reference pose if this one is singular"):
                 ask(linkage)
+
+
+def test_a_ball_on_the_crank_axis_drives_nothing():
+    """The ball of the crank rests, so that the rocker does: its ratio is 0, not a number of rounding."""
+    linkage = loop("RSSR", ((0, 0, 0), (0, 0, 1)), ((0, 0, 1), None), ((2, 1, 2), None), ((2, 0, 0), (0, 1, 0)))
+    assert "output by drive: 0, constant" in measures(linkage).explain()
+
+
+@pytest.mark.parametrize("size", [1e-9, 1.0, 1e9])
+def test_the_speed_ratio_grows_as_shifts_without_end_do(size):
+    """A slot on a line in the distance 2 of the crank's axis: its shift is 2 tan x, the ratio 2 / cos² x."""
+    places = {0: {"z": (0, 0, 1)}, 1: {"x": (1, 0, 0)}, 2: {"at": (2, 0, 0), "z": (0, 0, 1)}}
+    places[3] = {"at": (2, 0, 0), "x": (0, 1, 0)}
+    scaled = {k: each | {"at": tuple(size * np.array(each.get("at", (0, 0, 0))))} for k, each in places.items()}
+    mechanism = gr.Mechanism.parse("spatial: R(frame-a) P(a-b) R(b-c) P(c-frame); drive=R(frame-a)")
+    measured = measures(SpatialLinkage(mechanism, scaled))
+    assert sorted(abs(each.value) / size for each in measured.ratios) == pytest.approx([2.0, np.inf, np.inf], abs=1e-9)
 
 
 def test_two_cranks_on_one_axis_with_one_ball_turn_together():

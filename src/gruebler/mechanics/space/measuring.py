@@ -35,6 +35,7 @@ from gruebler.structure.chain.spaces import Freedom
 _ROWS = 145
 _ASIDE = 0.0123  # radians: rows do not begin at the reference pose, where a symmetric linkage often stops
 _STEPS = 3  # of Newton's method, which begins within 2.5 degrees by regula falsi
+_MOVES = 1e-6  # by the length of the curve: a joint that is slower stands
 _STILL = 1e-9  # of the usual rate: smaller ones are 0 all the way
 
 _WITH = message("Output {joint}: it turns fully in the sense of the drive, {turns:g} : 1.")
@@ -42,7 +43,7 @@ _AGAINST = message("Output {joint}: it turns fully against the sense of the driv
 _SWINGS = message("Output {joint}: from {low} to {high}, that is {travel}.")
 _ENDLESS = message("Output {joint}: unbounded, from {low} to {high}.")
 _CENTRES = message("Dead centres of the output {joint} at {centres}.")
-_RATIO = message("Speed ratio, output by drive: from {least:.4g} at {first} to {most:.4g} at {second} of the drive.")
+_RATIO = message("Speed ratio, output by drive: from {least:n} at {first} to {most:n} at {second} of the drive.")
 _CONSTANT = message("Speed ratio, output by drive: {ratio:.4g}, constant.")
 _JOINTS = message("Relative motion at the joints: {joints}.")
 
@@ -76,7 +77,9 @@ class SpatialMeasures:
     """All joints whose freedoms have values; balls have none."""
     dead_centres: tuple[DeadCentre, ...]
     ratios: tuple[Extremum, ...]
-    """Where the output's speed by the drive's is largest or smallest, the ends of the range among them; in order."""
+    """Where the output's speed by the drive's is largest or smallest, the ends of the range among them; in order.
+
+    Infinite where the drive stands at a limit and the output does not."""
     turns: int
     """Whole turns of the output in one of the drive; 0 where it swings or slides."""
 
@@ -136,17 +139,22 @@ class SpatialMeasures:
             centres = joined_by_and([drive(each.drive) for each in self.dead_centres])
             yield _CENTRES.filled(joint=title(self.output), centres=centres)
         least, greatest = self.least_ratio, self.greatest_ratio
-        if greatest.value - least.value < _STILL * max(abs(greatest.value), 1.0):
-            yield _CONSTANT.filled(ratio=greatest.value)
+        natural = self._natural(Freedom(self.freedom).turns) / self._natural(self._drive_turns)
+        if greatest.value - least.value < _STILL * max(abs(greatest.value), natural):
+            yield _CONSTANT.filled(ratio=greatest.value if abs(greatest.value) > _STILL * natural else 0.0)
         else:
             first, second = (self._value(each.at, self._drive_turns) for each in (least, greatest))
-            yield _RATIO.filled(least=least.value, first=first, most=greatest.value, second=second)
+            low, high = (float(f"{each.value:.4g}") for each in (least, greatest))
+            yield _RATIO.filled(least=low, first=first, most=high, second=second)
         parts = [message("{joint} {range}", joint=title(row.joint), range=self._extent(row)) for row in self.joints]
         yield _JOINTS.filled(joints=joined(parts, "; "))
 
     @property
     def _drive_turns(self) -> bool:
         return self.linkage.mechanism.drives[0].turning
+
+    def _natural(self, turns: bool) -> float:
+        return 1.0 if turns else self.linkage.size
 
     def _extent(self, row: JointRange) -> Message:
         if row.full:
@@ -242,6 +250,9 @@ def _measured(linkage: SpatialLinkage, output: str | None) -> SpatialMeasures:
         for zero in rests[-1]
     ]
     ends = [Extremum(at=float(values[k]), value=float(rate[k]), kind="") for k in ((0,) if span.full else (0, -1))]
+    if not span.full:
+        at_ends = _at_ends(linkage, span, number, freedom)
+        ends = [_towards(linkage, *each, number, freedom) for each in zip(ends, span.stops, at_ends, strict=True)]
     return SpatialMeasures(
         linkage=linkage,
         range=span,
@@ -282,7 +293,8 @@ def _zeros(linkage: SpatialLinkage, course: SpatialMotion, wanted: Sequence[tupl
         f = course.joint(number, freedom, order)
         if float(abs(f).max()) < _STILL * max(float(abs(course.joint(number, freedom, 1)).max()), 1.0):
             continue
-        for k in np.flatnonzero(np.sign(f[:-1]) * np.sign(f[1:]) < 0).tolist():
+        signs = np.sign(f[np.maximum.accumulate(np.where(f, np.arange(len(f)), 0))])  # of a row of 0 that before it
+        for k in np.flatnonzero(signs[:-1] * signs[1:] < 0).tolist():
             low, high = float(values[k]), float(values[k + 1])
             places.append((low + (high - low) * float(f[k] / (f[k] - f[k + 1])), low, high, n))
     zeros: list[list[_Zero]] = [[] for _ in wanted]
@@ -327,6 +339,25 @@ def _at_ends(linkage: SpatialLinkage, span: SpatialRange, joint: int, freedom: s
         return None if point is None else float(curve.motion([point]).joint(joint, freedom)[0])
 
     return tuple(value(stop, side) for stop, side in zip(span.stops, (-1.0, 1.0), strict=True))
+
+
+def _towards(
+    linkage: SpatialLinkage, beside: Extremum, stop: SpatialStop | None, value: float | None, joint: int, freedom: str
+) -> Extremum:
+    """The speed ratio towards an end: infinite where the drive stands and the output does not, or shifts without end.
+
+    Else that in the last row, of which it also has the sign.
+    """
+    grows = value is not None and not isfinite(value)
+    if stop is not None and stop.reason == "limit":
+        curve = ConfigurationCurve(setting(linkage))
+        point = curve.near(stop.place)
+        if point is not None:
+            natural = 1.0 if Freedom(freedom).turns else linkage.size
+            grows = abs(float(curve.motion([point]).joint(joint, freedom, 1)[0])) > _MOVES * natural
+    if stop is None or not grows:
+        return beside
+    return Extremum(at=stop.drives[0], value=float(np.copysign(np.inf, beside.value)), kind="")
 
 
 def _joint_range(
