@@ -22,7 +22,8 @@ export function readingsOf(linkage: Linkage): Reading[] {
     if (found.length < 2) return [];
     const ends = found.map(([[link, ...own]]) => place(linkage.pose, 0, link, ...own)) as [Pair, Pair];
     const [[x, y], [u, v]] = ends;
-    const text = `${number(Math.hypot(u - x, v - y), 5)} ${linkage.model.unit}, ${angle(Math.atan2(v - y, u - x), 5)}`;
+    const length = `${number(Math.hypot(u - x, v - y), 5)} ${linkage.model.unit}`.trim();
+    const text = `${length}, ${angle(Math.atan2(v - y, u - x), 5)}`;
     return [{ name: `${found[0]![1]} – ${found[1]![1]}`, text, ends }];
   });
 }

@@ -15,6 +15,7 @@ import {
   unwrapped,
   zero,
 } from "../src/measures";
+import { readingsOf } from "../src/rulers";
 import { A, angleBetween, angles, B, C, COUPLER, CRANK, CRANK_ROCKER, D, fourBar, sliderCrank } from "./fourbar";
 import { close, near } from "./near";
 
@@ -166,4 +167,23 @@ test("zeros of functions", () => {
     zero((x) => (x > 0.4 && x < 0.6 ? NaN : x - 0.5), 0, 1),
     null,
   );
+});
+
+test("a measurement line is read off with the unit of the linkage, if it has one", () => {
+  for (const [unit, text] of [
+    ["mm", "70 mm, 0°"],
+    ["", "70, 0°"],
+  ] as const) {
+    const linkage = new Linkage({ ...fourBar(CRANK_ROCKER, 1), unit });
+    linkage.beside = {
+      rulers: [
+        ["R(frame-crank)", "R(frame-rocker)"],
+        ["R(frame-crank)", "gone"],
+      ],
+    };
+    assert.deepEqual(
+      readingsOf(linkage).map((each) => each.text),
+      [text],
+    );
+  }
 });
