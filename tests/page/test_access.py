@@ -30,6 +30,7 @@ def axe() -> str:
 )
 def test_no_view_has_a_serious_fault(tab, server, axe, locale, scheme, width):
     page = tab(locale=locale, scheme=scheme, width=width).open(server.address)
+    page.page.set_default_timeout(60_000)
     page.page.evaluate(f"{axe};0")
     found = {}
     for view, part in VIEWS.items():
