@@ -40,9 +40,10 @@ def test_what_is_saved_in_a_format_of_another_program_is_opened_again():
         assert ratios(linkage_from_json(found)) == pytest.approx([1, 40 / 25, 70 / 25, 70 / 25], rel=1e-4), name
 
 
-def test_the_endings_told_for_an_unknown_file_are_those_that_can_be_opened():
-    asked = {"name": "leg.bmp", "base64": base64.b64encode(b"BM").decode()}
-    with pytest.raises(GrueblerError, match=r"^leg\.bmp: expected .*linkage2") as told:
+@pytest.mark.parametrize("name", ["leg.bmp", "leg.stl", "leg.gltf"])
+def test_the_endings_told_for_an_unknown_file_are_those_that_can_be_opened(name):
+    asked = {"name": name, "base64": base64.b64encode(b"BM").decode()}
+    with pytest.raises(GrueblerError, match=f"^{name}: expected .*linkage2") as told:
         answer("open_file", asked, "en", print)
     for written_only in (".dxf", ".mjcf", ".urdf", ".glb", ".parquet"):
         assert written_only not in str(told.value)

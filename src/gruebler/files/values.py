@@ -47,9 +47,9 @@ def format_of(path: str | PathLike[str], name: str | None = None, *, to_read: bo
     for form in FORMATS:
         if lower.endswith(form.suffixes):
             return form
-    if lower.endswith(".stl"):
+    if lower.endswith(".stl") and not to_read:
         raise GrueblerError("{path}: STL is a file for each link: give a folder and --to stl", path=path)
-    if lower.endswith(".gltf"):
+    if lower.endswith(".gltf") and not to_read:
         raise GrueblerError("{path}: glTF is written as one file, which ends with .glb", path=path)
     listed = [form for form in FORMATS if form.read is not None or not to_read]
     endings = [ending for form in listed for ending in form.suffixes if not ending.endswith(".gz")]
