@@ -8,6 +8,7 @@ import { languageMenu, tabs, viewNames } from "./header";
 import { showKeys } from "./help";
 import { Backend, type HostModel } from "./host";
 import { type Icon, icon } from "./icons";
+import { missing } from "./kernel";
 import { currentLanguage, type Language, setLanguage, t } from "./language";
 import { LibraryView } from "./library";
 import { BadLink, packed } from "./link";
@@ -86,6 +87,10 @@ export class App implements Page {
   }
 
   async start(): Promise<void> {
+    if (missing) {
+      const text = t("This page needs WebAssembly, and the browser does not allow it: {why}", { why: missing });
+      return this.say(text, "error");
+    }
     this.unread = this.linkable && location.hash.length > 1; // until it is read
     this.motion.open(this.model.get("machine") as Model);
     this.show("motion");

@@ -56,8 +56,11 @@ async function loaded(): Promise<Core> {
   return instance.exports as unknown as Core;
 }
 
-// Once, before the page starts: some milliseconds. A page whose host forbids WebAssembly says so, and shows the rest.
-const core = await loaded().catch((error: unknown) => new Error(`No linkage can be moved here: ${error}`));
+// Once, before the page starts: some milliseconds.
+const core = await loaded().catch((error: unknown) => new Error(String(error)));
+
+/** Why no linkage can be moved here, if WebAssembly is forbidden or missing; the page says so instead of starting. */
+export const missing = core instanceof Error ? core.message : "";
 
 function exportsOf(): Core {
   if (core instanceof Error) throw core;

@@ -29,6 +29,14 @@ def test_a_link_that_cannot_be_read_stays_in_the_address(tab, server, link, word
     assert page.page.evaluate("gruebler.message.hidden") is True
 
 
+@pytest.mark.parametrize(("locale", "words"), [("en-US", "This page needs"), ("de-DE", "Diese Seite braucht")])
+def test_a_browser_without_webassembly_is_told_so(tab, server, locale, words):
+    page = tab(locale=locale)
+    page.page.add_init_script("delete window.WebAssembly")
+    page.page.goto(server.address)
+    page.page.locator(".message").get_by_text(words).wait_for()
+
+
 def test_a_link_without_a_mechanism_is_refused_in_a_sentence(tab, server):
     page = tab().open(server.address)
     link = page.page.evaluate("(async () => { await gruebler.write(); return gruebler.hash; })()")
