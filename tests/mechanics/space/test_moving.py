@@ -9,6 +9,7 @@ import gruebler as gr
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.screws import SpatialLinkage, exponential, follow_joint
 from gruebler.mechanics.space import move
+from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 from tests.mechanics.screws import machines
@@ -437,3 +438,17 @@ def test_suspensions_move_and_their_rods_keep_their_lengths():
     assert np.linalg.norm(rod, axis=1) == pytest.approx(np.linalg.norm([310, -10, -5]), abs=1e-9)
     ball = motion.point(("knuckle", 670, 0, 470)) - np.array([420, 20, 480])
     assert np.linalg.norm(ball, axis=1) == pytest.approx(np.linalg.norm([250, -20, -10]), abs=1e-9)
+
+
+def test_an_idle_freedom_that_is_no_rod_is_fixed_and_said():
+    """A ram between two balls on its axis: besides the whole, its rod spins in the barrel; the cranks are driven."""
+    chain = Chain.parse("spatial: R(frame-a) S(a-b) C(b-c) S(c-d) R(d-frame)")
+    places = {0: {"z": (0, 0, 1)}, 1: (1, 0, 0), 2: {"at": (1.5, 0.5, 0.5), "z": (1, 1, 1)}, 3: (2, 1, 1)}
+    places[4] = {"at": (4, 0, 0), "z": (0, 1, 0)}
+    motion = gr.move(SpatialLinkage(Mechanism(chain, "frame", [0, 4]), places), [[0, 0], [0.1, 0.1]])
+    assert motion.complete
+    assert motion.held
+    assert f"a turn or shift is held in {', '.join(motion.held)}" in motion.explain()
+    first, second = (motion.pose(link)[1] @ (*ball, 1) for link, ball in (("a", (1, 0, 0)), ("d", (2, 1, 1))))
+    own = motion.joint(2, "Tz")[1]
+    assert np.linalg.norm(first - second) == pytest.approx(np.sqrt(3) + own, abs=1e-12)

@@ -317,6 +317,7 @@ class ConfigurationCurve:
             gap=gap,
             rank=self.set_up.rank,
             idle=tuple(tree.linkage.mechanism.chain.links[rod.link] for rod in tree.rods),
+            held=self.set_up.held_joints,
             stop=None,
         )
 

@@ -34,6 +34,15 @@ class Setting:
     passive: NDArray[np.intp]
     drives: NDArray[np.intp]
     rank: int
+    held: tuple[int, ...] = ()
+    """Unknowns that keep their value: idle freedoms besides the spins of rods are fixed by them."""
+
+    @property
+    def held_joints(self) -> tuple[str, ...]:
+        """The joints of the unknowns that are held."""
+        tree = self.closure.tree
+        names = tree.linkage.mechanism.chain.joint_names()
+        return tuple(dict.fromkeys(names[joint] for (joint, _), k in tree.unknown.items() if k in self.held))
 
 
 class Inverse(NamedTuple):
@@ -84,7 +93,7 @@ def setting(linkage: SpatialLinkage) -> Setting:
         )
     if held:
         closure = ClosingConditions(tree, held)
-    return Setting(closure=closure, passive=passive, drives=drives, rank=rank)
+    return Setting(closure=closure, passive=passive, drives=drives, rank=rank, held=tuple(held))
 
 
 def _titles(tree: ClosureTree) -> list[object]:

@@ -46,6 +46,7 @@ _RANK = message(
     "{rows} closing conditions of rank {rank}, constant all the way; open by {gap:.0e} of the size at most."
 )
 _IDLE = message("Idle: {links}; the spin is fixed by the shortest turn from the reference pose.")
+_HELD = message("Other idle freedoms are fixed: a turn or shift is held in {joints}.")
 
 
 @explained
@@ -107,6 +108,8 @@ class SpatialMotion:
     idle: tuple[str, ...]
     """Rods between two balls, whose spin is fixed by a rule."""
     stop: SpatialStop | None
+    held: tuple[str, ...] = ()
+    """Joints in which a turn or shift is held: so other idle freedoms are fixed."""
     passed: tuple[int, ...] = ()
     """Rows before which it went straight on through a position where two assembly modes meet."""
     changes: tuple[int, ...] = ()
@@ -180,6 +183,10 @@ class SpatialMotion:
             lines.append(_RANK.filled(rows=self.conditions, rank=self.rank, gap=self.gap))
         if self.idle:
             lines.append(_IDLE.filled(links=", ".join(self.idle)))
+        if self.held:
+            chain = self.linkage.mechanism.chain
+            titles = joined(chain.joint_title(chain.joint_number(name)) for name in self.held)
+            lines.append(_HELD.filled(joints=titles))
         if self.stop is None:
             lines.append(message("The whole path was followed."))
         lines += self._remarks()

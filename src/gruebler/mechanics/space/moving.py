@@ -163,6 +163,7 @@ def moved(set_up: Setting, path: Reals, speeds: Reals) -> SpatialMotion:
         gap=rows.gap,
         rank=set_up.rank,
         idle=tuple(tree.linkage.mechanism.chain.links[rod.link] for rod in tree.rods),
+        held=set_up.held_joints,
         stop=stop,
         passed=tuple(rows.passed),
         changes=changes,
