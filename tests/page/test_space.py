@@ -253,6 +253,11 @@ def test_a_phone_sees_all_of_a_machine_and_two_fingers_come_nearer(tmp_path, chr
     page.get_by_role("button", name="Stop").click()
     right = "[...document.querySelectorAll('header *')].map(e => e.getBoundingClientRect().right)"
     assert max(page.evaluate(right)) <= 390
+    for scheme in ("dark", "light"):  # its buttons and lists, too
+        page.emulate_media(color_scheme=scheme)
+        page.reload()
+        assert page.evaluate("getComputedStyle(document.querySelector('select')).colorScheme") == scheme
+    page.get_by_role("button", name="Stop").click()
     extent = """() => { const c = document.querySelector('canvas'), g = c.getContext('webgl2');
         const p = new Uint8Array(4 * c.width * c.height);
         g.readPixels(0, 0, c.width, c.height, g.RGBA, g.UNSIGNED_BYTE, p);

@@ -61,7 +61,7 @@ function element<K extends keyof HTMLElementTagNameMap>(
 const ink = dark ? "#eee" : "#222";
 Object.assign(document.body.style, { margin: "0", font: "16px system-ui, sans-serif", color: ink, overflow: "hidden" });
 Object.assign(document.body.style, { display: "flex", flexDirection: "column", height: "100dvh" });
-document.body.style.background = dark ? "#171717" : "#fff";
+Object.assign(document.body.style, { background: dark ? "#171717" : "#fff", colorScheme: dark ? "dark" : "light" });
 const bar = element("header", document.body, {
   display: "flex",
   flexWrap: "wrap",
