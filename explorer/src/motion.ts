@@ -253,7 +253,7 @@ export class MotionView implements View, Editor, Driven {
       this.page.say("");
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
-      const stop = error.stop && { ...error.stop, status: Status.START };
+      const stop = error.stop && { ...error.stop, status: Status.START, value: this.transport.drive };
       const why = {
         "": t("This size is not possible."),
         near: t("Two joints of a link cannot lie in one place."),

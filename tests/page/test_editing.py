@@ -168,15 +168,17 @@ def test_joints_of_a_link_are_not_dragged_onto_each_other(tab, crank_rocker):
 
 
 def test_a_length_that_fits_elsewhere_only_is_offered_there(tab, crank_rocker):
-    """With the crank at 57.3° its end is 60.2 from the right bearing: coupler 15 and rocker 40 do not reach it.
+    """With the crank at 0.9 (51.57°) its end is 57.9 from the right bearing: coupler 15 and rocker 40 do not reach it.
 
-    At 0° it is 45 away, which they do.
+    At 0° it is 45 away, which they do. The crank is there near the end of a turn from 1; the angle is told as plotted.
     """
     page = tab().open(crank_rocker)
+    page.page.evaluate("gruebler.motion.linkage.moveTo(0.9)")
+    assert page.page.evaluate("gruebler.motion.linkage.drives[0]") == pytest.approx(0.9 + 2 * math.pi)
     field = page.page.locator(".rows.sizes input").nth(2)
     field.fill("15")
     field.press("Enter")
-    assert "cannot be assembled at R(frame-crank) = 57.3" in told(page)
+    assert "cannot be assembled at R(frame-crank) = 51.57" in told(page)
     assert lengths(page) == pytest.approx([70, 25, 70, 40])
     page.page.click('[data-act="elsewhere"]')
     assert lengths(page) == pytest.approx([70, 25, 15, 40])
