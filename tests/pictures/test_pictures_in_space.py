@@ -16,6 +16,7 @@ from gruebler.mechanics.space.drive_ranges import spatial_range
 from gruebler.pictures.canvas.panels import draw_panels
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, TextShape
 from gruebler.pictures.canvas.styles import LINES, STYLES
+from gruebler.pictures.canvas.textbook import textbook
 from gruebler.pictures.canvas.tikz import tikz
 from gruebler.pictures.space import animate_spatial, draw_spatial, plot_point, plots
 from gruebler.pictures.space import scene as scenes
@@ -254,12 +255,13 @@ def test_what_is_behind_a_wheel_is_seen_through_it():
 
 
 def test_bars_of_an_arc_meet_without_gaps_as_textbooks_have_them():
-    """On the sphere the links are arcs of eight bars, whose lines are the links in textbooks."""
-    shapes = draw_spatial(entry("universal_joint").placed()).shapes
-    ends = [[complex(*end) for end in shape.parts[0]] for shape in shapes if shape.style == "outline-rod"]
-    gaps = [min(abs(a[1] - b[k]) for k in (0, 1) for b in ends if b is not a) for a in ends]
-    assert len(ends) == 24  # three moving links
-    assert sum(gap < 0.2 for gap in gaps) >= 16  # of 21 seams; at the others something is painted in between
+    """On the sphere the links are arcs of short bars, whose lines are the links in textbooks, also where they cross."""
+    shapes = textbook(draw_spatial(entry("universal_joint").placed())).shapes
+    ends = [[complex(*end) for end in shape.parts[0]] for shape in shapes if shape.style == "textbook-body-rod"]
+    gaps = [min(abs(a[1] - b[0]) for b in ends if b is not a) for a in ends]
+    assert len(ends) >= 3 * 24  # three moving links; bars in a ring are cut
+    assert sum(gap > 1e-6 for gap in gaps) <= 3  # the last bars of the links
+    assert not any(shape.style == "textbook-outline-rod" for shape in shapes)
 
 
 def test_a_moving_picture_goes_round_or_to_and_fro():

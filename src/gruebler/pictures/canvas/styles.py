@@ -138,7 +138,7 @@ UNLIKE_TEXTBOOKS = (
     "frame",
     "outline-wide",
     "body-wide",
-    "body-rod",
+    "outline-rod",
     "warning",
     "rest",
 )
@@ -146,7 +146,7 @@ _LINK = Style(stroke="ink", width=THICK)
 _PLATE = Style(fill="paper", stroke="ink", width=THICK)
 _TEXTBOOK_OWN = {
     "outline-bar": _LINK,
-    "outline-rod": _LINK,
+    "body-rod": _LINK,
     "outline": _PLATE,
     "halo": Style(stroke="paper", width=THICK + 2 * MILLIMETRE),
     "halo-bar": Style(stroke="paper", width=THICK + 2 * MILLIMETRE),

@@ -29,7 +29,7 @@ _FLAT = 1e-6  # of the extent: points nearer to a line lie on it
 _INSIDE = 0.25  # of the farthest place from the middle: nearer ones lie inside a ring
 _PLANE = 0.1  # of the extent: places that are no farther from a plane make a plate
 _THICK = 6.0  # pixels of a disc
-_PIECES = 8  # of the arc of a link on a sphere
+_PIECES = 24  # of the arc of a link on a sphere
 _POINT = 2.6
 
 
