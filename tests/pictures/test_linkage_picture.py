@@ -21,6 +21,7 @@ from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.linkages import Linkage, LinkPoint, Pin
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, TextShape
 from gruebler.pictures.canvas.simplification import simplified
+from gruebler.pictures.canvas.styles import STYLES
 from gruebler.pictures.linkage.bodies import body_parts, corners_of, slides
 from gruebler.pictures.linkage.layers import coupler_curve_lines
 from gruebler.pictures.linkage.picture import draw_linkage
@@ -126,6 +127,26 @@ def test_the_rod_stays_in_its_cylinder():
     ways = stage.path.drives[:, 0] * stage.scale
     assert (ways - length > 0).all()
     assert (ways - length < far).all()
+
+
+@pytest.mark.parametrize("name", ["cam", "winch_plane"])
+def test_a_rod_with_its_round_end_stays_on_its_side_of_the_face(name):
+    shapes = draw_linkage(entry(name).linkage()).shapes
+    (rod,) = (shape for shape in shapes if isinstance(shape, Polylines) and shape.style == "outline-rod")
+    (start, end) = rod.parts[0]
+    half = STYLES["outline-rod"].width / 2
+    before = start.plus(start.minus(end).unit, half)
+    faces = [shape for shape in shapes if isinstance(shape, Polylines) and shape.style == "rail"]
+    assert any(before.minus(place).length < 1e-6 for face in faces for place in face.parts[0])
+
+
+def test_the_name_of_a_point_is_nearer_to_it_than_to_a_pin():
+    """Q of Hart's inversor lies beside a pin."""
+    shapes = draw_linkage(entry("hart").linkage()).shapes
+    (text,) = (shape for shape in shapes if isinstance(shape, TextShape) and shape.text == "Q")
+    (dot,) = (shape for shape in shapes if isinstance(shape, CircleShape) and shape.style == "dot")
+    pins = [shape.at for shape in shapes if isinstance(shape, CircleShape) and shape.style == "joint"]
+    assert text.at.minus(dot.at).length < min(text.at.minus(pin).length for pin in pins)
 
 
 # --- what is drawn with it -----------------------------------------------------------------------

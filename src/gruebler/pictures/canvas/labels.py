@@ -60,8 +60,11 @@ def labels_with_names(
     return texts, {name: number for name, number in numbers.items() if name != number}
 
 
-def note_near(at: Point, text: str, style: str, shapes: Sequence[Shape]) -> TextShape:
-    """A text near a point, where the shapes leave most space; above and to the right if there is no obstacle."""
+def note_near(at: Point, text: str, style: str, shapes: Sequence[Shape], others: Sequence[Point] = ()) -> TextShape:
+    """A text near a point, where the shapes leave most space; above and to the right if there is no obstacle.
+
+    Where it can, it stays nearer to its point than to the ``others``, so that it is not read as their name.
+    """
     room, wide = Obstacles(shapes), text_width(text, STYLES[style].size)
     places = [
         Point(at.x + (off + wide / 2) * math.cos(turn), at.y - (off + HALF) * math.sin(turn))
@@ -69,7 +72,11 @@ def note_near(at: Point, text: str, style: str, shapes: Sequence[Shape]) -> Text
         for turn in (math.pi * k / 8 for k in (2, 6, 14, 10, 0, 8, 4, 12, 1, 3, 5, 7, 9, 11, 13, 15))
     ]
     free = room.free(complexes(places), wide)
-    best = max(range(len(places)), key=lambda k: (min(float(free[k]), _LEAST), -k))
+
+    def own(place: Point) -> bool:
+        return all(place.minus(at).length < place.minus(other).length for other in others)
+
+    best = max(range(len(places)), key=lambda k: (min(float(free[k]), _LEAST), own(places[k]), -k))
     return TextShape(places[best], text, style)
 
 

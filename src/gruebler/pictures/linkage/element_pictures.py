@@ -29,9 +29,11 @@ from gruebler.mechanics.linkages.elements import (
     Wheel,
 )
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape
+from gruebler.pictures.canvas.styles import LINE, ROD
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 from gruebler.pictures.machines.geneva_shape import GenevaShape
 
+_ROD_END = ROD / 2 + LINE  # pixels: the round end of a rod
 _RIM = 9.0  # pixels: the thickness of the rim of an internal wheel
 _ARM = 0.8  # of the radius: the cross that shows the rotation of a wheel
 _STEPS = 361  # points of the contour of a cam
@@ -205,8 +207,11 @@ def _flat(posed: PosedLinkage, link: str, line: Element, ends: tuple[float, floa
     if link != posed.linkage.mechanism.frame:
         for (_, owner), other in posed.lower.elements.items():
             if owner == link and not other.is_round:
-                rod = (posed.local(foot), posed.local(complex(other.x, other.y)))
-                yield from (Polylines((rod,), "outline-rod"), Polylines((rod,), "body-rod"))
+                start, end = posed.local(foot), posed.local(complex(other.x, other.y))
+                yield Polylines(((start, end),), "rail")
+                if (rod := end.minus(start)).length > _ROD_END:  # its round end stays on its side of the face
+                    ends_of_rod = (start.plus(rod.unit, _ROD_END), end)
+                    yield from (Polylines((ends_of_rod,), style) for style in ("outline-rod", "body-rod"))
     yield Polylines((tuple(posed.local(foot + offset * along) for offset in ends),), "rail")
 
 

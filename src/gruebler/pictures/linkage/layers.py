@@ -281,8 +281,10 @@ def _planes(context: LayerContext) -> list[Shape]:
 def point_names(posed: PosedLinkage, shapes: Sequence[Shape]) -> Iterable[TextShape]:
     """The names of points, beside them."""
     drawn = list(shapes)
+    pins = [shape.at for shape in drawn if isinstance(shape, CircleShape) and shape.style == "joint"]
     for name, point in posed.lower.points.items():
-        text = note_near(posed.place(point), name, "name", drawn)
+        at = posed.place(point)
+        text = note_near(at, name, "name", drawn, [pin for pin in pins if pin.minus(at).length > RADIUS])
         drawn.append(text)
         yield text
 
