@@ -82,8 +82,8 @@ def _rack(body: TouchingBody) -> _Part:
     """A toothed rod along the common tangent."""
     at, towards, t = body.at, body.towards, body.towards.across
     top = [at.plus(t, -18 + 3.0 * k).plus(towards, 2.2 if k % 4 in (0, 3) else -1.6) for k in range(13)]
-    foot = [at.plus(t, s * 18.0).plus(towards, 10.0) for s in (1, -1)]
-    return at.plus(towards, 6.0), [Polylines(((*top, *foot),), body.style, closed=True)]
+    foot = [at.plus(t, s * 18.0).plus(towards, 12.5) for s in (1, -1)]
+    return at.plus(towards, 6.5), [Polylines(((*top, *foot),), body.style, closed=True)]
 
 
 def _cam(body: TouchingBody) -> _Part:
@@ -106,10 +106,10 @@ def _roller(body: TouchingBody) -> _Part:
 
 
 def _flat(body: TouchingBody) -> _Part:
-    """A flat face along the common tangent."""
+    """A flat face along the common tangent, thick enough to cover the end of its bar."""
     at, towards, t = body.at, body.towards, body.towards.across
-    plate = tuple(at.plus(t, a * 15.0).plus(towards, b) for a, b in ((-1, 0.5), (1, 0.5), (1, 7.0), (-1, 7.0)))
-    return at.plus(towards, 4.0), [Polylines((plate,), body.style, closed=True)]
+    plate = tuple(at.plus(t, a * 15.0).plus(towards, b) for a, b in ((-1, 0.5), (1, 0.5), (1, 12.5), (-1, 12.5)))
+    return at.plus(towards, 6.5), [Polylines((plate,), body.style, closed=True)]
 
 
 def _geneva_driver(body: TouchingBody) -> _Part:

@@ -56,7 +56,7 @@ def _smooth(path: tuple[Point, ...]) -> tuple[Point, ...]:
         controls = (a.plus(control.minus(a), 2 / 3), b.plus(control.minus(b), 2 / 3))
     else:
         controls = (a.plus(path[1].minus(a), 4 / 3), b.plus(path[-2].minus(b), 4 / 3))
-    return tuple(_bezier((a, *controls, b), k / 16) for k in range(17))
+    return tuple(_bezier((a, *controls, b), k / 48) for k in range(49))
 
 
 def _bezier(points: Sequence[Point], t: float) -> Point:
