@@ -291,6 +291,18 @@ def test_the_speed_ratio_grows_as_shifts_without_end_do(size):
     assert sorted(abs(each.value) / size for each in measured.ratios) == pytest.approx([2.0, np.inf, np.inf], abs=1e-9)
 
 
+def test_a_narrow_gap_ends_the_range():
+    """Between the two limits, zeros of A² + B² - C² (see above) by bisection, nothing closes for half a degree."""
+    places = [
+        ((0.71288735, 0.76993652, -0.29845955), (0.56529511, 0.34706549, 0.31314966)),
+        ((-0.34179643, -0.46297793, 0.11862428), None),
+        ((1.43171786, 2.32598542, -0.36980575), None),
+        ((-1.05434709, -0.34156053, -0.83514309), (-0.4170599, 0.39678218, -0.91425153)),
+    ]
+    span = gr.drive_range(loop("RSSR", *places))
+    assert np.degrees([span.lowest, span.highest]) == pytest.approx([1.8035932294 - 360, 1.1679069974], abs=1e-8)
+
+
 def test_two_cranks_on_one_axis_with_one_ball_turn_together():
     linkage = loop("RSSR", ((0, 0, 0), (0, 0, 1)), ((1, 0, 0), None), ((1, 1e-12, 0), None), ((0, 0, 2), (0, 0, 1)))
     measured = measures(linkage)
