@@ -8,9 +8,11 @@ from textwrap import wrap
 
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.gallery import Section
-from gruebler.pictures.canvas.shapes import Point, Shape, TextShape, moved_shape
+from gruebler.pictures.canvas.shapes import Point, Shape, TextShape, moved_shape, text_width
+from gruebler.pictures.canvas.styles import STYLES
 
 _LETTER, _LINE = 6.5, 16.0  # pixels of a letter and of a line of a caption
+_BESIDE = 8.0  # pixels on each side of a caption that is wider than its picture
 _HEADING = 34.0  # pixels of the heading of a section
 _WIDE = 1400.0  # pixels of a page, about
 
@@ -34,12 +36,20 @@ def pictures_in_one(figures: Sequence[Figure], title: str, columns: int = 2) -> 
 
 
 def captioned(figure: Figure, caption: str) -> Figure:
-    """A figure with its caption below, in lines as wide as the figure."""
+    """A figure with its caption below, in lines as wide as the figure, and room for longer ones.
+
+    >>> from gruebler.pictures.canvas.shapes import CircleShape, bounds
+    >>> dot = Figure((CircleShape(Point(4, 4), 4, "dot"),), width=8, height=8, title="", description="")
+    >>> named = captioned(dot, "4.1 Four-bar chain")
+    >>> corner, size = bounds(named.shapes, 0.0)
+    >>> corner.x >= 0 and corner.x + size.x <= named.width
+    True
+    """
     lines = wrap(caption, max(20, int(figure.width / _LETTER)))
-    texts = [
-        TextShape(Point(figure.width / 2, figure.height + _LINE * k), line, "value") for k, line in enumerate(lines)
-    ]
-    return replace(figure, shapes=(*figure.shapes, *texts), height=figure.height + _LINE * (len(lines) + 1))
+    wide = max(figure.width, *(text_width(line, STYLES["value"].size) + 2 * _BESIDE for line in lines), 0.0)
+    shapes = [moved_shape(shape, Point((wide - figure.width) / 2, 0.0)) for shape in figure.shapes]
+    texts = [TextShape(Point(wide / 2, figure.height + _LINE * k), line, "value") for k, line in enumerate(lines)]
+    return replace(figure, shapes=(*shapes, *texts), width=wide, height=figure.height + _LINE * (len(lines) + 1))
 
 
 def stacked(figures: Sequence[Figure], title: str) -> Figure:
