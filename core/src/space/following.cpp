@@ -11,6 +11,7 @@ constexpr double settled_at = 1e-14;   // one turn more would only change by rou
 constexpr double independent = 1e-7;   // of the largest pivot: below it the rank has changed; lengths in extents
 constexpr double largest_step = 0.1;   // radians and sizes, of a drive
 constexpr double smallest_step = 1e-6; // of the largest: a step that is halved so often has met something
+constexpr double narrow = 1e-4;        // radians and sizes: no longer are steps over which a determinant turns over
 constexpr int most_turns = 8;          // of Newton's method in a step
 constexpr double apart = 0.2;          // of the step: a larger correction may lead to another assembly mode
 constexpr double far = 0.5;            // radians: turns of balls are counted anew, far from a Cardan angle of 90 degrees
@@ -351,17 +352,20 @@ private:
             for (std::size_t k = 0; k < begin_.size(); ++k)
                 series_.q[unknowns + static_cast<std::size_t>(path_.drive[k])] = target[k] - begin_[k];
             series_.solve(most_orders, passive_, here_);
-            bool is_last;
+            bool is_last, turned;
             while (true) {
                 if (!spend(watch, work_of_a_step)) return false;
                 is_last = length >= 1 - at;
                 if (is_last) length = 1 - at;
-                if (step(length, is_last ? target : nullptr)) break;
+                if (step(length, is_last ? target : nullptr)) {
+                    turned = here_.turns_over(there_);  // at a change of mode, over a gap, or to a mode beside its own
+                    if (!turned || length * way <= narrow) break;
+                }
                 length /= 2;
                 if (length < smallest_step * most) return true;
             }
             at = is_last ? 1 : at + length;
-            passes ^= here_.turns_over(there_);
+            passes ^= turned;
             q_.swap(guess_);
             std::swap(here_, there_);
             if (count_anew()) {

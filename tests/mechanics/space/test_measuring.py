@@ -299,8 +299,11 @@ def test_a_narrow_gap_ends_the_range():
         ((1.43171786, 2.32598542, -0.36980575), None),
         ((-1.05434709, -0.34156053, -0.83514309), (-0.4170599, 0.39678218, -0.91425153)),
     ]
-    span = gr.drive_range(loop("RSSR", *places))
+    linkage = loop("RSSR", *places)
+    span = gr.drive_range(linkage)
     assert np.degrees([span.lowest, span.highest]) == pytest.approx([1.8035932294 - 360, 1.1679069974], abs=1e-8)
+    over = gr.move(linkage, [[0.0], [1.0]])
+    assert (len(over), over.passed) == (1, ())
 
 
 def test_two_cranks_on_one_axis_with_one_ball_turn_together():

@@ -452,3 +452,28 @@ def test_an_idle_freedom_that_is_no_rod_is_fixed_and_said():
     first, second = (motion.pose(link)[1] @ (*ball, 1) for link, ball in (("a", (1, 0, 0)), ("d", (2, 1, 1))))
     own = motion.joint(2, "Tz")[1]
     assert np.linalg.norm(first - second) == pytest.approx(np.sqrt(3) + own, abs=1e-12)
+
+
+@pytest.mark.parametrize("longer", [-1e-4, -1e-6, 1e-6, 1e-4, 1e-2])
+@pytest.mark.parametrize("degrees", [3, 40, 90])
+def test_a_mode_that_comes_near_is_not_taken_for_its_own(longer, degrees):
+    """A parallelogram with a rocker that is a little longer turns over where its cranks lie on the frame, and back; one
+    with a shorter rocker cannot pass there. By two circles, of whose intersections it is always that on one side."""
+    crank, rod, rocker = 1.0, 2.0, 1.0 + longer
+
+    def angle(turn):
+        arm = crank * np.exp(1j * turn) - rod
+        return np.angle(arm) - np.arccos((abs(arm) ** 2 + rocker**2 - rod**2) / (2 * abs(arm) * rocker))
+
+    first, second = np.exp(1j), rod + rocker * np.exp(1j * angle(1.0))
+    places = [(0, 0, 0), (first.real, first.imag, 0), (second.real, second.imag, 0), (rod, 0, 0)]
+    linkage = SpatialLinkage(
+        Mechanism.parse("spatial: R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)"),
+        {k: {"at": at, "z": Z} for k, at in enumerate(places)},
+    )
+    turns = np.radians(np.arange(0, 361, degrees))
+    motion = move(linkage, turns)
+    reached = turns[1.0 + turns < pi] if longer < 0 else turns
+    assert len(motion) == len(reached)
+    assert motion.complete == (longer > 0)
+    assert same_angle(abs(motion.joint(3)), abs(np.unwrap(angle(1.0 + reached)) - angle(1.0)), 1e-9)

@@ -29,7 +29,7 @@ from gruebler.mechanics.space.motion import SpatialMotion, SpatialStop
 from gruebler.mechanics.space.moving import moved
 
 RANGE_OF_ONE = message("a range needs one drive, but the mechanism has {count}: {drives}")
-_ROWS = 720  # of a turn, or of three sizes of a slide: in gaps wider than half a degree there is a row
+_ROWS = 72  # of a turn, or of three sizes of a slide
 _STILL = 1e-9  # of the size: a length below is 0
 
 _TURNS = message("The drive {drive} turns fully.")
