@@ -328,3 +328,21 @@ def test_what_is_no_circuit_is_refused():
         circuit(entry("pumpjack_rod").placed())
     with pytest.raises(LinkageError, match="no ball"):
         gr.circuit(FORMS["rssr"][0].linkage(3.0)).dead_centres("S(crank-rod)")
+
+
+@pytest.mark.parametrize("longer", [-1e-4, -1e-6, -1e-8, 1e-8, 1e-6, 1e-4])
+def test_a_curve_that_comes_near_is_not_taken_for_its_own(longer):
+    """A parallelogram with a longer rocker turns fully; with a shorter one its crank stands at limits where coupler and
+    rocker are folded and stretched, by the law of cosines."""
+    crank, rod, rocker = 1.0, 2.0, 1.0 + longer
+    arm = crank * np.exp(1j) - rod
+    angle = np.angle(arm) - np.arccos((abs(arm) ** 2 + rocker**2 - rod**2) / (2 * abs(arm) * rocker))
+    first, second = np.exp(1j), rod + rocker * np.exp(1j * angle)
+    places = [(0, 0, 0), (first.real, first.imag, 0), (second.real, second.imag, 0), (rod, 0, 0)]
+    mechanism = Mechanism.parse("spatial: R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)")
+    circuit = gr.circuit(SpatialLinkage(mechanism, {k: {"at": at, "z": (0, 0, 1)} for k, at in enumerate(places)}))
+    limits = np.sort([limit.value for limit in circuit.drive_limits])
+    cosines = [(crank**2 + rod**2 - both**2) / (2 * crank * rod) for both in (rod - rocker, rod + rocker)]
+    expected = np.arccos(cosines) - 1 if longer < 0 else []
+    assert (circuit.closed, circuit.change_points) == (True, ())
+    assert limits == pytest.approx(expected, abs=1e-9)

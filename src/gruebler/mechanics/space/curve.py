@@ -18,6 +18,7 @@ from gruebler.mechanics.space.closure import Place
 from gruebler.mechanics.space.following import RANK, Setting
 from gruebler.mechanics.space.motion import SpatialMotion
 
+_NARROW = 1e-4  # radians and sizes: no longer are steps over which the determinant turns over
 _LEAST = 1e-6  # radians and sizes: the smallest step
 _TURNS = 8  # of Newton's method
 _CLOSED = 1e-12  # radians and sizes, as in the core
@@ -148,7 +149,8 @@ class ConfigurationCurve:
             near = self.near(guess)
             if near is not None:
                 near = directed(near, here.tangent)
-                if np.linalg.norm(near.place.q - guess.q) < _APART * step and near.tangent @ here.tangent > _BENT:
+                ahead = np.linalg.norm(near.place.q - guess.q) < _APART * step and near.tangent @ here.tangent > _BENT
+                if ahead and (step <= _NARROW or not _mirrored(here, near)):  # else it may be a curve beside this one
                     return near, step
             step /= 2
         return None
