@@ -287,6 +287,21 @@ def test_a_phone_sees_all_of_a_machine_and_two_fingers_come_nearer(tmp_path, chr
     browser.close()
 
 
+def test_a_browser_that_cannot_draw_in_space_says_so(tmp_path, chromium):
+    path = tmp_path / "bennett.html"
+    assert main(["explore", "bennett", "-o", str(path)]) == 0
+    browser, page, errors = browsed(chromium, path)
+    page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    for lang, said in (
+        ("en", "This browser cannot draw in space"),
+        ("de", "Dieser Browser kann nicht räumlich zeichnen"),
+    ):
+        page.goto(f"{path.as_uri()}?{lang}#{lang}")
+        page.get_by_text(said).wait_for(state="visible")
+    assert not errors
+    browser.close()
+
+
 def test_a_cell_of_a_notebook_has_the_page(tmp_path, chromium):
     shown = gr.explore(Bennett(200, 1, 0.5), height=300, lang="de")
     assert shown.save(tmp_path / "a.html").read_text(encoding="utf-8") == shown.html

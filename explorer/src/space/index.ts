@@ -18,7 +18,7 @@ interface Motion {
 interface Texts {
   title: string;
   drives: string[];
-  words: { play: string; stop: string; drive: string; help: string; none: string; end: string };
+  words: { play: string; stop: string; drive: string; help: string; none: string; end: string; flat: string };
 }
 
 interface Model {
@@ -179,7 +179,7 @@ let painter: Painter | undefined;
 try {
   painter = new Painter(canvas, model.bodies);
 } catch {
-  canvas.replaceWith(document.createTextNode("WebGL 2?"));
+  canvas.replaceWith(document.createTextNode(words.flat));
 }
 
 const numbers = new Intl.NumberFormat(language, {

@@ -35,6 +35,7 @@ _WORDS = {
     ),
     "none": message("No drive moves this linkage."),
     "end": message("no farther while the other drives stand here"),
+    "flat": message("This browser cannot draw in space: it has no WebGL 2."),
 }
 _ALONE = message("The drives move one at a time here, since the page does not solve {joint}.")
 
