@@ -100,7 +100,7 @@ PLOTTED = """(() => {
     const { drives, series } = gruebler.motion.plots.parts[0].plot;
     return { drives: [...drives], values: [...series.values] };
 })()"""
-OUTPUT = "gruebler.motion.facts.querySelector('dd').textContent"
+OUTPUT = "gruebler.motion.facts.element.querySelector('dd').textContent"
 
 
 @pytest.mark.parametrize(("lengths", "start"), [("25,70,40,70", 45), ("25,70,40,70", 200), ("70,70,60,70", 30)])
