@@ -204,22 +204,37 @@ def paint(placed: PlacedChain, lang: str = "en") -> list[Shape]:
     """Links, joints and drives, in the order of painting; letters of joints in the alphabet of the language."""
     signs = [_sign(placed, number, lang) for number in range(len(placed.chain.joints))]
     discs = sorted((disc for sign, _ in signs for disc in sign.wheels), key=lambda disc: -disc[0])
-    shapes = [shape for _, parts in discs for shape in parts]
-    shapes += [shape for sign, _ in signs for shape in sign.below]
     holds = {
         (link, number): hold
         for number, (sign, members) in enumerate(signs)
         for link, hold in zip(members, sign.holds, strict=True)
     }
-    for link in sorted(placed.chain.links, key=lambda link: (link in placed.crossing, -placed.chain.degrees[link])):
-        if link not in placed.bare:
-            shapes += _link(placed, link, holds)
+    own = sorted(placed.chain.links, key=lambda link: (link in placed.crossing, -placed.chain.degrees[link]))
+    bodies = {link: _link(placed, link, holds) for link in own if link not in placed.bare}
+    under = _under_geneva_drives(placed)
+    shapes = [shape for link, parts in bodies.items() if link in under for shape in parts]
+    shapes += [shape for _, parts in discs for shape in parts]
+    shapes += [shape for sign, _ in signs for shape in sign.below]
+    shapes += [shape for link, parts in bodies.items() if link not in under for shape in parts]
     if placed.frame in placed.bare:
         shapes += pedestal(next(placed.joints[k] for k, j in enumerate(placed.chain.joints) if placed.frame in j.links))
     shapes += [shape for sign, _ in signs for shape in sign.above]
     for number, direction in placed.drives:
         shapes += _drive(placed, number, direction, signs[number][0])
     return shapes
+
+
+def _under_geneva_drives(placed: PlacedChain) -> set[str]:
+    """The links that bear both bodies of a Geneva drive: over these they would hide the pin in its slot."""
+    drives = [
+        set(placed.chain.joints[number].links)
+        for (number, _), shape in placed.contacts.items()
+        if shape == "geneva-driver"
+    ]
+    joints = [set(joint.links) for joint in placed.chain.joints]
+    return {
+        link for link in placed.chain.links for pair in drives if all({link, one} in joints for one in pair - {link})
+    }
 
 
 def _link(placed: PlacedChain, link: str, holds: dict[tuple[str, int], Point]) -> list[Shape]:

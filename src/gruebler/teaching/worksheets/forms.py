@@ -78,10 +78,15 @@ def _forms(relation: str, kinds: Iterable[type[ClosedForm]], lang: str) -> Itera
                 continue
             seen.add(place)
             size = sizes[form.key]
-            lengths = ", ".join(f"{value:g}" for value in astuple(size))
+            lengths = ",\N{NO-BREAK SPACE}".join(f"{value:g}" for value in astuple(size))
             letters = ", ".join(field.name for field in fields(size))
             for branch in ("+", "-") if place in ("ac", "bd") else (None,):
-                yield _item(size.linkage(), joined([form.title, f"{letters} = {lengths}"], ": "), lang, branch)
+                yield _item(
+                    size.linkage(),
+                    joined([form.title, f"{letters}\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}{lengths}"], ": "),
+                    lang,
+                    branch,
+                )
 
 
 def _item(linkage: Linkage, caption: Message, lang: str, branch: str | None = None) -> Item:

@@ -11,6 +11,7 @@ from gruebler.pictures.canvas.gallery import Item, Section
 from gruebler.pictures.structure import draw_structure
 from gruebler.pictures.structure.messages import chain_name
 from gruebler.structure.assur import AssurGroup, assur_groups
+from gruebler.structure.assur.forms import form_message
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.enumeration import chains
 from gruebler.structure.mechanism.inversion import family, inversions
@@ -104,7 +105,7 @@ def _assur(links: int, lang: str) -> tuple[str, tuple[Section, ...]]:
 def _group_name(group: AssurGroup, lang: str) -> str:
     """Its form, if that has a short name, else class and order."""
     if "(" not in group.form:
-        return group.form
+        return form_message(group.form).in_language(lang)
     return translate("class {number}, order {order}", lang, number=group.class_number, order=group.order)
 
 
