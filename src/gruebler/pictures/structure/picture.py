@@ -233,7 +233,10 @@ def _under_geneva_drives(placed: PlacedChain) -> set[str]:
     ]
     joints = [set(joint.links) for joint in placed.chain.joints]
     return {
-        link for link in placed.chain.links for pair in drives if all({link, one} in joints for one in pair - {link})
+        link
+        for link in placed.chain.links
+        for pair in drives
+        if all({link, other} in joints for other in pair - {link})
     }
 
 
