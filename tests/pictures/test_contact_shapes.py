@@ -99,6 +99,13 @@ def test_coaxial_wheels_have_one_bearing_and_one_size_each():
     assert {placed.joints[k] for k, joint in enumerate(placed.chain.joints) if "frame" in joint.links} == centres
 
 
+def test_the_bar_of_a_geneva_drive_lies_under_its_pin():
+    shapes = picture("geneva").shapes
+    bar = max(k for k, shape in enumerate(shapes) if isinstance(shape, Polylines) and "frame" in shape.style)
+    (pin,) = (k for k, s in enumerate(shapes) if isinstance(s, CircleShape) and s.style == "joint" and s.radius == 4.5)
+    assert bar < pin
+
+
 def test_a_belt_has_two_strands():
     (strands,) = [s for s in picture("belt").shapes if isinstance(s, Polylines) and s.style == "edge"]
     assert len(strands.parts) == 2

@@ -360,6 +360,8 @@ def test_posters():
         )
     _, sections = poster("assur", 6)
     assert [len(section.items) for section in sections] == [len(list(assur_groups(n))) for n in (2, 4, 6)]
+    _, sections = poster("assur", 4, lang="de")
+    assert [section.items[0].caption for section in sections] == ["2.1 DDD", "4.1 3-DD"]
     _, sections = poster("inversions", 6)
     assert [len(section.items) for section in sections] == [4, 10, 1, 2, 3]  # forms of the four-bar; Watt, Stephenson
     _, sections = poster("forms", lang="de")

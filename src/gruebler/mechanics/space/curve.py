@@ -18,7 +18,7 @@ from gruebler.mechanics.space.closure import Place
 from gruebler.mechanics.space.following import RANK, Setting
 from gruebler.mechanics.space.motion import SpatialMotion
 
-_NARROW = 1e-4  # radians and sizes: no longer are steps over which the determinant turns over
+_NARROW = 1e-4  # radians and sizes, as in the core: no longer are steps over which the determinant turns over
 _LEAST = 1e-6  # radians and sizes: the smallest step
 _TURNS = 8  # of Newton's method
 _CLOSED = 1e-12  # radians and sizes, as in the core
