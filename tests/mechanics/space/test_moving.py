@@ -477,3 +477,12 @@ def test_a_mode_that_comes_near_is_not_taken_for_its_own(longer, degrees):
     assert len(motion) == len(reached)
     assert motion.complete == (longer > 0)
     assert same_angle(-motion.joint(3), angle(1.0 + reached) - angle(1.0), 1e-9)  # R(3-0): of the frame in the rocker
+
+
+def test_what_is_left_is_said_of_one_joint_and_of_several():
+    """A four-bar with a link that hangs on it: its joint is left, or those of the loop."""
+    places = {k: {"z": Z, "at": (k, k % 2, 0)} for k in range(5)}
+    hanging = SpatialLinkage(Mechanism.parse("spatial: R(0-1) R(1-2) R(2-3) R(0-3) R(3-4)"), places)
+    for drive, left in ((0, r"in R\(3-4\); drive more"), (4, r"in R\(0-1\), R\(1-2\), R\(\d-3\); drive more")):
+        with pytest.raises(LinkageError, match="F = 1 is left, " + left):
+            move(driven(hanging, drive), [0.0, 0.1])
