@@ -133,8 +133,8 @@ def _not_fixed(
     joints = dict.fromkeys(joint for (joint, _), k in tree.unknown.items() if k in moving)
     names = [chain.joint_title(joint) for joint in joints]
     return LinkageError(
-        "the drives do not fix the motion in the reference pose, F = {count} is left, in {joints}; drive more joints, or "
-        "take another reference pose if this one is singular"
+        "the drives do not fix the motion in the reference pose, F = {count} is left, in {joints}; drive more joints, "
+        "or take another reference pose if this one is singular"
         if driven
         else "the linkage has no drive, F = {count} is left, in {joints}; drive one of its joints",
         count=free,
