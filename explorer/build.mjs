@@ -63,13 +63,10 @@ const packed = {
 /** Long names of methods and fields of the page's own, which get short ones; nobody outside, neither tests nor the
  * library, calls them. */
 const own = `
-  addPoint appeared arrange arrangeHeader atFrame attemptAnywhere cancelDrag dragCancel dragStart
-  fillKinds firstLanguage firstTheme forceArrows holdJoint jointName jointNear leftOf lineFirst
-  linkList linkName linkNear linkable moveElement moveJointBy movePointBy openDocument openFile
-  openShared paintCentrodes paintHodographs paintTargets placesWith plottedAngle pointName pointNear
-  pointed poleAside putPoint readAnew recoloured remember runAlong setTheme shiftLine showChoice
-  showJoint showPose showRange showScore showStructure showValue shownDesign sized snapping springRows
-  straighten toLocal turnTo unread writeSizes
+  addPoint appeared arrange atFrame attemptAnywhere cancelDrag dragCancel dragStart holdJoint
+  jointName leftOf lineFirst linkList linkName moveJointBy movePointBy openDocument openFile
+  plottedAngle pointName pointed poleAside recoloured runAlong setTheme shiftLine showRange
+  showValue shownDesign sized snapping toLocal turnTo writeSizes
 `.match(/\w+/g);
 
 await build({

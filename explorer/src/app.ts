@@ -27,15 +27,15 @@ export class App implements Page {
   private readonly views: Record<string, View>;
   private view = "motion";
   /** The views that were shown: others are laid out when they are. */
-  private readonly laid = new Set(["motion"]);
-  private readonly header = h("header", {});
+  readonly #laid = new Set(["motion"]);
+  readonly #header = h("header", {});
   private readonly message = h("div.message", { role: "status", hidden: true });
   private readonly lost = h("div.lost", { role: "status", hidden: true });
   private readonly root: HTMLElement;
   private readonly host: HTMLElement;
   /** Whether the address is that of a link that could not be read: it stays until something is changed. */
-  private unread = false;
-  private writing = 0;
+  #unread = false;
+  #writing = 0;
   private hash = "";
 
   constructor(
@@ -50,8 +50,8 @@ export class App implements Page {
     const sheet = new CSSStyleSheet();
     sheet.replaceSync(styles + String(model.get("styles") ?? ""));
     shadow.adoptedStyleSheets = [sheet];
-    setLanguage(this.firstLanguage());
-    this.setTheme(this.firstTheme());
+    setLanguage(this.#firstLanguage());
+    this.setTheme(this.#firstTheme());
     this.backend = new Backend(model);
     this.motion = new MotionView(this);
     this.views = { motion: this.motion };
@@ -68,21 +68,21 @@ export class App implements Page {
     this.root = h(
       "div.app",
       {},
-      this.header,
+      this.#header,
       this.lost,
       this.message,
       // a notebook has its own main part
-      h(this.linkable ? "main" : "div", { class: "views" }, ...Object.values(this.views).map((view) => view.element)),
+      h(this.#linkable ? "main" : "div", { class: "views" }, ...Object.values(this.views).map((view) => view.element)),
     );
     // a page of its own listens everywhere, a cell of a notebook to itself
-    (this.linkable ? document : this.root).addEventListener("keydown", (event) => this.key(event as KeyboardEvent));
+    (this.#linkable ? document : this.root).addEventListener("keydown", (event) => this.#key(event as KeyboardEvent));
     this.host.addEventListener("dragover", (event) => event.preventDefault());
     this.host.addEventListener("drop", (event) => {
       event.preventDefault();
       void this.openFile(event.dataTransfer?.files[0]);
     });
     shadow.append(this.root);
-    model.on("connection", ((on: boolean) => this.connection(on)) as (message: never) => void);
+    model.on("connection", ((on: boolean) => this.#connection(on)) as (message: never) => void);
     model.on("change:machine", (() => this.open(model.get("machine") as Model)) as (message: never) => void);
   }
 
@@ -91,19 +91,19 @@ export class App implements Page {
       const text = t("This page needs WebAssembly, and the browser does not allow it: {why}", { why: missing });
       return this.say(text, "error");
     }
-    this.unread = this.linkable && location.hash.length > 1; // until it is read
+    this.#unread = this.#linkable && location.hash.length > 1; // until it is read
     this.motion.open(this.model.get("machine") as Model);
     this.show("motion");
     const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches || location.hash.length > 1;
     if ((this.model.get("machine") as Model).plays && !still) this.motion.transport.toggle();
-    if (this.linkable) {
+    if (this.#linkable) {
       const { view } = (history.state ?? {}) as { view?: string }; // that of a page which is loaded again
-      await this.read();
+      await this.#read();
       if (view && view in this.views) this.show(view);
       this.motion.forget();
       if (location.hash.length > 1) this.motion.recall();
-      this.arrangeHeader();
-      window.addEventListener("popstate", (event) => void this.goneBack(event));
+      this.#arrangeHeader();
+      window.addEventListener("popstate", (event) => void this.#goneBack(event));
     }
   }
 
@@ -125,27 +125,27 @@ export class App implements Page {
     return (this.model.get("limits") ?? {}) as Page["limits"];
   }
 
-  private get atSite(): boolean {
+  get #atSite(): boolean {
     return this.backend.present && !this.served;
   }
 
-  private get linkable(): boolean {
+  get #linkable(): boolean {
     return this.model.get("host") !== "notebook";
   }
 
-  private firstLanguage(): Language {
+  #firstLanguage(): Language {
     const wanted = String(this.model.get("lang") ?? "") || navigator.language;
     return wanted.startsWith("de") ? "de" : "en";
   }
 
-  private firstTheme(): "light" | "dark" {
+  #firstTheme(): "light" | "dark" {
     return window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
   }
 
   setTheme(theme: "light" | "dark"): void {
     this.host.dataset.theme = theme;
     // a page that is longer than the window is of one colour down to its end
-    if (this.linkable)
+    if (this.#linkable)
       document.documentElement.style.background = getComputedStyle(this.host).getPropertyValue("--paper");
   }
 
@@ -154,56 +154,56 @@ export class App implements Page {
   show(name: string): void {
     if (this.view !== name) {
       this.say("");
-      if (this.linkable) window.scrollTo(0, 0);
+      if (this.#linkable) window.scrollTo(0, 0);
     }
     this.view = name;
     for (const [key, view] of Object.entries(this.views)) view.element.classList.toggle("shown", key === name);
     if (name !== "motion") this.motion.transport.pause();
-    this.arrangeHeader();
-    if (!this.laid.has(name)) this.views[name]!.arrange();
-    this.laid.add(name);
+    this.#arrangeHeader();
+    if (!this.#laid.has(name)) this.views[name]!.arrange();
+    this.#laid.add(name);
     this.views[name]!.appeared?.();
   }
 
   /** Show another view, to which the browser's way back leads from the next one. */
-  private turnTo(name: string): void {
-    if (name !== this.view) this.remember(name);
+  #turnTo(name: string): void {
+    if (name !== this.view) this.#remember(name);
     this.show(name);
   }
 
   /** The view whose changes are undone: one that draws, else the motion. */
-  private get undoing(): View {
+  get #undoing(): View {
     const view = this.views[this.view];
     return view?.undoable ? view : this.motion;
   }
 
   /** A new place in the history of the browser; the one before keeps its view and its linkage. */
-  private remember(view: string): void {
-    if (!this.linkable) return;
-    clearTimeout(this.writing);
+  #remember(view: string): void {
+    if (!this.#linkable) return;
+    clearTimeout(this.#writing);
     history.replaceState({ view: this.view }, "", this.hash || null);
     history.pushState({ view }, "", this.hash || null);
   }
 
   /** Back, or forth: the view, and the linkage if it was another one. */
-  private async goneBack(event: PopStateEvent): Promise<void> {
-    if (location.hash !== this.hash) await this.read();
+  async #goneBack(event: PopStateEvent): Promise<void> {
+    if (location.hash !== this.hash) await this.#read();
     const view = (event.state as { view?: string } | null)?.view;
     if (view && view in this.views) this.show(view);
   }
 
   /** The name of the mechanism in the language of the page. */
-  private get name(): string {
+  get #name(): string {
     const model = this.motion.linkage?.model;
     const name = model?.names[currentLanguage()] ?? model?.name ?? "";
     return name && this.motion.changed ? t("{name}, changed", { name }) : name;
   }
 
-  private arrangeHeader(): void {
+  #arrangeHeader(): void {
     this.host.lang = currentLanguage();
     const names = viewNames();
     const keys = Object.keys(this.views);
-    const [back, forth] = this.undoing.undoable!;
+    const [back, forth] = this.#undoing.undoable!;
     const tool = (sign: Icon, title: string, act: () => void, disabled = false) =>
       h("button.quiet", { title, "aria-label": title, "data-icon": sign, onclick: act, disabled }, icon(sign));
     const file = h("input", { type: "file", hidden: true, onchange: () => void this.openFile(file.files?.[0]) });
@@ -212,17 +212,17 @@ export class App implements Page {
         this.views[key]!.element.setAttribute("role", "tabpanel");
         this.views[key]!.element.setAttribute("aria-label", names[key]!);
       }
-    if (this.linkable) {
+    if (this.#linkable) {
       document.documentElement.lang = currentLanguage();
-      document.title = this.name ? `${this.name} – gruebler` : "gruebler";
+      document.title = this.#name ? `${this.#name} – gruebler` : "gruebler";
     }
     renew(
-      this.header,
-      h("h1", {}, "gruebler ", h("small", {}, this.name)),
-      ...(keys.length > 1 ? [tabs(keys, this.view, (key) => this.turnTo(key))] : []),
+      this.#header,
+      h("h1", {}, "gruebler ", h("small", {}, this.#name)),
+      ...(keys.length > 1 ? [tabs(keys, this.view, (key) => this.#turnTo(key))] : []),
       h("span.spring", {}),
-      tool("undo", t("Undo"), () => this.undoing.undo?.(), !back),
-      tool("redo", t("Redo"), () => this.undoing.redo?.(), !forth),
+      tool("undo", t("Undo"), () => this.#undoing.undo?.(), !back),
+      tool("redo", t("Redo"), () => this.#undoing.redo?.(), !forth),
       file,
       tool("open", t("Open a file"), () => file.click()),
       tool("link", t("Copy the link"), () => void this.share()),
@@ -237,7 +237,7 @@ export class App implements Page {
 
   /** Everything anew, in another language. */
   arrange(): void {
-    for (const name of this.laid) this.views[name]!.arrange();
+    for (const name of this.#laid) this.views[name]!.arrange();
     this.motion.measured();
     this.motion.stage.build();
     this.show(this.view);
@@ -252,7 +252,7 @@ export class App implements Page {
     this.message.replaceChildren(h("span", {}, text), ...(action ? [action] : []), close);
   }
 
-  private connection(on: boolean): void {
+  #connection(on: boolean): void {
     this.lost.hidden = on;
     this.lost.textContent = on
       ? ""
@@ -267,7 +267,7 @@ export class App implements Page {
 
   open(model: Model, drive?: number): void {
     this.say("");
-    if (this.motion.linkage) this.remember("motion");
+    if (this.motion.linkage) this.#remember("motion");
     this.motion.open(model);
     this.show("motion");
     if (drive !== undefined) this.motion.transport.pick(drive);
@@ -275,55 +275,55 @@ export class App implements Page {
 
   /** Show the structure of a text. */
   describe(text: string): void {
-    this.turnTo("structure");
+    this.#turnTo("structure");
     void (this.views.structure as StructureView).describe(text);
   }
 
   /** After a change: the link follows, a notebook is told. */
   changed(): void {
-    this.arrangeHeader();
-    if (this.unread && !this.motion.undoable[0]) return;
-    this.unread = false;
-    clearTimeout(this.writing);
-    this.writing = window.setTimeout(() => void this.write(), 150);
+    this.#arrangeHeader();
+    if (this.#unread && !this.motion.undoable[0]) return;
+    this.#unread = false;
+    clearTimeout(this.#writing);
+    this.#writing = window.setTimeout(() => void this.write(), 150);
   }
 
   /** Copy the address with the linkage in it. */
   async share(): Promise<void> {
     await this.write();
-    await shareLink(this, this.linkable ? location.href : `#${await packed(this.shared())}`);
+    await shareLink(this, this.#linkable ? location.href : `#${await packed(this.#shared())}`);
   }
 
-  private shared(): Shared {
-    return sharedOf(this.motion, this.atSite);
+  #shared(): Shared {
+    return sharedOf(this.motion, this.#atSite);
   }
 
   private async write(): Promise<void> {
-    const shared = this.shared();
+    const shared = this.#shared();
     this.model.set("document", shared.document);
     this.model.save_changes();
-    if (!this.linkable) return;
+    if (!this.#linkable) return;
     this.motion.keep();
     this.hash = `#${await packed(shared)}`;
     history.replaceState({ view: this.view }, "", this.hash);
   }
 
-  private async read(): Promise<void> {
+  async #read(): Promise<void> {
     const text = location.hash.slice(1);
     if (!text) return;
     this.hash = location.hash;
     try {
-      await this.openShared(await unshared(text));
-      this.unread = false;
+      await this.#openShared(await unshared(text));
+      this.#unread = false;
       this.changed();
     } catch (error) {
-      this.unread = true;
+      this.#unread = true;
       if (error instanceof BadLink) this.say(t(error.message));
       else this.say(error instanceof Error ? error.message : String(error));
     }
   }
 
-  private async openShared(shared: Shared): Promise<void> {
+  async #openShared(shared: Shared): Promise<void> {
     const { document, drive, name, changed = false } = shared;
     const { model } = this.motion.linkage;
     if (isOf(model, document) && (model.name === name || !this.backend.present))
@@ -331,7 +331,7 @@ export class App implements Page {
     if (!this.backend.present) throw another();
     this.motion.open({ ...(await modelOf(shared, this)), changed });
     this.show("motion");
-    if (this.atSite) this.motion.openDocument(document, drive);
+    if (this.#atSite) this.motion.openDocument(document, drive);
   }
 
   // --- files ---------------------------------------------------------------------------------------------------------
@@ -345,7 +345,7 @@ export class App implements Page {
       else if (found.text) this.describe(found.text);
       else if (found.points) {
         (this.views.synthesis as SynthesisView).take(found.points, found.closed ?? false);
-        this.turnTo("synthesis");
+        this.#turnTo("synthesis");
       }
       if (found.note) this.say(found.note, "done");
     } catch (error) {
@@ -355,14 +355,14 @@ export class App implements Page {
 
   // --- keys ----------------------------------------------------------------------------------------------------------
 
-  private key(event: KeyboardEvent): void {
+  #key(event: KeyboardEvent): void {
     const target = event.composedPath()[0] as HTMLElement;
     const undo = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z";
     if ((event.key === "Escape" || undo) && this.motion.stage.cancelDrag()) return event.preventDefault();
     if (/^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) && (target as HTMLInputElement).type !== "range") return;
     if (event.ctrlKey || event.metaKey) {
-      if (event.key === "z" && !event.shiftKey) this.undoing.undo?.();
-      else if (event.key === "y" || (event.key.toLowerCase() === "z" && event.shiftKey)) this.undoing.redo?.();
+      if (event.key === "z" && !event.shiftKey) this.#undoing.undo?.();
+      else if (event.key === "y" || (event.key.toLowerCase() === "z" && event.shiftKey)) this.#undoing.redo?.();
       else return;
       event.preventDefault();
       return;

@@ -19,26 +19,26 @@ interface Band {
 const FEW_ROWS = 60; // of a cycle: enough for its extent
 
 export class Bodies {
-  private readonly bands: ReadonlyMap<number, Band>;
+  readonly #bands: ReadonlyMap<number, Band>;
 
   constructor(
     private readonly linkage: Linkage,
     /** Pixels a unit of length. */
     private readonly scale: number,
   ) {
-    this.bands = bandsOf(linkage);
+    this.#bands = bandsOf(linkage);
   }
 
   /** What is drawn of a link, in its own coordinates. */
   of(link: number): SVGElement[] {
     const { model, sizes } = this.linkage;
     if (link >= model.own) return [];
-    const out = this.shapesOf(link);
+    const out = this.#shapesOf(link);
     const nodes: Pair[] = [];
     const mine = sizes.elementsOn(link);
     for (const k of mine) {
       if (sizes.is(k, "pin")) nodes.push(sizes.xy(k));
-      else if (sizes.is(k, "line")) this.addLine(k, out, nodes);
+      else if (sizes.is(k, "line")) this.#addLine(k, out, nodes);
     }
     if (link === model.frame) return out;
     for (const point of sizes.points) if (point.link === link) nodes.push(point.at);
@@ -46,22 +46,22 @@ export class Bodies {
     const hull = convexHull(nodes);
     if (hull.length > 1) {
       const closed = hull.length > 2;
-      const d = hull.map(([x, y], k) => `${k ? "L" : "M"}${this.place(x, y)}`).join("") + (closed ? "Z" : "");
+      const d = hull.map(([x, y], k) => `${k ? "L" : "M"}${this.#place(x, y)}`).join("") + (closed ? "Z" : "");
       const wide = closed ? " plate" : "";
       out.unshift(svg("path", { class: `outline${wide}`, d }), svg("path", { class: `bar${wide}`, d }));
     }
     return out;
   }
 
-  private px(value: number): string {
+  #px(value: number): string {
     return (value * this.scale).toFixed(2);
   }
 
-  private place(x: number, y: number): string {
-    return `${this.px(x)} ${this.px(-y)}`;
+  #place(x: number, y: number): string {
+    return `${this.#px(x)} ${this.#px(-y)}`;
   }
 
-  private shapesOf(link: number): SVGElement[] {
+  #shapesOf(link: number): SVGElement[] {
     const { model, sizes } = this.linkage;
     const out: SVGElement[] = [];
     for (const shape of model.shapes) {
@@ -69,12 +69,12 @@ export class Bodies {
       const style = `shape ${shape.style}`;
       if (shape.circle) {
         const [x, y, r] = shape.circle;
-        out.push(svg("circle", { class: style, cx: this.px(x), cy: this.px(-y), r: this.px(r) }));
+        out.push(svg("circle", { class: style, cx: this.#px(x), cy: this.#px(-y), r: this.#px(r) }));
       }
       // one path, so that a ring is filled between its two lines
       let d = "";
       for (const line of linesOf(sizes, shape)) {
-        for (let k = 0; k + 1 < line.length; k += 2) d += `${k ? "L" : "M"}${this.place(line[k]!, line[k + 1]!)}`;
+        for (let k = 0; k + 1 < line.length; k += 2) d += `${k ? "L" : "M"}${this.#place(line[k]!, line[k + 1]!)}`;
         if (shape.closed) d += "Z";
       }
       if (d) out.push(svg("path", { class: shape.closed ? style : `${style} open`, d }));
@@ -83,31 +83,31 @@ export class Bodies {
   }
 
   /** Draw the line of a slide: a cylinder, a rail, a bar or a block; add the places that the body reaches to. */
-  private addLine(k: number, out: SVGElement[], nodes: Pair[]): void {
+  #addLine(k: number, out: SVGElement[], nodes: Pair[]): void {
     const { model, sizes } = this.linkage;
     const { joint, link } = sizes.element(k);
-    const cylinder = this.cylinder(k);
+    const cylinder = this.#cylinder(k);
     if (cylinder) {
       out.push(...cylinder);
       return;
     }
     const frame = link === model.frame;
-    const band = this.bands.get(k)!;
+    const band = this.#bands.get(k)!;
     const pinned = sizes.elementsOf(joint).some((m) => m !== k && sizes.is(m, "pin"));
-    if (!frame && !pinned && !this.carries(link, joint)) {
+    if (!frame && !pinned && !this.#carries(link, joint)) {
       const here = sizes.xy(k);
       const turn = `rotate(${(-sizes.angles[k]! * 180) / Math.PI})`;
-      const transform = `translate(${this.place(...here)}) ${turn}`;
+      const transform = `translate(${this.#place(...here)}) ${turn}`;
       out.push(svg("rect.block", { x: -15, y: -9, width: 30, height: 18, rx: 3, transform }));
       nodes.push(here);
       return;
     }
     const room = 26 / this.scale;
-    const pins = frame ? [] : this.pinsAlong(link, band);
+    const pins = frame ? [] : this.#pinsAlong(link, band);
     const at = (way: number): Pair => [band.x + band.c * way, band.y + band.s * way];
     const from = Math.min(band.low - room, ...pins);
     const to = Math.max(band.high + room, ...pins);
-    const d = `M${this.place(...at(from))}L${this.place(...at(to))}`;
+    const d = `M${this.#place(...at(from))}L${this.#place(...at(to))}`;
     let styles = pinned ? ["slot-outline", "slot"] : ["rod-outline", "rod"];
     if (frame) styles = ["rail", "rail-hatch"];
     out.push(...styles.map((style) => svg("path", { class: style, d })));
@@ -116,7 +116,7 @@ export class Bodies {
   }
 
   /** Where along a line the pins of its link lie that are on it. */
-  private pinsAlong(link: number, { x, y, c, s }: Band): number[] {
+  #pinsAlong(link: number, { x, y, c, s }: Band): number[] {
     const { sizes } = this.linkage;
     return sizes
       .elementsOn(link)
@@ -130,7 +130,7 @@ export class Bodies {
   }
 
   /** Whether of the two links of a slide this one has the bar: the frame, the one with more joints, or at the frame. */
-  private carries(link: number, joint: number): boolean {
+  #carries(link: number, joint: number): boolean {
     const { model, sizes } = this.linkage;
     const [one, two] = model.joints[joint]!.links as Pair;
     const atFrame = (k: number) => model.joints.some(({ links }) => links.includes(k) && links.includes(model.frame));
@@ -139,7 +139,7 @@ export class Bodies {
   }
 
   /** A cylinder's barrel, or its rod, from its pin towards the other; null if the slide is no cylinder. */
-  private cylinder(k: number): SVGElement[] | null {
+  #cylinder(k: number): SVGElement[] | null {
     const { linkage } = this;
     const { sizes } = linkage;
     const { joint, link } = sizes.element(k);
@@ -163,9 +163,9 @@ export class Bodies {
     const [x, y] = sizes.xy(own);
     const length = Math.hypot(u - x, v - y) || 1;
     const reach = barrel ? 0.86 * near : Math.min(far - 0.62 * near, 0.95 * near);
-    const end = this.place(x + ((u - x) / length) * reach, y + ((v - y) / length) * reach);
+    const end = this.#place(x + ((u - x) / length) * reach, y + ((v - y) / length) * reach);
     const styles = barrel ? ["slot-outline", "slot"] : ["rod-outline", "rod"];
-    return styles.map((style) => svg("path", { class: style, d: `M${this.place(x, y)}L${end}` }));
+    return styles.map((style) => svg("path", { class: style, d: `M${this.#place(x, y)}L${end}` }));
   }
 }
 

@@ -53,46 +53,46 @@ export class BuildView implements View, Plane, Drawn {
   readonly element = h("div.view.motion", { "data-page": "build" });
   drawing: Drawing = kept();
   readonly viewport = new Viewport();
-  private tool: Tool = "link";
+  #tool: Tool = "link";
   spots: Spot[] = [];
   chosen: Chosen | null = null;
   cursor: Pair = [0, 0];
-  private snapping = true;
-  private readonly fingers = new Fingers();
+  #snapping = true;
+  readonly #fingers = new Fingers();
   /** What was there when the first finger came. */
-  private begun: [Drawing, Spot[]] = [EMPTY, []];
-  private readonly history = new History<Drawing>();
+  #begun: [Drawing, Spot[]] = [EMPTY, []];
+  readonly #history = new History<Drawing>();
   private readonly root = svg("svg", { role: "application", tabindex: 0, class: "drawing" });
-  private readonly tools = h("div.transport.palette", {});
-  private readonly hint = h("div.hint", {});
-  private readonly side = h("div.side", {});
+  readonly #tools = h("div.transport.palette", {});
+  readonly #hint = h("div.hint", {});
+  readonly #side = h("div.side", {});
   private readonly mobility = new MobilityPanel(this);
-  private readonly choice = h("div", {});
-  private readonly places = h("section.panel.options", {});
+  readonly #choice = h("div", {});
+  readonly #places = h("section.panel.options", {});
 
   constructor(readonly page: Page) {
     this.viewport.scale = 4;
-    const stage = h("div.stage", {}, this.root, this.hint);
-    this.element.append(stage, this.tools, this.side);
-    this.root.addEventListener("pointerdown", (event) => this.down(event));
-    this.root.addEventListener("pointermove", (event) => this.hover(event));
+    const stage = h("div.stage", {}, this.root, this.#hint);
+    this.element.append(stage, this.#tools, this.#side);
+    this.root.addEventListener("pointerdown", (event) => this.#down(event));
+    this.root.addEventListener("pointermove", (event) => this.#hover(event));
     for (const end of ["pointerup", "pointercancel"] as const)
-      this.root.addEventListener(end, (event) => this.fingers.lift(event.pointerId));
-    this.root.addEventListener("keydown", (event) => this.key(event));
+      this.root.addEventListener(end, (event) => this.#fingers.lift(event.pointerId));
+    this.root.addEventListener("keydown", (event) => this.#key(event));
     this.root.addEventListener(
       "wheel",
       (event) => {
         if (!ownPage() && !event.ctrlKey) return; // a notebook scrolls past it
         event.preventDefault();
-        this.viewport.zoom(Math.exp(-event.deltaY * 0.0015), ...this.pixel(event));
-        this.draw();
+        this.viewport.zoom(Math.exp(-event.deltaY * 0.0015), ...this.#pixel(event));
+        this.#draw();
       },
       { passive: false },
     );
-    new ResizeObserver(() => this.resize()).observe(stage);
+    new ResizeObserver(() => this.#resize()).observe(stage);
   }
 
-  private resize(): void {
+  #resize(): void {
     const { width, height } = this.root.getBoundingClientRect();
     if (!width) return;
     const first = this.viewport.width < 2;
@@ -100,7 +100,7 @@ export class BuildView implements View, Plane, Drawn {
     this.root.setAttribute("viewBox", `0 0 ${width} ${height}`);
     const part = width < 500 ? 0.75 : 1;
     if (first) this.viewport.fit({ left: -60 * part, right: 140 * part, bottom: -50 * part, top: 90 * part }, 1);
-    this.draw();
+    this.#draw();
   }
 
   arrange(): void {
@@ -108,16 +108,16 @@ export class BuildView implements View, Plane, Drawn {
       h(
         "button",
         {
-          class: key === this.tool ? "key" : "plain",
+          class: key === this.#tool ? "key" : "plain",
           "data-tool": key,
-          "aria-pressed": String(key === this.tool),
-          onclick: () => this.take(key),
+          "aria-pressed": String(key === this.#tool),
+          onclick: () => this.#take(key),
         },
         text,
         h("span.letter.keys", {}, ` (${letter})`),
       );
     renew(
-      this.tools,
+      this.#tools,
       tool("move", t("Move"), "V"),
       tool("ground", t("Ground"), "G"),
       tool("link", t("Link"), "L"),
@@ -138,16 +138,16 @@ export class BuildView implements View, Plane, Drawn {
         "Three clicks: both centres, then where they touch; beyond a centre the other wheel has internal teeth.",
       ),
     };
-    this.hint.textContent = hints[this.tool];
+    this.#hint.textContent = hints[this.#tool];
     const snap = h("input", {
       type: "checkbox",
-      checked: this.snapping,
-      onchange: () => (this.snapping = snap.checked),
+      checked: this.#snapping,
+      onchange: () => (this.#snapping = snap.checked),
     });
     renew(
-      this.side,
+      this.#side,
       h("section.panel", {}, h("h2", {}, t("Mobility")), this.mobility.element),
-      h("section.panel", {}, h("h2", {}, t("What is chosen")), this.choice),
+      h("section.panel", {}, h("h2", {}, t("What is chosen")), this.#choice),
       h(
         "section.panel.options",
         {},
@@ -163,18 +163,18 @@ export class BuildView implements View, Plane, Drawn {
         ),
         h("button.plain", { "data-act": "empty", onclick: () => this.change(EMPTY) }, t("Empty plane")),
       ),
-      this.places,
+      this.#places,
     );
     this.root.setAttribute("aria-label", t("Plane to draw on"));
-    this.changed();
+    this.#changed();
   }
 
   appeared(): void {
-    this.resize();
+    this.#resize();
   }
 
-  private take(tool: Tool): void {
-    this.tool = tool;
+  #take(tool: Tool): void {
+    this.#tool = tool;
     this.spots = [];
     this.arrange();
   }
@@ -183,52 +183,53 @@ export class BuildView implements View, Plane, Drawn {
 
   change(next: Drawing | null, text = t("A link cannot meet itself.")): void {
     if (!next) return this.page.say(text);
-    this.history.add(this.drawing);
+    this.#history.add(this.drawing);
     this.drawing = next;
     this.chosen = null;
     this.page.say("");
-    this.changed();
+    this.#changed();
     this.page.changed();
   }
 
   get undoable(): [boolean, boolean] {
-    return this.history.possible;
+    return this.#history.possible;
   }
 
   undo(): void {
-    this.goTo(this.history.undo(this.drawing));
+    this.#goTo(this.#history.undo(this.drawing));
   }
 
   redo(): void {
-    this.goTo(this.history.redo(this.drawing));
+    this.#goTo(this.#history.redo(this.drawing));
   }
 
-  private goTo(old: Drawing | undefined): void {
+  #goTo(old: Drawing | undefined): void {
     if (!old) return;
     this.drawing = old;
     this.spots = [];
     this.chosen = null;
-    this.changed();
+    this.#changed();
     this.page.changed();
   }
 
-  private changed(): void {
+  #changed(): void {
     try {
       localStorage.setItem(KEPT, JSON.stringify(this.drawing));
     } catch {
       // what cannot be kept lasts as long as the page
     }
-    this.draw();
-    this.showChoice();
-    renew(this.places, ...placesPanel(this));
+    this.#draw();
+    this.#showChoice();
+    renew(this.#places, ...placesPanel(this));
     void this.mobility.tell();
   }
 
   /** What a click, a tap or Enter does at a place. */
-  private put(spot: Spot): void {
-    const { drawing, spots, tool } = this;
+  #put(spot: Spot): void {
+    const { drawing, spots } = this;
+    const tool = this.#tool;
     spots.push(spot);
-    if (spots.length < NEEDED[tool]) return this.draw();
+    if (spots.length < NEEDED[tool]) return this.#draw();
     this.spots = [];
     const [one, two, three] = spots as [Spot, Spot, Spot];
     if (tool === "ground") this.change(withGround(drawing, one));
@@ -242,13 +243,13 @@ export class BuildView implements View, Plane, Drawn {
 
   // --- the pointer ---------------------------------------------------------------------------------------------------
 
-  private pixel(event: MouseEvent): Pair {
+  #pixel(event: MouseEvent): Pair {
     const box = this.root.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   }
 
   /** What is at a pixel: a knot, a link, else a place, on the grid if that is wanted. */
-  private spot([x, y]: Pair, upright: boolean, but = -1): Spot {
+  #spot([x, y]: Pair, upright: boolean, but = -1): Spot {
     const { drawing, viewport } = this;
     let [knot, least]: [number | null, number] = [null, GRIP];
     drawing.knots.forEach(({ at }, k) => {
@@ -258,7 +259,7 @@ export class BuildView implements View, Plane, Drawn {
     const last = this.spots.at(-1);
     const pins = drawing.knots.filter((one, k) => isPin(one) && k !== but);
     let [u, v] = viewport.world(x, y);
-    if (this.snapping)
+    if (this.#snapping)
       [u, v] = snapped([u, v], viewport, {
         places: [...pins, ...this.spots].map(({ at }) => at),
         from: last ? [last.at] : [],
@@ -277,44 +278,44 @@ export class BuildView implements View, Plane, Drawn {
     return stepOf(this.viewport);
   }
 
-  private draw(): void {
+  #draw(): void {
     renew(this.root, ...planePicture(this));
   }
 
-  private hover(event: PointerEvent): void {
-    if (this.fingers.move(event.pointerId, this.pixel(event), this.viewport)) return this.draw();
-    if (this.tool === "move") return;
-    this.cursor = this.spot(this.pixel(event), event.shiftKey).at;
-    this.draw();
+  #hover(event: PointerEvent): void {
+    if (this.#fingers.move(event.pointerId, this.#pixel(event), this.viewport)) return this.#draw();
+    if (this.#tool === "move") return;
+    this.cursor = this.#spot(this.#pixel(event), event.shiftKey).at;
+    this.#draw();
   }
 
-  private down(event: PointerEvent): void {
+  #down(event: PointerEvent): void {
     if (event.button > 0) return;
     event.preventDefault();
     this.root.focus({ preventScroll: true });
-    this.fingers.put(event.pointerId, this.pixel(event));
-    if (this.fingers.count > 1) return this.takeBack();
-    this.begun = [this.drawing, [...this.spots]];
-    const spot = this.spot(this.pixel(event), event.shiftKey);
-    if (this.tool !== "move") return this.put(spot);
+    this.#fingers.put(event.pointerId, this.#pixel(event));
+    if (this.#fingers.count > 1) return this.#takeBack();
+    this.#begun = [this.drawing, [...this.spots]];
+    const spot = this.#spot(this.#pixel(event), event.shiftKey);
+    if (this.#tool !== "move") return this.#put(spot);
     const before = this.drawing;
     const { picture } = before;
-    let last = this.pixel(event);
+    let last = this.#pixel(event);
     const start = this.viewport.world(...last);
     const held = picture && this.chosen && "picture" in this.chosen;
     const grip = held && spot.knot === null ? gripAt(picture, start, GRIP / this.viewport.scale) : null;
-    if (!grip) this.choose(spot, start);
+    if (!grip) this.#choose(spot, start);
     this.root.setPointerCapture(event.pointerId);
     const moves = (next: PointerEvent) => {
-      if (this.fingers.count > 1) return;
-      const now = this.pixel(next);
+      if (this.#fingers.count > 1) return;
+      const now = this.#pixel(next);
       if (grip) {
         const place = this.viewport.world(...now);
         this.drawing = { ...before, picture: gripped(picture!, grip, start, place) };
       } else if (spot.knot === null) this.viewport.pan(now[0] - last[0], now[1] - last[1]);
-      else this.drawing = moved(before, spot.knot, this.spot(now, false, spot.knot).at);
+      else this.drawing = moved(before, spot.knot, this.#spot(now, false, spot.knot).at);
       last = now;
-      this.draw();
+      this.#draw();
     };
     const up = (next: PointerEvent) => {
       this.root.removeEventListener("pointermove", moves);
@@ -322,10 +323,10 @@ export class BuildView implements View, Plane, Drawn {
       this.root.removeEventListener("pointercancel", up);
       if (this.drawing === before) return;
       const placed = this.drawing;
-      const target = spot.knot === null ? null : this.spot(this.pixel(next), false, spot.knot).knot;
+      const target = spot.knot === null ? null : this.#spot(this.#pixel(next), false, spot.knot).knot;
       this.drawing = before;
       this.change((target !== null && joined(before, spot.knot!, target)) || placed);
-      if (grip) this.choose(spot, this.viewport.world(...last));
+      if (grip) this.#choose(spot, this.viewport.world(...last));
     };
     this.root.addEventListener("pointermove", moves);
     this.root.addEventListener("pointerup", up);
@@ -333,40 +334,40 @@ export class BuildView implements View, Plane, Drawn {
   }
 
   /** What the first of two fingers put was not meant. */
-  private takeBack(): void {
-    const [drawing, spots] = this.begun;
-    if (this.tool === "move") this.drawing = drawing;
+  #takeBack(): void {
+    const [drawing, spots] = this.#begun;
+    if (this.#tool === "move") this.drawing = drawing;
     else if (this.drawing !== drawing) this.undo();
     this.spots = spots;
-    this.draw();
+    this.#draw();
   }
 
-  private choose(spot: Spot, place = spot.at): void {
+  #choose(spot: Spot, place = spot.at): void {
     const { picture } = this.drawing;
     this.chosen = picture && gripAt(picture, place, GRIP / this.viewport.scale) ? { picture: true } : null;
     if (spot.knot !== null) this.chosen = { knot: spot.knot };
     else if (spot.link !== null) this.chosen = { link: spot.link };
-    this.draw();
-    this.showChoice();
+    this.#draw();
+    this.#showChoice();
   }
 
-  private key(event: KeyboardEvent): void {
+  #key(event: KeyboardEvent): void {
     if (event.ctrlKey || event.metaKey) return;
     const way = WAYS[event.key];
     const tool = KEYS[event.key.toLowerCase()];
     if (way) {
       const step = event.shiftKey ? this.step / 5 : this.step;
       this.cursor = [this.cursor[0] + step * way[0], this.cursor[1] + step * way[1]];
-      this.draw();
+      this.#draw();
     } else if (event.key === "Enter" || event.key === " ") {
-      const spot = this.spot(this.viewport.screen(...this.cursor), false);
-      if (this.tool === "move") this.choose(spot);
-      else this.put(spot);
+      const spot = this.#spot(this.viewport.screen(...this.cursor), false);
+      if (this.#tool === "move") this.#choose(spot);
+      else this.#put(spot);
     } else if (event.key === "Delete" || event.key === "Backspace") removeChosen(this);
     else if (event.key === "Escape") {
       this.spots = [];
-      this.draw();
-    } else if (tool) this.take(tool);
+      this.#draw();
+    } else if (tool) this.#take(tool);
     else return;
     event.preventDefault();
     event.stopPropagation();
@@ -374,8 +375,8 @@ export class BuildView implements View, Plane, Drawn {
 
   // --- beside it -----------------------------------------------------------------------------------------------------
 
-  private showChoice(): void {
-    renew(this.choice, ...choiceOf(this));
+  #showChoice(): void {
+    renew(this.#choice, ...choiceOf(this));
   }
 
   async move(): Promise<void> {

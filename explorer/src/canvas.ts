@@ -32,17 +32,17 @@ export class Painter {
         points.forEach((point, k) => {
           const all = placesOf(shape, point.link, ...point.at);
           const at = (row: number) => viewport.screen(all[2 * row]!, all[2 * row + 1]!);
-          this.trace(shape === rows ? values.length : shape.reached, ownColour(k), 2, at);
+          this.#trace(shape === rows ? values.length : shape.reached, ownColour(k), 2, at);
         });
       }
-    this.paintTargets(linkage.beside.targets ?? []);
+    this.#paintTargets(linkage.beside.targets ?? []);
     if (rows.order < 1) return;
-    if (shown.hodographs) this.paintHodographs(linkage);
-    if (shown.poles) this.paintCentrodes(linkage, shown.link);
+    if (shown.hodographs) this.#paintHodographs(linkage);
+    if (shown.poles) this.#paintCentrodes(linkage, shown.link);
   }
 
   /** A line through places in pixels; null interrupts it. */
-  private trace(count: number, colour: string, width: number, at: (row: number) => Pair | null): void {
+  #trace(count: number, colour: string, width: number, at: (row: number) => Pair | null): void {
     const { pen, viewport } = this;
     pen.strokeStyle = this.colour(colour);
     pen.lineWidth = width;
@@ -65,7 +65,7 @@ export class Painter {
   }
 
   /** What the linkage was designed for: rings with numbers, positions with their direction. */
-  private paintTargets(targets: readonly Target[]): void {
+  #paintTargets(targets: readonly Target[]): void {
     if (!targets.length) return; // to choose a font took a third of a frame
     const { pen, viewport } = this;
     pen.strokeStyle = pen.fillStyle = this.colour("--purple");
@@ -87,15 +87,15 @@ export class Painter {
   }
 
   /** The curves of the pole of a link, in the plane and on the link. */
-  private paintCentrodes(linkage: Linkage, link: number): void {
+  #paintCentrodes(linkage: Linkage, link: number): void {
     const { viewport } = this;
     const { rows, values } = linkage.cycle;
-    this.trace(values.length, "--green", 1.4, (row) => {
+    this.#trace(values.length, "--green", 1.4, (row) => {
       const found = pole(linkage, rows, row, link);
       return found && viewport.screen(found.x, found.y);
     });
     this.pen.setLineDash(DASHES);
-    this.trace(values.length, "--purple", 1.4, (row) => {
+    this.#trace(values.length, "--purple", 1.4, (row) => {
       const found = pole(linkage, rows, row, link);
       if (!found) return null;
       const [c, s] = turn(rows, row, link);
@@ -107,7 +107,7 @@ export class Painter {
   }
 
   /** The velocities of all named points, drawn from one place in the corner: their ends trace the hodographs. */
-  private paintHodographs(linkage: Linkage): void {
+  #paintHodographs(linkage: Linkage): void {
     const { pen, viewport } = this;
     const { points } = linkage.sizes;
     const { rows, values } = linkage.cycle;
@@ -121,7 +121,7 @@ export class Painter {
     const most = Math.max(...fastest, 1e-12 * linkage.size);
     const end = ([u, v]: Pair): Pair => [x + (reach * u) / most, y - (reach * v) / most];
     points.forEach((point, k) => {
-      this.trace(values.length, ownColour(k), 1.4, (row) => end(velocity(point, row)));
+      this.#trace(values.length, ownColour(k), 1.4, (row) => end(velocity(point, row)));
       pen.beginPath();
       pen.moveTo(x, y);
       pen.lineTo(...end(place(linkage.pose, 0, point.link, ...point.at, 1)));

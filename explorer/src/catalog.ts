@@ -20,22 +20,22 @@ interface Entry {
 
 export class CatalogView implements View {
   readonly element = h("div.view", { "data-page": "catalog" });
-  private words = "";
-  private pairs = "";
-  private joints = "";
-  private features: Record<string, string> = {};
-  private refining = false;
-  private readonly cards = h("div.cards", { "data-list": "catalog" });
-  private readonly note = h("p.note", { role: "status" }, "\u00a0"); // as high as its text
-  private typing = 0;
-  private asked = 0;
-  private filled = false;
-  private readonly watcher = new IntersectionObserver(
+  #words = "";
+  #pairs = "";
+  #joints = "";
+  #features: Record<string, string> = {};
+  #refining = false;
+  readonly #cards = h("div.cards", { "data-list": "catalog" });
+  readonly #note = h("p.note", { role: "status" }, "\u00a0"); // as high as its text
+  #typing = 0;
+  #asked = 0;
+  #filled = false;
+  readonly #watcher = new IntersectionObserver(
     (seen) => {
       for (const { target, isIntersecting } of seen) {
         if (!isIntersecting) continue;
-        this.watcher.unobserve(target);
-        void this.draw(target as HTMLElement);
+        this.#watcher.unobserve(target);
+        void this.#draw(target as HTMLElement);
       }
     },
     { rootMargin: "200px" },
@@ -44,7 +44,7 @@ export class CatalogView implements View {
   constructor(private readonly page: Page) {}
 
   appeared(): void {
-    if (!this.filled) void this.search();
+    if (!this.#filled) void this.#search();
   }
 
   arrange(): void {
@@ -55,17 +55,17 @@ export class CatalogView implements View {
         "data-field": key,
         oninput: () => {
           set(input.value);
-          clearTimeout(this.typing);
-          this.typing = window.setTimeout(() => void this.search(), 250);
+          clearTimeout(this.#typing);
+          this.#typing = window.setTimeout(() => void this.#search(), 250);
         },
       });
       return h("label", {}, label, input);
     };
     const feature = (key: string, label: string) =>
-      field(label, this.features[key] ?? "", (text) => (this.features[key] = text), "", key);
+      field(label, this.#features[key] ?? "", (text) => (this.#features[key] = text), "", key);
     const more = h(
       "details",
-      { open: this.refining, "data-panel": "features", ontoggle: () => (this.refining = more.open) },
+      { open: this.#refining, "data-panel": "features", ontoggle: () => (this.#refining = more.open) },
       h("summary", {}, t("Access features")),
       h(
         "div.form.numbers",
@@ -78,7 +78,7 @@ export class CatalogView implements View {
         feature("binary", t("Binary links")),
         feature("ternary", t("Ternary links")),
         feature("multiple_joints", t("Multiple joints")),
-        field(t("Joints by type"), this.joints, (text) => (this.joints = text), t("R:4,P:0"), "joints"),
+        field(t("Joints by type"), this.#joints, (text) => (this.#joints = text), t("R:4,P:0"), "joints"),
       ),
     );
     const kinds: [string, string][] = [
@@ -91,9 +91,9 @@ export class CatalogView implements View {
       ["guide mechanism", t("Guide mechanisms")],
     ];
     const choose = (words: string) => {
-      this.words = words;
+      this.#words = words;
       this.arrange();
-      void this.search();
+      void this.#search();
     };
     renew(
       this.element,
@@ -101,52 +101,52 @@ export class CatalogView implements View {
         "div.page",
         {},
         h("h2", {}, t("Catalog")),
-        choice(t("Kinds of machines"), kinds, this.words, choose, { class: "choice palette" }),
+        choice(t("Kinds of machines"), kinds, this.#words, choose, { class: "choice palette" }),
         h(
           "div.form",
           {},
-          field(t("Words"), this.words, (text) => (this.words = text), t("crank, Kurbel, …"), "words"),
-          field(t("Joint types"), this.pairs, (text) => (this.pairs = text), "P G", "pairs"),
+          field(t("Words"), this.#words, (text) => (this.#words = text), t("crank, Kurbel, …"), "words"),
+          field(t("Joint types"), this.#pairs, (text) => (this.#pairs = text), "P G", "pairs"),
           feature("links", t("Links")),
         ),
         more,
-        this.note,
-        this.cards,
+        this.#note,
+        this.#cards,
       ),
     );
-    if (this.filled) void this.search();
+    if (this.#filled) void this.#search();
   }
 
-  private async search(): Promise<void> {
-    const number = ++this.asked;
+  async #search(): Promise<void> {
+    const number = ++this.#asked;
     const features = Object.fromEntries(
-      Object.entries(this.features).flatMap(([key, text]) => (/^\s*\d+\s*$/.test(text) ? [[key, Number(text)]] : [])),
+      Object.entries(this.#features).flatMap(([key, text]) => (/^\s*\d+\s*$/.test(text) ? [[key, Number(text)]] : [])),
     );
-    if (!this.filled) renew(this.cards, moment());
+    if (!this.#filled) renew(this.#cards, moment());
     try {
       const found = await this.page.ask<Entry[]>("catalog", {
-        words: this.words,
-        pairs: this.pairs,
-        joints: this.joints,
+        words: this.#words,
+        pairs: this.#pairs,
+        joints: this.#joints,
         ...features,
       });
-      if (number !== this.asked) return;
-      this.filled = true;
-      this.note.textContent = t("{count} machines", { count: found.length });
-      renew(this.cards, ...found.map((entry) => this.card(entry)));
-      for (const card of this.cards.children) this.watcher.observe(card);
+      if (number !== this.#asked) return;
+      this.#filled = true;
+      this.#note.textContent = t("{count} machines", { count: found.length });
+      renew(this.#cards, ...found.map((entry) => this.#card(entry)));
+      for (const card of this.#cards.children) this.#watcher.observe(card);
     } catch (error) {
-      if (number === this.asked) this.note.textContent = (error as Error).message;
+      if (number === this.#asked) this.#note.textContent = (error as Error).message;
     }
   }
 
-  private card(entry: Entry): HTMLElement {
+  #card(entry: Entry): HTMLElement {
     const { id, links, counted, moves, space } = entry;
     const sizes = t("{links} links, F = {counted}", { links, counted });
     const kinds = space ? [t("in space")] : [t("structure only")].slice(Number(moves));
     const card = h(
       "button.card",
-      { "data-id": id, title: entry.name, onclick: () => void this.choose(entry) },
+      { "data-id": id, title: entry.name, onclick: () => void this.#choose(entry) },
       h("div", { "data-place": "" }),
       h("b", {}, entry.name),
       h("span", {}, [sizes, ...kinds].join(" · ")),
@@ -155,7 +155,7 @@ export class CatalogView implements View {
     return card;
   }
 
-  private async draw(card: HTMLElement): Promise<void> {
+  async #draw(card: HTMLElement): Promise<void> {
     const id = card.dataset.id!;
     try {
       const { picture } = await this.page.ask<{ picture: string }>("picture", { id });
@@ -165,7 +165,7 @@ export class CatalogView implements View {
     }
   }
 
-  private async choose(entry: Entry): Promise<void> {
+  async #choose(entry: Entry): Promise<void> {
     if (entry.space && ownPage())
       return void window.open(`space/${entry.id}.html#${currentLanguage()}`, "_blank", "noopener");
     if (!entry.moves) return this.page.describe(entry.text);

@@ -13,15 +13,15 @@ interface Chains {
 
 export class ChainList {
   readonly element = h("div", {});
-  private links = 6;
+  #links = 6;
   private mobility = 1;
-  private found: Chains | null = null;
+  #found: Chains | null = null;
   /** The text of the chain that is described. */
-  private chosen = "";
-  private readonly list = h("div.chains", {});
-  private readonly count = h("span.note.count", {}, "\u00a0");
-  private readonly status = h("div.form", {});
-  private asked = 0;
+  #chosen = "";
+  readonly #list = h("div.chains", {});
+  readonly #count = h("span.note.count", {}, "\u00a0");
+  readonly #status = h("div.form", {});
+  #asked = 0;
 
   constructor(
     private readonly page: Page,
@@ -29,23 +29,23 @@ export class ChainList {
   ) {}
 
   appeared(): void {
-    if (!this.found) void this.ask(0);
+    if (!this.#found) void this.#ask(0);
   }
 
   arrange(): void {
     const links = h("input", {
       type: "number",
       ...this.page.limits.links,
-      value: this.links,
+      value: this.#links,
       "aria-label": t("Links"),
-      onchange: () => this.typed(links, mobility),
+      onchange: () => this.#typed(links, mobility),
     });
     const mobility = h("input", {
       type: "number",
       ...this.page.limits.mobility,
       value: this.mobility,
       "aria-label": t("Mobility"),
-      onchange: () => this.typed(links, mobility),
+      onchange: () => this.#typed(links, mobility),
     });
 
     renew(
@@ -55,64 +55,64 @@ export class ChainList {
         {},
         h("label", {}, t("Links"), links),
         h("label", {}, t("Mobility"), mobility),
-        this.count,
-        this.status,
+        this.#count,
+        this.#status,
       ),
-      this.list,
+      this.#list,
     );
-    this.show();
+    this.#show();
   }
 
   /** Mark the chain of a text. */
   choose(text: string): void {
-    this.chosen = text;
-    for (const card of this.list.querySelectorAll<HTMLElement>("[data-chain]"))
+    this.#chosen = text;
+    for (const card of this.#list.querySelectorAll<HTMLElement>("[data-chain]"))
       card.setAttribute("aria-pressed", String(text.startsWith(card.dataset.chain!)));
   }
 
   /** Ask for the chains of the numbers that are typed, if there can be such; else the list stays that of the last. */
-  private typed(links: HTMLInputElement, mobility: HTMLInputElement): void {
+  #typed(links: HTMLInputElement, mobility: HTMLInputElement): void {
     const wrong = [links, mobility].find((field) => !field.value || !field.checkValidity());
     if (!wrong) {
-      this.links = Number(links.value);
+      this.#links = Number(links.value);
       this.mobility = Number(mobility.value);
-      return void this.ask(0);
+      return void this.#ask(0);
     }
     const { min, max } = wrong;
     const text = t("Expected a whole number from {min} to {max}.", { min, max });
-    renew(this.status, h("span.error", { role: "alert" }, text));
+    renew(this.#status, h("span.error", { role: "alert" }, text));
   }
 
-  private async ask(start: number): Promise<void> {
-    const question = { links: this.links, mobility: this.mobility, start };
-    const number = ++this.asked;
-    const place = this.found ? this.status : this.list;
+  async #ask(start: number): Promise<void> {
+    const question = { links: this.#links, mobility: this.mobility, start };
+    const number = ++this.#asked;
+    const place = this.#found ? this.#status : this.#list;
     const found = await awaited(place, (progress) => this.page.ask<Chains>("chains", question, progress));
-    if (number !== this.asked) return; // another list is wanted by now
+    if (number !== this.#asked) return; // another list is wanted by now
     if (found) {
-      const before = start && this.found ? this.found.items : [];
-      this.found = { ...found, items: [...before, ...found.items] };
+      const before = start && this.#found ? this.#found.items : [];
+      this.#found = { ...found, items: [...before, ...found.items] };
     }
-    this.show();
+    this.#show();
   }
 
-  private show(): void {
-    const { found } = this;
+  #show(): void {
+    const found = this.#found;
     if (!found) return;
-    this.count.textContent = t("{shown} of {total} chains", { shown: found.items.length, total: found.total });
+    this.#count.textContent = t("{shown} of {total} chains", { shown: found.items.length, total: found.total });
     if (!found.total) {
-      const odd = (this.links + this.mobility) % 2 === 0;
+      const odd = (this.#links + this.mobility) % 2 === 0;
       const why = odd
         ? t("There is none: F = 3(n − 1) − 2g, so that of links and mobility one is even and one is odd.")
         : t("There is none with so few links.");
-      return renew(this.list, h("p.note", {}, why));
+      return renew(this.#list, h("p.note", {}, why));
     }
     const more =
       found.items.length < found.total
-        ? h("button.plain", { onclick: () => void this.ask(found.items.length) }, t("More"))
+        ? h("button.plain", { onclick: () => void this.#ask(found.items.length) }, t("More"))
         : null;
     renew(
-      this.list,
+      this.#list,
       h(
         "div.cards.few",
         { "data-list": "chains" },
@@ -121,7 +121,7 @@ export class ChainList {
             "button.card",
             {
               "data-chain": text,
-              "aria-pressed": String(this.chosen.startsWith(text)),
+              "aria-pressed": String(this.#chosen.startsWith(text)),
               onclick: () => this.take(text),
             },
             thumbnail(drawn, text),

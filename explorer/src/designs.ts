@@ -32,8 +32,8 @@ type Order = "error" | "size" | "transmission";
 
 export class DesignCards {
   readonly element = h("div", {});
-  private found: Found | null = null;
-  private order: Order = "error";
+  #found: Found | null = null;
+  #order: Order = "error";
 
   constructor(
     private readonly play: (design: Design) => void,
@@ -42,22 +42,22 @@ export class DesignCards {
 
   /** Show others, or none; returns the first. */
   show(found: Found | null): Design | null {
-    this.found = found;
+    this.#found = found;
     // exact ones do not differ in their deviation
-    this.order = found?.items.some(({ error }) => !exact(error)) ? "error" : "size";
+    this.#order = found?.items.some(({ error }) => !exact(error)) ? "error" : "size";
     this.arrange();
-    return this.sorted()[0] ?? null;
+    return this.#sorted()[0] ?? null;
   }
 
-  private sorted(): Design[] {
+  #sorted(): Design[] {
     const worth = ({ error, size, transmission }: Design) =>
-      ({ error: exact(error) ? 0 : Math.abs(error!), size, transmission: -(transmission ?? 0) })[this.order];
-    return [...(this.found?.items ?? [])].sort((one, two) => worth(one) - worth(two) || 0);
+      ({ error: exact(error) ? 0 : Math.abs(error!), size, transmission: -(transmission ?? 0) })[this.#order];
+    return [...(this.#found?.items ?? [])].sort((one, two) => worth(one) - worth(two) || 0);
   }
 
   /** Write them, in the language of the page. */
   arrange(): void {
-    const { found } = this;
+    const found = this.#found;
     if (!found) return renew(this.element);
     const orders: [Order, string][] = [
       ["error", t("by deviation")],
@@ -70,16 +70,16 @@ export class DesignCards {
       h("p.note", {}, found.note ?? ""),
       h("p.note", {}, found.refused ? t("{count} others do not meet what is asked.", { count: found.refused }) : ""),
       found.items.length > 1
-        ? choice(t("Order"), orders, this.order, (order) => {
-            this.order = order as Order;
+        ? choice(t("Order"), orders, this.#order, (order) => {
+            this.#order = order as Order;
             this.arrange();
           })
         : "",
-      h("div.cards.sorted", { "data-list": "designs" }, ...this.sorted().map((design) => this.card(design))),
+      h("div.cards.sorted", { "data-list": "designs" }, ...this.#sorted().map((design) => this.#card(design))),
     );
   }
 
-  private card(design: Design): HTMLElement {
+  #card(design: Design): HTMLElement {
     const { form, transmission, error, size } = design;
     const deviation = error === null ? null : 100 * (exact(error) ? 0 : error);
     const play = () => this.play(design);

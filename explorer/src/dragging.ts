@@ -25,31 +25,31 @@ const DRAGGED = 1e-7;
 
 export class Dragging {
   /** Of each joint: whether its place is given by what touches there. */
-  private readonly locked: readonly boolean[];
+  readonly #locked: readonly boolean[];
   /** Of each link: the two pins between which its x axis runs, if it does. */
-  private readonly axes: readonly (Pair | null)[];
-  private readonly meshes: readonly Mesh[];
+  readonly #axes: readonly (Pair | null)[];
+  readonly #meshes: readonly Mesh[];
   /** Of each joint that is the centre of a wheel which can be moved around another one. */
-  private readonly pivots: readonly (Pivot | null)[];
+  readonly #pivots: readonly (Pivot | null)[];
   /** What stays as it is while joints are dragged. */
   readonly locks: Locks;
 
   constructor(private readonly linkage: Linkage) {
     this.locks = new Locks(linkage);
     const { model, sizes } = linkage;
-    const held = model.joints.map((_, joint) => this.touches(joint));
+    const held = model.joints.map((_, joint) => this.#touches(joint));
     // an axis goes with those of wheels at the same place of its link
     const withWheel = (k: number) => (m: number) =>
       m !== k && held[sizes.element(m).joint]! && sizes.is(m, "pin") && sizes.together(k, m);
     const carried = (k: number) => sizes.elementsOn(sizes.element(k).link).some(withWheel(k));
-    this.locked = held.map((one, joint) => one || sizes.elementsOf(joint).some(carried));
-    this.axes = model.links.map((_, link) => this.axisOf(link));
-    this.meshes = meshesOf(linkage);
-    this.pivots = model.joints.map((_, joint) => pivotOf(linkage, this.meshes, joint));
+    this.#locked = held.map((one, joint) => one || sizes.elementsOf(joint).some(carried));
+    this.#axes = model.links.map((_, link) => this.#axisOf(link));
+    this.#meshes = meshesOf(linkage);
+    this.#pivots = model.joints.map((_, joint) => pivotOf(linkage, this.#meshes, joint));
   }
 
   /** Where wheels, cams and the like touch, places are not free. */
-  private touches(joint: number): boolean {
+  #touches(joint: number): boolean {
     const { sizes } = this.linkage;
     const mine = sizes.elementsOf(joint);
     if (!mine.some((k) => sizes.is(k, "pin"))) return true;
@@ -58,7 +58,7 @@ export class Dragging {
     return mine.some((k) => sizes.elementsOn(sizes.element(k).link).some(atRound(k)));
   }
 
-  private axisOf(link: number): Pair | null {
+  #axisOf(link: number): Pair | null {
     const { model, sizes } = this.linkage;
     if (link === model.frame || link >= model.own) return null;
     const pins = sizes.elementsOn(link).filter((k) => sizes.is(k, "pin"));
@@ -71,12 +71,12 @@ export class Dragging {
   }
 
   draggable(joint: number): boolean {
-    return !this.locks.held.has(joint) && (!this.locked[joint] || this.pivots[joint] !== null);
+    return !this.locks.held.has(joint) && (!this.#locked[joint] || this.#pivots[joint] !== null);
   }
 
   /** Where a joint comes to when it is dragged to a place. */
   permitted(joint: number, x: number, y: number): Pair {
-    const pivot = this.pivots[joint];
+    const pivot = this.#pivots[joint];
     return pivot ? onCircle(this.linkage, pivot, joint, x, y) : [x, y];
   }
 
@@ -91,10 +91,10 @@ export class Dragging {
     const { linkage } = this;
     const { model, sizes } = linkage;
     const pose = oneRow(linkage.pose, 0);
-    const pivot = this.pivots[joint];
-    const places = this.placesWith(joint, ...this.permitted(joint, toX, toY));
-    this.keepApart(places);
-    const rigid = model.links.map((_, link) => this.isKept(link));
+    const pivot = this.#pivots[joint];
+    const places = this.#placesWith(joint, ...this.permitted(joint, toX, toY));
+    this.#keepApart(places);
+    const rigid = model.links.map((_, link) => this.#isKept(link));
     const cylinders = model.joints.map((_, k) => sizes.cylinder(k)).filter((found) => found !== null);
     const ends = new Set(cylinders.flatMap(([, , one, two]) => [one, two]));
     linkage.change(() => {
@@ -102,21 +102,21 @@ export class Dragging {
       for (const [moved, [x, y]] of places)
         for (const k of sizes.elementsOf(moved)) {
           const { link } = sizes.element(k);
-          if (!ends.has(k) && !rigid[link] && link !== pivot?.wheel) this.moveElement(k, x, y, cylinders);
+          if (!ends.has(k) && !rigid[link] && link !== pivot?.wheel) this.#moveElement(k, x, y, cylinders);
         }
-      for (const [link, whole] of rigid.entries()) if (whole) this.carry(pose, link, places);
-      for (const cylinder of cylinders) this.straighten(pose, cylinder, places);
-      for (const [link, axis] of this.axes.entries()) if (axis) this.align(pose, link, axis);
+      for (const [link, whole] of rigid.entries()) if (whole) this.#carry(pose, link, places);
+      for (const cylinder of cylinders) this.#straighten(pose, cylinder, places);
+      for (const [link, axis] of this.#axes.entries()) if (axis) this.#align(pose, link, axis);
       linkage.writeSizes();
       placeBlocks(linkage, pose);
       readState(linkage, pose);
-      setPhases(linkage, this.meshes, pose);
+      setPhases(linkage, this.#meshes, pose);
     });
   }
 
   /** Where joints come to when one is dragged: others follow where lengths and directions are kept, and move as little
    * as they can. */
-  private placesWith(joint: number, x: number, y: number): Map<number, Pair> {
+  #placesWith(joint: number, x: number, y: number): Map<number, Pair> {
     const { linkage, locks } = this;
     const { model, sizes } = linkage;
     const directions = locks.pairs("direction");
@@ -131,7 +131,7 @@ export class Dragging {
         return [...joints(pair), far, [(qx - px) / far, (qy - py) / far]];
       }),
     ];
-    const ease = before.map((_, k): number => (locks.held.has(k) || this.locked[k] ? 0 : 1));
+    const ease = before.map((_, k): number => (locks.held.has(k) || this.#locked[k] ? 0 : 1));
     const moving = distances.filter(([one, two]) => one === joint || two === joint || ease[one]! + ease[two]! > 0);
     const from = before.map((at, k): Pair => (k === joint ? [x, y] : at));
     const eased = (own: number) =>
@@ -147,7 +147,7 @@ export class Dragging {
   }
 
   /** Refuse places at which two pins of a link would all but meet. */
-  private keepApart(places: ReadonlyMap<number, Pair>): void {
+  #keepApart(places: ReadonlyMap<number, Pair>): void {
     const { linkage } = this;
     const { sizes } = linkage;
     const least = NEAREST * linkage.size;
@@ -162,7 +162,7 @@ export class Dragging {
   }
 
   /** Whether all of a link is kept: it has pins only, and all their distances stay. */
-  private isKept(link: number): boolean {
+  #isKept(link: number): boolean {
     const { model, sizes } = this.linkage;
     const mine = sizes.elementsOn(link);
     const pairs = mine.flatMap((k, j) => mine.slice(0, j).map((m) => this.locks.keeps("length", m, k)));
@@ -172,7 +172,7 @@ export class Dragging {
   }
 
   /** Take a link along as a whole, by two of its pins. */
-  private carry(pose: Rows, link: number, places: ReadonlyMap<number, Pair>): void {
+  #carry(pose: Rows, link: number, places: ReadonlyMap<number, Pair>): void {
     const { linkage } = this;
     const { sizes } = linkage;
     const [one, two] = sizes.elementsOn(link) as [number, number];
@@ -192,7 +192,7 @@ export class Dragging {
     }
   }
 
-  private moveElement(k: number, x: number, y: number, cylinders: readonly Cylinder[]): void {
+  #moveElement(k: number, x: number, y: number, cylinders: readonly Cylinder[]): void {
     const { linkage } = this;
     const { model, sizes } = linkage;
     const { joint, link } = sizes.element(k);
@@ -217,7 +217,7 @@ export class Dragging {
   }
 
   /** A cylinder whose end is dragged keeps its links, and turns into the line of its pins. */
-  private straighten(pose: Rows, cylinder: Cylinder, places: ReadonlyMap<number, Pair>): void {
+  #straighten(pose: Rows, cylinder: Cylinder, places: ReadonlyMap<number, Pair>): void {
     const { linkage } = this;
     const { sizes } = linkage;
     const [one, two, pinOne, pinTwo] = cylinder;
@@ -242,7 +242,7 @@ export class Dragging {
   }
 
   /** Give a link its x axis back, from pin to pin; nothing moves in the plane. */
-  private align(pose: Rows, link: number, [first, other]: Pair): void {
+  #align(pose: Rows, link: number, [first, other]: Pair): void {
     const { sizes } = this.linkage;
     const [x, y] = sizes.xy(first);
     const [ox, oy] = sizes.xy(other);
@@ -276,7 +276,7 @@ export class Dragging {
       // each joint against the first two of its link: these distances fix the link
       for (let j = 1; j < mine.length; j++)
         for (let i = 0; i < Math.min(j, 2); i++) {
-          const length = this.length(link, mine[i]!, mine[j]!);
+          const length = this.#length(link, mine[i]!, mine[j]!);
           if (length) out.push(length);
         }
     }
@@ -284,21 +284,21 @@ export class Dragging {
   }
 
   /** The distance of two elements of a link, null where it is no size. */
-  private length(link: number, first: number, second: number): Length | null {
+  #length(link: number, first: number, second: number): Length | null {
     const { model, sizes } = this.linkage;
     const lines = [first, second].filter((k) => sizes.is(k, "line"));
     if (lines.length === 2) return null;
     let value: number;
     if (lines.length) {
-      const [line, pin] = this.lineFirst(first, second);
+      const [line, pin] = this.#lineFirst(first, second);
       value = Math.abs(sizes.leftOf(line, ...sizes.xy(pin)));
       if (value < sizes.near && link !== model.frame) return null;
     } else value = sizes.gap(first, second);
-    if (this.locked[sizes.element(first).joint] && this.locked[sizes.element(second).joint]) return null;
+    if (this.#locked[sizes.element(first).joint] && this.#locked[sizes.element(second).joint]) return null;
     return { link, first, second, value };
   }
 
-  private lineFirst(first: number, second: number): Pair {
+  #lineFirst(first: number, second: number): Pair {
     return this.linkage.sizes.is(first, "line") ? [first, second] : [second, first];
   }
 
@@ -308,7 +308,7 @@ export class Dragging {
     const { sizes } = this.linkage;
     const goal = new Float64Array(sizes.at);
     if (sizes.is(first, "line") || sizes.is(second, "line")) {
-      const [line, pin] = this.lineFirst(first, second);
+      const [line, pin] = this.#lineFirst(first, second);
       const off = sizes.leftOf(line, ...sizes.xy(pin));
       const more = (off < 0 ? -length : length) - off;
       const [c, s] = sizes.line(line);
@@ -319,13 +319,13 @@ export class Dragging {
       const [x, y] = sizes.xy(first);
       const [u, v] = sizes.xy(second);
       const now = Math.hypot(u - x, v - y);
-      this.putPin(goal, first, second, [x + ((u - x) / now) * length, y + ((v - y) / now) * length], length);
+      this.#putPin(goal, first, second, [x + ((u - x) / now) * length, y + ((v - y) / now) * length], length);
     }
     this.linkage.changeSlowly(goal);
   }
 
   /** Put a pin elsewhere on its link; other pins of it follow as far as lengths are kept. */
-  private putPin(goal: Float64Array, first: number, second: number, at: Pair, length: number): void {
+  #putPin(goal: Float64Array, first: number, second: number, at: Pair, length: number): void {
     const { sizes } = this.linkage;
     const mine = sizes.elementsOn(sizes.element(first).link).filter((k) => sizes.is(k, "pin"));
     const number = (k: number) => mine.indexOf(k);

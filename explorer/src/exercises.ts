@@ -53,103 +53,103 @@ interface Tried {
 export class ExercisesView implements View {
   readonly element = h("div.view", { "data-page": "exercises" });
   private kind = "mobility";
-  private listed: Kind[] = [];
-  private chosen = "exercise-1";
+  #listed: Kind[] = [];
+  #chosen = "exercise-1";
   private level = 1;
   private seed = 1 + Math.floor(Math.random() * 9999);
   private task: Task | null = null;
-  private marked: Marked | null = null;
-  private readonly place = h("div", {});
-  private readonly kinds = h("div", {});
-  private readonly tasks = h("div", {});
-  private readonly score = h("span.score", { role: "status" });
-  private answers: Record<string, string> = {};
+  #marked: Marked | null = null;
+  readonly #place = h("div", {});
+  readonly #kinds = h("div", {});
+  readonly #tasks = h("div", {});
+  readonly #score = h("span.score", { role: "status" });
+  #answers: Record<string, string> = {};
   /** The tasks that were marked, and whether all their answers were right. */
   private readonly record = new Map<string, boolean>();
 
   constructor(private readonly page: Page) {}
 
   appeared(): void {
-    if (!this.task) void this.fillKinds().then(() => this.fresh());
+    if (!this.task) void this.#fillKinds().then(() => this.fresh());
   }
 
   arrange(): void {
-    const form = h("div.form", {}, this.tasks, this.score);
-    renew(this.element, h("div.page", {}, h("h2", {}, t("Exercises")), this.kinds, form, this.place));
-    this.showScore();
-    if (this.task) void this.fillKinds().then(() => this.fresh());
+    const form = h("div.form", {}, this.#tasks, this.#score);
+    renew(this.element, h("div.page", {}, h("h2", {}, t("Exercises")), this.#kinds, form, this.#place));
+    this.#showScore();
+    if (this.task) void this.#fillKinds().then(() => this.fresh());
   }
 
-  private async fillKinds(): Promise<void> {
-    if (!this.task) renew(this.kinds, moment());
-    this.listed = await this.page.ask<Kind[]>("exercise_kinds", {});
-    const options = this.listed.map(({ kind, name }): [string, string] => [kind, name]);
+  async #fillKinds(): Promise<void> {
+    if (!this.task) renew(this.#kinds, moment());
+    this.#listed = await this.page.ask<Kind[]>("exercise_kinds", {});
+    const options = this.#listed.map(({ kind, name }): [string, string] => [kind, name]);
     const choose = (kind: string) => {
       this.kind = kind;
       void this.fresh();
     };
-    renew(this.kinds, choice(t("Theory"), options, this.kind, choose, { class: "choice palette" }));
+    renew(this.#kinds, choice(t("Theory"), options, this.kind, choose, { class: "choice palette" }));
   }
 
   /** The exercises of the text; none for a kind of fresh tasks. */
-  private numbered(): Kind["tasks"] {
-    return this.listed.find(({ kind }) => kind === this.kind)?.tasks ?? [];
+  #numbered(): Kind["tasks"] {
+    return this.#listed.find(({ kind }) => kind === this.kind)?.tasks ?? [];
   }
 
-  private next(): void {
-    const tasks = this.numbered();
+  #next(): void {
+    const tasks = this.#numbered();
     this.seed += 1;
-    this.chosen = tasks[(tasks.findIndex(({ id }) => id === this.chosen) + 1) % tasks.length]?.id ?? this.chosen;
+    this.#chosen = tasks[(tasks.findIndex(({ id }) => id === this.#chosen) + 1) % tasks.length]?.id ?? this.#chosen;
     void this.fresh();
   }
 
   /** Between which tasks of a kind one chooses: levels, or exercises of the text. */
-  private showTasks(): void {
-    const tasks = this.numbered();
+  #showTasks(): void {
+    const tasks = this.#numbered();
     if (tasks.length) {
       const field = h(
         "select",
         {
           "aria-label": t("Exercises"),
           onchange: () => {
-            this.chosen = field.value;
+            this.#chosen = field.value;
             void this.fresh();
           },
         },
-        ...tasks.map(({ id, name }) => h("option", { value: id, selected: id === this.chosen }, name)),
+        ...tasks.map(({ id, name }) => h("option", { value: id, selected: id === this.#chosen }, name)),
       );
-      return renew(this.tasks, field);
+      return renew(this.#tasks, field);
     }
     const levels = [1, 2, 3].map((k): [string, string] => [String(k), t("Level {level}", { level: k })]);
     const level = choice(t("Level"), levels, String(this.level), (value) => {
       this.level = Number(value);
       void this.fresh();
     });
-    const next = h("button.plain", { "data-act": "fresh", onclick: () => this.next() }, t("A fresh task"));
-    renew(this.tasks, h("div.form", {}, level, next));
+    const next = h("button.plain", { "data-act": "fresh", onclick: () => this.#next() }, t("A fresh task"));
+    renew(this.#tasks, h("div.form", {}, level, next));
   }
 
   /** The task that is chosen; of the one that is shown the answers stay. */
   private async fresh(): Promise<void> {
-    this.showTasks();
-    const id = this.numbered().length ? this.chosen : `${this.kind}-${this.level}-${this.seed}`;
+    this.#showTasks();
+    const id = this.#numbered().length ? this.#chosen : `${this.kind}-${this.level}-${this.seed}`;
     try {
       const task = await this.page.ask<Task>("exercise", { id });
-      if (task.id !== this.task?.id) this.answers = {};
+      if (task.id !== this.task?.id) this.#answers = {};
       this.task = task;
-      this.marked = null;
-      this.show();
+      this.#marked = null;
+      this.#show();
     } catch (error) {
-      renew(this.place, h("p.error", {}, (error as Error).message));
+      renew(this.#place, h("p.error", {}, (error as Error).message));
     }
   }
 
-  private show(): void {
-    const { marked, place } = this;
+  #show(): void {
+    const [marked, place] = [this.#marked, this.#place];
     const task = this.task!;
     const submit = (event: Event) => {
       event.preventDefault();
-      void this.mark();
+      void this.#mark();
     };
     const solved = this.record.get(task.id) === true;
     const act = (name: string, text: string, key: boolean, onclick: () => void, type = "button") =>
@@ -183,7 +183,7 @@ export class ExercisesView implements View {
         h(
           "form",
           { onsubmit: submit },
-          ...task.asked.map((one) => this.row(one)),
+          ...task.asked.map((one) => this.#row(one)),
           marked
             ? h(
                 "p",
@@ -195,9 +195,9 @@ export class ExercisesView implements View {
             "div.form",
             {},
             act("mark", t("Mark my answers"), !solved, () => undefined, "submit"),
-            marked ? act("next", t("Next task"), solved, () => this.next()) : null,
+            marked ? act("next", t("Next task"), solved, () => this.#next()) : null,
             ...(marked ? task.figures.slice(0, task.tries) : []).map(({ name }, k) =>
-              act("try", [t("Try it"), name].filter(Boolean).join(": "), false, () => void this.tryIt(k)),
+              act("try", [t("Try it"), name].filter(Boolean).join(": "), false, () => void this.#tryIt(k)),
             ),
           ),
           marked
@@ -209,10 +209,10 @@ export class ExercisesView implements View {
   }
 
   /** What is asked, with a field or a choice, and its mark. */
-  private row({ key, name, symbol, unit, choices }: Asked): HTMLElement {
-    const mark = this.marked?.marks.find((one) => one.key === key);
-    const given = this.answers[key] ?? "";
-    const set = (value: string) => (this.answers[key] = value);
+  #row({ key, name, symbol, unit, choices }: Asked): HTMLElement {
+    const mark = this.#marked?.marks.find((one) => one.key === key);
+    const given = this.#answers[key] ?? "";
+    const set = (value: string) => (this.#answers[key] = value);
     const [id, hint] = [`answer-${key}`, `hint-${key}`];
     const words = { right: `✓ ${t("right")}`, near: `≈ ${t("nearly right")}`, wrong: `✗ ${t("wrong")}` };
     const input = h("input", {
@@ -244,27 +244,27 @@ export class ExercisesView implements View {
     );
   }
 
-  private async mark(): Promise<void> {
+  async #mark(): Promise<void> {
     const task = this.task!;
-    if (!Object.values(this.answers).some((answer) => answer.trim()))
+    if (!Object.values(this.#answers).some((answer) => answer.trim()))
       return this.page.say(t("Give at least one answer."));
     try {
-      this.marked = await this.page.ask<Marked>("mark", { id: task.id, answers: this.answers });
+      this.#marked = await this.page.ask<Marked>("mark", { id: task.id, answers: this.#answers });
     } catch (error) {
       return this.page.say((error as Error).message);
     }
     this.page.say("");
-    const right = this.marked.marks.filter(({ mark }) => mark === "right");
+    const right = this.#marked.marks.filter(({ mark }) => mark === "right");
     this.record.set(task.id, right.length === task.asked.length);
-    this.show();
-    this.showScore();
+    this.#show();
+    this.#showScore();
   }
 
-  private showScore(): void {
+  #showScore(): void {
     const tasks = [...this.record.values()];
     const solved = tasks.filter(Boolean).length;
     renew(
-      this.score,
+      this.#score,
       ...tasks.slice(-12).map((one) => {
         const sign = one ? "●" : "○";
         return h("i", { class: one ? "good" : "bad", "aria-hidden": "true" }, sign);
@@ -273,7 +273,7 @@ export class ExercisesView implements View {
     );
   }
 
-  private async tryIt(part: number): Promise<void> {
+  async #tryIt(part: number): Promise<void> {
     try {
       const { model, text, drive } = await this.page.ask<Tried>("try", { id: this.task!.id, part });
       if (model) this.page.open(model, drive ?? undefined);

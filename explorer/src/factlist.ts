@@ -34,32 +34,32 @@ export class FactList {
 
 export class InWords {
   readonly element = h("details.words", {});
-  private readonly said = h("p.note", {});
-  private asked: Linkage | null = null;
-  private timer = 0;
+  readonly #said = h("p.note", {});
+  #asked: Linkage | null = null;
+  #timer = 0;
 
   constructor(private readonly page: Page) {}
 
   arrange(): void {
-    renew(this.element, h("summary", {}, t("In words")), this.said);
+    renew(this.element, h("summary", {}, t("In words")), this.#said);
     this.element.hidden = !this.page.served;
   }
 
   /** Ask for it after a while without a change; meanwhile what was said keeps its room. */
   ask(linkage: Linkage, documentOf: () => LinkageDocument): void {
-    this.asked = linkage;
+    this.#asked = linkage;
     if (!this.page.served || !linkage.drive || linkage.model.drives.length > 1) {
-      this.said.textContent = "";
+      this.#said.textContent = "";
       return;
     }
-    this.said.classList.add("waiting");
-    clearTimeout(this.timer);
+    this.#said.classList.add("waiting");
+    clearTimeout(this.#timer);
     const tell = (text: string) => {
-      if (linkage !== this.asked) return;
-      this.said.classList.remove("waiting");
-      this.said.textContent = text;
+      if (linkage !== this.#asked) return;
+      this.#said.classList.remove("waiting");
+      this.#said.textContent = text;
     };
-    this.timer = window.setTimeout(() => {
+    this.#timer = window.setTimeout(() => {
       const question = { document: documentOf(), source: linkage.model.source };
       this.page.ask<{ lines: string[] }>("measures", question).then(
         ({ lines }) => tell(lines.join(" ")),

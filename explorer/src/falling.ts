@@ -16,7 +16,7 @@ export class Falling {
   /** The pose before. */
   readonly start: Rows;
   /** Seconds since it was let go. */
-  private time = 0;
+  #time = 0;
 
   constructor(
     private readonly fall: Fall,
@@ -26,14 +26,14 @@ export class Falling {
   }
 
   get text(): string {
-    return `${number(this.time, 3)} s`;
+    return `${number(this.#time, 3)} s`;
   }
 
   /** The pose so many seconds later, without rates; null when it is over. */
   later(seconds: number): Rows | null {
     const { rate, places, turns } = this.fall;
-    this.time = Math.max(0, this.time + seconds); // the first frame may be older than the answer
-    const row = Math.round(this.time * rate);
+    this.#time = Math.max(0, this.#time + seconds); // the first frame may be older than the answer
+    const row = Math.round(this.#time * rate);
     if (row >= places.length) return null;
     const { start } = this;
     const still = new Float64Array(start.places.length).fill(NaN);

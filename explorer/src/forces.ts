@@ -45,14 +45,14 @@ export interface Loaded {
 
 export class Forces {
   readonly element = h("div", { "data-part": "forces" });
-  private readonly form = new LoadForm(() => this.changed());
-  private readonly result = h("div", {});
-  private readonly polar = new Polar();
-  private readonly joint = h("select", { "data-field": "force-joint", onchange: () => this.showJoint() });
-  private plot: Plot | null = null;
-  private model: Model | null = null;
-  private forces: (Vectors & { joint: number })[] = [];
-  private timer = 0;
+  readonly #form = new LoadForm(() => this.changed());
+  readonly #result = h("div", {});
+  readonly #polar = new Polar();
+  readonly #joint = h("select", { "data-field": "force-joint", onchange: () => this.#showJoint() });
+  #plot: Plot | null = null;
+  #model: Model | null = null;
+  #forces: (Vectors & { joint: number })[] = [];
+  #timer = 0;
 
   constructor(
     private readonly view: Loaded,
@@ -62,53 +62,53 @@ export class Forces {
   /** The linkage, its sizes, its loads or the language are others. */
   changed(): void {
     const { page, linkage } = this.view;
-    clearTimeout(this.timer);
+    clearTimeout(this.#timer);
     if (!page.served || !linkage.drive) {
       const word = linkage.model.source || "LINK";
       renew(this.element, h("p.note", {}, t("Forces need the library: gruebler explore {word}", { word })));
       return;
     }
-    if (this.model !== linkage.model) {
-      this.model = linkage.model;
-      this.forces = [];
-      this.form.clear();
-      renew(this.result);
+    if (this.#model !== linkage.model) {
+      this.#model = linkage.model;
+      this.#forces = [];
+      this.#form.clear();
+      renew(this.#result);
     }
-    if (!this.form.element.isConnected) renew(this.element, this.form.element, this.result);
-    this.result.classList.add("waiting");
+    if (!this.#form.element.isConnected) renew(this.element, this.#form.element, this.#result);
+    this.#result.classList.add("waiting");
     if (!this.opened()) return;
-    if (!this.result.firstChild) renew(this.result, moment());
-    this.timer = window.setTimeout(() => void this.ask(), ASKED_AFTER);
+    if (!this.#result.firstChild) renew(this.#result, moment());
+    this.#timer = window.setTimeout(() => void this.#ask(), ASKED_AFTER);
   }
 
-  private get question(): Record<string, unknown> {
+  get #question(): Record<string, unknown> {
     const { linkage } = this.view;
     const { drives, model } = linkage;
     const held = [...drives].slice(0, model.drives.length);
-    return { document: documentOf(linkage), source: model.source, drives: held, ...this.form.record };
+    return { document: documentOf(linkage), source: model.source, drives: held, ...this.#form.record };
   }
 
-  private async ask(): Promise<void> {
+  async #ask(): Promise<void> {
     const { page, linkage } = this.view;
     const { range } = this.view.transport;
     const { active, cycle } = linkage;
-    const running = { active, range, full: cycle.full, speed: this.form.speed };
+    const running = { active, range, full: cycle.full, speed: this.#form.speed };
     try {
-      const found = await page.ask<Answer>("forces", { ...this.question, ...running });
-      if (linkage === this.view.linkage) this.show(linkage, found);
+      const found = await page.ask<Answer>("forces", { ...this.#question, ...running });
+      if (linkage === this.view.linkage) this.#show(linkage, found);
     } catch (error) {
-      renew(this.result, h("p.note.error", {}, (error as Error).message));
+      renew(this.#result, h("p.note.error", {}, (error as Error).message));
     }
-    this.result.classList.remove("waiting");
+    this.#result.classList.remove("waiting");
   }
 
-  private show(linkage: Linkage, { assumed, drives, effort, forces, lines, masses, speed, springs }: Answer): void {
+  #show(linkage: Linkage, { assumed, drives, effort, forces, lines, masses, speed, springs }: Answer): void {
     const { drive, model } = linkage;
-    this.form.show(linkage, masses, speed ?? 0, springs);
-    this.plot = null;
-    this.forces = [];
+    this.#form.show(linkage, masses, speed ?? 0, springs);
+    this.#plot = null;
+    this.#forces = [];
     const assume = () => {
-      this.form.masses = assumed;
+      this.#form.masses = assumed;
       this.changed();
     };
     const weightless = masses.every((mass) => !mass);
@@ -116,76 +116,76 @@ export class Forces {
     const offer = weightless ? [h("div.form", {}, button)] : [];
     if (!drives) {
       const note = t("Nothing acts yet. Type masses or a load, or assume bars of steel, 20 mm × 5 mm.");
-      renew(this.result, h("p.note", {}, note), ...offer);
+      renew(this.#result, h("p.note", {}, note), ...offer);
     } else {
       const places = Float64Array.from(drives);
       const turning = drive!.turning;
       const title = turning ? `${t("Drive torque")} [N·${model.unit}]` : `${t("Drive force")} [N]`;
-      this.plot = new Plot(turning ? Math.PI / 180 : 1, (value) => this.view.transport.pick(value));
-      this.plot.show(places, { title, colour: "--motion", values: numbers(effort) }, this.view.transport.range);
-      this.forces = forces.map(({ joint, force }) => {
+      this.#plot = new Plot(turning ? Math.PI / 180 : 1, (value) => this.view.transport.pick(value));
+      this.#plot.show(places, { title, colour: "--motion", values: numbers(effort) }, this.view.transport.range);
+      this.#forces = forces.map(({ joint, force }) => {
         const [x, y] = force.map(numbers) as [Float64Array, Float64Array];
         const sizes = x.map((one, k) => Math.hypot(one, y[k]!)).filter(Number.isFinite);
         return { joint, drives: places, x, y, most: Math.max(...sizes) || 1 };
       });
-      const chosen = this.joint.selectedIndex;
+      const chosen = this.#joint.selectedIndex;
       const options = forces.map(({ joint, link }, value) => {
         const links = model.joints[joint]!.links.filter((other) => other !== link);
         const others = links.map((other) => linkage.linkName(other)).join(", ");
         const text = t("{others} on {link}", { others, link: linkage.linkName(link) });
         return h("option", { value, selected: value === Math.max(0, chosen) }, text);
       });
-      renew(this.joint, ...options);
+      renew(this.#joint, ...options);
       const fallen = h("div.form", {});
-      const onclick = () => void this.fall(fallen);
+      const onclick = () => void this.#fall(fallen);
       const title2 = t("The drive is let go: the linkage falls by its weight, in real time");
       renew(
-        this.result,
+        this.#result,
         ...offer,
-        this.plot.element,
-        h("div.form", {}, h("label", {}, t("Force"), this.joint)),
-        this.polar.element,
+        this.#plot.element,
+        h("div.form", {}, h("label", {}, t("Force"), this.#joint)),
+        this.#polar.element,
         ...lines.map((line) => h("p.note", {}, line)),
         h("div.form", {}, h("button.plain", { "data-act": "fall", title: title2, onclick }, t("Let go"))),
         fallen,
       );
-      this.showJoint();
+      this.#showJoint();
     }
     this.at(this.view.transport.drive);
     this.view.redraw();
   }
 
-  private showJoint(): void {
-    const force = this.forces[this.joint.selectedIndex];
+  #showJoint(): void {
+    const force = this.#forces[this.#joint.selectedIndex];
     if (!force) return;
-    this.polar.show(force, "N");
-    this.polar.at(this.view.transport.drive);
+    this.#polar.show(force, "N");
+    this.#polar.at(this.view.transport.drive);
   }
 
   /** The drive is elsewhere. */
   at(drive: number): void {
     if (!this.opened()) return;
-    this.plot?.at(drive);
-    this.polar.at(drive);
+    this.#plot?.at(drive);
+    this.#polar.at(drive);
   }
 
   get springs(): readonly Spring[] {
-    return this.opened() && this.model === this.view.linkage.model ? this.form.shown : [];
+    return this.opened() && this.#model === this.view.linkage.model ? this.#form.shown : [];
   }
 
   /** The forces on the stage where the drive is, against the largest of the range. */
   arrows(): Arrow[] {
-    if (!this.opened() || this.model !== this.view.linkage.model) return [];
-    const most = Math.max(...this.forces.map((force) => force.most));
-    return this.forces.map((force) => {
+    if (!this.opened() || this.#model !== this.view.linkage.model) return [];
+    const most = Math.max(...this.#forces.map((force) => force.most));
+    return this.#forces.map((force) => {
       const [x, y] = vectorAt(force, this.view.transport.drive);
       return [force.joint, (x * force.most) / most, (y * force.most) / most];
     });
   }
 
-  private async fall(place: HTMLElement): Promise<void> {
+  async #fall(place: HTMLElement): Promise<void> {
     const { linkage, page } = this.view;
-    const found = await awaited(place, () => page.ask<Fall>("fall", this.question));
+    const found = await awaited(place, () => page.ask<Fall>("fall", this.#question));
     if (!found || linkage !== this.view.linkage) return;
     renew(place, h("p.note", {}, found.lines.join(" ")));
     this.view.transport.play(found);

@@ -16,13 +16,13 @@ const spot = ([x, y]: [number, number]) => `${x},${-y}`;
 
 export class Ghost {
   readonly element = svg("g.ghost", { "data-ghost": "" });
-  private frame = 0;
+  #frame = 0;
 
   /** It stands still while it is not seen. */
   constructor(private readonly seen: () => boolean) {}
 
   play(moving: Moving | null): void {
-    cancelAnimationFrame(this.frame);
+    cancelAnimationFrame(this.#frame);
     if (!moving) return renew(this.element);
     const { frames, members, joints } = moving;
     const curves = frames[0]!.slice(joints).map((_, k) => {
@@ -36,7 +36,7 @@ export class Ghost {
       const places = frames[Math.floor((now / 1000) * PACE) % frames.length]!;
       for (const [k, bar] of bars.entries())
         bar.setAttribute("points", members[k]!.map((one) => spot(places[one]!)).join(" "));
-      if (!still && this.seen()) this.frame = requestAnimationFrame(tick);
+      if (!still && this.seen()) this.#frame = requestAnimationFrame(tick);
     };
     tick(performance.now());
   }

@@ -3,38 +3,38 @@
 const OLDEST = 200;
 
 export class History<State> {
-  private past: State[] = [];
-  private future: State[] = [];
+  #past: State[] = [];
+  #future: State[] = [];
 
   clear(): void {
-    this.past = [];
-    this.future = [];
+    this.#past = [];
+    this.#future = [];
   }
 
   /** A change was made; this is what was before. */
   add(before: State): void {
-    this.past.push(before);
-    if (this.past.length > OLDEST) this.past.shift();
-    this.future = [];
+    this.#past.push(before);
+    if (this.#past.length > OLDEST) this.#past.shift();
+    this.#future = [];
   }
 
   /** All that can be undone, the oldest first. */
   get all(): readonly State[] {
-    return this.past;
+    return this.#past;
   }
 
   /** What was before the last change, if there is one; what is now can be done again. */
   undo(now: State): State | undefined {
-    return step(this.past, this.future, now);
+    return step(this.#past, this.#future, now);
   }
 
   redo(now: State): State | undefined {
-    return step(this.future, this.past, now);
+    return step(this.#future, this.#past, now);
   }
 
   /** Whether there is something to undo, and something to do again. */
   get possible(): [boolean, boolean] {
-    return [this.past.length > 0, this.future.length > 0];
+    return [this.#past.length > 0, this.#future.length > 0];
   }
 }
 

@@ -36,11 +36,11 @@ interface Answer {
 }
 
 export class Backend {
-  private next = 1;
-  private readonly waiting = new Map<number, Waiting>();
+  #next = 1;
+  readonly #waiting = new Map<number, Waiting>();
 
   constructor(private readonly model: HostModel) {
-    model.on("msg:custom", ((answer: Answer) => this.answered(answer)) as (message: never) => void);
+    model.on("msg:custom", ((answer: Answer) => this.#answered(answer)) as (message: never) => void);
   }
 
   /** Whether somebody answers: Python, or the files of a static site. */
@@ -53,11 +53,11 @@ export class Backend {
     return this.present && this.model.get("host") !== "site";
   }
 
-  private answered(answer: Answer): void {
-    const request = this.waiting.get(answer.id);
+  #answered(answer: Answer): void {
+    const request = this.#waiting.get(answer.id);
     if (!request) return;
     if (answer.progress !== undefined) return request.progress?.(answer.progress);
-    this.waiting.delete(answer.id);
+    this.#waiting.delete(answer.id);
     if (answer.cancelled) request.reject(new Cancelled());
     else if (answer.error !== undefined) request.reject(new RequestError(answer.error));
     else request.resolve(answer.result);
@@ -69,9 +69,9 @@ export class Backend {
     lang: string,
     progress?: (text: string) => void,
   ): Request<Result> {
-    const id = this.next++;
+    const id = this.#next++;
     const promise = new Promise((resolve, reject) => {
-      this.waiting.set(id, { resolve, reject, progress });
+      this.#waiting.set(id, { resolve, reject, progress });
       this.model.send({ id, method, params, lang });
     }) as Promise<Result>;
     return Object.assign(promise, { cancel: () => this.model.send({ id, cancel: true }) });
@@ -114,22 +114,22 @@ export class StillModel implements HostModel {
  * When the server goes, requests wait; when it is back, they are sent again in their order. */
 export class SocketModel extends StillModel {
   private socket: WebSocket | null = null;
-  private pending = new Map<number, unknown>();
-  private delay = 250;
+  private readonly pending = new Map<number, unknown>();
+  #delay = 250;
 
   constructor(
     values: Record<string, unknown>,
     private readonly address: string,
   ) {
     super(values);
-    this.open();
+    this.#open();
   }
 
-  private open(): void {
+  #open(): void {
     const socket = new WebSocket(this.address);
     this.socket = socket;
     socket.onopen = () => {
-      this.delay = 250;
+      this.#delay = 250;
       this.emit("connection", true);
       for (const content of this.pending.values()) socket.send(JSON.stringify(content));
     };
@@ -141,8 +141,8 @@ export class SocketModel extends StillModel {
     socket.onclose = () => {
       this.socket = null;
       this.emit("connection", false);
-      setTimeout(() => this.open(), this.delay);
-      this.delay = Math.min(4000, 2 * this.delay);
+      setTimeout(() => this.#open(), this.#delay);
+      this.#delay = Math.min(4000, 2 * this.#delay);
     };
   }
 

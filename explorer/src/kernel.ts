@@ -76,20 +76,20 @@ type Numbers = Float64Array | BigInt64Array;
 
 export class Kernel {
   /** What stands first in the block but for counts of rows; points, lines and values change when joints are dragged. */
-  private readonly program: readonly Numbers[];
-  private readonly counts: readonly number[];
-  private readonly unknowns: number;
+  readonly #program: readonly Numbers[];
+  readonly #counts: readonly number[];
+  readonly #unknowns: number;
 
   constructor(private readonly p: Program) {
     const whole = (numbers: ArrayLike<number>) => BigInt64Array.from(Array.from(numbers, BigInt));
     const width = p.pieces[0]?.length ?? 0;
     const pieces = new Float64Array(p.pieces.length * width);
     for (const [k, piece] of p.pieces.entries()) pieces.set(piece, k * width);
-    this.unknowns = 3 * p.roots.length + 2 * p.windings.filter((winding) => winding >= 0).length;
+    this.#unknowns = 3 * p.roots.length + 2 * p.windings.filter((winding) => winding >= 0).length;
     const groups = p.conditions.length - 1;
     const first = [p.operations.length, p.links.length, p.linkCount, p.drives, p.dyads, groups, p.kinds.length];
-    this.counts = [...first, p.roots.length, this.unknowns, p.pieces.length, width];
-    this.program = [
+    this.#counts = [...first, p.roots.length, this.#unknowns, p.pieces.length, width];
+    this.#program = [
       whole(p.operations.flat()),
       whole(p.links),
       p.points,
@@ -113,16 +113,16 @@ export class Kernel {
     const { dyads, drives, linkCount: links, size } = this.p;
     const count = drives ? path.length / drives : 1;
     const given: Numbers[] = [
-      BigInt64Array.from([...this.counts, count, order].map(BigInt)),
+      BigInt64Array.from([...this.#counts, count, order].map(BigInt)),
       Float64Array.of(size),
-      ...this.program,
+      ...this.#program,
       path,
       ...speeds.slice(0, order),
       start.signs,
       start.unknowns,
       Float64Array.of(least),
     ];
-    const lengths = [4, (order + 1) * 2 * links, 2 * links, order * links, dyads, this.unknowns];
+    const lengths = [4, (order + 1) * 2 * links, 2 * links, order * links, dyads, this.#unknowns];
     const found = lengths.map((length, k) => (k ? length * count : length));
     const words = [...given.map((numbers) => numbers.length), ...found, Math.ceil((links * count) / 2)];
     const wasm = exportsOf();

@@ -54,17 +54,17 @@ export class Linkage {
   readonly wheels: boolean;
   /** Whether a joint or a point of it is being dragged. */
   dragged = false;
-  private readonly kernel: Kernel;
+  readonly #kernel: Kernel;
   /** Of each element of the plan: its direction against that of its element in the linkage. */
-  private readonly offsets: Float64Array;
+  readonly #offsets: Float64Array;
 
   constructor(readonly model: Model) {
     const p = programOf(model.program);
     this.program = p;
-    this.kernel = new Kernel(p);
+    this.#kernel = new Kernel(p);
     this.sizes = new Sizes(model, p.size);
     this.beside = besideOf(model.document);
-    this.offsets = Float64Array.from(model.sources, (source, k) => {
+    this.#offsets = Float64Array.from(model.sources, (source, k) => {
       const angle = Math.atan2(p.lines[2 * k + 1]!, p.lines[2 * k]!);
       return angle - (source < 0 ? 0 : this.sizes.angles[source]!);
     });
@@ -139,7 +139,7 @@ export class Linkage {
 
   /** The pose of the drive values; `reached` is 0 if there is none. */
   solve(state = this.state): Rows {
-    return this.kernel.run(this.drives, state, 2, this.speeds(1));
+    return this.#kernel.run(this.drives, state, 2, this.#speeds(1));
   }
 
   /** Tell the plan the sizes. */
@@ -148,14 +148,14 @@ export class Linkage {
     this.model.sources.forEach((source, k) => {
       if (source < 0) return;
       [points[2 * k], points[2 * k + 1]] = this.sizes.xy(source);
-      const angle = this.sizes.angles[source]! + this.offsets[k]!;
+      const angle = this.sizes.angles[source]! + this.#offsets[k]!;
       lines[2 * k] = Math.cos(angle);
       lines[2 * k + 1] = Math.sin(angle);
     });
   }
 
   /** Speed 1 of the active drive, no acceleration. */
-  private speeds(count: number): Float64Array[] {
+  #speeds(count: number): Float64Array[] {
     const D = this.program.drives;
     const one = new Float64Array(count * D);
     for (let row = 0; row < count; row++) if (D) one[row * D + this.active] = 1;
@@ -164,8 +164,8 @@ export class Linkage {
 
   /** Rows along values of the active drive, from a state at the first value; a slide stops where it is shortest. */
   runAlong(values: Float64Array, state: State, order: number, quick = this.quick): Rows {
-    const special = this.shortest();
-    if (special.length === 0) return this.runThrough(values, state, order, quick);
+    const special = this.#shortest();
+    if (special.length === 0) return this.#runThrough(values, state, order, quick);
     const rows: number[] = [];
     const asked: number[] = [];
     values.forEach((value, row) => {
@@ -177,23 +177,23 @@ export class Linkage {
       asked.push(rows.length);
       rows.push(value);
     });
-    const found = this.runThrough(rows, state, order, quick);
+    const found = this.#runThrough(rows, state, order, quick);
     return asked.length === rows.length ? found : picked(found, asked, rows, values);
   }
 
-  private runThrough(values: ArrayLike<number>, state: State, order: number, quick: boolean): Rows {
+  #runThrough(values: ArrayLike<number>, state: State, order: number, quick: boolean): Rows {
     const D = this.program.drives;
     const path = new Float64Array(values.length * D);
     for (let row = 0; row < values.length; row++) {
       path.set(this.drives, row * D);
       path[row * D + this.active] = values[row]!;
     }
-    const speeds = order ? this.speeds(values.length) : [];
-    return this.kernel.run(path, state, order, speeds, quick ? QUICK : undefined);
+    const speeds = order ? this.#speeds(values.length) : [];
+    return this.#kernel.run(path, state, order, speeds, quick ? QUICK : undefined);
   }
 
   /** Where the driven slide brings the two joints of its body nearest; there steps could pass a limit unseen. */
-  private shortest(): number[] {
+  #shortest(): number[] {
     if (this.model.shortest.length === 0) return [];
     const { lines, links, operations, points } = this.program;
     const out: number[] = [];
@@ -233,10 +233,10 @@ export class Linkage {
       const period = cycle.turns * TURN;
       goal = cycle.low + ((((value - cycle.low) % period) + period) % period);
     }
-    const rows = this.from(this.nearestRow(goal), goal);
+    const rows = this.from(this.#nearestRow(goal), goal);
     if (rows.reached < 2) return false;
     this.drives[this.active] = goal;
-    this.take(rows, 1);
+    this.#take(rows, 1);
     return true;
   }
 
@@ -247,7 +247,7 @@ export class Linkage {
   }
 
   /** The row of the cycle nearest to a value, but not one in which modes meet. */
-  private nearestRow(value: number): number {
+  #nearestRow(value: number): number {
     const { values, rows } = this.cycle;
     let low = 0;
     let high = values.length - 1;
@@ -261,7 +261,7 @@ export class Linkage {
     return leastRoot(rows, low) >= leastRoot(rows, high) ? low : high;
   }
 
-  private take(rows: Rows, row: number): void {
+  #take(rows: Rows, row: number): void {
     const state = stateAt(rows, row);
     this.state.signs.set(state.signs);
     this.state.unknowns.set(state.unknowns);
@@ -287,12 +287,12 @@ export class Linkage {
   }
 
   restore(old: Snapshot): void {
-    this.put(old);
+    this.#put(old);
     this.pose = this.solve();
     this.cycle = findCycle(this);
   }
 
-  private put(old: Snapshot): void {
+  #put(old: Snapshot): void {
     this.sizes.restore(old);
     this.beside = old.beside;
     this.drives.set(old.drives);
@@ -334,9 +334,9 @@ export class Linkage {
       this.writeSizes();
       const rows = assemble();
       if (rows.reached === 0) throw new Refused(stopOf(this.sizes, rows, this.drives[this.active] ?? 0));
-      this.take(rows, 0);
+      this.#take(rows, 0);
     } catch (error) {
-      this.put(old);
+      this.#put(old);
       throw error;
     }
     this.cycle = findCycle(this);

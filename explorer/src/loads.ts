@@ -24,22 +24,22 @@ export class LoadForm {
   speed: number | null = null;
   /** As the library knows them. */
   shown: readonly Spring[] = [];
-  private springs: Spring[] | null = null;
-  private weight = true;
-  private loads: Load[] = [];
+  #springs: Spring[] | null = null;
+  #weight = true;
+  #loads: Load[] = [];
 
   constructor(private readonly changed: () => void) {}
 
   /** Nothing is typed yet. */
   clear(): void {
-    Object.assign(this, { masses: [], speed: null, loads: [], springs: null, shown: [] });
+    [this.masses, this.#loads, this.shown] = [[], [], []];
+    this.speed = this.#springs = null;
     renew(this.element);
   }
 
   /** As the library is told of it. */
   get record(): Record<string, unknown> {
-    const { loads, masses, springs, weight } = this;
-    return { masses, gravity: weight, loads, springs };
+    return { masses: this.masses, gravity: this.#weight, loads: this.#loads, springs: this.#springs };
   }
 
   show(linkage: Linkage, masses: number[], speed: number, springs: readonly Spring[]): void {
@@ -47,7 +47,7 @@ export class LoadForm {
     const { drive, model, sizes } = linkage;
     const links = [...Array(model.own).keys()].filter((link) => link !== model.frame);
     const factor = drive?.turning ? RPM : 1;
-    const rows = this.row(
+    const rows = this.#row(
       "speed",
       t("Drive speed"),
       drive?.turning ? "1/min" : `${model.unit}/s`,
@@ -58,7 +58,7 @@ export class LoadForm {
     );
     for (const link of links)
       rows.push(
-        ...this.row(`mass-${link}`, t("Mass {link}", { link: linkage.linkName(link) }), "kg", masses[link]!, (v) => {
+        ...this.#row(`mass-${link}`, t("Mass {link}", { link: linkage.linkName(link) }), "kg", masses[link]!, (v) => {
           this.masses = masses.map((mass, k) => (k === link ? Math.max(0, v) : mass));
         }),
       );
@@ -69,11 +69,11 @@ export class LoadForm {
       ...links.map((link) => [`link ${link}`, linkage.linkName(link)]),
     ];
     // one row for each, and an empty one
-    for (const [k, load] of [...this.loads, null].entries()) {
+    for (const [k, load] of [...this.#loads, null].entries()) {
       const chosen = load ? `${load.on} ${load.number}` : "";
       const onchange = () => {
         const [on, which] = where.value.split(" ");
-        this.loads.splice(k, 1, ...(on ? [{ x: 0, y: 0, ...load, on, number: Number(which) }] : []));
+        this.#loads.splice(k, 1, ...(on ? [{ x: 0, y: 0, ...load, on, number: Number(which) }] : []));
         this.changed();
         this.show(linkage, masses, speed, springs);
       };
@@ -82,24 +82,24 @@ export class LoadForm {
       const where = h("select", { id, onchange }, ...options);
       rows.push(h("label", { for: id }, t("Load on")), where);
       const part = (key: "x" | "y", label: string, unit: string) =>
-        rows.push(...this.row(`${key}-${k}`, label, unit, load![key], (v) => (load![key] = v)));
+        rows.push(...this.#row(`${key}-${k}`, label, unit, load![key], (v) => (load![key] = v)));
       if (load?.on === "link") part("x", t("Moment"), `N·${model.unit}`);
       else if (load) {
         part("x", "Fx", "N");
         part("y", "Fy", "N");
       }
     }
-    rows.push(...this.springRows(linkage, springs, (own) => this.show(linkage, masses, speed, own)));
+    rows.push(...this.#springRows(linkage, springs, (own) => this.show(linkage, masses, speed, own)));
     const weigh = () => {
-      this.weight = weight.checked;
+      this.#weight = weight.checked;
       this.changed();
     };
-    const weight = h("input", { type: "checkbox", checked: this.weight, onchange: weigh });
+    const weight = h("input", { type: "checkbox", checked: this.#weight, onchange: weigh });
     renew(this.element, h("div.rows", {}, ...rows), h("div.form", {}, h("label", {}, weight, t("Weight, downward"))));
   }
 
   /** For each spring its kind, its ends and its rates, and a row for another one. */
-  private springRows(linkage: Linkage, springs: readonly Spring[], again: (own: Spring[]) => void): HTMLElement[] {
+  #springRows(linkage: Linkage, springs: readonly Spring[], again: (own: Spring[]) => void): HTMLElement[] {
     const { unit } = linkage.model;
     const places = endsOf(linkage);
     const links = [...linkage.model.links.slice(0, linkage.model.own).keys()];
@@ -125,9 +125,9 @@ export class LoadForm {
     for (const [k, spring] of [...springs, null].entries()) {
       const put = (more: Partial<Spring> | null) => {
         const next = { ...spring!, ...more };
-        this.springs = [...springs.slice(0, k), ...(more ? [next] : []), ...springs.slice(k + 1)];
+        this.#springs = [...springs.slice(0, k), ...(more ? [next] : []), ...springs.slice(k + 1)];
         this.changed();
-        again(this.springs);
+        again(this.#springs);
       };
       const kinds: [unknown, string][] = [
         ["", t("none")],
@@ -160,7 +160,7 @@ export class LoadForm {
       const [by, factor] = turning ? ["rad", Math.PI / 180] : [unit, 1];
       const part = (key: "stiffness" | "free" | "preload" | "damping", label: string, its: string, scale = 1) =>
         rows.push(
-          ...this.row(`${key}-${k}`, label, its, spring[key] / scale, (value) => put({ [key]: value * scale })),
+          ...this.#row(`${key}-${k}`, label, its, spring[key] / scale, (value) => put({ [key]: value * scale })),
         );
       part("stiffness", t("Stiffness"), `${force}/${by}`);
       part("free", turning ? t("Free angle") : t("Free length"), turning ? "°" : unit, factor);
@@ -170,7 +170,7 @@ export class LoadForm {
     return rows;
   }
 
-  private row(key: string, label: string, unit: string, value: number, take: (value: number) => void): HTMLElement[] {
+  #row(key: string, label: string, unit: string, value: number, take: (value: number) => void): HTMLElement[] {
     const id = `force-${key}`;
     const onchange = () => {
       const typed = parsed(field.value || "0");

@@ -43,13 +43,13 @@ export interface Drawn {
 
 export class MobilityPanel {
   readonly element = h("div", { role: "status", "data-place": "mobility" });
-  private asked = 0;
+  #asked = 0;
 
   constructor(private readonly view: Drawn) {}
 
   /** The mobility by the count at once, then what the library says, with offers to mend it. */
   async tell(): Promise<void> {
-    const asked = ++this.asked;
+    const asked = ++this.#asked;
     const { drawing, page } = this.view;
     const count = h("p.mobility", { "data-fact": "drawn" }, `F = ${counted(drawing)}`);
     const { frame } = drawing;
@@ -67,10 +67,10 @@ export class MobilityPanel {
     const drives = drawing.drives.map((k) => numbers.indexOf(k));
     try {
       const told = await page.ask<Told>("drawing", { joints, frame, drives });
-      if (asked !== this.asked) return;
+      if (asked !== this.#asked) return;
       const good = told.generic > 0 && told.generic === drives.length;
       const text = t("Mobility {generic}, drives: {drives}", { generic: told.generic, drives: drives.length });
-      const offers = told.offers.map((offer) => this.offer(offer, numbers));
+      const offers = told.offers.map((offer) => this.#offer(offer, numbers));
       const move = h("button.key", { "data-act": "move", onclick: () => this.view.move() }, t("Move it"));
       renew(
         this.element,
@@ -80,13 +80,13 @@ export class MobilityPanel {
         h("details", {}, h("summary", {}, t("Why")), h("p.note", {}, told.lines.join(" "))),
       );
     } catch (error) {
-      if (asked === this.asked) renew(this.element, count, h("p.note", {}, (error as Error).message));
+      if (asked === this.#asked) renew(this.element, count, h("p.note", {}, (error as Error).message));
     } finally {
-      if (asked === this.asked) this.element.classList.remove("asking");
+      if (asked === this.#asked) this.element.classList.remove("asking");
     }
   }
 
-  private offer({ kind, joint, links, generic }: Offer, numbers: number[]): HTMLElement {
+  #offer({ kind, joint, links, generic }: Offer, numbers: number[]): HTMLElement {
     const { drawing } = this.view;
     const knot = joint === undefined ? -1 : numbers[joint]!;
     const [one, two] = (links ?? []) as [string, string];

@@ -47,8 +47,8 @@ export class MotionView implements View, Editor, Driven {
     grid: true,
     snap: false,
     link: 0,
-    forces: () => this.arrows(),
-    springs: () => this.forces.springs,
+    forces: () => this.#arrows(),
+    springs: () => this.#forces.springs,
   };
   linkage!: Linkage;
   dragging!: Dragging;
@@ -59,27 +59,27 @@ export class MotionView implements View, Editor, Driven {
   readonly frames: number[] = [];
   /** What was found over the cycle. */
   found: Found = { dead: [], least: null };
-  private readonly history = new History<State>();
+  readonly #history = new History<State>();
   /** What was before the change that is going on. */
-  private before: State | null = null;
+  #before: State | null = null;
   private readonly side = h("div.side", {});
   private readonly facts = new FactList();
-  private readonly sizes = new SizeRows(this);
-  private readonly words: InWords;
-  private readonly opened = new Set(["sizes", "measures", "plots"]);
-  private readonly forces = new Forces(this, () => this.opened.has("forces"));
+  readonly #sizes = new SizeRows(this);
+  readonly #words: InWords;
+  readonly #opened = new Set(["sizes", "measures", "plots"]);
+  readonly #forces = new Forces(this, () => this.#opened.has("forces"));
 
   constructor(readonly page: Page) {
-    this.words = new InWords(page);
+    this.#words = new InWords(page);
     this.stage = new Stage(
       {
-        dragStart: () => this.begin(),
+        dragStart: () => this.#begin(),
         dragJoint: (joint, at, snap) =>
-          this.tryTo(() => this.dragging.dragJoint(joint, ...this.meant(joint, at, snap))),
-        dragEnd: () => this.end(),
-        dragCancel: () => this.cancel(),
-        dragPoint: (point, at, snap) => this.putPoint(point, ...this.meant(null, at, snap)),
-        movePointBy: (point, dx, dy) => this.movePointBy(point, dx, dy),
+          this.#tryTo(() => this.dragging.dragJoint(joint, ...this.#meant(joint, at, snap))),
+        dragEnd: () => this.#end(),
+        dragCancel: () => this.#cancel(),
+        dragPoint: (point, at, snap) => this.#putPoint(point, ...this.#meant(null, at, snap)),
+        movePointBy: (point, dx, dy) => this.#movePointBy(point, dx, dy),
         pull: (link, u, v, x, y) => this.transport.pull(link, u, v, x, y),
         addPoint: (link, x, y) => this.addPoint(link ?? this.shown.link, x, y),
         holdJoint: (joint) => {
@@ -102,28 +102,28 @@ export class MotionView implements View, Editor, Driven {
   /** Show another linkage; the way back to the one before is undoing. */
   open(model: Model): void {
     this.transport.pause();
-    if (this.linkage) this.history.add(this.state());
+    if (this.linkage) this.#history.add(this.#state());
     this.linkage = new Linkage(model);
     this.dragging = new Dragging(this.linkage);
     this.shown.link = floatingLink(model);
-    this.renewed();
+    this.#renewed();
   }
 
   /** Other sizes of the same structure, as a link holds them. */
   openDocument(document: LinkageDocument, drive?: number): void {
-    this.history.add(this.state());
-    this.tryTo(() => applyDocument(this.linkage, document, drive));
-    this.renewed();
+    this.#history.add(this.#state());
+    this.#tryTo(() => applyDocument(this.linkage, document, drive));
+    this.#renewed();
   }
 
   /** Nothing can be undone from here on. */
   forget(): void {
-    this.history.clear();
+    this.#history.clear();
   }
 
   /** Keep what can be undone for the same page when it is loaded again. */
   keep(): void {
-    const past = this.history.all.filter(({ linkage }) => linkage === this.linkage);
+    const past = this.#history.all.filter(({ linkage }) => linkage === this.linkage);
     keepSizes(
       this.linkage.model,
       past.map(({ sizes }) => sizes),
@@ -133,15 +133,15 @@ export class MotionView implements View, Editor, Driven {
   /** What could be undone before the page was loaded again. */
   recall(): void {
     const { dragging, linkage } = this;
-    for (const sizes of keptSizes(linkage.model)) this.history.add({ linkage, dragging, sizes });
+    for (const sizes of keptSizes(linkage.model)) this.#history.add({ linkage, dragging, sizes });
   }
 
-  private state(): State {
+  #state(): State {
     const { linkage, dragging } = this;
     return { linkage, dragging, sizes: linkage.snapshot() };
   }
 
-  private renewed(): void {
+  #renewed(): void {
     this.stage.cancelDrag();
     this.arrange();
     this.show();
@@ -162,42 +162,42 @@ export class MotionView implements View, Editor, Driven {
   arrange(): void {
     this.stage.arrange();
     this.transport.arrange();
-    this.words.arrange();
+    this.#words.arrange();
     const { scrollTop } = this.side; // before its parts leave it for new panels
     renew(
       this.side,
-      this.panel("measures", t("Measures"), this.facts.element, rulersPanel(this), this.words.element),
-      this.panel("sizes", t("Sizes"), this.sizes.element),
-      this.panel("plots", t("Plots"), this.plots.element),
-      this.panel("forces", t("Forces"), this.forces.element),
-      this.panel("points", t("Coupler points"), pointsPanel(this)),
-      this.panel("modes", t("Assembly modes"), modesPanel(this)),
-      this.panel("show", t("Show"), optionsPanel(this)),
-      this.panel("export", t("Export"), exportPanel(this.page, this)),
+      this.#panel("measures", t("Measures"), this.facts.element, rulersPanel(this), this.#words.element),
+      this.#panel("sizes", t("Sizes"), this.#sizes.element),
+      this.#panel("plots", t("Plots"), this.plots.element),
+      this.#panel("forces", t("Forces"), this.#forces.element),
+      this.#panel("points", t("Coupler points"), pointsPanel(this)),
+      this.#panel("modes", t("Assembly modes"), modesPanel(this)),
+      this.#panel("show", t("Show"), optionsPanel(this)),
+      this.#panel("export", t("Export"), exportPanel(this.page, this)),
     );
     this.side.scrollTop = scrollTop;
     this.plots.arrange(this.linkage);
   }
 
-  private panel(key: string, title: string, ...content: Node[]): HTMLElement {
+  #panel(key: string, title: string, ...content: Node[]): HTMLElement {
     const element = h(
       "details",
-      { open: this.opened.has(key), "data-panel": key },
+      { open: this.#opened.has(key), "data-panel": key },
       h("summary", {}, title),
       h("div", {}, ...content),
     );
     element.addEventListener("toggle", () => {
-      if (element.open) this.opened.add(key);
-      else this.opened.delete(key);
+      if (element.open) this.#opened.add(key);
+      else this.#opened.delete(key);
       if (key === "plots" && element.open) this.plots.draw(this.linkage);
       if (key !== "forces") return;
-      this.forces.changed();
+      this.#forces.changed();
       this.redraw();
     });
     return element;
   }
 
-  private refresh(key: string, content: Node): void {
+  #refresh(key: string, content: Node): void {
     const panel = this.side.querySelector(`[data-panel="${key}"] > div`);
     if (panel) renew(panel, content);
   }
@@ -205,9 +205,9 @@ export class MotionView implements View, Editor, Driven {
   // --- changes -------------------------------------------------------------------------------------------------------
 
   attempt(change: () => void, elsewhere?: () => void): void {
-    this.begin();
-    this.tryTo(change, elsewhere);
-    this.end();
+    this.#begin();
+    this.#tryTo(change, elsewhere);
+    this.#end();
   }
 
   attemptAnywhere(change: () => void): void {
@@ -215,38 +215,38 @@ export class MotionView implements View, Editor, Driven {
   }
 
   edit(change: () => void): void {
-    this.begin();
+    this.#begin();
     change();
-    this.end();
+    this.#end();
     this.show();
     this.arrange();
   }
 
-  private begin(): void {
+  #begin(): void {
     if (this.transport.falling) this.transport.pause();
-    this.before = this.state();
+    this.#before = this.#state();
     this.linkage.drag(true);
   }
 
   /** Give up the change that is going on. */
-  private cancel(): void {
-    const { before } = this;
-    this.before = null;
+  #cancel(): void {
+    const before = this.#before;
+    this.#before = null;
     this.linkage.drag(false);
-    if (before) this.goTo(before);
+    if (before) this.#goTo(before);
   }
 
-  private end(): void {
+  #end(): void {
     this.linkage.drag(false);
-    this.followed();
-    if (this.before && !sameSizes(this.before.sizes, this.linkage.snapshot())) this.history.add(this.before);
-    this.before = null;
+    this.#followed();
+    if (this.#before && !sameSizes(this.#before.sizes, this.linkage.snapshot())) this.#history.add(this.#before);
+    this.#before = null;
     this.measured();
     this.page.changed();
   }
 
   /** Change the sizes; what is refused at this drive value is offered where it fits, if that can be looked for. */
-  private tryTo(change: () => void, elsewhere?: () => void): void {
+  #tryTo(change: () => void, elsewhere?: () => void): void {
     const start = performance.now();
     try {
       change();
@@ -263,16 +263,16 @@ export class MotionView implements View, Editor, Driven {
       const action = stop && elsewhere && h("button.plain", { "data-act": "elsewhere", onclick: elsewhere }, offer);
       this.page.say(stop ? stopText(this.linkage, stop) : why[error.reason], "error", action || undefined);
     }
-    this.followed();
+    this.#followed();
     this.timed(start);
   }
 
   /** After each step of a drag: what follows at once. */
-  private followed(): void {
+  #followed(): void {
     this.stage.sized();
     this.transport.showRange(this.found);
-    if (this.opened.has("plots")) this.plots.follow(this.linkage);
-    this.showPose();
+    if (this.#opened.has("plots")) this.plots.follow(this.linkage);
+    this.#showPose();
   }
 
   timed(start: number): void {
@@ -281,14 +281,14 @@ export class MotionView implements View, Editor, Driven {
   }
 
   undo(): void {
-    this.goTo(this.history.undo(this.state()));
+    this.#goTo(this.#history.undo(this.#state()));
   }
 
   redo(): void {
-    this.goTo(this.history.redo(this.state()));
+    this.#goTo(this.#history.redo(this.#state()));
   }
 
-  private goTo(old: State | undefined): void {
+  #goTo(old: State | undefined): void {
     if (!old) return;
     if (this.transport.falling) this.transport.pause();
     const other = old.linkage !== this.linkage;
@@ -311,7 +311,7 @@ export class MotionView implements View, Editor, Driven {
   }
 
   get undoable(): [boolean, boolean] {
-    return this.history.possible;
+    return this.#history.possible;
   }
 
   addPoint(link: number, x: number, y: number): void {
@@ -325,23 +325,23 @@ export class MotionView implements View, Editor, Driven {
   }
 
   /** Where a joint or a point is meant that is dragged to a place. */
-  private meant(joint: number | null, at: Pair, snap: boolean): Pair {
+  #meant(joint: number | null, at: Pair, snap: boolean): Pair {
     return snap || this.shown.snap ? snappedOn(this.linkage, joint, at, this.stage.viewport) : at;
   }
 
   /** Take a point of a link to a place in the plane. */
-  private putPoint(number: number, x: number, y: number): void {
+  #putPoint(number: number, x: number, y: number): void {
     const point = this.linkage.sizes.points[number]!;
     point.at = this.linkage.toLocal(point.link, x, y);
-    this.followed();
+    this.#followed();
   }
 
-  private movePointBy(number: number, dx: number, dy: number): void {
+  #movePointBy(number: number, dx: number, dy: number): void {
     const { link, at } = this.linkage.sizes.points[number]!;
     const [x, y] = place(this.linkage.pose, 0, link, ...at);
-    this.begin();
-    this.putPoint(number, x + dx, y + dy);
-    this.end();
+    this.#begin();
+    this.#putPoint(number, x + dx, y + dy);
+    this.#end();
   }
 
   chosen(): void {
@@ -352,11 +352,11 @@ export class MotionView implements View, Editor, Driven {
   posed(): void {
     this.stage.draw();
     if (this.transport.falling) this.transport.showValue();
-    else this.showPose();
+    else this.#showPose();
   }
 
-  private arrows(): Arrow[] {
-    return this.transport.falling ? [] : this.forces.arrows();
+  #arrows(): Arrow[] {
+    return this.transport.falling ? [] : this.#forces.arrows();
   }
 
   // --- what is read off ----------------------------------------------------------------------------------------------
@@ -365,24 +365,24 @@ export class MotionView implements View, Editor, Driven {
   measured(): void {
     this.found = { dead: deadCentres(this.linkage), least: leastTransmission(this.linkage) };
     this.transport.showRange(this.found);
-    this.showPose();
-    this.sizes.show();
-    this.refresh("points", pointsPanel(this));
-    this.refresh("modes", modesPanel(this));
-    this.refresh("export", exportPanel(this.page, this));
-    if (this.opened.has("plots")) this.plots.draw(this.linkage);
-    this.forces.changed();
+    this.#showPose();
+    this.#sizes.show();
+    this.#refresh("points", pointsPanel(this));
+    this.#refresh("modes", modesPanel(this));
+    this.#refresh("export", exportPanel(this.page, this));
+    if (this.#opened.has("plots")) this.plots.draw(this.linkage);
+    this.#forces.changed();
     const { linkage } = this;
-    this.words.ask(linkage, () => documentOf(linkage, linkage.cycle.rows, linkage.cycle.home));
+    this.#words.ask(linkage, () => documentOf(linkage, linkage.cycle.rows, linkage.cycle.home));
   }
 
-  private showPose(): void {
+  #showPose(): void {
     const { linkage } = this;
     const { drive } = this.transport;
     this.transport.showValue();
     if (linkage.drive) {
       this.plots.at(drive);
-      this.forces.at(drive);
+      this.#forces.at(drive);
     }
     const facts = factsOf(linkage, this.found, (angle) => this.plots.plottedAngle(linkage, angle));
     this.facts.show(facts);

@@ -47,9 +47,9 @@ const MOST_SIZES = 60;
 /** A label, a field and a unit for each size; the fields stay while the linkage does, so that one can type on. */
 export class SizeRows {
   readonly element = h("div.rows.sizes", {});
-  private fields: HTMLInputElement[] = [];
-  private locks: HTMLElement[] = [];
-  private names = "";
+  #fields: HTMLInputElement[] = [];
+  #locks: HTMLElement[] = [];
+  #names = "";
 
   constructor(private readonly editor: Editor) {}
 
@@ -61,24 +61,24 @@ export class SizeRows {
     const alone = ({ link }: Length) => sizes.filter((one) => one.link === link).length === 1;
     const rows = sizes.map((size) => sizeRow(editor, size, alone(size)));
     const names = rows.map(([label]) => label!.outerHTML).join("");
-    if (names !== this.names || !this.element.isConnected) {
-      this.names = names;
-      this.fields = rows.map(([, input]) => input as HTMLInputElement);
+    if (names !== this.#names || !this.element.isConnected) {
+      this.#names = names;
+      this.#fields = rows.map(([, input]) => input as HTMLInputElement);
       // behind all fields, so that Tab leads from field to field
-      this.locks = rows.map((row, k) => {
+      this.#locks = rows.map((row, k) => {
         const last = row.pop()!;
         last.style.gridArea = `${k + 1} / 4`;
         return last;
       });
       const more = lengths.length - sizes.length;
       const rest = more > 0 ? [h("p.note", {}, t("{count} more sizes are not listed.", { count: more }))] : [];
-      renew(this.element, ...rows.flat(), ...this.locks, ...rest);
+      renew(this.element, ...rows.flat(), ...this.#locks, ...rest);
       return;
     }
     sizes.forEach(({ first, second, value }, k) => {
-      for (const button of this.locks[k]!.children) showLock(editor, button as HTMLElement, first, second);
-      this.fields[k]!.value = number(value, 7);
-      this.fields[k]!.setAttribute("aria-invalid", "false");
+      for (const button of this.#locks[k]!.children) showLock(editor, button as HTMLElement, first, second);
+      this.#fields[k]!.value = number(value, 7);
+      this.#fields[k]!.setAttribute("aria-invalid", "false");
     });
   }
 }

@@ -9,8 +9,8 @@ const LONGEST = 0.1; // seconds: what a page that slept goes on by
 export class Player {
   readonly button = h("button.play", { onclick: () => this.toggle() });
   playing = false;
-  private last = 0;
-  private frame = 0;
+  #last = 0;
+  #frame = 0;
 
   constructor(
     /** So many seconds went by. */
@@ -22,16 +22,16 @@ export class Player {
     if (this.playing) this.pause();
     else {
       this.playing = true;
-      this.last = performance.now();
+      this.#last = performance.now();
       this.arrange();
-      this.frame = requestAnimationFrame((now) => this.tick(now));
+      this.#frame = requestAnimationFrame((now) => this.#tick(now));
     }
   }
 
   pause(): void {
     if (!this.playing) return;
     this.playing = false;
-    cancelAnimationFrame(this.frame);
+    cancelAnimationFrame(this.#frame);
     this.arrange();
     this.paused();
   }
@@ -45,12 +45,12 @@ export class Player {
     this.button.replaceChildren(svg("svg", { viewBox: "0 0 18 18", "aria-hidden": "true" }, svg("path", { d })));
   }
 
-  private tick(now: number): void {
+  #tick(now: number): void {
     if (!this.playing) return;
-    const seconds = Math.min(LONGEST, (now - this.last) / 1000);
-    this.last = now;
+    const seconds = Math.min(LONGEST, (now - this.#last) / 1000);
+    this.#last = now;
     this.step(seconds);
-    this.frame = requestAnimationFrame((next) => this.tick(next));
+    this.#frame = requestAnimationFrame((next) => this.#tick(next));
   }
 }
 

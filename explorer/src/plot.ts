@@ -30,26 +30,26 @@ export class Plot {
     viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
     role: "img",
   });
-  private readonly curve = svg("path.curve", {});
-  private readonly band = svg("rect.band", { x: LEFT, width: WIDE, height: 0 });
-  private readonly zero = svg("path.axis", {});
-  private readonly cursor = svg("path.cursor", {});
-  private readonly here = svg("circle.here", { r: 3 });
-  private readonly title = svg("text.title", { x: 2, y: 13 });
-  private readonly value = svg("text.read", { y: TOP + 10 });
-  private readonly mesh = svg("path.mesh", {});
-  private readonly upward = svg("g");
-  private readonly across = svg("g");
-  private ticked = "";
-  private pointed = NaN;
+  readonly #curve = svg("path.curve", {});
+  readonly #band = svg("rect.band", { x: LEFT, width: WIDE, height: 0 });
+  readonly #zero = svg("path.axis", {});
+  readonly #cursor = svg("path.cursor", {});
+  readonly #here = svg("circle.here", { r: 3 });
+  readonly #title = svg("text.title", { x: 2, y: 13 });
+  readonly #value = svg("text.read", { y: TOP + 10 });
+  readonly #mesh = svg("path.mesh", {});
+  readonly #upward = svg("g");
+  readonly #across = svg("g");
+  #ticked = "";
+  #pointed = NaN;
   private drive = NaN;
   private drives: Float64Array = new Float64Array(0);
   /** The whole range of the drive, and what is shown of it. */
   private range: Pair = [0, 1];
   private domain: Pair = [0, 1];
   private series: Series | null = null;
-  private low = 0;
-  private high = 1;
+  #low = 0;
+  #high = 1;
 
   constructor(
     private readonly unit: number,
@@ -60,14 +60,23 @@ export class Plot {
       d: `M${LEFT} ${TOP}V${HEIGHT - BOTTOM}H${WIDTH - RIGHT}`,
       fill: "none",
     });
-    const { band, cursor, curve, element, here, title, value, zero } = this;
+    const { element } = this;
+    const [band, cursor, curve, here, title, value, zero] = [
+      this.#band,
+      this.#cursor,
+      this.#curve,
+      this.#here,
+      this.#title,
+      this.#value,
+      this.#zero,
+    ];
     // what is enlarged ends at the axes
     const inner = { x: LEFT, y: 0, width: WIDE, height: HEIGHT, viewBox: `${LEFT} 0 ${WIDE} ${HEIGHT}` };
     element.append(
       band,
-      this.mesh,
-      this.upward,
-      this.across,
+      this.#mesh,
+      this.#upward,
+      this.#across,
       frame,
       zero,
       svg("svg", inner, curve),
@@ -86,7 +95,7 @@ export class Plot {
     };
     const at = (event: MouseEvent) => pick(driveOf(event));
     const point = (drive: number) => {
-      this.pointed = drive;
+      this.#pointed = drive;
       this.at(this.drive);
     };
     element.addEventListener("pointerleave", () => point(NaN));
@@ -147,56 +156,57 @@ export class Plot {
       : series.values.filter((_, k) => drives[k]! >= first && drives[k]! <= last);
     const { low, high, wide } = plotRange(seen, series.same);
     const room = 0.06 * (high - low);
-    [this.low, this.high] = [low - room, high + room];
-    const outside = (value: number) => !(value <= this.high + 10 * wide && value >= this.low - 10 * wide);
+    [this.#low, this.#high] = [low - room, high + room];
+    const outside = (value: number) => !(value <= this.#high + 10 * wide && value >= this.#low - 10 * wide);
     const places = series.values.map((value) =>
-      outside(value) ? NaN : Math.max(TOP - 4, Math.min(HEIGHT - BOTTOM + 4, this.y(value))),
+      outside(value) ? NaN : Math.max(TOP - 4, Math.min(HEIGHT - BOTTOM + 4, this.#y(value))),
     );
-    this.curve.setAttribute(
+    this.#curve.setAttribute(
       "d",
       lineThrough(
-        drives.map((drive) => this.x(drive)),
+        drives.map((drive) => this.#x(drive)),
         places,
       ),
     );
-    this.curve.style.stroke = `var(${series.colour})`;
-    this.zero.setAttribute(
+    this.#curve.style.stroke = `var(${series.colour})`;
+    this.#zero.setAttribute(
       "d",
-      this.low < 0 && this.high > 0 ? `M${LEFT} ${this.y(0).toFixed(1)}H${WIDTH - RIGHT}` : "",
+      this.#low < 0 && this.#high > 0 ? `M${LEFT} ${this.#y(0).toFixed(1)}H${WIDTH - RIGHT}` : "",
     );
     const floor = series.floor;
     const shaded =
-      floor === undefined ? 0 : Math.max(0, Math.min(HEIGHT - BOTTOM - TOP, HEIGHT - BOTTOM - this.y(floor)));
-    this.band.setAttribute("height", shaded.toFixed(1));
-    this.band.setAttribute("y", (HEIGHT - BOTTOM - shaded).toFixed(1));
-    this.title.textContent = series.title;
+      floor === undefined ? 0 : Math.max(0, Math.min(HEIGHT - BOTTOM - TOP, HEIGHT - BOTTOM - this.#y(floor)));
+    this.#band.setAttribute("height", shaded.toFixed(1));
+    this.#band.setAttribute("y", (HEIGHT - BOTTOM - shaded).toFixed(1));
+    this.#title.textContent = series.title;
     this.element.setAttribute("aria-label", series.title);
-    this.showTicks(this.domain);
+    this.#showTicks(this.domain);
     this.at(this.drive);
   }
 
   /** Round values at both axes; they are made anew where they are others. */
-  private showTicks(domain: Pair): void {
+  #showTicks(domain: Pair): void {
     const [first, last] = [domain[0] / this.unit, domain[1] / this.unit];
-    const { low, high, unit } = this;
+    const { unit } = this;
+    const [low, high] = [this.#low, this.#high];
     const across = this.unit === 1 ? roundValues(first, last, 4) : degreeValues(first, last);
     const upward = roundValues(low, high, 3);
     const told = [first, last, low, high, ...across, ...upward].join();
-    if (told === this.ticked) return;
-    this.ticked = told;
+    if (told === this.#ticked) return;
+    this.#ticked = told;
     const lines = [
-      ...upward.map((value) => `M${LEFT} ${this.y(value).toFixed(1)}H${WIDTH - RIGHT}`),
-      ...across.map((value) => `M${this.x(value * unit).toFixed(1)} ${TOP}V${HEIGHT - BOTTOM}`),
+      ...upward.map((value) => `M${LEFT} ${this.#y(value).toFixed(1)}H${WIDTH - RIGHT}`),
+      ...across.map((value) => `M${this.#x(value * unit).toFixed(1)} ${TOP}V${HEIGHT - BOTTOM}`),
     ];
-    this.mesh.setAttribute("d", lines.join(""));
+    this.#mesh.setAttribute("d", lines.join(""));
     relabel(
-      this.upward,
-      upward.map((value) => [LEFT - 4, this.y(value) + 4, number(value, 4)]),
+      this.#upward,
+      upward.map((value) => [LEFT - 4, this.#y(value) + 4, number(value, 4)]),
       "end",
     );
     relabel(
-      this.across,
-      across.map((value) => [this.x(value * unit), HEIGHT - 4, number(value, 4)]),
+      this.#across,
+      across.map((value) => [this.#x(value * unit), HEIGHT - 4, number(value, 4)]),
       "middle",
     );
   }
@@ -204,31 +214,31 @@ export class Plot {
   at(drive: number): void {
     this.drive = drive;
     const { drives, series } = this;
-    const place = Number.isNaN(this.pointed) ? drive : this.pointed;
+    const place = Number.isNaN(this.#pointed) ? drive : this.#pointed;
     if (!series || drives.length < 2 || Number.isNaN(place)) return;
     const value = valueAt(drives, series.values, place);
     const outside = place < this.domain[0] || place > this.domain[1];
-    const x = outside ? "-9" : this.x(place).toFixed(1);
-    this.cursor.setAttribute("d", `M${x} ${TOP}V${HEIGHT - BOTTOM}`);
-    this.here.setAttribute("cx", x);
-    this.here.setAttribute(
+    const x = outside ? "-9" : this.#x(place).toFixed(1);
+    this.#cursor.setAttribute("d", `M${x} ${TOP}V${HEIGHT - BOTTOM}`);
+    this.#here.setAttribute("cx", x);
+    this.#here.setAttribute(
       "cy",
-      (Number.isFinite(value) ? Math.max(TOP, Math.min(HEIGHT - BOTTOM, this.y(value))) : -9).toFixed(1),
+      (Number.isFinite(value) ? Math.max(TOP, Math.min(HEIGHT - BOTTOM, this.#y(value))) : -9).toFixed(1),
     );
     const where = place === drive ? "" : `${number(place / this.unit, 4)}${this.unit === 1 ? "" : "°"}: `;
-    this.value.textContent = where + number(Math.abs(value) < (series.same ?? 0) ? 0 : value, 4);
-    const right = this.x(place) < (LEFT + WIDTH) / 2;
-    this.value.setAttribute("text-anchor", right ? "start" : "end");
-    this.value.setAttribute("x", outside ? "-99" : (this.x(place) + (right ? 5 : -5)).toFixed(1));
+    this.#value.textContent = where + number(Math.abs(value) < (series.same ?? 0) ? 0 : value, 4);
+    const right = this.#x(place) < (LEFT + WIDTH) / 2;
+    this.#value.setAttribute("text-anchor", right ? "start" : "end");
+    this.#value.setAttribute("x", outside ? "-99" : (this.#x(place) + (right ? 5 : -5)).toFixed(1));
   }
 
-  private x(drive: number): number {
+  #x(drive: number): number {
     const [first, last] = this.domain;
     return LEFT + ((drive - first) / (last - first || 1)) * WIDE;
   }
 
-  private y(value: number): number {
-    return HEIGHT - BOTTOM - ((value - this.low) / (this.high - this.low)) * (HEIGHT - BOTTOM - TOP);
+  #y(value: number): number {
+    return HEIGHT - BOTTOM - ((value - this.#low) / (this.#high - this.#low)) * (HEIGHT - BOTTOM - TOP);
   }
 }
 

@@ -33,10 +33,10 @@ export class Plots {
   readonly element = h("div", {});
   parts: { plot: Plot; make: Making }[] = [];
   /** In place of the plots of an output that does not turn or travel. */
-  private readonly still = h("p.note", { "data-note": "still" });
-  private last: Plotted | null = null;
-  private turn = 0;
-  private readonly span = new Span(() => {
+  readonly #still = h("p.note", { "data-note": "still" });
+  #last: Plotted | null = null;
+  #turn = 0;
+  readonly #span = new Span(() => {
     for (const { plot } of this.parts) plot.redraw();
   });
 
@@ -54,13 +54,13 @@ export class Plots {
         values: along(rows, (row) => Math.hypot(...place(linkage.cycle.rows, row, link, ...at, 1))),
       }));
     const unit = drive?.turning ? TURN / 360 : 1;
-    this.parts = series.map((make) => ({ plot: new Plot(unit, this.pick, this.span), make }));
+    this.parts = series.map((make) => ({ plot: new Plot(unit, this.pick, this.#span), make }));
     const note = record?.note[currentLanguage()];
     const notes = note ? [h("p.note", {}, note)] : [];
     if (record) {
       const name = linkage.linkName(record.link);
       const turning = record.joint === null;
-      this.still.textContent = turning
+      this.#still.textContent = turning
         ? t("Output {name} moves without turning.", { name })
         : t("Output {name} does not travel.", { name });
     }
@@ -71,7 +71,7 @@ export class Plots {
           title: text,
           "aria-label": text,
           "data-plots": sign,
-          onclick: () => this.zoom(linkage, factor),
+          onclick: () => this.#zoom(linkage, factor),
         },
         icon(sign),
       );
@@ -82,32 +82,32 @@ export class Plots {
       tool("less", t("Less enlarged"), 0.5),
       tool("fit", t("The whole range"), 0),
     );
-    renew(this.element, tools, this.still, ...this.parts.map(({ plot }) => plot.element), ...notes);
+    renew(this.element, tools, this.#still, ...this.parts.map(({ plot }) => plot.element), ...notes);
     this.draw(linkage);
   }
 
   /** While sizes are dragged: one plot a frame by turns. */
   follow(linkage: Linkage): void {
-    this.turn = (this.turn + 1) % (this.parts.length || 1);
-    this.draw(linkage, this.parts.slice(this.turn, this.turn + 1));
+    this.#turn = (this.#turn + 1) % (this.parts.length || 1);
+    this.draw(linkage, this.parts.slice(this.#turn, this.#turn + 1));
   }
 
   draw(linkage: Linkage, parts = this.parts): void {
     const { active, cycle, drives, model } = linkage;
     if (cycle.values.length < 2) return;
-    const plotted = this.plotted(linkage);
+    const plotted = this.#plotted(linkage);
     const record = model.outputs[0];
     const still = record !== undefined && outputStandsStill(linkage, plotted.outputs[0]);
-    this.still.hidden = !still;
+    this.#still.hidden = !still;
     for (const { plot } of record ? this.parts.slice(0, OF_OUTPUT) : [])
       plot.element.style.display = still ? "none" : "";
     for (const { plot, make } of parts)
       plot.show(plotted.drives, make(plotted), rangeOf(cycle), wrapped(cycle, drives[active]!));
   }
 
-  private zoom({ active, cycle, drives }: Linkage, factor: number): void {
-    const [first, last] = this.span.of(rangeOf(cycle));
-    this.span.zoom(factor, (wrapped(cycle, drives[active] ?? 0) - first) / (last - first));
+  #zoom({ active, cycle, drives }: Linkage, factor: number): void {
+    const [first, last] = this.#span.of(rangeOf(cycle));
+    this.#span.zoom(factor, (wrapped(cycle, drives[active] ?? 0) - first) / (last - first));
   }
 
   /** Put the cursor to a drive value. */
@@ -118,7 +118,7 @@ export class Plots {
   /** The angle of the output in the pose that is shown, in the lap in which it is plotted. */
   plottedAngle(linkage: Linkage, value: number): number {
     const { active, cycle } = linkage;
-    const { drives, outputs } = this.plotted(linkage);
+    const { drives, outputs } = this.#plotted(linkage);
     const [values] = outputs;
     const drive = wrapped(cycle, linkage.drives[active] ?? 0);
     let low = 0;
@@ -131,12 +131,12 @@ export class Plots {
     return value + TURN * Math.round((values[low]! - value) / TURN);
   }
 
-  private plotted(linkage: Linkage): Plotted {
+  #plotted(linkage: Linkage): Plotted {
     const { cycle } = linkage;
-    if (this.last?.cycle === cycle) return this.last;
+    if (this.#last?.cycle === cycle) return this.#last;
     const lap = lapOf(cycle);
-    this.last = { ...lap, cycle, outputs: outputAlong(linkage, lap.rows) };
-    return this.last;
+    this.#last = { ...lap, cycle, outputs: outputAlong(linkage, lap.rows) };
+    return this.#last;
   }
 }
 

@@ -52,52 +52,52 @@ interface Follow {
 }
 
 export class Pointer {
-  private following: Follow | null = null;
-  private shift = false;
-  private readonly fingers = new Fingers();
+  #following: Follow | null = null;
+  #shift = false;
+  readonly #fingers = new Fingers();
 
   constructor(
     private readonly board: Board,
     private readonly events: StageEvents,
   ) {
     const { root, viewport } = board;
-    root.addEventListener("pointerdown", (event) => this.down(event));
-    root.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    root.addEventListener("pointerdown", (event) => this.#down(event));
+    root.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     root.addEventListener("dblclick", (event) => {
-      const [x, y] = this.at(event);
+      const [x, y] = this.#at(event);
       if (!board.linkage) return;
-      const joint = this.jointNear(x, y, GRIP, true);
+      const joint = this.#jointNear(x, y, GRIP, true);
       if (joint !== null) this.events.holdJoint(joint);
-      else if (this.pointNear(x, y, GRIP) === null)
-        this.events.addPoint(this.linkNear(x, y, NEAR), ...viewport.world(x, y));
+      else if (this.#pointNear(x, y, GRIP) === null)
+        this.events.addPoint(this.#linkNear(x, y, NEAR), ...viewport.world(x, y));
     });
     root.addEventListener("pointermove", (event) => {
-      if (this.fingers.move(event.pointerId, this.at(event), viewport)) board.zoom(1, 0, 0);
+      if (this.#fingers.move(event.pointerId, this.#at(event), viewport)) board.zoom(1, 0, 0);
     });
     for (const name of ["pointerup", "pointercancel"] as const)
-      root.addEventListener(name, (event) => this.fingers.lift(event.pointerId));
+      root.addEventListener(name, (event) => this.#fingers.lift(event.pointerId));
   }
 
   /** Give up what is dragged; false if nothing is. */
   cancel(): boolean {
-    if (!this.following) return false;
-    this.following.stop(false);
+    if (!this.#following) return false;
+    this.#following.stop(false);
     return true;
   }
 
   /** The pixel of an event. */
-  private at(event: MouseEvent): Pair {
+  #at(event: MouseEvent): Pair {
     const box = this.board.root.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   }
 
-  private wheel(event: WheelEvent): void {
+  #wheel(event: WheelEvent): void {
     if (!ownPage() && !event.ctrlKey) return; // a notebook scrolls past it
     event.preventDefault();
-    this.board.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), ...this.at(event));
+    this.board.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), ...this.#at(event));
   }
 
-  private jointNear(x: number, y: number, reach: number, held = false): number | null {
+  #jointNear(x: number, y: number, reach: number, held = false): number | null {
     const { dragging, joints, linkage, viewport } = this.board;
     let best: number | null = null;
     let least = reach;
@@ -110,7 +110,7 @@ export class Pointer {
     return best;
   }
 
-  private pointNear(x: number, y: number, reach: number): number | null {
+  #pointNear(x: number, y: number, reach: number): number | null {
     const { viewport } = this.board;
     const { pose, sizes } = this.board.linkage!;
     let best: number | null = null;
@@ -123,7 +123,7 @@ export class Pointer {
     return best;
   }
 
-  private linkNear(x: number, y: number, reach: number): number | null {
+  #linkNear(x: number, y: number, reach: number): number | null {
     const { viewport } = this.board;
     const linkage = this.board.linkage!;
     const { model, pose, sizes } = linkage;
@@ -139,53 +139,53 @@ export class Pointer {
     return best;
   }
 
-  private down(event: PointerEvent): void {
+  #down(event: PointerEvent): void {
     const { adding, linkage, root, viewport } = this.board;
     if (!linkage || event.button > 0) return;
     event.preventDefault();
-    const [x, y] = this.at(event);
+    const [x, y] = this.#at(event);
     const reach = event.pointerType === "touch" ? 1.6 * GRIP : GRIP;
-    const link = this.linkNear(x, y, reach / 1.4);
+    const link = this.#linkNear(x, y, reach / 1.4);
     if (adding) return this.events.addPoint(link, ...viewport.world(x, y));
     root.setPointerCapture(event.pointerId);
-    if (this.following && event.pointerType === "touch") {
-      this.fingers.clear();
-      this.fingers.put(this.following.id, this.following.at);
-      this.fingers.put(event.pointerId, [x, y]);
+    if (this.#following && event.pointerType === "touch") {
+      this.#fingers.clear();
+      this.#fingers.put(this.#following.id, this.#following.at);
+      this.#fingers.put(event.pointerId, [x, y]);
       this.cancel();
       return;
     }
-    const joint = this.jointNear(x, y, reach);
-    const point = this.pointNear(x, y, joint === null ? reach : 0.3 * reach);
+    const joint = this.#jointNear(x, y, reach);
+    const point = this.#pointNear(x, y, joint === null ? reach : 0.3 * reach);
     if (point !== null) {
       this.events.dragStart();
-      this.follow(event, this.pointMove(point, x, y), () => this.events.dragEnd());
+      this.#follow(event, this.#pointMove(point, x, y), () => this.events.dragEnd());
     } else if (joint !== null) {
       this.events.dragStart();
       this.board.focus(joint);
-      this.follow(event, this.jointMove(joint, x, y), () => this.events.dragEnd());
+      this.#follow(event, this.#jointMove(joint, x, y), () => this.events.dragEnd());
     } else if (link !== null) {
       const local = linkage.toLocal(link, ...viewport.world(x, y));
-      this.follow(event, (u, v) => this.events.pull(link, ...local, ...viewport.world(u, v)));
-    } else this.follow(event, this.pan(x, y));
+      this.#follow(event, (u, v) => this.events.pull(link, ...local, ...viewport.world(u, v)));
+    } else this.#follow(event, this.#pan(x, y));
   }
 
   /** Take a joint along; the pointer keeps its distance from it. */
-  private jointMove(joint: number, x: number, y: number): (u: number, v: number) => void {
+  #jointMove(joint: number, x: number, y: number): (u: number, v: number) => void {
     const { linkage, viewport } = this.board;
     const [px, py] = viewport.screen(...linkage!.jointAt(joint));
-    return (u, v) => this.events.dragJoint(joint, viewport.world(u + px - x, v + py - y), this.shift);
+    return (u, v) => this.events.dragJoint(joint, viewport.world(u + px - x, v + py - y), this.#shift);
   }
 
   /** Take a point of a link along in the same way. */
-  private pointMove(point: number, x: number, y: number): (u: number, v: number) => void {
+  #pointMove(point: number, x: number, y: number): (u: number, v: number) => void {
     const { linkage, viewport } = this.board;
     const { link, at } = linkage!.sizes.points[point]!;
     const [px, py] = viewport.screen(...place(linkage!.pose, 0, link, ...at));
-    return (u, v) => this.events.dragPoint(point, viewport.world(u + px - x, v + py - y), this.shift);
+    return (u, v) => this.events.dragPoint(point, viewport.world(u + px - x, v + py - y), this.#shift);
   }
 
-  private pan(x: number, y: number): (u: number, v: number) => void {
+  #pan(x: number, y: number): (u: number, v: number) => void {
     let [lastX, lastY] = [x, y];
     return (u, v) => {
       this.board.viewport.pan(u - lastX, v - lastY);
@@ -195,7 +195,7 @@ export class Pointer {
   }
 
   /** Follow a pointer that is down, once a frame, until it is up. */
-  private follow(first: PointerEvent, move: (x: number, y: number) => void, done?: () => void): void {
+  #follow(first: PointerEvent, move: (x: number, y: number) => void, done?: () => void): void {
     const { root } = this.board;
     let latest: Pair | null = null;
     let frame = 0;
@@ -206,8 +206,8 @@ export class Pointer {
     };
     const moved = (next: PointerEvent) => {
       if (next.pointerId !== first.pointerId) return;
-      latest = this.at(next);
-      this.shift = next.shiftKey;
+      latest = this.#at(next);
+      this.#shift = next.shiftKey;
       mine.at = latest;
       frame ||= requestAnimationFrame(flush);
     };
@@ -217,15 +217,15 @@ export class Pointer {
       root.removeEventListener("pointermove", moved);
       root.removeEventListener("pointerup", end);
       root.removeEventListener("pointercancel", end);
-      this.following = null;
+      this.#following = null;
       if (reached) done?.();
       else this.events.dragCancel();
     };
     const end = (next: PointerEvent) => {
       if (next.pointerId === first.pointerId) stop(true);
     };
-    const mine: Follow = { id: first.pointerId, at: this.at(first), stop };
-    this.following = mine;
+    const mine: Follow = { id: first.pointerId, at: this.#at(first), stop };
+    this.#following = mine;
     root.addEventListener("pointermove", moved);
     root.addEventListener("pointerup", end);
     root.addEventListener("pointercancel", end);

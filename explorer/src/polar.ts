@@ -18,11 +18,11 @@ const RADIUS = 88;
 
 export class Polar {
   readonly element = svg("svg.plot.polar", { viewBox: "-150 -100 300 200", role: "img" });
-  private readonly here = svg("path.cursor", {});
-  private vectors: Vectors | null = null;
+  readonly #here = svg("path.cursor", {});
+  #vectors: Vectors | null = null;
 
   show(vectors: Vectors, unit: string): void {
-    this.vectors = vectors;
+    this.#vectors = vectors;
     const { x, y, most } = vectors;
     const scale = RADIUS / most;
     const rings = roundValues(0, most, 2).filter((value) => value > 0);
@@ -33,14 +33,14 @@ export class Polar {
       ...rings.map((value) => svg("circle.mesh", { fill: "none", r: scale * value })),
       ...rings.map((value) => svg("text", { x: 3, y: -scale * value - 2 }, `${number(value)} ${unit}`)),
       svg("path.curve.force", { d: lineThrough(x.map(to(scale)), y.map(to(-scale))) }),
-      this.here,
+      this.#here,
     );
   }
 
   at(drive: number): void {
-    if (!this.vectors) return;
-    const [x, y] = vectorAt(this.vectors, drive);
-    this.here.setAttribute("d", Number.isFinite(x + y) ? `M0 0L${RADIUS * x} ${-RADIUS * y}` : "");
+    if (!this.#vectors) return;
+    const [x, y] = vectorAt(this.#vectors, drive);
+    this.#here.setAttribute("d", Number.isFinite(x + y) ? `M0 0L${RADIUS * x} ${-RADIUS * y}` : "");
   }
 }
 

@@ -20,20 +20,20 @@ const LONGEST_ARROW = 70; // pixels
 const LINE = 15; // pixels that names are apart
 
 export class Scene {
-  private links: SVGGElement[] = [];
-  private pins: { element: SVGGElement; joint: number }[] = [];
-  private marks: { element: SVGGElement; point: number }[] = [];
-  private labels: Label[] = [];
-  private backdrop: SVGElement | null = null;
+  #links: SVGGElement[] = [];
+  #pins: { element: SVGGElement; joint: number }[] = [];
+  #marks: { element: SVGGElement; point: number }[] = [];
+  #labels: Label[] = [];
+  #backdrop: SVGElement | null = null;
   /** Whether the pole is to be shown but lies outside of the picture. */
   poleAside = false;
-  private readonly arrows = svg("path.velocity", {});
-  private readonly changes = svg("path.acceleration", {});
-  private readonly forces = svg("path.force", {});
-  private readonly springs = svg("path.spring-path", {});
-  private readonly rulers = svg("path.ruler", {});
-  private readonly circle = svg("circle.inflection", { r: 0 });
-  private readonly pole = svg("circle.pole", { r: 4 });
+  readonly #arrows = svg("path.velocity", {});
+  readonly #changes = svg("path.acceleration", {});
+  readonly #forces = svg("path.force", {});
+  readonly #springs = svg("path.spring-path", {});
+  readonly #rulers = svg("path.ruler", {});
+  readonly #circle = svg("circle.inflection", { r: 0 });
+  readonly #pole = svg("circle.pole", { r: 4 });
 
   constructor(
     private readonly root: SVGSVGElement,
@@ -43,11 +43,11 @@ export class Scene {
 
   /** The joints that are drawn. */
   get joints(): number[] {
-    return this.pins.map(({ joint }) => joint);
+    return this.#pins.map(({ joint }) => joint);
   }
 
   focus(joint: number): void {
-    this.pins.find((pin) => pin.joint === joint)?.element.focus({ preventScroll: true });
+    this.#pins.find((pin) => pin.joint === joint)?.element.focus({ preventScroll: true });
   }
 
   // --- the parts -----------------------------------------------------------------------------------------------------
@@ -58,16 +58,16 @@ export class Scene {
     const [back, bodies, marks, front] = ["back", "bodies", "marks", "front"].map((name) =>
       svg("g", { class: name }),
     ) as [SVGGElement, SVGGElement, SVGGElement, SVGGElement];
-    this.links = model.links.map((name, link) => {
+    this.#links = model.links.map((name, link) => {
       const group = svg("g", { class: link === model.frame ? "link ground" : "link", "data-link": name });
       (link === model.frame ? back : bodies).append(group);
       return group;
     });
-    this.pins = [...model.joints.keys()]
+    this.#pins = [...model.joints.keys()]
       .filter((joint) => sizes.elementsOf(joint).some((k) => sizes.is(k, "pin")))
-      .map((joint) => ({ element: this.pin(linkage, joint, dragging), joint }));
-    front.append(...this.pins.map(({ element }) => element));
-    this.marks = sizes.points.map(({ name }, number) => {
+      .map((joint) => ({ element: this.#pin(linkage, joint, dragging), joint }));
+    front.append(...this.#pins.map(({ element }) => element));
+    this.#marks = sizes.points.map(({ name }, number) => {
       const element = svg(
         "g.coupler-point",
         {
@@ -84,23 +84,23 @@ export class Scene {
       marks.append(element);
       return { element, point: number };
     });
-    this.labels = shown.labels ? labelsOf(linkage) : [];
+    this.#labels = shown.labels ? labelsOf(linkage) : [];
     front.append(
-      ...this.labels.map(({ element }) => element),
-      this.arrows,
-      this.changes,
-      this.forces,
-      this.springs,
-      this.rulers,
-      this.circle,
-      this.pole,
+      ...this.#labels.map(({ element }) => element),
+      this.#arrows,
+      this.#changes,
+      this.#forces,
+      this.#springs,
+      this.#rulers,
+      this.#circle,
+      this.#pole,
     );
     const { picture } = linkage.beside;
-    this.backdrop = picture ? backdropElement(picture) : null;
-    renew(this.root, ...(this.backdrop ? [this.backdrop] : []), back, bodies, marks, front);
+    this.#backdrop = picture ? backdropElement(picture) : null;
+    renew(this.root, ...(this.#backdrop ? [this.#backdrop] : []), back, bodies, marks, front);
   }
 
-  private pin(linkage: Linkage, number: number, dragging: Dragging): SVGGElement {
+  #pin(linkage: Linkage, number: number, dragging: Dragging): SVGGElement {
     const { model } = linkage;
     const joint = model.joints[number]!;
     const held = dragging.locks.held.has(number);
@@ -124,7 +124,7 @@ export class Scene {
   /** Draw the bodies of the links after their sizes or the scale changed. */
   sized(linkage: Linkage): void {
     const bodies = new Bodies(linkage, this.viewport.scale);
-    for (const [link, group] of this.links.entries()) {
+    for (const [link, group] of this.#links.entries()) {
       const made = bodies.of(link);
       while (group.childElementCount > made.length) group.lastChild!.remove();
       made.forEach((element, k) => {
@@ -141,20 +141,20 @@ export class Scene {
   draw(linkage: Linkage, shown: Shown): void {
     const { pose, sizes } = linkage;
     const { viewport } = this;
-    this.links.forEach((group, link) => {
+    this.#links.forEach((group, link) => {
       const [c, s] = turn(pose, 0, link);
       const [x, y] = viewport.screen(...origin(pose, 0, link));
       const [cosine, minus, sine] = [c.toFixed(6), (-s).toFixed(6), s.toFixed(6)];
       group.setAttribute("transform", `matrix(${cosine} ${minus} ${sine} ${cosine} ${x.toFixed(2)} ${y.toFixed(2)})`);
     });
-    if (this.backdrop && linkage.beside.picture) putBackdrop(this.backdrop, linkage.beside.picture, viewport);
-    for (const { element, joint } of this.pins) put(element, viewport.screen(...linkage.jointAt(joint)));
-    for (const { element, point } of this.marks) {
+    if (this.#backdrop && linkage.beside.picture) putBackdrop(this.#backdrop, linkage.beside.picture, viewport);
+    for (const { element, joint } of this.#pins) put(element, viewport.screen(...linkage.jointAt(joint)));
+    for (const { element, point } of this.#marks) {
       const record = sizes.points[point];
       if (record) put(element, viewport.screen(...place(pose, 0, record.link, ...record.at)));
     }
     const taken: { x: number; y: number; half: number }[] = [];
-    for (const { element, spot, half, begins } of this.labels) {
+    for (const { element, spot, half, begins } of this.#labels) {
       const [left, top] = spot(viewport);
       const x = left + (begins ? half : 0);
       let y = top;
@@ -165,17 +165,17 @@ export class Scene {
       taken.push({ x, y, half });
       put(element, [left, y]);
     }
-    this.arrows.setAttribute("d", shown.velocities ? this.vectors(linkage, 1) : "");
-    this.changes.setAttribute("d", shown.accelerations ? this.vectors(linkage, 2) : "");
-    this.forces.setAttribute("d", this.forceArrows(linkage, shown));
+    this.#arrows.setAttribute("d", shown.velocities ? this.#vectors(linkage, 1) : "");
+    this.#changes.setAttribute("d", shown.accelerations ? this.#vectors(linkage, 2) : "");
+    this.#forces.setAttribute("d", this.#forceArrows(linkage, shown));
     const springs = shown.springs().map((spring) => springPath(linkage, viewport, spring));
-    this.springs.setAttribute("d", springs.join(""));
+    this.#springs.setAttribute("d", springs.join(""));
     const lines = readingsOf(linkage).map(({ ends }) => `M${ends.map((at) => viewport.screen(...at)).join("L")}`);
-    this.rulers.setAttribute("d", lines.join(""));
-    this.drawPole(linkage, shown);
+    this.#rulers.setAttribute("d", lines.join(""));
+    this.#drawPole(linkage, shown);
   }
 
-  private forceArrows(linkage: Linkage, shown: Shown): string {
+  #forceArrows(linkage: Linkage, shown: Shown): string {
     const drawn = shown.forces().map(([joint, x, y]) => {
       const [u, v] = this.viewport.screen(...linkage.jointAt(joint));
       return arrow(u, v, LONGEST_ARROW * x, -LONGEST_ARROW * y);
@@ -184,7 +184,7 @@ export class Scene {
   }
 
   /** Velocities (1) or accelerations (2) of all joints and points that move, as a path. */
-  private vectors({ model, pose, sizes }: Linkage, k: 1 | 2): string {
+  #vectors({ model, pose, sizes }: Linkage, k: 1 | 2): string {
     const places: [number, number, number, number][] = [];
     const add = (link: number, u: number, v: number) => {
       const [x, y] = this.viewport.screen(...place(pose, 0, link, u, v));
@@ -204,23 +204,23 @@ export class Scene {
     return places.map(([x, y, dx, dy]) => arrow(x, y, shortened(dx), shortened(dy))).join("");
   }
 
-  private drawPole(linkage: Linkage, shown: Shown): void {
+  #drawPole(linkage: Linkage, shown: Shown): void {
     const { viewport } = this;
     const found = shown.poles || shown.inflection ? pole(linkage, linkage.pose, 0, shown.link) : null;
-    this.pole.setAttribute("r", found ? "4" : "0");
+    this.#pole.setAttribute("r", found ? "4" : "0");
     this.poleAside = false;
-    this.circle.setAttribute("r", "0");
+    this.#circle.setAttribute("r", "0");
     if (!found) return;
     const [x, y] = viewport.screen(found.x, found.y);
     this.poleAside = !(x >= 0 && y >= 0 && x <= viewport.width && y <= viewport.height);
-    this.pole.setAttribute("cx", x.toFixed(1));
-    this.pole.setAttribute("cy", y.toFixed(1));
+    this.#pole.setAttribute("cx", x.toFixed(1));
+    this.#pole.setAttribute("cy", y.toFixed(1));
     const radius = (Math.hypot(found.dx, found.dy) / 2) * viewport.scale;
     if (!shown.inflection || !(radius < 1e5)) return;
     const [cx, cy] = viewport.screen(found.x + found.dx / 2, found.y + found.dy / 2);
-    this.circle.setAttribute("cx", cx.toFixed(1));
-    this.circle.setAttribute("cy", cy.toFixed(1));
-    this.circle.setAttribute("r", radius.toFixed(1));
+    this.#circle.setAttribute("cx", cx.toFixed(1));
+    this.#circle.setAttribute("cy", cy.toFixed(1));
+    this.#circle.setAttribute("r", radius.toFixed(1));
   }
 }
 

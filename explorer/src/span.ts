@@ -7,36 +7,36 @@ const MOST = 30;
 
 export class Span {
   /** Its ends, as parts of the range. */
-  private ends: Pair = [0, 1];
+  #ends: Pair = [0, 1];
 
   constructor(private readonly changed: () => void) {}
 
   get whole(): boolean {
-    return this.ends[1] - this.ends[0] >= 1;
+    return this.#ends[1] - this.#ends[0] >= 1;
   }
 
   /** What is shown of a range. */
   of([first, last]: Pair): Pair {
-    const [from, to] = this.ends;
+    const [from, to] = this.#ends;
     return [first + from * (last - first), first + to * (last - first)];
   }
 
   /** Enlarge by a factor; what lies at a part of the plot's width stays there. */
   zoom(factor: number, part: number): void {
-    const [from, to] = this.ends;
+    const [from, to] = this.#ends;
     const wide = Math.min(1, Math.max(1 / MOST, (to - from) / factor));
-    this.put(from + part * (to - from - wide), wide);
+    this.#put(from + part * (to - from - wide), wide);
   }
 
   /** Shift by a part of the plot's width. */
   pan(part: number): void {
-    const [from, to] = this.ends;
-    this.put(from + part * (to - from), to - from);
+    const [from, to] = this.#ends;
+    this.#put(from + part * (to - from), to - from);
   }
 
-  private put(from: number, wide: number): void {
+  #put(from: number, wide: number): void {
     const first = Math.max(0, Math.min(1 - wide, from));
-    this.ends = [first, first + wide];
+    this.#ends = [first, first + wide];
     this.changed();
   }
 }

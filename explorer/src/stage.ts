@@ -37,21 +37,21 @@ export class Stage implements Board {
   linkage: Linkage | null = null;
   dragging: Dragging | null = null;
   adding = false;
-  private readonly hint = h("div.hint", {});
-  private readonly grid = svg("svg.grid", { "aria-hidden": "true" });
+  readonly #hint = h("div.hint", {});
+  readonly #grid = svg("svg.grid", { "aria-hidden": "true" });
   /** Of what the grid is: drawn anew each time, it took a third of a frame. */
-  private ruled = "";
+  #ruled = "";
   private readonly canvas = h("canvas", { "aria-hidden": "true" });
-  private readonly scene: Scene;
-  private readonly pointer: Pointer;
-  private readonly observer: ResizeObserver;
+  readonly #scene: Scene;
+  readonly #pointer: Pointer;
+  readonly #observer: ResizeObserver;
   /** Values of variables of the style sheet. To ask for one makes the browser apply all of it. */
-  private readonly colours = new Map<string, string>();
-  private readonly colour = (name: string): string => {
-    const known = this.colours.get(name);
+  readonly #colours = new Map<string, string>();
+  readonly #colour = (name: string): string => {
+    const known = this.#colours.get(name);
     if (known) return known;
     const found = getComputedStyle(this.element).getPropertyValue(name).trim();
-    this.colours.set(name, found);
+    this.#colours.set(name, found);
     return found;
   };
 
@@ -59,21 +59,21 @@ export class Stage implements Board {
     events: StageEvents,
     private shown: Shown,
   ) {
-    this.element = h("div.stage", {}, this.grid, this.canvas, this.root);
-    this.pointer = new Pointer(this, events);
-    this.scene = new Scene(this.root, this.viewport, {
+    this.element = h("div.stage", {}, this.#grid, this.canvas, this.root);
+    this.#pointer = new Pointer(this, events);
+    this.#scene = new Scene(this.root, this.viewport, {
       joint: (event, joint) => {
         if (event.key === "Enter") events.holdJoint(joint);
-        else this.pointer.key(event, (dx, dy) => events.moveJointBy(joint, dx, dy));
+        else this.#pointer.key(event, (dx, dy) => events.moveJointBy(joint, dx, dy));
       },
-      point: (event, point) => this.pointer.key(event, (dx, dy) => events.movePointBy(point, dx, dy)),
+      point: (event, point) => this.#pointer.key(event, (dx, dy) => events.movePointBy(point, dx, dy)),
     });
-    this.observer = new ResizeObserver(() => this.resize());
-    this.observer.observe(this.element);
+    this.#observer = new ResizeObserver(() => this.#resize());
+    this.#observer.observe(this.element);
   }
 
   destroy(): void {
-    this.observer.disconnect();
+    this.#observer.disconnect();
   }
 
   /** Write the buttons on the picture, in the language of the page. */
@@ -96,24 +96,24 @@ export class Stage implements Board {
         button("fit", t("Show everything"), () => this.fit()),
         adder,
       ),
-      this.hint,
+      this.#hint,
     );
   }
 
   get joints(): number[] {
-    return this.scene.joints;
+    return this.#scene.joints;
   }
 
   focus(joint: number): void {
-    this.scene.focus(joint);
+    this.#scene.focus(joint);
   }
 
   /** Give up what the pointer is dragging; false if it drags nothing. */
   cancelDrag(): boolean {
-    return this.pointer.cancel();
+    return this.#pointer.cancel();
   }
 
-  private resize(): void {
+  #resize(): void {
     const { clientWidth, clientHeight } = this.element;
     if (!clientWidth || !clientHeight) return;
     this.viewport.width = clientWidth;
@@ -151,39 +151,39 @@ export class Stage implements Board {
     if (!linkage || !dragging) return;
     const { name, names, source } = linkage.model;
     this.root.setAttribute("aria-label", names[currentLanguage()] || name || source || t("The mechanism"));
-    this.scene.build(linkage, dragging, this.shown);
+    this.#scene.build(linkage, dragging, this.shown);
     this.sized();
   }
 
   /** Draw the bodies of the links after their sizes or the scale changed. */
   sized(): void {
     if (!this.linkage) return;
-    this.scene.sized(this.linkage);
+    this.#scene.sized(this.linkage);
     this.draw();
   }
 
   /** Put everything where the pose has it. */
   draw(): void {
     if (!this.linkage) return;
-    this.rule(this.linkage.model.unit);
-    this.scene.draw(this.linkage, this.shown);
-    const aside = this.scene.poleAside ? ` ${t("The pole lies outside of the picture.")}` : "";
+    this.#rule(this.linkage.model.unit);
+    this.#scene.draw(this.linkage, this.shown);
+    const aside = this.#scene.poleAside ? ` ${t("The pole lies outside of the picture.")}` : "";
     const said = t("Drag a joint to change sizes, a link to move it.") + aside;
-    if (this.hint.textContent !== said) this.hint.textContent = said;
+    if (this.#hint.textContent !== said) this.#hint.textContent = said;
     const pen = this.canvas.getContext("2d");
     if (!pen) return;
-    new Painter(pen, this.viewport, this.colour).paint(this.linkage, this.shown);
+    new Painter(pen, this.viewport, this.#colour).paint(this.linkage, this.shown);
   }
 
-  private rule(unit: string): void {
+  #rule(unit: string): void {
     const ruled = this.shown.grid ? JSON.stringify([this.viewport, unit, currentLanguage()]) : "";
-    if (ruled !== this.ruled) renew(this.grid, ...(ruled ? gridOf(this.viewport, unit, 14) : []));
-    this.ruled = ruled;
+    if (ruled !== this.#ruled) renew(this.#grid, ...(ruled ? gridOf(this.viewport, unit, 14) : []));
+    this.#ruled = ruled;
   }
 
   /** Draw in the colours of another theme. */
   recoloured(): void {
-    this.colours.clear();
+    this.#colours.clear();
     this.draw();
   }
 
@@ -201,7 +201,7 @@ export class Stage implements Board {
       for (const name of STYLES) element.setAttribute(name, style.getPropertyValue(name));
       for (const name of ["class", "tabindex", "role", "style"]) element.removeAttribute(name);
     }
-    const { colour } = this;
+    const colour = this.#colour;
     const { rows, values } = this.linkage!.cycle;
     const points = this.shown.curves ? this.linkage!.sizes.points : [];
     points.forEach((point, number) => {

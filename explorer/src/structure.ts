@@ -28,22 +28,22 @@ export class StructureView implements View {
   readonly element = h("div.view", { "data-page": "structure" });
   private text = "";
   private structure: Structure | null = null;
-  private joint = -1;
-  private atFrame = true;
+  #joint = -1;
+  #atFrame = true;
   private readonly chains: ChainList;
-  private readonly shown = h("div.described", {});
-  private readonly detail = h("div.contents", {});
-  private readonly error = h("p.error", { role: "alert" });
-  private readonly words = h("details.words", { hidden: true }); // until there is one
-  private readonly field = h("textarea", { spellcheck: false, "data-field": "chain" });
-  private typing = 0;
-  private asked = 0;
+  readonly #shown = h("div.described", {});
+  readonly #detail = h("div.contents", {});
+  readonly #error = h("p.error", { role: "alert" });
+  readonly #words = h("details.words", { hidden: true }); // until there is one
+  readonly #field = h("textarea", { spellcheck: false, "data-field": "chain" });
+  #typing = 0;
+  #asked = 0;
 
   constructor(private readonly page: Page) {
     this.chains = new ChainList(page, (text) => void this.describe(text));
-    this.field.addEventListener("input", () => {
-      clearTimeout(this.typing);
-      this.typing = window.setTimeout(() => void this.describe(this.field.value), 300);
+    this.#field.addEventListener("input", () => {
+      clearTimeout(this.#typing);
+      this.#typing = window.setTimeout(() => void this.describe(this.#field.value), 300);
     });
   }
 
@@ -53,72 +53,72 @@ export class StructureView implements View {
   }
 
   arrange(): void {
-    this.field.setAttribute("aria-label", t("The chain as text"));
-    renew(this.words, h("summary", {}, t("The chain as text")), this.field);
+    this.#field.setAttribute("aria-label", t("The chain as text"));
+    renew(this.#words, h("summary", {}, t("The chain as text")), this.#field);
     renew(
       this.element,
-      h("div.page", {}, step(1, t("Chain")), this.chains.element, this.shown, this.words, this.error, this.detail),
+      h("div.page", {}, step(1, t("Chain")), this.chains.element, this.#shown, this.#words, this.#error, this.#detail),
     );
     this.chains.arrange();
     if (this.text) void this.describe(this.text);
   }
 
   async describe(text: string): Promise<void> {
-    const number = ++this.asked;
-    if (this.field.value !== text) this.field.value = text;
-    if (!this.structure) renew(this.shown, moment());
-    this.detail.classList.add("asking"); // a click would choose among frames of the chain before
+    const number = ++this.#asked;
+    if (this.#field.value !== text) this.#field.value = text;
+    if (!this.structure) renew(this.#shown, moment());
+    this.#detail.classList.add("asking"); // a click would choose among frames of the chain before
     try {
       const found = await this.page.ask<Structure>("structure", {
         text,
-        at_frame: this.atFrame,
+        at_frame: this.#atFrame,
         names: namesOf(this.page.shown),
-        document: this.contacts(text),
+        document: this.#contacts(text),
       });
-      if (number !== this.asked) return;
+      if (number !== this.#asked) return;
       this.text = text;
       this.structure = found;
-      this.words.hidden = false;
-      if (this.joint >= found.joints.length) this.joint = -1;
-      this.error.textContent = "";
-      this.field.setAttribute("aria-invalid", "false");
-      this.showStructure();
+      this.#words.hidden = false;
+      if (this.#joint >= found.joints.length) this.#joint = -1;
+      this.#error.textContent = "";
+      this.#field.setAttribute("aria-invalid", "false");
+      this.#showStructure();
       this.chains.choose(text);
     } catch (error) {
-      if (number !== this.asked) return;
-      if (!this.structure) renew(this.shown);
+      if (number !== this.#asked) return;
+      if (!this.structure) renew(this.#shown);
       const said = (error as Error).message;
-      this.field.setAttribute("aria-invalid", "true");
-      this.words.hidden = false;
-      this.words.open = true;
+      this.#field.setAttribute("aria-invalid", "true");
+      this.#words.hidden = false;
+      this.#words.open = true;
       const place = /(?:character|Stelle) (\d+)/.exec(said);
-      renew(this.error, said);
+      renew(this.#error, said);
       if (place) {
         const at = Number(place[1]);
         const before = text.slice(Math.max(0, at - 24), at - 1);
-        this.error.append(h("span.place", {}, `\n${before}▸${text.slice(at - 1, at + 16)}`));
+        this.#error.append(h("span.place", {}, `\n${before}▸${text.slice(at - 1, at + 16)}`));
       }
     }
-    this.detail.classList.remove("asking");
+    this.#detail.classList.remove("asking");
   }
 
   /** The linkage that is shown if it has higher pairs and the text is of its chain; else nothing. */
-  private contacts(text: string): object {
+  #contacts(text: string): object {
     const model = this.page.shown;
     const higher = model.joints.some((joint) => joint.pair.contours);
     return higher && text.split(";")[0]!.trim() === String(model.document.joints).trim() ? model.document : {};
   }
 
   /** Show it; what was chosen among frames and drives stays where it is on the screen. */
-  private showStructure(): void {
+  #showStructure(): void {
     const found = this.structure!;
-    const top = () => this.detail.firstElementChild?.getBoundingClientRect().top ?? 0;
-    const before = this.detail.matches(":focus-within") && top();
-    const drawn = chainPicture(found, this.joint, (joint) => this.pick(joint));
+    const top = () => this.#detail.firstElementChild?.getBoundingClientRect().top ?? 0;
+    const before = this.#detail.matches(":focus-within") && top();
+    const drawn = chainPicture(found, this.#joint, (joint) => this.#pick(joint));
     const strained = found.links.some((link) => link.overconstrained);
     const lines = [...found.lines.slice(1), ...found.drives.split("\n")].filter((line) => line.trim());
     renew(
-      this.shown,
+      this.#shown,
       h(
         "div.two",
         {},
@@ -126,7 +126,7 @@ export class StructureView implements View {
           "div",
           {},
           h("div.chain-picture", {}, drawn),
-          typesOf(found.joints[this.joint], (text) => void this.describe(text)),
+          typesOf(found.joints[this.#joint], (text) => void this.describe(text)),
         ),
         h(
           "div",
@@ -156,22 +156,22 @@ export class StructureView implements View {
     );
     const elsewhere = h("input", {
       type: "checkbox",
-      checked: !this.atFrame,
+      checked: !this.#atFrame,
       "data-field": "elsewhere",
       onchange: () => {
-        this.atFrame = !elsewhere.checked;
+        this.#atFrame = !elsewhere.checked;
         void this.describe(this.text);
       },
     });
     const driven = found.driven.filter(({ frame }) => !found.chosen || frame === found.chosen);
     const framed = (choice: Choice) => t("frame: {frame}", { frame: choice.frame });
     renew(
-      this.detail,
+      this.#detail,
       step(2, t("Frame")),
       h("p.note", {}, t("Links that a symmetry exchanges give the same mechanism: each kind stands here once.")),
-      this.cards("inversions", found.inversions, framed, (choice) => choice.frame === found.chosen),
+      this.#cards("inversions", found.inversions, framed, (choice) => choice.frame === found.chosen),
       step(3, t("Drive")),
-      this.cards(
+      this.#cards(
         "driven",
         driven,
         (choice) => (found.chosen ? "" : `${framed(choice)}, `) + choice.drives.join(", "),
@@ -183,7 +183,7 @@ export class StructureView implements View {
         {},
         h(
           "button.key",
-          { "data-act": "realise", onclick: () => void this.realise() },
+          { "data-act": "realise", onclick: () => void this.#realise() },
           t("Find dimensions and move it"),
         ),
         found.drives ? "" : h("span.note", {}, t("Choose a frame and a drive first.")),
@@ -193,7 +193,7 @@ export class StructureView implements View {
   }
 
   /** Mechanisms of which one is chosen. */
-  private cards(
+  #cards(
     key: string,
     list: Choice[],
     label: (choice: Choice) => string,
@@ -214,15 +214,15 @@ export class StructureView implements View {
     return h("div.cards.few", { "data-list": key }, ...list.map(card));
   }
 
-  private pick(joint: number): void {
-    this.joint = this.joint === joint ? -1 : joint;
-    this.showStructure();
+  #pick(joint: number): void {
+    this.#joint = this.#joint === joint ? -1 : joint;
+    this.#showStructure();
   }
 
-  private async realise(): Promise<void> {
-    const text = this.field.value; // as it stands, described or not yet
+  async #realise(): Promise<void> {
+    const text = this.#field.value; // as it stands, described or not yet
     const place = h("span.form", {});
-    this.detail.querySelector('[data-act="realise"]')!.parentElement!.append(place);
+    this.#detail.querySelector('[data-act="realise"]')!.parentElement!.append(place);
     const found = await awaited(place, (progress) => this.page.ask<Realised>("realise", { text }, progress));
     if (!found) return;
     place.remove();

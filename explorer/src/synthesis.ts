@@ -11,6 +11,8 @@ import type { Page, View } from "./view";
 import { awaited } from "./waiting";
 
 type Kind = "positions" | "points" | "function" | "dead-centres";
+/** What a click or a stroke puts. */
+type Puts = "" | "pivot" | "curve";
 
 /** The rows of each kind at first, and how few there are at least. */
 const FEWEST: Record<Kind, number> = { positions: 3, points: 5, function: 3, "dead-centres": 1 };
@@ -32,50 +34,49 @@ export class SynthesisView implements View {
     ],
     "dead-centres": [[60, 1.2]],
   };
-  private pivots: number[][] = [];
-  /** What a click or a stroke puts. */
-  private puts: "" | "pivot" | "curve" = "";
-  private closed = false;
-  private crank = true;
-  private least = 20; // degrees
-  private shownDesign: Design | null = null;
+  #pivots: number[][] = [];
+  #puts: Puts = "";
+  #closed = false;
+  #crank = true;
+  #least = 20; // degrees
+  #shownDesign: Design | null = null;
   /** How wide the plane is before there is anything in it; that of points out of a file is as wide as they need. */
-  private home = 0;
-  private area!: Area;
+  #home = 0;
+  #area!: Area;
   /** What the pointer takes along. */
-  private held: ((at: [number, number]) => void) | null = null;
+  #held: ((at: [number, number]) => void) | null = null;
   private readonly marks = svg("g");
-  private readonly ghost = new Ghost(() => this.element.classList.contains("shown"));
-  private readonly plane = svg("svg.plane", { role: "application", tabindex: 0 }, this.marks, this.ghost.element);
-  private readonly list = h("div", {});
+  readonly #ghost = new Ghost(() => this.element.classList.contains("shown"));
+  readonly #plane = svg("svg.plane", { role: "application", tabindex: 0 }, this.marks, this.#ghost.element);
+  readonly #list = h("div", {});
   private readonly designs = new DesignCards(
-    (design) => this.play(design),
-    (design) => void this.open(design),
+    (design) => this.#play(design),
+    (design) => void this.#open(design),
   );
   private readonly status = h("div.form", {});
 
   constructor(private readonly page: Page) {
-    this.plane.addEventListener("pointerdown", (event) => this.down(event));
-    this.plane.addEventListener("pointermove", (event) => this.held?.(this.at(event)));
+    this.#plane.addEventListener("pointerdown", (event) => this.#down(event));
+    this.#plane.addEventListener("pointermove", (event) => this.#held?.(this.#at(event)));
     for (const event of ["pointerup", "pointercancel"])
-      this.plane.addEventListener(event, () => {
-        this.held = null;
-        this.paint();
-        if (this.puts === "curve") this.arrange(); // whether it is closed
+      this.#plane.addEventListener(event, () => {
+        this.#held = null;
+        this.#paint();
+        if (this.#puts === "curve") this.arrange(); // whether it is closed
       });
   }
 
   appeared(): void {
-    this.play(this.shownDesign); // now the width of the plane is known
+    this.#play(this.#shownDesign); // now the width of the plane is known
   }
 
   /** Other points, out of a file. */
   take(points: [number, number][], closed: boolean): void {
     this.kind = "points";
     this.rows.points = points;
-    this.closed = closed;
+    this.#closed = closed;
     const far = Math.max(...points.flat().map(Math.abs));
-    this.home = far > WIDE / 2 || far < WIDE / 12 ? 2.4 * far : 0;
+    this.#home = far > WIDE / 2 || far < WIDE / 12 ? 2.4 * far : 0;
     this.designs.show(null);
     this.arrange();
   }
@@ -84,7 +85,7 @@ export class SynthesisView implements View {
     return this.rows[this.kind];
   }
 
-  private get planar(): boolean {
+  get #planar(): boolean {
     return this.kind === "points" || this.kind === "positions";
   }
 
@@ -97,9 +98,9 @@ export class SynthesisView implements View {
       type: "number",
       min: 0,
       max: 90,
-      value: this.least,
+      value: this.#least,
       "data-field": "least",
-      onchange: () => (this.least = Number(least.value)),
+      onchange: () => (this.#least = Number(least.value)),
     });
     const kinds: [Kind, string][] = [
       ["points", t("Points of a path")],
@@ -129,7 +130,7 @@ export class SynthesisView implements View {
             ["", t("A click puts a position")],
             ["pivot", t("A click puts a fixed pivot")],
           ];
-    this.plane.setAttribute("aria-label", t("What is to be met"));
+    this.#plane.setAttribute("aria-label", t("What is to be met"));
     const open = this.kind === "points";
     renew(
       this.element,
@@ -137,7 +138,7 @@ export class SynthesisView implements View {
         "div.page",
         {},
         h("h2", {}, t("Synthesis")),
-        choice(t("What a linkage is to do"), kinds, this.kind, (kind) => this.turnTo(kind as Kind)),
+        choice(t("What a linkage is to do"), kinds, this.kind, (kind) => this.#turnTo(kind as Kind)),
         h("p.note", {}, hints[this.kind]),
         this.page.served
           ? null
@@ -152,10 +153,8 @@ export class SynthesisView implements View {
           h(
             "div",
             {},
-            this.planar
-              ? choice(t("Click"), clicks, this.puts, (value) => (this.puts = value as typeof this.puts))
-              : null,
-            h("div.chain-picture", {}, this.plane),
+            this.#planar ? choice(t("Click"), clicks, this.#puts, (value) => (this.#puts = value as Puts)) : null,
+            h("div.chain-picture", {}, this.#plane),
           ),
           h(
             "div",
@@ -163,114 +162,114 @@ export class SynthesisView implements View {
             h(
               "div.form",
               {},
-              open ? option(t("closed curve"), this.closed, (on) => this.close(on), "closed") : null,
-              option(t("the crank turns fully"), this.crank, (on) => (this.crank = on), "crank"),
+              open ? option(t("closed curve"), this.#closed, (on) => this.#close(on), "closed") : null,
+              option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
               h("label", {}, t("transmission angle from"), least, "°"),
             ),
             h(
               "div.form",
               {},
-              h("button.key", { "data-act": "synthesise", onclick: () => void this.search() }, t("Find four-bars")),
-              this.planar
-                ? h("button.plain", { "data-act": "clear", onclick: () => this.clear() }, t("Remove all points"))
+              h("button.key", { "data-act": "synthesise", onclick: () => void this.#search() }, t("Find four-bars")),
+              this.#planar
+                ? h("button.plain", { "data-act": "clear", onclick: () => this.#clear() }, t("Remove all points"))
                 : null,
             ),
             this.status,
-            this.list, // grows, and moves nothing
+            this.#list, // grows, and moves nothing
           ),
         ),
         this.designs.element,
       ),
     );
-    this.draw();
+    this.#draw();
     this.designs.arrange();
   }
 
-  private turnTo(kind: Kind): void {
+  #turnTo(kind: Kind): void {
     this.kind = kind;
-    this.puts = "";
+    this.#puts = "";
     this.designs.show(null);
-    this.play(null);
+    this.#play(null);
     renew(this.status);
     this.arrange();
   }
 
-  private close(on: boolean): void {
-    this.closed = on;
-    this.draw();
+  #close(on: boolean): void {
+    this.#closed = on;
+    this.#draw();
   }
 
-  private at(event: PointerEvent): [number, number] {
+  #at(event: PointerEvent): [number, number] {
     const box = this.marks.getScreenCTM()!.inverse();
     const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(box);
-    const { left, right } = this.area;
+    const { left, right } = this.#area;
     const fine = 10 ** Math.ceil(Math.log10(1000 / (right - left)));
     const round = (value: number) => Math.round(value * fine) / fine;
     return [round(point.x), round(-point.y)];
   }
 
-  private down(event: PointerEvent): void {
-    if (!this.planar) return;
-    const [x, y] = this.at(event);
-    this.plane.setPointerCapture(event.pointerId);
-    if (this.puts === "curve") return this.stroke(x, y);
-    const { unit } = this.area;
+  #down(event: PointerEvent): void {
+    if (!this.#planar) return;
+    const [x, y] = this.#at(event);
+    this.#plane.setPointerCapture(event.pointerId);
+    if (this.#puts === "curve") return this.#stroke(x, y);
+    const { unit } = this.#area;
     const reach = (event.pointerType === "touch" ? 2 : 1) * NEAR * unit;
     const near = ([u, v]: number[]) => Math.hypot(u! - x, v! - y) < reach;
     const move = (row: number[]) => {
-      this.held = ([u, v]) => {
+      this.#held = ([u, v]) => {
         [row[0], row[1]] = [u, v];
-        this.draw();
+        this.#draw();
       };
     };
     const turned = this.kind === "positions" && this.points.find((row) => near(tip(row, unit)));
-    const here = [...this.points, ...(this.kind === "positions" ? this.pivots : [])].find(near);
+    const here = [...this.points, ...(this.kind === "positions" ? this.#pivots : [])].find(near);
     if (turned) {
-      this.held = ([u, v]) => {
+      this.#held = ([u, v]) => {
         turned[2] = Math.round((Math.atan2(v - turned[1]!, u - turned[0]!) * 180) / Math.PI);
-        this.draw();
+        this.#draw();
       };
     } else if (here) move(here);
     else {
-      const pivot = this.puts === "pivot";
+      const pivot = this.#puts === "pivot";
       const row = this.kind === "positions" && !pivot ? [x, y, 0] : [x, y];
-      (pivot ? this.pivots : this.points).push(row);
+      (pivot ? this.#pivots : this.points).push(row);
       move(row);
-      this.draw();
+      this.#draw();
     }
   }
 
   /** A curve in the place of the points; where it ends near its start it is closed. */
-  private stroke(x: number, y: number): void {
+  #stroke(x: number, y: number): void {
     const line = [[x, y]];
-    this.held = (place) => {
+    this.#held = (place) => {
       line.push(place);
       const { places, closed } = evenly(line, OF_STROKE);
       this.rows.points = places;
-      this.closed = closed;
-      this.draw();
+      this.#closed = closed;
+      this.#draw();
     };
   }
 
-  private clear(): void {
+  #clear(): void {
     this.rows[this.kind] = [];
-    this.pivots = [];
+    this.#pivots = [];
     this.designs.show(null);
-    this.play(null);
-    this.draw();
+    this.#play(null);
+    this.#draw();
   }
 
   /** What is to be met, as the stage shows it. */
   private get targets(): Target[] {
-    return this.planar ? this.points.map((row) => [...row] as Target) : [];
+    return this.#planar ? this.points.map((row) => [...row] as Target) : [];
   }
 
-  private draw(): void {
-    this.paint();
-    this.drawList();
+  #draw(): void {
+    this.#paint();
+    this.#drawList();
   }
 
-  private drawList(): void {
+  #drawList(): void {
     const heads: Record<Kind, string[]> = {
       points: ["x", "y"],
       positions: ["x", "y", "φ [°]"],
@@ -288,19 +287,19 @@ export class SynthesisView implements View {
     const title = titles[this.kind];
     const last = this.points.at(-1) ?? [];
     const table = (rows: number[][], name: string, head: string[]) =>
-      rowsTable(rows, name, head, !single, () => this.draw());
+      rowsTable(rows, name, head, !single, () => this.#draw());
     const add = () => {
       this.points.push(last.map((value) => value + 30));
-      this.draw();
+      this.#draw();
     };
     renew(
-      this.list,
+      this.#list,
       this.points.length
         ? h(
             "div.points",
             {},
             table(this.points, title, names),
-            this.kind === "positions" && this.pivots.length ? table(this.pivots, t("Fixed pivot"), ["x", "y"]) : null,
+            this.kind === "positions" && this.#pivots.length ? table(this.#pivots, t("Fixed pivot"), ["x", "y"]) : null,
           )
         : h("p.note", {}, t("No points yet.")),
       this.kind === "function" ? h("button.plain", { "data-act": "pair", onclick: add }, t("Another pair")) : "",
@@ -310,41 +309,42 @@ export class SynthesisView implements View {
     );
   }
 
-  private async search(): Promise<void> {
+  async #search(): Promise<void> {
     const count = FEWEST[this.kind];
     if (this.points.length < count)
       return renew(this.status, h("span.error", { role: "alert" }, t("Give at least {count} points.", { count })));
     const question = {
       kind: this.kind,
       rows: this.points,
-      pivots: this.kind === "positions" ? this.pivots : [],
-      closed: this.kind === "points" && this.closed,
-      crank: this.crank,
-      transmission: this.least,
+      pivots: this.kind === "positions" ? this.#pivots : [],
+      closed: this.kind === "points" && this.#closed,
+      crank: this.#crank,
+      transmission: this.#least,
     };
     const found = await awaited(this.status, (progress) => this.page.ask<Found>("synthesise", question, progress));
     if (!found) return;
-    this.play(this.designs.show(found));
+    this.#play(this.designs.show(found));
     this.designs.element.scrollIntoView({ block: "nearest" });
   }
 
   // --- a design plays over its targets -------------------------------------------------------------------------------
 
   /** The plane with what is put into it, and where the design that plays comes to; while a mark is held it stays. */
-  private paint(): void {
-    const { kind, planar, plane, points, shownDesign } = this;
-    const pivots = kind === "positions" ? this.pivots : [];
+  #paint(): void {
+    const { kind, points } = this;
+    const [planar, plane, shownDesign] = [this.#planar, this.#plane, this.#shownDesign];
+    const pivots = kind === "positions" ? this.#pivots : [];
     const places = [...(planar ? [...points, ...pivots] : []), ...(shownDesign?.frames.flat() ?? [])];
-    if (!this.held) {
+    if (!this.#held) {
       const few = plane.clientWidth && plane.clientWidth < 500 ? 0.6 : 1;
-      this.area = areaOf(planar || !places.length ? this.home || few * WIDE : 0, places, plane);
-      plane.setAttribute("viewBox", viewBoxOf(this.area));
+      this.#area = areaOf(planar || !places.length ? this.#home || few * WIDE : 0, places, plane);
+      plane.setAttribute("viewBox", viewBoxOf(this.#area));
     }
-    const { unit } = this.area;
+    const { unit } = this.#area;
     const line = kind === "points" ? points.map(([x, y]) => `${x} ${-y!}`).join("L") : "";
-    const d = line && `M${line}${this.closed && points.length > 2 ? "Z" : ""}`;
+    const d = line && `M${line}${this.#closed && points.length > 2 ? "Z" : ""}`;
     const marks = [
-      ...gridOf(this.area),
+      ...gridOf(this.#area),
       svg("path.polygon", { d }),
       ...points.map((row, k) => targetMark(row, k, unit)),
       ...pivots.map(([x, y]) =>
@@ -354,13 +354,13 @@ export class SynthesisView implements View {
     renew(this.marks, ...(planar ? marks : []));
   }
 
-  private play(design: Design | null): void {
-    this.shownDesign = design;
-    this.paint();
-    this.ghost.play(design);
+  #play(design: Design | null): void {
+    this.#shownDesign = design;
+    this.#paint();
+    this.#ghost.play(design);
   }
 
-  private async open(design: Design): Promise<void> {
+  async #open(design: Design): Promise<void> {
     const names: Record<Kind, string> = {
       points: t("A design for {count} points", { count: this.points.length }),
       positions: t("A design for {count} positions", { count: this.points.length }),

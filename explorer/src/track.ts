@@ -6,29 +6,29 @@ import { angle, currentLanguage, number, t } from "./language";
 
 export class Track {
   readonly element: HTMLElement;
-  private readonly root = svg("svg", { "aria-hidden": "true" });
-  private readonly knob = svg("circle.knob", { r: 9, cy: 17 });
-  private cycle: Cycle | null = null;
-  private unit = 1;
-  private from = 0;
-  private to = 1;
-  private limits: [number, number] = [0, 1];
-  private here = 0;
-  private textOf: (value: number) => string = String;
+  readonly #root = svg("svg", { "aria-hidden": "true" });
+  readonly #knob = svg("circle.knob", { r: 9, cy: 17 });
+  #cycle: Cycle | null = null;
+  #unit = 1;
+  #from = 0;
+  #to = 1;
+  #limits: [number, number] = [0, 1];
+  #here = 0;
+  #textOf: (value: number) => string = String;
   /** Of what the marks tell. */
-  private told = "";
+  #told = "";
 
   constructor(private readonly pick: (value: number, beyond: boolean) => void) {
-    this.element = h("div.track", { role: "slider", tabindex: 0 }, this.root);
+    this.element = h("div.track", { role: "slider", tabindex: 0 }, this.#root);
     this.element.addEventListener("pointerdown", (event) => {
       this.element.setPointerCapture(event.pointerId);
-      this.at(event);
+      this.#at(event);
     });
-    this.element.addEventListener("pointermove", (event) => event.buttons && this.at(event));
+    this.element.addEventListener("pointermove", (event) => event.buttons && this.#at(event));
     this.element.addEventListener("keydown", (event) => {
-      const [low, high] = this.limits;
+      const [low, high] = this.#limits;
       const part = (high - low) / (/^Page/.test(event.key) ? 12 : 360);
-      const { here } = this;
+      const here = this.#here;
       const ways: Record<string, number> = { ArrowUp: part, PageUp: part, ArrowDown: -part, PageDown: -part };
       const ends: Record<string, number> = { Home: low, End: high };
       const value = ends[event.key] ?? here + (ways[event.key] ?? NaN);
@@ -38,17 +38,17 @@ export class Track {
     });
   }
 
-  private at(event: PointerEvent): void {
+  #at(event: PointerEvent): void {
     const box = this.element.getBoundingClientRect();
     const part = Math.max(0, Math.min(1, (event.clientX - box.left - 12) / (box.width - 24)));
-    const value = this.from + part * (this.to - this.from);
-    const [low, high] = this.limits;
+    const value = this.#from + part * (this.#to - this.#from);
+    const [low, high] = this.#limits;
     this.pick(Math.max(low, Math.min(high, value)), value < low || value > high);
   }
 
   /** The drive values that are played and that the slider reaches. */
   get range(): [number, number] {
-    return this.limits;
+    return this.#limits;
   }
 
   show(
@@ -59,30 +59,30 @@ export class Track {
     least: number | null,
     unit: string,
   ): void {
-    this.cycle = cycle;
+    this.#cycle = cycle;
     const { full, turns, low: from, high: to } = cycle;
     const reached = full ? [] : [from, to, ...cycle.stops.map(Boolean)]; // full turns go from 0 on wherever they began
     const told = JSON.stringify([turning, between, dead, least, unit, turns, reached, currentLanguage()]);
-    if (told === this.told) return;
-    this.told = told;
-    this.unit = turning ? TURN / 360 : 1;
+    if (told === this.#told) return;
+    this.#told = told;
+    this.#unit = turning ? TURN / 360 : 1;
     const [low, high] = limitsOf(cycle, turning, between);
-    this.limits = [low, high];
-    [this.from, this.to] = shownRange(this.limits, cycle.full, turning);
+    this.#limits = [low, high];
+    [this.#from, this.#to] = shownRange(this.#limits, cycle.full, turning);
     const parts: SVGElement[] = [];
-    const x = (value: number) => `${((value - this.from) / (this.to - this.from)) * 100}%`;
+    const x = (value: number) => `${((value - this.#from) / (this.#to - this.#from)) * 100}%`;
     const line = (a: number, b: number, style: string) =>
       parts.push(svg("line", { class: style, x1: x(a), x2: x(b), y1: 17, y2: 17 }));
-    line(this.from, this.to, "barred");
+    line(this.#from, this.#to, "barred");
     if (!cycle.full) {
-      if (cycle.stops[0]) line(this.from, low, "hatched");
-      if (cycle.stops[1]) line(high, this.to, "hatched");
+      if (cycle.stops[0]) line(this.#from, low, "hatched");
+      if (cycle.stops[1]) line(high, this.#to, "hatched");
     }
     line(low, high, "free");
     const wrap = (value: number) => wrapped(cycle, value);
     const mark = (value: number, style: string, d: string, title: string) => {
       const here = wrap(value);
-      if (here < this.from || here > this.to) return;
+      if (here < this.#from || here > this.#to) return;
       const group = svg(
         "svg",
         { x: x(here), y: 0, overflow: "visible" },
@@ -90,8 +90,8 @@ export class Track {
       );
       parts.push(group);
     };
-    this.textOf = (value) => (turning ? angle(value, 5) : `${number(value, 5)} ${unit}`);
-    const shown = (value: number) => this.textOf(wrap(value));
+    this.#textOf = (value) => (turning ? angle(value, 5) : `${number(value, 5)} ${unit}`);
+    const shown = (value: number) => this.#textOf(wrap(value));
     for (const value of dead)
       mark(value, "dead", "M0 8 L-5 0 H5 Z", t("Dead centre at {value}", { value: shown(value) }));
     if (least !== null)
@@ -104,7 +104,7 @@ export class Track {
     const part = least === null ? NaN : wrap(least);
     const label = (value: number, anchor: string) => {
       // beside the mark that stands there
-      const covered = Math.abs(part - value) < 0.03 * (this.to - this.from);
+      const covered = Math.abs(part - value) < 0.03 * (this.#to - this.#from);
       const dx = (anchor === "middle" ? 24 : 8) * (value === low ? 1 : -1);
       const text = svg(
         "text",
@@ -115,20 +115,20 @@ export class Track {
     };
     label(low, cycle.full ? "start" : "middle");
     if (high > low) label(high, cycle.full ? "end" : "middle");
-    const inner = svg("svg", { x: 12, width: "calc(100% - 24px)", overflow: "visible" }, ...parts, this.knob);
+    const inner = svg("svg", { x: 12, width: "calc(100% - 24px)", overflow: "visible" }, ...parts, this.#knob);
     inner.style.width = "calc(100% - 24px)";
-    this.root.replaceChildren(inner);
+    this.#root.replaceChildren(inner);
     this.element.setAttribute("aria-label", t("Drive"));
-    this.element.setAttribute("aria-valuemin", String(low / this.unit));
-    this.element.setAttribute("aria-valuemax", String(high / this.unit));
+    this.element.setAttribute("aria-valuemin", String(low / this.#unit));
+    this.element.setAttribute("aria-valuemax", String(high / this.#unit));
   }
 
   set(value: number): void {
-    const here = this.cycle ? wrapped(this.cycle, value) : value;
-    this.here = here;
-    this.knob.setAttribute("cx", `${Math.max(0, Math.min(1, (here - this.from) / (this.to - this.from))) * 100}%`);
-    this.element.setAttribute("aria-valuenow", (here / this.unit).toFixed(3));
-    this.element.setAttribute("aria-valuetext", this.textOf(here));
+    const here = this.#cycle ? wrapped(this.#cycle, value) : value;
+    this.#here = here;
+    this.#knob.setAttribute("cx", `${Math.max(0, Math.min(1, (here - this.#from) / (this.#to - this.#from))) * 100}%`);
+    this.element.setAttribute("aria-valuenow", (here / this.#unit).toFixed(3));
+    this.element.setAttribute("aria-valuetext", this.#textOf(here));
   }
 }
 

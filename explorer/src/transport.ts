@@ -28,18 +28,18 @@ export interface Driven {
 export class Transport {
   readonly element = h("div.transport", {});
   readonly player = new Player(
-    (seconds) => this.advance(seconds),
+    (seconds) => this.#advance(seconds),
     () => {
-      this.land();
+      this.#land();
       this.view.page.changed();
     },
   );
   /** Where poses of a free motion are played, not those of the drive. */
   falling: Falling | null = null;
   private speed = 12; // turns a minute; of a slide, strokes
-  private way = 1;
-  private readonly track = new Track((value, beyond) => this.pick(value, beyond));
-  private readonly value = h("input.value", { size: 8, onchange: () => this.typed() });
+  #way = 1;
+  readonly #track = new Track((value, beyond) => this.pick(value, beyond));
+  readonly #value = h("input.value", { size: 8, onchange: () => this.#typed() });
 
   constructor(private readonly view: Driven) {}
 
@@ -68,8 +68,8 @@ export class Transport {
     );
     const drives = choices.length > 1 ? [h("select", { "aria-label": t("Drive"), onchange }, ...choices)] : [];
     const speedLabel = h("label.speed", {}, t("Speed"), speed, rate);
-    this.value.setAttribute("aria-label", t("Drive"));
-    renew(this.element, this.player.button, ...drives, this.track.element, this.value, speedLabel);
+    this.#value.setAttribute("aria-label", t("Drive"));
+    renew(this.element, this.player.button, ...drives, this.#track.element, this.#value, speedLabel);
   }
 
   /** The value of the drive as it is plotted. */
@@ -79,28 +79,28 @@ export class Transport {
   }
 
   get range(): [number, number] {
-    return this.track.range;
+    return this.#track.range;
   }
 
   /** The range is another one, or what was found in it. */
   showRange({ dead, least }: Found): void {
     const { cycle, drive, model } = this.view.linkage;
     const places = dead.map(({ value }) => value);
-    this.track.show(cycle, drive?.turning ?? true, model.span.between, places, least?.value ?? null, model.unit);
+    this.#track.show(cycle, drive?.turning ?? true, model.span.between, places, least?.value ?? null, model.unit);
   }
 
   showValue(): void {
     const { linkage } = this.view;
-    this.value.value = this.falling?.text ?? driveValue(linkage);
+    this.#value.value = this.falling?.text ?? driveValue(linkage);
     const drive = linkage.drives[linkage.active];
-    if (drive !== undefined) this.track.set(drive);
+    if (drive !== undefined) this.#track.set(drive);
   }
 
   // --- the drive is set ----------------------------------------------------------------------------------------------
 
   pick(value: number, beyond = false): void {
     this.pause();
-    this.go(value);
+    this.#go(value);
     const { page, linkage } = this.view;
     const { stops, low, high } = linkage.cycle;
     const stop = Math.abs(value - low) < Math.abs(value - high) ? stops[0] : stops[1];
@@ -108,9 +108,9 @@ export class Transport {
   }
 
   /** A drive value that is typed, in degrees or in the unit of length. */
-  private typed(): void {
+  #typed(): void {
     const { cycle, drive } = this.view.linkage;
-    const value = parsed(this.value.value.replace(/[^\d.,e−-]*$/, "")) * (drive?.turning ? TURN / 360 : 1);
+    const value = parsed(this.#value.value.replace(/[^\d.,e−-]*$/, "")) * (drive?.turning ? TURN / 360 : 1);
     const [low, high] = this.range;
     if (!Number.isFinite(value)) return this.showValue();
     if (cycle.full) this.pick(value);
@@ -147,7 +147,7 @@ export class Transport {
     this.view.posed();
   }
 
-  private go(value: number): void {
+  #go(value: number): void {
     if (this.view.linkage.moveTo(value)) this.view.posed();
   }
 
@@ -169,14 +169,14 @@ export class Transport {
   }
 
   /** A free motion is over: the linkage is as it was. */
-  private land(): void {
+  #land(): void {
     if (!this.falling) return;
     this.view.linkage.pose = this.falling.start;
     this.falling = null;
     this.view.posed();
   }
 
-  private advance(seconds: number): void {
+  #advance(seconds: number): void {
     if (this.falling) {
       const pose = this.falling.later(seconds);
       if (!pose) return this.pause();
@@ -185,9 +185,9 @@ export class Transport {
     }
     const start = performance.now();
     const { range } = this;
-    const next = later(this.drive, this.way, seconds, this.speed, this.view.linkage.cycle, range);
-    this.way = next.way;
-    if (range[1] > range[0]) this.go(next.value);
+    const next = later(this.drive, this.#way, seconds, this.speed, this.view.linkage.cycle, range);
+    this.#way = next.way;
+    if (range[1] > range[0]) this.#go(next.value);
     this.view.timed(start);
   }
 
@@ -201,8 +201,8 @@ export class Transport {
     for (let left = Math.round((turns * 60 * FRAMES) / this.speed); left > 0; left--) {
       yield shown();
       ({ value, way } = later(value, way, 1 / FRAMES, this.speed, cycle, this.range));
-      this.go(value);
+      this.#go(value);
     }
-    this.go(start);
+    this.#go(start);
   }
 }

@@ -18,17 +18,17 @@ export class Viewport {
   scale = 1;
   /** Whether it shows everything, and goes on doing so in another size. */
   fitted = true;
-  private ox = 0;
-  private oy = 0;
+  #ox = 0;
+  #oy = 0;
 
   /** The pixel of a place. */
   screen(x: number, y: number): Pair {
-    return [this.ox + this.scale * x, this.oy - this.scale * y];
+    return [this.#ox + this.scale * x, this.#oy - this.scale * y];
   }
 
   /** The place of a pixel. */
   world(x: number, y: number): Pair {
-    return [(x - this.ox) / this.scale, (this.oy - y) / this.scale];
+    return [(x - this.#ox) / this.scale, (this.#oy - y) / this.scale];
   }
 
   /** Show a rectangle, or at least a square of that width. */
@@ -39,23 +39,23 @@ export class Viewport {
     const wide = Math.max(right - left, least);
     const high = Math.max(top - bottom, least);
     this.scale = Math.min((this.width - 2 * margin - keys) / wide, (this.height - 2 * margin) / high);
-    this.ox = (this.width - keys) / 2 - (this.scale * (left + right)) / 2;
-    this.oy = this.height / 2 + (this.scale * (bottom + top)) / 2;
+    this.#ox = (this.width - keys) / 2 - (this.scale * (left + right)) / 2;
+    this.#oy = this.height / 2 + (this.scale * (bottom + top)) / 2;
     this.fitted = true;
   }
 
   /** Enlarge by a factor; the pixel stays where it is. */
   zoom(factor: number, x = this.width / 2, y = this.height / 2): void {
-    this.ox = x + (this.ox - x) * factor;
-    this.oy = y + (this.oy - y) * factor;
+    this.#ox = x + (this.#ox - x) * factor;
+    this.#oy = y + (this.#oy - y) * factor;
     this.scale *= factor;
     this.fitted = false;
   }
 
   /** Shift by pixels. */
   pan(dx: number, dy: number): void {
-    this.ox += dx;
-    this.oy += dy;
+    this.#ox += dx;
+    this.#oy += dy;
     this.fitted = false;
   }
 }

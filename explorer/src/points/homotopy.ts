@@ -45,15 +45,15 @@ type Said = { z: Float64Array; said: Float64Array };
 type Progress = (done: number, total: number) => void;
 
 export class Homotopy {
-  private readonly generic: Generic;
+  readonly #generic: Generic;
 
   private constructor(
     private readonly core: Core,
     { task, solutions }: Generic,
   ) {
-    const { z, said } = this.refined(solutions, task);
+    const { z, said } = this.#refined(solutions, task);
     if (said.some((step) => !(step < 1e-10))) throw new Error("the stored solutions are damaged");
-    this.generic = { task, solutions: z };
+    this.#generic = { task, solutions: z };
   }
 
   static async from(generic: Generic): Promise<Homotopy> {
@@ -61,7 +61,7 @@ export class Homotopy {
     return new Homotopy(instance.exports as unknown as Core, generic);
   }
 
-  private called(z: Float64Array, begin: Float64Array, end: Float64Array, work: (count: number) => void): Said {
+  #called(z: Float64Array, begin: Float64Array, end: Float64Array, work: (count: number) => void): Said {
     const count = z.length / WIDTH;
     const at = this.core.reserve(count);
     const given = new Float64Array(this.core.memory.buffer, at, 2 * TASK + z.length);
@@ -73,17 +73,17 @@ export class Homotopy {
     return { z: found.subarray(0, z.length), said: found.subarray(z.length) };
   }
 
-  private refined(z: Float64Array, task: Float64Array): Said {
-    return this.called(z, task, task, (count) => this.core.refine(0, POINTS, count));
+  #refined(z: Float64Array, task: Float64Array): Said {
+    return this.#called(z, task, task, (count) => this.core.refine(0, POINTS, count));
   }
 
-  private certified(z: Float64Array, task: Float64Array): boolean[] {
-    const { said } = this.called(z, task, task, (count) => this.core.certify(0, POINTS, count));
+  #certified(z: Float64Array, task: Float64Array): boolean[] {
+    const { said } = this.#called(z, task, task, (count) => this.core.certify(0, POINTS, count));
     return Array.from(said, (one) => one > 0);
   }
 
   /** Ends of paths, and how each ended: 0 where it arrived. */
-  private followed(
+  #followed(
     z: Float64Array,
     begin: Float64Array,
     end: Float64Array,
@@ -94,7 +94,7 @@ export class Homotopy {
     const out = { z: new Float64Array(z.length), said: new Float64Array(total) };
     for (let from = 0; from < total; from += BLOCK) {
       const part = z.subarray(from * WIDTH, (from + BLOCK) * WIDTH);
-      const found = this.called(part, begin, end, (count) => this.core.track(0, POINTS, count, loose));
+      const found = this.#called(part, begin, end, (count) => this.core.track(0, POINTS, count, loose));
       out.z.set(found.z, from * WIDTH);
       out.said.set(found.said, from);
       progress(Math.min(from + BLOCK, total), total);
@@ -107,40 +107,40 @@ export class Homotopy {
    * Paths that fail, and those whose ends coincide, are followed again with fine steps; what is missing then is sought
    * along other ways. Where the rest ends, the library can tell. */
   solve(task: Float64Array, progress: Progress): Complete {
-    const base = this.generic;
-    const { z: ends, said } = this.followed(base.solutions, base.task, task, QUICK, progress);
+    const base = this.#generic;
+    const { z: ends, said } = this.#followed(base.solutions, base.task, task, QUICK, progress);
     const alike = repeated(ends, said);
     const again = rows(CLASSES, (k) => said[k] !== 0 || alike.has(k));
-    const careful = this.followed(chosen(base.solutions, again), base.task, task, CAREFUL);
+    const careful = this.#followed(chosen(base.solutions, again), base.task, task, CAREFUL);
     again.forEach((k, row) => {
       ends.set(careful.z.subarray(row * WIDTH, (row + 1) * WIDTH), k * WIDTH);
       said[k] = careful.said[row]!;
     });
     const still = repeated(ends, said);
     const arrived = rows(CLASSES, (k) => said[k] === 0 && !still.has(k));
-    let found = this.proved(chosen(ends, arrived), task);
+    let found = this.#proved(chosen(ends, arrived), task);
     const wide = base.task.map((value, k) => Math.max(Math.abs(value), Math.abs(task[k]!)));
     for (const [turn, bend] of BENDS.entries()) {
       const lost = rows(CLASSES, (k) => said[k] !== 0 || still.has(k));
       const missing = CLASSES - found.length / WIDTH;
       if (missing === 0 || missing > FEW * CLASSES) break;
       const middle = wide.map((size, k) => (base.task[k]! + task[k]!) / 2 + bend * size * aside(k + TASK * turn));
-      const half = this.followed(chosen(base.solutions, lost), base.task, middle, CAREFUL);
+      const half = this.#followed(chosen(base.solutions, lost), base.task, middle, CAREFUL);
       const on = rows(lost.length, (k) => half.said[k] === 0);
-      const whole = this.followed(chosen(half.z, on), middle, task, CAREFUL);
+      const whole = this.#followed(chosen(half.z, on), middle, task, CAREFUL);
       const more = chosen(
         whole.z,
         rows(on.length, (k) => whole.said[k] === 0),
       );
-      found = distinct(joined(found, this.proved(more, task)));
+      found = distinct(joined(found, this.#proved(more, task)));
     }
     return { solutions: found, missing: CLASSES - found.length / WIDTH };
   }
 
   /** Ends sharpened, those that are solutions, each a different one: proved, or regular as far as rounding tells. */
-  private proved(ends: Float64Array, task: Float64Array): Float64Array {
-    const { z, said: steps } = this.refined(ends, task);
-    const sharp = this.certified(z, task);
+  #proved(ends: Float64Array, task: Float64Array): Float64Array {
+    const { z, said: steps } = this.#refined(ends, task);
+    const sharp = this.#certified(z, task);
     const gap = (k: number) => Math.max(...Array.from({ length: WIDTH }, (_, i) => Math.abs(z[k + i]! - ends[k + i]!)));
     const holds = (k: number) => gap(k * WIDTH) < NEAR && (sharp[k]! || steps[k]! < REGULAR);
     return distinct(chosen(z, rows(sharp.length, holds)));

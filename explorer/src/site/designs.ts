@@ -25,34 +25,34 @@ type Asked = Pick<Question, "rows" | "crank" | "transmission">;
 export const NINE = 9;
 
 export class DesignWorker {
-  private models: Model[] = [];
+  #models: Model[] = [];
   /** What ends the work that is under way, by the numbers of the requests. */
-  private readonly working = new Map<number, (why: Error) => void>();
+  readonly #working = new Map<number, (why: Error) => void>();
 
   cancel(id: number): void {
-    this.working.get(id)?.(new Cancelled());
+    this.#working.get(id)?.(new Cancelled());
   }
 
   /** The model of a design that was found here last. */
   opened(document: LinkageDocument, name: string): Model | undefined {
     const key = (one: LinkageDocument) => JSON.stringify([one.elements, one.points, one.reference_pose]);
-    const found = this.models.find((model) => key(model.document) === key(document));
+    const found = this.#models.find((model) => key(model.document) === key(document));
     return found && { ...found, name, document };
   }
 
   /** The four-bars through the points of a request; its files are loaded when the first one is asked. */
   async found(id: number, asked: Asked, lang: Language, progress: (text: string) => void): Promise<Found> {
-    const givenUp = new Promise<never>((_, reject) => this.working.set(id, reject));
+    const givenUp = new Promise<never>((_, reject) => this.#working.set(id, reject));
     const files = Promise.all([pack<PointsPack>("points"), pack<GenericPack>("nine_points")]);
     try {
-      return await this.worked(await Promise.race([givenUp, files]), givenUp, asked, lang, progress);
+      return await this.#worked(await Promise.race([givenUp, files]), givenUp, asked, lang, progress);
     } finally {
-      this.working.delete(id);
+      this.#working.delete(id);
     }
   }
 
   /** What a worker finds, unless it is given up. */
-  private async worked(
+  async #worked(
     [{ script, template, texts }, { task, solutions }]: [PointsPack, GenericPack],
     givenUp: Promise<never>,
     asked: Asked,
@@ -84,7 +84,7 @@ export class DesignWorker {
             reject(new Error(say(what, { first, second, count: first, most: 6 })));
           } else {
             const { missing, real } = data;
-            this.models = data.found.items.map((design) => (design as { model?: Model }).model!);
+            this.#models = data.found.items.map((design) => (design as { model?: Model }).model!);
             const items = data.found.items.map((design) => ({ ...design, model: undefined }));
             const count = missing ? say("missing", { count: missing }) : "";
             resolve({ ...data.found, items, note: `${say("complete", { real })} ${count}`.trim() });

@@ -47,9 +47,9 @@ type Chains = { text: string; picture: string }[];
 type Texts = (text: string, values?: Record<string, string | number>) => string;
 
 class SiteModel extends StillModel {
-  private readonly designs = new DesignWorker();
+  readonly #designs = new DesignWorker();
   /** Chains of tasks, whose links have other names than those of the lists. */
-  private readonly tried = new Map<string, StructurePack>();
+  readonly #tried = new Map<string, StructurePack>();
 
   constructor(
     values: Record<string, unknown>,
@@ -60,8 +60,8 @@ class SiteModel extends StillModel {
 
   override send(content: unknown): void {
     const { id, method, params, lang } = content as { id: number; method: string; params: Params; lang: Language };
-    if (!method) return this.designs.cancel(id); // nothing else takes so long
-    const asked = method === "synthesise" ? this.synthesised(id, params, lang) : this.answer(method, params, lang);
+    if (!method) return this.#designs.cancel(id); // nothing else takes so long
+    const asked = method === "synthesise" ? this.#synthesised(id, params, lang) : this.#answer(method, params, lang);
     asked.then(
       (result) => this.emit("msg:custom", { id, result }),
       (error: Error) =>
@@ -70,20 +70,20 @@ class SiteModel extends StillModel {
   }
 
   /** That only the library can answer. */
-  private library(text = ""): Error {
+  #library(text = ""): Error {
     const command = `gruebler explore${text && ` "${text}"`}`;
     return new Error(
       this.t("This needs gruebler on your computer: pip install 'gruebler[web]', then: {command}", { command }),
     );
   }
 
-  private async synthesised(id: number, params: Params, lang: Language): Promise<unknown> {
+  async #synthesised(id: number, params: Params, lang: Language): Promise<unknown> {
     const { kind, rows, closed } = params;
-    if (kind !== "points" || rows.length !== NINE || closed) throw this.library();
-    return this.designs.found(id, params, lang, (progress) => this.emit("msg:custom", { id, progress }));
+    if (kind !== "points" || rows.length !== NINE || closed) throw this.#library();
+    return this.#designs.found(id, params, lang, (progress) => this.emit("msg:custom", { id, progress }));
   }
 
-  private async answer(method: string, params: Params, lang: Language): Promise<unknown> {
+  async #answer(method: string, params: Params, lang: Language): Promise<unknown> {
     const { id, text } = params;
     switch (method) {
       case "catalog": {
@@ -97,101 +97,101 @@ class SiteModel extends StillModel {
       }
       case "moving": {
         const { moving } = await pack<MachinePack>(`machine-${id}`);
-        if (!moving) throw this.library();
+        if (!moving) throw this.#library();
         return { picture: moving };
       }
       case "open":
-        return await this.machine(id);
+        return await this.#machine(id);
       case "chains":
-        return await this.chains(params);
+        return await this.#chains(params);
       case "structure":
-        return await this.structure(text, lang);
+        return await this.#structure(text, lang);
       case "realise": {
-        const name = await this.numberOf(chainOf(text));
-        if (!name || !/^[3-6]-1-/.test(name)) throw this.library(text);
+        const name = await this.#numberOf(chainOf(text));
+        if (!name || !/^[3-6]-1-/.test(name)) throw this.#library(text);
         const all = await pack<Record<string, { model: Model; message: Said }>>(`moving-${name}`);
         const found = all[text];
-        if (!found) throw this.library(text);
+        if (!found) throw this.#library(text);
         return { model: found.model, message: found.message[lang] };
       }
       case "exercise_kinds":
         return (await pack<Record<Language, unknown>>("kinds"))[lang];
       case "exercise": {
-        return (await this.task(id)).task.records[lang];
+        return (await this.#task(id)).task.records[lang];
       }
       case "mark":
-        return await this.marks(id, params.answers, lang);
+        return await this.#marks(id, params.answers, lang);
       case "open_document": {
-        const found = this.designs.opened(params.document, params.name);
-        if (!found) throw this.library();
+        const found = this.#designs.opened(params.document, params.name);
+        if (!found) throw this.#library();
         return found;
       }
       case "try":
-        return await this.try(id, params.part);
+        return await this.#try(id, params.part);
     }
-    throw this.library();
+    throw this.#library();
   }
 
-  private async machine(id: string): Promise<Model> {
+  async #machine(id: string): Promise<Model> {
     const { machines } = await pack<Catalog>("catalog");
     const known = machines.some(({ entries }) => entries.en.id === id);
     const model = known ? (await pack<MachinePack>(`machine-${id}`)).model : undefined;
-    if (!model) throw this.library(id);
+    if (!model) throw this.#library(id);
     return model;
   }
 
-  private async chains({ links, mobility, start }: Params): Promise<{ total: number; start: number; items: Chains }> {
-    const items = await this.list(links, mobility);
+  async #chains({ links, mobility, start }: Params): Promise<{ total: number; start: number; items: Chains }> {
+    const items = await this.#list(links, mobility);
     return { total: items.length, start, items: items.slice(start, start + 60) };
   }
 
   /** All chains of a class; none where there are none, or none here. */
-  private async list(links: number, mobility: number): Promise<Chains> {
+  async #list(links: number, mobility: number): Promise<Chains> {
     const here = this.get("chains") as string[];
     return here.includes(`${links}-${mobility}`) ? await pack<Chains>(`chains-${links}-${mobility}`) : [];
   }
 
   /** Links, mobility and number of a chain of the lists, by which its files are named. */
-  private async numberOf(chain: string): Promise<string> {
+  async #numberOf(chain: string): Promise<string> {
     const joints = chain.match(/R\([^)]*\)/g) ?? [];
     const links = new Set(joints.flatMap((joint) => joint.slice(2, -1).split("-"))).size;
     const mobility = 3 * (links - 1) - 2 * joints.length;
-    const number = (await this.list(links, mobility)).findIndex(({ text }) => text === chain);
+    const number = (await this.#list(links, mobility)).findIndex(({ text }) => text === chain);
     return number < 0 ? "" : `${links}-${mobility}-${number}`;
   }
 
-  private async structure(text: string, lang: Language): Promise<unknown> {
+  async #structure(text: string, lang: Language): Promise<unknown> {
     const chain = chainOf(text);
-    const held = this.tried.get(chain) ?? (await this.held(chain, lang));
+    const held = this.#tried.get(chain) ?? (await this.#held(chain, lang));
     const said = held && structureOf(held, text, lang, await pack<Pair[]>("pairs"));
-    if (!said) throw this.library(text);
+    if (!said) throw this.#library(text);
     return said;
   }
 
   /** What is held of a chain of the lists or of a machine. */
-  private async held(chain: string, lang: Language): Promise<StructurePack | undefined> {
-    const name = await this.numberOf(chain);
+  async #held(chain: string, lang: Language): Promise<StructurePack | undefined> {
+    const name = await this.#numberOf(chain);
     if (name) return await pack<StructurePack>(`structure-${name}`);
     const { machines } = await pack<Catalog>("catalog");
     const found = machines.find(({ entries }) => chainOf(entries.en.text) === chain);
     return found && (await pack<MachinePack>(`machine-${found.entries.en.id}`)).structure[lang];
   }
 
-  private async task(id: string): Promise<{ task: TaskPack["tasks"][number]; tolerances: Tolerances }> {
+  async #task(id: string): Promise<{ task: TaskPack["tasks"][number]; tolerances: Tolerances }> {
     const [, kind, number] = /^(.*)-(\w+)$/.exec(id)!;
     const { tasks, ...tolerances } = await pack<TaskPack>(`tasks-${kind}`);
     const task = tasks.find(({ records }) => records.en.id === id) ?? tasks[Number(number) % tasks.length]!;
     return { task, tolerances };
   }
 
-  private async try(id: string, part: number): Promise<unknown> {
-    const { task } = await this.task(id);
-    for (const held of task.structures) this.tried.set(held.text, held);
+  async #try(id: string, part: number): Promise<unknown> {
+    const { task } = await this.#task(id);
+    for (const held of task.structures) this.#tried.set(held.text, held);
     return task.try[part];
   }
 
-  private async marks(id: string, answers: Record<string, string>, lang: Language): Promise<unknown> {
-    const { task, tolerances } = await this.task(id);
+  async #marks(id: string, answers: Record<string, string>, lang: Language): Promise<unknown> {
+    const { task, tolerances } = await this.#task(id);
     const mark = ([key, answer]: [string, string]) => {
       const asked = task.answers[key]!;
       if (!("value" in asked)) return { key, ...asked[lang][answer]! };

@@ -20,10 +20,10 @@ void main() {
 }`;
 
 export class Painter {
-  private readonly gl: WebGL2RenderingContext;
-  private readonly program: WebGLProgram;
-  private readonly buffers: { places: WebGLBuffer; count: number; colour: Vector }[];
-  private readonly line: WebGLBuffer;
+  readonly #gl: WebGL2RenderingContext;
+  readonly #program: WebGLProgram;
+  readonly #buffers: { places: WebGLBuffer; count: number; colour: Vector }[];
+  readonly #line: WebGLBuffer;
 
   /** Throws where the browser has no WebGL 2. */
   constructor(
@@ -32,8 +32,8 @@ export class Painter {
   ) {
     const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
     if (!gl) throw new Error("WebGL 2");
-    this.gl = gl;
-    this.program = gl.createProgram();
+    this.#gl = gl;
+    this.#program = gl.createProgram();
     for (const [kind, source] of [
       [gl.VERTEX_SHADER, VERTEX],
       [gl.FRAGMENT_SHADER, FRAGMENT],
@@ -41,25 +41,25 @@ export class Painter {
       const shader = gl.createShader(kind)!;
       gl.shaderSource(shader, source);
       gl.compileShader(shader);
-      gl.attachShader(this.program, shader);
+      gl.attachShader(this.#program, shader);
     }
-    gl.bindAttribLocation(this.program, 0, "place");
-    gl.linkProgram(this.program);
-    gl.useProgram(this.program);
+    gl.bindAttribLocation(this.#program, 0, "place");
+    gl.linkProgram(this.#program);
+    gl.useProgram(this.#program);
     gl.enable(gl.DEPTH_TEST);
-    this.buffers = bodies.map((body) => {
+    this.#buffers = bodies.map((body) => {
       const places = new Float32Array(body.triangles.flatMap((k) => body.vertices.slice(3 * k, 3 * k + 3)));
       const buffer = gl.createBuffer();
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.bufferData(gl.ARRAY_BUFFER, places, gl.STATIC_DRAW);
       return { places: buffer, count: places.length / 3, colour: body.colour };
     });
-    this.line = gl.createBuffer();
+    this.#line = gl.createBuffer();
   }
 
   /** Everything at the poses of the links, (links, 12), with paths as lists of places. */
   paint(view: Float32Array, eye: Vector, poses: ArrayLike<number>[], paths: number[][], dark: boolean): void {
-    const { gl, program } = this;
+    const [gl, program] = [this.#gl, this.#program];
     const at = (name: string): WebGLUniformLocation | null => gl.getUniformLocation(program, name);
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
     const ground = dark ? 0.09 : 1;
@@ -69,7 +69,7 @@ export class Painter {
     gl.uniform3fv(at("eye"), eye);
     gl.enableVertexAttribArray(0);
     gl.uniform1f(at("lit"), 1);
-    this.buffers.forEach((body, k) => {
+    this.#buffers.forEach((body, k) => {
       const p = poses[k]!;
       const columns = [0, 1, 2, 3].flatMap((c) => [p[c]!, p[c + 4]!, p[c + 8]!, c === 3 ? 1 : 0]);
       gl.uniformMatrix4fv(at("pose"), false, columns);
@@ -81,7 +81,7 @@ export class Painter {
     gl.uniform1f(at("lit"), 0);
     gl.uniformMatrix4fv(at("pose"), false, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
     gl.uniform3fv(at("colour"), [0.84, 0.37, 0]);
-    gl.bindBuffer(gl.ARRAY_BUFFER, this.line);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.#line);
     for (const path of paths) {
       gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(path), gl.DYNAMIC_DRAW);
       gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);

@@ -96,9 +96,9 @@ export class Solver {
   poses: Pose[];
   readonly values: number[];
   /** The turns of all joints, whole ones counted. */
-  private turned: number[];
-  private readonly moving: number[];
-  private readonly backs: Pose[];
+  #turned: number[];
+  readonly #moving: number[];
+  readonly #backs: Pose[];
 
   constructor(
     private readonly live: Live,
@@ -108,40 +108,40 @@ export class Solver {
   ) {
     this.poses = Array.from({ length: links }, () => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]);
     this.values = live.drives.map(() => 0);
-    this.turned = live.joints.map(() => 0);
-    this.moving = this.poses.map((_, k) => k).filter((k) => k !== live.frame);
-    this.backs = live.joints.map(({ frame }) => inverse(frame));
+    this.#turned = live.joints.map(() => 0);
+    this.#moving = this.poses.map((_, k) => k).filter((k) => k !== live.frame);
+    this.#backs = live.joints.map(({ frame }) => inverse(frame));
   }
 
   /** The second link's frame of a joint, seen from its first one. */
-  private seen(poses: Pose[], number: number): Pose {
+  #seen(poses: Pose[], number: number): Pose {
     const { links, frame } = this.live.joints[number]!;
-    return times(this.backs[number]!, times(inverse(poses[links[0]]!), times(poses[links[1]]!, frame)));
+    return times(this.#backs[number]!, times(inverse(poses[links[0]]!), times(poses[links[1]]!, frame)));
   }
 
-  private angle(poses: Pose[], number: number, axis = 2): number {
-    const e = this.seen(poses, number);
+  #angle(poses: Pose[], number: number, axis = 2): number {
+    const e = this.#seen(poses, number);
     const [a, b] = [(axis + 1) % 3, (axis + 2) % 3];
     const turn = Math.atan2(e[4 * b + a]!, e[4 * a + a]!);
-    return this.turned[number]! + wrapped(turn - this.turned[number]!);
+    return this.#turned[number]! + wrapped(turn - this.#turned[number]!);
   }
 
   /** What a drive stands at. */
-  private value(poses: Pose[], { joint, axis, turns, sign }: Drive): number {
-    return sign * (turns ? this.angle(poses, joint, axis) : this.seen(poses, joint)[4 * axis + 3]!);
+  #value(poses: Pose[], { joint, axis, turns, sign }: Drive): number {
+    return sign * (turns ? this.#angle(poses, joint, axis) : this.#seen(poses, joint)[4 * axis + 3]!);
   }
 
-  private rows(targets: number[], hold: number): Row[] {
+  #rows(targets: number[], hold: number): Row[] {
     const rows: Row[] = [];
     this.live.joints.forEach(({ links, turns, slides, pitch }, number) => {
       const add = (of: (e: Pose) => number) =>
-        rows.push({ value: 0, links, of: (poses) => of(this.seen(poses, number)) });
+        rows.push({ value: 0, links, of: (poses) => of(this.#seen(poses, number)) });
       for (let k = 0; k < 3; k++) {
         if (pitch && k === 2)
           rows.push({
             value: 0,
             links,
-            of: (p) => (this.seen(p, number)[11]! - pitch * this.angle(p, number)) / this.size,
+            of: (p) => (this.#seen(p, number)[11]! - pitch * this.#angle(p, number)) / this.size,
           });
         else if (!slides.includes("xyz"[k]!)) add((e) => e[4 * k + 3]! / this.size);
       }
@@ -160,21 +160,21 @@ export class Solver {
     });
     for (const gear of this.live.gears) {
       const links = [...new Set(gear.flatMap(([joint]) => this.live.joints[joint]!.links))];
-      rows.push({ value: 0, links, of: (p) => gear.reduce((sum, [joint, w]) => sum + w * this.angle(p, joint), 0) });
+      rows.push({ value: 0, links, of: (p) => gear.reduce((sum, [joint, w]) => sum + w * this.#angle(p, joint), 0) });
     }
     this.live.drives.forEach((drive, k) => {
       const unit = hold / (drive.turns ? 1 : this.size);
       const { links } = this.live.joints[drive.joint]!;
-      rows.push({ value: unit * targets[k]!, links, of: (p) => unit * this.value(p, drive) });
+      rows.push({ value: unit * targets[k]!, links, of: (p) => unit * this.#value(p, drive) });
     });
     return rows;
   }
 
   /** Poses in which all rows have their values as nearly as can be, and the largest miss of the first ones. */
-  private solved(rows: Row[], start: Pose[], most: number): { poses: Pose[]; miss: number } {
+  #solved(rows: Row[], start: Pose[], most: number): { poses: Pose[]; miss: number } {
     let poses = start;
-    const place = new Map(this.moving.map((link, k) => [link, 6 * k]));
-    const n = 6 * this.moving.length;
+    const place = new Map(this.#moving.map((link, k) => [link, 6 * k]));
+    const n = 6 * this.#moving.length;
     let miss = Infinity;
     for (let step = 0; step <= most; step++) {
       const gaps = rows.map((row) => row.of(poses) - row.value);
@@ -224,10 +224,10 @@ export class Solver {
     while (part < 1) {
       const next = Math.min(part + step, 1);
       const targets = ends.map((v, k) => starts[k]! + (v - starts[k]!) * next);
-      const { poses, miss } = this.solved(this.rows(targets, 1), this.poses, MOST);
-      if (miss < 1e-6 && this.leap(poses) < LEAP) {
+      const { poses, miss } = this.#solved(this.#rows(targets, 1), this.poses, MOST);
+      if (miss < 1e-6 && this.#leap(poses) < LEAP) {
         this.poses = poses;
-        this.turned = this.live.joints.map((_, k) => this.angle(poses, k));
+        this.#turned = this.live.joints.map((_, k) => this.#angle(poses, k));
         this.values.splice(0, targets.length, ...targets);
         part = next;
       } else {
@@ -239,8 +239,8 @@ export class Solver {
   }
 
   /** How far any link has gone since the last poses, in radians or sizes: far leads into another assembly mode. */
-  private leap(poses: Pose[]): number {
-    return this.moving.reduce((most, link) => {
+  #leap(poses: Pose[]): number {
+    return this.#moving.reduce((most, link) => {
       const [a, b] = [this.poses[link]!, poses[link]!];
       const shift = moved(a, this.middle).map((v, k) => (v - moved(b, this.middle)[k]!) / this.size);
       return Math.max(
@@ -253,12 +253,12 @@ export class Solver {
 
   /** Bring a place of a link as near as can be to where two functions of it are 0, by all drives. */
   pull(link: number, at: (pose: Pose) => [number, number]): void {
-    const rows = this.rows(this.values, HOLD);
+    const rows = this.#rows(this.values, HOLD);
     for (const k of [0, 1]) rows.push({ value: 0, links: [link], of: (p) => WEIGHT * at(p[link]!)[k]! });
-    const { poses } = this.solved(rows, this.poses, 4);
+    const { poses } = this.#solved(rows, this.poses, 4);
     const wanted = this.live.drives.map((drive, k) => {
       const most = 2 * STEP * (drive.turns ? 1 : this.size); // the pointer may be where the link cannot come
-      return Math.min(Math.max(this.value(poses, drive), this.values[k]! - most), this.values[k]! + most);
+      return Math.min(Math.max(this.#value(poses, drive), this.values[k]! - most), this.values[k]! + most);
     });
     if (wanted.every(Number.isFinite)) this.drive(wanted);
   }
