@@ -1,63 +1,75 @@
 """How many six-bars turn through pairs of angles: by monodromy, with a trace test; docs/theory/synthesis-functions.md.
 
-`python -m benchmarks.six_bars FAMILY PAIRS LAST FILE` keeps what is found in a file and goes on from there.
+`python -m benchmarks.six_bars FAMILY PAIRS FOLDER` keeps what is found in a folder and goes on from there.
 """
 
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 
 from gruebler import _core
 
-NODES, BLOCK, PIECE = 4, 64, 10_000
+BLOCK, PIECE, FEW = 64, 2048, 500
 SAME = 1e-6  # relative: solutions nearer to each other are one
 QUICK, CAREFUL = 1e-3, 1e-6
+LINEAR = 1e-6  # a sum that is as linear as that is of all
 MARK = np.exp(1.234j * np.arange(1, 9) ** 2)  # weights of the numbers of a solution
+LOOPS = {  # of both loops: a constant, the signs of the unknown vectors; what each of those turns with
+    "Watt II": ((1, 1), ((-1, 0), (0, -1)), "QU"),
+    "Stephenson II": ((-1, -1), ((1, 0, -1), (0, 1, -1)), "QQU"),
+    "Stephenson III": ((-1, 0), ((1, 0, 0), (1, -1, -1)), "QU1"),
+}
+
+ARM = {family: slice(4, 6) if family == "Watt II" else slice(6, 8) for family in LOOPS}  # of the first loop
 
 
 def random(rng: np.random.Generator, *shape: int) -> np.ndarray:
     return rng.normal(size=shape) + 1j * rng.normal(size=shape)
 
 
-def known_solution(family: str, pairs: int, last: str, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-    """A random complex task of one solution that is chosen: arms, and how the common link turns; the pairs follow.
+def lengths(family: str, z: np.ndarray, ratio: np.ndarray, turn: complex, out: complex, common: complex) -> np.ndarray:
+    """The squared lengths of the last links of both loops, in isotropic coordinates."""
+    constants, signs, turned = LOOPS[family]
+    arms = z[4:].reshape(2, 2) if family == "Watt II" else np.array([z[6:], ratio * z[6:]])
+    squares = []
+    for constant, sign, arm in zip(constants, signs, arms, strict=True):
+        w = np.array([constant, constant], complex) + arm * [common, 1 / common]
+        for k, (s, name) in enumerate(zip(sign, turned, strict=True)):
+            x = {"Q": turn, "U": out, "1": 1.0}[name]
+            w += s * z[2 * k : 2 * k + 2] * [x, 1 / x]
+        squares.append(w[0] * w[1])
+    return np.array(squares)
 
-    Args:
-        family: "Watt II" or "Stephenson III".
-        pairs: 8 or 9.
-        last: of eight pairs, what is given besides: the "arm" p p*, or a "line" through all unknowns.
-        rng: of the choice.
-    """
-    z, task = random(rng, 8), np.zeros((4, 8), complex)
-    a, ac, f, fc, p, pc, q, qc = z
-    c, cc = task[3, 2:4] = random(rng, 2)
 
-    def turn(t: complex, arm: tuple, w: tuple, v: tuple) -> complex:
-        """The X with (w + v X + p T)(w* + v*/X + p*/T) as it is for X = T = 1; of each number the conjugate follows."""
-        first, other = w[0] + v[0] + arm[0], w[1] + v[1] + arm[1]
-        near, far = w[0] + arm[0] * t, w[1] + arm[1] / t
-        roots = np.roots([v[0] * far, near * far + v[0] * v[1] - first * other, near * v[1]])
-        return complex(roots[rng.integers(2)])
-
-    task[:2] = 1
-    for j in range(pairs - 1):
-        t = complex(random(rng))
-        if family == "Watt II":
-            task[0, j] = turn(t, (p, pc), (1, 1), (-a, -ac))
-            task[1, j] = turn(t, (q, qc), (1, 1), (-f, -fc))
-            continue
-        x = task[0, j] = turn(t, (p, pc), (-1, -1), (a, ac))
-        # The crank turns, too: the loop of the output has other vectors in the first pair.
-        near, far, first = a * x - c + q * t, ac / x - cc + qc / t, (a - c - f + q) * (ac - cc - fc + qc)
-        task[1, j] = np.roots([-f * far, near * far + f * fc - first, -near * fc])[rng.integers(2)]
-    if pairs == 8 and last == "arm":
-        task[3, :2] = p * pc, 1
-    elif pairs == 8:
-        task[2] = random(rng, 8)
-        task[3, 0] = task[2] @ z
+def known_solution(family: str, pairs: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """A random complex task of one solution that is chosen, and how the output turns; the rest by Newton's method."""
+    z, ratio, task = random(rng, 8), random(rng, 2), np.zeros((4, 8), complex)
+    if family == "Watt II":
+        ratio[:] = 1
+    wanted = lengths(family, z, ratio, 1, 1, 1)
+    j = 0
+    while j < pairs - 1:
+        out, x = random(rng), random(rng, 2)
+        for _ in range(60):
+            value = lengths(family, z, ratio, x[0], out, x[1]) - wanted
+            h = 1e-7
+            columns = [lengths(family, z, ratio, x[0] + a, out, x[1] + b) - wanted for a, b in ((h, 0), (0, h))]
+            step = np.linalg.solve((np.array(columns) - value).T / h, value)
+            x -= step
+            if np.abs(step).max() < 1e-15 * np.abs(x).max():
+                break
+        if np.abs(value).max() < 1e-12 and np.abs(x).min() > 0.05 and np.abs(x).max() < 20:
+            task[:2, j] = x[0], out
+            j += 1
+    task[3, 2:4] = ratio
+    if pairs == 8:
+        arm = ARM[family]
+        task[2, arm], task[3, 1] = random(rng, 2), 1
+        task[3, 0] = task[2, arm] @ z[arm] + np.prod(z[arm])
     return z[None], task
 
 
@@ -78,87 +90,170 @@ def follow(
     return ends, good
 
 
-def with_new(z: np.ndarray, more: np.ndarray) -> np.ndarray:
-    """Solutions, and those of others that are not among them; in the order of a mark that few have in common."""
-    both = np.concatenate([z, more])
+def places(known: np.ndarray, more: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Known solutions with those of others that are not among them, and where each of the others is in them.
+
+    Sorted by a mark that few have in common.
+    """
+    both = np.concatenate([known, more])
     mark = np.real(both / (1 + np.abs(both)) @ MARK)
     order = np.argsort(mark, kind="stable")
-    new = np.arange(len(both)) >= len(z)
-    repeated = np.zeros(len(both), bool)
-    for behind in range(1, 8):
-        first, second = order[:-behind], order[behind:]
-        close = mark[second] - mark[first] < 1e-7
-        first, second = first[close], second[close]
-        near = np.abs(both[first] - both[second]).max(axis=1) < SAME * (1e-3 + np.abs(both[first]).max(axis=1))
-        repeated[np.maximum(first[near], second[near])] = True
-    return both[~(new & repeated)]
+    first = np.arange(len(both))  # the same solution's first place
+    for _ in range(2):
+        for behind in range(1, 8):
+            a, b = order[:-behind], order[behind:]
+            close = mark[b] - mark[a] < 1e-7
+            a, b = a[close], b[close]
+            near = np.abs(both[a] - both[b]).max(axis=1) < SAME * (1e-3 + np.abs(both[a]).max(axis=1))
+            a, b = a[near], b[near]
+            np.minimum.at(first, a, first[b])
+            np.minimum.at(first, b, first[a])
+    kept = first == np.arange(len(both))
+    number = np.cumsum(kept) - 1
+    return both[kept], number[first[len(known) :]]
 
 
-def find_all(family: str, pairs: int, last: str, seed: int, file: Path | None = None) -> tuple[list, list]:
-    """All solutions of some tasks that monodromy reaches from one: tasks, and the solutions of each.
+class Search:
+    """Solutions of some tasks, found along ways between them.
 
-    Between any two tasks all solutions are followed, each once a way; when no way has any left, those of one task are
-    closed under the loops through the others.
+    A way from task u to task v, each solution of u to one of v, is followed once for each pair of ends, from either of
+    them. Eight pairs: two tasks, and three ways, on which the last equation of the second one has another factor; it
+    has the same solutions. Nine pairs: the six ways between four tasks.
     """
-    rng = np.random.default_rng(seed)
-    z, task = known_solution(family, pairs, last, rng)
-    used = np.abs(task) > 0
-    used[:2, pairs - 1 :] = False
-    tasks = [task] + [np.where(used, random(rng, 4, 8), task) for _ in range(NODES - 1)]
-    for each in tasks:
-        each[3, 1] = task[3, 1]
-    found = [z] + [z[:0]] * (NODES - 1)
-    done = {(u, v): 0 for u in range(NODES) for v in range(NODES) if u != v}
-    if file is not None and file.exists():
+
+    def __init__(self, family: str, pairs: int, seed: int) -> None:
+        rng = np.random.default_rng(seed)
+        z, task = known_solution(family, pairs, rng)
+        self.family, self.pairs, self.lost, self.clashes, self.paths = family, pairs, 0, 0, 0
+        used = np.abs(task) > 0
+        used[3, 2:4] = family != "Watt II"
+        self.tasks = [task] + [np.where(used, random(rng, 4, 8), task) for _ in range(1 if pairs == 8 else 3)]
+        self.found = [z] + [z[:0]] * (len(self.tasks) - 1)
+        self.ways: list[tuple[int, int, complex]] = []
+        self.matched: list[list[np.ndarray]] = []
+        self.rng = rng
+        self.three_new_ways()
+
+    def three_new_ways(self) -> None:
+        self.ways, self.matched = [], []
+        for u, v in [(0, 1)] * 3 if self.pairs == 8 else combinations(range(4), 2):
+            self.add_way(u, v, complex(random(self.rng)) if self.pairs == 8 else 1.0)
+
+    def add_way(self, u: int, v: int, factor: complex) -> None:
+        self.ways.append((u, v, factor))
+        self.matched.append([np.zeros(len(self.found[k]), bool) for k in (u, v)])
+
+    def left(self) -> list[tuple[int, int, int]]:
+        """Of each way and end: how many solutions have not been followed."""
+        return [(int((~ends[side]).sum()), way, side) for way, ends in enumerate(self.matched) for side in (0, 1)]
+
+    def step(self) -> bool:
+        """Follows some of the solutions where the most are left; False if there are none."""
+        most, way, side = max(self.left())
+        if most == 0:
+            return False
+        begin, end = self.ways[way][side], self.ways[way][1 - side]
+        some = np.flatnonzero(~self.matched[way][side])[:PIECE]
+        tasks = [self.tasks[self.ways[way][0]], self.scaled(way)]
+        ends, good = follow(self.family, self.pairs, self.found[begin][some], tasks[side], tasks[1 - side])
+        self.matched[way][side][some] = True
+        known = len(self.found[end])
+        self.found[end], where = places(self.found[end], ends[good])
+        for (u, v, _), matched in zip(self.ways, self.matched, strict=True):
+            for k in np.flatnonzero([u == end, v == end]):
+                matched[k] = np.concatenate([matched[k], np.zeros(len(self.found[end]) - known, bool)])
+        arrived = self.matched[way][1 - side]
+        self.clashes += int(arrived[where].sum()) + len(where) - len(np.unique(where))
+        arrived[where] = True
+        self.lost += int((~good).sum())
+        self.paths += len(some)
+        return True
+
+    def scaled(self, way: int) -> np.ndarray:
+        """The second task of a way, its last equation times the factor of the way."""
+        _, v, factor = self.ways[way]
+        task = self.tasks[v].copy()
+        task[2] *= factor
+        task[3, :2] *= factor
+        return task
+
+    def recapture(self, count: int) -> tuple[int, int]:
+        """Of six-bars that are chosen at random and followed to the first task: how many arrive, how many are known."""
+        rng, ends = np.random.default_rng(7), [self.found[0][:0]]
+        for _ in range(count):
+            z, task = known_solution(self.family, self.pairs, rng)
+            there, good = follow(self.family, self.pairs, z, task, self.tasks[0])
+            ends.append(there[good])
+        new = np.concatenate(ends)
+        _, where = places(self.found[0], new)
+        return len(new), int((where < len(self.found[0])).sum())
+
+    def save(self, file: Path) -> None:
+        rows = {f"z{k}": z for k, z in enumerate(self.found)}
+        rows |= {f"m{k}_{s}": end for k, ends in enumerate(self.matched) for s, end in enumerate(ends)}
+        beside = file.with_suffix(".new.npz")
+        np.savez(beside, ways=self.ways, counts=[self.lost, self.clashes, self.paths], **rows)
+        beside.replace(file)
+
+    def load(self, file: Path) -> None:
         with np.load(file) as stored:
-            found = [stored[f"z{k}"] for k in range(NODES)]
-            done = dict(zip(done, stored["done"].tolist(), strict=True))
-    lost, start = 0, time.time()
-    while True:
-        u, v = max(done, key=lambda way: len(found[way[0]]) - done[way])
-        some = found[u][done[u, v] :][:PIECE]
-        if not len(some):
-            return tasks, found
-        done[u, v] += len(some)
-        ends, good = follow(family, pairs, some, tasks[u], tasks[v])
-        lost += int((~good).sum())
-        found[v] = with_new(found[v], ends[good])
-        if file is not None and len(some) > 1000:
-            np.savez(file, done=list(done.values()), **{f"z{k}": row for k, row in enumerate(found)})
-            print(f"{time.time() - start:6.0f} s {[len(row) for row in found]}, {lost} paths lost", flush=True)
+            self.found = [stored[f"z{k}"] for k in range(len(self.tasks))]
+            self.ways = [(int(u.real), int(v.real), factor) for u, v, factor in stored["ways"].tolist()]
+            self.matched = [[stored[f"m{k}_{s}"] for s in (0, 1)] for k in range(len(self.ways))]
+            self.lost, self.clashes, self.paths = stored["counts"].tolist()
+
+    def __str__(self) -> str:
+        counts = ", ".join(f"{len(z):,}" for z in self.found)
+        text = f"{self.family}, {self.pairs} pairs: {counts} solutions; {self.paths:,} paths on {len(self.ways)} ways, "
+        return f"{text}{self.lost} lost, {self.clashes} to one end"
 
 
-def trace(family: str, pairs: int, task: np.ndarray, z: np.ndarray) -> tuple[float, float, int]:
-    """How far the sum of all solutions is from linear as the last plane moves; that without one of them; paths lost.
-
-    Of all points in which a plane meets a curve the sum moves in a straight line when the plane moves parallel to
-    itself; of a part of them it does not (Sommese, Verschelde, Wampler 2002). Only of a "line".
-    """
+def trace(search: Search, node: int) -> tuple[float, float, int]:
+    """How far the sum of all arms is from linear as the last equation moves; without one of them; lost paths."""
+    task, z, arm = search.tasks[node], search.found[node], ARM[search.family]
     step, sets, kept = 0.3j * abs(task[3, 0]), [], np.ones(len(z), bool)
     for sign in (-1, 1):
         moved = task.copy()
         moved[3, 0] += sign * step
-        ends, good = follow(family, pairs, z, task, moved)
-        ends[~good], good[~good] = follow(family, pairs, z[~good], task, moved, CAREFUL)
+        ends, good = follow(search.family, search.pairs, z, task, moved)
+        again = ~good
+        ends[again], good[again] = follow(search.family, search.pairs, z[again], task, moved, CAREFUL)
         sets.append(ends)
         kept &= good
-    before, after = (row[kept] @ MARK for row in sets)
-    bends, ways = before + after - 2 * (z[kept] @ MARK), after - before
+    before, now, after = (row[kept][:, arm] @ MARK[:2] for row in (sets[0], z, sets[1]))
+    bends, ways = before + after - 2 * now, after - before
     whole = abs(bends.sum()) / abs(ways.sum())
     return whole, abs(bends[1:].sum()) / abs(ways[1:].sum()), int((~kept).sum())
 
 
-def main(family: str = "Watt II", pairs: int = 8, last: str = "arm", file: str = "") -> None:
-    start = time.process_time()
-    tasks, found = find_all(family, pairs, last, 1, Path(file) if file else None)
-    best = int(np.argmax([len(row) for row in found]))
-    counts, seconds = [len(row) for row in found], time.process_time() - start
-    print(f"{family}, {pairs} pairs, {last}: {counts} solutions of {NODES} tasks, {seconds:.0f} s of processor")
-    if pairs == 8 and last == "line":
-        whole, less, lost = trace(family, pairs, tasks[best], found[best])
-        print(f"trace test: {whole:.1e}, without one solution {less:.1e}; {lost} paths lost")
+def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 1) -> None:
+    search = Search(family, pairs, seed)
+    file = Path(folder or ".") / f"{family.replace(' ', '_')}_{pairs}_{seed}.npz"
+    if folder and file.exists():
+        search.load(file)
+    saved = time.time()
+    while True:
+        while search.step():
+            if folder and time.time() - saved > 30:
+                saved = time.time()
+                search.save(file)
+                print(search, flush=True)
+        if pairs == 9:
+            break
+        if len(search.found[0]) < FEW:
+            search.three_new_ways()
+        else:
+            if folder:
+                search.save(file)
+            print(search, flush=True)
+            whole, less, lost = trace(search, 0)
+            print(f"trace test: {whole:.1e}, without one solution {less:.1e}; {lost} paths lost", flush=True)
+            if whole < LINEAR:
+                break
+            search.add_way(0, 1, complex(random(search.rng)))
+    print(search, f"{time.process_time():.0f} s of processor", sep="; ")
 
 
 if __name__ == "__main__":
-    family, pairs, last, *rest = [*sys.argv[1:], "Watt II", "8", "arm"][: max(3, len(sys.argv) - 1)]
-    main(family, int(pairs), last, *rest)
+    family, pairs, folder, seed = [*sys.argv[1:], *["Watt II", "8", "", "1"][len(sys.argv) - 1 :]]
+    main(family, int(pairs), folder, int(seed))

@@ -57,8 +57,10 @@ Family family_of(const std::string& name, int positions, int points) {
         return Family::four_bars;
     }
     expect(positions == 0 && (points == 7 || points == 8), "six-bars have 7 or 8 points: pairs besides the first");
-    expect(name == "Watt II" || name == "Stephenson III", "no family " + name);
-    return name == "Watt II" ? Family::watt_2 : Family::stephenson_3;
+    if (name == "Watt II") return Family::watt_2;
+    if (name == "Stephenson II") return Family::stephenson_2;
+    expect(name == "Stephenson III", "no family " + name);
+    return Family::stephenson_3;
 }
 
 nb::tuple track(const Unknowns& starts, const Task& begin, const Task& end, int positions, int points, double loose,
@@ -215,10 +217,11 @@ void add_algebra(nb::module_& module) {
                "starts: complex[paths, 8], moving pivots x, x*, y, y*, fixed pivots a, a*, b, b*; begin, end: "
                "complex[4, 8], displacements t and their conjugates s of the positions, then of the points, turns g of "
                "the positions, values of the unknowns that no equation is left for; loose: how far the corrector may "
-               "change a prediction; family: '' for four-bars, 'Watt II' or 'Stephenson III' for six-bars whose input and "
-               "output turn through points + 1 pairs: starts are a, a*, f, f*, p, p*, q, q* of "
-               "docs/theory/synthesis-functions.md, a task has the turns of input and output, then the coefficients of "
-               "the last equation: of the unknowns, and r, k, c, c*; level: compiled for this instruction set, the best "
+               "change a prediction; family: '' for four-bars, 'Watt II', 'Stephenson II' or 'Stephenson III' for six-bars "
+               "whose input and output turn through points + 1 pairs: starts are a, f, p, q or a, b, f, p or a, f, c, p "
+               "of docs/theory/synthesis-functions.md, each with its conjugate, a task has the turns of input and "
+               "output, then the coefficients of the last equation: of the unknowns, and its constant, that of p p*; "
+               "then of Stephenson's k, k*; level: compiled for this instruction set, the best "
                "one by default.");
     module.def("refine_solutions", refine_solutions, nb::arg("z").noconvert(), nb::arg("task").noconvert(),
                nb::arg("positions"), nb::arg("points"), nb::kw_only(), nb::arg("family") = "", nb::arg("level") = "",

@@ -32,12 +32,13 @@ void write_row(const ByDyad<Disc>& by, const int* columns, Disc* row) {
 }
 
 // The equations with discs: they hold the values at all points of the discs z.
-void evaluate(const Disc* z, const Parameters& p, Shape shape, DiscSystem& out) {
+void evaluate(const Disc* z, const Task& p, Shape shape, DiscSystem& out) {
+    const auto& [shifts, conjugates, turns, fixed] = p.row;
     out = {};
     const Disc one_disc(one);
     const Dyad<Disc> first{z[0], z[1], z[4], z[5]}, second{z[2], z[3], z[6], z[7]};
     for (int j = 0; j < shape.positions; ++j) {
-        const Disc t(p.t.at(j)), s(p.s.at(j)), g(p.g.at(j)), h = conjugate_turn(g);
+        const Disc t(shifts.at(j)), s(conjugates.at(j)), g(turns.at(j)), h = conjugate_turn(g);
         const Coefficients<Disc> turn{g, h, one_disc};
         out.value[2 * j] = of_position(coefficients(first, t, s), g, h);
         out.value[2 * j + 1] = of_position(coefficients(second, t, s), g, h);
@@ -46,7 +47,7 @@ void evaluate(const Disc* z, const Parameters& p, Shape shape, DiscSystem& out) 
     }
     for (int j = shape.positions; j < shape.positions + shape.points; ++j) {
         const int row = shape.positions + j;
-        const Disc t(p.t.at(j)), s(p.s.at(j));
+        const Disc t(shifts.at(j)), s(conjugates.at(j));
         const Coefficients<Disc> k = coefficients(first, t, s), l = coefficients(second, t, s);
         const Minors<Disc> m = minors(k, l);
         out.value[row] = of_point(m);
@@ -54,7 +55,7 @@ void evaluate(const Disc* z, const Parameters& p, Shape shape, DiscSystem& out) 
         write_row(by_dyad(second, t, s, by_second(m, k)), second_columns, out.derivative[row]);
     }
     for (int r = shape.equations(); r < unknowns; ++r) {
-        out.value[r] = z[r] - Disc(p.fixed.at(r));
+        out.value[r] = z[r] - Disc(fixed.at(r));
         out.derivative[r][r] = one_disc;
     }
 }
@@ -84,7 +85,7 @@ struct Box {
 };
 
 // Whether Krawczyk's operator maps the box about a solution into its interior.
-bool maps_into_itself(const Complex* z, const Parameters& p, Shape shape, bool sharp, Box& box) {
+bool maps_into_itself(const Complex* z, const Task& p, Shape shape, bool sharp, Box& box) {
     DiscSystem system;
     Disc unknown[unknowns];
     for (int k = 0; k < unknowns; ++k) {
@@ -144,7 +145,7 @@ bool overlap(const Complex* u, const Box& reach, const Complex* v, const Box& ot
 
 bool certify(const Candidates& candidates, Watch& watch) {
     const auto count = static_cast<std::size_t>(candidates.count);
-    const Parameters task = Parameters::read(candidates.task);
+    const Task task = Task::read(candidates.task);
     const Shape shape{candidates.positions, candidates.points};
     std::vector<Complex> z(count * unknowns);
     for (std::size_t i = 0; i < z.size(); ++i) z[i] = {candidates.z[2 * i], candidates.z[2 * i + 1]};
@@ -177,7 +178,7 @@ bool certify(const Candidates& candidates, Watch& watch) {
 }
 
 void evaluate_equations(const Candidates& candidates, bool sharp, double* values, double* derivatives) {
-    const Parameters task = Parameters::read(candidates.task), still{};
+    const Task task = Task::read(candidates.task), still{};
     const Shape shape{candidates.positions, candidates.points};
     for (std::int64_t k = 0; k < candidates.count; ++k) {
         Complex z[unknowns];

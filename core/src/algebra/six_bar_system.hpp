@@ -5,18 +5,18 @@
 //     (w + p T)(w* + p*/T) = (w_0 + p)(w_0* + p*),
 //
 // w a sum of the other vectors, w_0 the same in the first pair. Linear in T and 1/T, they give p w* T + p* w/T + k = 0;
-// T and 1/T are the minors of both, and their product is 1. Input and output turn by Q and U; a is the input's arm, f the
-// output's, the frame from the input's pivot to the next one is 1:
+// T and 1/T are the minors of both, and their product is 1. Input and output turn by Q and U:
 //
-//     Watt II           w = 1 - a Q,  1 - f U        T is the ternary rocker, p and q its arms, f in units of its frame
-//     Stephenson III    w = a Q - 1,  a Q - c - f U  T is the coupler, c the pivot of the output
+//     Watt II           w = 1 - a Q,        1 - f U         T is the ternary rocker, p and q its arms, f in units of its frame
+//     Stephenson II     w = a Q - 1 - f U,  b Q - 1 - f U   T is the ternary link that floats, p and k p its arms
+//     Stephenson III    w = a Q - 1,        a Q - c - f U   T is the coupler, p and k p its arms, c the pivot of the output
 //
 // Theory: docs/theory/synthesis-functions.md.
 #pragma once
 
 #include "algebra/four_bar.hpp"
-#include "algebra/lanes.hpp"
 #include "algebra/sharp_complex.hpp"
+#include "algebra/task.hpp"
 #include "algebra/tracking.hpp"
 
 namespace gruebler::algebra::inline GRUEBLER_LEVEL {
@@ -38,75 +38,41 @@ Number of_turn(const Minors<Number>& m) {
     return m.bc * m.ca - m.ab * m.ab;
 }
 
+enum class With : int { nothing, input, output };  // what a vector turns with
+
+// The vectors of both loops: a constant, and with their signs the first unknowns. The others are the arms.
+struct Loops {
+    int vectors;  // unknown ones; with two of them the second loop has an arm of its own
+    With with[3];
+    int sign[2][3];
+    int constant[2];
+};
+
+inline constexpr Loops watt_2{2, {With::input, With::output}, {{-1, 0}, {0, -1}}, {1, 1}};
+inline constexpr Loops stephenson_2{3, {With::input, With::input, With::output}, {{1, 0, -1}, {0, 1, -1}}, {-1, -1}};
+inline constexpr Loops stephenson_3{3, {With::input, With::output, With::nothing}, {{1, 0, 0}, {1, -1, -1}}, {-1, 0}};
+
+// The rows of a task: turns of input and output; of the last equation, which is there if seven pairs leave one unknown
+// free, sum c_k z_k + product p p* = constant, the c_k; then constant, product, k and k*.
+template <const Loops& loops>
 struct SixBarSystem {
-    Family family;
     int pairs;  // besides the first
 
-    // Turns of input and output, and of the last equation, which is there if seven pairs leave one unknown free,
-    // sum c_k z_k + product p p* = constant, all numbers; then the pivot of the output.
-    struct Parameters {
-        Lanes input, output, linear;
-        Complex constant, product, pivot, pivot_c;
-
-        // complex[4, 8], as pairs of doubles.
-        static Parameters read(const double* numbers) {
-            const auto number = [numbers](int k) { return Complex{numbers[2 * k], numbers[2 * k + 1]}; };
-            Parameters p;
-            for (int i = 0; i < lanes; ++i) {
-                p.input.set(i, number(i));
-                p.output.set(i, number(lanes + i));
-                p.linear.set(i, number(2 * lanes + i));
-            }
-            p.constant = number(3 * lanes);
-            p.product = number(3 * lanes + 1);
-            p.pivot = number(3 * lanes + 2);
-            p.pivot_c = number(3 * lanes + 3);
-            return p;
-        }
-    };
-
-    // A straight way from task to task.
-    struct Way {
-        Parameters begin, speed;
-
-        static Way between(const Parameters& begin, const Parameters& end) {
-            Way way{begin, end};
-            way.combine(way.speed, end, begin, -1);
-            return way;
-        }
-        void at(double time, Parameters& p) const { combine(p, begin, speed, time); }
-
-    private:
-        static void combine(Parameters& out, const Parameters& first, const Parameters& second, double k) {
-            for (int i = 0; i < lanes; ++i) {
-                out.input.set(i, first.input.at(i) + k * second.input.at(i));
-                out.output.set(i, first.output.at(i) + k * second.output.at(i));
-                out.linear.set(i, first.linear.at(i) + k * second.linear.at(i));
-            }
-            out.constant = first.constant + k * second.constant;
-            out.product = first.product + k * second.product;
-            out.pivot = first.pivot + k * second.pivot;
-            out.pivot_c = first.pivot_c + k * second.pivot_c;
-        }
-    };
-
-    void evaluate(const Complex* z, const Parameters& p, Matrix& jacobian, Lanes& values) const {
+    void evaluate(const Complex* z, const Task& p, Matrix& jacobian, Lanes& values) const {
         Lanes none;
         evaluate_with_rates(z, p, {}, jacobian, values, none);
     }
 
-    void evaluate_with_rates(const Complex* z, const Parameters& p, const Parameters& speed, Matrix& jacobian,
-                             Lanes& values, Lanes& rates) const {
-        constexpr Complex one{1, 0};
+    void evaluate_with_rates(const Complex* z, const Task& p, const Task& speed, Matrix& jacobian, Lanes& values,
+                             Lanes& rates) const {
         for (Lanes& column : jacobian.column) column.clear();
         values.clear();
         rates.clear();
-        const bool watt = family == Family::watt_2;
+        const Arms<Complex> arms = arms_of(z, p);
         for (int j = 0; j < pairs; ++j) {
-            const Complex turn = p.input.at(j), out = p.output.at(j), back = one / turn, out_back = one / out;
-            LoopVectors<Complex> l, m;
-            vectors(z, p, j, l, m);
-            const Coefficients<Complex> k = coefficients(z[4], z[5], l), n = coefficients(z[6], z[7], m);
+            const Turns<Complex> turns = turns_of<Complex>(p, j);
+            const LoopVectors<Complex> l = vectors<0>(z, turns), m = vectors<1>(z, turns);
+            const Coefficients<Complex> k = coefficients(arms.p, arms.pc, l), n = coefficients(arms.q, arms.qc, m);
             const Minors<Complex> minor = minors(k, n);
             values.set(j, of_turn(minor));
             const Complex by_bc = minor.ca, by_ca = minor.bc, by_ab = -2.0 * minor.ab;
@@ -114,40 +80,100 @@ struct SixBarSystem {
                                           by_ca * n.a - by_bc * n.b};
             const Coefficients<Complex> v{by_ca * k.c - by_ab * k.b, by_ab * k.a - by_bc * k.c,
                                           by_bc * k.b - by_ca * k.a};
-            set(jacobian, j, 4, l.wc * u.a - l.first_c * u.c, l.w * u.b - l.first * u.c);
-            set(jacobian, j, 6, m.wc * v.a - m.first_c * v.c, m.w * v.b - m.first * v.c);
-            const LoopVectors<Complex> d = by_vectors(z[4], z[5], l, u), e = by_vectors(z[6], z[7], m, v);
-            // The crank's arm is in both loops of Stephenson's, with the other sign in Watt's.
-            const Complex w = watt ? -d.w : d.w + e.w, wc = watt ? -d.wc : d.wc + e.wc;
-            const Complex first = watt ? -d.first : d.first + e.first;
-            const Complex first_c = watt ? -d.first_c : d.first_c + e.first_c;
-            set(jacobian, j, 0, turn * w + first, back * wc + first_c);
-            set(jacobian, j, 2, -(out * e.w) - e.first, -(out_back * e.wc) - e.first_c);
-            Complex rate = (z[0] * w - z[1] * wc * back * back) * speed.input.at(j) -
-                           (z[2] * e.w - z[3] * e.wc * out_back * out_back) * speed.output.at(j);
-            if (!watt) rate = rate - (e.w + e.first) * speed.pivot - (e.wc + e.first_c) * speed.pivot_c;
+            const LoopVectors<Complex> by[2] = {by_vectors(arms.p, arms.pc, l, u), by_vectors(arms.q, arms.qc, m, v)};
+            const Complex by_p = l.wc * u.a - l.first_c * u.c, by_pc = l.w * u.b - l.first * u.c;
+            const Complex by_q = m.wc * v.a - m.first_c * v.c, by_qc = m.w * v.b - m.first * v.c;
+            Complex rate{0, 0};
+            if constexpr (loops.vectors == 2) {
+                set(jacobian, j, arm, by_p, by_pc);
+                set(jacobian, j, arm + 2, by_q, by_qc);
+            } else {
+                set(jacobian, j, arm, by_p + arms.k * by_q, by_pc + arms.kc * by_qc);
+                rate = by_q * z[arm] * speed.row[3].at(2) + by_qc * z[arm + 1] * speed.row[3].at(3);
+            }
+            for (int i = 0; i < loops.vectors; ++i) {
+                LoopVectors<Complex> sum{{0, 0}, {0, 0}, {0, 0}, {0, 0}};
+                for (int loop = 0; loop < 2; ++loop) {
+                    if (loops.sign[loop][i] == 0) continue;
+                    const double sign = loops.sign[loop][i];
+                    sum = {sum.w + sign * by[loop].w, sum.wc + sign * by[loop].wc, sum.first + sign * by[loop].first,
+                           sum.first_c + sign * by[loop].first_c};
+                }
+                if (loops.with[i] == With::nothing) {
+                    set(jacobian, j, 2 * i, sum.w + sum.first, sum.wc + sum.first_c);
+                    continue;
+                }
+                const int row = loops.with[i] == With::input ? 0 : 1;
+                const Complex turn = turns.turn[row], back = turns.back[row];
+                set(jacobian, j, 2 * i, turn * sum.w + sum.first, back * sum.wc + sum.first_c);
+                rate = rate + (z[2 * i] * sum.w - z[2 * i + 1] * sum.wc * back * back) * speed.row[row].at(j);
+            }
             rates.set(j, rate);
         }
         if (pairs == unknowns) return;
-        for (int i = 0; i < unknowns; ++i) jacobian.column[i].set(pairs, p.linear.at(i));
-        set(jacobian, pairs, 4, p.linear.at(4) + p.product * z[5], p.linear.at(5) + p.product * z[4]);
+        const Complex product = p.row[3].at(1);
+        for (int i = 0; i < unknowns; ++i) jacobian.column[i].set(pairs, p.row[2].at(i));
+        set(jacobian, pairs, arm, p.row[2].at(arm) + product * z[arm + 1], p.row[2].at(arm + 1) + product * z[arm]);
         values.set(pairs, of_last(z, p));
         rates.set(pairs, of_last(z, speed));
     }
 
-    void evaluate_sharply(const Complex* z, const Parameters& p, Lanes& out) const {
+    void evaluate_sharply(const Complex* z, const Task& p, Lanes& out) const {
         SharpComplex sharp[unknowns];
         for (int i = 0; i < unknowns; ++i) sharp[i] = SharpComplex(z[i]);
+        const Arms<SharpComplex> arms = arms_of(sharp, p);
         for (int j = 0; j < pairs; ++j) {
-            LoopVectors<SharpComplex> l, m;
-            vectors(sharp, p, j, l, m);
-            const Coefficients<SharpComplex> k = coefficients(sharp[4], sharp[5], l);
-            out.set(j, of_turn(minors(k, coefficients(sharp[6], sharp[7], m))).rounded());
+            const Turns<SharpComplex> turns = turns_of<SharpComplex>(p, j);
+            const Coefficients<SharpComplex> k = coefficients(arms.p, arms.pc, vectors<0>(sharp, turns));
+            out.set(j, of_turn(minors(k, coefficients(arms.q, arms.qc, vectors<1>(sharp, turns)))).rounded());
         }
         if (pairs < unknowns) out.set(pairs, of_last(sharp, p).rounded());
     }
 
 private:
+    static constexpr int arm = 2 * loops.vectors;  // the unknown of the first loop's arm
+
+    template <class Number>
+    struct Arms {
+        Number p, pc, q, qc, k, kc;
+    };
+    template <class Number>
+    struct Turns {
+        Number turn[2], back[2];  // of input and output
+    };
+
+    template <class Number>
+    static Arms<Number> arms_of(const Number* z, const Task& p) {
+        const Number k(p.row[3].at(2)), kc(p.row[3].at(3));
+        if constexpr (loops.vectors == 2) return {z[4], z[5], z[6], z[7], k, kc};
+        return {z[6], z[7], k * z[6], kc * z[7], k, kc};
+    }
+
+    template <class Number>
+    static Turns<Number> turns_of(const Task& p, int j) {
+        const Number one(Complex{1, 0}), turn(p.row[0].at(j)), out(p.row[1].at(j));
+        return {{turn, out}, {one / turn, one / out}};
+    }
+
+    template <int loop, class Number>
+    static LoopVectors<Number> vectors(const Number* z, const Turns<Number>& turns) {
+        const Number constant(Complex{static_cast<double>(loops.constant[loop]), 0});
+        LoopVectors<Number> l{constant, constant, constant, constant};
+        const auto add = [](Number& sum, int sign, const Number& more) { sum = sign > 0 ? sum + more : sum - more; };
+        for (int i = 0; i < loops.vectors; ++i) {
+            const int sign = loops.sign[loop][i];
+            if (sign == 0) continue;
+            const Number &own = z[2 * i], &conjugate = z[2 * i + 1];
+            const bool turns_not = loops.with[i] == With::nothing;
+            const int row = loops.with[i] == With::output ? 1 : 0;
+            add(l.w, sign, turns_not ? own : own * turns.turn[row]);
+            add(l.wc, sign, turns_not ? conjugate : conjugate * turns.back[row]);
+            add(l.first, sign, own);
+            add(l.first_c, sign, conjugate);
+        }
+        return l;
+    }
+
     static void set(Matrix& jacobian, int row, int column, Complex by, Complex by_conjugate) {
         jacobian.column[column].set(row, by);
         jacobian.column[column + 1].set(row, by_conjugate);
@@ -159,24 +185,10 @@ private:
     }
 
     template <class Number>
-    Number of_last(const Number* z, const Parameters& p) const {
-        Number value = Number(p.product) * z[4] * z[5] - Number(p.constant);
-        for (int i = 0; i < unknowns; ++i) value = value + Number(p.linear.at(i)) * z[i];
+    static Number of_last(const Number* z, const Task& p) {
+        Number value = Number(p.row[3].at(1)) * z[arm] * z[arm + 1] - Number(p.row[3].at(0));
+        for (int i = 0; i < unknowns; ++i) value = value + Number(p.row[2].at(i)) * z[i];
         return value;
-    }
-
-    template <class Number>
-    void vectors(const Number* z, const Parameters& p, int j, LoopVectors<Number>& l, LoopVectors<Number>& m) const {
-        const Number one(Complex{1, 0}), turn(p.input.at(j)), out(p.output.at(j));
-        const Number in = z[0] * turn, in_c = z[1] / turn, arm = z[2] * out, arm_c = z[3] / out;
-        if (family == Family::watt_2) {
-            l = {one - in, one - in_c, one - z[0], one - z[1]};
-            m = {one - arm, one - arm_c, one - z[2], one - z[3]};
-            return;
-        }
-        const Number c(p.pivot), cc(p.pivot_c);
-        l = {in - one, in_c - one, z[0] - one, z[1] - one};
-        m = {in - c - arm, in_c - cc - arm_c, z[0] - c - z[2], z[1] - cc - z[3]};
     }
 };
 

@@ -1,61 +1,18 @@
-// The eight equations of a task, their derivatives, and how they change on the way from one task to another.
+// The eight equations of four-bars, their derivatives, and how they change on the way from one task to another.
 #pragma once
 
 #include "algebra/four_bar.hpp"
-#include "algebra/lanes.hpp"
 #include "algebra/sharp_complex.hpp"
+#include "algebra/task.hpp"
 
 namespace gruebler::algebra::inline GRUEBLER_LEVEL {
 
-// Numbers of a task: two equations a position, one a point; the rest of the eight fix unknowns of those numbers.
+// Numbers of a task: two equations a position, one a point; the rest of the eight fix unknowns. Its rows: displacements
+// and their conjugates, of the positions, then of the points; turns g of the positions; the fixed unknowns.
 struct Shape {
     int positions = 0;  // besides the first
     int points = 0;
     int equations() const { return 2 * positions + points; }
-};
-
-// Displacements and their conjugates, of the positions, then of the points; turns g of the positions; fixed unknowns.
-struct Parameters {
-    Lanes t, s, g, fixed;
-
-    // complex[4, 8], as pairs of doubles.
-    static Parameters read(const double* numbers) {
-        const auto row = [numbers](int k) {
-            Lanes values;
-            for (int i = 0; i < lanes; ++i) {
-                const double* number = numbers + 2 * (lanes * k + i);
-                values.set(i, {number[0], number[1]});
-            }
-            return values;
-        };
-        return {row(0), row(1), row(2), row(3)};
-    }
-};
-
-// A straight way from task to task: where it is at a time, and how fast it goes.
-struct Way {
-    Parameters begin, speed;
-
-    static Way between(const Parameters& begin, const Parameters& end) {
-        Way way{begin, end};
-        way.combine(way.speed, end, begin, -1);
-        return way;
-    }
-    void at(double time, Parameters& p) const { combine(p, begin, speed, time); }
-
-private:
-    static void combine(Parameters& out, const Parameters& first, const Parameters& second, double k) {
-        combine(out.t, first.t, second.t, k);
-        combine(out.s, first.s, second.s, k);
-        combine(out.g, first.g, second.g, k);
-        combine(out.fixed, first.fixed, second.fixed, k);
-    }
-    static void combine(Lanes& out, const Lanes& first, const Lanes& second, double k) {
-        for (int i = 0; i < lanes; ++i) {
-            out.re[i] = first.re[i] + k * second.re[i];
-            out.im[i] = first.im[i] + k * second.im[i];
-        }
-    }
 };
 
 inline constexpr Complex one{1, 0};
@@ -83,15 +40,16 @@ inline constexpr int first_columns[4] = {0, 1, 4, 5}, second_columns[4] = {2, 3,
 enum class Wanted { values, values_and_rates };
 
 template <Wanted wanted>
-void evaluate(const Complex* z, const Parameters& p, const Parameters& speed, Shape shape, Matrix& jacobian,
-              Lanes& values, Lanes& rates) {
+void evaluate(const Complex* z, const Task& p, const Task& speed, Shape shape, Matrix& jacobian, Lanes& values,
+              Lanes& rates) {
+    const auto& [shifts, conjugates, turns, fixed] = p.row;
     constexpr bool with_rates = wanted == Wanted::values_and_rates;
     const Dyad<Complex> first = first_dyad<Complex>(z), second = second_dyad<Complex>(z);
     for (Lanes& column : jacobian.column) column.clear();
     values.clear();
     if (with_rates) rates.clear();
     for (int j = 0; j < shape.positions; ++j) {
-        const Complex t = p.t.at(j), s = p.s.at(j), g = p.g.at(j), h = conjugate_turn(g);
+        const Complex t = shifts.at(j), s = conjugates.at(j), g = turns.at(j), h = conjugate_turn(g);
         const Coefficients<Complex> turn{g, h, one};
         const auto write = [&](int row, const Dyad<Complex>& dyad, const int* columns) {
             const ByDyad<Complex> by = by_dyad(dyad, t, s, turn);
@@ -102,8 +60,8 @@ void evaluate(const Complex* z, const Parameters& p, const Parameters& speed, Sh
             const Coefficients<Complex> k = coefficients(dyad, t, s);
             values.set(row, of_position(k, g, h));
             if constexpr (with_rates) {
-                const Complex dg = speed.g.at(j), dh = -dg / ((one + g) * (one + g));
-                rates.set(row, by_t(dyad, s, turn) * speed.t.at(j) + by_s(dyad, t, turn) * speed.s.at(j) + k.a * dg +
+                const Complex dg = speed.row[2].at(j), dh = -dg / ((one + g) * (one + g));
+                rates.set(row, by_t(dyad, s, turn) * speed.row[0].at(j) + by_s(dyad, t, turn) * speed.row[1].at(j) + k.a * dg +
                                    k.b * dh);
             }
         };
@@ -116,7 +74,7 @@ void evaluate(const Complex* z, const Parameters& p, const Parameters& speed, Sh
     Lanes& __restrict rate = rates;
     for (int q = 0; q < shape.points; ++q) {
         const int j = shape.positions + q, row = shape.positions + j;
-        const Complex t = p.t.at(j), s = p.s.at(j);
+        const Complex t = shifts.at(j), s = conjugates.at(j);
         const Coefficients<Complex> k = coefficients(first, t, s), l = coefficients(second, t, s);
         const Minors<Complex> m = minors(k, l);
         const Coefficients<Complex> u = by_first(m, l), v = by_second(m, k);
@@ -131,49 +89,48 @@ void evaluate(const Complex* z, const Parameters& p, const Parameters& speed, Sh
         matrix.column[7].set(row, by_other.ac);
         value.set(row, of_point(m));
         if constexpr (with_rates)
-            rate.set(row, (by_t(first, s, u) + by_t(second, s, v)) * speed.t.at(j) +
-                              (by_s(first, t, u) + by_s(second, t, v)) * speed.s.at(j));
+            rate.set(row, (by_t(first, s, u) + by_t(second, s, v)) * speed.row[0].at(j) +
+                              (by_s(first, t, u) + by_s(second, t, v)) * speed.row[1].at(j));
     }
     for (int r = shape.equations(); r < unknowns; ++r) {
         jacobian.column[r].set(r, one);
-        values.set(r, z[r] - p.fixed.at(r));
-        if (with_rates) rates.set(r, -speed.fixed.at(r));
+        values.set(r, z[r] - fixed.at(r));
+        if (with_rates) rates.set(r, -speed.row[3].at(r));
     }
 }
 
 // The equations with twice the digits, rounded at the end.
-inline void evaluate_sharply(const Complex* z, const Parameters& p, Shape shape, Lanes& out) {
+inline void evaluate_sharply(const Complex* z, const Task& p, Shape shape, Lanes& out) {
+    const auto& [shifts, conjugates, turns, fixed] = p.row;
     const Dyad<SharpComplex> first = first_dyad<SharpComplex>(z), second = second_dyad<SharpComplex>(z);
     for (int j = 0; j < shape.positions; ++j) {
-        const SharpComplex t(p.t.at(j)), s(p.s.at(j)), g(p.g.at(j)), h = conjugate_turn(g);
+        const SharpComplex t(shifts.at(j)), s(conjugates.at(j)), g(turns.at(j)), h = conjugate_turn(g);
         out.set(2 * j, of_position(coefficients(first, t, s), g, h).rounded());
         out.set(2 * j + 1, of_position(coefficients(second, t, s), g, h).rounded());
     }
     Lanes& __restrict rest = out;
     for (int q = 0; q < shape.points; ++q) {
         const int j = shape.positions + q;
-        const SharpComplex t(p.t.at(j)), s(p.s.at(j));
+        const SharpComplex t(shifts.at(j)), s(conjugates.at(j));
         const Coefficients<SharpComplex> k = coefficients(first, t, s), l = coefficients(second, t, s);
         rest.set(shape.positions + j, of_point(minors(k, l)).rounded());
     }
-    for (int r = shape.equations(); r < unknowns; ++r) out.set(r, z[r] - p.fixed.at(r));
+    for (int r = shape.equations(); r < unknowns; ++r) out.set(r, z[r] - fixed.at(r));
 }
 
 // The same as a system that a tracker follows.
 struct FourBarSystem {
-    using Parameters = algebra::Parameters;
-    using Way = algebra::Way;
     Shape shape;
 
-    void evaluate(const Complex* z, const Parameters& p, Matrix& jacobian, Lanes& values) const {
+    void evaluate(const Complex* z, const Task& p, Matrix& jacobian, Lanes& values) const {
         Lanes none;
         algebra::evaluate<Wanted::values>(z, p, {}, shape, jacobian, values, none);
     }
-    void evaluate_with_rates(const Complex* z, const Parameters& p, const Parameters& speed, Matrix& jacobian,
+    void evaluate_with_rates(const Complex* z, const Task& p, const Task& speed, Matrix& jacobian,
                              Lanes& values, Lanes& rates) const {
         algebra::evaluate<Wanted::values_and_rates>(z, p, speed, shape, jacobian, values, rates);
     }
-    void evaluate_sharply(const Complex* z, const Parameters& p, Lanes& out) const {
+    void evaluate_sharply(const Complex* z, const Task& p, Lanes& out) const {
         algebra::evaluate_sharply(z, p, shape, out);
     }
 };

@@ -83,7 +83,7 @@ template <class System>
 class Tracker {
 public:
     Tracker(const System& system, const double* begin, const double* end, double loose)
-        : system_(system), way_(Way::between(Parameters::read(begin), Parameters::read(end))), loose_(loose) {}
+        : system_(system), way_(Way::between(Task::read(begin), Task::read(end))), loose_(loose) {}
 
     std::int64_t steps = 0;
 
@@ -123,9 +123,6 @@ public:
     }
 
 private:
-    using Parameters = typename System::Parameters;
-    using Way = typename System::Way;
-
     // A place of the path, and how fast the path goes there.
     struct Known {
         double time;
@@ -135,7 +132,7 @@ private:
     System system_;
     Way way_;
     double loose_;
-    Parameters task_;  // of the moment
+    Task task_;  // of the moment
     Matrix jacobian_;
     Lanes right_[2];
     Complex solution_[2][unknowns];
@@ -212,7 +209,7 @@ private:
 
 // Newton's method for one solution; returns the last relative step.
 template <class System>
-double sharpen(Point& point, const System& system, const typename System::Parameters& task) {
+double sharpen(Point& point, const System& system, const Task& task) {
     Matrix jacobian;
     Lanes residuals[1];
     double last = infinity, step = infinity;
@@ -247,7 +244,7 @@ bool track_all(const System& system, const Paths& paths, Watch& watch) {
 
 template <class System>
 bool refine_all(const System& system, const Solutions& solutions, Watch& watch) {
-    const typename System::Parameters task = System::Parameters::read(solutions.task);
+    const Task task = Task::read(solutions.task);
     for (std::int64_t k = 0; k < solutions.count; ++k) {
         if (!spend(watch, work_of_a_step)) return false;
         Point point = read(solutions.z + 2 * unknowns * k);
@@ -257,21 +254,25 @@ bool refine_all(const System& system, const Solutions& solutions, Watch& watch) 
     return true;
 }
 
+// The answer of the work with the equations of a family.
+template <class Given, class Work>
+bool with_system(const Given& given, const Work& work) {
+#ifndef GRUEBLER_NO_SIX_BARS
+    if (given.family == Family::watt_2) return work(SixBarSystem<watt_2>{given.points});
+    if (given.family == Family::stephenson_2) return work(SixBarSystem<stephenson_2>{given.points});
+    if (given.family == Family::stephenson_3) return work(SixBarSystem<stephenson_3>{given.points});
+#endif
+    return work(FourBarSystem{{given.positions, given.points}});
+}
+
 }  // namespace
 
 bool track(const Paths& paths, Watch& watch) {
-#ifndef GRUEBLER_NO_SIX_BARS
-    if (paths.family != Family::four_bars) return track_all(SixBarSystem{paths.family, paths.points}, paths, watch);
-#endif
-    return track_all(FourBarSystem{{paths.positions, paths.points}}, paths, watch);
+    return with_system(paths, [&](const auto& system) { return track_all(system, paths, watch); });
 }
 
 bool refine(const Solutions& solutions, Watch& watch) {
-#ifndef GRUEBLER_NO_SIX_BARS
-    if (solutions.family != Family::four_bars)
-        return refine_all(SixBarSystem{solutions.family, solutions.points}, solutions, watch);
-#endif
-    return refine_all(FourBarSystem{{solutions.positions, solutions.points}}, solutions, watch);
+    return with_system(solutions, [&](const auto& system) { return refine_all(system, solutions, watch); });
 }
 
 }  // namespace gruebler::algebra::inline GRUEBLER_LEVEL

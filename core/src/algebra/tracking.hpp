@@ -16,8 +16,8 @@ namespace gruebler::algebra {
 // numbers.
 
 // Whose equations they are: of four-bars through positions and points, or of six-bars whose input and output turn through
-// pairs of angles, each an equation (`points`): Watt's second and Stephenson's third; six_bar_system.hpp.
-enum class Family : int { four_bars, watt_2, stephenson_3 };
+// pairs of angles, each an equation (`points`); six_bar_system.hpp.
+enum class Family : int { four_bars, watt_2, stephenson_2, stephenson_3 };
 
 // How a path ended: at a finite solution; steps too small or too many; growing without bound.
 enum class PathEnd : std::int64_t { arrived, failed, infinite };
