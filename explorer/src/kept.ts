@@ -1,7 +1,7 @@
 /** What can be undone, kept for the same page when it is loaded again. */
 
-import type { Snapshot } from "./linkage";
 import { chainText, type Model } from "./model";
+import type { Snapshot } from "./snapshot";
 
 const KEPT = "gruebler-undo";
 const MOST = 40; // changes

@@ -4,26 +4,17 @@ import { type Beside, besideOf } from "./beside";
 import { type Cycle, findCycle, type Stop, stopOf, TURN } from "./cycle";
 import { Kernel, type Rows, type State } from "./kernel";
 import { currentLanguage, inLetters } from "./language";
-import type { DriveRecord, Model, PointRecord } from "./model";
+import type { DriveRecord, Model } from "./model";
 import { Code, type Program, programOf } from "./program";
 import { leastRoot, oneRow, origin, type Pair, picked, place, stateAt, turn } from "./rows";
 import { Sizes } from "./sizes";
+import type { Snapshot } from "./snapshot";
 
 /** Below this root a row is no place from which to go on. */
 const NEAR_CHANGE = 1e-5;
 /** The least step of a quick search, in rows: what is shown does not tell it from the end. */
 const QUICK = 1e-8;
 const MOST_MODES = 2;
-
-export interface Snapshot {
-  at: number[];
-  angles: number[];
-  points: PointRecord[];
-  drives: number[];
-  signs: number[];
-  unknowns: number[];
-  beside: Beside;
-}
 
 /** Why a change was refused. */
 export class Refused extends Error {
@@ -393,36 +384,11 @@ export class Linkage {
     );
   }
 
-  addPoint(name: string, link: number, x: number, y: number): void {
-    this.sizes.points.push({ name, link, at: this.toLocal(link, x, y) });
+  addPoint(link: number, x: number, y: number): void {
+    const { points } = this.sizes;
+    const taken = new Set([...points.map(({ name }) => name), ...this.model.links]);
+    let number = 1;
+    while (taken.has(`K${number}`)) number++;
+    points.push({ name: `K${number}`, link, at: this.toLocal(link, x, y) });
   }
-}
-
-/** The link whose poles are shown first: no neighbour of the frame, if there is one. */
-export function floatingLink({ frame, joints, own }: Model): number {
-  const near = new Set(joints.filter((j) => j.links.includes(frame)).flatMap((j) => j.links));
-  for (let link = 0; link < own; link++) if (!near.has(link)) return link;
-  return own - 1;
-}
-
-/** Whether sizes, points and assembly mode are the same but for rounding. */
-export function alike(one: Snapshot, two: Snapshot, size: number): boolean {
-  const values = ({ at, angles, points, signs }: Snapshot) => [
-    ...[...at, ...points.flatMap((point) => point.at)].map((value) => value / size),
-    ...angles,
-    ...signs,
-  ];
-  const [first, second] = [values(one), values(two)];
-  const names = ({ points }: Snapshot) => points.map(({ name, link }) => `${name} ${link}`).join();
-  return (
-    first.length === second.length &&
-    names(one) === names(two) &&
-    first.every((value, k) => Math.abs(value - second[k]!) < 1e-9)
-  );
-}
-
-/** Whether a change of the sizes, the points or the assembly mode left everything as it was. */
-export function sameSizes(one: Snapshot, two: Snapshot): boolean {
-  const key = ({ at, points, signs }: Snapshot) => JSON.stringify([at, points, signs]);
-  return one.beside === two.beside && key(one) === key(two);
 }

@@ -3,7 +3,7 @@
 import { TURN } from "./cycle";
 import type { Rows } from "./kernel";
 import type { Linkage } from "./linkage";
-import type { Leg, Place } from "./model";
+import type { Leg, Model, Place } from "./model";
 import { direction, leastRoot, origin, type Pair, place, rate, turn } from "./rows";
 
 const STILL = 1e-9; // of the natural speed: an output that is never faster does not move
@@ -317,4 +317,11 @@ export function pole({ size }: Linkage, rows: Rows, row: number, link: number): 
   const ax = bx - w * w * px - a * py;
   const ay = by - w * w * py + a * px;
   return { x: ox + px, y: oy + py, dx: ax / (w * w), dy: ay / (w * w) };
+}
+
+/** The link whose poles are shown first: no neighbour of the frame, if there is one. */
+export function floatingLink({ frame, joints, own }: Model): number {
+  const near = new Set(joints.filter((j) => j.links.includes(frame)).flatMap((j) => j.links));
+  for (let link = 0; link < own; link++) if (!near.has(link)) return link;
+  return own - 1;
 }

@@ -9,21 +9,21 @@ import { type Found, factsOf } from "./facts";
 import { type Arrow, Forces } from "./forces";
 import { History } from "./history";
 import { keepSizes, keptSizes } from "./kept";
-import { Status } from "./kernel";
 import { t } from "./language";
-import { alike, floatingLink, Linkage, Refused, type Snapshot, sameSizes } from "./linkage";
-import { deadCentres, leastTransmission } from "./measures";
+import { Linkage, Refused } from "./linkage";
+import { deadCentres, floatingLink, leastTransmission } from "./measures";
 import type { LinkageDocument, Model } from "./model";
 import { type Editor, modesPanel, optionsPanel, pointsPanel, rulersPanel, SizeRows } from "./panels";
 import { Plots } from "./plots";
 import { type Pair, place } from "./rows";
 import type { Shown } from "./shown";
 import { snappedOn } from "./snapping";
+import { alike, type Snapshot, sameSizes } from "./snapshot";
 import { Stage } from "./stage";
 import { tableOf } from "./table";
 import { type Driven, Transport } from "./transport";
 import type { Page, View } from "./view";
-import { stopText } from "./wording";
+import { refusedText } from "./wording";
 
 const MOST_FRAMES = 2000;
 
@@ -123,11 +123,8 @@ export class MotionView implements View, Editor, Driven {
 
   /** Keep what can be undone for the same page when it is loaded again. */
   keep(): void {
-    const past = this.#history.all.filter(({ linkage }) => linkage === this.linkage);
-    keepSizes(
-      this.linkage.model,
-      past.map(({ sizes }) => sizes),
-    );
+    const past = this.#history.all.flatMap(({ linkage, sizes }) => (linkage === this.linkage ? [sizes] : []));
+    keepSizes(this.linkage.model, past);
   }
 
   /** What could be undone before the page was loaded again. */
@@ -253,15 +250,10 @@ export class MotionView implements View, Editor, Driven {
       this.page.say("");
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
-      const stop = error.stop && { ...error.stop, status: Status.START, value: this.transport.drive };
-      const why = {
-        "": t("This size is not possible."),
-        near: t("Two joints of a link cannot lie in one place."),
-        kept: t("What is kept does not allow it: release a length, a direction or a joint."),
-      };
       const offer = t("Move the drive to where it fits");
-      const action = stop && elsewhere && h("button.plain", { "data-act": "elsewhere", onclick: elsewhere }, offer);
-      this.page.say(stop ? stopText(this.linkage, stop) : why[error.reason], "error", action || undefined);
+      const offered = error.stop && elsewhere;
+      const action = offered && h("button.plain", { "data-act": "elsewhere", onclick: elsewhere }, offer);
+      this.page.say(refusedText(this.linkage, error, this.transport.drive), "error", action || undefined);
     }
     this.#followed();
     this.timed(start);
@@ -315,13 +307,7 @@ export class MotionView implements View, Editor, Driven {
   }
 
   addPoint(link: number, x: number, y: number): void {
-    this.edit(() => {
-      const { model, sizes } = this.linkage;
-      const taken = new Set([...sizes.points.map((p) => p.name), ...model.links]);
-      let number = 1;
-      while (taken.has(`K${number}`)) number++;
-      this.linkage.addPoint(`K${number}`, link, x, y);
-    });
+    this.edit(() => this.linkage.addPoint(link, x, y));
   }
 
   /** Where a joint or a point is meant that is dragged to a place. */

@@ -3,7 +3,7 @@
 import { type Stop, wrapped } from "./cycle";
 import { Status } from "./kernel";
 import { angle, inLetters, number, t } from "./language";
-import type { Linkage } from "./linkage";
+import type { Linkage, Refused } from "./linkage";
 
 /** A value of the active drive with its unit. */
 export function driveText({ drive, model }: Linkage, value: number, digits = 5): string {
@@ -29,6 +29,15 @@ export function stopText(linkage: Linkage, stop: Stop): string {
     return t("The motion ends at {drives}: there two assembly modes of {form} {{links}} meet.", values);
   if (stop.status === Status.GIVEN_UP) return t("The motion was given up at {drives}: it is too long.", { drives });
   return t("The motion ends at {drives}: there {form} {{links}} can no longer be assembled.", values);
+}
+
+/** Why sizes were refused at a drive value. */
+export function refusedText(linkage: Linkage, { reason, stop }: Refused, value: number): string {
+  if (stop) return stopText(linkage, { ...stop, status: Status.START, value });
+  if (reason === "near") return t("Two joints of a link cannot lie in one place.");
+  return reason
+    ? t("What is kept does not allow it: release a length, a direction or a joint.")
+    : t("This size is not possible.");
 }
 
 /** The unit of the first or second derivative of the output by the drive, in brackets; nothing if there is none. */

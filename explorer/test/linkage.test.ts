@@ -84,7 +84,7 @@ test("what was is restored", () => {
   const old = linkage.snapshot();
   const before = documentOf(linkage);
   linkage.sizes.put(2, 30, 0);
-  linkage.addPoint("L", COUPLER, 1, 2);
+  linkage.addPoint(COUPLER, 1, 2);
   linkage.restore(old);
   assert.deepEqual(documentOf(linkage), before);
   assert.equal(linkage.sizes.points.length, 1);
@@ -92,7 +92,7 @@ test("what was is restored", () => {
 
 test("a point is added where it is clicked", () => {
   const linkage = new Linkage(fourBar(CRANK_ROCKER, Math.PI / 2));
-  linkage.addPoint("L", 1, 0, 10); // the crank stands upright
+  linkage.addPoint(1, 0, 10); // the crank stands upright
   near(linkage.sizes.points[1]!.at, [10, 0]);
 });
 
