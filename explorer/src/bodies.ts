@@ -1,6 +1,5 @@
 /** The bodies of links in SVG: bars and plates, rails and blocks, cylinders. */
 
-import { svg } from "./dom";
 import { convexHull } from "./hull";
 import type { Linkage } from "./linkage";
 import { direction, type Pair } from "./rows";
@@ -16,6 +15,9 @@ interface Band {
   high: number;
 }
 
+/** An element of the picture: its tag and its attributes, the same ones for all of a tag. */
+type Drawn = [tag: "circle" | "path" | "rect", attributes: Record<string, string | number>];
+
 const FEW_ROWS = 60; // of a cycle: enough for its extent
 
 export class Bodies {
@@ -30,7 +32,7 @@ export class Bodies {
   }
 
   /** What is drawn of a link, in its own coordinates. */
-  of(link: number): SVGElement[] {
+  of(link: number): Drawn[] {
     const { model, sizes } = this.linkage;
     if (link >= model.own) return [];
     const out = this.#shapesOf(link);
@@ -48,7 +50,7 @@ export class Bodies {
       const closed = hull.length > 2;
       const d = hull.map(([x, y], k) => `${k ? "L" : "M"}${this.#place(x, y)}`).join("") + (closed ? "Z" : "");
       const wide = closed ? " plate" : "";
-      out.unshift(svg("path", { class: `outline${wide}`, d }), svg("path", { class: `bar${wide}`, d }));
+      out.unshift(["path", { class: `outline${wide}`, d }], ["path", { class: `bar${wide}`, d }]);
     }
     return out;
   }
@@ -61,15 +63,15 @@ export class Bodies {
     return `${this.#px(x)} ${this.#px(-y)}`;
   }
 
-  #shapesOf(link: number): SVGElement[] {
+  #shapesOf(link: number): Drawn[] {
     const { model, sizes } = this.linkage;
-    const out: SVGElement[] = [];
+    const out: Drawn[] = [];
     for (const shape of model.shapes) {
       if (shape.link !== link) continue;
       const style = `shape ${shape.style}`;
       if (shape.circle) {
         const [x, y, r] = shape.circle;
-        out.push(svg("circle", { class: style, cx: this.#px(x), cy: this.#px(-y), r: this.#px(r) }));
+        out.push(["circle", { class: style, cx: this.#px(x), cy: this.#px(-y), r: this.#px(r) }]);
       }
       // one path, so that a ring is filled between its two lines
       let d = "";
@@ -77,13 +79,13 @@ export class Bodies {
         for (let k = 0; k + 1 < line.length; k += 2) d += `${k ? "L" : "M"}${this.#place(line[k]!, line[k + 1]!)}`;
         if (shape.closed) d += "Z";
       }
-      if (d) out.push(svg("path", { class: shape.closed ? style : `${style} open`, d }));
+      if (d) out.push(["path", { class: shape.closed ? style : `${style} open`, d }]);
     }
     return out;
   }
 
   /** Draw the line of a slide: a cylinder, a rail, a bar or a block; add the places that the body reaches to. */
-  #addLine(k: number, out: SVGElement[], nodes: Pair[]): void {
+  #addLine(k: number, out: Drawn[], nodes: Pair[]): void {
     const { model, sizes } = this.linkage;
     const { joint, link } = sizes.element(k);
     const cylinder = this.#cylinder(k);
@@ -98,7 +100,7 @@ export class Bodies {
       const here = sizes.xy(k);
       const turn = `rotate(${(-sizes.angles[k]! * 180) / Math.PI})`;
       const transform = `translate(${this.#place(...here)}) ${turn}`;
-      out.push(svg("rect.block", { x: -15, y: -9, width: 30, height: 18, rx: 3, transform }));
+      out.push(["rect", { class: "block", x: -15, y: -9, width: 30, height: 18, rx: 3, transform }]);
       nodes.push(here);
       return;
     }
@@ -110,7 +112,7 @@ export class Bodies {
     const d = `M${this.#place(...at(from))}L${this.#place(...at(to))}`;
     let styles = pinned ? ["slot-outline", "slot"] : ["rod-outline", "rod"];
     if (frame) styles = ["rail", "rail-hatch"];
-    out.push(...styles.map((style) => svg("path", { class: style, d })));
+    for (const style of styles) out.push(["path", { class: style, d }]);
     if (frame || pins.length) return;
     nodes.push([band.x + (band.c * (band.low + band.high)) / 2, band.y + (band.s * (band.low + band.high)) / 2]);
   }
@@ -139,7 +141,7 @@ export class Bodies {
   }
 
   /** A cylinder's barrel, or its rod, from its pin towards the other; null if the slide is no cylinder. */
-  #cylinder(k: number): SVGElement[] | null {
+  #cylinder(k: number): Drawn[] | null {
     const { linkage } = this;
     const { sizes } = linkage;
     const { joint, link } = sizes.element(k);
@@ -165,7 +167,7 @@ export class Bodies {
     const reach = barrel ? 0.86 * near : Math.min(far - 0.62 * near, 0.95 * near);
     const end = this.#place(x + ((u - x) / length) * reach, y + ((v - y) / length) * reach);
     const styles = barrel ? ["slot-outline", "slot"] : ["rod-outline", "rod"];
-    return styles.map((style) => svg("path", { class: style, d: `M${this.#place(x, y)}L${end}` }));
+    return styles.map((style) => ["path", { class: style, d: `M${this.#place(x, y)}L${end}` }]);
   }
 }
 

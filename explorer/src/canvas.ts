@@ -48,7 +48,7 @@ export class Painter {
     pen.lineWidth = width;
     pen.beginPath();
     // a step far beyond the picture leads through infinity, to the other end of an asymptote
-    const near = 2 * (viewport.width + viewport.height);
+    const near = (2 * (viewport.width + viewport.height)) ** 2;
     let last: Pair | null = null;
     for (let row = 0; row < count; row++) {
       const here = at(row);
@@ -57,7 +57,7 @@ export class Painter {
         continue;
       }
       const [x, y] = here;
-      if (last && Math.hypot(x - last[0], y - last[1]) < near) pen.lineTo(x, y);
+      if (last && (x - last[0]) ** 2 + (y - last[1]) ** 2 < near) pen.lineTo(x, y);
       else pen.moveTo(x, y);
       last = here;
     }

@@ -123,7 +123,7 @@ function fullTurns(
   while (turns <= most) {
     let steps = 360;
     if (turns > 1) steps = turns <= MOST_TURNS ? 120 : 60;
-    const values = Float64Array.from({ length: turns * steps + 1 }, (_, k) => start + (k * TURN) / steps);
+    const values = new Float64Array(turns * steps + 1).map((_, k) => start + (k * TURN) / steps);
     let rows = moved.runAlong(values, moved.state, order);
     const end = endOf(moved, values, rows, TURN / steps);
     if (end) return { end: turns === 1 ? end : null };
@@ -147,7 +147,7 @@ function search(moved: Moved, start: number, way: number): End {
   let state = moved.state;
   while (Math.abs(from - start) < far - 1e-9) {
     const first = from;
-    const values = Float64Array.from({ length: 31 }, (_, k) => first + way * k * step);
+    const values = new Float64Array(31).map((_, k) => first + way * k * step);
     const rows = moved.runAlong(values, state, 0);
     const end = endOf(moved, values, rows, way * step);
     if (end) return end;

@@ -48,6 +48,14 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   return filled(document.createElementNS(SVG, name) as SVGElementTagNameMap[K], classes, attributes, children);
 }
 
+/** Give an element attributes: only those are written that are others than before, since to write one takes long. */
+export function put(element: Element, attributes: Record<string, string | number>): void {
+  for (const [name, value] of Object.entries(attributes)) {
+    const text = String(value);
+    if (element.getAttribute(name) !== text) element.setAttribute(name, text);
+  }
+}
+
 /** Put other children into a place, which stays scrolled as it is; the focus goes to the element of the same name. */
 export function renew(place: Element, ...children: (Node | string)[]): void {
   const focused = (place.getRootNode() as Document | ShadowRoot).activeElement;

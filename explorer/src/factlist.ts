@@ -12,19 +12,23 @@ const ASKED_AFTER = 350; // milliseconds
 export class FactList {
   readonly element = h("dl.facts", {});
 
-  /** From pose to pose most stay as they are. */
+  /** What each line is made of but for its value. */
+  readonly #told: string[] = [];
+
+  /** From pose to pose most stay as they are, or have another value. */
   show(facts: readonly Fact[]): void {
     const { children } = this.element;
-    facts.forEach(({ name, text, style, note }, k) => {
-      const told = [name, text, style, note].join();
-      const old = children[k] as HTMLElement | undefined;
-      if (old?.dataset.told === told) return;
-      const made = h(
-        "div",
-        { "data-told": told },
-        h("dt", {}, name),
-        h("dd", { class: style ?? "" }, text, note ? h("small", {}, ` ${note}`) : null),
-      );
+    facts.forEach(({ name, text, style = "", note }, k) => {
+      const told = [name, style, note].join();
+      const old = children[k];
+      if (old && told === this.#told[k]) {
+        const value = old.lastChild!.firstChild as Text;
+        if (value.data !== text) value.data = text;
+        return;
+      }
+      this.#told[k] = told;
+      const value = h("dd", { class: style }, new Text(text), note ? h("small", {}, ` ${note}`) : null);
+      const made = h("div", {}, h("dt", {}, name), value);
       if (old) old.replaceWith(made);
       else this.element.append(made);
     });

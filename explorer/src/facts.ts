@@ -31,10 +31,14 @@ export function factsOf(linkage: Linkage, { dead, least }: Found, inLap: (angle:
   const turning = record?.joint === null;
   const size = (value: number) => (turning ? angle(value, 4) : `${number(value, 4)} ${model.unit}`);
   if (record) {
-    const [value, rate] = output(linkage, pose, 0);
+    const value = output(linkage, pose, 0);
     const text = turning ? angle(inLap(value), 5) : `${number(value, 5)} ${model.unit}`;
     facts.push({ name: t("Output {name}", { name: linkage.linkName(record.link) }), text });
-    facts.push({ name: t("Velocity by the drive"), text: number(rate, 4), note: rateUnit(linkage, 1) });
+    facts.push({
+      name: t("Velocity by the drive"),
+      text: number(output(linkage, pose, 0, 1), 4),
+      note: rateUnit(linkage, 1),
+    });
     const [one, two] = dead;
     if (one && two && dead.length === 2) {
       facts.push({ name: turning ? t("Swing") : t("Stroke"), text: size(Math.abs(one.output - two.output)) });

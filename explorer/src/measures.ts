@@ -24,13 +24,14 @@ export interface Least {
 
 // --- the output ------------------------------------------------------------------------------------------------------
 
-/** The output and its first two derivatives by the drive, in a row. */
-export function output({ model, sizes }: Linkage, rows: Rows, row: number): [number, number, number] {
+/** The output, or its first or second derivative by the drive, in a row. */
+export function output({ model, sizes }: Linkage, rows: Rows, row: number, order = 0): number {
   const record = model.outputs[0];
-  if (!record) return [NaN, NaN, NaN];
+  if (!record) return NaN;
   if (record.joint === null) {
+    if (order) return rate(rows, row, record.link, order);
     const [c, s] = turn(rows, row, record.link);
-    return [Math.atan2(s, c), rate(rows, row, record.link, 1), rate(rows, row, record.link, 2)];
+    return Math.atan2(s, c);
   }
   const mine = sizes.elementsOf(record.joint);
   const line = mine.find((k) => sizes.element(k).link === model.frame) ?? mine[0]!;
@@ -44,37 +45,36 @@ export function output({ model, sizes }: Linkage, rows: Rows, row: number): [num
   };
   const along = ([x, y]: Pair) => lx * x + ly * y;
   const across = ([x, y]: Pair) => lx * y - ly * x;
-  const [zeroth, first, second] = [gap(0), gap(1), gap(2)];
+  const zeroth = gap(0);
+  if (order === 0) return along(zeroth);
   const w = rate(rows, row, link, 1);
+  const first = gap(1);
+  if (order === 1) return along(first) + w * across(zeroth);
   const al = rate(rows, row, link, 2);
-  return [
-    along(zeroth),
-    along(first) + w * across(zeroth),
-    along(second) + 2 * w * across(first) + al * across(zeroth) - w * w * along(zeroth),
-  ];
+  return along(gap(2)) + 2 * w * across(first) + al * across(zeroth) - w * w * along(zeroth);
 }
 
-/** The output and its first two derivatives by the drive, at rows of the cycle that follow one another. An angle has
- * no jumps, and lies between -180° and 180° where the cycle was found, as the library measures it from a reference
- * pose. */
-export function outputAlong(linkage: Linkage, rows: number[]): [Float64Array, Float64Array, Float64Array] {
+/** The output, or a derivative by the drive, at rows of the cycle that follow one another. An angle has no jumps, and
+ * lies between -180° and 180° where the cycle was found, as the library measures it from a reference pose. */
+export function outputAlong(linkage: Linkage, rows: readonly number[], order = 0): Float64Array {
   const { cycle, model } = linkage;
-  const [values, first, second] = [0, 1, 2].map(() => new Float64Array(rows.length)) as [
-    Float64Array,
-    Float64Array,
-    Float64Array,
-  ];
-  rows.forEach((row, k) => {
-    [values[k], first[k], second[k]] = output(linkage, cycle.rows, row);
-  });
-  const along = model.outputs[0]?.joint === null ? unwrapped(values, rows.indexOf(cycle.home)) : values;
-  return [along, first, second];
+  const values = valuesOf(rows, (row) => output(linkage, cycle.rows, row, order));
+  return order || model.outputs[0]?.joint !== null ? values : unwrapped(values, rows.indexOf(cycle.home));
+}
+
+/** A value of each of some rows. */
+export function valuesOf(rows: readonly number[], f: (row: number) => number): Float64Array {
+  const out = new Float64Array(rows.length);
+  for (let k = 0; k < out.length; k++) out[k] = f(rows[k]!);
+  return out;
 }
 
 /** Whether the output, whose values over the cycle are given, keeps its angle or its place, but for rounding. */
 export function outputStandsStill(linkage: Linkage, values: Float64Array): boolean {
   const size = linkage.model.outputs[0]?.joint === null ? 1 : linkage.sizes.unit;
-  return Math.max(...values) - Math.min(...values) < NOISE * size;
+  let [low, high] = [Infinity, -Infinity];
+  for (const value of values) [low, high] = [Math.min(low, value), Math.max(high, value)];
+  return high - low < NOISE * size;
 }
 
 /** Angles that follow one another without jumps; the one at `home` stays as it is. */
@@ -162,7 +162,7 @@ function wayOf(linkage: Linkage, rows: Rows, row: number, link: number, point: P
 /** Where the output turns back: zeros of its velocity, to 1e-9 of a radian or size. */
 export function deadCentres(linkage: Linkage): DeadCentre[] {
   const { values, rows } = linkage.cycle;
-  const speed = Array.from(values, (_, row) => output(linkage, rows, row)[1]);
+  const speed = Array.from(values, (_, row) => output(linkage, rows, row, 1));
   const usual = Math.max(0, ...speed.map((v) => (Number.isFinite(v) ? Math.abs(v) : 0)));
   const out: DeadCentre[] = [];
   const { drive, model, size } = linkage;
@@ -185,13 +185,13 @@ export function deadCentres(linkage: Linkage): DeadCentre[] {
 function turningBack(linkage: Linkage, from: number, to: number, row: number): DeadCentre | null {
   const speed = (drive: number) => {
     const rows = linkage.from(row, drive);
-    return rows.reached < 2 ? NaN : output(linkage, rows, 1)[1];
+    return rows.reached < 2 ? NaN : output(linkage, rows, 1, 1);
   };
   const value = zero(speed, from, to);
   if (value === null) return null;
   const rows = linkage.from(row, value);
   if (rows.reached < 2 || leastRoot(rows, 1) < CHANGE) return null;
-  return { value, output: output(linkage, rows, 1)[0] };
+  return { value, output: output(linkage, rows, 1) };
 }
 
 /** A zero of a function between two values at which it has different signs; null where it has no value. */

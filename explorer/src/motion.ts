@@ -26,6 +26,7 @@ import type { Page, View } from "./view";
 import { refusedText } from "./wording";
 
 const MOST_FRAMES = 2000;
+const RESTING = 100; // milliseconds without a step of a drag
 
 /** What is shown, to be shown again. */
 interface State {
@@ -66,6 +67,9 @@ export class MotionView implements View, Editor, Driven {
   private readonly facts = new FactList();
   readonly #sizes = new SizeRows(this);
   readonly #words: InWords;
+  /** Whether plots followed in the last step of a drag. */
+  #plotting = false;
+  #resting = 0;
   readonly #opened = new Set(["sizes", "measures", "plots"]);
   readonly #forces = new Forces(this, () => this.#opened.has("forces"));
 
@@ -235,7 +239,7 @@ export class MotionView implements View, Editor, Driven {
 
   #end(): void {
     this.linkage.drag(false);
-    this.#followed();
+    this.stage.sized();
     if (this.#before && !sameSizes(this.#before.sizes, this.linkage.snapshot())) this.#history.add(this.#before);
     this.#before = null;
     this.measured();
@@ -259,11 +263,20 @@ export class MotionView implements View, Editor, Driven {
     this.timed(start);
   }
 
-  /** After each step of a drag: what follows at once. */
+  /** After each step of a drag: what follows at once. Plots and texts take turns; all of them follow where it rests. */
   #followed(): void {
     this.stage.sized();
     this.transport.showRange(this.found);
-    if (this.#opened.has("plots")) this.plots.follow(this.linkage);
+    this.#plotting = !this.#plotting && this.#opened.has("plots");
+    if (this.#plotting) this.plots.follow(this.linkage);
+    else this.#showFacts();
+    clearTimeout(this.#resting);
+    this.#resting = window.setTimeout(() => this.#plotAll(), RESTING);
+  }
+
+  #plotAll(): void {
+    clearTimeout(this.#resting);
+    if (this.#opened.has("plots")) this.plots.draw(this.linkage);
     this.#showPose();
   }
 
@@ -351,25 +364,28 @@ export class MotionView implements View, Editor, Driven {
   measured(): void {
     this.found = { dead: deadCentres(this.linkage), least: leastTransmission(this.linkage) };
     this.transport.showRange(this.found);
-    this.#showPose();
+    this.#plotAll();
     this.#sizes.show();
     this.#refresh("points", pointsPanel(this));
     this.#refresh("modes", modesPanel(this));
     this.#refresh("export", exportPanel(this.page, this));
-    if (this.#opened.has("plots")) this.plots.draw(this.linkage);
     this.#forces.changed();
     const { linkage } = this;
     this.#words.ask(linkage, () => documentOf(linkage, linkage.cycle.rows, linkage.cycle.home));
   }
 
   #showPose(): void {
-    const { linkage } = this;
     const { drive } = this.transport;
-    this.transport.showValue();
-    if (linkage.drive) {
+    if (this.linkage.drive) {
       this.plots.at(drive);
       this.#forces.at(drive);
     }
+    this.#showFacts();
+  }
+
+  #showFacts(): void {
+    const { linkage } = this;
+    this.transport.showValue();
     const facts = factsOf(linkage, this.found, (angle) => this.plots.plottedAngle(linkage, angle));
     this.facts.show(facts);
   }

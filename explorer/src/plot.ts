@@ -1,6 +1,6 @@
 /** Small plots over the drive, linked with it by a cursor; the value at the drive, or at the pointer, stands above. */
 
-import { svg } from "./dom";
+import { put, svg } from "./dom";
 import { gridStep } from "./grid";
 import { number } from "./language";
 import type { Pair } from "./rows";
@@ -161,25 +161,19 @@ export class Plot {
     const places = series.values.map((value) =>
       outside(value) ? NaN : Math.max(TOP - 4, Math.min(HEIGHT - BOTTOM + 4, this.#y(value))),
     );
-    this.#curve.setAttribute(
-      "d",
-      lineThrough(
-        drives.map((drive) => this.#x(drive)),
-        places,
-      ),
-    );
-    this.#curve.style.stroke = `var(${series.colour})`;
-    this.#zero.setAttribute(
-      "d",
-      this.#low < 0 && this.#high > 0 ? `M${LEFT} ${this.#y(0).toFixed(1)}H${WIDTH - RIGHT}` : "",
-    );
+    const across = drives.map((drive) => this.#x(drive));
+    put(this.#curve, { d: lineThrough(across, places) });
+    const crossed = this.#low < 0 && this.#high > 0;
+    put(this.#zero, { d: crossed ? `M${LEFT} ${this.#y(0).toFixed(1)}H${WIDTH - RIGHT}` : "" });
     const floor = series.floor;
     const shaded =
       floor === undefined ? 0 : Math.max(0, Math.min(HEIGHT - BOTTOM - TOP, HEIGHT - BOTTOM - this.#y(floor)));
-    this.#band.setAttribute("height", shaded.toFixed(1));
-    this.#band.setAttribute("y", (HEIGHT - BOTTOM - shaded).toFixed(1));
-    this.#title.textContent = series.title;
-    this.element.setAttribute("aria-label", series.title);
+    put(this.#band, { height: shaded.toFixed(1), y: (HEIGHT - BOTTOM - shaded).toFixed(1) });
+    if (this.#title.textContent !== series.title) {
+      this.#title.textContent = series.title;
+      this.#curve.style.stroke = `var(${series.colour})`;
+      put(this.element, { "aria-label": series.title });
+    }
     this.#showTicks(this.domain);
     this.at(this.drive);
   }
@@ -198,7 +192,7 @@ export class Plot {
       ...upward.map((value) => `M${LEFT} ${this.#y(value).toFixed(1)}H${WIDTH - RIGHT}`),
       ...across.map((value) => `M${this.#x(value * unit).toFixed(1)} ${TOP}V${HEIGHT - BOTTOM}`),
     ];
-    this.#mesh.setAttribute("d", lines.join(""));
+    put(this.#mesh, { d: lines.join("") });
     relabel(
       this.#upward,
       upward.map((value) => [LEFT - 4, this.#y(value) + 4, number(value, 4)]),
@@ -219,17 +213,14 @@ export class Plot {
     const value = valueAt(drives, series.values, place);
     const outside = place < this.domain[0] || place > this.domain[1];
     const x = outside ? "-9" : this.#x(place).toFixed(1);
-    this.#cursor.setAttribute("d", `M${x} ${TOP}V${HEIGHT - BOTTOM}`);
-    this.#here.setAttribute("cx", x);
-    this.#here.setAttribute(
-      "cy",
-      (Number.isFinite(value) ? Math.max(TOP, Math.min(HEIGHT - BOTTOM, this.#y(value))) : -9).toFixed(1),
-    );
+    put(this.#cursor, { d: `M${x} ${TOP}V${HEIGHT - BOTTOM}` });
+    const y = Number.isFinite(value) ? Math.max(TOP, Math.min(HEIGHT - BOTTOM, this.#y(value))) : -9;
+    put(this.#here, { cx: x, cy: y.toFixed(1) });
     const where = place === drive ? "" : `${number(place / this.unit, 4)}${this.unit === 1 ? "" : "°"}: `;
     this.#value.textContent = where + number(Math.abs(value) < (series.same ?? 0) ? 0 : value, 4);
     const right = this.#x(place) < (LEFT + WIDTH) / 2;
-    this.#value.setAttribute("text-anchor", right ? "start" : "end");
-    this.#value.setAttribute("x", outside ? "-99" : (this.#x(place) + (right ? 5 : -5)).toFixed(1));
+    const beside = outside ? "-99" : (this.#x(place) + (right ? 5 : -5)).toFixed(1);
+    put(this.#value, { "text-anchor": right ? "start" : "end", x: beside });
   }
 
   #x(drive: number): number {
@@ -247,8 +238,7 @@ function relabel(group: SVGGElement, labels: readonly (readonly [number, number,
   while (group.childElementCount > labels.length) group.lastChild!.remove();
   for (const [k, [x, y, text]] of labels.entries()) {
     const old = group.children[k] ?? group.appendChild(svg("text", { "text-anchor": anchor }));
-    const place = `translate(${x.toFixed(1)} ${y.toFixed(1)})`;
-    if (old.getAttribute("transform") !== place) old.setAttribute("transform", place);
+    put(old, { transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
     if (old.textContent !== text) old.textContent = text;
   }
 }

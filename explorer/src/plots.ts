@@ -5,7 +5,7 @@ import { h, renew } from "./dom";
 import { type Icon, icon } from "./icons";
 import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
-import { outputAlong, outputStandsStill, transmission } from "./measures";
+import { outputAlong, outputStandsStill, transmission, valuesOf } from "./measures";
 import type { OutputRecord } from "./model";
 import { Plot, type Series } from "./plot";
 import { place } from "./rows";
@@ -18,10 +18,10 @@ export interface Lap {
   rows: number[];
 }
 
-/** The lap of a cycle, and the output in its rows with two derivatives. */
+/** The lap of a cycle, and the output in its rows. */
 interface Plotted extends Lap {
   cycle: Cycle;
-  outputs: [Float64Array, Float64Array, Float64Array];
+  output: Float64Array;
 }
 
 type Making = (plotted: Plotted) => Series;
@@ -51,7 +51,7 @@ export class Plots {
       series.push(({ rows }) => ({
         title: t("Speed of {name} by the drive", { name: linkage.pointName(name) }) + rateUnit(linkage, 1, false),
         colour: "--ink",
-        values: along(rows, (row) => Math.hypot(...place(linkage.cycle.rows, row, link, ...at, 1))),
+        values: valuesOf(rows, (row) => Math.hypot(...place(linkage.cycle.rows, row, link, ...at, 1))),
       }));
     const unit = drive?.turning ? TURN / 360 : 1;
     this.parts = series.map((make) => ({ plot: new Plot(unit, this.pick, this.#span), make }));
@@ -97,7 +97,7 @@ export class Plots {
     if (cycle.values.length < 2) return;
     const plotted = this.#plotted(linkage);
     const record = model.outputs[0];
-    const still = record !== undefined && outputStandsStill(linkage, plotted.outputs[0]);
+    const still = record !== undefined && outputStandsStill(linkage, plotted.output);
     this.#still.hidden = !still;
     for (const { plot } of record ? this.parts.slice(0, OF_OUTPUT) : [])
       plot.element.style.display = still ? "none" : "";
@@ -118,8 +118,7 @@ export class Plots {
   /** The angle of the output in the pose that is shown, in the lap in which it is plotted. */
   plottedAngle(linkage: Linkage, value: number): number {
     const { active, cycle } = linkage;
-    const { drives, outputs } = this.#plotted(linkage);
-    const [values] = outputs;
+    const { drives, output } = this.#plotted(linkage);
     const drive = wrapped(cycle, linkage.drives[active] ?? 0);
     let low = 0;
     let high = drives.length - 1;
@@ -128,14 +127,15 @@ export class Plots {
       if (drives[middle]! <= drive) low = middle;
       else high = middle;
     }
-    return value + TURN * Math.round((values[low]! - value) / TURN);
+    return value + TURN * Math.round((output[low]! - value) / TURN);
   }
 
   #plotted(linkage: Linkage): Plotted {
     const { cycle } = linkage;
-    if (this.#last?.cycle === cycle) return this.#last;
-    const lap = lapOf(cycle);
-    this.#last = { ...lap, cycle, outputs: outputAlong(linkage, lap.rows) };
+    const last = this.#last;
+    if (last?.cycle === cycle) return last;
+    const { drives, rows } = last && sameLap(last.cycle, cycle) ? last : lapOf(cycle);
+    this.#last = { drives, rows, cycle, output: outputAlong(linkage, rows) };
     return this.#last;
   }
 }
@@ -155,12 +155,14 @@ export function lapOf(cycle: Cycle): Lap {
   return { drives, rows };
 }
 
-function rangeOf({ full, high, low, turns }: Cycle): [number, number] {
-  return full ? [0, TURN * turns] : [low, high];
+/** Whether full turns have the same drive values, as while sizes are dragged. */
+function sameLap(one: Cycle, two: Cycle): boolean {
+  const told = ({ full, turns, values }: Cycle) => (full ? [turns, values.length, values[0]].join() : NaN);
+  return told(one) === told(two);
 }
 
-function along(rows: number[], f: (row: number) => number): Float64Array {
-  return Float64Array.from(rows, f);
+function rangeOf({ full, high, low, turns }: Cycle): [number, number] {
+  return full ? [0, TURN * turns] : [low, high];
 }
 
 function degrees(angle: number): number {
@@ -171,29 +173,29 @@ function outputSeries(linkage: Linkage, record: OutputRecord): Making[] {
   const turning = record.joint === null;
   const name = linkage.linkName(record.link);
   const same = 1e-9 * (turning ? 1 : linkage.size);
-  const angle: Making = ({ outputs }) => ({
+  const angle: Making = ({ output }) => ({
     title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${linkage.model.unit}]`),
     colour: "--motion",
-    values: turning ? outputs[0].map(degrees) : outputs[0],
+    values: turning ? output.map(degrees) : output,
     same: turning ? degrees(same) : same,
   });
-  const velocity: Making = ({ outputs }) => ({
+  const velocity: Making = ({ rows }) => ({
     title: t("Its velocity by the drive") + rateUnit(linkage, 1),
     colour: "--green",
-    values: outputs[1],
+    values: outputAlong(linkage, rows, 1),
     same,
   });
-  const acceleration: Making = ({ outputs }) => ({
+  const acceleration: Making = ({ rows }) => ({
     title: t("Its acceleration by the drive") + rateUnit(linkage, 2),
     colour: "--purple",
-    values: outputs[2],
+    values: outputAlong(linkage, rows, 2),
     same,
   });
   const mu: Making = ({ rows }) => ({
     title: `${t("Transmission angle")} [°]`,
     colour: "--accent",
     floor: SMALL,
-    values: along(rows, (row) => degrees(transmission(linkage, linkage.cycle.rows, row))),
+    values: valuesOf(rows, (row) => degrees(transmission(linkage, linkage.cycle.rows, row))),
   });
   return [angle, velocity, acceleration, ...(record.legs.length ? [mu] : [])];
 }

@@ -104,7 +104,7 @@ export function placeBlocks(linkage: Linkage, pose: Rows): void {
     const made = model.sources.some((source, e) => source < 0 && program.links[e] === block);
     if (joint < 0 || !made) continue;
     const lineFirst = (a: number, b: number) => Number(sizes.is(b, "line")) - Number(sizes.is(a, "line"));
-    const [k, m] = sizes.elementsOf(joint).sort(lineFirst) as [number, number];
+    const [k, m] = [...sizes.elementsOf(joint)].sort(lineFirst) as [number, number];
     const [px, py] = linkage.elementAt(m, pose);
     putTurn(pose, block, ...turn(pose, 0, sizes.element(k).link));
     if (sizes.is(m, "line")) {

@@ -79,8 +79,7 @@ function countOf(rows: Rows): number {
 /** Signs of the dyads and unknowns of the larger groups in a row. */
 export function stateAt(rows: Rows, row: number): State {
   const count = countOf(rows);
-  const column = (all: Float64Array) =>
-    Float64Array.from({ length: all.length / count }, (_, k) => all[k * count + row]!);
+  const column = (all: Float64Array) => new Float64Array(all.length / count).map((_, k) => all[k * count + row]!);
   return { signs: column(rows.roots).map((root) => (root < 0 ? -1 : 1)), unknowns: column(rows.unknowns) };
 }
 

@@ -2,7 +2,7 @@
 
 import { backdropElement, putBackdrop } from "./backdrop";
 import { Bodies } from "./bodies";
-import { renew, svg } from "./dom";
+import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
@@ -127,10 +127,12 @@ export class Scene {
     for (const [link, group] of this.#links.entries()) {
       const made = bodies.of(link);
       while (group.childElementCount > made.length) group.lastChild!.remove();
-      made.forEach((element, k) => {
+      made.forEach(([tag, attributes], k) => {
         const old = group.children[k];
-        if (!old) group.append(element);
-        else if (!old.isEqualNode(element)) old.replaceWith(element); // most links stay as they are
+        if (old?.tagName === tag)
+          put(old, attributes); // most links stay as they are
+        else if (old) old.replaceWith(svg(tag, attributes));
+        else group.append(svg(tag, attributes));
       });
     }
   }
@@ -145,13 +147,13 @@ export class Scene {
       const [c, s] = turn(pose, 0, link);
       const [x, y] = viewport.screen(...origin(pose, 0, link));
       const [cosine, minus, sine] = [c.toFixed(6), (-s).toFixed(6), s.toFixed(6)];
-      group.setAttribute("transform", `matrix(${cosine} ${minus} ${sine} ${cosine} ${x.toFixed(2)} ${y.toFixed(2)})`);
+      put(group, { transform: `matrix(${cosine} ${minus} ${sine} ${cosine} ${x.toFixed(2)} ${y.toFixed(2)})` });
     });
     if (this.#backdrop && linkage.beside.picture) putBackdrop(this.#backdrop, linkage.beside.picture, viewport);
-    for (const { element, joint } of this.#pins) put(element, viewport.screen(...linkage.jointAt(joint)));
+    for (const { element, joint } of this.#pins) move(element, viewport.screen(...linkage.jointAt(joint)));
     for (const { element, point } of this.#marks) {
       const record = sizes.points[point];
-      if (record) put(element, viewport.screen(...place(pose, 0, record.link, ...record.at)));
+      if (record) move(element, viewport.screen(...place(pose, 0, record.link, ...record.at)));
     }
     const taken: { x: number; y: number; half: number }[] = [];
     for (const { element, spot, half, begins } of this.#labels) {
@@ -163,15 +165,15 @@ export class Scene {
       const way = y < (taken.find(touches)?.y ?? 0) ? -1 : 1;
       for (let other = taken.find(touches); other; other = taken.find(touches)) y = other.y + way * LINE;
       taken.push({ x, y, half });
-      put(element, [left, y]);
+      move(element, [left, y]);
     }
-    this.#arrows.setAttribute("d", shown.velocities ? this.#vectors(linkage, 1) : "");
-    this.#changes.setAttribute("d", shown.accelerations ? this.#vectors(linkage, 2) : "");
-    this.#forces.setAttribute("d", this.#forceArrows(linkage, shown));
+    put(this.#arrows, { d: shown.velocities ? this.#vectors(linkage, 1) : "" });
+    put(this.#changes, { d: shown.accelerations ? this.#vectors(linkage, 2) : "" });
+    put(this.#forces, { d: this.#forceArrows(linkage, shown) });
     const springs = shown.springs().map((spring) => springPath(linkage, viewport, spring));
-    this.#springs.setAttribute("d", springs.join(""));
+    put(this.#springs, { d: springs.join("") });
     const lines = readingsOf(linkage).map(({ ends }) => `M${ends.map((at) => viewport.screen(...at)).join("L")}`);
-    this.#rulers.setAttribute("d", lines.join(""));
+    put(this.#rulers, { d: lines.join("") });
     this.#drawPole(linkage, shown);
   }
 
@@ -207,20 +209,17 @@ export class Scene {
   #drawPole(linkage: Linkage, shown: Shown): void {
     const { viewport } = this;
     const found = shown.poles || shown.inflection ? pole(linkage, linkage.pose, 0, shown.link) : null;
-    this.#pole.setAttribute("r", found ? "4" : "0");
+    put(this.#pole, { r: found ? 4 : 0 });
     this.poleAside = false;
-    this.#circle.setAttribute("r", "0");
+    put(this.#circle, { r: 0 });
     if (!found) return;
     const [x, y] = viewport.screen(found.x, found.y);
     this.poleAside = !(x >= 0 && y >= 0 && x <= viewport.width && y <= viewport.height);
-    this.#pole.setAttribute("cx", x.toFixed(1));
-    this.#pole.setAttribute("cy", y.toFixed(1));
+    put(this.#pole, { cx: x.toFixed(1), cy: y.toFixed(1) });
     const radius = (Math.hypot(found.dx, found.dy) / 2) * viewport.scale;
     if (!shown.inflection || !(radius < 1e5)) return;
     const [cx, cy] = viewport.screen(found.x + found.dx / 2, found.y + found.dy / 2);
-    this.#circle.setAttribute("cx", cx.toFixed(1));
-    this.#circle.setAttribute("cy", cy.toFixed(1));
-    this.#circle.setAttribute("r", radius.toFixed(1));
+    put(this.#circle, { cx: cx.toFixed(1), cy: cy.toFixed(1), r: radius.toFixed(1) });
   }
 }
 
@@ -263,8 +262,8 @@ function labelsOf(linkage: Linkage): Label[] {
   return [...names, ...marks];
 }
 
-function put(element: SVGElement, [x, y]: Pair): void {
-  element.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)})`);
+function move(element: SVGElement, [x, y]: Pair): void {
+  put(element, { transform: `translate(${x.toFixed(2)} ${y.toFixed(2)})` });
 }
 
 /** An arrow with its head, in pixels; nothing if it is too short for one. */

@@ -16,6 +16,9 @@ export class Sizes {
   /** Below this length two places are the same. */
   readonly near: number;
 
+  readonly #ofJoints: readonly (readonly number[])[];
+  readonly #onLinks: readonly (readonly number[])[];
+
   constructor(
     readonly model: Model,
     /** About how large the linkage is. */
@@ -23,6 +26,9 @@ export class Sizes {
   ) {
     this.at = Float64Array.from(model.elements.flatMap((e) => e.at));
     this.angles = Float64Array.from(model.elements.map((e) => e.angle));
+    const numbered = (mine: (e: ElementRecord) => boolean) => model.elements.flatMap((e, k) => (mine(e) ? [k] : []));
+    this.#ofJoints = model.joints.map((_, joint) => numbered((e) => e.joint === joint));
+    this.#onLinks = model.links.map((_, link) => numbered((e) => e.link === link));
     this.points = copied(model.points);
     this.near = 1e-9 * unit;
   }
@@ -41,12 +47,12 @@ export class Sizes {
   // --- elements ------------------------------------------------------------------------------------------------------
 
   /** The elements of a joint, by their numbers. */
-  elementsOf(joint: number): number[] {
-    return this.model.elements.flatMap((e, k) => (e.joint === joint ? [k] : []));
+  elementsOf(joint: number): readonly number[] {
+    return this.#ofJoints[joint] ?? [];
   }
 
-  elementsOn(link: number): number[] {
-    return this.model.elements.flatMap((e, k) => (e.link === link ? [k] : []));
+  elementsOn(link: number): readonly number[] {
+    return this.#onLinks[link] ?? [];
   }
 
   element(k: number): ElementRecord {

@@ -17,7 +17,8 @@ export function tableOf(linkage: Linkage): string {
   const head = [turning ? "drive_deg" : `drive_${model.unit}`];
   if (record) head.push("output", "output_velocity", "output_acceleration", "transmission_angle_deg");
   for (const { name } of points) head.push(`${name}_x`, `${name}_y`, `${name}_vx`, `${name}_vy`);
-  const [outputs, first, second] = outputAlong(linkage, Array.from(cycle.values.keys()));
+  const rows = [...cycle.values.keys()];
+  const [outputs, first, second] = [0, 1, 2].map((order) => outputAlong(linkage, rows, order));
   const lines = Array.from(cycle.values, (value, row) => {
     const line = [turning ? degrees(value) : value];
     if (record) {

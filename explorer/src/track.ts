@@ -1,7 +1,7 @@
 /** The slider of the drive: where it may go, where the output turns back, where the transmission is worst. */
 
 import { type Cycle, TURN, wrapped } from "./cycle";
-import { h, svg } from "./dom";
+import { h, put, svg } from "./dom";
 import { angle, currentLanguage, number, t } from "./language";
 
 export class Track {
@@ -118,17 +118,15 @@ export class Track {
     const inner = svg("svg", { x: 12, width: "calc(100% - 24px)", overflow: "visible" }, ...parts, this.#knob);
     inner.style.width = "calc(100% - 24px)";
     this.#root.replaceChildren(inner);
-    this.element.setAttribute("aria-label", t("Drive"));
-    this.element.setAttribute("aria-valuemin", String(low / this.#unit));
-    this.element.setAttribute("aria-valuemax", String(high / this.#unit));
+    const [valuemin, valuemax] = [low / this.#unit, high / this.#unit];
+    put(this.element, { "aria-label": t("Drive"), "aria-valuemin": valuemin, "aria-valuemax": valuemax });
   }
 
   set(value: number): void {
     const here = this.#cycle ? wrapped(this.#cycle, value) : value;
     this.#here = here;
-    this.#knob.setAttribute("cx", `${Math.max(0, Math.min(1, (here - this.#from) / (this.#to - this.#from))) * 100}%`);
-    this.element.setAttribute("aria-valuenow", (here / this.#unit).toFixed(3));
-    this.element.setAttribute("aria-valuetext", this.#textOf(here));
+    put(this.#knob, { cx: `${Math.max(0, Math.min(1, (here - this.#from) / (this.#to - this.#from))) * 100}%` });
+    put(this.element, { "aria-valuenow": (here / this.#unit).toFixed(3), "aria-valuetext": this.#textOf(here) });
   }
 }
 

@@ -463,6 +463,23 @@ def test_all_curves_follow_a_drag_and_those_of_the_other_mode_shine_through(tab,
     assert [alpha for _, alpha, _ in drawn()] == [1, 1]
 
 
+def test_plots_and_measures_follow_where_a_drag_rests(tab, crank_rocker):
+    """In each step one plot or the measures follow; all of them do before the joint is let go."""
+    page = tab().open(crank_rocker)
+    said = """() => [...gruebler.motion.plots.parts.map(({ plot }) => plot.element.outerHTML),
+                     gruebler.motion.facts.element.querySelector("dd").textContent]"""
+    page.page.evaluate(f"window.before = ({said})()")
+    x, y = page.middle('.stage [data-joint="R(coupler-rocker)"] .joint')
+    page.page.mouse.move(x, y)
+    page.page.mouse.down()
+    page.page.mouse.move(x + 12, y - 9, steps=3)
+    page.until(f"gruebler.motion.linkage.dragged && ({said})().every((now, k) => now !== before[k])")
+    rested = page.page.evaluate(said)
+    page.page.mouse.up()
+    page.until("!gruebler.motion.linkage.dragged")
+    assert page.page.evaluate(said) == rested
+
+
 def test_a_joint_snaps_while_it_is_dragged(tab, crank_rocker):
     """With the option, and with Shift: the right bearing, (70, 0), stops level with the left one."""
     page = tab().open(crank_rocker)
