@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from gruebler.base import notebook
 from gruebler.base.arrays import Reals, compared_by_value
-from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.errors import GrueblerError, unknown
 from gruebler.base.notebook import ROWS_SHOWN, brief, html_table, text_table
 from gruebler.base.plain_data import plain
 from gruebler.base.text import number
@@ -75,12 +75,7 @@ class Table:
             if column.name == name:
                 return column.values
         names = [column.name for column in self.columns]
-        raise GrueblerError(
-            "the table has no column {name!r}{suggestion}; it has {names}",
-            name=name,
-            suggestion=nearest(name, names),
-            names=", ".join(names),
-        )
+        raise GrueblerError("the table has no column {word!r}{suggestion}; it has {known}", **unknown(name, names))
 
     @property
     def rows(self) -> Reals:

@@ -16,7 +16,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from numbers import Integral, Real
 from typing import Annotated, Any, NamedTuple, TypeGuard, TypeVar
 
-from gruebler.base.errors import GrueblerError, nearest, to_be_read
+from gruebler.base.errors import GrueblerError, to_be_read, unknown
 from gruebler.base.text import Message, joined_by_or, message
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -87,11 +87,9 @@ def _check_names(
     other = next((name for name in named if name not in known), None)
     if other is not None and not _takes_any(function):
         raise error(
-            "{function} has no option {option!r}{suggestion}; it has {known}",
+            "{function} has no option {word!r}{suggestion}; it has {known}",
             function=function.__qualname__.removesuffix(".__init__"),
-            option=other,
-            suggestion=nearest(other, known),
-            known=", ".join(known),
+            **unknown(other, known),
         )
 
 

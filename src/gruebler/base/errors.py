@@ -266,12 +266,17 @@ def _slips(word: str, other: str) -> int:
 def check_method(method: str, known: Sequence[str], error: type[GrueblerError]) -> None:
     """Refuse the name of a method that is not known, with those that are."""
     if method not in known:
-        raise error(
-            "there is no method {method!r}{suggestion}; there are {known}",
-            method=method,
-            suggestion=nearest(method, known),
-            known=", ".join(known),
-        )
+        raise error("there is no method {word!r}{suggestion}; there are {known}", **unknown(method, known))
+
+
+def unknown(word: object, known: Iterable[str]) -> dict[str, Any]:
+    """What fills the gaps ``word``, ``suggestion`` and ``known`` of a message about a word that is not known.
+
+    >>> "no unit {word!r}{suggestion} among {known}".format(**unknown("mn", ["mm", "inch"]))
+    "no unit 'mn' (did you mean 'mm'?) among mm, inch"
+    """
+    words = list(known)
+    return {"word": word, "suggestion": nearest(str(word), words), "known": ", ".join(words)}
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Reals
-from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.errors import GrueblerError, unknown
 from gruebler.base.immutable import settle
 from gruebler.base.text import Message, message
 
@@ -124,11 +124,9 @@ class Formula:
     def _unknown(self, name: str, known: tuple[str, ...]) -> None:
         raise self.error(
             message(
-                "{formula!r}: unknown name {name!r}{suggestion}; known are {known}",
+                "{formula!r}: unknown name {word!r}{suggestion}; known are {known}",
                 formula=self.text,
-                name=name,
-                suggestion=nearest(name, known),
-                known=", ".join(known),
+                **unknown(name, known),
             )
         )
 

@@ -9,7 +9,7 @@ from importlib import import_module
 from shutil import get_terminal_size
 from typing import Any
 
-from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.errors import GrueblerError, unknown
 from gruebler.base.text import Message, message, translate
 from gruebler.cli.parser import Parser, british
 
@@ -144,9 +144,7 @@ def command(name: str) -> Command:
         if each.name == british(name):
             return each
     raise GrueblerError(
-        "there is no command {name!r}{suggestion}; see gruebler --help",
-        name=name,
-        suggestion=nearest(name, command_names()),
+        "there is no command {word!r}{suggestion}; see gruebler --help", **unknown(name, command_names())
     )
 
 

@@ -14,7 +14,7 @@ from typing import Any
 import msgspec
 
 from gruebler.base.documents import convert_document
-from gruebler.base.errors import LinkageError, UnitWarning, nearest
+from gruebler.base.errors import LinkageError, UnitWarning, unknown
 from gruebler.base.text import joined_by_and, message
 from gruebler.files.angles import in_degrees
 from gruebler.files.element_records import in_short, read_element_table, read_numbers
@@ -282,9 +282,7 @@ def _check_link(link: str, links: tuple[str, ...], where: str) -> None:
     if link not in links:
         known = ", ".join(links[:12]) + (", ..." if len(links) > 12 else "")
         raise LinkageError(
-            "{where}: there is no link {link!r}{suggestion}; links are {known}",
+            "{where}: there is no link {word!r}{suggestion}; links are {known}",
             where=where,
-            link=link,
-            suggestion=nearest(link, links),
-            known=known,
+            **unknown(link, links) | {"known": known},
         )

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gruebler.base.doors import door
-from gruebler.base.errors import GrueblerError, nearest, warn
+from gruebler.base.errors import GrueblerError, unknown, warn
 from gruebler.base.text import Message, joined, joined_by_or, message
 from gruebler.files.formats import FORMATS, LOADS, Format, json_of_another_program
 
@@ -37,12 +37,7 @@ def format_of(path: str | PathLike[str], name: str | None = None, *, to_read: bo
             if form.name == name:
                 return form
         names = [form.name for form in FORMATS]
-        raise GrueblerError(
-            "there is no format {name!r}{suggestion}; known are {names}",
-            name=name,
-            suggestion=nearest(name, names),
-            names=", ".join(names),
-        )
+        raise GrueblerError("there is no format {word!r}{suggestion}; known are {known}", **unknown(name, names))
     lower = Path(path).name.lower()
     for form in FORMATS:
         if lower.endswith(form.suffixes):

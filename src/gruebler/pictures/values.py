@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.doors import door
-from gruebler.base.errors import GrueblerError, nearest, to_be_read
+from gruebler.base.errors import GrueblerError, to_be_read, unknown
 from gruebler.base.text import Message, message, translate
 from gruebler.mechanics.forces.loads import Loads
 from gruebler.pictures.canvas.figure import Figure
@@ -134,9 +134,9 @@ _SPATIAL_PLOTS = {"transfer": ("space", "plot_spatial")}
 _PLOTS_OF = {"InverseDynamics": _FORCE_PLOTS, "Simulation": _PHASE_PLOTS, "SpatialLinkage": _SPATIAL_PLOTS}
 """Diagrams of other values than linkages and motions, the usual one first."""
 
-_OF_PICTURE = message("the picture of a {kind} has no option {option!r}{suggestion}; it has {known}")
-_OF_ANIMATION = message("the moving picture of a {kind} has no option {option!r}{suggestion}; it has {known}")
-_OF_DIAGRAM = message("the diagram {kind!r} has no option {option!r}{suggestion}; it has {known}")
+_OF_PICTURE = message("the picture of a {kind} has no option {word!r}{suggestion}; it has {known}")
+_OF_ANIMATION = message("the moving picture of a {kind} has no option {word!r}{suggestion}; it has {known}")
+_OF_DIAGRAM = message("the diagram {kind!r} has no option {word!r}{suggestion}; it has {known}")
 
 
 @door
@@ -378,12 +378,7 @@ def plot(
     if own and kind == "transfer":
         kind = next(iter(own))
     if kind not in known:
-        raise GrueblerError(
-            "there is no plot {kind!r}{suggestion}; there are {known}",
-            kind=kind,
-            suggestion=nearest(str(kind), known),
-            known=", ".join(known),
-        )
+        raise GrueblerError("there is no plot {word!r}{suggestion}; there are {known}", **unknown(kind, known))
     plotted = (linkage, given) if own else _plotted(linkage, given)
     return Picture(_called(_OF_DIAGRAM, kind, _function(*known[kind]), *plotted))
 
@@ -458,8 +453,7 @@ def _check_options(text: Message, kind: str, function: Callable[..., Any], given
     known = [p.name for p in list(signature(function).parameters.values())[1:]]
     for option in given:
         if option not in known:
-            suggestion = nearest(option, known)
-            raise GrueblerError(text.filled(kind=kind, option=option, suggestion=suggestion, known=", ".join(known)))
+            raise GrueblerError(text.filled(kind=kind, **unknown(option, known)))
 
 
 def _title(mechanism: Mechanism) -> str:

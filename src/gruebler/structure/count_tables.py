@@ -15,7 +15,7 @@ from typing import Any, Literal
 import msgspec
 
 from gruebler.base.doors import door
-from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.errors import GrueblerError, unknown
 from gruebler.base.text import LANGUAGES, Text
 from gruebler.structure.atlas.schema import arrow_library
 
@@ -178,10 +178,7 @@ def count_table(name: str) -> CountTable:
     tables = count_tables()
     if name not in tables:
         raise GrueblerError(
-            "there is no table of counts {name!r}{suggestion}; there are {names}",
-            name=name,
-            suggestion=nearest(name, tables),
-            names=", ".join(tables),
+            "there is no table of counts {word!r}{suggestion}; there are {known}", **unknown(name, tables)
         )
     return tables[name]
 

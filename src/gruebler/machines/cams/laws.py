@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Reals
-from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.errors import GrueblerError, unknown
 from gruebler.base.text import Message, message
 from gruebler.machines.cams.extremes import extremes
 
@@ -262,6 +262,4 @@ def motion_law(name: str) -> MotionLaw:
     parts = known.split("-")
     if all(part.isascii() and part.isdigit() and len(part) < 3 for part in parts):
         return polynomial_law(*map(int, parts))
-    raise CamError(
-        "no law is called {name!r}: {laws}{suggestion}", name=name, laws=", ".join(LAWS), suggestion=nearest(name, LAWS)
-    )
+    raise CamError("no law is called {word!r}: {known}{suggestion}", **unknown(name, LAWS))

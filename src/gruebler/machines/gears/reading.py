@@ -25,7 +25,7 @@ from fractions import Fraction
 from itertools import pairwise, permutations
 from typing import Any
 
-from gruebler.base.errors import nearest
+from gruebler.base.errors import nearest, unknown
 from gruebler.base.notebook import explained
 from gruebler.machines.gears.mesh_kinds import KINDS
 from gruebler.machines.gears.messages import explain_train
@@ -117,13 +117,7 @@ def read_toml(text: str, name: str = "TOML") -> TrainReading:
     known: dict[str, tuple[type, ...]] = {"train": (str, list), "drive": (dict,), "load": (dict,), "hold": (list,)}
     for key, value in document.items():
         if key not in known:
-            raise GearError(
-                "{name}: no key is called {key!r}: {known}{suggestion}",
-                name=name,
-                key=key,
-                known=", ".join(known),
-                suggestion=nearest(key, known),
-            )
+            raise GearError("{name}: no key is called {word!r}: {known}{suggestion}", name=name, **unknown(key, known))
         if not isinstance(value, known[key]):
             raise GearError(
                 "{name}: {key} has the wrong form: train is text, drive and load are tables, hold a list",

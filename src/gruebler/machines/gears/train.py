@@ -14,7 +14,7 @@ from numbers import Rational
 
 from gruebler.base import notebook
 from gruebler.base.doors import door
-from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.errors import GrueblerError, unknown
 from gruebler.base.immutable import settle
 from gruebler.base.text import Message, message
 from gruebler.machines.gears.mesh_kinds import KINDS, MeshKind, Unit
@@ -79,12 +79,7 @@ class Mesh:
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
-            raise GearError(
-                "no kind of mesh is called {kind!r}: {kinds}{suggestion}",
-                kind=self.kind,
-                kinds=", ".join(KINDS),
-                suggestion=nearest(self.kind, KINDS),
-            )
+            raise GearError("no kind of mesh is called {word!r}: {known}{suggestion}", **unknown(self.kind, KINDS))
         if len({self.a, self.b, self.carrier}) < 3 and not (self.carrier == FRAME and self.a != self.b):
             raise GearError("a mesh joins two different links and is carried by a third: {mesh}", mesh=self)
         for name, raw_size in ((self.a, self.size_a), (self.b, self.size_b)):
@@ -213,10 +208,7 @@ class Train:
         """The link, if the train has it; otherwise an error that offers the nearest name."""
         if link not in self.links:
             raise GearError(
-                "the train has no moving link {link!r}{suggestion}; its links are {links}",
-                link=link,
-                links=", ".join(self.links),
-                suggestion=nearest(link, self.links),
+                "the train has no moving link {word!r}{suggestion}; its links are {known}", **unknown(link, self.links)
             )
         return link
 

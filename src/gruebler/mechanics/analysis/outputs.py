@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from gruebler.base.arrays import Reals
-from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.errors import LinkageError, unknown
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.wheels import sliding_joint
@@ -57,10 +57,7 @@ def find_output(linkage: Linkage, output: str | None = None) -> Output:
     sliding = [text for k, text in enumerate(mechanism.chain.joint_names()) if sliding_joint(linkage, k)]
     known = [*mechanism.chain.links, *sliding]
     raise LinkageError(
-        "an output is a link or a sliding joint{suggestion}; {name!r} is none of {known}",
-        suggestion=nearest(str(name), known),
-        name=name,
-        known=", ".join(known),
+        "an output is a link or a sliding joint{suggestion}; {word!r} is none of {known}", **unknown(name, known)
     )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler.base.arrays import Complexes, Flags, Reals, compared_by_value
-from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.errors import LinkageError, unknown
 from gruebler.base.text import Message, message
 from gruebler.mechanics.forces.laws import Law, LoadFormula, State
 from gruebler.mechanics.forces.loads import Loads
@@ -281,11 +281,9 @@ class ActingLoads:
         links = self.linkage.mechanism.chain.links
         if link not in links:
             raise LinkageError(
-                "{why}, but there is no link {link!r}{suggestion}; the links are {links}",
+                "{why}, but there is no link {word!r}{suggestion}; the links are {known}",
                 why=why,
-                link=link,
-                suggestion=nearest(str(link), links),
-                links=", ".join(links),
+                **unknown(link, links),
             )
         return self.links.index(link)
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.doors import door_that_raises
-from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.errors import LinkageError, unknown
 from gruebler.base.formulas import Formula
 from gruebler.base.immutable import settle
 
@@ -134,12 +134,7 @@ class Curve:
         if len(points) < 2 or not np.isfinite(points).all() or any(b <= a for a, b in itertools.pairwise(ways)):
             raise LinkageError("a curve has two points or more, finite, whose first numbers increase")
         if self.of not in (*VARIABLES, "length"):
-            raise LinkageError(
-                "a curve is one of {known}, not of {found!r}{suggestion}",
-                known=", ".join(VARIABLES),
-                found=self.of,
-                suggestion=nearest(self.of, VARIABLES),
-            )
+            raise LinkageError("a curve is one of {known}, not of {word!r}{suggestion}", **unknown(self.of, VARIABLES))
         if self.period is not None and not (
             0 < self.period < 1e100 and ways[-1] - ways[0] <= self.period * (1 + 1e-12)
         ):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import atan2, degrees, pi, radians, sqrt
 
-from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.errors import LinkageError, unknown
 from gruebler.base.text import Message, message
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.geometry.lever_contact import LeverContact, lever_contact, lever_pose
@@ -100,10 +100,7 @@ def guidance(key: str) -> Guidance:
             return row
     keys = [row.key for row in GUIDANCES]
     raise LinkageError(
-        "there is no straight-line linkage {key!r}{suggestion}; known are {keys}",
-        key=key,
-        suggestion=nearest(key, keys),
-        keys=", ".join(keys),
+        "there is no straight-line linkage {word!r}{suggestion}; known are {known}", **unknown(key, keys)
     )
 
 

@@ -13,7 +13,7 @@ from cmath import rect
 import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
-from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.errors import LinkageError, unknown
 from gruebler.base.jets import turn_derivative, turned_derivative
 from gruebler.base.text import message
 from gruebler.mechanics.linkages import Linkage, LinkPoint, Pose2D
@@ -59,12 +59,7 @@ class LinkPoses(ABC):
         """Where a link is in the arrays' last axis; `LinkageError` offers the nearest name."""
         if link not in self.links:
             known = self.linkage.mechanism.chain.links
-            raise LinkageError(
-                "there is no link {link!r}{suggestion}; the links are {links}",
-                link=link,
-                suggestion=nearest(str(link), known),
-                links=", ".join(known),
-            )
+            raise LinkageError("there is no link {word!r}{suggestion}; the links are {known}", **unknown(link, known))
         return self.links.index(link)
 
     def point(self, name: PointLike, *, order: int = 0) -> Reals:

@@ -9,7 +9,7 @@ from typing import Annotated, Protocol
 
 import numpy as np
 
-from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.errors import LinkageError, unknown
 from gruebler.mechanics.linkages.elements import Element, LinkPoint
 from gruebler.structure.chain.pairs import in_alphabets
 from gruebler.structure.mechanism import Mechanism
@@ -62,10 +62,7 @@ def points_of(linkage: Dimensioned, point: PointLike) -> tuple[LinkPoint, ...]:
             known = [*linkage.points, *chain.joint_names()]
             names = in_alphabets(lambda alphabet: ", ".join([*linkage.points, *chain.joint_names(alphabet)]))
             raise LinkageError(
-                "there is no point {name!r}{suggestion}; known are {known}",
-                name=name,
-                suggestion=nearest(name, known),
-                known=names,
+                "there is no point {word!r}{suggestion}; known are {known}", **unknown(name, known) | {"known": names}
             )
         case _:
             raise LinkageError(
@@ -85,12 +82,7 @@ def link_number(link: str, links: Sequence[str]) -> int:
     2
     """
     if link not in links:
-        raise LinkageError(
-            "there is no link {link!r}{suggestion}; the links are {links}",
-            link=link,
-            suggestion=nearest(str(link), links),
-            links=", ".join(links),
-        )
+        raise LinkageError("there is no link {word!r}{suggestion}; the links are {known}", **unknown(link, links))
     return links.index(link)
 
 

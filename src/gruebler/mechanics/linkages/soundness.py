@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from math import hypot, pi
 
-from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.errors import LinkageError, unknown
 from gruebler.base.text import Message, message
 from gruebler.mechanics.linkages.contacts import check_contacts, check_elements_fit
 from gruebler.mechanics.linkages.elements import Element, LinkPoint, Outline, Pose2D, read_element
@@ -63,11 +63,7 @@ def checked_link(mechanism: Mechanism, link: str, where: str | Message) -> str:
     if link not in mechanism.chain.links:
         known = mechanism.chain.links
         raise LinkageError(
-            "{where}: there is no link {link!r}{suggestion}; links are {known}",
-            where=where,
-            link=link,
-            suggestion=nearest(str(link), known),
-            known=", ".join(known),
+            "{where}: there is no link {word!r}{suggestion}; links are {known}", where=where, **unknown(link, known)
         )
     return link
 

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Reals
 from gruebler.base.doors import door_that_raises
-from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.errors import LinkageError, unknown
 from gruebler.base.immutable import Immutable, settle
 from gruebler.mechanics.linkages.points import link_number
 from gruebler.mechanics.screws.joint_places import JointPlace, Vector, joint_axes, read_place
@@ -142,12 +142,7 @@ class SpatialLinkage(Immutable):
         number = chain.find_joint(name)
         if number is None:
             known = [*self.points, *chain.joint_names()]
-            raise LinkageError(
-                "there is no point {name!r}{suggestion}; known are {known}",
-                name=name,
-                suggestion=nearest(name, known),
-                known=", ".join(known),
-            )
+            raise LinkageError("there is no point {word!r}{suggestion}; known are {known}", **unknown(name, known))
         link = next(link for link in chain.joints[number].links if link != self.mechanism.frame)
         return link, self.places[number].at
 

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
-from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.errors import LinkageError, unknown
 from gruebler.base.text import message, translate
 from gruebler.mechanics.analysis.courses import Course
 from gruebler.mechanics.analysis.drive_cycles import PathCycle
@@ -316,10 +316,5 @@ BELOW = ("dead-centres", "centrodes", "inflection")
 def layer(name: str) -> Layer:
     """A layer by name; `LinkageError` for an unknown name."""
     if name not in LAYERS:
-        raise LinkageError(
-            "there is no layer {name!r}{suggestion}; there are {layers}",
-            name=name,
-            suggestion=nearest(name, LAYERS),
-            layers=", ".join(LAYERS),
-        )
+        raise LinkageError("there is no layer {word!r}{suggestion}; there are {known}", **unknown(name, LAYERS))
     return LAYERS[name]

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.base.arrays import Complexes
-from gruebler.base.errors import LinkageError, nearest
+from gruebler.base.errors import LinkageError, unknown
 from gruebler.base.text import translate
 from gruebler.mechanics.kinematics import Motion
 from gruebler.pictures.canvas.axes import as_text
@@ -56,10 +56,9 @@ def _number(context: LayerContext) -> int:
         known = context.posed.linkage.mechanism.chain.links
         link_names = ", ".join(known)
         raise LinkageError(
-            "centrodes and the inflection circle belong to a link{suggestion}; {output!r} is none of {links}",
-            suggestion=nearest(output, known),
-            output=output,
+            "centrodes and the inflection circle belong to a link{suggestion}; {word!r} is none of {links}",
             links=link_names,
+            **unknown(output, known),
         )
     return links.index(floating_link(context.posed.linkage) if output is None else output)
 

@@ -9,7 +9,7 @@ from math import cos, pi, sqrt
 import numpy as np
 
 from gruebler.base.arrays import Reals
-from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.errors import GrueblerError, unknown
 from gruebler.base.text import Message, message
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.structure.chain.spaces import Space
@@ -66,10 +66,5 @@ def usual_view(linkage: SpatialLinkage) -> str:
 def view_named(name: str) -> View:
     """The view of a name; `GrueblerError` offers the nearest."""
     if name not in VIEWS:
-        raise GrueblerError(
-            "there is no view {name!r}{suggestion}; there are {known}",
-            name=name,
-            suggestion=nearest(name, VIEWS),
-            known=", ".join(VIEWS),
-        )
+        raise GrueblerError("there is no view {word!r}{suggestion}; there are {known}", **unknown(name, VIEWS))
     return VIEWS[name]

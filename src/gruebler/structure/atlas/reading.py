@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gruebler.base.errors import GrueblerError, RunError, nearest
+from gruebler.base.errors import GrueblerError, RunError, unknown
 from gruebler.structure.atlas.building import manifest_of
 from gruebler.structure.atlas.parts import AtlasTask
 from gruebler.structure.atlas.schema import arrow_library
@@ -83,10 +83,9 @@ class Atlas:
         """
         if table not in self.tables:
             raise GrueblerError(
-                "the atlas in {directory} has no table {table!r}{suggestion}",
+                "the atlas in {directory} has no table {word!r}{suggestion}",
                 directory=self.directory,
-                table=table,
-                suggestion=nearest(table, self.tables),
+                **unknown(table, self.tables),
             )
         files = [self.directory / file["path"] for file in self.manifest["tables"][table]["files"]]
         missing = next((file for file in files if not file.is_file()), None)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from gruebler.base import notebook
 from gruebler.base.doors import door_that_raises
-from gruebler.base.errors import ChainError, GrueblerError, NotationError, expect, nearest
+from gruebler.base.errors import ChainError, GrueblerError, NotationError, expect, unknown
 from gruebler.base.immutable import Immutable, settle
 from gruebler.base.text import message
 from gruebler.structure.chain import graphs, notation
@@ -233,9 +233,7 @@ class Chain(Immutable):
         try:
             return self._places[link]
         except KeyError:
-            raise ChainError(
-                "the chain has no link {link!r}{suggestion}", link=link, suggestion=nearest(link, self.links)
-            ) from None
+            raise ChainError("the chain has no link {word!r}{suggestion}", **unknown(link, self.links)) from None
 
     @cached_property
     def _places(self) -> dict[str, int]:
@@ -311,10 +309,9 @@ class Chain(Immutable):
             names = [name for alphabet in Alphabet for name in self.joint_names(alphabet)]
             raise error(
                 message(
-                    "{joint!r} is not one of the joints{suggestion}; they are {joints}",
-                    joint=joint,
-                    suggestion=nearest(joint, names),
+                    "{word!r} is not one of the joints{suggestion}; they are {joints}",
                     joints=in_alphabets(lambda alphabet: ", ".join(self.joint_names(alphabet))),
+                    **unknown(joint, names),
                 )
             )
         return number

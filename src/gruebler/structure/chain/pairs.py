@@ -24,7 +24,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from types import MappingProxyType
 
-from gruebler.base.errors import PairError, nearest
+from gruebler.base.errors import PairError, unknown
 from gruebler.base.immutable import settle
 from gruebler.base.text import LANGUAGES, Text, joined, message
 from gruebler.structure.chain.spaces import Freedom, Space
@@ -503,5 +503,5 @@ def pair(name: str) -> Pair:
             raise PairError(
                 "unknown pair {name!r}: expected a full name such as 'revolute'; Chain.parse() reads letters", name=name
             )
-        raise PairError("unknown pair {name!r}{suggestion}", name=name, suggestion=nearest(name, BY_FULL_NAME))
+        raise PairError("unknown pair {word!r}{suggestion}", **unknown(name, BY_FULL_NAME))
     return row

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from numbers import Integral
 
 from gruebler.base.disjoint_sets import DisjointSets
-from gruebler.base.errors import ChainError, PairError, nearest
+from gruebler.base.errors import ChainError, PairError, unknown
 from gruebler.base.text import Message, joined, message
 from gruebler.structure.chain.joint import Joint
 from gruebler.structure.chain.pairs import Pair, pair
@@ -126,10 +126,9 @@ def checked_links(links: Iterable[str | int], named: tuple[str, ...], joints: tu
     if stranger is not None:
         where = next(j for j in joints if stranger in j.links)
         raise ChainError(
-            "the joint {joint} names the link {stranger!r}, which is not among the links{suggestion}",
+            "the joint {joint} names the link {word!r}, which is not among the links{suggestion}",
             joint=where,
-            stranger=stranger,
-            suggestion=nearest(stranger, declared),
+            **unknown(stranger, declared),
         )
     lonely = next((link for link in declared if link not in joined), None)
     if lonely is not None:

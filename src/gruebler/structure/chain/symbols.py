@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from gruebler.base.errors import PairError, nearest
+from gruebler.base.errors import PairError, unknown
 from gruebler.base.text import Message, joined, joined_by_or, message
 from gruebler.structure.chain.pairs import BY_FULL_NAME, PAIRS, Alphabet, Pair, pair
 from gruebler.structure.chain.spaces import Space
@@ -67,12 +67,11 @@ def _refuse_unknown(letters: list[str]) -> None:
     for symbol in letters:
         if symbol not in known:
             raise PairError(
-                "unknown joint symbol {symbol!r}{suggestion}; the symbols are {international} (international) and "
+                "unknown joint symbol {word!r}{suggestion}; the symbols are {international} (international) and "
                 "{german} (German), or the full name of a pair",
-                symbol=symbol,
-                suggestion=nearest(symbol, (*known, *BY_FULL_NAME)),
                 international=", ".join(sorted({p.symbol() for p in PAIRS if Alphabet.INTERNATIONAL in p.symbols})),
                 german=", ".join(dict.fromkeys(p.symbols[Alphabet.GERMAN] for p in PAIRS)),
+                **unknown(symbol, (*known, *BY_FULL_NAME)),
             )
 
 

@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import radians
 
-from gruebler.base.errors import GrueblerError, nearest
-from gruebler.base.text import Message, joined, joined_by_or, message
+from gruebler.base.errors import GrueblerError, unknown
+from gruebler.base.text import Message, joined_by_or, message
 from gruebler.design.synthesis.dead_centres import dead_centre_family
 from gruebler.design.synthesis.tasks import DeadCentreTask
 from gruebler.mechanics.linkages.quantities import as_positive
@@ -187,10 +187,7 @@ def construction(name: str, form: str = "", **values: Value) -> Construction:
 def _row(name: str) -> ConstructionRow:
     if name not in CONSTRUCTIONS:
         raise GrueblerError(
-            "there is no construction {name!r}{suggestion}; there are {known}",
-            name=name,
-            suggestion=nearest(name, CONSTRUCTIONS),
-            known=joined(CONSTRUCTIONS, ", "),
+            "there is no construction {word!r}{suggestion}; there are {known}", **unknown(name, CONSTRUCTIONS)
         )
     return CONSTRUCTIONS[name]
 
@@ -203,11 +200,7 @@ def _checked(name: str, key: str, value: Value, known: Mapping[str, Value]) -> V
     """A quantity as the construction takes it."""
     if key not in known:
         raise GrueblerError(
-            "{name} has no quantity {key!r}{suggestion}; it has {known}",
-            name=name,
-            key=key,
-            suggestion=nearest(key, known),
-            known=joined(known, ", "),
+            "{name} has no quantity {word!r}{suggestion}; it has {known}", name=name, **unknown(key, known)
         )
     if isinstance(known[key], str):
         return value

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.errors import GrueblerError, unknown
 from gruebler.base.text import LANGUAGES, Readable, message, translate_in_context
 from gruebler.files import Exercise
 from gruebler.files.catalog_records import Question
@@ -110,11 +110,7 @@ def _key_of(name: str, exercise: Exercise, results: Mapping[str, Result]) -> str
         )
     names = [plain_name(results[key]) for key in ([a.key for a in exercise.asked] or results)]
     raise GrueblerError(
-        "{id} does not ask for {word!r}{suggestion}; it asks for {asked}",
-        id=exercise.id,
-        word=name,
-        suggestion=nearest(name, names),
-        asked=", ".join(names),
+        "{id} does not ask for {word!r}{suggestion}; it asks for {known}", id=exercise.id, **unknown(name, names)
     )
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from functools import cache
 
-from gruebler.base.errors import CatalogError, nearest
+from gruebler.base.errors import CatalogError, unknown
 from gruebler.files import Exercise, read_exercise
 from gruebler.teaching.catalog import catalog_folder, exercises
 from gruebler.teaching.catalog.record_folders import RecordFolder
@@ -47,6 +47,5 @@ def exercise(word: str) -> Exercise:
     raise CatalogError(
         "there is no exercise {word!r}{suggestion}; `gruebler exercise list` shows them, and a fresh "
         "task is named KIND-LEVEL-SEED, such as grashof-1-7",
-        word=word,
-        suggestion=nearest(word, known),
+        **unknown(word, known),
     )

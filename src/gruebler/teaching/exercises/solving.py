@@ -10,7 +10,7 @@ from functools import cache, lru_cache
 from importlib import import_module
 from inspect import isfunction
 
-from gruebler.base.errors import CatalogError, nearest
+from gruebler.base.errors import CatalogError, unknown
 from gruebler.base.text import LANGUAGES, Readable, in_every_language, joined, message
 from gruebler.files import Exercise
 from gruebler.files.catalog_records import Question
@@ -63,9 +63,7 @@ def solve(exercise: Exercise) -> Solution:
 @lru_cache(maxsize=256)
 def _solve(id: str, name: str, quantities: tuple[tuple[str, float | str], ...], machines: tuple[str, ...]) -> Solution:
     if name not in methods():
-        raise CatalogError(
-            "{id}: unknown method {method!r}{suggestion}", id=id, method=name, suggestion=nearest(name, methods())
-        )
+        raise CatalogError("{id}: unknown method {word!r}{suggestion}", id=id, **unknown(name, methods()))
     method, arguments = methods()[name], dict(quantities)
     if name == "mobility.machines" and not arguments:
         arguments = {"machines": " ".join(machines)}
@@ -96,11 +94,7 @@ def with_values(exercise: Exercise, values: Mapping[str, float | str]) -> Exerci
     for key, value in values.items():
         if key not in parameters:
             raise CatalogError(
-                "{id} has no quantity {key!r}{suggestion}; it has {known}",
-                id=exercise.id,
-                key=key,
-                suggestion=nearest(key, parameters),
-                known=joined(parameters, ", "),
+                "{id} has no quantity {word!r}{suggestion}; it has {known}", id=exercise.id, **unknown(key, parameters)
             )
         for other in set().union(*(group for group in _ALTERNATIVES if key in group)) - {key, *values}:
             given.pop(other, None)

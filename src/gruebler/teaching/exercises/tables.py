@@ -9,7 +9,7 @@ from math import degrees, pi, radians, tau
 
 import numpy as np
 
-from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.errors import GrueblerError, unknown
 from gruebler.base.text import Message, Text, arity, in_every_language, joined, message
 from gruebler.machines.cams import read_lift
 from gruebler.machines.gears import read_train, speeds
@@ -324,12 +324,7 @@ def teaching_table(name: str, lengths: Sequence[float] = ()) -> tuple[TeachingTa
     ['Kurbelschwinge', 'Kurbelschwinge', 'Doppelkurbel', 'Doppelschwinge mit umlaufender Koppel']
     """
     if name not in TABLES:
-        raise GrueblerError(
-            "the teaching tables are {tables}, not {name!r}{suggestion}",
-            tables=", ".join(TABLES),
-            name=name,
-            suggestion=nearest(name, TABLES),
-        )
+        raise GrueblerError("the teaching tables are {known}, not {word!r}{suggestion}", **unknown(name, TABLES))
     if not lengths:
         return TABLES[name]()
     if name != "inversions" or len(lengths) != len(_SIDES):

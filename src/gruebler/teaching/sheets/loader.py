@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cache
 
-from gruebler.base.errors import CatalogError, nearest
+from gruebler.base.errors import CatalogError, unknown
 from gruebler.teaching.catalog import catalog_folder
 from gruebler.teaching.catalog.record_folders import RecordFolder
 from gruebler.teaching.sheets.model import Sheet
@@ -25,10 +25,5 @@ def all_sheets() -> Mapping[str, Sheet]:
 def sheet(id: str) -> Sheet:
     """The sheet of this id; `CatalogError` with the nearest one for any other word."""
     if id not in all_sheets():
-        raise CatalogError(
-            "there is no sheet {id!r}{suggestion}; known are {sheets}",
-            id=id,
-            suggestion=nearest(id, all_sheets()),
-            sheets=", ".join(all_sheets()),
-        )
+        raise CatalogError("there is no sheet {word!r}{suggestion}; known are {known}", **unknown(id, all_sheets()))
     return all_sheets()[id]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import groupby
 
-from gruebler.base.errors import GrueblerError, nearest
+from gruebler.base.errors import GrueblerError, unknown
 from gruebler.base.text import translate
 from gruebler.pictures.canvas.gallery import Item, Section
 from gruebler.pictures.structure import draw_structure
@@ -32,12 +32,7 @@ def poster(name: str, links: int | None = None, lang: str = "en") -> tuple[str, 
     [1, 2]
     """
     if name not in POSTERS:
-        raise GrueblerError(
-            "there is no poster {name!r}{suggestion}; there are {known}",
-            name=name,
-            suggestion=nearest(name, POSTERS),
-            known=", ".join(POSTERS),
-        )
+        raise GrueblerError("there is no poster {word!r}{suggestion}; there are {known}", **unknown(name, POSTERS))
     if name not in _MOST:
         if links is not None:
             raise GrueblerError("the poster {name} has no number of links", name=name)
