@@ -314,165 +314,45 @@ class Pair:
         return self.symbols.get(alphabet, self.name if alphabet is Alphabet.INTERNATIONAL else self.german)
 
 
-def _symbols(german: str, international: str = "") -> Mapping[Alphabet, str]:
-    both = {Alphabet.GERMAN: german, Alphabet.INTERNATIONAL: international}
-    return MappingProxyType({alphabet: symbol for alphabet, symbol in both.items() if symbol})
+_ROWS = """
+revolute           Drehgelenk                      D    R Rz             - z  z  lower    form,material       group
+prismatic          Schubgelenk,Schleifengelenk     S    P Tx             x .  x  lower    form,force,material group
+helical            Schraubgelenk                   W    H Hz             . .  z  lower    form                group
+rolling            Wälzgelenk                      W    W Rz             y yz .  higher   force               .
+cylindrical        Drehschubgelenk                 DS   C Rz,Tz          . .  z  lower    form                group
+roll_slide         Gleitwälzgelenk,Rollgleitgelenk G    G Rz,Tx          y yz yz higher   form,force          .
+double_slide       Doppelschubgelenk               S2   . Tx,Ty          - .  z  lower    form,force          group
+universal          Kreuzgelenk                     D2   U Rx,Ry          . .  xy lower    form                .
+spherical          Kugelgelenk                     D3   S Rx,Ry,Rz       . .  -  lower    form                group
+planar             Plattengelenk                   DS2  E Rz,Tx,Ty       . .  z  lower    force,form          group
+ball_groove        Kugelrillengelenk               D2S  . Ry,Rz,Tx       . .  yz higher   form                .
+ball_cylinder      Kugelrohrgelenk                 D3S  . Rx,Ry,Rz,Tx    . .  x  higher   form                .
+cylinder_plane     Zylinderflächengelenk           D2S2 . Ry,Rz,Tx,Tz    . .  yz higher   force               .
+double_cylindrical Doppeldrehschubgelenk           D2S2 . Rx,Ry,Tx,Ty    . .  xy compound form                .
+ball_plane         Kugelflächengelenk              D3S2 . Rx,Ry,Rz,Tx,Tz . .  y  higher   force               .
+"""
+"""English name, German names, German and international symbol, motion, the axes that a place names in the plane, on
+the sphere and in space (- for none, . where the pair does not exist), contact, closures, and whether it is a group."""
 
 
-def _motion(freedoms: str) -> tuple[Freedom, ...]:
-    return tuple(map(Freedom, freedoms.split()))
+def _pair_of_row(row: str) -> Pair:
+    name, german, own, international, motion, *axes, contact, closures, group = row.split()
+    symbols = {Alphabet.GERMAN: own, Alphabet.INTERNATIONAL: international}
+    return Pair(
+        name=name,
+        german=german.split(",")[0],
+        symbols=MappingProxyType({alphabet: symbol for alphabet, symbol in symbols.items() if symbol != "."}),
+        motion=tuple(map(Freedom, motion.split(","))),
+        axes={s: named.strip("-") for s, named in zip(_SPACES, axes, strict=True) if named != "."},
+        contact=Contact(contact),
+        closures=tuple(map(Closure, closures.split(","))),
+        other_names=tuple(german.split(",")[1:]),  # a Schleifengelenk is a slide whose direction turns
+        is_group=group == "group",
+    )
 
 
-_PLANE, _SPHERE, _SPACE = Space.PLANAR, Space.SPHERICAL, Space.SPATIAL
-_LOWER, _HIGHER = Contact.LOWER, Contact.HIGHER
-_FORM, _FORCE, _MATERIAL = Closure.FORM, Closure.FORCE, Closure.MATERIAL
-
-PAIRS: tuple[Pair, ...] = (
-    Pair(
-        name="revolute",
-        german="Drehgelenk",
-        symbols=_symbols("D", "R"),
-        motion=_motion("Rz"),
-        axes={_PLANE: "", _SPHERE: "z", _SPACE: "z"},
-        contact=_LOWER,
-        closures=(_FORM, _MATERIAL),
-        is_group=True,
-    ),
-    Pair(
-        name="prismatic",
-        german="Schubgelenk",
-        symbols=_symbols("S", "P"),
-        motion=_motion("Tx"),
-        axes={_PLANE: "x", _SPACE: "x"},
-        contact=_LOWER,
-        closures=(_FORM, _FORCE, _MATERIAL),
-        other_names=("Schleifengelenk",),  # a slide whose direction turns
-        is_group=True,
-    ),
-    Pair(
-        name="helical",
-        german="Schraubgelenk",
-        symbols=_symbols("W", "H"),
-        motion=_motion("Hz"),
-        axes={_SPACE: "z"},
-        contact=_LOWER,
-        closures=(_FORM,),
-        is_group=True,
-    ),
-    Pair(
-        name="rolling",
-        german="Wälzgelenk",
-        symbols=_symbols("W", "W"),
-        motion=_motion("Rz"),
-        axes={_PLANE: "y", _SPHERE: "yz"},
-        contact=_HIGHER,
-        closures=(_FORCE,),
-    ),
-    Pair(
-        name="cylindrical",
-        german="Drehschubgelenk",
-        symbols=_symbols("DS", "C"),
-        motion=_motion("Rz Tz"),
-        axes={_SPACE: "z"},
-        contact=_LOWER,
-        closures=(_FORM,),
-        is_group=True,
-    ),
-    Pair(
-        name="roll_slide",
-        german="Gleitwälzgelenk",
-        symbols=_symbols("G", "G"),
-        motion=_motion("Rz Tx"),
-        axes={_PLANE: "y", _SPHERE: "yz", _SPACE: "yz"},
-        contact=_HIGHER,
-        closures=(_FORM, _FORCE),
-        other_names=("Rollgleitgelenk",),
-    ),
-    Pair(
-        name="double_slide",
-        german="Doppelschubgelenk",
-        symbols=_symbols("S2"),
-        motion=_motion("Tx Ty"),
-        axes={_PLANE: "", _SPACE: "z"},
-        contact=_LOWER,
-        closures=(_FORM, _FORCE),
-        is_group=True,
-    ),
-    Pair(
-        name="universal",
-        german="Kreuzgelenk",
-        symbols=_symbols("D2", "U"),
-        motion=_motion("Rx Ry"),
-        axes={_SPACE: "xy"},
-        contact=_LOWER,
-        closures=(_FORM,),
-    ),
-    Pair(
-        name="spherical",
-        german="Kugelgelenk",
-        symbols=_symbols("D3", "S"),
-        motion=_motion("Rx Ry Rz"),
-        axes={_SPACE: ""},
-        contact=_LOWER,
-        closures=(_FORM,),
-        is_group=True,
-    ),
-    Pair(
-        name="planar",
-        german="Plattengelenk",
-        symbols=_symbols("DS2", "E"),
-        motion=_motion("Rz Tx Ty"),
-        axes={_SPACE: "z"},
-        contact=_LOWER,
-        closures=(_FORCE, _FORM),
-        is_group=True,
-    ),
-    Pair(
-        name="ball_groove",
-        german="Kugelrillengelenk",
-        symbols=_symbols("D2S"),
-        motion=_motion("Ry Rz Tx"),
-        axes={_SPACE: "yz"},
-        contact=_HIGHER,
-        closures=(_FORM,),
-    ),
-    Pair(
-        name="ball_cylinder",
-        german="Kugelrohrgelenk",
-        symbols=_symbols("D3S"),
-        motion=_motion("Rx Ry Rz Tx"),
-        axes={_SPACE: "x"},
-        contact=_HIGHER,
-        closures=(_FORM,),
-    ),
-    Pair(
-        name="cylinder_plane",
-        german="Zylinderflächengelenk",
-        symbols=_symbols("D2S2"),
-        motion=_motion("Ry Rz Tx Tz"),
-        axes={_SPACE: "yz"},
-        contact=_HIGHER,
-        closures=(_FORCE,),
-    ),
-    Pair(
-        name="double_cylindrical",
-        german="Doppeldrehschubgelenk",
-        symbols=_symbols("D2S2"),
-        motion=_motion("Rx Ry Tx Ty"),
-        axes={_SPACE: "xy"},
-        contact=Contact.COMPOUND,
-        closures=(_FORM,),
-    ),
-    Pair(
-        name="ball_plane",
-        german="Kugelflächengelenk",
-        symbols=_symbols("D3S2"),
-        motion=_motion("Rx Ry Rz Tx Tz"),
-        axes={_SPACE: "y"},
-        contact=_HIGHER,
-        closures=(_FORCE,),
-    ),
-)
+_SPACES = (Space.PLANAR, Space.SPHERICAL, Space.SPATIAL)
+PAIRS: tuple[Pair, ...] = tuple(map(_pair_of_row, _ROWS.strip().splitlines()))
 _TURNING = next(p for p in PAIRS if p.is_turning)
 _SLIDING = next(p for p in PAIRS if p.is_sliding)
 
