@@ -19,10 +19,6 @@ def dynamics_table(run: InverseDynamics, *, lang: str = "en") -> Table:
 
     Power is in watts; the shaking moment is about the origin of the frame.
 
-    Args:
-        run: The forces.
-        lang: Of the names of the columns.
-
     >>> from gruebler.mechanics.dynamics import inverse_dynamics
     >>> from gruebler.mechanics.forces import Loads, RigidBody
     >>> from gruebler.mechanics.fourbar import SliderCrank
@@ -55,12 +51,7 @@ def dynamics_table(run: InverseDynamics, *, lang: str = "en") -> Table:
 
 
 def simulation_table(run: Simulation, *, lang: str = "en") -> Table:
-    """Columns of time, then those of the motion's table, then the energies in joules.
-
-    Args:
-        run: The free motion.
-        lang: Of the names of the columns.
-    """
+    """Columns of time, then those of the motion's table, then the energies in joules."""
     joule, energy = metres_of(run.linkage.unit), float(run.kinetic.max(initial=0.0)) + float(np.ptp(run.potential))
     energies = (
         (translate("kinetic energy", lang), run.kinetic),

@@ -24,10 +24,6 @@ def statics_table(statics: Statics, *, lang: str = "en") -> Table:
     against self-locking; joint forces are those with friction, and behind them stand the friction forces of slides and
     friction moments of pins.
 
-    Args:
-        statics: The forces.
-        lang: Of the names of the columns.
-
     >>> from gruebler.mechanics.forces import Loads, statics
     >>> from gruebler.mechanics.fourbar import SliderCrank
     >>> from gruebler.mechanics.kinematics import move
@@ -99,10 +95,7 @@ def _friction_columns(statics: Statics, rubbing: FrictionForces, names: Sequence
 def component_table(statics: Statics, lang: str = "en", *, reactions: bool = True) -> Table:
     """Columns of the components of all joint forces, and the moments of slides and of pins that rub, over the rows.
 
-    Args:
-        statics: The forces.
-        lang: Of the names of the columns.
-        reactions: On all links of a joint; otherwise of two links only on one, not on the frame.
+    Forces of a joint are those on all its links; without ``reactions`` of two links only on one, not on the frame.
     """
     linkage = statics.motion.linkage
     mechanism, largest = linkage.mechanism, _largest_force(statics)

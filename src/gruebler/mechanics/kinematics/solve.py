@@ -57,45 +57,13 @@ def move(
     jerk: ArrayLike = 0.0,
     order: int | None = None,
 ) -> Motion:
-    """Move a linkage along a path of its drives.
+    """Move a linkage of the plane along a path of its drives: `gruebler.move`, which has the arguments, for the plane.
 
-    Args:
-        linkage: a linkage whose drives fix the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`.
-        drives: (rows,) for one drive, (rows, drives) for several: angles in radians, displacements in the linkage's
-            unit. Between rows the drives move on straight lines.
-        branch: the assembly mode at the first row, such as ``"+-"`` (`kinematics.branches`); without it the
-            one that leads from the linkage's reference pose to the first row, by the shortest way that the drives can
-            go, or all ``+`` and 1.
-        speed: the drives' velocity, one number or like ``drives``; 1 if only an order is given.
-        acceleration: likewise.
-        jerk: likewise.
-        order: 0 positions, 1 with velocities, 2 with accelerations, 3 with jerks; 2 if a speed is given, else 0.
-
-    Returns:
-        `Motion`: (rows, 2) places, (rows,) angles in radians and their rates; ``stop`` says where and why the path
-        could not be followed to its end. A linkage that cannot be assembled at the first row has a motion without
-        rows, with a warning.
-
-    Raises:
-        LinkageError: drives that do not fix the motion, numbers that are not usable, an unknown branch.
-        AssemblyWarning: nothing can be assembled at the first row; a warning, since in a search this is an answer.
-
-    Cost:
-        10 to 30 ns a pose of a dyad where rows are taken in sweeps, 0.1 to 0.3 us where each is walked to, 1 to 3 us of
-        a group of four links.
-
-    Example:
-        >>> from gruebler.mechanics.kinematics import from_degrees
-        >>> from gruebler.mechanics.fourbar import FourBar
-        >>> motion = move(FourBar(a=25, b=70, c=40, d=70).linkage(), from_degrees(0, 360, 1), speed=10)
-        >>> len(motion), motion.complete, bool(motion.closure_error < 1e-13)
-        (361, True, True)
-
-    See Also:
-        `Motion`, `move_many`, `circuit`, `measures`, `from_degrees`, `rpm`
-
-    Theory:
-        docs/theory/kinematics.md
+    >>> from gruebler.mechanics.kinematics import from_degrees
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> motion = move(FourBar(a=25, b=70, c=40, d=70).linkage(), from_degrees(0, 360, 1), speed=10)
+    >>> len(motion), motion.complete, bool(motion.closure_error < 1e-13)
+    (361, True, True)
     """
     plan = linkage if isinstance(linkage, Plan) else cached_plan(as_linkage(linkage))
     path = drive_path(plan, drives)
@@ -295,32 +263,11 @@ def _stop(plan: Plan, at: float, drives: Reals, part: Dyad | HigherGroup, reason
 
 @door_that_raises(LinkageError)
 def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]:
-    """Every assembly mode that a linkage has at a drive value, as `move` takes it for ``branch``.
+    """Every assembly mode that a linkage of the plane has at a drive value: `gruebler.assembly_modes` for the plane.
 
-    Args:
-        linkage: whose drives fix the motion.
-        drives: a value for each drive: angles in radians, displacements in the linkage's unit.
-
-    Returns:
-        The modes as texts that ``branch`` takes, such as ``"+-"``; `possible_modes` of the room says how many there can
-        be.
-
-    Raises:
-        LinkageError: drives that do not fix the motion, values that are no numbers, more than one for a drive.
-
-    Cost:
-        One solution for each mode.
-
-    Example:
-        >>> from gruebler.mechanics.fourbar import FourBar
-        >>> assembly_modes(FourBar(25, 70, 40, 70), 1.0)
-        ['+', '-']
-
-    See Also:
-        `move`, `circuit`
-
-    Theory:
-        docs/theory/assembly-modes.md
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> assembly_modes(FourBar(25, 70, 40, 70), 1.0)
+    ['+', '-']
     """
     plan = cached_plan(as_linkage(linkage))
     row = row_of_values(drives, len(plan.linkage.mechanism.drives))

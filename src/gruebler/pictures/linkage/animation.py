@@ -99,18 +99,7 @@ def scene(
 ) -> Scene:
     """The content of an animation, for all formats.
 
-    Args:
-        linkage: with one drive, or with several and a path of them.
-        loads: whose centres of mass and springs are drawn.
-        branch: the assembly mode, as for `gruebler.mechanics.kinematics.move`.
-        between: drive values between which it moves; by default the full range.
-        speed: of the drive, even: forces of joints and loads at it are drawn as arrows.
-        drives: (rows, drives) a piecewise straight path of the drives, from its first row to its last.
-        curves: points or joints whose paths are drawn.
-        seconds: for a turn, or for both directions of a motion to and fro.
-        lang: language of title and description, ``en`` or ``de``.
-        name: the title; by default the kind of mechanism.
-        outlines: lines that links carry, in coordinates of the links.
+    Options as for `gruebler.animate`; ``outlines`` are lines that links carry, in coordinates of the links.
 
     Raises `LinkageError` for several drives, unknown points, or a time that is no positive number.
     """

@@ -44,14 +44,7 @@ def hodograph(
 ) -> Figure:
     """The curves of the tips of velocity vectors, with drive values beside the first.
 
-    Args:
-        linkage: with one drive.
-        points: named points or joints.
-        speed: of the drive, in radians or lengths a second; without it velocities are by drive: lengths per radian.
-        branch: as for `gruebler.mechanics.kinematics.move`.
-        between: drive values between which it is plotted; by default the full range.
-        lang: ``en`` or ``de``.
-        name: of the linkage; by default its kind.
+    Options as for `gruebler.plot`.
 
     Raises `LinkageError` for several drives, unknown points, none or more than eight.
 
@@ -147,17 +140,8 @@ def family_plot(
 ) -> Figure:
     """The coupler curves of a family of points: evenly spaced on a line of one link.
 
-    Args:
-        linkage: with one drive.
-        link: the link of the points; by default the first that is no neighbour of the frame.
-        start: one end of the line, as x + iy in coordinates of the link; by default, with the other end, on the line
-            through the first two joints or points of the link, half their distance beyond the first.
-        end: the other end.
-        count: of points, 2 to 8.
-        branch: as for `gruebler.mechanics.kinematics.move`.
-        between: drive values between which it is plotted; by default the full range.
-        lang: ``en`` or ``de``.
-        name: of the linkage; by default its kind.
+    Options as for `gruebler.plot`; ``start`` and ``end`` as x + iy in coordinates of the link, by default on the line
+    through its first two joints or points, half their distance beyond each.
 
     Raises `LinkageError` for several drives, an unknown link, or one without two joints where a line is needed.
 

@@ -34,11 +34,6 @@ _THROUGH = 0.04  # of the range: values beyond the curves
 def effort_plot(run: InverseDynamics, *, lang: str = "en", name: str = "") -> Figure:
     """The effort of the drive with its mean, and below it the power, over the drive.
 
-    Args:
-        run: of one drive, in two rows or more.
-        lang: ``en`` or ``de``.
-        name: of the linkage; by default its kind.
-
     >>> from gruebler.mechanics.dynamics import inverse_dynamics
     >>> from gruebler.mechanics.forces import Loads, RigidBody
     >>> from gruebler.mechanics.fourbar import SliderCrank
@@ -86,12 +81,8 @@ def force_plot(
 ) -> Figure:
     """The forces of joints as curves of the tips of their arrows, with drive values beside the first.
 
-    Args:
-        run: of one drive, in two rows or more.
-        points: Names of joints, at most eight; without them the pins on the frame. A joint with the frame shows the
-            force on the frame, another one that on its last link.
-        lang: ``en`` or ``de``.
-        name: of the linkage; by default its kind.
+    ``points`` are at most eight joints, by default the pins on the frame. A joint with the frame shows the force on the
+    frame, another one that on its last link.
     """
     linkage, motion = run.motion.linkage, run.motion
     chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
@@ -122,13 +113,7 @@ def force_plot(
 
 @door_that_raises(LinkageError)
 def phase_plot(run: Simulation, *, lang: str = "en", name: str = "") -> Figure:
-    """The speed of the drive over its value while a linkage moves by itself; a dot where it starts.
-
-    Args:
-        run: Of one drive, in two rows or more.
-        lang: ``en`` or ``de``.
-        name: of the linkage; by default its kind.
-    """
+    """The speed of the drive over its value while a linkage moves by itself; a dot where it starts."""
     _one_drive(run.linkage, len(run))
     turning = run.linkage.mechanism.drives[0].turning
     x, speed = np.degrees(run.drives[:, 0]) if turning else run.drives[:, 0], run.speeds[:, 0]

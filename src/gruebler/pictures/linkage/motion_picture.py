@@ -22,11 +22,6 @@ _GHOSTS = 5
 def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
     """A solved motion; for a motion without a pose the structure of its mechanism, with the reason.
 
-    Args:
-        motion: of one or several drives.
-        lang: language of title and description, ``en`` or ``de``.
-        name: the title; by default the kind of mechanism.
-
     >>> from gruebler.mechanics.kinematics import from_degrees, move
     >>> from gruebler.mechanics.fourbar import FourBar
     >>> motion = move(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), from_degrees(0, 90, 5))

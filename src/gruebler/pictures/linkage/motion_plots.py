@@ -44,14 +44,7 @@ def transfer_plot(
 ) -> Figure:
     """The transfer functions of order 0, 1 and 2 over the drive, one below the other, with dead centres and dwells.
 
-    Args:
-        linkage: with one drive.
-        output: a link or sliding joint; by default the linkage's own output.
-        branch: the assembly mode, as for `gruebler.mechanics.kinematics.move`.
-        between: drive values between which it is plotted (radians, or a length); by default the full range.
-        lang: ``en`` or ``de``.
-        name: of the linkage; by default its kind.
-        names: other names for links.
+    Options as for `gruebler.plot`.
 
     Raises `LinkageError` for several drives, an unknown output, the frame, and if the linkage's own output moves
     without turning.

@@ -104,25 +104,7 @@ def draw_linkage(
 ) -> Figure:
     """The picture of a linkage in one pose.
 
-    Args:
-        linkage: the linkage.
-        loads: whose centres of mass and springs are drawn.
-        branch: the assembly mode, as for `gruebler.mechanics.kinematics.move`.
-        at: the drive's value (radians, or a length), one for each drive; by default a suitable one.
-        between: drive values of its range, for curves and the size of the picture; by default the full range.
-        speed: of the drive, even: forces of joints and loads at it are drawn as arrows.
-        curves: points or joints whose paths are drawn.
-        show: ``dead-centres``, ``transmission``, ``velocities``, ``accelerations``, ``poles``, ``centrodes``,
-            ``inflection``, ``planes``, ``dimensions``, ``scale``, ``joints``, ``angles``, ``lengths`` (letters).
-        output: the link of dead centres and transmission angle, by default the linkage's own output; also
-            that of centrodes and inflection circle, by default a link that is no neighbour of the frame.
-        ghost: the number of thinly drawn positions, evenly through the range of the drive; at most 60.
-        labels: whether to name the links.
-        lang: language of title and description, ``en`` or ``de``.
-        name: the title; by default the kind of mechanism.
-        names: other names for links in the picture.
-        letters: names of the turning joints in their order, for ``joints``; by default A₀, A, B, B₀ and so on.
-        outlines: lines that links carry, in coordinates of the links.
+    Options as for `gruebler.draw`; ``outlines`` are lines that links carry, in coordinates of the links.
 
     Raises `gruebler.LinkageError` for unreachable poses, unknown names, and layers that need a single drive.
 

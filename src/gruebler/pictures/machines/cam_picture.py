@@ -47,12 +47,7 @@ _TITLES = {
 def draw_cam(cam: Cam, *, at: float | None = None, plot: bool = False, lang: str = "en", name: str = "") -> Figure:
     """A cam with its follower in one position, with base circle, pitch curve and pressure angle.
 
-    Args:
-        cam: the cam.
-        at: the cam's angle in radians; by default that of the greatest pressure angle.
-        plot: whether diagrams of lift and its two derivatives over a turn are below.
-        lang: language of title and description, ``en`` or ``de``.
-        name: the title; by default the kind of cam.
+    Options as for `gruebler.draw`; without ``at`` at its greatest pressure angle.
 
     Raises `gruebler.CamError` for an angle that is no finite number.
 

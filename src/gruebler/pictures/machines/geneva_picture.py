@@ -38,12 +38,7 @@ _TITLES = {
 def draw_geneva(geneva: Geneva, *, at: float = 0.0, plot: bool = False, lang: str = "en", name: str = "") -> Figure:
     """A Geneva drive in one position of its driver.
 
-    Args:
-        geneva: the drive; pins, walls and locking disc have sensible thicknesses.
-        at: the driver's angle in radians; 0: a pin on the line of centres.
-        plot: whether diagrams of the wheel's angle, ratio and acceleration over a turn are below.
-        lang: language of title and description, ``en`` or ``de``.
-        name: the title; by default the kind of drive.
+    Options as for `gruebler.draw`; pins, walls and locking disc have sensible thicknesses.
 
     Raises `gruebler.GenevaError` for an angle that is no finite number.
 

@@ -49,12 +49,7 @@ def draw_train(
 ) -> Figure:
     """A gear train in the reference pose, to scale by its tooth numbers or radii.
 
-    Args:
-        train: the train.
-        planets: the numbers of equal planets by name.
-        teeth: whether gears with whole tooth numbers have involute teeth.
-        lang: language of title and description, ``en`` or ``de``.
-        name: the title; by default "Gear train".
+    Options as for `gruebler.draw`.
 
     >>> from gruebler.machines.gears import read_train
     >>> figure = draw_train(read_train("sun:24 planet:18 ring:-60 on arm").train, planets={"planet": 3})
@@ -80,16 +75,8 @@ def animate_train(
 ) -> MovingPicture:
     """A gear train that moves with its exact ratios until every link has its initial position, repeated without end.
 
-    Args:
-        train: the train.
-        drives: speeds of links, as for `gruebler.machines.gears.speeds`; by default links that determine all others are
-            chosen, the first turning and the others held.
-        planets: the numbers of equal planets by name.
-        teeth: whether gears with whole tooth numbers have involute teeth.
-        seconds: for a turn of the fastest link; with links that slide, for both directions.
-        most: turns of the fastest link; a longer cycle ends after whole turns of the drive, with a note.
-        lang: language of title and description, ``en`` or ``de``.
-        name: the title; by default "Gear train".
+    Options as for `gruebler.animate`; without ``drives`` links that determine all others are chosen, the first turning
+    and the others held. A cycle of more than ``most`` turns of the fastest link ends after whole turns of the drive.
 
     Raises `gruebler.GearError` if the drives do not determine all speeds, or nothing moves,
     `gruebler.GrueblerError` for a time that is no positive number of seconds.

@@ -38,15 +38,7 @@ def animate_spatial(
 ) -> FramePicture:
     """A full turn of the drive, or its range to and fro.
 
-    Args:
-        linkage: what moves.
-        between: values of its first drive between which it moves to and fro; others stay at 0.
-        drives: (rows, drives) a piecewise straight path of its drives, there and back.
-        curves: points or joints whose paths are drawn.
-        view: ``isometric`` or ``oblique``; without it oblique for bevel wheels, else isometric.
-        seconds: for a turn, or for there and back.
-        lang: language of title and description.
-        name: the title.
+    Options as for `gruebler.animate`; ``between`` are values of the first drive, others stay at 0.
 
     Raises `LinkageError` for drives that cannot go there.
     """

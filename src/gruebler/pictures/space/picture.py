@@ -40,17 +40,7 @@ def draw_spatial(
 ) -> Figure:
     """A linkage in space, or on the sphere, to scale.
 
-    Args:
-        linkage: what is drawn.
-        at: the values of its drives, to which it moves from its reference pose; without them that pose.
-        between: values of its drive, over which curves are drawn; without them its whole range.
-        curves: points or joints whose paths are drawn.
-        view: ``isometric`` or ``oblique``; without it oblique for bevel wheels, else isometric.
-        labels: whether to name the links.
-        symbols: whether to write the letters of the joints.
-        names: other names for links.
-        lang: language of title, description and letters.
-        name: the title.
+    Options as for `gruebler.draw`.
 
     Raises `LinkageError` for drive values that cannot be reached.
     """

@@ -44,14 +44,7 @@ def plot_spatial(
 
     The values are those of `gruebler.mechanics.space.motion_tables.spatial_table`, 0 in the reference pose.
 
-    Args:
-        linkage: with a drive.
-        output: a joint; by default that of the linkage's own output.
-        drive: of several drives the one that moves; by default the first.
-        between: drive values between which it is plotted (radians, or a length); by default a turn, or the range of
-            the only drive.
-        lang: ``en`` or ``de``.
-        name: of the linkage; by default its kind.
+    Options as for `gruebler.plot`; without ``between`` a turn, or the range of the only drive.
 
     Raises `LinkageError` for a joint without values, drive values that cannot be reached, slides among several drives
     without values between which they move.

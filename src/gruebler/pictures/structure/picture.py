@@ -84,17 +84,7 @@ def draw_structure(
 ) -> Figure:
     """The structure picture of a chain or a mechanism.
 
-    Args:
-        structure: the chain or mechanism.
-        labels: whether to name the links.
-        symbols: whether to write the symbol of its pair beside every joint whose sign is none, in the alphabet of the
-            language.
-        contacts: what the bodies of higher pairs are, by joint number and link, in the words of
-            `gruebler.pictures.canvas.contacts.CONTACTS`: ``gear``, ``cam``, ``roller``, ...
-        outputs: links that get a double arrow.
-        lang: language of title and description, ``en`` or ``de``.
-        name: the title; by default a name derived from the structure.
-        names: other names for links in the picture.
+    Options as for `gruebler.draw`; ``contacts`` in the words of `gruebler.pictures.canvas.contacts.CONTACTS`.
 
     Raises `gruebler.base.errors.ChainError` for an output that is no link.
 

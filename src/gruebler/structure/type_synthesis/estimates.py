@@ -18,11 +18,6 @@ _DRIVEN = 1e-3  # a frame with its drives, and the check that they fix the motio
 def expected_seconds_of_variants(requirements: Requirements, *, mechanisms: bool, drives: bool) -> float:
     """The estimated time of `variants`, to a factor of about three; symmetry shortens it.
 
-    Args:
-        requirements: the requirements.
-        mechanisms: whether frames are distinguished.
-        drives: whether drives are, too.
-
     Every assignment of the pairs to the joints of every chain counts.
 
     >>> few = expected_seconds_of_variants(Requirements(6, prismatic=2), mechanisms=False, drives=False)
