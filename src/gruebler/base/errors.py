@@ -9,7 +9,8 @@ import re
 import reprlib
 import sys
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from contextvars import ContextVar
 from difflib import get_close_matches
 from typing import Any, ParamSpec, Protocol, TypeVar
@@ -68,6 +69,21 @@ class GrueblerError(ValueError):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _again, (type(self), self.text, self.values)
+
+
+@contextmanager
+def naming(place: object, kind: type[GrueblerError]) -> Iterator[None]:
+    """What goes wrong within is said of a place: a file, a line, a key.
+
+    >>> with naming("a.toml", LinkageError):
+    ...     raise GrueblerError("no joint")
+    Traceback (most recent call last):
+    gruebler.base.errors.LinkageError: a.toml: no joint
+    """
+    try:
+        yield
+    except GrueblerError as error:
+        raise kind("{place}: {error}", place=place, error=error) from None
 
 
 def _again(kind: type[GrueblerError], text: str, values: dict[str, Any]) -> GrueblerError:

@@ -9,7 +9,7 @@ from itertools import groupby, islice
 from pathlib import Path
 from typing import Any
 
-from gruebler.base.errors import GrueblerError
+from gruebler.base.errors import GrueblerError, naming
 from gruebler.base.text import Message, message, plural, reason_of, translate
 from gruebler.cli.draw import called, subject
 from gruebler.cli.inputs import assortment_of, outputs_of
@@ -147,11 +147,9 @@ def _line(word: str, number: int, arguments: argparse.Namespace) -> Item:
         return _machine(word, arguments)
     if not is_structure_text(word) and not Path(word).is_file():
         entry(word)  # raises with the nearest ids
-    try:
+    with naming(message("number {number}, {word!r}", number=number, word=word[:40]), GrueblerError):
         shown = subject(word, None, None, [])
         outputs = outputs_of(word)
-    except GrueblerError as error:
-        raise GrueblerError("number {number}, {word!r}: {error}", number=number, word=word[:40], error=error) from None
     name = chain_name(shown, arguments.lang) if isinstance(shown, Chain) else family(shown, arguments.lang)
     words = [str(number), name or "", *(translate("output {link}", arguments.lang, link=link) for link in outputs)]
     if arguments.side:

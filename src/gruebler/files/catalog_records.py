@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 import msgspec
 
 from gruebler.base.documents import convert_document, load_document
-from gruebler.base.errors import CatalogError, ChainError, GrueblerError, NotationError, PairError
+from gruebler.base.errors import CatalogError, naming
 from gruebler.base.text import LANGUAGES, Message, Text, message, translate
 from gruebler.files.linkage_records import Dimensions, linkage_from_record
 from gruebler.files.load_records import LoadsRecord
@@ -429,10 +429,8 @@ def _read(path: Path, kind: type[Record]) -> Record:
 
 def _check(entry: Entry, path: Path | str) -> None:
     """What the shape of a record cannot say."""
-    try:
+    with naming(f"{path}: joints", CatalogError):
         chain = entry.chain()
-    except (ChainError, NotationError, PairError) as error:
-        raise CatalogError("{path}: joints: {error}", path=path, error=error) from None
     for key, names, number_of in (
         ("frame", (entry.frame,) if entry.frame is not None else (), chain.index),
         ("outputs", entry.outputs, chain.index),
@@ -443,18 +441,14 @@ def _check(entry: Entry, path: Path | str) -> None:
         ("drives", entry.drives, chain.joint_number),
     ):
         for name in names:
-            try:
+            with naming(f"{path}: {key}", CatalogError):
                 number_of(name)
-            except ChainError as error:
-                raise CatalogError("{path}: {key}: {error}", path=path, key=key, error=error) from None
     if entry.screws is not None:
         if entry.screws.assumed == bool(entry.screws.source):
             raise CatalogError("{path}: screws: either assumed = true, or a source that prints them", path=path)
-        try:
+        with naming(path, CatalogError):
             entry.placed()
             entry.pictured()
-        except GrueblerError as error:
-            raise CatalogError("{path}: {error}", path=path, error=error) from None
     known = {point for sizes in (entry.dimensions, entry.screws) if sizes is not None for point in sizes.points}
     for point in entry.points:
         if point not in known or point in entry.links:
@@ -474,10 +468,8 @@ def _check_loads(entry: Entry, path: Path | str) -> None:
         return
     if entry.loads.assumed == bool(entry.loads.source):
         raise CatalogError("{path}: {key}: either assumed = true, or a source that prints them", path=path, key="loads")
-    try:
+    with naming(path, CatalogError):
         entry.loaded()
-    except GrueblerError as error:
-        raise CatalogError("{path}: {error}", path=path, error=error) from None
 
 
 _ALL_NUMBERS = tuple(dict.fromkeys(key for keys in MOTION_NUMBERS.values() for key in keys))
@@ -506,7 +498,5 @@ def _check_dimensions(entry: Entry, sizes: Sizes, chain: Chain, path: Path | str
         raise CatalogError("{path}: dimensions.drive: for an entry without drives, one of its joints", path=path)
     if sizes.range is not None and not -1e9 < sizes.range[0] < sizes.range[1] < 1e9:
         raise CatalogError("{path}: dimensions.range: expected two numbers, the smaller first", path=path)
-    try:
+    with naming(f"{path}: dimensions", CatalogError):
         entry.linkage()
-    except GrueblerError as error:
-        raise CatalogError("{path}: dimensions: {error}", path=path, error=error) from None

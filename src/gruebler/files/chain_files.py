@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from zlib import error as ZlibError
 
 from gruebler.base.atomic_files import atomic_file
-from gruebler.base.errors import GrueblerError
+from gruebler.base.errors import GrueblerError, naming
 from gruebler.base.text import Message, message, reason_of
 from gruebler.files.dot import dot_from_chain, graph_from_dot
 from gruebler.files.structures import chain_of_text
@@ -287,10 +287,8 @@ def _chains(path: Path, lines: BinaryIO | gzip.GzipFile, parse: Callable[[str], 
             raise GrueblerError("{path}, line {number}: is not UTF-8 text", path=path, number=number) from None
         if not text or text.startswith("#"):
             continue
-        try:
+        with naming(message("{path}, line {number}", path=path, number=number), GrueblerError):
             yield parse(text)
-        except GrueblerError as error:
-            raise GrueblerError("{path}, line {number}: {error}", path=path, number=number, error=error) from None
 
 
 def write_lines(chains: Iterable[Chain], path: Path, form: str) -> int:

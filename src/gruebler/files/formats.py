@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.documents import load_document
-from gruebler.base.errors import GrueblerError
+from gruebler.base.errors import GrueblerError, naming
 from gruebler.base.text import Message, message, reason_of
 
 if TYPE_CHECKING:
@@ -100,10 +100,8 @@ def _own_document(path: Path, left_out: list[Message]) -> Value:
 def _chain(path: Path, document: Any) -> Chain:
     from gruebler.structure.chain import Chain
 
-    try:
+    with naming(path, GrueblerError):
         return Chain.from_json(document)
-    except GrueblerError as error:
-        raise GrueblerError("{path}: {error}", path=path, error=error) from None
 
 
 def _write_own_document(value: Any, path: Path, left_out: list[Message]) -> None:
@@ -370,10 +368,8 @@ def _graph(name: str, suffixes: tuple[str, ...], title: Message, carries: Messag
 
         del left_out
         text = read_text(path)
-        try:
+        with naming(path, GrueblerError):
             return chain_from_graph_text(text, name)
-        except GrueblerError as error:
-            raise GrueblerError("{path}: {error}", path=path, error=error) from None
 
     def write(value: Any, path: Path, left_out: list[Message]) -> None:
         from gruebler.files.chain_files import graph_text

@@ -14,7 +14,7 @@ from typing import Any
 import msgspec
 
 from gruebler.base.documents import convert_document
-from gruebler.base.errors import LinkageError, UnitWarning, unknown
+from gruebler.base.errors import LinkageError, UnitWarning, naming, unknown
 from gruebler.base.text import joined_by_and, message
 from gruebler.files.angles import in_degrees
 from gruebler.files.element_records import in_short, read_element_table, read_numbers
@@ -155,10 +155,8 @@ def _door(
     branch = given.pop("branch")
     if branch not in ("+", "-"):
         raise LinkageError("{way}.branch: expected + or -, but found {branch!r}", way=form, branch=branch)
-    try:
+    with naming(form, LinkageError):
         door: ClosedForm = _DOORS[form](**given)
-    except LinkageError as error:
-        raise LinkageError("{way}: {error}", way=form, error=error) from None
     linkage = linkage_on_mechanism(form, door, branch, mechanism, unit=sizes.unit, outputs=outputs)
     points = _points(sizes.points, linkage.mechanism.chain.links)
     return linkage.with_points(points) if points else linkage
@@ -169,10 +167,8 @@ def _by_joint(
 ) -> dict[str | int, object]:
     elements: dict[str | int, object] = {}
     for joint, raw in values.items():
-        try:
+        with naming(where, LinkageError):
             number = mechanism.chain.joint_number(joint, error=LinkageError)
-        except LinkageError as error:
-            raise LinkageError("{where}: {error}", where=where, error=error) from None
         if number in elements:
             raise LinkageError("{where}.{joint}: this joint is given twice", where=where, joint=joint)
         elements[number] = _element(raw, f"{where}.{joint}", slots)

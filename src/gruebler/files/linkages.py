@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.documents import convert_document, load_document
-from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.errors import LinkageError, naming
 from gruebler.files.element_records import write_element
 from gruebler.files.linkage_records import Dimensions, linkage_from_record
 from gruebler.files.load_records import LoadsRecord
@@ -57,10 +57,8 @@ def read_linkage(path: Path | str) -> Linkage:
             path=path,
         )
     refuse_entry(data, path)
-    try:
+    with naming(path, LinkageError):
         return linkage_from_json(data)
-    except LinkageError as error:
-        raise LinkageError("{path}: {error}", path=path, error=error) from None
 
 
 def refuse_entry(data: object, path: Path) -> None:
@@ -87,10 +85,8 @@ def read_loaded(path: Path | str) -> tuple[Linkage, Loads, float | None]:
 
     linkage, path = read_linkage(path), Path(path)
     data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
-    try:
+    with naming(path, LinkageError):
         return linkage, *loads_of_document(data, linkage)
-    except LinkageError as error:
-        raise LinkageError("{path}: {error}", path=path, error=error) from None
 
 
 def linkage_from_json(document: Mapping[str, Any]) -> Linkage:
@@ -118,28 +114,20 @@ def _mechanism(record: LinkageRecord) -> Mechanism | None:
         raise LinkageError(
             "joints: {count:,} characters are more than {longest:,}", count=len(record.joints), longest=_LONGEST
         )
-    try:
+    with naming("joints", LinkageError):
         chain = Chain.parse(record.joints)
-    except GrueblerError as error:
-        raise LinkageError("joints: {error}", error=error) from None
     if record.links is not None:
-        try:
+        with naming("links", LinkageError):
             chain = Chain(chain.joints, links=record.links, space=chain.space)
-        except GrueblerError as error:
-            raise LinkageError("links: {error}", error=error) from None
     frame = chain.links[0] if record.frame is None else record.frame
-    try:
+    with naming("frame", LinkageError):
         chain.index(frame)
-    except GrueblerError as error:
-        raise LinkageError("frame: {error}", error=error) from None
     return _driven(chain, frame, record.drives or ())
 
 
 def _driven(chain: Chain, frame: str, drives: tuple[str, ...]) -> Mechanism:
-    try:
+    with naming("drives", LinkageError):
         return Mechanism(chain, frame, drives)
-    except GrueblerError as error:
-        raise LinkageError("drives: {error}", error=error) from None
 
 
 def linkage_to_json(linkage: Linkage, loads: Loads | None = None, speed: float | None = None) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 import msgspec
 
 from gruebler.base.documents import convert_document
-from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.errors import GrueblerError, LinkageError, naming
 from gruebler.base.units import quantity_of
 from gruebler.files.element_records import in_short, read_numbers
 from gruebler.files.load_records import (
@@ -258,10 +258,8 @@ _KEYS = {
 
 def _told(where: str, make: Callable[[], Value]) -> Value:
     """What is made; errors have the key in front."""
-    try:
+    with naming(where, LinkageError):
         return make()
-    except GrueblerError as error:
-        raise LinkageError("{where}: {error}", where=where, error=error) from None
 
 
 def _place(raw: Any, where: str, default: tuple[float, float] | None = None) -> tuple[float, float]:

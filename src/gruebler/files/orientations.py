@@ -14,7 +14,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.documents import convert_document, load_document
-from gruebler.base.errors import SynthesisError
+from gruebler.base.errors import SynthesisError, naming
 
 
 class _Orientations(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -40,14 +40,12 @@ def read_orientations(path: Path | str) -> Reals:
     path = Path(path)
     if path.suffix.lower() not in (".toml", ".json"):
         raise SynthesisError("{path}: orientations are in a .toml or .json file", path=path)
-    try:
+    with naming(path, SynthesisError):
         record = convert_document(load_document(path, SynthesisError), _Orientations, SynthesisError)
         turns = [_checked(row, k) for k, row in enumerate(record.orientations, 1)]
         if not 3 <= len(turns) <= 5:
             raise SynthesisError("expected three to five orientations, but found {count}", count=len(turns))
         return np.array(turns)
-    except SynthesisError as error:
-        raise SynthesisError("{path}: {error}", path=path, error=error) from None
 
 
 def _checked(row: Sequence[Any], number: int) -> Reals:

@@ -15,7 +15,8 @@ import msgspec
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.documents import convert_document, infinities_as_words, load_document
-from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.errors import LinkageError, naming
+from gruebler.base.text import message
 from gruebler.files.linkage_records import PointRecord
 from gruebler.files.linkages import check_linkage_path, linkage_from_json, refuse_entry, toml_key, toml_value
 from gruebler.mechanics.linkages import Linkage
@@ -94,13 +95,11 @@ def spatial_from_json(document: Mapping[str, Any]) -> SpatialLinkage:
     <spatial linkage spatial: R(0-1) H(1-2) P(0-2); frame=0; (0, 0, 0) (0, 0, 0) (0, 50, 0)>
     """
     record = convert_document(document, SpatialRecord, LinkageError)
-    try:
+    with naming(message("joints, links, frame or drives"), LinkageError):
         chain = Chain.parse(record.joints, space=record.space)
         if record.links is not None:
             chain = Chain(chain.joints, links=record.links, space=chain.space)
         mechanism = Mechanism(chain, chain.links[0] if record.frame is None else record.frame, record.drives)
-    except GrueblerError as error:
-        raise LinkageError("joints, links, frame or drives: {error}", error=error) from None
     return spatial_linkage_from_record(record.screws, mechanism, record.outputs)
 
 
@@ -166,9 +165,7 @@ def read_any_linkage(path: Path | str) -> Linkage | SpatialLinkage:
         raise LinkageError("{path}: a linkage is in a .toml or .json file", path=path)
     data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
     refuse_entry(data, path)
-    try:
+    with naming(path, LinkageError):
         if isinstance(data, Mapping) and "screws" in data:
             return spatial_from_json(data)
         return linkage_from_json(data)
-    except LinkageError as error:
-        raise LinkageError("{path}: {error}", path=path, error=error) from None

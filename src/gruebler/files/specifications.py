@@ -13,7 +13,7 @@ from typing import Any
 import msgspec
 
 from gruebler.base.documents import convert_document, load_document
-from gruebler.base.errors import SynthesisError
+from gruebler.base.errors import SynthesisError, naming
 from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.specification import Clearance, Specification
 from gruebler.files.tasks import read_task, task_from_json
@@ -73,7 +73,5 @@ def read_specification(path: Path | str) -> Specification:
     path = Path(path)
     if path.suffix.lower() not in (".toml", ".json"):
         return Specification(read_task(path))
-    try:
+    with naming(path, SynthesisError):
         return specification_from_json(load_document(path, SynthesisError))
-    except SynthesisError as error:
-        raise SynthesisError("{path}: {error}", path=path, error=error) from None

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from gruebler.base.documents import load_document
-from gruebler.base.errors import CatalogError, GrueblerError, NotationError
-from gruebler.base.text import reason_of
+from gruebler.base.errors import CatalogError, NotationError, naming
+from gruebler.base.text import message, reason_of
 from gruebler.files.catalog_records import Entry, entry_of_data, read_entry
 from gruebler.files.linkages import linkage_from_json
 from gruebler.files.screws import read_any_linkage, spatial_from_json
@@ -123,10 +123,8 @@ def structures_of_json(text: str, source: str) -> Iterator[Structure]:
         if isinstance(each, dict) and "id" in each:
             yield Structure(name, place, entry_of_data(each, place))
             continue
-        try:
+        with naming(place, NotationError):
             structure = _structure_of_document(each)
-        except GrueblerError as error:
-            raise NotationError("{place}: {error}", place=place, error=error) from None
         yield Structure(name, place, structure)
 
 
@@ -152,10 +150,8 @@ def structures_of_lines(text: str, source: str, space: str | None = None) -> Ite
         if not line.strip() or line.lstrip().startswith("#"):
             continue
         empty = False
-        try:
+        with naming(message("{source}, line {number}", source=source, number=number), NotationError):
             chain = chain_of_text(line, space)
-        except GrueblerError as error:
-            raise NotationError("{source}, line {number}: {error}", source=source, number=number, error=error) from None
         yield Structure(line.strip(), f"{source}, line {number}", chain)
     if empty:
         raise NotationError("{source}: no chain in it; expected one per line", source=source)

@@ -18,7 +18,7 @@ import msgspec
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.documents import convert_document, load_document
-from gruebler.base.errors import SynthesisError, UnitWarning
+from gruebler.base.errors import SynthesisError, UnitWarning, naming
 from gruebler.base.text import reason_of
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.tasks import (
@@ -263,13 +263,11 @@ def read_task(path: Path | str) -> Task:
     path = Path(path)
     if path.suffix.lower() not in (".toml", ".json", ".csv"):
         raise SynthesisError("{path}: a task is in a .toml, .json or .csv file", path=path)
-    try:
+    with naming(path, SynthesisError):
         if path.suffix.lower() == ".csv":
             return _from_csv(_text(path))
         data = load_document(path, SynthesisError)
         return task_from_json(data)
-    except SynthesisError as error:
-        raise SynthesisError("{path}: {error}", path=path, error=error) from None
 
 
 def _text(path: Path) -> str:

@@ -11,7 +11,8 @@ from math import log, pi
 import numpy as np
 
 from gruebler.base.arrays import Reals
-from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.errors import LinkageError, naming
+from gruebler.base.text import message
 from gruebler.machines.cams import Cam, CamError, Flat, Roller, read_lift
 from gruebler.machines.geneva import Geneva
 from gruebler.mechanics.kinematics.noncircular import transfer_of
@@ -46,7 +47,7 @@ class PiecewiseLaw:
 @lru_cache(maxsize=64)
 def cam_of(disc: CamDisc) -> Cam:
     """The cam of an element, in its own unit; `LinkageError` for one that cannot be."""
-    try:
+    with naming(message("cam"), LinkageError):
         if disc.flat and (disc.roller or disc.offset or disc.arm):
             raise CamError("a flat face has no roller, no offset and no arm")
         if disc.face and not disc.flat:
@@ -55,8 +56,6 @@ def cam_of(disc: CamDisc) -> Cam:
         lift = read_lift(disc.lift)
         cam = Cam(lift.scaled(pi / 180) if follower.swings else lift, disc.base, follower)
         undercut = cam.findings().undercut
-    except GrueblerError as error:
-        raise LinkageError("cam: {error}", error=error) from None
     if undercut:
         raise LinkageError("cam: the profile crosses itself, so that the follower cannot follow the lift")
     return cam
@@ -130,10 +129,8 @@ def geneva_law(driver: GenevaDriver, cross: GenevaWheel) -> PiecewiseLaw:
 
     `LinkageError` for a pair that cannot be.
     """
-    try:
+    with naming(message("Geneva drive"), LinkageError):
         drive = Geneva(cross.slots, internal=cross.internal, pins=driver.pins)
-    except GrueblerError as error:
-        raise LinkageError("Geneva drive: {error}", error=error) from None
     pitch = 2 * pi / driver.pins
     bounds = sorted({k * pitch + side * drive.engaged for k in range(driver.pins) for side in (-1, 1)})
     bounds = [*bounds, bounds[0] + 2 * pi]

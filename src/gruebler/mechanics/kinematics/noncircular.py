@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Complexes, Reals
-from gruebler.base.errors import GrueblerError, LinkageError
+from gruebler.base.errors import LinkageError, naming
 from gruebler.machines.cams import Lift, read_lift
 from gruebler.mechanics.linkages import NonCircular
 
@@ -76,10 +76,8 @@ class WheelTransfer:
 def transfer_of(wheel: NonCircular, other: NonCircular) -> WheelTransfer:
     """The transfer function of a wheel and the one that is its inverse; `LinkageError` for one that cannot be."""
     mean = Fraction(wheel.teeth, other.teeth) if wheel.teeth else Fraction(1)
-    try:
+    with naming("transfer", LinkageError):
         transfer = _read(wheel.transfer, mean)
-    except GrueblerError as error:
-        raise LinkageError("transfer: {error}", error=error) from None
     if max(mean.numerator, mean.denominator) > _LOBES:
         raise LinkageError(
             "transfer: the mean ratio is one of numbers up to {lobes}, not {mean}", lobes=_LOBES, mean=mean

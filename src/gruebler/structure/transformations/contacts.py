@@ -6,7 +6,7 @@ which makes a prismatic joint of that end. Counted and generic mobility stay: do
 
 from __future__ import annotations
 
-from gruebler.base.errors import ChainError, TransformationError
+from gruebler.base.errors import TransformationError, naming
 from gruebler.base.text import message
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.pairs import Pair, pair
@@ -78,8 +78,6 @@ def restore_roll_slide(chain: Chain, link: str) -> Step:
     joints_left = [(j.pair, list(j.links)) for j in chain.joints]
     joints_left[numbers[0]] = contact
     del joints_left[numbers[1]]
-    try:
+    with naming(message("without {link} there is no chain left", link=link), TransformationError):
         restored = Chain(joints_left, links=[a for a in chain.links if a != link], space=chain.space)
-    except ChainError as error:
-        raise TransformationError("without {link} there is no chain left: {error}", link=link, error=error) from None
     return Step("restore_roll_slide", {"link": link}, chain, restored)

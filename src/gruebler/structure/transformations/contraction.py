@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from gruebler.base.errors import ChainError, TransformationError
+from gruebler.base.errors import TransformationError, naming
+from gruebler.base.text import message
 from gruebler.structure.chain import Chain, pairs
 from gruebler.structure.chain.pairs import Pair
 from gruebler.structure.transformations.places import ChainBuilder, links_at, new_link_names
@@ -41,12 +42,11 @@ def contract(chain: Chain, joint: int, links: Sequence[str] | None = None) -> St
         remaining = [keeper if link == merged else link for link in old.links if number != joint or link != merged]
         if len(remaining) > 1:
             joints.append((old.pair, remaining))
-    try:
+    with naming(
+        message("with {kept} and {gone} as one link there is no chain left", kept=keeper, gone=merged),
+        TransformationError,
+    ):
         contracted = Chain(joints, links=[link for link in chain.links if link != merged], space=chain.space)
-    except ChainError as error:
-        raise TransformationError(
-            "with {kept} and {gone} as one link there is no chain left: {error}", kept=keeper, gone=merged, error=error
-        ) from None
     return Step("contract", {"joint": joint, "links": [keeper, merged]}, chain, contracted)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from gruebler.base.errors import ChainError, TransformationError
+from gruebler.base.errors import TransformationError, naming
 from gruebler.base.text import message
 from gruebler.structure.assur import AssurGroup
 from gruebler.structure.chain import Chain
@@ -84,12 +84,8 @@ def remove_group(chain: Chain, links: Sequence[str]) -> Step:
             joints.append((joint.pair, inner))
     if not outside:
         raise TransformationError("{links} are all the links of the chain", links=", ".join(links))
-    try:
+    with naming(message("{links} are not an Assur group", links=", ".join(links)), TransformationError):
         alone = Chain(joints, space=chain.space)
-    except ChainError as error:
-        raise TransformationError(
-            "{links} are not an Assur group: {error}", links=", ".join(links), error=error
-        ) from None
     AssurGroup(alone)
     shared = set.intersection(*outside)
     if shared:

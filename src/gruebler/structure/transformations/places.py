@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import count
 
-from gruebler.base.errors import ChainError, TransformationError
+from gruebler.base.errors import TransformationError, naming
 from gruebler.base.text import Message, joined_by_or, message
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import PAIRS, Alphabet, Pair
@@ -140,10 +140,6 @@ def without_links(chain: Chain, links: Sequence[str]) -> tuple[Chain, dict[int, 
         if len(remaining) > 1:
             number[k] = len(joints)
             joints.append(Joint(joint.pair, remaining))
-    try:
+    with naming(message("without {links} there is no chain left", links=", ".join(links)), TransformationError):
         remainder = Chain(joints, links=[link for link in chain.links if link not in removed], space=chain.space)
-    except ChainError as error:
-        raise TransformationError(
-            "without {links} there is no chain left: {error}", links=", ".join(links), error=error
-        ) from None
     return remainder, number
