@@ -187,12 +187,8 @@ def _compare(choices: list[Decomposition], lang: str) -> None:
         (
             ", ".join(decomposition.mechanism.drive_names(alphabet)),
             roman(decomposition.class_number) if decomposition.complete else "-",
-            _after(decomposition, lang),
+            decomposition.formula(lang).partition(" -> ")[2],
         )
         for decomposition in choices
     ]
     print_table([translate("drive", lang), translate("class", lang), translate("formula", lang)], rows)
-
-
-def _after(decomposition: Decomposition, lang: str) -> str:
-    return decomposition.formula(lang).partition(" -> ")[2]

@@ -48,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.name is None:
         _list(arguments)
         return 0
-    form, values = _given(arguments.values, _forms(arguments.name))
+    form, values = _given(arguments.values, [form for form in construction_forms(arguments.name) if form])
     whole = construction(arguments.name, form, **values)
     lang, path = arguments.lang, arguments.out
     suffix = "" if path is None else path.suffix.lower().removeprefix(".")
@@ -67,10 +67,6 @@ def run(arguments: argparse.Namespace) -> int:
         for k, step in enumerate(whole.steps, 1):
             print(f"{k:3}. {step.text.in_language(lang)}")
     return 0
-
-
-def _forms(name: str) -> list[str]:
-    return [form for form in construction_forms(name) if form]
 
 
 def _given(words: list[str], forms: list[str]) -> tuple[str, dict[str, float | str]]:

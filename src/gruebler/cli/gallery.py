@@ -229,12 +229,7 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
 
 def _section_key(numbered: tuple[int, Chain]) -> tuple[int, tuple[int, ...]]:
     chain = numbered[1]
-    return len(chain.multiple_joints), _large_first(chain)
-
-
-def _large_first(chain: Chain) -> tuple[int, ...]:
-    """Chains with large links last."""
-    return tuple(-k for k in chain.assortment)
+    return len(chain.multiple_joints), tuple(-k for k in chain.assortment)
 
 
 def _items(number: int, chain: Chain, arguments: argparse.Namespace) -> Iterator[Item]:

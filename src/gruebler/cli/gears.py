@@ -181,15 +181,10 @@ def _of_the_catalog(word: str, lang: str) -> TrainReading | None:
     else:
         train = train_of(record.linkage())
     meshes = "; ".join(str(mesh) for mesh in train.meshes)
-    spelled = {each: [_word(link) for link in record.in_language(each).chain().links] for each in LANGUAGES}
+    spelled = {each: [re.sub(r"\W", "", link) for link in record.in_language(each).chain().links] for each in LANGUAGES}
     names = {name: new for each in spelled.values() for name, new in zip(each, spelled[lang], strict=True)}
     text = f"{meshes}; {others}" if others.strip() else meshes
     return read_train(re.sub(r"[^\W\d]\w*", lambda match: names.get(match[0], match[0]), text))
-
-
-def _word(link: str) -> str:
-    """The name of a link as the text of a train can have it."""
-    return re.sub(r"\W", "", link)
 
 
 def _driver(reading: TrainReading) -> str | None:

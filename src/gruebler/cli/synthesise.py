@@ -263,7 +263,7 @@ def run(arguments: argparse.Namespace) -> int:
     result = _solved(arguments, task, demands)
     if orders:
         result = result.sorted_by(*orders)
-    shown = _best(result, arguments.number)
+    shown = result if result.count.theorem else replace(result, designs=result.designs[: arguments.number])
     written = design_to_write(arguments, shown)
     drawn = arguments.draw is not None and bool(result.designs or result.rejected)
     if written is not None:
@@ -288,11 +288,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _orders(arguments: argparse.Namespace) -> list[str]:
     return [name.strip() for name in arguments.sort.split(",") if name.strip()]
-
-
-def _best(result: SynthesisResult, number: int | None) -> SynthesisResult:
-    """The result with the first designs only; all where there are finitely many exact ones."""
-    return result if result.count.theorem else replace(result, designs=result.designs[:number])
 
 
 def _demands(arguments: argparse.Namespace) -> Demands:

@@ -72,7 +72,9 @@ def structure_record(
         "joints": list(_joints(mechanism, shown, placed, corner, lang)),
         "links": list(_links(chain, placed, corner, report)),
         "frame": mechanism.frame,
-        "chosen": _alike(shown) if ";" in text else "",
+        "chosen": next(orbit[0] for orbit in symmetry(shown.chain).link_orbits if shown.frame in orbit)
+        if ";" in text
+        else "",
         "counted": report.counted,
         "generic": report.generic,
         "verdict": str(report.verdict),
@@ -83,11 +85,6 @@ def structure_record(
         if few and chain.space is Space.PLANAR
         else [],
     }
-
-
-def _alike(mechanism: Mechanism) -> str:
-    """The first link that is like the frame: the one that stands in the lists."""
-    return next(orbit[0] for orbit in symmetry(mechanism.chain).link_orbits if mechanism.frame in orbit)
 
 
 def _driven(chain: Chain, at_frame: bool) -> list[Any]:

@@ -207,7 +207,7 @@ def _sides(cycle: Course, output: Output, stops: Sequence[DeadCentre | Dwell]) -
     sides = [""] * len(stops)
     turning = [k for k, stop in enumerate(stops) if stop.kind != "flat"]
     kinds = {stops[k].kind for k in turning}
-    if len(kinds) < 2 or _goes_round(cycle, output):
+    if len(kinds) < 2 or (cycle.span.full and output.turning and output_turns(cycle, output)):
         return sides
     outputs = [stops[k].output for k in turning]
     high, low = max(outputs), min(outputs)
@@ -224,10 +224,6 @@ def _sides(cycle: Course, output: Output, stops: Sequence[DeadCentre | Dwell]) -
         top_is_outer = bool(far[0] > far[1])
     sides[top], sides[bottom] = ("outer", "inner") if top_is_outer else ("inner", "outer")
     return sides
-
-
-def _goes_round(cycle: Course, output: Output) -> bool:
-    return bool(cycle.span.full and output.turning and output_turns(cycle, output))
 
 
 def output_turns(cycle: Course, output: Output) -> int:

@@ -109,7 +109,7 @@ def lever_contact(
     crank = size.a * np.exp(1j * angle) * 1j ** np.arange(_ORDER) / np.cumprod([1.0, *range(1, _ORDER)])
     to_b0 = -crank
     to_b0[0] += size.d
-    path = crank + arm * _coupler(size, to_b0, side, where)
+    path = crank + arm * _COUPLERS[type(size)](size, to_b0, _times(to_b0, np.conj(to_b0)), side, where)
     largest = max(size.a, size.d, abs(arm))
     if abs(path[1]) < _ZERO * largest:
         raise LinkageError("the path has a cusp {where}, and no tangent", where=where)
@@ -123,11 +123,6 @@ def lever_contact(
     points = int(high[0]) + 1
     slope = float(seen.imag[points - 1] / seen.real[0] ** points)
     return LeverContact(points, slope, float(np.angle(heading)), complex(path[0]))
-
-
-def _coupler(size: FourBar | InvertedSliderCrank, to_b0: Complexes, side: int, where: Message) -> Complexes:
-    """The unit vector along the coupler, from the vector A to B0."""
-    return _COUPLERS[type(size)](size, to_b0, _times(to_b0, np.conj(to_b0)), side, where)
 
 
 def _guide(size: InvertedSliderCrank, to_b0: Complexes, square: Complexes, side: int, where: Message) -> Complexes:

@@ -37,7 +37,7 @@ from gruebler.mechanics.kinematics.kernel_records import (
     Conditions,
     SampleBuffer,
 )
-from gruebler.mechanics.linkages import Element, Linkage, Pose2D
+from gruebler.mechanics.linkages import Linkage, Pose2D
 from gruebler.mechanics.linkages.model import NEAR_REFERENCE
 from gruebler.mechanics.linkages.wheels import carriers, round_joints
 
@@ -255,11 +255,7 @@ class _Row:
 
 def _at(lower: Linkage, key: tuple[int, str]) -> tuple[complex, complex]:
     element = lower.elements[key]
-    return complex(element.x, element.y) / lower.size, _direction(element)
-
-
-def _direction(element: Element) -> complex:
-    return rect(1, element.direction)
+    return complex(element.x, element.y) / lower.size, rect(1, element.direction)
 
 
 def nearest_on_curve(system: ClosureSystem, x: Reals) -> tuple[Reals, Reals, float, int]:

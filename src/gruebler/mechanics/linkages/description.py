@@ -26,7 +26,7 @@ def linkage_lines(
     reference_pose: Mapping[str, Pose2D] | None,
 ) -> Iterator[Message]:
     """The mechanism, a line for each link with its length or its joints and points, whether there is a pose."""
-    yield Message(_escaped(mechanism.text()))
+    yield Message(mechanism.text().replace("{", "{{").replace("}", "}}"))
     names = mechanism.chain.joint_names()
     for link in mechanism.chain.links:
         own = {names[number]: each for (number, owner), each in sorted(elements.items()) if owner == link}
@@ -75,7 +75,3 @@ def sizes_in_a_line(
     if reference_pose is not None:
         parts.append("drawn at " + " ".join(f"{pose.angle:.6g}" for pose in reference_pose.values()))
     return "; ".join(parts)
-
-
-def _escaped(text: str) -> str:
-    return text.replace("{", "{{").replace("}", "}}")

@@ -235,7 +235,7 @@ def bevel_train(linkage: SpatialLinkage) -> Train:
         if not arms:
             raise LinkageError("{joint}: no link bears one of the wheels and is borne beside the other", joint=title)
         arm = min(arms, key=lambda link: link == frame)
-        own = {link: _bearing(chain, link, weights) for link in wheels}
+        own = {link: next(k for k in weights if link in chain.joints[k].links) for link in wheels}
         planet = next(link for link in reversed(wheels) if arm in chain.joints[own[link]].links)
         sun = wheels[wheels[0] == planet]
         signed = {
@@ -254,11 +254,6 @@ def bevel_train(linkage: SpatialLinkage) -> Train:
             )
         )
     return Train(meshes)
-
-
-def _bearing(chain: Chain, wheel: str, weights: Mapping[int, float]) -> int:
-    """The weighted joint of a wheel."""
-    return next(k for k in weights if wheel in chain.joints[k].links)
 
 
 def _borne(chain: Chain, link: str, wheels: Sequence[str], weights: Mapping[int, float]) -> bool:

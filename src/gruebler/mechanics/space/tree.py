@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
@@ -367,8 +366,3 @@ def _shifted(frame: FrameOn, along: float) -> FrameOn:
     step = np.eye(4)
     step[1, 3] = along
     return FrameOn(frame.node, frame.at @ step, frame.dimension)
-
-
-def whole_numbers(values: Sequence[int]) -> NDArray[np.intp]:
-    """Whole numbers as an index."""
-    return np.array(values, np.intp)

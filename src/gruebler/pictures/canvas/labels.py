@@ -92,13 +92,9 @@ def short_names(links: Sequence[str]) -> dict[str, str]:
     used = set(short)
     for place, link in enumerate(links, 1):
         if link not in short:
-            short[link] = next(str(k) for k in (place, *_from_one(len(links))) if str(k) not in used)
+            short[link] = next(str(k) for k in (place, *range(1, 2 * len(links) + 1)) if str(k) not in used)
             used.add(short[link])
     return {link: short[link] for link in links}
-
-
-def _from_one(most: int) -> range:
-    return range(1, 2 * most + 1)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

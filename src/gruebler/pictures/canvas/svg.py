@@ -77,11 +77,7 @@ def svg_element(shape: Shape) -> str:
 
 def svg_path(lines: Polylines) -> str:
     """Lines as the data of a path."""
-    return "".join(_line(part, lines.closed) for part in lines.parts)
-
-
-def _line(points: tuple[Point, ...], closed: bool) -> str:
-    return "M" + "L".join(map(_pair, points)) + ("Z" if closed else "")
+    return "".join("M" + "L".join(map(_pair, part)) + "Z" * lines.closed for part in lines.parts)
 
 
 def _pair(point: Point) -> str:

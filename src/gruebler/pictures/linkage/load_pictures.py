@@ -15,7 +15,6 @@ from gruebler.mechanics.forces import Gas, Loads, Spring, TorsionSpring
 from gruebler.mechanics.forces.acting import ActingLoads, acting_loads, moving_links
 from gruebler.mechanics.forces.motion_rates import with_velocities
 from gruebler.mechanics.kinematics import Motion
-from gruebler.mechanics.linkages import LinkPoint
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines
 from gruebler.pictures.canvas.symbols import arrow
 from gruebler.pictures.linkage.bodies import BodyPart, in_link
@@ -68,7 +67,9 @@ def load_lines(posed: PosedLinkage, motion: Motion, loads: Loads, speed: float |
 def _springs(posed: PosedLinkage, motion: Motion, row: int, loads: Loads, acting: ActingLoads) -> Iterator[Polylines]:
     for k, spring in enumerate(loads.springs):
         first = acting.heavy.stop + 2 * k
-        near, far = (_placed(posed, motion, row, place) for place in acting.spots[first : first + 2])
+        near, far = (
+            posed.local(complex(motion.complex_point(place)[row])) for place in acting.spots[first : first + 2]
+        )
         yield from _spring(spring, near, far, posed.scale)
         yield from (_end(at) for at in (near, far))
     for turning in loads.torsion_springs:
@@ -92,10 +93,6 @@ def _spiral(posed: PosedLinkage, motion: Motion, row: int, spring: TorsionSpring
     z = (_INNER + (_OUTER - _INNER) * part) * np.exp(1j * (outer - (1 - part) * (2 * math.pi * _TURNS + drawn)))
     z = np.concatenate([[z[0] / 2], z, [z[-1] * (1 + _LEG / _OUTER)]])
     yield Polylines((tuple(at.plus(Point(w.real, -w.imag)) for w in z.tolist()),), "edge")
-
-
-def _placed(posed: PosedLinkage, motion: Motion, row: int, place: LinkPoint) -> Point:
-    return posed.local(complex(motion.complex_point(place)[row]))
 
 
 def _end(at: Point) -> Polylines:

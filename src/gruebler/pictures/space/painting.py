@@ -70,17 +70,12 @@ def _relations(parts: Sequence[SpatialPart]) -> tuple[Flags, Reals]:
     reach = np.array([part.reach for part in parts])
     t, u, apart = _nearest(spines[:, :, :2])
     depth = spines[:, 0, 2, None] + t * (spines[:, 1, 2] - spines[:, 0, 2])[:, None]
-    difference = depth - _depth_of_other(spines, u)
+    difference = depth - (spines[None, :, 0, 2] + u * (spines[:, 1, 2] - spines[:, 0, 2])[None, :])
     middle = spines[:, :, 2].mean(axis=1)
     difference = np.where(abs(difference) > _SAME, difference, middle[:, None] - middle)
     meets = apart < reach[:, None] + reach
     np.fill_diagonal(meets, False)
     return meets & (difference < -_SAME), t
-
-
-def _depth_of_other(spines: Reals, u: Reals) -> Reals:
-    """How near the second of each two spines is at its place u."""
-    return np.asarray(spines[None, :, 0, 2] + u * (spines[:, 1, 2] - spines[:, 0, 2])[None, :])
 
 
 def _nearest(lines: Reals) -> tuple[Reals, Reals, Reals]:

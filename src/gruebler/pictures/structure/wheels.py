@@ -175,7 +175,7 @@ def wheel_points(chain: Chain, frame: str | None, shapes: Mapping[tuple[int, str
     else:
         own = [set(chain.joints[k].links) for k in turning]
         first = {
-            k: next(j for j, a in zip(turning, own, strict=True) if _on_one(a, b, axes))
+            k: next(j for j, a in zip(turning, own, strict=True) if any(a | b <= set(axis) for axis in axes))
             for k, b in zip(turning, own, strict=True)
         }
     contacts = [
@@ -193,11 +193,6 @@ def wheel_points(chain: Chain, frame: str | None, shapes: Mapping[tuple[int, str
             for contact in contacts
         ),
     )
-
-
-def _on_one(a: set[str], b: set[str], axes: Sequence[tuple[str, ...]]) -> bool:
-    """Whether two bearings are on one of the axes."""
-    return any(a | b <= set(axis) for axis in axes)
 
 
 def _bearings(
