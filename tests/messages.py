@@ -25,6 +25,8 @@ SOURCES = Path(__file__).parents[1] / "src" / "gruebler"
 LOCALE = SOURCES / "base" / "locale"
 TEXTS = {"translate": 1, "message": 1, "plural": 2}
 """Functions whose first argument (first two) is a message."""
+STEPS = frozenset({"step", "draw", "say", "check"})
+"""Methods of constructions and solutions that take a message and the values of its gaps."""
 HELP = frozenset({"help", "description", "epilog", "title"})
 """Keywords of argparse whose values are messages."""
 TABLES = frozenset({"take", "rows_of"})
@@ -93,6 +95,7 @@ def in_file(path: Path) -> Iterator[Found | Unreadable]:
     """All messages of one source file."""
     file = path.relative_to(SOURCES).as_posix()
     errors = file in {"base/errors.py", "base/text.py"}
+    texts = {*TEXTS, *(STEPS if file.startswith(("teaching/constructions/", "teaching/exercises/")) else ())}
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if not isinstance(node, ast.Call):
             continue
@@ -103,7 +106,7 @@ def in_file(path: Path) -> Iterator[Found | Unreadable]:
         elif name == "plural" and not errors:
             one, many = (_strings(argument) for argument in node.args[:2])
             yield Found(file, node.lineno, (one or [""])[0], (many or [""])[0])
-        elif node.args and (name in TEXTS or (name.endswith("Error") and not hasattr(builtins, name) and not errors)):
+        elif node.args and (name in texts or (name.endswith("Error") and not hasattr(builtins, name) and not errors)):
             strings = _strings(node.args[0])
             if strings is not None:
                 yield from (Found(file, node.lineno, text) for text in strings if _has_words(text))

@@ -35,7 +35,7 @@ def accelerations_of_four_bar(
     _, pin, joint, b0 = polygon.plan.pins
     plan, a_a, n_ba = _coupler_plan(polygon)
     n_b = _towards(joint - b0, polygon.sought)
-    plan.draw(message("From the pole p_a: a_Bn = v_B²/c = {n:.5g} towards B₀.", n=abs(n_b)), ("a_Bn", 0, n_b))
+    plan.draw("From the pole p_a: a_Bn = v_B²/c = {n:.5g} towards B₀.", ("a_Bn", 0, n_b), n=abs(n_b))
     text = message(
         "The tangential parts are perpendicular to AB, through the tip of a_BAn, and perpendicular to B₀B, "
         "through the tip of a_Bn."
@@ -43,16 +43,14 @@ def accelerations_of_four_bar(
     a_b = plan.meet(text, a_a + n_ba, 1j * (joint - pin), n_b, 1j * (joint - b0))
     t_ba, t_b = a_b - a_a - n_ba, a_b - n_b
     plan.draw(
-        message(
-            "They meet in b: a_B = {a_b:.5g}, a_BAt = {t_ba:.5g}, a_Bt = {t_b:.5g}.",
-            a_b=abs(a_b),
-            t_ba=abs(t_ba),
-            t_b=abs(t_b),
-        ),
+        "They meet in b: a_B = {a_b:.5g}, a_BAt = {t_ba:.5g}, a_Bt = {t_b:.5g}.",
         ("a_BAt", a_a + n_ba, a_b),
         ("a_Bt", n_b, a_b),
         ("a_B", 0, a_b),
         tip="b",
+        a_b=abs(a_b),
+        t_ba=abs(t_ba),
+        t_b=abs(t_b),
     )
     return plan.board.done(
         a_A=abs(a_a),
@@ -76,16 +74,14 @@ def _coupler_plan(polygon: VelocityPolygon) -> tuple[VectorPlan, complex, comple
     a_a, n_ba = _towards(pin - a0, polygon.known), _towards(joint - pin, polygon.sought - polygon.known)
     plan = _plan(polygon, abs(a_a))
     plan.draw(
-        message(
-            "Accelerations: a_A = a ω² = {a_a:.5g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s²; from its "
-            "tip a_BAn = v_BA²/b = {n:.5g}, from B towards A.",
-            a_a=abs(a_a),
-            scale=1 / plan.scale,
-            n=abs(n_ba),
-        ),
+        "Accelerations: a_A = a ω² = {a_a:.5g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s²; from its "
+        "tip a_BAn = v_BA²/b = {n:.5g}, from B towards A.",
         ("a_A", 0, a_a),
         ("a_BAn", a_a, a_a + n_ba),
         pole="p_a",
+        a_a=abs(a_a),
+        scale=1 / plan.scale,
+        n=abs(n_ba),
     )
     return plan, a_a, n_ba
 
@@ -96,14 +92,12 @@ def _crank_plan(polygon: VelocityPolygon) -> tuple[VectorPlan, complex]:
     a_a = _towards(pin - a0, polygon.known)
     plan = _plan(polygon, abs(a_a))
     plan.draw(
-        message(
-            "Accelerations: a_A = a ω² = {a_a:.5g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s².",
-            a_a=abs(a_a),
-            scale=1 / plan.scale,
-        ),
+        "Accelerations: a_A = a ω² = {a_a:.5g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s².",
         ("a_A", 0, a_a),
         pole="p_a",
         tip="a",
+        a_a=abs(a_a),
+        scale=1 / plan.scale,
     )
     return plan, a_a
 
@@ -121,10 +115,12 @@ def accelerations_of_slider_crank(
     a_b = plan.meet(text, a_a + n_ba, 1j * (joint - pin), 0, 1 + 0j)
     t_ba = a_b - a_a - n_ba
     plan.draw(
-        message("They meet in b: a_B = {a_b:.5g}, a_BAt = {t_ba:.5g}.", a_b=abs(a_b), t_ba=abs(t_ba)),
+        "They meet in b: a_B = {a_b:.5g}, a_BAt = {t_ba:.5g}.",
         ("a_BAt", a_a + n_ba, a_b),
         ("a_B", 0, a_b),
         tip="b",
+        a_b=abs(a_b),
+        t_ba=abs(t_ba),
     )
     return plan.board.done(a_A=abs(a_a), a_B=abs(a_b), a_BAn=abs(n_ba), a_BAt=abs(t_ba), v_B=abs(polygon.sought))
 
@@ -143,14 +139,12 @@ def accelerations_of_inverted_slider_crank(
     known = n_c + coriolis
     plan, a_a = _crank_plan(polygon)
     plan.draw(
-        message(
-            "a_Cn = v_C²/B₀A = {n:.5g} towards B₀, from p_a; from its tip Coriolis' acceleration 2 ω₄ v_rel = "
-            "{cor:.5g}: v_rel turned by 90° in the sense of ω₄.",
-            n=abs(n_c),
-            cor=abs(coriolis),
-        ),
+        "a_Cn = v_C²/B₀A = {n:.5g} towards B₀, from p_a; from its tip Coriolis' acceleration 2 ω₄ v_rel = "
+        "{cor:.5g}: v_rel turned by 90° in the sense of ω₄.",
         ("a_Cn", 0, n_c),
         ("a_Cor", n_c, known),
+        n=abs(n_c),
+        cor=abs(coriolis),
     )
     text = message(
         "a_Ct is perpendicular to the lever, through the tip of a_Cor; a_rel lies along the lever, through a."
@@ -158,15 +152,13 @@ def accelerations_of_inverted_slider_crank(
     tip = plan.meet(text, known, 1j * lever, a_a, lever)
     t_c, rel = abs(tip - known), abs(a_a - tip)
     plan.draw(
-        message(
-            "They meet: a_Ct = {t:.5g}, a_rel = {rel:.5g}. The lever's angular acceleration is α₄ = a_Ct / B₀A = "
-            "{alpha:.4g} 1/s².",
-            t=t_c,
-            rel=rel,
-            alpha=t_c / abs(lever),
-        ),
+        "They meet: a_Ct = {t:.5g}, a_rel = {rel:.5g}. The lever's angular acceleration is α₄ = a_Ct / B₀A = "
+        "{alpha:.4g} 1/s².",
         ("a_Ct", known, tip),
         ("a_rel", tip, a_a),
+        t=t_c,
+        rel=rel,
+        alpha=t_c / abs(lever),
     )
     return plan.board.done(
         a_A=abs(a_a), a_Cor=abs(coriolis), a_Ct=t_c, a_rel=rel, alpha_lever=t_c / abs(lever), omega_lever=abs(turn)
@@ -183,14 +175,12 @@ def accelerations_of_scotch_yoke(a: float = 25, slot: float = 70, phi: float = 5
     )
     a_c = plan.meet(text, 0, 1 + 0j, a_a, cmath.rect(1.0, radians(slot)))
     plan.draw(
-        message(
-            "They meet in c: a_C = {a_c:.5g}, the acceleration of the whole yoke; a_rel = {rel:.5g}.",
-            a_c=abs(a_c),
-            rel=abs(a_a - a_c),
-        ),
+        "They meet in c: a_C = {a_c:.5g}, the acceleration of the whole yoke; a_rel = {rel:.5g}.",
         ("a_C", 0, a_c),
         ("a_rel", a_c, a_a),
         tip="c",
+        a_c=abs(a_c),
+        rel=abs(a_a - a_c),
     )
     return plan.board.done(a_A=abs(a_a), a_C=abs(a_c), a_rel=abs(a_a - a_c), v_C=abs(polygon.sought))
 
@@ -202,24 +192,24 @@ def accelerations_of_tangent_mechanism(d: float = 40, phi: float = 55, omega: fl
     n_c, coriolis = _towards(arm, polygon.known), 2j * omega * (polygon.sought - polygon.known)
     plan, known = _plan(polygon, max(abs(n_c), abs(coriolis))), n_c + coriolis
     plan.draw(
-        message(
-            "Accelerations: a_Cn = A₀B ω² = {n:.5g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s²; from "
-            "its tip Coriolis' acceleration 2 ω v_rel = {cor:.5g}: v_rel turned by 90° in the sense of ω.",
-            n=abs(n_c),
-            scale=1 / plan.scale,
-            cor=abs(coriolis),
-        ),
+        "Accelerations: a_Cn = A₀B ω² = {n:.5g} towards A₀, from the pole p_a, 1 mm for {scale:.4g} mm/s²; from "
+        "its tip Coriolis' acceleration 2 ω v_rel = {cor:.5g}: v_rel turned by 90° in the sense of ω.",
         ("a_Cn", 0, n_c),
         ("a_Cor", n_c, known),
         pole="p_a",
+        n=abs(n_c),
+        scale=1 / plan.scale,
+        cor=abs(coriolis),
     )
     text = message("a_rel lies along the lever, through the tip of a_Cor; a_B lies along the guide, through p_a.")
     a_b = plan.meet(text, known, arm, 0, 1 + 0j)
     rel = abs(a_b - known)
     plan.draw(
-        message("They meet in b: a_B = {a_b:.5g}, a_rel = {rel:.5g}.", a_b=abs(a_b), rel=rel),
+        "They meet in b: a_B = {a_b:.5g}, a_rel = {rel:.5g}.",
         ("a_rel", known, a_b),
         ("a_B", 0, a_b),
         tip="b",
+        a_b=abs(a_b),
+        rel=rel,
     )
     return plan.board.done(a_Cn=abs(n_c), a_Cor=abs(coriolis), a_B=abs(a_b), a_rel=rel, v_B=abs(polygon.sought))

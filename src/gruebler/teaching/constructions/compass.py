@@ -7,7 +7,7 @@ import math
 from itertools import pairwise
 
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import Message
+from gruebler.base.text import Message, message
 from gruebler.pictures.canvas.construction import Construction, ConstructionStep, Drawn, Segment
 
 _PARALLEL = 1e-12  # sine of an angle: lines at a smaller angle do not meet on paper
@@ -20,9 +20,9 @@ class Board:
         self.title = title
         self.steps: list[ConstructionStep] = []
 
-    def step(self, text: Message, *drawn: Drawn) -> None:
-        """A step: what is done, what it adds."""
-        self.steps.append(ConstructionStep(text, drawn))
+    def step(self, text: str | Message, *drawn: Drawn, **values: object) -> None:
+        """A step: what is done, with the values in its gaps, and what it adds."""
+        self.steps.append(ConstructionStep(message(text, **values) if isinstance(text, str) else text, drawn))
 
     def done(self, **values: float) -> Construction:
         """The construction with the values measured in it."""

@@ -34,17 +34,15 @@ def _crank_rocker_given(board: Board, a: float, b: float, c: float, d: float) ->
     """The step with the given lengths, the frame and the circle of the crank; returns A0 and B0."""
     a0, b0 = 0j, complex(d)
     board.step(
-        message(
-            "Given: the frame A₀B₀ = {d:g}, the crank a = {a:g}, the coupler b = {b:g}, the rocker c = {c:g}.",
-            a=a,
-            b=b,
-            c=c,
-            d=d,
-        ),
+        "Given: the frame A₀B₀ = {d:g}, the crank a = {a:g}, the coupler b = {b:g}, the rocker c = {c:g}.",
         Dot(a0, "A₀"),
         Dot(b0, "B₀"),
         Segment(a0, b0, "given"),
         DrawnCircle(a0, a, "curve-rest"),
+        a=a,
+        b=b,
+        c=c,
+        d=d,
     )
     return a0, b0
 
@@ -58,33 +56,28 @@ def dead_centres_of_crank_rocker(a: float = 20, b: float = 70, c: float = 45, d:
     board = Board(message("Dead centres of a crank-rocker"))
     a0, b0 = _crank_rocker_given(board, a, b, c, d)
     board.step(
-        message("The pin B of the rocker moves on the circle about B₀ with the radius c = {c:g}.", c=c),
-        DrawnCircle(b0, c),
+        "The pin B of the rocker moves on the circle about B₀ with the radius c = {c:g}.", DrawnCircle(b0, c), c=c
     )
     outer = meet_left(a0, b + a, b0, c)
     board.step(
-        message(
-            "Outer dead centre: crank and coupler are stretched. The circle about A₀ with the radius b + a = {sum:g} "
-            "meets the circle of the rocker in B_a.",
-            sum=a + b,
-        ),
+        "Outer dead centre: crank and coupler are stretched. The circle about A₀ with the radius b + a = {sum:g} "
+        "meets the circle of the rocker in B_a.",
         DrawnCircle(a0, b + a),
         Dot(outer, "B_a"),
+        sum=a + b,
     )
     inner = meet_left(a0, b - a, b0, c)
     board.step(
-        message(
-            "Inner dead centre: crank and coupler overlap. The circle about A₀ with the radius b - a = {rest:g} meets "
-            "it in B_i.",
-            rest=b - a,
-        ),
+        "Inner dead centre: crank and coupler overlap. The circle about A₀ with the radius b - a = {rest:g} meets "
+        "it in B_i.",
         DrawnCircle(a0, b - a),
         Dot(inner, "B_i"),
+        rest=b - a,
     )
     pin_outer = along(a0, outer, a)
     pin_inner = along(a0, inner, -a)
     board.step(
-        message("The lines A₀B_a and A₀B_i meet the crank's circle in A_a and, beyond A₀, in A_i."),
+        "The lines A₀B_a and A₀B_i meet the crank's circle in A_a and, beyond A₀, in A_i.",
         *segments("edge", a0, outer, b0),
         *segments("ghost", pin_inner, inner, b0),
         Dot(pin_outer, "A_a"),
@@ -96,17 +89,15 @@ def dead_centres_of_crank_rocker(a: float = 20, b: float = 70, c: float = 45, d:
     swing = turned_angle(outer - b0, inner - b0)
     longer = max(return_angle, 2 * pi - return_angle)
     board.step(
-        message(
-            "Measured: φ_a = {outer:.4g}°, φ_i = {inner:.4g}°, the crank angles between the dead centres {longer:.4g}° "
-            "and {shorter:.4g}°, the swing of the rocker ψ_H = {swing:.4g}°.",
-            outer=degrees(phi_a),
-            inner=degrees(phi_i),
-            longer=degrees(longer),
-            shorter=360 - degrees(longer),
-            swing=degrees(abs(swing)),
-        ),
+        "Measured: φ_a = {outer:.4g}°, φ_i = {inner:.4g}°, the crank angles between the dead centres {longer:.4g}° "
+        "and {shorter:.4g}°, the swing of the rocker ψ_H = {swing:.4g}°.",
         Angle(a0, begin=phi_a, turn=return_angle, text=quantity("φ", degrees(return_angle), "°"), radius=30),
         Angle(b0, begin=cmath.phase(outer - b0), turn=swing, text=quantity("ψ_H", degrees(abs(swing)), "°"), radius=46),
+        outer=degrees(phi_a),
+        inner=degrees(phi_i),
+        longer=degrees(longer),
+        shorter=360 - degrees(longer),
+        swing=degrees(abs(swing)),
     )
     return board.done(
         phi_outer=degrees(phi_a),
@@ -122,17 +113,14 @@ def _turning_slider_crank_given(board: Board, a: float, b: float, e: float, end:
     if SliderCrank(a, b, e).dead_centres is None:
         raise LinkageError("the crank of the slider-crank a = {a:g}, b = {b:g}, e = {e:g} does not turn", a=a, b=b, e=e)
     board.step(
-        message(
-            "Given: the crank a = {a:g} about A₀, the coupler b = {b:g}, the line of the slider at the distance "
-            "e = {e:g}.",
-            a=a,
-            b=b,
-            e=abs(e),
-        ),
+        "Given: the crank a = {a:g} about A₀, the coupler b = {b:g}, the line of the slider at the distance e = {e:g}.",
         Dot(0j, "A₀"),
         DrawnCircle(0j, a, "curve-rest"),
         Segment(complex(-a, e), complex(end, e), "given"),
         *drawn,
+        a=a,
+        b=b,
+        e=abs(e),
     )
     return 0j
 
@@ -145,27 +133,23 @@ def dead_centres_of_slider_crank(a: float = 17, b: float = 60, e: float = 15) ->
     a0 = _turning_slider_crank_given(board, a, b, e, a + b + 0.2 * a, *offset)
     _, outer = line_meets_circle(rail, 1 + 0j, a0, b + a)
     board.step(
-        message(
-            "Outer dead centre: crank and coupler are stretched. The circle about A₀ with the radius b + a = {sum:g} "
-            "meets the line in T_a.",
-            sum=a + b,
-        ),
+        "Outer dead centre: crank and coupler are stretched. The circle about A₀ with the radius b + a = {sum:g} "
+        "meets the line in T_a.",
         DrawnCircle(a0, b + a),
         Dot(outer, "T_a"),
+        sum=a + b,
     )
     _, inner = line_meets_circle(rail, 1 + 0j, a0, b - a)
     board.step(
-        message(
-            "Inner dead centre: crank and coupler overlap. The circle about A₀ with the radius b - a = {rest:g} meets "
-            "it in T_i.",
-            rest=b - a,
-        ),
+        "Inner dead centre: crank and coupler overlap. The circle about A₀ with the radius b - a = {rest:g} meets "
+        "it in T_i.",
         DrawnCircle(a0, b - a),
         Dot(inner, "T_i"),
+        rest=b - a,
     )
     pin_outer, pin_inner = along(a0, outer, a), along(a0, inner, -a)
     board.step(
-        message("The lines A₀T_a and A₀T_i meet the crank's circle in A_a and, beyond A₀, in A_i."),
+        "The lines A₀T_a and A₀T_i meet the crank's circle in A_a and, beyond A₀, in A_i.",
         Segment(a0, outer, "edge"),
         Segment(pin_inner, inner, "ghost"),
         Dot(pin_outer, "A_a"),
@@ -176,17 +160,15 @@ def dead_centres_of_slider_crank(a: float = 17, b: float = 60, e: float = 15) ->
     longer = max(turn, 2 * pi - turn)
     low = -0.35 * a if e >= 0 else 0.35 * a
     board.step(
-        message(
-            "Measured: l_a = {outer:.4g}, l_i = {inner:.4g}, the stroke H = {stroke:.4g}, the crank angles between the "
-            "dead centres {longer:.4g}° and {shorter:.4g}°.",
-            outer=outer.real,
-            inner=inner.real,
-            stroke=stroke,
-            longer=degrees(longer),
-            shorter=360 - degrees(longer),
-        ),
+        "Measured: l_a = {outer:.4g}, l_i = {inner:.4g}, the stroke H = {stroke:.4g}, the crank angles between the "
+        "dead centres {longer:.4g}° and {shorter:.4g}°.",
         Segment(inner - 1j * low, outer - 1j * low, "dimension", quantity("H", stroke)),
         Angle(a0, begin=cmath.phase(pin_outer), turn=turn, text=quantity("φ", degrees(turn), "°"), radius=30),
+        outer=outer.real,
+        inner=inner.real,
+        stroke=stroke,
+        longer=degrees(longer),
+        shorter=360 - degrees(longer),
     )
     return board.done(
         l_outer=outer.real,
@@ -205,26 +187,20 @@ def transmission_of_crank_rocker(a: float = 20, b: float = 50, c: float = 40, d:
     places, folded = [], []
     for k, (pin, name) in enumerate(((complex(a), "I"), (complex(-a), "II"))):
         board.step(
-            message(
-                "The crank over the frame: A_I at the distance d - a = {rest:g} from B₀."
-                if k == 0
-                else "The crank away from the frame: A_II at the distance d + a = {rest:g} from B₀.",
-                rest=abs(b0 - pin),
-            ),
+            "The crank over the frame: A_I at the distance d - a = {rest:g} from B₀."
+            if k == 0
+            else "The crank away from the frame: A_II at the distance d + a = {rest:g} from B₀.",
             Dot(pin, f"A_{name}"),
             Segment(a0, pin, "edge" if k == 0 else "ghost"),
+            rest=abs(b0 - pin),
         )
         joint = meet_left(pin, b, b0, c)
         mu = turned_angle(pin - joint, b0 - joint)
         places.append(joint)
         folded.append(min(degrees(abs(mu)), 180 - degrees(abs(mu))))
         board.step(
-            message(
-                "The circles about A_{name} with b and about B₀ with c meet in B_{name}. The angle there between "
-                "coupler and rocker is {angle:.4g}°.",
-                name=name,
-                angle=degrees(abs(mu)),
-            ),
+            "The circles about A_{name} with b and about B₀ with c meet in B_{name}. The angle there between "
+            "coupler and rocker is {angle:.4g}°.",
             DrawnCircle(pin, b),
             DrawnCircle(b0, c),
             *segments("edge" if k == 0 else "ghost", pin, joint, b0),
@@ -236,14 +212,14 @@ def transmission_of_crank_rocker(a: float = 20, b: float = 50, c: float = 40, d:
                 text=quantity(f"μ_{name}", degrees(abs(mu)), "°"),
                 radius=34,
             ),
+            name=name,
+            angle=degrees(abs(mu)),
         )
     board.step(
-        message(
-            "An obtuse angle counts as its supplement. The smallest transmission angle is μ_min = {least:.4g}°, the "
-            "largest deviation angle 90° - μ_min = {deviation:.4g}°.",
-            least=min(folded),
-            deviation=90 - min(folded),
-        )
+        "An obtuse angle counts as its supplement. The smallest transmission angle is μ_min = {least:.4g}°, the "
+        "largest deviation angle 90° - μ_min = {deviation:.4g}°.",
+        least=min(folded),
+        deviation=90 - min(folded),
     )
     return board.done(mu_min=min(folded), mu_I=folded[0], mu_II=folded[1])
 
@@ -254,20 +230,18 @@ def transmission_of_slider_crank(a: float = 30, b: float = 50, e: float = 10) ->
     a0, rail = _turning_slider_crank_given(board, a, b, e, a + b), complex(0, e)
     pin = complex(0, -a if e >= 0 else a)
     board.step(
-        message(
-            "The coupler is most inclined where the crank is perpendicular to the line of the slider and points away "
-            "from it: A at the distance a + e = {sum:g} from the line.",
-            sum=a + abs(e),
-        ),
+        "The coupler is most inclined where the crank is perpendicular to the line of the slider and points away "
+        "from it: A at the distance a + e = {sum:g} from the line.",
         Segment(a0, pin, "edge"),
         Dot(pin, "A"),
         DrawnLine(a0, 1j),
+        sum=a + abs(e),
     )
     _, joint = line_meets_circle(rail, 1 + 0j, pin, b)
     normal = complex(0, (pin - rail).imag)
     mu = turned_angle(pin - joint, normal)
     board.step(
-        message("The circle about A with b meets the line in B."),
+        "The circle about A with b meets the line in B.",
         DrawnCircle(pin, b),
         Segment(pin, joint, "edge"),
         Dot(joint, "B"),
@@ -275,13 +249,11 @@ def transmission_of_slider_crank(a: float = 30, b: float = 50, e: float = 10) ->
     )
     least = degrees(abs(mu))
     board.step(
-        message(
-            "Between the coupler and the normal of the line lies the transmission angle: μ_min = {least:.4g}°. The "
-            "deviation angle is α_max = 90° - μ_min = {deviation:.4g}°.",
-            least=least,
-            deviation=90 - least,
-        ),
+        "Between the coupler and the normal of the line lies the transmission angle: μ_min = {least:.4g}°. The "
+        "deviation angle is α_max = 90° - μ_min = {deviation:.4g}°.",
         Angle(joint, begin=cmath.phase(pin - joint), turn=mu, text=quantity("μ_min", least, "°"), radius=40),
+        least=least,
+        deviation=90 - least,
     )
     return board.done(mu_min=least, deviation=90 - least)
 
@@ -296,42 +268,37 @@ def central_crank_rocker(a: float = 30, b: float = 75, c: float = 60) -> Constru
     a0 = 0j
     inner, outer = complex(b - a), complex(b + a)
     board.step(
-        message(
-            "Given: crank a = {a:g}, coupler b = {b:g}, rocker c = {c:g}. In a central crank-rocker both dead centres "
-            "B_i and B_a lie on one line through A₀.",
-            a=a,
-            b=b,
-            c=c,
-        ),
+        "Given: crank a = {a:g}, coupler b = {b:g}, rocker c = {c:g}. In a central crank-rocker both dead centres "
+        "B_i and B_a lie on one line through A₀.",
         Dot(a0, "A₀"),
         DrawnCircle(a0, a, "curve-rest"),
         Segment(a0, complex(1.1 * (a + b)), "dead"),
+        a=a,
+        b=b,
+        c=c,
     )
     board.step(
-        message(
-            "On the line from A₀: B_i at b - a = {inner:g}, B_a at b + a = {outer:g}; their distance is 2a.",
-            inner=b - a,
-            outer=b + a,
-        ),
+        "On the line from A₀: B_i at b - a = {inner:g}, B_a at b + a = {outer:g}; their distance is 2a.",
         DrawnCircle(a0, b - a),
         DrawnCircle(a0, b + a),
         Dot(inner, "B_i"),
         Dot(outer, "B_a"),
+        inner=b - a,
+        outer=b + a,
     )
     pivot = meet_left(outer, c, inner, c)
     board.step(
-        message("The circles about B_i and B_a with the radius c = {c:g} meet in B₀.", c=c),
+        "The circles about B_i and B_a with the radius c = {c:g} meet in B₀.",
         DrawnCircle(inner, c),
         DrawnCircle(outer, c),
         Segment(inner, pivot, "ghost"),
         Segment(outer, pivot, "edge"),
         Dot(pivot, "B₀"),
+        c=c,
     )
     frame, swing = abs(pivot - a0), degrees_between(inner - pivot, outer - pivot)
     board.step(
-        message(
-            "Measured: the frame A₀B₀ = d = {d:.4g}, the swing of the rocker ψ_H = {swing:.4g}°.", d=frame, swing=swing
-        ),
+        "Measured: the frame A₀B₀ = d = {d:.4g}, the swing of the rocker ψ_H = {swing:.4g}°.",
         Segment(a0, pivot, "given", quantity("d", frame)),
         Angle(
             pivot,
@@ -340,6 +307,8 @@ def central_crank_rocker(a: float = 30, b: float = 75, c: float = 60) -> Constru
             text=quantity("ψ_H", swing, "°"),
             radius=40,
         ),
+        d=frame,
+        swing=swing,
     )
     return board.done(d=frame, swing=swing)
 
@@ -353,16 +322,14 @@ def permissible_frame(a: float = 25, b: float = 40, c: float = 70) -> Constructi
     board = Board(message("Permissible lengths of the frame of a crank-rocker"))
     low_line, high_line = 0j, complex(0, -1.2 * a)
     board.step(
-        message(
-            "Given: crank a = {a:g}, coupler b = {b:g}, rocker c = {c:g}. The crank turns fully if the triangle of "
-            "coupler, rocker and the distance AB₀ exists in every position; AB₀ runs from d - a to d + a.",
-            a=a,
-            b=b,
-            c=c,
-        ),
+        "Given: crank a = {a:g}, coupler b = {b:g}, rocker c = {c:g}. The crank turns fully if the triangle of "
+        "coupler, rocker and the distance AB₀ exists in every position; AB₀ runs from d - a to d + a.",
         Segment(low_line, complex(a), "given", "a"),
         Segment(complex(1.3 * a), complex(1.3 * a + b), "given", "b"),
         Segment(complex(1.6 * a + b), complex(1.6 * a + b + c), "given", "c"),
+        a=a,
+        b=b,
+        c=c,
     )
     a0 = high_line
     pin = a0 - a
@@ -370,11 +337,8 @@ def permissible_frame(a: float = 25, b: float = 40, c: float = 70) -> Constructi
     pivot = joint + c
     longest = abs(pivot - a0)
     board.step(
-        message(
-            "The longest frame: the crank points away from B₀, coupler and rocker are stretched. From A₀ to the left "
-            "a, from there to the right b and c: d_max = b + c - a = {d:.4g}.",
-            d=longest,
-        ),
+        "The longest frame: the crank points away from B₀, coupler and rocker are stretched. From A₀ to the left "
+        "a, from there to the right b and c: d_max = b + c - a = {d:.4g}.",
         Dot(a0, "A₀"),
         Dot(pin, "A"),
         Dot(joint, "B"),
@@ -382,6 +346,7 @@ def permissible_frame(a: float = 25, b: float = 40, c: float = 70) -> Constructi
         Segment(a0, pin, "edge", "a"),
         Segment(pin, joint, "edge", "b"),
         Segment(joint, pivot, "edge", "c"),
+        d=longest,
     )
     start = a0 - 1.4j * a
     near = start + a
@@ -390,11 +355,8 @@ def permissible_frame(a: float = 25, b: float = 40, c: float = 70) -> Constructi
     shortest = abs(end - start)
     lift = -0.18j * a
     board.step(
-        message(
-            "The shortest frame: the crank points to B₀, coupler and rocker overlap. From A₀ to the right a, then the "
-            "longer of b and c less the other: d_min = a + |b - c| = {d:.4g}.",
-            d=shortest,
-        ),
+        "The shortest frame: the crank points to B₀, coupler and rocker overlap. From A₀ to the right a, then the "
+        "longer of b and c less the other: d_min = a + |b - c| = {d:.4g}.",
         Dot(start, "A₀"),
         Dot(near, "A"),
         Dot(turn_back + lift, "B"),
@@ -402,14 +364,13 @@ def permissible_frame(a: float = 25, b: float = 40, c: float = 70) -> Constructi
         Segment(start, near, "edge", "a"),
         Segment(near, turn_back + lift, "edge", "b"),
         Segment(turn_back + lift, end + 2 * lift, "edge", "c"),
+        d=shortest,
     )
     board.step(
-        message(
-            "The crank-rocker is possible for {low:.4g} < d < {high:.4g}; at the ends it is at a change point.",
-            low=shortest,
-            high=longest,
-        ),
+        "The crank-rocker is possible for {low:.4g} < d < {high:.4g}; at the ends it is at a change point.",
         Segment(start - 0.8j * a, start - 0.8j * a + longest, "dimension", quantity("d_max", longest)),
         Segment(start - 1.3j * a, start - 1.3j * a + shortest, "dimension", quantity("d_min", shortest)),
+        low=shortest,
+        high=longest,
     )
     return board.done(d_min=shortest, d_max=longest)

@@ -6,7 +6,6 @@ import cmath
 from math import radians
 
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import message
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.pictures.canvas.construction import Dot, Segment
 from gruebler.teaching.constructions.compass import Board, line_meets_circle, lines_meet, meet_left, segments
@@ -28,18 +27,16 @@ def four_bar_given(
     pin = cmath.rect(a, radians(phi))
     joint = meet_left(pin, b, b0, c)
     board.step(
-        message(
-            "Given: the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} in the pose φ = {phi:g}°. B is where the "
-            "circles about A and B₀ with b and c meet.",
-            a=a,
-            b=b,
-            c=c,
-            d=d,
-            phi=phi,
-        ),
+        "Given: the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} in the pose φ = {phi:g}°. B is where the "
+        "circles about A and B₀ with b and c meet.",
         *(Dot(z, name) for z, name in ((a0, "A₀"), (b0, "B₀"), (pin, "A"), (joint, "B"))),
         Segment(a0, b0, "dead"),
         *segments("edge", a0, pin, joint, b0),
+        a=a,
+        b=b,
+        c=c,
+        d=d,
+        phi=phi,
     )
     return a0, pin, joint, b0
 
@@ -49,17 +46,15 @@ def slider_crank_given(board: Board, a: float, b: float, e: float, phi: float) -
     pin = cmath.rect(a, radians(phi))
     _, joint = line_meets_circle(complex(0, e), 1 + 0j, pin, b)
     board.step(
-        message(
-            "Given: the slider-crank a = {a:g}, b = {b:g}, e = {e:g} in the pose φ = {phi:g}°. B is where the circle "
-            "about A with b meets the line of the slider.",
-            a=a,
-            b=b,
-            e=e,
-            phi=phi,
-        ),
+        "Given: the slider-crank a = {a:g}, b = {b:g}, e = {e:g} in the pose φ = {phi:g}°. B is where the circle "
+        "about A with b meets the line of the slider.",
         *(Dot(z, name) for z, name in ((0j, "A₀"), (pin, "A"), (joint, "B"))),
         *segments("edge", 0j, pin, joint),
         Segment(joint - 0.6 * a, joint + 0.6 * a, "given"),
+        a=a,
+        b=b,
+        e=e,
+        phi=phi,
     )
     return 0j, pin, joint
 
@@ -69,17 +64,15 @@ def lever_given(board: Board, a: float, d: float, phi: float) -> tuple[complex, 
     pin, b0 = cmath.rect(a, radians(phi)), complex(d)
     end = b0 + 1.25 * (pin - b0)
     board.step(
-        message(
-            "Given: the crank a = {a:g} about A₀ drives the lever about B₀, A₀B₀ = d = {d:g}, by a block at its pin A, "
-            "in the pose φ = {phi:g}°.",
-            a=a,
-            d=d,
-            phi=phi,
-        ),
+        "Given: the crank a = {a:g} about A₀ drives the lever about B₀, A₀B₀ = d = {d:g}, by a block at its pin A, "
+        "in the pose φ = {phi:g}°.",
         *(Dot(z, name) for z, name in ((0j, "A₀"), (b0, "B₀"), (pin, "A"))),
         Segment(0j, b0, "dead"),
         Segment(0j, pin, "edge"),
         Segment(b0, end, "given"),
+        a=a,
+        d=d,
+        phi=phi,
     )
     return 0j, pin, b0
 
@@ -89,13 +82,8 @@ def scotch_yoke_given(board: Board, a: float, slot: float, phi: float) -> tuple[
     pin, direction = cmath.rect(a, radians(phi)), cmath.rect(1.0, radians(slot))
     foot = lines_meet(pin, direction, 0j, 1 + 0j)
     board.step(
-        message(
-            "Given: the crank a = {a:g} about A₀ drives a yoke by a block at its pin A, in the pose φ = {phi:g}°. The "
-            "slot of the yoke stands at {slot:g}° to its guide.",
-            a=a,
-            phi=phi,
-            slot=slot,
-        ),
+        "Given: the crank a = {a:g} about A₀ drives a yoke by a block at its pin A, in the pose φ = {phi:g}°. The "
+        "slot of the yoke stands at {slot:g}° to its guide.",
         Dot(0j, "A₀"),
         Dot(pin, "A"),
         Segment(0j, pin, "edge"),
@@ -103,6 +91,9 @@ def scotch_yoke_given(board: Board, a: float, slot: float, phi: float) -> tuple[
         Segment(foot, foot + a, "given"),
         Segment(foot + (0.4 + 0.08j) * a, foot + (1 + 0.08j) * a, "dead"),
         Segment(foot + (0.4 - 0.08j) * a, foot + (1 - 0.08j) * a, "dead"),
+        a=a,
+        phi=phi,
+        slot=slot,
     )
     return 0j, pin, foot + a
 
@@ -114,16 +105,14 @@ def tangent_mechanism_given(board: Board, d: float, phi: float) -> tuple[complex
     if (pin / direction).real <= 0:
         raise LinkageError("the lever does not reach the guide of the slider: phi must lie between 0° and 180°")
     board.step(
-        message(
-            "Given: a lever about A₀ drives a slider by a block that slides along it and turns about the slider's pin "
-            "B, in the pose φ = {phi:g}°. The guide of B has the distance d = {d:g} from A₀.",
-            phi=phi,
-            d=d,
-        ),
+        "Given: a lever about A₀ drives a slider by a block that slides along it and turns about the slider's pin "
+        "B, in the pose φ = {phi:g}°. The guide of B has the distance d = {d:g} from A₀.",
         Dot(0j, "A₀"),
         Dot(pin, "B"),
         Segment(0j, 1.25 * pin, "given"),
         Segment(pin - 0.5 * d, pin + 0.5 * d, "edge"),
         Segment(pin - 0.5 * d - 0.06j * d, pin + 0.5 * d - 0.06j * d, "dead"),
+        phi=phi,
+        d=d,
     )
     return 0j, pin

@@ -32,51 +32,41 @@ def geneva_drive(slots: float = 4, distance: float = 100) -> Construction:
     board = Board(message("Geneva drive"))
     driver, wheel = 0j, complex(distance)
     board.step(
-        message(
-            "Given: the distance of the axes {distance:g}, {slots} slots. The wheel turns by 360°/{slots} in a step.",
-            distance=distance,
-            slots=count,
-        ),
+        "Given: the distance of the axes {distance:g}, {slots} slots. The wheel turns by 360°/{slots} in a step.",
         Dot(driver, "O₁"),
         Dot(wheel, "O₂"),
         Segment(driver, wheel, "dead"),
+        distance=distance,
+        slots=count,
     )
     direction = cmath.rect(1.0, pi - pi / count)
     board.step(
-        message(
-            "The slot that the pin enters makes half a step with the line of the axes, 180°/{slots} = {angle:g}°.",
-            slots=count,
-            angle=180 / count,
-        ),
+        "The slot that the pin enters makes half a step with the line of the axes, 180°/{slots} = {angle:g}°.",
         DrawnLine(wheel, direction),
         DrawnLine(wheel, direction.conjugate()),
         Angle(wheel, begin=pi, turn=-pi / count, text=quantity("ψ₀", 180 / count, "°"), radius=44),
+        slots=count,
+        angle=180 / count,
     )
     pin = lines_meet(driver, 1j * direction, wheel, direction)
     crank = abs(pin - driver)
     board.step(
-        message(
-            "To enter without impact, the pin moves along the slot: the crank is perpendicular to it. The foot of the "
-            "perpendicular "
-            "from O₁ is the pin; crank r₁ = {crank:.4g}, mouth of the slot r₂ = {wheel:.4g}.",
-            crank=crank,
-            wheel=abs(pin - wheel),
-        ),
+        "To enter without impact, the pin moves along the slot: the crank is perpendicular to it. The foot of the "
+        "perpendicular "
+        "from O₁ is the pin; crank r₁ = {crank:.4g}, mouth of the slot r₂ = {wheel:.4g}.",
         Segment(driver, pin, "edge", quantity("r₁", crank)),
         Segment(pin, wheel, "help", quantity("r₂", abs(pin - wheel))),
         Dot(pin, "A"),
         DrawnCircle(driver, crank, "curve-rest"),
         DrawnCircle(wheel, abs(pin - wheel), "curve-rest"),
+        crank=crank,
+        wheel=abs(pin - wheel),
     )
     deepest = abs(wheel - crank)
     board.step(
-        message(
-            "On the line of the axes the pin is deepest, r₂ᵢ = {deep:.4g} from O₂. The slots go from there to the "
-            "mouth, "
-            "every {step:g}°.",
-            deep=deepest,
-            step=360 / count,
-        ),
+        "On the line of the axes the pin is deepest, r₂ᵢ = {deep:.4g} from O₂. The slots go from there to the "
+        "mouth, "
+        "every {step:g}°.",
         DrawnCircle(wheel, deepest),
         *(
             Segment(
@@ -86,15 +76,13 @@ def geneva_drive(slots: float = 4, distance: float = 100) -> Construction:
             )
             for k in range(count)
         ),
+        deep=deepest,
+        step=360 / count,
     )
     engaged = 2 * degrees_between(pin - driver, wheel - driver)
     board.step(
-        message(
-            "Measured: while the driver turns by {engaged:.4g}° the wheel moves, for the other {rest:.4g}° the locking "
-            "disc holds it.",
-            engaged=engaged,
-            rest=360 - engaged,
-        ),
+        "Measured: while the driver turns by {engaged:.4g}° the wheel moves, for the other {rest:.4g}° the locking "
+        "disc holds it.",
         Segment(driver, pin.conjugate(), "ghost"),
         Angle(
             driver,
@@ -103,6 +91,8 @@ def geneva_drive(slots: float = 4, distance: float = 100) -> Construction:
             text=quantity("φ", engaged, "°"),
             radius=40,
         ),
+        engaged=engaged,
+        rest=360 - engaged,
     )
     return board.done(crank=crank, wheel=abs(pin - wheel), slot_end=deepest, engaged=engaged)
 
@@ -128,41 +118,37 @@ def cam_profile(
     low = complex(1.6 * (start + height), -0.5 * height)
     wide = 3.2 * start / tau
     board.step(
-        message(
-            "Given: the lift s(φ), the base circle r_b = {base:g}, the roller r_r = {roller:g}.",
-            base=base,
-            roller=roller,
-        ),
+        "Given: the lift s(φ), the base circle r_b = {base:g}, the roller r_r = {roller:g}.",
         DrawnCurve(tuple(low + complex(wide * x, s) for x, s in zip(fine.tolist(), values.tolist(), strict=True))),
         Segment(low, low + wide * tau, "axis"),
         Segment(low, low + 1j * (height + least), "axis", "s"),
         Dot(0j, "O"),
         DrawnCircle(0j, base, "curve-rest"),
+        base=base,
+        roller=roller,
     )
     angles = [tau * k / count for k in range(count)]
     lifts = [float(law.at(x)) for x in angles]
     board.step(
-        message("The diagram and the circle are divided into {count} parts of {step:g}°.", count=count, step=step),
+        "The diagram and the circle are divided into {count} parts of {step:g}°.",
         *(Segment(low + wide * x, low + complex(wide * x, s)) for x, s in zip(angles, lifts, strict=True)),
         *(Segment(0j, cmath.rect(start + height, pi / 2 - x)) for x in angles),
+        count=count,
+        step=step,
     )
     # The cam turns counter-clockwise: the follower goes round clockwise against it.
     centres = [cmath.rect(start + s, pi / 2 - x) for x, s in zip(angles, lifts, strict=True)]
     board.step(
-        message(
-            "The cam is held, the follower turns against it. On every ray r_b + r_r + s is laid off: the centres of "
-            "the "
-            "roller, on the pitch curve."
-        ),
+        "The cam is held, the follower turns against it. On every ray r_b + r_r + s is laid off: the centres of "
+        "the "
+        "roller, on the pitch curve.",
         *(Dot(z) for z in centres),
         DrawnCurve(
             tuple(cmath.rect(start + s, pi / 2 - x) for x, s in zip(fine.tolist(), values.tolist(), strict=True)),
             "dead",
         ),
     )
-    board.step(
-        message("Circles of the roller about these centres."), *(DrawnCircle(z, roller, "ghost") for z in centres)
-    )
+    board.step("Circles of the roller about these centres.", *(DrawnCircle(z, roller, "ghost") for z in centres))
     slope = law.at(fine, 1)
     along = np.exp(1j * (pi / 2 - fine))
     pitch = (start + values) * along
@@ -171,7 +157,7 @@ def cam_profile(
     inward = np.where((inward / along).real < 0, inward, -inward)
     profile = pitch + roller * inward
     board.step(
-        message("The curve that touches all of them inside is the profile of the cam."),
+        "The curve that touches all of them inside is the profile of the cam.",
         DrawnCurve(tuple(complex(z) for z in profile), "given"),
     )
     measured = {f"r{k}": abs(z) for k, z in enumerate(centres)}

@@ -41,13 +41,21 @@ class VectorPlan:
         """The tip of a vector from the pole."""
         return self.pole + self.scale * vector
 
-    def draw(self, text: Message, *arrows: tuple[str, complex, complex], pole: str = "", tip: str = "") -> None:
+    def draw(
+        self,
+        text: str | Message,
+        *arrows: tuple[str, complex, complex],
+        pole: str = "",
+        tip: str = "",
+        **values: object,
+    ) -> None:
         """A step: arrows by name, from vector to vector; the pole and the tip of the first arrow may get names."""
         self.board.step(
             text,
             *([Dot(self.pole, pole)] if pole else []),
             *(Arrow(self.at(begin), self.at(end), name, self.style) for name, begin, end in arrows),
             *([Dot(self.at(arrows[0][2]), tip)] if tip else []),
+            **values,
         )
 
     def meet(self, text: Message, first: complex, along: complex, second: complex, other: complex) -> complex:
@@ -102,16 +110,14 @@ def _crank(board: Board, pins: tuple[complex, ...], a: float, omega: float, down
     plan = VectorPlan(board, pins, abs(a * omega), down)
     v_a = 1j * omega * (pins[1] - pins[0])
     plan.draw(
-        message(
-            "The crank turns with ω = {omega:g} 1/s: v_A = a ω = {speed:.4g}, perpendicular to A₀A. It is drawn from "
-            "the pole p_v; 1 mm of the linkage's scale stands for {scale:.4g} mm/s.",
-            omega=omega,
-            speed=abs(v_a),
-            scale=1 / plan.scale,
-        ),
+        "The crank turns with ω = {omega:g} 1/s: v_A = a ω = {speed:.4g}, perpendicular to A₀A. It is drawn from "
+        "the pole p_v; 1 mm of the linkage's scale stands for {scale:.4g} mm/s.",
         ("v_A", 0, v_a),
         pole="p_v",
         tip="a",
+        omega=omega,
+        speed=abs(v_a),
+        scale=1 / plan.scale,
     )
     return plan, v_a
 
@@ -119,14 +125,12 @@ def _crank(board: Board, pins: tuple[complex, ...], a: float, omega: float, down
 def _coupler_triangle(plan: VectorPlan, v_a: complex, v_b: complex) -> VelocityPolygon:
     """The polygon with the velocity of a coupler's pin B, which its lines gave."""
     plan.draw(
-        message(
-            "The lines meet in b: v_B = {v_b:.4g} from p_v to b, v_BA = {v_ba:.4g} from a to b.",
-            v_b=abs(v_b),
-            v_ba=abs(v_b - v_a),
-        ),
+        "The lines meet in b: v_B = {v_b:.4g} from p_v to b, v_BA = {v_ba:.4g} from a to b.",
         ("v_B", 0, v_b),
         ("v_BA", v_a, v_b),
         tip="b",
+        v_b=abs(v_b),
+        v_ba=abs(v_b - v_a),
     )
     return VelocityPolygon(plan, v_a, v_b, ("v_A", "v_B", "v_BA"))
 
@@ -231,17 +235,15 @@ def tangent_velocities(title: Message, d: float, phi: float, omega: float, down:
     plan = VectorPlan(board, pins, abs(abs(arm) * omega), down)
     v_c = 1j * omega * arm
     plan.draw(
-        message(
-            "C is the point of the lever under B. The lever turns with ω = {omega:g} 1/s: v_C = A₀B ω = {speed:.4g}, "
-            "perpendicular to the lever. It is drawn from the pole p_v; 1 mm of the linkage's scale stands for "
-            "{scale:.4g} mm/s.",
-            omega=omega,
-            speed=abs(v_c),
-            scale=1 / plan.scale,
-        ),
+        "C is the point of the lever under B. The lever turns with ω = {omega:g} 1/s: v_C = A₀B ω = {speed:.4g}, "
+        "perpendicular to the lever. It is drawn from the pole p_v; 1 mm of the linkage's scale stands for "
+        "{scale:.4g} mm/s.",
         ("v_C", 0, v_c),
         pole="p_v",
         tip="c",
+        omega=omega,
+        speed=abs(v_c),
+        scale=1 / plan.scale,
     )
     text = message(
         "The slider moves along its guide: the line of v_B goes through the pole p_v. The block slides along the "
@@ -249,13 +251,11 @@ def tangent_velocities(title: Message, d: float, phi: float, omega: float, down:
     )
     v_b = plan.meet(text, 0, 1 + 0j, v_c, arm)
     plan.draw(
-        message(
-            "The lines meet in b: v_B = {v_b:.4g} from p_v to b, v_rel = {v_rel:.4g} from c to b.",
-            v_b=abs(v_b),
-            v_rel=abs(v_b - v_c),
-        ),
+        "The lines meet in b: v_B = {v_b:.4g} from p_v to b, v_rel = {v_rel:.4g} from c to b.",
         ("v_B", 0, v_b),
         ("v_rel", v_c, v_b),
         tip="b",
+        v_b=abs(v_b),
+        v_rel=abs(v_b - v_c),
     )
     return VelocityPolygon(plan, v_c, v_b, ("v_C", "v_B", "v_rel"))

@@ -59,14 +59,12 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
     as_step(step)
     builder = SolutionBuilder(unit=unit)
     builder.say(
-        message(
-            "A0 = (0, 0), B0 = (d, 0). The crank gives A; B is where the circle of radius b about A meets that "
-            "of radius c about B0, above the line A-B0:"
-        ),
+        "A0 = (0, 0), B0 = (d, 0). The crank gives A; B is where the circle of radius b about A meets that "
+        "of radius c about B0, above the line A-B0:",
         "A = a·(cos φ, sin φ), |AB| = b, |B0B| = c",
     )
     builder.say(
-        message("The coupler point lies u along A-B and v to its left; θ is the direction from A to B:"),
+        "The coupler point lies u along A-B and v to its left; θ is the direction from A to B:",
         "K = A + u·(cos θ, sin θ) + v·(-sin θ, cos θ)",
     )
     drives = from_degrees(0, 360, step)
@@ -74,7 +72,7 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
     paths = [motion.point(u, v).value for u, v in chosen]
     names = [f"K{k}" if len(chosen) > 1 else "K" for k in range(1, len(chosen) + 1)]
     for name, (u, v) in zip(names, chosen, strict=True):
-        builder.say(message("{name}: u = {u}, v = {v} {unit}", name=name, u=figure(u), v=figure(v), unit=unit))
+        builder.say("{name}: u = {u}, v = {v} {unit}", name=name, u=figure(u), v=figure(v), unit=unit)
     columns = ["φ [°]", *(f"{name}_{axis}" for name in names for axis in "xy")]
     rows = [(round(degrees(phi), 9), *(float(x) for path in paths for x in path[k])) for k, phi in enumerate(drives)]
     builder.table(PATH, columns, rows)
@@ -109,7 +107,7 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
     as_step(step)
     builder = SolutionBuilder(unit=unit)
     builder.say(
-        message("The coupler always points from A through the block at B0 = (d, 0); C lies at its end, b from A:"),
+        "The coupler always points from A through the block at B0 = (d, 0); C lies at its end, b from A:",
         "C = A + b·(B0 - A)/|AB0|, |AB0| = √(a² + d² - 2·a·d·cos φ)",
     )
     drives = from_degrees(0, 360, step)
@@ -133,19 +131,17 @@ def _add_straight(builder: SolutionBuilder, path: Path, by_solver: Path, band: f
     unit = builder.unit
     piece = longest_in_band(path, 0.0, pi, band)
     builder.say(
-        message(
-            "Nearly straight: within a band of {band} {unit} C runs {length:.3f} {unit} far, from φ = {start:.2f}° to "
-            "{end:.2f}°.",
-            band=figure(band),
-            length=piece.length,
-            unit=unit,
-            start=degrees(piece.start),
-            end=degrees(piece.end),
-        )
+        "Nearly straight: within a band of {band} {unit} C runs {length:.3f} {unit} far, from φ = {start:.2f}° to "
+        "{end:.2f}°.",
+        band=figure(band),
+        length=piece.length,
+        unit=unit,
+        start=degrees(piece.start),
+        end=degrees(piece.end),
     )
     builder.keep("length", message("length of the nearly straight part"), piece.length, unit=unit, symbol="L")
     again = path_piece(by_solver, piece.start, piece.end, piece.direction, samples=2001)
-    builder.check(message("Length of this part, by the general solver"), piece.length, again.length)
+    builder.check("Length of this part, by the general solver", piece.length, again.length)
     width = message("Width of this part, by the general solver, and the band")
     builder.check(width, band, again.band, tolerance=STRIP)
 

@@ -52,10 +52,10 @@ def _add_dead_centres(builder: SolutionBuilder, size: SliderCrank) -> None:
         inner = builder.find("l_i", _INNER, "√((b - a)² - e²)", sqrt((b - a) ** 2 - e**2), a=a, b=b, e=e)
     stroke = builder.find("H", _STROKE, "l_a - l_i", outer - inner, l_a=outer, l_i=inner)
     measured = measures(size.linkage())
-    builder.check(message("Stroke, from the extremes of the solved motion"), stroke, measured.travel or 0.0)
+    builder.check("Stroke, from the extremes of the solved motion", stroke, measured.travel or 0.0)
     for key, centre in (("l_a", measured.outer), ("l_i", measured.inner)):
         position = abs(centre.output) if centre else 0.0
-        builder.check(message("{key} of the solved motion", key=key), builder.number(key), position)
+        builder.check("{key} of the solved motion", builder.number(key), position, key=key)
     builder.mistake("H", a, _NOT_ONCE)
     builder.mistake("H", outer, _ONE_CENTRE)
     builder.mistake("H", 2 * a, message("H = 2a holds for a central slider-crank only; this one is eccentric."))
@@ -80,7 +80,7 @@ def _add_division(builder: SolutionBuilder, a: float, b: float, e: float, measur
         "difference", name, "2·Δφ", 2 * (phi_i - phi_a), unit="°", symbol="φ_max - φ_min", Δφ=angle(phi_i - phi_a)
     )
     builder.check(
-        message("Longer crank angle, between the dead centres of the solved motion"),
+        "Longer crank angle, between the dead centres of the solved motion",
         longer,
         degrees(measures.phi_max or 0.0),
         "°",
@@ -143,7 +143,7 @@ def stroke_table(
     begin = first.drive if first.drive < pi or not from_outer else first.drive - 2 * pi
     low = "" if not e else " - e" if e > 0 else " + e"
     builder.say(
-        message("The slider's travel at every crank angle, measured from below the crank's pivot:"),
+        "The slider's travel at every crank angle, measured from below the crank's pivot:",
         f"s = a·cos φ + √(b² - (a·sin φ{low})²)",
     )
     rows = []
@@ -163,7 +163,7 @@ def stroke_table(
     builder.keep("inner_at", name, degrees(inner), unit="°", symbol="φ_ai")
     moved = move_quietly(size.linkage(), [radians(row[1]) for row in rows])
     builder.check(
-        message("Largest difference of s in the table from the general solver's"),
+        "Largest difference of s in the table from the general solver's",
         0.0,
         max(abs(row[2] - s) for row, s in zip(rows, moved.displacement("P(frame-slider)").tolist(), strict=True)),
     )
@@ -221,8 +221,8 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
     moved = move_quietly(size.linkage(), [radians(phi)])
     slide = float(moved.displacement("P(frame-slider)")[0])
     rod_angle = degrees(abs(float(moved.angle("coupler")[0])))
-    builder.check(message("s at this angle, by the general solver"), rod, slide)
-    builder.check(message("α there, by the general solver"), alpha, rod_angle, "°")
+    builder.check("s at this angle, by the general solver", rod, slide)
+    builder.check("α there, by the general solver", alpha, rod_angle, "°")
     builder.mistake("H", a, _NOT_ONCE)
     builder.mistake("H", rod + a, _ONE_CENTRE)
     _add_middle_mistakes(builder, phi, alpha)
@@ -272,10 +272,8 @@ def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = Non
     lengths = {"a": formula_number(a), "b": formula_number(b), "c": formula_number(c), "d": formula_number(d)}
     phi_i, phi_a = _dead_centre_angles(builder, size, lengths)
     builder.say(
-        message(
-            "Between the dead centres the crank's line turns by the difference; the crank itself makes half a "
-            "turn more or less."
-        )
+        "Between the dead centres the crank's line turns by the difference; the crank itself makes half a "
+        "turn more or less."
     )
     angles = {"φ_i": angle(phi_i), "φ_a": angle(phi_a)}
     way_angle = _add_times(builder, abs(phi_i - phi_a), angles, "φ_i - φ_a" if phi_i >= phi_a else "φ_a - φ_i")
@@ -302,10 +300,8 @@ def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = Non
 def _dead_centre_angles(builder: SolutionBuilder, size: FourBar, lengths: dict[str, str]) -> tuple[float, float]:
     a, b, c, d = size.a, size.b, size.c, size.d
     builder.say(
-        message(
-            "In a dead centre crank and coupler lie on one line; with rocker and frame they form a triangle with "
-            "the side b - a (inner) or b + a (outer). The cosine rule gives the angle at A0."
-        )
+        "In a dead centre crank and coupler lie on one line; with rocker and frame they form a triangle with "
+        "the side b - a (inner) or b + a (outer). The cosine rule gives the angle at A0."
     )
     angles = []
     for key, sign, name in (
@@ -349,7 +345,7 @@ def _add_durations(builder: SolutionBuilder, rpm: float, longer: float, by_motio
     name = message("difference of the times")
     shown = {"T_max": f"{formula_number(slow)} ms", "T_min": f"{formula_number(quick)} ms"}
     builder.find("ΔT", name, "T_max - T_min", slow - quick, unit="ms", values=shown)
-    builder.check(message("Time of the slower stroke, by the solved motion"), slow, by_motion, "ms")
+    builder.check("Time of the slower stroke, by the solved motion", slow, by_motion, "ms")
     builder.mistake("ΔT", (slow - quick) / 2, message("That is the distance from T/2; the strokes differ by twice it."))
 
 
@@ -377,10 +373,10 @@ def central_crank_rocker(a: float, b: float, c: float, unit: str = "mm") -> Solu
     formula = "arccos((b² + c² - (d - a)²)/(2·b·c))"
     mu = builder.find("μ_min", name, formula, value, unit="°", text=text, a=a, b=b, c=c, d=d)
     measured = measures(size.linkage())
-    builder.check(message("Swing, from the solved motion"), swing, degrees(measured.travel or 0), "°")
+    builder.check("Swing, from the solved motion", swing, degrees(measured.travel or 0), "°")
     smallest = measured.transmission.smallest.mu if measured.transmission else 0.0
-    builder.check(message("Smallest transmission angle, from the solved motion"), mu, degrees(smallest), "°")
-    builder.check(message("Time ratio, 1 for a central linkage"), 1.0, measured.time_ratio or 0, "")
+    builder.check("Smallest transmission angle, from the solved motion", mu, degrees(smallest), "°")
+    builder.check("Time ratio, 1 for a central linkage", 1.0, measured.time_ratio or 0, "")
     builder.mistake(
         "d", hypot(b, c), message("b² + c² is still a² too much: the triangle has its right angle elsewhere.")
     )

@@ -30,10 +30,10 @@ def dyad(chain: str, form: str = "RRR") -> Solution:
     builder = SolutionBuilder()
     start = Chain.parse(chain)
     before = _add_before(builder, start)
-    builder.say(message("A dyad brings two links and three joints with f = 1:"), "ΔF = 3·2 - 2·3 = 0")
+    builder.say("A dyad brings two links and three joints with f = 1:", "ΔF = 3·2 - 2·3 = 0")
     extensions = extend(start, dyad=form)
     _add_after(builder, start, extensions)
-    builder.say(message("A dyad leaves F unchanged."))
+    builder.say("A dyad leaves F unchanged.")
     hint = message("Besides the two links three joints are added: 3·2 - 2·3 = 0.")
     builder.mistake(
         "F_after",
@@ -57,15 +57,15 @@ def coupler(chain: str) -> Solution:
     builder = SolutionBuilder()
     start = Chain.parse(chain)
     before = _add_before(builder, start)
-    builder.say(message("A coupler brings one link and two joints with f = 1:"), "ΔF = 3·1 - 2·2 = -1")
+    builder.say("A coupler brings one link and two joints with f = 1:", "ΔF = 3·1 - 2·2 = -1")
     extensions = extend(start, coupler="RR")
     sound = [extension for extension in extensions if not mobility_report(extension.chain).rigid_clusters]
     _add_after(builder, start, sound)
-    builder.say(message("A coupler lowers F by one."))
+    builder.say("A coupler lowers F by one.")
     for extension in extensions:
         if extension not in sound:
             links = joined_by_and(extension.places[0])
-            builder.say(message("Between {links} it makes a rigid triangle: these links become one.", links=links))
+            builder.say("Between {links} it makes a rigid triangle: these links become one.", links=links)
     for key, by_dyad, more in (("F_after", before, before + 1), ("change", CHANGES[0], CHANGES[1])):
         builder.mistake(key, by_dyad, message("That holds for a dyad; a coupler takes one away."))
         builder.mistake(key, more, message("The coupler has two joints, and each removes two freedoms: 3 - 4 = -1."))
@@ -108,13 +108,13 @@ def _add_after(builder: SolutionBuilder, start: Chain, extensions: list[Extensio
         rows.append((name.split()[0] if name else "", in_alphabets(shown.text), len(extension.places)))
     agreeing = sum(counted(extension.chain) == mobility_report(extension.chain).generic for extension in extensions)
     builder.check(
-        message("Chains, and those whose F agrees with the rank of the constraints at random sizes"),
+        "Chains, and those whose F agrees with the rank of the constraints at random sizes",
         float(len(extensions)),
         float(agreeing),
         "",
     )
     builder.check(
-        message("Different chains by canonical codes, and by comparing graphs pair by pair"),
+        "Different chains by canonical codes, and by comparing graphs pair by pair",
         float(len(extensions)),
         float(_classes(extensions)),
         "",

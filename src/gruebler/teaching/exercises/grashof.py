@@ -41,10 +41,7 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
     if grashof.condition != "=":
         moved = drive_range(FourBar(a, b, c, d).linkage())
         builder.check(
-            message("The crank turns fully (1) or not (0), by following the motion"),
-            float(turns),
-            float(moved.full),
-            "",
+            "The crank turns fully (1) or not (0), by following the motion", float(turns), float(moved.full), ""
         )
     builder.mistake(
         "turns", not turns, message("Compare l_min + l_max with the two others, and see where the shortest link is.")
@@ -68,14 +65,12 @@ def _add_sums(builder: SolutionBuilder, grashof: Grashof) -> None:
     low, first, second, high = sorted(grashof.lengths.values())
     shortest = ", ".join(grashof.shortest)
     builder.say(
-        message(
-            "Shortest link: {shortest} with {low} {unit}; longest: {longest} with {high} {unit}.",
-            shortest=shortest,
-            low=figure(low),
-            unit=unit,
-            longest=grashof.longest,
-            high=figure(high),
-        )
+        "Shortest link: {shortest} with {low} {unit}; longest: {longest} with {high} {unit}.",
+        shortest=shortest,
+        low=figure(low),
+        unit=unit,
+        longest=grashof.longest,
+        high=figure(high),
     )
     name = message("sum of the shortest and the longest length")
     ends = builder.find("sum_ends", name, "l_min + l_max", low + high, symbol="s1", l_min=low, l_max=high)
@@ -139,10 +134,8 @@ def length_range(
         )
     builder = SolutionBuilder(unit=unit)
     builder.say(
-        message(
-            "For the crank a to turn fully against the frame and drive a rocker it must be the shortest link, "
-            "and with it l_min + l_max must not exceed the sum of the two others."
-        )
+        "For the crank a to turn fully against the frame and drive a rocker it must be the shortest link, "
+        "and with it l_min + l_max must not exceed the sum of the two others."
     )
     text = message(
         "{free} is not the longest link, {longest} is: a + {longest} ≤ {other} + {free}",
@@ -159,14 +152,12 @@ def length_range(
     name = message("largest value")
     builder.find(f"{free}_max", name, f"{longer} + {shorter} - a", high, text=text, values=values)
     builder.say(
-        message(
-            "So {low} {unit} ≤ {free} ≤ {high} {unit}. At both ends the sums are equal: there the linkage is at a "
-            "change point; the crank turns fully without doubt only in between.",
-            low=figure(low),
-            unit=unit,
-            free=free,
-            high=figure(high),
-        )
+        "So {low} {unit} ≤ {free} ≤ {high} {unit}. At both ends the sums are equal: there the linkage is at a "
+        "change point; the crank turns fully without doubt only in between.",
+        low=figure(low),
+        unit=unit,
+        free=free,
+        high=figure(high),
     )
     _add_shortest(builder, free, crank, long, short, (longer, shorter))
     _check_range(builder, free, lengths, low, high)
@@ -203,8 +194,8 @@ def _add_shortest(
 
 def _check_range(builder: SolutionBuilder, free: str, lengths: dict[str, float], low: float, high: float) -> None:
     (crank_rocker,) = (part for part in turning_ranges("a", **lengths) if part.type.key == "crank_rocker")
-    builder.check(message("Lower end, by going through all types"), low, crank_rocker.lower)
-    builder.check(message("Upper end, by going through all types"), high, crank_rocker.upper)
+    builder.check("Lower end, by going through all types", low, crank_rocker.lower)
+    builder.check("Upper end, by going through all types", high, crank_rocker.upper)
     near = 1e-3 * (high - low)
     tried = [(low + near, True), (low - near, False), (high - near, True), (high + near, False)]
     upper = builder.number("shortest_upper")
@@ -217,14 +208,12 @@ def _check_range(builder: SolutionBuilder, free: str, lengths: dict[str, float],
     for value, full in tried:
         moved = drive_range(FourBar(**lengths, **{free: value}).linkage()).full
         builder.check(
-            message(
-                "{free} = {value}: the crank turns fully (1) or not (0), by following the motion",
-                free=free,
-                value=figure(value),
-            ),
+            "{free} = {value}: the crank turns fully (1) or not (0), by following the motion",
             float(full),
             float(moved),
             "",
+            free=free,
+            value=figure(value),
         )
 
 

@@ -31,10 +31,8 @@ def universal_joint(beta: float, n: float, phi: float | None = None) -> Solution
     joint = UniversalJoint(math.radians(beta))
     builder = SolutionBuilder()
     builder.say(
-        message(
-            "φ is counted from the position in which the fork of the input lies in the plane of both shafts. There the "
-            "output is fastest, a quarter of a turn later slowest."
-        ),
+        "φ is counted from the position in which the fork of the input lies in the plane of both shafts. There the "
+        "output is fastest, a quarter of a turn later slowest.",
         "n_2 = n_1 cos β/(1 - sin² β cos² φ)",
     )
     values: dict[str, float | str] = {"n_1": float(n), "β": angle(beta)}
@@ -77,7 +75,7 @@ def _check_shafts(builder: SolutionBuilder, joint: UniversalJoint, n: float) -> 
     at = joint.phase_error_at
     psi = float(four_bar.motion(at).output.value) + math.pi / 2
     builder.check(
-        message("Lead where tan φ = √(cos β), by the four-bar"),
+        "Lead where tan φ = √(cos β), by the four-bar",
         builder.number("ε_max"),
         abs(math.degrees(math.remainder(psi - at, math.pi))),
         "°",
@@ -96,7 +94,7 @@ def _at_angle(builder: SolutionBuilder, beta: float, n: float, phi: float) -> No
     builder.find("n_2", name, "n_1 cos β/(1 - sin² β cos² φ)", speed, unit=_SPEED, values=values)
     motion = UniversalJoint(math.radians(beta)).four_bar.motion(math.radians(phi))
     builder.check(
-        message("Speed at φ: as a four-bar on the sphere with three right angles"),
+        "Speed at φ: as a four-bar on the sphere with three right angles",
         speed,
         n * float(motion.output.velocity),
         _SPEED,
@@ -129,10 +127,8 @@ def spherical_grashof(a: float, b: float, c: float, d: float) -> Solution:
     plain = sorted(arcs.values())
     if total > 360 + _CLOSE:
         builder.say(
-            message(
-                "More than 360°: two axes that are not neighbours are counted from their other ends, which changes "
-                "nothing. Every arc then becomes its supplement."
-            ),
+            "More than 360°: two axes that are not neighbours are counted from their other ends, which changes "
+            "nothing. Every arc then becomes its supplement.",
             "a' = 180° - a",
         )
         arcs = {name: 180 - arc for name, arc in arcs.items()}
@@ -153,9 +149,7 @@ def spherical_grashof(a: float, b: float, c: float, d: float) -> Solution:
     shortest = ", ".join(k for k, arc in arcs.items() if abs(arc - low) < _CLOSE)
     meaning = _SPHERE_SAYS[(ends > others - _CLOSE) + (ends > others + _CLOSE)]
     builder.say(
-        message(
-            "Grashof's condition on the sphere, shortest arc {shortest}: {meaning}", shortest=shortest, meaning=meaning
-        )
+        "Grashof's condition on the sphere, shortest arc {shortest}: {meaning}", shortest=shortest, meaning=meaning
     )
     turns = "a" in size.turning
     builder.keep("turns", message("the crank a turns fully"), turns)
@@ -166,9 +160,7 @@ def spherical_grashof(a: float, b: float, c: float, d: float) -> Solution:
         full = spatial_range(
             size.linkage(size.limits[0].start + 0.5 * (size.limits[0].end - size.limits[0].start))
         ).full
-        builder.check(
-            message("The crank turns fully (1) or not (0), by following the motion"), float(turns), float(full), ""
-        )
+        builder.check("The crank turns fully (1) or not (0), by following the motion", float(turns), float(full), "")
     builder.mistake("turns", not turns, message("Compare both sums, and see where the shortest arc is."))
     if total > 360 + _CLOSE:
         builder.mistake("sum_ends", plain[0] + plain[3], _TOO_LONG)
@@ -201,11 +193,11 @@ def _swing(builder: SolutionBuilder, size: SphericalFourBar, arcs: tuple[float, 
     swing = builder.find(
         "ψ_H", message("swing of the rocker"), "ψ_a - ψ_i", ends[1] - ends[0], unit="°", ψ_a=ends[1], ψ_i=ends[0]
     )
-    builder.check(message("Swing by the closed form of the motion"), swing, math.degrees(size.swing or 0.0), "°")
+    builder.check("Swing by the closed form of the motion", swing, math.degrees(size.swing or 0.0), "°")
     linkage = size.linkage(0.3)
     turn = move(linkage, [k * math.tau / 360 for k in range(361)], order=0).joint("R(frame-rocker)")
     turned = math.degrees(float(turn.max() - turn.min()))
-    builder.check(message("Swing by following the motion in steps of 1°"), swing, turned, "°", tolerance=1e-3)
+    builder.check("Swing by following the motion in steps of 1°", swing, turned, "°", tolerance=1e-3)
     inner = []
     for reach in (d - a, d + a):
         cosine = (_cos(reach) - _cos(b) * _cos(c)) / (math.sin(math.radians(b)) * math.sin(math.radians(c)))
@@ -216,7 +208,7 @@ def _swing(builder: SolutionBuilder, size: SphericalFourBar, arcs: tuple[float, 
     formula = f"arccos(|cos(d {sign} a) - cos b cos c|/(sin b sin c))"
     builder.find("μ_min", message("smallest transmission angle"), formula, least, unit="°", values=values)
     smallest = math.degrees(size.transmission_angle.smallest.mu)
-    builder.check(message("Smallest transmission angle by the closed form"), least, smallest, "°")
+    builder.check("Smallest transmission angle by the closed form", least, smallest, "°")
     builder.mistake("ψ_H", ends[1] + ends[0], message("Both angles are counted from the frame: their difference."))
     builder.mistake(
         "μ_min", max(inner), message("That is the better of both positions with the crank along the frame.")
@@ -235,7 +227,7 @@ def differential(n_C: float, n_1: float, z_s: float | None = None, z_p: float | 
     """
     builder = SolutionBuilder()
     builder.say(
-        message("Seen from the carrier both axle wheels turn against each other: the planets reverse the sense."),
+        "Seen from the carrier both axle wheels turn against each other: the planets reverse the sense.",
         "(n_1 - n_C)/(n_2 - n_C) = -1",
     )
     teeth = {key: as_positive(key, z) for key, z in (("z_s", z_s), ("z_p", z_p)) if z is not None}
@@ -259,14 +251,14 @@ def differential_in_a_curve(v: float, diameter: float, radius: float, track: flo
     turns = v / 3.6 / (math.pi * diameter / 1000) * 60
     name = message("speed of the carrier")
     carrier = builder.find("n_C", name, "v/(π D)", turns, unit=_SPEED, v=f"{v:g} km/h", D=f"{diameter:g} mm")
-    builder.say(message("The wheels follow circles of the radii R - s/2 and R + s/2, the middle of the axle one of R."))
+    builder.say("The wheels follow circles of the radii R - s/2 and R + s/2, the middle of the axle one of R.")
     numbers: dict[str, float | str] = {"n_C": carrier, "R": radius, "s": track}
     inner = carrier * (1 - track / (2 * radius))
     name = message("speed of the inner wheel")
     builder.find("n_1", name, "n_C (1 - s/(2·R))", inner, unit=_SPEED, values=numbers)
     _shafts(builder, message("speed of the outer wheel"), carrier, inner)
     outer = carrier * (radius + track / 2) / radius
-    builder.check(message("Outer wheel by its own circle"), builder.number("n_2"), outer, _SPEED)
+    builder.check("Outer wheel by its own circle", builder.number("n_2"), outer, _SPEED)
     builder.mistake("n_1", carrier * (1 - track / radius), message("The inner wheel runs half the track nearer."))
     builder.mistake("n_C", 2 * turns, message("π D is the way of a turn: D is the diameter, not the radius."))
     return builder.done()
@@ -284,13 +276,13 @@ def _shafts(
         builder.find("n_p", name, "|n_1 - n_C| z_s/z_p", planet, unit=_SPEED, values=teeth)
         train = read_train(f"bevel first:{z_s:g} planet:{z_p:g} second:-{z_s:g} on carrier").train
         turned = speeds(train, {"carrier": n_c, "first": n_1}).values
-        builder.check(message("Planets, as a train"), planet, abs(float(turned["planet"] or 0)), _SPEED)
+        builder.check("Planets, as a train", planet, abs(float(turned["planet"] or 0)), _SPEED)
         builder.mistake("n_p", abs(n_1 - n_c), message("The teeth count, too: z_s/z_p."))
         builder.mistake("n_p", abs(n_1) * z_s / z_p, message("Against the carrier: n_1 - n_C, not n_1."))
     else:
         train = read_train("bevel first:1 planet:1 second:-1 on carrier").train
         turned = speeds(train, {"carrier": n_c, "first": n_1}).values
-    builder.check(message("Second shaft, as a train"), n_2, float(turned["second"] or 0), _SPEED)
+    builder.check("Second shaft, as a train", n_2, float(turned["second"] or 0), _SPEED)
     builder.mistake("n_2", n_c - n_1, message("The carrier counts twice: n_1 + n_2 = 2 n_C."))
     builder.mistake("n_2", float(n_c), message("Both shafts have the carrier's speed only while they turn alike."))
     builder.mistake("n_2", (n_c + n_1) / 2, message("The carrier has the mean, not the shaft: n_C = (n_1 + n_2)/2."))

@@ -49,7 +49,7 @@ def machines(machines: str) -> Solution:
         if len(ids) > 1:
             builder.parts.append(PartHeading(record.name))
         if record.figure_lost:
-            builder.say(message("The figure is lost; the structure is an assumption."))
+            builder.say("The figure is lost; the structure is an assumption.")
         mark = _Mark(f".{id}", record.name) if len(ids) > 1 else _Mark("", None)
         _add_count(builder, record.chain(), mark, record.link_names("de"))
     return builder.done()
@@ -93,9 +93,9 @@ def _add_count(builder: SolutionBuilder, structure: Chain, mark: _Mark, german: 
         drives = in_every_language(
             lambda lang: plural("one drive is needed", "{count} drives are needed", report.generic, lang)
         )
-        builder.say(message("The chain is {verdict}: {drives}.", verdict=verdict, drives=drives))
+        builder.say("The chain is {verdict}: {drives}.", verdict=verdict, drives=drives)
     else:
-        builder.say(message("The chain is {verdict}.", verdict=verdict))
+        builder.say("The chain is {verdict}.", verdict=verdict)
     builder.check(mark.named(_BY_RANK), float(max(formula.value, 0)), float(report.generic), "")
     _add_mistakes(builder, structure, mark)
 
@@ -116,12 +116,10 @@ def _add_joints(builder: SolutionBuilder, structure: Chain, mark: _Mark, german:
     for joint, named in zip(structure.multiple_joints, short.multiple_joints, strict=True):
         k = len(joint.links)
         builder.say(
-            message(
-                "The joint {joint} connects {links} links and counts {times}.",
-                joint=Text("-".join(joint.links), "-".join(named.links)),
-                links=k,
-                times=_TIMES.get(k - 1, message("{count} times", count=k - 1)),
-            )
+            "The joint {joint} connects {links} links and counts {times}.",
+            joint=Text("-".join(joint.links), "-".join(named.links)),
+            links=k,
+            times=_TIMES.get(k - 1, message("{count} times", count=k - 1)),
         )
 
 

@@ -207,6 +207,10 @@ def fill_template(formula: str, values: Mapping[str, float | str]) -> str:
     return _SYMBOL.sub(put, formula)
 
 
+def _told(text: str | Readable, values: Mapping[str, object]) -> Readable:
+    return message(text, **values) if isinstance(text, str) else text
+
+
 @dataclass(slots=True, kw_only=True)
 class SolutionBuilder:
     """A solution under construction."""
@@ -265,9 +269,9 @@ class SolutionBuilder:
         """The value of an earlier result that is a number."""
         return self.done().number(key)
 
-    def say(self, text: Readable, formula: str = "") -> None:
-        """A step in words."""
-        self.parts.append(SolutionStep(text=text, formula=formula))
+    def say(self, text: str | Readable, formula: str = "", **values: object) -> None:
+        """A step in words, with the values in their gaps."""
+        self.parts.append(SolutionStep(text=_told(text, values), formula=formula))
 
     def table(
         self, title: Message, headers: Sequence[str | Readable], rows: Iterable[Sequence[Value]], *, decimals: int = 3
@@ -276,11 +280,23 @@ class SolutionBuilder:
         self.parts.append(TeachingTable(title, tuple(headers), tuple(tuple(row) for row in rows), decimals))
 
     def check(
-        self, text: Readable, first: float, second: float, unit: str | None = None, tolerance: float = 1e-8
+        self,
+        text: str | Readable,
+        first: float,
+        second: float,
+        unit: str | None = None,
+        tolerance: float = 1e-8,
+        **values: object,
     ) -> None:
         """A check: the same quantity by the steps above and by a second method."""
         self.checks.append(
-            Check(text=text, first=first, second=second, unit=self.unit if unit is None else unit, tolerance=tolerance)
+            Check(
+                text=_told(text, values),
+                first=first,
+                second=second,
+                unit=self.unit if unit is None else unit,
+                tolerance=tolerance,
+            )
         )
 
     def mistake(self, key: str, value: Value, hint: Readable) -> None:

@@ -31,7 +31,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     size = FourBar(a, b, c, d)
     builder = SolutionBuilder(unit=unit)
     builder.say(
-        message("B is equally far from A, B0 and C (b = c = e): by Thales the angle A-B0-C is a right one."),
+        "B is equally far from A, B0 and C (b = c = e): by Thales the angle A-B0-C is a right one.",
         "|B0C| = √((b + e)² - |AB0|²)",
     )
     text = message("height of C at φ = 180°, where A lies on the frame line and C straight above B0")
@@ -52,9 +52,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
         builder, path_piece(linkage_path(size.linkage({"C": (b + e, 0)}), "C"), pi / 2, 3 * pi / 2, direction=0)
     )
     check_path(builder, size.linkage({"C": (b + e, 0)}), drives, points, "+")
-    builder.check(
-        message("h, from the path at φ = 180°"), height, float(coupler_path(size, b + e, 0)(np.array([pi]))[0].imag)
-    )
+    builder.check("h, from the path at φ = 180°", height, float(coupler_path(size, b + e, 0)(np.array([pi]))[0].imag))
     builder.mistake(
         "h", sqrt((b + e) ** 2 - (d - a) ** 2), message("That is the height at φ = 0°, where the path is not straight.")
     )
@@ -64,9 +62,9 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
 
 def _check_piece(builder: SolutionBuilder, again: PathPiece) -> None:
     """Check length and width of the straight part against the path of the general solver."""
-    builder.check(message("{quantity}, by the general solver", quantity="L"), builder.number("length"), again.length)
+    builder.check("{quantity}, by the general solver", builder.number("length"), again.length, quantity="L")
     builder.check(
-        message("{quantity}, by the general solver", quantity="Δ"), builder.number("band"), again.band, tolerance=STRIP
+        "{quantity}, by the general solver", builder.number("band"), again.band, tolerance=STRIP, quantity="Δ"
     )
 
 
@@ -103,13 +101,11 @@ def watt_linkage(
     left_pivot = complex(-rocker, height / 2)
     builder = SolutionBuilder(unit=unit)
     builder.say(
-        message(
-            "Mid position (assumed, the figure is lost): both rockers level, pivots A0 = (-a, c/2) and B0 = (a, "
-            "-c/2), the coupler upright with its middle F in the origin."
-        )
+        "Mid position (assumed, the figure is lost): both rockers level, pivots A0 = (-a, c/2) and B0 = (a, "
+        "-c/2), the coupler upright with its middle F in the origin."
     )
     builder.say(
-        message("For each angle t of the left rocker: A by t, B on both circles, F in the middle."),
+        "For each angle t of the left rocker: A by t, B on both circles, F in the middle.",
         "A = A0 + a·(cos t, sin t), |AB| = c, |B0B| = a, F = (A + B)/2",
     )
     values = from_degrees(start, stop, as_step(step))
@@ -159,11 +155,9 @@ def _add_watt_stroke(builder: SolutionBuilder, size: FourBar, tilt: float, left_
     name = message("points that path and tangent have in common in the middle")
     builder.keep("n", name, contact.points)
     builder.say(
-        message(
-            "About the middle F_x grows with the power {points} of F_y only: path and tangent have {points} "
-            "points in common there.",
-            points=contact.points,
-        )
+        "About the middle F_x grows with the power {points} of F_y only: path and tangent have {points} "
+        "points in common there.",
+        points=contact.points,
     )
 
 
@@ -206,19 +200,15 @@ def double_rocker(
     size = FourBar(d, a, b, c)
     builder = SolutionBuilder(unit=unit)
     builder.say(
-        message(
-            "Pivot of the rocker d in the origin, of the rocker b at ({x}, {y}): the frame c lies at {angle}° to the "
-            "horizontal. D is the joint of d, A that of b; C lies beyond D on the line A-D (assumed, the figure is "
-            "lost).",
-            x=figure(c * cos(radians(frame))),
-            y=figure(c * sin(radians(frame))),
-            angle=figure(frame),
-        )
+        "Pivot of the rocker d in the origin, of the rocker b at ({x}, {y}): the frame c lies at {angle}° to the "
+        "horizontal. D is the joint of d, A that of b; C lies beyond D on the line A-D (assumed, the figure is "
+        "lost).",
+        x=figure(c * cos(radians(frame))),
+        y=figure(c * sin(radians(frame))),
+        angle=figure(frame),
     )
     builder.say(
-        message(
-            "D follows from φ; A lies on the circle of radius a about D and that of radius b about the other pivot:"
-        ),
+        "D follows from φ; A lies on the circle of radius a about D and that of radius b about the other pivot:",
         "D = d·(cos φ, sin φ), C = A + AC·(D - A)/a",
     )
     values = from_degrees(start, stop, as_step(step))
@@ -259,24 +249,20 @@ def _add_strip(builder: SolutionBuilder, size: FourBar, path: Path, ends: tuple[
     builder.mistake("length", chord, message("That is how far the joint D comes; C lies beyond it."))
     builder.keep("direction", message("direction of the strip"), direction, unit="°")
     builder.say(
-        message(
-            "C stays in a strip of {band} {unit} over {length} {unit}, at {direction}° to the horizontal. Turned by "
-            "a right angle that is the horizontal path of the load.",
-            band=figure(piece.band),
-            unit=unit,
-            length=figure(piece.length),
-            direction=figure(direction),
-        )
+        "C stays in a strip of {band} {unit} over {length} {unit}, at {direction}° to the horizontal. Turned by "
+        "a right angle that is the horizontal path of the load.",
+        band=figure(piece.band),
+        unit=unit,
+        length=figure(piece.length),
+        direction=figure(direction),
     )
     arc = size.limits[0]
     builder.keep("lowest", message("smallest angle of rocker and frame"), degrees(arc.start), unit="°")
     builder.keep("highest", message("largest angle of rocker and frame"), degrees(arc.end), unit="°")
     builder.say(
-        message(
-            "With a horizontal frame the chain would close only for φ from {start}° to {end}°.",
-            start=figure(degrees(arc.start)),
-            end=figure(degrees(arc.end)),
-        )
+        "With a horizontal frame the chain would close only for φ from {start}° to {end}°.",
+        start=figure(degrees(arc.start)),
+        end=figure(degrees(arc.end)),
     )
 
 
@@ -289,10 +275,11 @@ def _check_limits(builder: SolutionBuilder, size: FourBar) -> None:
             move_quietly(linkage, [radians(limit + off)], branch="+").complete for off in (-side * 1e-6, side * 1e-6)
         )
         builder.check(
-            message("{limit}° is the limit (1) or not (0), by the general solver", limit=figure(limit)),
+            "{limit}° is the limit (1) or not (0), by the general solver",
             1.0,
             float(inside and not beyond),
             "",
+            limit=figure(limit),
         )
 
 
@@ -307,10 +294,8 @@ def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "m
     size = SliderCrank(a, b)
     builder = SolutionBuilder(unit=unit)
     builder.say(
-        message(
-            "A is equally far from A0, B and C: by Thales the angle B-A0-C is a right one, so C lies on the line "
-            "through A0 at right angles to the slider's path."
-        ),
+        "A is equally far from A0, B and C: by Thales the angle B-A0-C is a right one, so C lies on the line "
+        "through A0 at right angles to the slider's path.",
         "C = A - e·(B - A)/b, C_x = 0, C_y = 2·a·sin φ",
     )
     drives = from_degrees(-60, 60, as_step(step))
@@ -321,5 +306,5 @@ def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "m
     builder.find("deviation", name, "max |C_x|", max(abs(row[1]) for row in rows), symbol="Δ")
     check_path(builder, size.linkage({"C": (-e, 0)}), drives, points, "+")
     expected = max(abs(z[1] - 2 * a * sin(p)) for p, z in zip(drives.tolist(), points.tolist(), strict=True))
-    builder.check(message("Largest difference from 2a·sin φ"), 0.0, expected)
+    builder.check("Largest difference from 2a·sin φ", 0.0, expected)
     return builder.done()

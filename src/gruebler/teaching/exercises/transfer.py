@@ -28,10 +28,8 @@ def gear_pair(i: float, step: float = 90) -> Solution:
     name = message("slope of the transfer function")
     builder.find("slope", name, "1/i", 1 / i, symbol="ψ'", i=i)
     builder.say(
-        message(
-            "ψ grows evenly with φ: the graph is a straight line through the origin. An external pair turns in "
-            "opposite senses; with signs the line falls, ψ = -φ/i."
-        ),
+        "ψ grows evenly with φ: the graph is a straight line through the origin. An external pair turns in "
+        "opposite senses; with signs the line falls, ψ = -φ/i.",
         "ψ = φ/i",
     )
     rows = [(k * step, k * step / i) for k in range(int(360 * i / step + 1e-9) + 1)]
@@ -47,10 +45,12 @@ def gear_pair(i: float, step: float = 90) -> Solution:
     if reading is not None:
         speed = speeds(reading.train, {"drive": 1}).values["wheel"]
         builder.check(
-            message("Slope by the gear train {driver}:{wheel}", driver=teeth, wheel=figure(teeth * i)),
+            "Slope by the gear train {driver}:{wheel}",
             1 / i,
             abs(float(speed or 0)),
             "",
+            driver=teeth,
+            wheel=figure(teeth * i),
         )
     builder.mistake(
         "slope", float(i), message("i is input divided by output; the slope is output divided by input, 1/i.")

@@ -29,10 +29,8 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
     size = with_turning_crank(a, b, c, d)
     builder = SolutionBuilder(unit=unit)
     builder.say(
-        message(
-            "The transmission angle is extreme where the crank lies on the frame line: the distance A-B0 is d - "
-            "a or d + a."
-        ),
+        "The transmission angle is extreme where the crank lies on the frame line: the distance A-B0 is d - "
+        "a or d + a.",
         "(d ∓ a)² = b² + c² - 2·b·c·cos μ",
     )
     folded, deviations = [], []
@@ -95,7 +93,7 @@ def _add_rule(builder: SolutionBuilder, mu: float) -> None:
 def _check_smallest(builder: SolutionBuilder, linkage: Linkage, mu: float) -> None:
     extremes = measures(linkage).transmission
     builder.check(
-        message("Smallest transmission angle, from the solved motion"),
+        "Smallest transmission angle, from the solved motion",
         mu,
         degrees(extremes.smallest.mu) if extremes else 0.0,
         "°",
@@ -125,9 +123,7 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
     off = abs(e)
     rise = "(a + e)/b" if off else "a/b"
     if off and not mark:
-        builder.say(
-            message("The joint A is farthest from the slider's line, by a + e, where the crank points away from it.")
-        )
+        builder.say("The joint A is farthest from the slider's line, by a + e, where the crank points away from it.")
     values = {"a": formula_number(a), f"b{mark}": formula_number(b), "e": formula_number(off)}
     alpha = degrees(asin((a + off) / b))
     worst = builder.find(
@@ -142,9 +138,7 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
         _add_other_extreme(builder, a, b, off)
         moved = move_quietly(size.linkage(), pi / 2 if e > 0 else -pi / 2)
         angle_there = 90 - degrees(abs(float(moved.angle("coupler")[0])))
-        builder.check(
-            message("{quantity}, by the general solver", quantity="μ_II"), builder.number("μ_II"), angle_there, "°"
-        )
+        builder.check("{quantity}, by the general solver", builder.number("μ_II"), angle_there, "°", quantity="μ_II")
         builder.mistake(
             "μ_min", 90 - degrees(asin(a / b)), message("The eccentricity counts too: sin α_max = (a + e)/b.")
         )
@@ -160,7 +154,7 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
             builder.mistake(f"μ_max{mark}", value, along)
     extremes = measures(size.linkage()).transmission
     builder.check(
-        message("Largest transmission angle, from the solved motion"),
+        "Largest transmission angle, from the solved motion",
         builder.number(f"μ_max{mark}"),
         degrees(extremes.largest.mu) if extremes else 0.0,
         "°",
@@ -198,10 +192,8 @@ def compare_rods(a: float, b1: float, b2: float, unit: str = "mm") -> Solution:
         angles.append(_add_slider_crank(builder, a, b, 0.0, mark))
     better = 1 if angles[0] > angles[1] else 2
     builder.say(
-        message(
-            "Slider-crank {better} with the longer rod has the smaller ratio λ, the smaller deviation and the "
-            "larger μ_min.",
-            better=better,
-        )
+        "Slider-crank {better} with the longer rod has the smaller ratio λ, the smaller deviation and the "
+        "larger μ_min.",
+        better=better,
     )
     return builder.done()

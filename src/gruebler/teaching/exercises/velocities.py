@@ -42,10 +42,8 @@ def four_bar(
     builder = SolutionBuilder(unit=unit)
     theta, psi = _directions(builder, size, phi, side)
     builder.say(
-        message(
-            "Velocities: v_B = v_A + v_BA. v_A is at right angles to the crank, v_B to the rocker, v_BA to the "
-            "coupler; the triangle of velocities has the angles between them."
-        )
+        "Velocities: v_B = v_A + v_BA. v_A is at right angles to the crank, v_B to the rocker, v_BA to the "
+        "coupler; the triangle of velocities has the angles between them."
     )
     rates = _four_bar_rates(builder, size, (phi, theta, psi), omega)
     _four_bar_accelerations(builder, size, (phi, theta, psi), (omega, *rates))
@@ -77,13 +75,11 @@ def _directions(builder: SolutionBuilder, size: FourBar, phi: float, side: int) 
     psi = degrees(cmath.phase(end - d))
     values = {"B_x": end.real, "B_y": end.imag, "d": d}
     builder.say(
-        message(
-            "Joint B = ({real}, {imag}) {unit}, in the frame with A0 = (0, 0) and B0 = (d, 0).",
-            real=figure(end.real),
-            imag=figure(end.imag),
-            unit=builder.unit,
-        ),
+        "Joint B = ({real}, {imag}) {unit}, in the frame with A0 = (0, 0) and B0 = (d, 0).",
         "B = A + b·(cos θ, sin θ)",
+        real=figure(end.real),
+        imag=figure(end.imag),
+        unit=builder.unit,
     )
     half = "" if end.real > d else " + 180°" if psi > 0 else " - 180°"
     builder.find("ψ", name, f"arctan(B_y/(B_x - d)){half}", psi, unit="°", values=values)
@@ -131,10 +127,7 @@ def _four_bar_accelerations(
     omega, coupler, rocker = rates
     unit = f"{builder.unit}/s²"
     builder.say(
-        message(
-            "Accelerations: a_B = a_A + a_BA, each with a normal part towards the centre, r·ω², and a tangential "
-            "one, r·α."
-        )
+        "Accelerations: a_B = a_A + a_BA, each with a normal part towards the centre, r·ω², and a tangential one, r·α."
     )
     a_a = builder.find("a_A", _ACCELERATION_A, "a·ω²", a * omega**2, unit=unit, a=a, ω=omega)
     name = message("centripetal part of B about A")
@@ -197,23 +190,20 @@ def _check_four_bar(builder: SolutionBuilder, size: FourBar, moved: Motion, phi:
         builder.keep("P_x", message("instant centre of the coupler, x"), float(pole.real), unit=builder.unit)
         builder.keep("P_y", message("instant centre of the coupler, y"), float(pole.imag), unit=builder.unit)
         builder.check(
-            message("v_B by the instant centre P of the coupler, v_A·PB/PA"),
+            "v_B by the instant centre P of the coupler, v_A·PB/PA",
             v_b,
             v_a * float(abs(b - pole) / abs(a - pole)),
             speed,
         )
     vector = moved.complex_point("R(coupler-rocker)", order=1)[0]
-    builder.check(message("{quantity} by the general solver", quantity="v_B"), v_b, float(abs(vector)), speed)
+    builder.check("{quantity} by the general solver", v_b, float(abs(vector)), speed, quantity="v_B")
     acceleration = float(abs(moved.complex_point("R(coupler-rocker)", order=2)[0]))
     a_b = builder.number("a_B")
-    builder.check(message("{quantity} by the general solver", quantity="a_B"), a_b, acceleration, f"{builder.unit}/s²")
+    builder.check("{quantity} by the general solver", a_b, acceleration, f"{builder.unit}/s²", quantity="a_B")
     for key, link in (("α_b", "coupler"), ("α_c", "rocker")):
         value = builder.number(key)
         builder.check(
-            message("{quantity} by the general solver", quantity=key),
-            value,
-            float(moved.angular(link, order=2)[0]),
-            "1/s²",
+            "{quantity} by the general solver", value, float(moved.angular(link, order=2)[0]), "1/s²", quantity=key
         )
 
 
@@ -277,13 +267,11 @@ def _add_inner(builder: SolutionBuilder, size: SliderCrank, phi: float, omega: f
     builder.keep("v_B_i", message("velocity from the inner dead centre"), v, unit=f"{unit}/s")
     builder.keep("a_B_i", message("acceleration from the inner dead centre"), a, unit=f"{unit}/s²")
     builder.say(
-        message(
-            "Counted from the inner dead centre (crank and rod overlapping) it would be v_B = {v} {unit}/s and "
-            "a_B = {a} {unit}/s².",
-            v=figure(v),
-            unit=unit,
-            a=figure(a),
-        )
+        "Counted from the inner dead centre (crank and rod overlapping) it would be v_B = {v} {unit}/s and "
+        "a_B = {a} {unit}/s².",
+        v=figure(v),
+        unit=unit,
+        a=figure(a),
     )
 
 
@@ -296,13 +284,10 @@ def _check_slider(
     moved = move_quietly(size.linkage(), [radians(phi)], speed=omega)
     slide = "P(frame-slider)"
     builder.check(
-        message("{quantity} by the general solver", quantity="v_B"),
-        v,
-        float(moved.displacement(slide, order=1)[0]),
-        f"{unit}/s",
+        "{quantity} by the general solver", v, float(moved.displacement(slide, order=1)[0]), f"{unit}/s", quantity="v_B"
     )
     second = float(moved.displacement(slide, order=2)[0])
-    builder.check(message("{quantity} by the general solver", quantity="a_B"), acceleration, second, f"{unit}/s²")
+    builder.check("{quantity} by the general solver", acceleration, second, f"{unit}/s²", quantity="a_B")
     crank, lam = radians(phi), a / b
     rough_v = -a * omega * (sin(crank) + lam / 2 * sin(2 * crank))
     rough_a = -a * omega**2 * (cos(crank) + lam * cos(2 * crank))
