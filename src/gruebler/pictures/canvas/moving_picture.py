@@ -9,21 +9,20 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from gruebler.base.errors import GrueblerError
 from gruebler.pictures.canvas.figure import Figure, figure_of, svg_document
 from gruebler.pictures.canvas.shapes import (
-    ArcShape,
-    CircleShape,
     Point,
     Polylines,
     Shape,
     TextShape,
     bounds,
     moved_shape,
+    placed_shape,
 )
 from gruebler.pictures.canvas.svg import svg_element, svg_number
 
@@ -157,20 +156,8 @@ def _turned(p: Point, turn: complex) -> Point:
 
 
 def _put(shape: Shape, turn: complex, place: Point) -> Shape:
-    """The shape turned about the origin (e^(i angle)) and then shifted; texts remain level."""
-
-    def to(p: Point) -> Point:
-        return place.plus(_turned(p, turn))
-
-    match shape:
-        case Polylines(lines, style, closed):
-            return Polylines(tuple(tuple(map(to, line)) for line in lines), style, closed)
-        case CircleShape(at, radius, style):
-            return CircleShape(to(at), radius, style)
-        case ArcShape(at, begin=begin):
-            return replace(shape, at=to(at), begin=begin - cmath.phase(turn))
-        case TextShape(at, text, style, anchor):
-            return TextShape(to(at), text, style, anchor)
+    """The shape turned about the origin (e^(i angle)) and then shifted."""
+    return placed_shape(shape, lambda p: place.plus(_turned(p, turn)), cmath.phase(turn))
 
 
 def figure_at(picture: MovingPicture, time: float) -> Figure:

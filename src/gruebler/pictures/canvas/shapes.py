@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import KW_ONLY, dataclass, replace
 from typing import NamedTuple
 
@@ -151,15 +151,18 @@ def _corners(shape: Shape) -> Iterator[Point]:
 
 def moved_shape(shape: Shape, by: Point) -> Shape:
     """The shape shifted by a vector."""
+    return placed_shape(shape, by.plus)
+
+
+def placed_shape(shape: Shape, place: Callable[[Point], Point], turn: float = 0.0) -> Shape:
+    """The shape moved rigidly: where each of its points comes to, and by how much it turns; texts remain level."""
     match shape:
         case Polylines(parts, style, closed):
-            return Polylines(tuple(tuple(point.plus(by) for point in part) for part in parts), style, closed)
-        case CircleShape(at, radius, style):
-            return CircleShape(at.plus(by), radius, style)
-        case ArcShape(at):
-            return replace(shape, at=at.plus(by))
-        case TextShape(at, text, style, anchor):
-            return TextShape(at.plus(by), text, style, anchor)
+            return Polylines(tuple(tuple(map(place, part)) for part in parts), style, closed)
+        case ArcShape(at, begin=begin):
+            return replace(shape, at=place(at), begin=begin - turn)
+        case CircleShape(at) | TextShape(at):
+            return replace(shape, at=place(at))
 
 
 def wrapped_text(text: str, wide: float, size: float) -> list[str]:

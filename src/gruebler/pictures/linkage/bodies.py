@@ -17,7 +17,14 @@ from gruebler.base.convex_hull import convex_hull
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Element, Linkage, LinkPoint
 from gruebler.pictures.canvas.free_space import distance_between, is_inside
-from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, bounds
+from gruebler.pictures.canvas.shapes import (
+    CircleShape,
+    Point,
+    Polylines,
+    Shape,
+    bounds,
+    placed_shape,
+)
 from gruebler.pictures.canvas.styles import BAR
 from gruebler.pictures.canvas.symbols import FOOT, JointMember, joint_sign, pedestal, ticks
 from gruebler.pictures.linkage.element_pictures import round_parts
@@ -457,12 +464,4 @@ def _put(shape: Shape, turn: complex, place: Point) -> Shape:
     def put(p: Point) -> Point:
         return Point(place.x + turn.real * p.x + turn.imag * p.y, place.y - turn.imag * p.x + turn.real * p.y)
 
-    match shape:
-        case Polylines(lines, style, closed):
-            return Polylines(tuple(tuple(map(put, line)) for line in lines), style, closed)
-        case CircleShape(at, radius, style):
-            return CircleShape(put(at), radius, style)
-        case ArcShape(at, begin=begin):
-            return replace(shape, at=put(at), begin=begin - cmath.phase(turn))
-        case TextShape(at, text, style, anchor):
-            return TextShape(put(at), text, style, anchor)
+    return placed_shape(shape, put, cmath.phase(turn))

@@ -10,7 +10,7 @@ import numpy as np
 from gruebler.base.text import translate
 from gruebler.pictures.canvas.figure import Figure, figure_of
 from gruebler.pictures.canvas.labels import note_near
-from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape
+from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape, moved_shape
 from gruebler.pictures.canvas.simplification import FINE, simplified
 from gruebler.pictures.canvas.symbols import arrow
 from gruebler.pictures.linkage.picture import draw_linkage
@@ -32,7 +32,7 @@ def scale_picture(sheet: Sheet, lang: str = "en") -> Figure:
     plain = draw_linkage(sheet.linkage, at=pose, curves=[point], lang=lang, name=sheet.record.title.in_language(lang))
     posed = posed_linkage(sheet.linkage, pose)
     by = _offset(plain, posed)
-    shapes = [*plain.shapes, *(_moved(shape, by) for shape in _lines(sheet, posed))]
+    shapes = [*plain.shapes, *(moved_shape(shape, by) for shape in _lines(sheet, posed))]
     motion = sheet.motion(sheet.record.picture.pose)
     for name in sheet.record.names:
         if name != sheet.record.point:
@@ -137,12 +137,3 @@ def _dashed(a: Point, b: Point) -> Polylines:
     return Polylines(
         tuple((a.plus(direction, s), a.plus(direction, min(s + _DASH, length))) for s in starts), "measure"
     )
-
-
-def _moved(shape: Shape, by: Point) -> Shape:
-    match shape:
-        case Polylines(parts, style, closed):
-            return Polylines(tuple(tuple(point.plus(by) for point in part) for part in parts), style, closed)
-        case TextShape(at, words, style, anchor):
-            return TextShape(at.plus(by), words, style, anchor)
-    return shape
