@@ -3,7 +3,11 @@
 import math
 
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
+
+Place = tuple[float, float, float]
 
 _THREE_LEGS = "R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=R(0-1)"
 
@@ -11,6 +15,18 @@ _THREE_LEGS = "R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=
 def class_iii(*places: tuple[float, float]) -> Linkage:
     """A three-legged group on a crank, drawn."""
     return Linkage.from_drawing(Mechanism.parse(_THREE_LEGS), dict(enumerate(places)))
+
+
+def placed_loop(kinds: str, *places: tuple[Place, Place | None], driven: int = 0) -> SpatialLinkage:
+    """A loop of joints, the first at the frame, by their points and axes; balls need none."""
+    links = ["frame", *"abcdefg"[: len(kinds) - 1], "frame"]
+    text = " ".join(f"{kind}({links[k]}-{links[k + 1]})" for k, kind in enumerate(kinds))
+    axes = [
+        {} if axis is None or kind == "S" else {"x" if kind == "P" else "z": axis}
+        for kind, (_, axis) in zip(kinds, places, strict=True)
+    ]
+    joints: dict[str | int, object] = {k: {"at": at} | axes[k] for k, (at, _) in enumerate(places)}
+    return SpatialLinkage(Mechanism(Chain.parse(f"spatial: {text}"), "frame", [driven]), joints)
 
 
 def parallel_legs(high: float = 3.0, error: float = 0.0) -> Linkage:

@@ -15,6 +15,7 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 from tests.mechanics.screws import machines
+from tests.samples import placed_loop
 
 WIPER = RSSR(a=30, b=140, c=80, d=100, twist=0.7, rocker_offset=40)
 
@@ -134,14 +135,6 @@ def test_links_of_a_spherical_crank_rocker_turn_as_grashof_says():
         gr.rotatability(lengths, branch="+")
 
 
-def loop(kinds, *places, driven=0):
-    """A loop of joints by their points and axes z, the first at the frame."""
-    links = ["frame", *"abcdefg"[: len(kinds) - 1], "frame"]
-    text = " ".join(f"{kind}({links[k]}-{links[k + 1]})" for k, kind in enumerate(kinds))
-    mechanism = Mechanism(Chain.parse(f"spatial: {text}"), "frame", [driven])
-    return SpatialLinkage(mechanism, {k: {"at": at, "z": z} if z else {"at": at} for k, (at, z) in enumerate(places)})
-
-
 def limits_of_directions(*axes):
     """Where the directions of four axes close a spherical four-bar no longer: three of them, the first of which the
     drive turns, have the Gram determinant 0. It is C + A cos φ + B sin φ in squares of c = u(φ) · w, so that zeros are
@@ -169,7 +162,7 @@ RCCC = [
 @pytest.mark.parametrize("size", [1e-4, 1.0, 1e6])
 def test_an_rccc_whose_shifts_grow_without_end_says_so(size):
     """Its drive goes as far as the directions do, and the shifts with the inverse root of the distance from there."""
-    linkage = loop("RCCC", *((tuple(size * x for x in at), axis) for at, axis in RCCC))
+    linkage = placed_loop("RCCC", *((tuple(size * x for x in at), axis) for at, axis in RCCC))
     limits = limits_of_directions(*(axis for _, axis in RCCC))
     measured = measures(linkage)
     span = measured.range
@@ -196,7 +189,7 @@ def test_random_rccc_reach_the_limits_of_their_directions():
     for _ in range(40):
         places = [(tuple(rng.normal(size=3)), tuple(rng.normal(size=3))) for _ in range(4)]
         limits = limits_of_directions(*(axis for _, axis in places))
-        span = gr.drive_range(loop("RCCC", *places))
+        span = gr.drive_range(placed_loop("RCCC", *places))
         assert span.full == (not len(limits))
         if span.full:
             continue
@@ -237,7 +230,7 @@ def test_a_slide_across_a_turning_slot_goes_to_infinity(space):
 )
 def test_an_isolated_position_is_no_range(second):
     """Two circles that touch; a rod that is shortest to a point that rests: next to the position nothing closes."""
-    linkage = loop("RSSR", ((0, 0, 0), (0, 0, 1)), ((1, 0, 0), None), *second)
+    linkage = placed_loop("RSSR", ((0, 0, 0), (0, 0, 1)), ((1, 0, 0), None), *second)
     for ask in (gr.drive_range, measures):
         with pytest.raises(LinkageError, match=r"isolated, S\(a-b\), S\(b-c\), R\(c-frame\) close there"):
             ask(linkage)
@@ -268,7 +261,7 @@ def test_a_reference_pose_in_a_limit_is_not_called_isolated():
         assert excess(0.0) == pytest.approx(0, abs=1e-9)
         assert excess(1e-3) * excess(-1e-3) < 0
         joints = [(at, tuple(own)), (middle + arm - rod, None), (middle + arm, None), (middle, tuple(axis))]
-        linkage = loop("RSSR", *((tuple(size * place), z) for place, z in joints))
+        linkage = placed_loop("RSSR", *((tuple(size * place), z) for place, z in joints))
         for ask in (gr.drive_range, measures):
             with pytest.raises(LinkageError, match="another reference pose if this one is singular"):
                 ask(linkage)
@@ -276,7 +269,7 @@ def test_a_reference_pose_in_a_limit_is_not_called_isolated():
 
 def test_a_ball_on_the_crank_axis_drives_nothing():
     """The ball of the crank rests, so that the rocker does: its ratio is 0, not a number of rounding."""
-    linkage = loop("RSSR", ((0, 0, 0), (0, 0, 1)), ((0, 0, 1), None), ((2, 1, 2), None), ((2, 0, 0), (0, 1, 0)))
+    linkage = placed_loop("RSSR", ((0, 0, 0), (0, 0, 1)), ((0, 0, 1), None), ((2, 1, 2), None), ((2, 0, 0), (0, 1, 0)))
     assert "output by drive: 0, constant" in measures(linkage).explain()
 
 
@@ -299,7 +292,7 @@ def test_a_narrow_gap_ends_the_range():
         ((1.43171786, 2.32598542, -0.36980575), None),
         ((-1.05434709, -0.34156053, -0.83514309), (-0.4170599, 0.39678218, -0.91425153)),
     ]
-    linkage = loop("RSSR", *places)
+    linkage = placed_loop("RSSR", *places)
     span = gr.drive_range(linkage)
     assert np.degrees([span.lowest, span.highest]) == pytest.approx([1.8035932294 - 360, 1.1679069974], abs=1e-8)
     over = gr.move(linkage, [[0.0], [1.0]])
@@ -307,6 +300,8 @@ def test_a_narrow_gap_ends_the_range():
 
 
 def test_two_cranks_on_one_axis_with_one_ball_turn_together():
-    linkage = loop("RSSR", ((0, 0, 0), (0, 0, 1)), ((1, 0, 0), None), ((1, 1e-12, 0), None), ((0, 0, 2), (0, 0, 1)))
+    linkage = placed_loop(
+        "RSSR", ((0, 0, 0), (0, 0, 1)), ((1, 0, 0), None), ((1, 1e-12, 0), None), ((0, 0, 2), (0, 0, 1))
+    )
     measured = measures(linkage)
     assert (measured.range.full, measured.turns) == (True, 1)

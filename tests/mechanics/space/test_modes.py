@@ -14,6 +14,7 @@ from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 from tests.mechanics.screws import machines
+from tests.samples import placed_loop
 
 # P. Dietmaier, The Stewart-Gough platform of general geometry can have 40 real postures, 1998; figures and three of the
 # forty places of the platform's first ball as PHCpack prints them (src/Demo/stewgou40).
@@ -283,23 +284,11 @@ def test_where_two_modes_meet_it_says_that_some_may_lie_together():
     )
 
 
-def placed_loop(kinds, places):
-    """A loop of joints, the first driven, by their points and axes."""
-    links = ["frame", *"abcdefg"[: len(kinds) - 1], "frame"]
-    text = " ".join(f"{kind}({links[k]}-{links[k + 1]})" for k, kind in enumerate(kinds))
-    axes = [
-        {} if kind == "S" else {"x" if kind == "P" else "z": axis}
-        for kind, (_, axis) in zip(kinds, places, strict=True)
-    ]
-    joints = {k: {"at": at} | axes[k] for k, (at, _) in enumerate(places)}
-    return SpatialLinkage(Mechanism(Chain.parse(f"spatial: {text}"), "frame", [0]), joints)
-
-
 @pytest.mark.parametrize("drive", [0.0, 0.3])
 def test_an_rccc_with_parallel_axes_has_modes_that_are_not_isolated(drive):
     """It is a four-bar of the plane whose shifts along the axes are free; in space no mode is isolated."""
     axis = (0, 0, 1)
-    linkage = placed_loop("RCCC", [((0, 0, 0), axis), ((1, 0.3, 0), axis), ((1, 2, 0.3), axis), ((3, 0, 0), axis)])
+    linkage = placed_loop("RCCC", ((0, 0, 0), axis), ((1, 0.3, 0), axis), ((1, 2, 0.3), axis), ((3, 0, 0), axis))
     modes = assembly_modes(linkage, drive)
     assert (modes.reached, modes.exact) == (False, False)
     assert "the position in which the linkage stands is none of them" in modes.explain()
@@ -320,7 +309,7 @@ def test_these_are_all_is_said_only_with_the_reference_pose_among_them():
         size, axes = 10.0 ** rng.integers(-3, 4), np.eye(3)[rng.integers(3, size=len(kinds))]
         points = size * rng.integers(-1, 2, (len(kinds), 3))
         try:
-            linkage = placed_loop(kinds, list(zip(points.tolist(), axes.tolist(), strict=True)))
+            linkage = placed_loop(kinds, *zip(points.tolist(), axes.tolist(), strict=True))
             modes = assembly_modes(linkage, 0.0)
         except LinkageError:
             continue
