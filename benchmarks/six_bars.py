@@ -6,6 +6,7 @@
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from itertools import combinations
 from pathlib import Path
 
@@ -13,7 +14,7 @@ import numpy as np
 
 from gruebler import _core
 
-BLOCK, PIECE, FEW = 64, 2048, 500
+TASKS, BLOCK, PIECE, FEW = 4, 64, 2048, 500
 SAME = 1e-6  # relative: solutions nearer to each other are one
 QUICK, CAREFUL = 1e-3, 1e-6
 LINEAR = 1e-6  # a sum that is as linear as that is of all
@@ -74,19 +75,20 @@ def known_solution(family: str, pairs: int, rng: np.random.Generator) -> tuple[n
 
 
 def follow(
-    family: str, pairs: int, starts: np.ndarray, begin: np.ndarray, end: np.ndarray, loose: float = QUICK
+    family: str, pairs: int, starts: np.ndarray, begin: np.ndarray, end: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The ends of paths, sharpened, and which arrived at regular solutions."""
+    """The ends of paths, sharpened, and which arrived at regular solutions; the lost ones once more with fine steps."""
     ends, good = np.empty_like(starts), np.zeros(len(starts), bool)
 
-    def run(at: int) -> None:
-        part = slice(at, at + BLOCK)
-        there, status, _ = _core.track(starts[part], begin, end, 0, pairs - 1, loose, family=family)
-        ends[part], steps = _core.refine_solutions(there, end, 0, pairs - 1, family=family)
-        good[part] = (status == 0) & (steps < 1e-9)
+    def run(some: np.ndarray, loose: float) -> None:
+        there, status, _ = _core.track(starts[some], begin, end, 0, pairs - 1, loose, family=family)
+        ends[some], steps = _core.refine_solutions(there, end, 0, pairs - 1, family=family)
+        good[some] = (status == 0) & (steps < 1e-9)
 
     with ThreadPoolExecutor(2) as pool:
-        list(pool.map(run, range(0, len(starts), BLOCK)))
+        for loose in (QUICK, CAREFUL):
+            left = np.flatnonzero(~good)
+            list(pool.map(partial(run, loose=loose), np.array_split(left, len(left) // BLOCK + 1)))
     return ends, good
 
 
@@ -117,8 +119,8 @@ class Search:
     """Solutions of some tasks, found along ways between them.
 
     A way from task u to task v, each solution of u to one of v, is followed once for each pair of ends, from either of
-    them. Eight pairs: two tasks, and three ways, on which the last equation of the second one has another factor; it
-    has the same solutions. Nine pairs: the six ways between four tasks.
+    them; first on the six ways between four tasks. Of eight pairs the last equation of v may have any factor, with the
+    same solutions: another way.
     """
 
     def __init__(self, family: str, pairs: int, seed: int) -> None:
@@ -127,20 +129,21 @@ class Search:
         self.family, self.pairs, self.lost, self.clashes, self.paths = family, pairs, 0, 0, 0
         used = np.abs(task) > 0
         used[3, 2:4] = family != "Watt II"
-        self.tasks = [task] + [np.where(used, random(rng, 4, 8), task) for _ in range(1 if pairs == 8 else 3)]
-        self.found = [z] + [z[:0]] * (len(self.tasks) - 1)
+        self.tasks = [task] + [np.where(used, random(rng, 4, 8), task) for _ in range(TASKS - 1)]
+        self.found = [z] + [z[:0]] * (TASKS - 1)
         self.ways: list[tuple[int, int, complex]] = []
         self.matched: list[list[np.ndarray]] = []
         self.rng = rng
-        self.three_new_ways()
+        self.begin_again()
 
-    def three_new_ways(self) -> None:
+    def begin_again(self) -> None:
+        """With six new ways: of few solutions all may be closed under those that there are."""
         self.ways, self.matched = [], []
-        for u, v in [(0, 1)] * 3 if self.pairs == 8 else combinations(range(4), 2):
-            self.add_way(u, v, complex(random(self.rng)) if self.pairs == 8 else 1.0)
+        for u, v in combinations(range(TASKS), 2):
+            self.add_way(u, v)
 
-    def add_way(self, u: int, v: int, factor: complex) -> None:
-        self.ways.append((u, v, factor))
+    def add_way(self, u: int, v: int) -> None:
+        self.ways.append((u, v, complex(random(self.rng)) if self.pairs == 8 else 1.0))
         self.matched.append([np.zeros(len(self.found[k]), bool) for k in (u, v)])
 
     def left(self) -> list[tuple[int, int, int]]:
@@ -197,7 +200,7 @@ class Search:
 
     def load(self, file: Path) -> None:
         with np.load(file) as stored:
-            self.found = [stored[f"z{k}"] for k in range(len(self.tasks))]
+            self.found = [stored[f"z{k}"] for k in range(TASKS)]
             self.ways = [(int(u.real), int(v.real), factor) for u, v, factor in stored["ways"].tolist()]
             self.matched = [[stored[f"m{k}_{s}"] for s in (0, 1)] for k in range(len(self.ways))]
             self.lost, self.clashes, self.paths = stored["counts"].tolist()
@@ -216,8 +219,6 @@ def trace(search: Search, node: int) -> tuple[float, float, int]:
         moved = task.copy()
         moved[3, 0] += sign * step
         ends, good = follow(search.family, search.pairs, z, task, moved)
-        again = ~good
-        ends[again], good[again] = follow(search.family, search.pairs, z[again], task, moved, CAREFUL)
         sets.append(ends)
         kept &= good
     before, now, after = (row[kept][:, arm] @ MARK[:2] for row in (sets[0], z, sets[1]))
@@ -241,7 +242,7 @@ def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 
         if pairs == 9:
             break
         if len(search.found[0]) < FEW:
-            search.three_new_ways()
+            search.begin_again()
         else:
             if folder:
                 search.save(file)
@@ -250,7 +251,7 @@ def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 
             print(f"trace test: {whole:.1e}, without one solution {less:.1e}; {lost} paths lost", flush=True)
             if whole < LINEAR:
                 break
-            search.add_way(0, 1, complex(random(search.rng)))
+            search.add_way(*search.ways[len(search.ways) % 6][:2])
     print(search, f"{time.process_time():.0f} s of processor", sep="; ")
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import KroghInterpolator
 
-from benchmarks.six_bars import known_solution, random
+from benchmarks.six_bars import known_solution, places, random
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, load_generic_solutions
 from tests.core.four_bar_equations import evaluate
 from tests.design.synthesis.test_points import random_parameters
@@ -216,6 +216,15 @@ def test_six_bars_turn_through_pairs(core, family, pairs):
     for level in core.level_names():
         same = core.track(z, task, other, 0, pairs - 1, 1e-3, family=family, level=level)
         assert [row.tobytes() for row in same] == [row.tobytes() for row in found]
+
+
+def test_solutions_that_are_known_are_known_again():
+    known, new = random(np.random.default_rng(1), 5, 8), random(np.random.default_rng(2), 8)
+    both, where = places(
+        known, np.array([known[3] * (1 + 1e-9), new, known[0], new * (1 - 1e-9), known[4] * (1 + 1e-3)])
+    )
+    assert where.tolist() == [3, 5, 0, 5, 6]
+    assert both[:6] == pytest.approx(np.concatenate([known, new[None]]))
 
 
 def test_families_that_are_none(core):
