@@ -80,6 +80,17 @@ def test_sizes_do_not_count_where_the_task_has_angles_alone():
     assert all(row.size == row.design.verdict.size_ratio for row in pareto(found))
 
 
+def test_rounding_orders_no_exact_designs():
+    found = propose(Specification(SWING, links=4)).result
+
+    def exact(error, transmission, size_ratio):
+        verdict = replace(found.designs[0].verdict, error=error, transmission=transmission, size_ratio=size_ratio)
+        return replace(found.designs[0], verdict=verdict)
+
+    table = pareto(replace(found, designs=(exact(0.0, 0.7, 2.4), exact(2e-16, 0.9, 2.6), exact(1e-16, 0.8, 2.5))))
+    assert [row.transmission for row in table] == [0.9, 0.8, 0.7]
+
+
 def _gap(design, clearance, count=1001):
     """The least distance of the corners of each line from points of the other, by a fine walk: another method."""
     drives = np.interp(np.linspace(0, 1, count), np.linspace(0, 1, len(design.drives)), design.drives)

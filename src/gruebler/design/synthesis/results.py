@@ -352,7 +352,7 @@ class ParetoRow:
 
 
 def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
-    """The accepted designs that no other one dominates, by error, transmission angle, size and number of links."""
+    """The accepted designs that no other one dominates, by error, transmission angle, size, number of links in turn."""
     rows = [
         ParetoRow(
             structure=design.linkage.mechanism.text(),
@@ -365,4 +365,4 @@ def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
         for design in found.designs
     ]
     best = [row for row in rows if not any(other.dominates(row) for other in rows)]
-    return tuple(sorted(best, key=lambda row: row.error))
+    return tuple(sorted(best, key=lambda row: row._costs))
