@@ -233,8 +233,8 @@ def test_a_page_of_so_many_designs_counts_all(tmp_path, capsys):
     assert not accepted.startswith("Designs: 2 ")
     text = page.read_text(encoding="utf-8")
     assert accepted in text
-    assert "2 RR-RR, " in text
-    assert "3 RR-" not in text
+    assert "2. RR-RR, " in text
+    assert "3. RR-" not in text
 
 
 def test_the_number_leaves_a_finite_list_whole(tmp_path, capsys):

@@ -88,7 +88,7 @@ def test_the_plot_of_a_function_marks_its_pairs():
 def test_the_best_designs_stand_side_by_side(tmp_path):
     result = synthesise(FOUR, number=4)
     figure = designs_figure(result, most=2)
-    captions = [text for text in texts(figure) if text[:2] in ("1 ", "2 ", "3 ")]
+    captions = [text for text in texts(figure) if text[:3] in ("1. ", "2. ", "3. ")]
     assert [text[0] for text in captions] == ["1", "2"]
     assert figure.width >= 2 * design_figure(FOUR, result.designs[0]).width - 1
     page = designs_page(result, most=1)

@@ -19,6 +19,7 @@ from gruebler.design.synthesis.tasks import DwellTask, PathTask
 from gruebler.files.designs import result_to_json
 from gruebler.files.linkages import write_linkage
 from gruebler.files.specifications import read_specification
+from gruebler.structure.mechanism.inversion import family
 
 _TYPES = (message("type"), message("links"), message("designs"), message("why none"))
 
@@ -92,7 +93,7 @@ def _document(proposals: Proposals) -> dict[str, Any]:
 
 
 def _print(proposals: Proposals, lang: str) -> None:
-    print_table(_TYPES, [_type_row(each) for each in proposals.tried], numbers=[1, 2], lang=lang)
+    print_table(_TYPES, [_type_row(each, lang) for each in proposals.tried], numbers=[1, 2], lang=lang)
     if proposals.best:
         print_pareto(proposals.result, lang)
         print_notes(proposals.result, lang)
@@ -100,10 +101,12 @@ def _print(proposals: Proposals, lang: str) -> None:
         print(translate("None of the designs examined meets the task.", lang))
 
 
-def _type_row(each: TriedType) -> list[Cell]:
+def _type_row(each: TriedType, lang: str) -> list[Cell]:
     name: Message | str
     if each.mechanism is not None:
-        name, links = each.mechanism.text(), len(each.mechanism.chain.links)
+        known = family(each.mechanism, lang)
+        name = f"{known}: {each.mechanism.text()}" if known else each.mechanism.text()
+        links = len(each.mechanism.chain.links)
     elif isinstance(task := each.result.task, DwellTask):
         name, links = message("four-bars with a rod to the output"), 6
     else:

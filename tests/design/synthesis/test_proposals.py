@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from gruebler.base.errors import SynthesisError
+from gruebler.cli.design import _type_row
 from gruebler.design.synthesis import DeadCentreTask, Demands, PathTask, PositionTask, pareto, synthesise_positions
 from gruebler.design.synthesis.clearances import guided_link, stays_clear
-from gruebler.design.synthesis.proposals import candidate_types, propose
+from gruebler.design.synthesis.proposals import TriedType, candidate_types, propose
 from gruebler.design.synthesis.specification import Clearance, Specification
 from gruebler.design.synthesis.structures import synthesise_structures
 from gruebler.files.specifications import read_specification, specification_from_json
@@ -89,6 +90,13 @@ def test_rounding_orders_no_exact_designs():
 
     table = pareto(replace(found, designs=(exact(0.0, 0.7, 2.4), exact(2e-16, 0.9, 2.6), exact(1e-16, 0.8, 2.5))))
     assert [row.transmission for row in table] == [0.9, 0.8, 0.7]
+
+
+def test_types_with_a_name_are_told_by_it():
+    found = propose(Specification(SWING, links=4)).result
+    watt = TriedType(mechanism=candidate_types(Specification(SWING))[0], result=found)
+    assert _type_row(watt, "en")[0].startswith("Watt II: R(0-1) ")
+    assert _type_row(watt, "de")[1] == "6"
 
 
 def _gap(design, clearance, count=1001):

@@ -122,7 +122,7 @@ def designs_figure(
     shown = (result.designs or result.rejected)[:most]
     plots = [figure for figure, _ in _plots(result, lang)]
     figures = [
-        captioned(design_figure(result.task, design, lang=lang, clear=clear), f"{k} {_caption(design, lang)}")
+        captioned(design_figure(result.task, design, lang=lang, clear=clear), f"{k}. {_caption(design, lang)}")
         for k, design in enumerate(shown, 1)
     ]
     title = translate("Designs", lang)
@@ -159,7 +159,7 @@ def designs_page(result: SynthesisResult, *, lang: str = "en", most: int = 24, c
     for number, design in enumerate(shown[:most]):
         figure = design_figure(result.task, design, lang=lang, clear=clear)
         moving = _moving(result.task, design, lang, clear)
-        items.append(Item(figure, f"{number + 1} {_caption(design, lang)}", moving=moving))
+        items.append(Item(figure, f"{number + 1}. {_caption(design, lang)}", moving=moving))
     totals = {"accepted": len(result.designs), "rejected": len(result.rejected)}
     note = translate("Designs: {accepted} accepted, {rejected} rejected.", lang, **totals)
     plots = [Section(caption, (Item(figure, caption),), wide=True) for figure, caption in _plots(result, lang)]
