@@ -1,10 +1,13 @@
 """Thirty closed and open curves by name: how near four-bars and six-bars come, with the measures of learners.
 
-`python -m benchmarks.yardstick FILE ...` takes curves of others instead: .npy of (curves, points, 2), closed.
+`python -m benchmarks.yardstick FILE ...` takes curves of others instead: .npy of (curves, points, 2), closed;
+`--drawn` fits paths that random six-bars drew; `--challenge FILE` tells the hypervolume of our four-bars as the
+challenge of MIT 2.156 (2025) does.
 """
 
 import sys
 import time
+from itertools import chain
 from math import pi
 
 import numpy as np
@@ -13,6 +16,8 @@ from benchmarks.synthesis import targets
 from gruebler.design.synthesis.curve_matching import resampled
 from gruebler.design.synthesis.curves import fit_curve
 from gruebler.design.synthesis.four_bar_curves import curve_points
+from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR
+from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.structure_atlas import DyadStructure, dyad_structure, link_motions, structure_atlas
 from gruebler.design.synthesis.structure_curves import fit_drawings
 from gruebler.structure.mechanism import Mechanism
@@ -21,10 +26,11 @@ SIX_BARS = {
     "Stephenson III": ("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); frame=0; drive=R(0-1)", "4"),
     "Watt I": ("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3); frame=0; drive=R(0-1)", "5"),
     "Watt I, ternary crank": ("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2); frame=0; drive=R(0-1)", "5"),
-    "Stephenson II": ("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-3); frame=0; drive=R(0-1)", "4"),
+    "Stephenson I": ("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-3); frame=0; drive=R(0-1)", "4"),
 }
 NEIGHBOURS = 400
 LONGER = 1.1  # than the polygon of the points: a path that is, leaves it between them
+SIZE_RATIOS = (1.5, 2.0, 3.0, 6.0)  # of four-bars for the challenge
 TURN = np.linspace(0, 2 * pi, 2001)
 EVEN = 200  # points of curves that are compared, as in LInK and in the challenge of MIT 2.156
 
@@ -101,6 +107,71 @@ def six_bar(structure: DyadStructure, link: str, z: np.ndarray, *, closed: bool)
     return np.full(len(TURN), np.nan + 0j)
 
 
+def drawn_path(structure: DyadStructure, link: str, rng: np.random.Generator) -> np.ndarray:
+    """40 places evenly along the path of a random six-bar whose crank turns fully."""
+    while True:
+        joints = rng.normal(size=structure.joints) + 1j * rng.normal(size=structure.joints)
+        point = complex(*rng.normal(size=2))
+        motions = link_motions(structure, joints[:, None], TURN[None])
+        path = (motions[link][0] * point + motions[link][1])[0]
+        steps = np.abs(np.diff(path))
+        if (
+            all(np.isfinite(rotation).all() for rotation, _ in motions.values())
+            and steps.max() < np.ptp(path.real) / 20
+        ):
+            arcs = np.append(0, np.cumsum(steps))
+            at = np.interp(np.arange(40) / 40 * arcs[-1], arcs, TURN)
+            rotation, shift = link_motions(structure, joints[:, None], at[None])[link]
+            return (rotation * point + shift)[0]
+
+
+def drawn_again(each: int = 3) -> None:
+    """Paths that six-bars drew, fitted by six-bars of the same kind."""
+    rng = np.random.default_rng(1)
+    for name, (text, link) in SIX_BARS.items():
+        structure = dyad_structure(Mechanism.parse(text))
+        assert structure is not None
+        structure_atlas(structure)
+        for _ in range(each):
+            z, start = drawn_path(structure, link, rng), time.process_time()
+            cost = fit_drawings(structure, link, z, closed=True, number=NEIGHBOURS).cost[0]
+            error = np.sqrt(cost / len(z)) / max(np.ptp(z.real), np.ptp(z.imag))
+            print(f"{name:22}{error:>9.1e}{time.process_time() - start:>6.1f} s", flush=True)
+
+
+def hypervolume(points: list[tuple[float, float]], farthest: float = 0.75, most: float = 10.0) -> float:
+    """The area that is worse than one of the points (distance, material) and better than (farthest, most)."""
+    area = 0.0
+    for far, material in sorted(points):
+        if far < farthest and material < most:
+            area += (farthest - far) * (most - material)
+            most = material
+    return area
+
+
+def challenge(file: str) -> None:
+    """The hypervolume of four-bars for each curve of a file, and the mean of all.
+
+    Compact ones are asked for by limits of the size ratio. Material is all sides of links, crank, rocker and the
+    triangle of the coupler, each twice, as the challenge's program adds them. It lets curves be turned before they are
+    compared, too, which only brings them nearer.
+    """
+    volumes = []
+    for curve in np.load(file).astype(float) @ (1, 1j):
+        z, points = resampled(curve, 64, closed=True)[0], []
+        limits = [Demands(size_ratio=ratio) for ratio in SIZE_RATIOS]
+        fits = [fit_curve(z, closed=True, kinds=(FOUR_BAR,), number=24, starts=120, demands=each) for each in limits]
+        for fit in chain.from_iterable(fits):
+            r = {name: float(value) for name, value in fit.kind.named(fit.row).items()}
+            w = complex(r["u"], r["v"])
+            path = curve_points(fit.kind, fit.row[:, None], TURN[:-1], fit.side).z
+            material = 2 * (r["a"] + r["b"] + r["c"] + abs(w) + abs(w - r["b"]))
+            points.append((learners_measures(curve, path)[1], material))
+        volumes.append(hypervolume(points))
+        print(f"{volumes[-1]:.2f} by {len(points)} four-bars", flush=True)
+    print(f"mean {np.mean(volumes):.2f}")
+
+
 def main(files: tuple[str, ...] = ()) -> None:
     fit_curve(np.exp(1j * np.linspace(0, 6, 20)), closed=True)  # the atlas
     structures = {}
@@ -133,4 +204,9 @@ def main(files: tuple[str, ...] = ()) -> None:
 
 
 if __name__ == "__main__":
-    main(tuple(sys.argv[1:]))
+    if sys.argv[1:2] == ["--challenge"]:
+        challenge(sys.argv[2])
+    elif sys.argv[1:] == ["--drawn"]:
+        drawn_again()
+    else:
+        main(tuple(sys.argv[1:]))
