@@ -53,7 +53,7 @@ export class BuildView implements View, Plane, Drawn {
   readonly element = h("div.view.motion", { "data-page": "build" });
   drawing: Drawing = kept();
   readonly viewport = new Viewport();
-  #tool: Tool = "link";
+  #tool: Tool = this.drawing.knots.length ? "link" : "ground";
   spots: Spot[] = [];
   chosen: Chosen | null = null;
   cursor: Pair = [0, 0];
@@ -104,7 +104,16 @@ export class BuildView implements View, Plane, Drawn {
   }
 
   arrange(): void {
-    const tool = (key: Tool, text: string, letter: string) =>
+    const names: Record<Tool, string> = {
+      move: t("Move"),
+      ground: t("Ground"),
+      link: t("Link"),
+      slider: t("Slider"),
+      dyad: t("Dyad"),
+      cylinder: t("Cylinder"),
+      gears: t("Gear pair"),
+    };
+    const tools = Object.entries(KEYS).map(([letter, key]) =>
       h(
         "button",
         {
@@ -113,19 +122,11 @@ export class BuildView implements View, Plane, Drawn {
           "aria-pressed": String(key === this.#tool),
           onclick: () => this.#take(key),
         },
-        text,
-        h("span.letter.keys", {}, ` (${letter})`),
-      );
-    renew(
-      this.#tools,
-      tool("move", t("Move"), "V"),
-      tool("ground", t("Ground"), "G"),
-      tool("link", t("Link"), "L"),
-      tool("slider", t("Slider"), "S"),
-      tool("dyad", t("Dyad"), "D"),
-      tool("cylinder", t("Cylinder"), "C"),
-      tool("gears", t("Gear pair"), "W"),
+        names[key],
+        h("span.letter.keys", {}, ` (${letter.toUpperCase()})`),
+      ),
     );
+    renew(this.#tools, ...tools);
     const ends = t("Two clicks, from end to end.");
     const hints: Record<Tool, string> = {
       move: t("Drag joints; click on a joint or a link to choose it."),
@@ -138,7 +139,7 @@ export class BuildView implements View, Plane, Drawn {
         "Three clicks: both centres, then where they touch; beyond a centre the other wheel has internal teeth.",
       ),
     };
-    this.#hint.textContent = hints[this.#tool];
+    renew(this.#hint, h("b", {}, names[this.#tool]), " ", hints[this.#tool]);
     const snap = h("input", {
       type: "checkbox",
       checked: this.#snapping,
@@ -161,7 +162,7 @@ export class BuildView implements View, Plane, Drawn {
           ),
           h("span.keys", {}, " ", t("With Shift links are level or upright. Keys: arrows and Enter.")),
         ),
-        h("button.plain", { "data-act": "empty", onclick: () => this.change(EMPTY) }, t("Empty plane")),
+        h("button.plain", { "data-act": "empty", onclick: () => this.#empty() }, t("Empty plane")),
       ),
       this.#places,
     );
@@ -171,6 +172,11 @@ export class BuildView implements View, Plane, Drawn {
 
   appeared(): void {
     this.#resize();
+  }
+
+  #empty(): void {
+    this.change(EMPTY);
+    this.#take("ground");
   }
 
   #take(tool: Tool): void {

@@ -56,7 +56,7 @@ export class MobilityPanel {
     this.element.classList.remove("asking");
     if (frame === null || linksOf(drawing).length < 3) {
       const text = frame === null ? t("Put a ground") : t("Draw links: a mechanism has at least three.");
-      const key = frame === null && h("span.keys", {}, " (G)");
+      const key = h("span.keys", {}, frame === null ? " (G)" : " (L)");
       return renew(this.element, ...(linksOf(drawing).length ? [count] : []), h("p.note", {}, text, key));
     }
     if (this.element.querySelector('[data-fact="freedoms"]')) this.element.firstChild!.replaceWith(count);

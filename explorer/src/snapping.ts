@@ -1,6 +1,6 @@
 /** Where a place that is pointed at is meant: in line with others, on the grid, at a round angle, at a known length. */
 
-import { stepOf } from "./grid";
+import { gridStep, stepOf } from "./grid";
 import type { Linkage } from "./linkage";
 import type { Pair } from "./rows";
 import type { Viewport } from "./viewport";
@@ -16,22 +16,24 @@ export interface Surroundings {
   lengths: readonly number[];
 }
 
+/** What is in line, and places of the grid, go before round angles and known lengths. */
 export function snapped([x, y]: Pair, viewport: Viewport, { places, from, lengths }: Surroundings): Pair {
   const reach = REACH / viewport.scale;
-  const grid = stepOf(viewport) / 5;
+  const grid = gridStep(stepOf(viewport) / 5.01);
+  const onGrid = (value: number) => grid * Math.round(value / grid);
   const nearest = (values: readonly number[], value: number) =>
     values.reduce((best, one) => (Math.abs(one - value) < Math.abs(best - value) ? one : best), Infinity);
-  const onAxis = (value: number, axis: 0 | 1) => {
-    const other = nearest(
-      places.map((place) => place[axis]),
+  const other = [x, y].map((value, axis) =>
+    nearest(
+      places.map((place) => place[axis]!),
       value,
-    );
-    if (Math.abs(other - value) < reach) return other;
-    return grid * Math.round(value / grid);
-  };
+    ),
+  );
+  const [inX, inY] = [Math.abs(other[0]! - x) < reach, Math.abs(other[1]! - y) < reach];
   const part = (value: number) => (Math.abs(value) < 1e-12 ? 0 : value); // exactly upright, exactly level
   const away = ([u, v]: Pair) => Math.hypot(u - x, v - y);
-  let found: Pair = [onAxis(x, 0), onAxis(y, 1)];
+  let found: Pair = [inX ? other[0]! : onGrid(x), inY ? other[1]! : onGrid(y)];
+  if (away(found) < reach) return found;
   for (const [u, v] of from) {
     const [dx, dy] = [x - u, y - v];
     const far = Math.hypot(dx, dy);
@@ -40,8 +42,8 @@ export function snapped([x, y]: Pair, viewport: Viewport, { places, from, length
     const length = nearest(lengths, far);
     const turned = far * Math.abs(angle - round) < reach;
     const known = Math.abs(length - far) < reach;
-    if (!turned && !known) continue;
-    const [r, phi] = [known ? length : far, turned ? round : angle];
+    if (!turned && (!known || inX || inY)) continue;
+    const [r, phi] = [known ? length : onGrid(far), turned ? round : angle];
     const polar: Pair = [u + r * part(Math.cos(phi)), v + r * part(Math.sin(phi))];
     if (away(polar) < away(found)) found = polar;
   }

@@ -181,12 +181,15 @@ test("a place snaps to what is in line, to round angles and known lengths, else 
     lengths: [],
   };
   const viewport = new Viewport();
-  viewport.scale = 3.5; // lines of the grid every 20, a fifth of that to stop at; seven pixels are 2
-  assert.deepEqual(snapped([29.5, 43], viewport, around), [31, 44]);
-  assert.deepEqual(snapped([11.5, 43], viewport, around), [12, 44]);
+  viewport.scale = 3.5; // lines of the grid every 20, a quarter of that to stop at; seven pixels are 2
+  assert.deepEqual(snapped([29.5, 43], viewport, around), [31, 45]);
+  assert.deepEqual(snapped([11.5, 43], viewport, around), [10, 45]);
   const linked = { places: [], from: [[0, 0]] as [number, number][], lengths: [40] };
   near(snapped([28, 29], viewport, linked), [40 * Math.SQRT1_2, 40 * Math.SQRT1_2]); // 45 degrees, 40 long
-  near(snapped([3, 33], viewport, linked), [4, 32]); // 85 degrees, 33 long: neither
+  near(snapped([3, 33], viewport, linked), [5, 35]); // 85 degrees, 33 long: neither
+  const level = { ...linked, places: linked.from, lengths: [69.6] };
+  assert.deepEqual(snapped([69.7, 0.6], viewport, level), [70, 0]); // not 69.6 long and a little off the axis
+  near(snapped([67.8, 0.6], viewport, { ...level, lengths: [67.3] }), [67.3, 0]); // between two places of the grid
   const between = {
     ...linked,
     from: [
@@ -194,7 +197,7 @@ test("a place snaps to what is in line, to round angles and known lengths, else 
       [80, 0],
     ] as [number, number][],
   };
-  near(snapped([79.4, 41.5], viewport, between), [80, 40]); // of both links the nearer one: upright, 40 long
+  near(snapped([79.4, 42.4], viewport, { ...between, lengths: [42] }), [80, 42]); // of both the nearer: upright
   assert.deepEqual(guidelines([31, 0], around.places), [
     [
       [31, 17],

@@ -91,6 +91,24 @@ def test_a_four_bar_and_then_a_watt_six_bar_are_drawn_and_moved(plane):
     view.evaluate("localStorage.clear()")
 
 
+def test_an_empty_plane_begins_with_the_ground_and_ends_stay_on_axes(plane):
+    view = plane.page
+    assert view.locator('.palette [aria-pressed="true"]').get_attribute("data-tool") == "ground"
+    assert view.locator(".drawing + .hint").inner_text().startswith("Ground")
+    assert "ground" in view.locator('[data-place="mobility"]').inner_text()
+    click(plane, (0, 0))
+    assert "(L)" in view.locator('[data-place="mobility"]').inner_text()
+    view.keyboard.press("l")
+    assert view.locator(".drawing + .hint").inner_text().startswith("Link")
+    click(plane, (0, 0), (60, 35))  # 69.46 long: as near to 70 as the pointer is
+    last = "gruebler.views.build.drawing.knots.at(-1).at"
+    assert view.evaluate(last) == [60, 35]
+    click(plane, (0, 0), (69.6, 0.5))
+    assert view.evaluate(last) == [70, 0]
+    view.click('[data-act="empty"]')
+    assert view.locator('.palette [aria-pressed="true"]').get_attribute("data-tool") == "ground"
+
+
 def test_a_slider_crank_is_drawn_by_keys_alone(plane):
     view = plane.page
     view.locator(".drawing").focus()
