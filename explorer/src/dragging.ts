@@ -17,7 +17,7 @@ export interface Length {
   value: number;
 }
 
-const LONGEST = 1e9;
+export const LONGEST = 1e9;
 /** How near two pins of a link are dragged to each other, in sizes of the linkage; nearer ones are typed. */
 const NEAREST = 1e-3;
 /** How easily the joint that is dragged leaves its place, against others. */

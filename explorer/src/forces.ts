@@ -13,6 +13,7 @@ import type { Spring } from "./springs";
 import type { Transport } from "./transport";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
+import { momentUnit } from "./wording";
 
 const ASKED_AFTER = 350; // milliseconds
 
@@ -32,8 +33,8 @@ interface Answer {
   lines: string[];
 }
 
-/** A force on the stage: its joint, and its parts against the largest one. */
-export type Arrow = [joint: number, x: number, y: number];
+/** A force on the stage: its joint, and its parts against the largest one, and how much it is. */
+export type Arrow = [joint: number, x: number, y: number, force: number];
 
 /** What the panel asks of its view. */
 export interface Loaded {
@@ -120,7 +121,7 @@ export class Forces {
     } else {
       const places = Float64Array.from(drives);
       const turning = drive!.turning;
-      const title = turning ? `${t("Drive torque")} [N·${model.unit}]` : `${t("Drive force")} [N]`;
+      const title = turning ? `${t("Drive torque")} [${momentUnit(model)}]` : `${t("Drive force")} [N]`;
       this.#plot = new Plot(turning ? Math.PI / 180 : 1, (value) => this.view.transport.pick(value));
       this.#plot.show(places, { title, colour: "--motion", values: numbers(effort) }, this.view.transport.range);
       this.#forces = forces.map(({ joint, force }) => {
@@ -179,7 +180,7 @@ export class Forces {
     const most = Math.max(...this.#forces.map((force) => force.most));
     return this.#forces.map((force) => {
       const [x, y] = vectorAt(force, this.view.transport.drive);
-      return [force.joint, (x * force.most) / most, (y * force.most) / most];
+      return [force.joint, (x * force.most) / most, (y * force.most) / most, Math.hypot(x, y) * force.most];
     });
   }
 

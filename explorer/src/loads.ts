@@ -4,6 +4,7 @@ import { h, renew } from "./dom";
 import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
 import { type End, endsOf, type Spring } from "./springs";
+import { lengthUnit, momentUnit } from "./wording";
 
 const RPM = Math.PI / 30;
 const MOST = 1e9;
@@ -50,7 +51,7 @@ export class LoadForm {
     const rows = this.#row(
       "speed",
       t("Drive speed"),
-      drive?.turning ? "1/min" : `${model.unit}/s`,
+      drive?.turning ? "1/min" : `${lengthUnit(model)}/s`,
       speed / factor,
       (v) => {
         this.speed = v > 0 ? v * factor : null;
@@ -83,7 +84,7 @@ export class LoadForm {
       rows.push(h("label", { for: id }, t("Load on")), where);
       const part = (key: "x" | "y", label: string, unit: string) =>
         rows.push(...this.#row(`${key}-${k}`, label, unit, load![key], (v) => (load![key] = v)));
-      if (load?.on === "link") part("x", t("Moment"), `N·${model.unit}`);
+      if (load?.on === "link") part("x", t("Moment"), momentUnit(model));
       else if (load) {
         part("x", "Fx", "N");
         part("y", "Fy", "N");
@@ -100,7 +101,7 @@ export class LoadForm {
 
   /** For each spring its kind, its ends and its rates, and a row for another one. */
   #springRows(linkage: Linkage, springs: readonly Spring[], again: (own: Spring[]) => void): HTMLElement[] {
-    const { unit } = linkage.model;
+    const unit = lengthUnit(linkage.model);
     const places = endsOf(linkage);
     const links = [...linkage.model.links.slice(0, linkage.model.own).keys()];
     const rows: HTMLElement[] = [];
@@ -156,7 +157,7 @@ export class LoadForm {
           other[side] = options[which]?.[0] ?? ends[side];
           put({ ends: other });
         });
-      const force = turning ? `N·${unit}` : "N";
+      const force = turning ? momentUnit(linkage.model) : "N";
       const [by, factor] = turning ? ["rad", Math.PI / 180] : [unit, 1];
       const part = (key: "stiffness" | "free" | "preload" | "damping", label: string, its: string, scale = 1) =>
         rows.push(

@@ -14,6 +14,9 @@ export interface NamePlace {
   at: Pair;
   /** Away from its body, of length 1; none for a name within it. */
   away: Pair | null;
+  /** From there to the end of the side beside which it stands; a bar has its name on either side. */
+  along?: Pair;
+  bar?: boolean;
 }
 
 /** Half the width of a name, in pixels. */
@@ -35,14 +38,47 @@ export function namePlace(joints: readonly Pair[], points: readonly Pair[], name
   const long = ([p, q]: Pair[]) => Math.hypot(q![0] - p![0], q![1] - p![1]);
   const side = (between.length ? between : sides).reduce((a, b) => (long(b) > 1.001 * long(a) ? b : a));
   const [[x, y], [u, v]] = side as [Pair, Pair];
-  return { at: [(x + u) / 2, (y + v) / 2], away: [(v - y) / long(side), (x - u) / long(side)] };
+  return {
+    at: [(x + u) / 2, (y + v) / 2],
+    away: [(v - y) / long(side), (x - u) / long(side)],
+    along: [(u - x) / 2, (v - y) / 2],
+    bar: hull.length === 2,
+  };
 }
 
-/** The pixel of the middle of a name, at a place of the plane. */
-export function nameSpot(viewport: Viewport, { at, away }: NamePlace, name: string): Pair {
+/** The pixels where a name may stand, the first of them in the middle of its side. */
+export function nameSpots(viewport: Viewport, { at, away, along = [0, 0], bar }: NamePlace, name: string): Pair[] {
   const [x, y] = viewport.screen(...at);
-  if (!away) return [x, y + 4];
+  if (!away) return [[x, y + 4]];
   const [u, v] = away;
   const far = BODY + halfOf(name) * Math.abs(u) + INK * Math.abs(v);
-  return [x + far * u, y - far * v + 4];
+  const [dx, dy] = along.map((value) => value * viewport.scale) as Pair;
+  return [0, 0.4, -0.4, 0.7, -0.7].flatMap((part) =>
+    (bar ? [far, -far] : [far]).map((off): Pair => [x + part * dx + off * u, y - part * dy - off * v + 4]),
+  );
+}
+
+/** Which of its spots a name takes, so that it is nearer to its own body than to any other and touches no other name:
+ * the one before if it still does, else the first that does, else the one that is least wrong. */
+export function clearSpot(
+  spots: readonly Pair[],
+  name: string,
+  [own, others]: [readonly Pair[], readonly (readonly Pair[])[]],
+  free: (spot: Pair) => boolean,
+  before = 0,
+): number {
+  const half = halfOf(name);
+  const worth = (spot: Pair | undefined) => {
+    if (!spot) return -Infinity;
+    const [x, y] = spot;
+    const nearer = [-half, 0, half].map((d) => {
+      const off = (hull: readonly Pair[]) => toHull(hull, x + d, y - 4);
+      return Math.min(1e3, ...others.map(off)) - off(own);
+    });
+    return Math.min(...nearer) - (free(spot) ? 0 : 1e4);
+  };
+  if (worth(spots[before]) > 0) return before;
+  const worths = spots.map(worth);
+  const good = worths.findIndex((value) => value > 0);
+  return good < 0 ? worths.indexOf(Math.max(...worths)) : good;
 }

@@ -3,7 +3,7 @@
 import type { Ruler } from "./beside";
 import { applyDocument, documentOf } from "./document";
 import { h, renew } from "./dom";
-import type { Dragging, Length } from "./dragging";
+import { type Dragging, type Length, LONGEST } from "./dragging";
 import { icon } from "./icons";
 import { inLetters, number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
@@ -98,11 +98,13 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
     inputmode: "decimal",
     onchange: () => {
       const wanted = parsed(input.value);
-      const right = wanted >= 0;
+      const right = wanted >= 0 && wanted < LONGEST;
       if (right) editor.attemptAnywhere(() => editor.dragging.setLength(first, second, wanted));
       input.setAttribute("aria-invalid", String(!right));
       if (right) return;
-      editor.page.say(t("Expected a length, such as {value}.", { value: number(value, 4) }));
+      editor.page.say(
+        t("Expected a length of at least 0 and below 10⁹, such as {value}.", { value: number(value, 4) }),
+      );
     },
     onkeydown: (event: KeyboardEvent) => event.stopPropagation(),
   });

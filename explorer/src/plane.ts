@@ -6,7 +6,7 @@ import { type Drawing, isPin, type Knot, linksOf, type Spot } from "./drawing";
 import { gridOf, stepOf } from "./grid";
 import { convexHull } from "./hull";
 import { angle, number } from "./language";
-import { namePlace, nameSpot } from "./names";
+import { clearSpot, namePlace, nameSpots } from "./names";
 import type { Pair } from "./rows";
 import { guidelines } from "./snapping";
 import type { Viewport } from "./viewport";
@@ -34,12 +34,15 @@ export function planePicture(plane: Plane): SVGElement[] {
   const bodies = linksOf(drawing).filter((link) => link !== drawing.frame);
   const path = (corners: readonly Pair[]) =>
     corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
-  const links = bodies.flatMap((link) => {
-    const hull = outlineOf(plane, link);
+  const hulls = bodies.map((link) => outlineOf(plane, link));
+  const links = bodies.flatMap((link, k) => {
+    const hull = hulls[k]!;
     const mark = chosen && "link" in chosen && chosen.link === link ? " chosen" : "";
     const d = path(hull) + (hull.length > 2 ? "Z" : "");
     const joints = drawing.knots.filter((knot) => knot.links.includes(link)).map(({ at }) => at);
-    const [x, y] = nameSpot(viewport, namePlace(joints, [], link, viewport.scale), link);
+    const places = nameSpots(viewport, namePlace(joints, [], link, viewport.scale), link);
+    const others = hulls.filter((one) => one !== hull && one.length);
+    const [x, y] = places[clearSpot(places, link, [hull, others], () => true)]!;
     return [
       svg("path", { class: `outline${mark}`, d, "data-link": link }),
       svg("path.bar", { d }),

@@ -10,7 +10,7 @@ import type { OutputRecord } from "./model";
 import { Plot, type Series } from "./plot";
 import { place } from "./rows";
 import { Span } from "./span";
-import { rateUnit } from "./wording";
+import { lengthUnit, rateUnit } from "./wording";
 
 /** The rows of a cycle in the order in which they are plotted, with their drive values. */
 export interface Lap {
@@ -174,7 +174,7 @@ function outputSeries(linkage: Linkage, record: OutputRecord): Making[] {
   const name = linkage.linkName(record.link);
   const same = 1e-9 * (turning ? 1 : linkage.size);
   const angle: Making = ({ output }) => ({
-    title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${linkage.model.unit}]`),
+    title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${lengthUnit(linkage.model)}]`),
     colour: "--motion",
     values: turning ? output.map(degrees) : output,
     same: turning ? degrees(same) : same,

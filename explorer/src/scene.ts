@@ -4,20 +4,24 @@ import { backdropElement, putBackdrop } from "./backdrop";
 import { Bodies } from "./bodies";
 import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
+import { convexHull } from "./hull";
+import { number as numberText } from "./language";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
-import { halfOf, namePlace, nameSpot } from "./names";
+import { clearSpot, halfOf, namePlace, nameSpots } from "./names";
 import { direction, origin, type Pair, place, turn } from "./rows";
 import { readingsOf } from "./rulers";
 import { ownColour, type Shown } from "./shown";
 import { springPath } from "./springs";
 import type { Viewport } from "./viewport";
+import { rateUnit } from "./wording";
 
 const SUPPORT = "M0 0 L-11 17 H11 Z M-17 17 H17 M-14 23 l5 -6 M-5 23 l5 -6 M4 23 l5 -6 M13 23 l4 -5";
 // Counter-clockwise, as a drive grows.
 const DRIVEN = "M9.5 -9.5 A13.4 13.4 0 0 0 -12.5 -5 M-12.5 -5 l6 -1.5 M-12.5 -5 l-0.6 -6";
 const LONGEST_ARROW = 70; // pixels
 const LINE = 15; // pixels that names are apart
+const MOST_CLEAR = 40; // names that look for a place of their own in every picture
 
 export class Scene {
   #links: SVGGElement[] = [];
@@ -30,6 +34,8 @@ export class Scene {
   readonly #arrows = svg("path.velocity", {});
   readonly #changes = svg("path.acceleration", {});
   readonly #forces = svg("path.force", {});
+  /** Beside the longest arrow of each kind, how much it is. */
+  readonly #values = [0, 1, 2].map(() => svg("text.tick", { "data-arrow": "" }));
   readonly #springs = svg("path.spring-path", {});
   readonly #rulers = svg("path.ruler", {});
   readonly #circle = svg("circle.inflection", { r: 0 });
@@ -90,6 +96,7 @@ export class Scene {
       this.#arrows,
       this.#changes,
       this.#forces,
+      ...this.#values,
       this.#springs,
       this.#rulers,
       this.#circle,
@@ -156,19 +163,26 @@ export class Scene {
       if (record) move(element, viewport.screen(...place(pose, 0, record.link, ...record.at)));
     }
     const taken: { x: number; y: number; half: number }[] = [];
-    for (const { element, spot, half, begins } of this.#labels) {
-      const [left, top] = spot(viewport);
+    const hulls = this.#labels.map(({ hull }) => (hull && this.#labels.length < MOST_CLEAR ? hull(viewport) : []));
+    for (const [k, label] of this.#labels.entries()) {
+      const { element, half, begins, name, spots } = label;
+      const places = spots(viewport);
+      const touching = (at: Pair) =>
+        taken.find((other) => half + other.half > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01);
+      if (hulls[k]!.length) {
+        const others = hulls.filter((one, other) => other !== k && one.length);
+        label.taken = clearSpot(places, name, [hulls[k]!, others], (at) => !touching(at), label.taken);
+      }
+      const [left, top] = places[label.taken]!;
       const x = left + (begins ? half : 0);
       let y = top;
-      const touches = (other: { x: number; y: number; half: number }) =>
-        half + other.half > Math.abs(x - other.x) && Math.abs(y - other.y) < LINE - 0.01;
-      const way = y < (taken.find(touches)?.y ?? 0) ? -1 : 1;
-      for (let other = taken.find(touches); other; other = taken.find(touches)) y = other.y + way * LINE;
+      const way = y < (touching([x, y])?.y ?? 0) ? -1 : 1;
+      for (let other = touching([x, y]); other; other = touching([x, y])) y = other.y + way * LINE;
       taken.push({ x, y, half });
       move(element, [left, y]);
     }
-    put(this.#arrows, { d: shown.velocities ? this.#vectors(linkage, 1) : "" });
-    put(this.#changes, { d: shown.accelerations ? this.#vectors(linkage, 2) : "" });
+    put(this.#arrows, { d: this.#vectors(linkage, 1, shown.velocities) });
+    put(this.#changes, { d: this.#vectors(linkage, 2, shown.accelerations) });
     put(this.#forces, { d: this.#forceArrows(linkage, shown) });
     const springs = shown.springs().map((spring) => springPath(linkage, viewport, spring));
     put(this.#springs, { d: springs.join("") });
@@ -178,32 +192,44 @@ export class Scene {
   }
 
   #forceArrows(linkage: Linkage, shown: Shown): string {
-    const drawn = shown.forces().map(([joint, x, y]) => {
+    const drawn = shown.forces().map(([joint, x, y, force]): Vector => {
       const [u, v] = this.viewport.screen(...linkage.jointAt(joint));
-      return arrow(u, v, LONGEST_ARROW * x, -LONGEST_ARROW * y);
+      return [u, v, LONGEST_ARROW * x, -LONGEST_ARROW * y, force];
     });
-    return drawn.join("");
+    return this.#arrowPath(drawn, 0, "N");
   }
 
   /** Velocities (1) or accelerations (2) of all joints and points that move, as a path. */
-  #vectors({ model, pose, sizes }: Linkage, k: 1 | 2): string {
-    const places: [number, number, number, number][] = [];
+  #vectors(linkage: Linkage, k: 1 | 2, wanted: boolean): string {
+    const { model, pose, sizes } = linkage;
+    const places: Vector[] = [];
     const add = (link: number, u: number, v: number) => {
       const [x, y] = this.viewport.screen(...place(pose, 0, link, u, v));
       const [dx, dy] = place(pose, 0, link, u, v, k);
-      places.push([x, y, dx, -dy]);
+      places.push([x, y, dx, -dy, Math.hypot(dx, dy)]);
     };
     model.joints.forEach((joint, number) => {
-      if (joint.links.includes(model.frame) && joint.pair.turning) return;
+      if (!wanted || (joint.links.includes(model.frame) && joint.pair.turning)) return;
       const moves = (e: number) => sizes.element(e).link !== model.frame && !sizes.is(e, "round");
       const element = sizes.elementsOf(number).find(moves);
       if (element !== undefined) add(sizes.element(element).link, ...sizes.xy(element));
     });
-    for (const point of sizes.points) add(point.link, ...point.at);
-    const lengths = places.map(([, , dx, dy]) => Math.hypot(dx, dy)).filter(Number.isFinite);
-    const most = Math.max(...lengths, 1e-12);
+    if (wanted) for (const point of sizes.points) add(point.link, ...point.at);
+    const most = Math.max(...places.map((one) => one[4]).filter(Number.isFinite), 1e-12);
     const shortened = (value: number) => (LONGEST_ARROW * value) / most;
-    return places.map(([x, y, dx, dy]) => arrow(x, y, shortened(dx), shortened(dy))).join("");
+    const drawn = places.map(([x, y, dx, dy, size]): Vector => [x, y, shortened(dx), shortened(dy), size]);
+    return this.#arrowPath(drawn, k, rateUnit(linkage, k, false).replace(/[[\]]/g, ""));
+  }
+
+  /** The arrows as a path; the longest of them says how much it is. */
+  #arrowPath(arrows: readonly Vector[], k: 0 | 1 | 2, unit: string): string {
+    const text = this.#values[k]!;
+    const [x, y, dx, dy, most] = arrows.reduce((a, b) => (b[4] > a[4] ? b : a), [0, 0, 0, 0, 0]);
+    text.textContent = most > 0 ? `${numberText(most, 3)} ${unit.trim()}` : "";
+    const part = 1 + 12 / (Math.hypot(dx, dy) || 1);
+    put(text, { "text-anchor": dx < 0 ? "end" : "start" });
+    move(text, [x + part * dx, y + part * dy + 4]);
+    return arrows.map((vector) => arrow(...vector)).join("");
   }
 
   #drawPole(linkage: Linkage, shown: Shown): void {
@@ -223,10 +249,18 @@ export class Scene {
   }
 }
 
+/** An arrow: its start and its extent in pixels, and how much it is. */
+type Vector = [number, number, number, number, number];
+
 /** A name and where it stands in the picture. */
 interface Label {
   element: SVGTextElement;
-  spot: (viewport: Viewport) => Pair;
+  name: string;
+  /** Where it may stand, and which of these places it takes. */
+  spots: (viewport: Viewport) => Pair[];
+  taken: number;
+  /** The corners of its link. */
+  hull?: (viewport: Viewport) => Pair[];
   /** Half its width, in pixels, and whether it begins at its place instead of having its middle there. */
   half: number;
   begins: boolean;
@@ -238,23 +272,28 @@ function labelsOf(linkage: Linkage): Label[] {
   const links = [...model.links.slice(0, model.own).keys()].filter((link) => link !== model.frame);
   const names = links.map((link): Label => {
     const name = linkage.linkName(link);
-    const spot = (viewport: Viewport) => {
-      const joints = sizes.elementsOn(link).map((k) => sizes.xy(k));
+    const joints = () => sizes.elementsOn(link).map((k) => sizes.xy(k));
+    const spots = (viewport: Viewport) => {
       const points = sizes.points.filter((point) => point.link === link).map((point) => point.at);
-      const { at, away } = namePlace(joints, points, name, viewport.scale);
-      const turned = away && direction(linkage.pose, 0, link, away);
-      return nameSpot(viewport, { at: place(linkage.pose, 0, link, ...at), away: turned }, name);
+      const { at, away, along, ...more } = namePlace(joints(), points, name, viewport.scale);
+      const turned = (way: Pair) => direction(linkage.pose, 0, link, way);
+      const where = { at: place(linkage.pose, 0, link, ...at), away: away && turned(away) };
+      return nameSpots(viewport, { ...where, ...more, along: turned(along ?? [0, 0]) }, name);
     };
+    const hull = (viewport: Viewport) =>
+      convexHull(joints().map((at) => viewport.screen(...place(linkage.pose, 0, link, ...at))));
     const element = svg("text.name", { "text-anchor": "middle" }, name);
-    return { element, spot, half: halfOf(name), begins: false };
+    return { element, name, spots, taken: 0, hull, half: halfOf(name), begins: false };
   });
   const marks = sizes.points.map(
     (point): Label => ({
       element: svg("text.mark", {}, linkage.pointName(point.name)),
-      spot: (viewport) => {
+      name: point.name,
+      spots: (viewport) => {
         const [x, y] = viewport.screen(...place(linkage.pose, 0, point.link, ...point.at));
-        return [x + 9, y - 9];
+        return [[x + 9, y - 9]];
       },
+      taken: 0,
       half: halfOf(linkage.pointName(point.name)),
       begins: true,
     }),
@@ -267,7 +306,7 @@ function move(element: SVGElement, [x, y]: Pair): void {
 }
 
 /** An arrow with its head, in pixels; nothing if it is too short for one. */
-function arrow(x: number, y: number, dx: number, dy: number): string {
+function arrow(...[x, y, dx, dy]: Vector): string {
   const length = Math.hypot(dx, dy);
   if (!(length > 3) || !Number.isFinite(length)) return "";
   const [ux, uy] = [dx / length, dy / length];

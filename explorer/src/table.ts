@@ -6,6 +6,7 @@ import { currentLanguage } from "./language";
 import type { Linkage } from "./linkage";
 import { outputAlong, transmission } from "./measures";
 import { place } from "./rows";
+import { lengthUnit } from "./wording";
 
 export function tableOf(linkage: Linkage): string {
   const { cycle, model } = linkage;
@@ -14,7 +15,7 @@ export function tableOf(linkage: Linkage): string {
   const { points } = linkage.sizes;
   const turning = linkage.drive?.turning ?? true;
   const record = model.outputs[0];
-  const head = [turning ? "drive_deg" : `drive_${model.unit}`];
+  const head = [turning ? "drive_deg" : `drive_${lengthUnit(model)}`];
   if (record) head.push("output", "output_velocity", "output_acceleration", "transmission_angle_deg");
   for (const { name } of points) head.push(`${name}_x`, `${name}_y`, `${name}_vx`, `${name}_vy`);
   const rows = [...cycle.values.keys()];

@@ -4,10 +4,20 @@ import { type Stop, wrapped } from "./cycle";
 import { Status } from "./kernel";
 import { angle, inLetters, number, t } from "./language";
 import type { Linkage, Refused } from "./linkage";
+import type { Model } from "./model";
 
 /** A value of the active drive with its unit. */
 export function driveText({ drive, model }: Linkage, value: number, digits = 5): string {
   return drive?.turning ? angle(value, digits) : `${number(value, digits)} ${model.unit}`;
+}
+
+/** The unit of lengths as a part of others, where none is given in words. */
+export function lengthUnit({ unit }: Pick<Model, "unit">): string {
+  return unit || t("length");
+}
+
+export function momentUnit(model: Model): string {
+  return `N·${lengthUnit(model)}`;
 }
 
 /** Where in the period an extreme lies; it is known to about a millionth of a radian. */
@@ -42,8 +52,9 @@ export function refusedText(linkage: Linkage, { reason, stop }: Refused, value: 
 
 /** The unit of the first or second derivative of the output by the drive, in brackets; nothing if there is none. */
 export function rateUnit({ drive, model }: Linkage, order: 1 | 2, turning = model.outputs[0]?.joint === null): string {
-  const above = turning ? "rad" : model.unit;
-  const below = drive?.turning ? "rad" : model.unit;
+  const unit = lengthUnit(model);
+  const above = turning ? "rad" : unit;
+  const below = drive?.turning ? "rad" : unit;
   if (above === below) return order === 1 ? "" : ` [1/${below}]`;
   return ` [${above}/${below}${order === 1 ? "" : "²"}]`;
 }

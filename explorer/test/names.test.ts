@@ -2,7 +2,8 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { namePlace, nameSpot } from "../src/names";
+import { toHull } from "../src/hull";
+import { clearSpot, halfOf, namePlace, nameSpots } from "../src/names";
 import type { Pair } from "../src/rows";
 import { Viewport } from "../src/viewport";
 
@@ -13,8 +14,8 @@ test("the name of a thin body stands beside its longest side, away from it", () 
     [100, 0],
   ];
   const below = namePlace(thin, [], "coupler", 1);
-  assert.deepEqual(below, { at: [50, 0], away: [0, -1] });
-  const [x, y] = nameSpot(new Viewport(), below, "coupler"); // of a picture whose y grows downward
+  assert.deepEqual([below.at, below.away, below.bar], [[50, 0], [0, -1], false]);
+  const [[x, y]] = nameSpots(new Viewport(), below, "coupler") as [Pair]; // of a picture whose y grows downward
   assert.ok(x === 50 && y > 15);
 });
 
@@ -33,8 +34,8 @@ test("a free point beside a bar leaves the name on the other side", () => {
     [0, 0],
     [30, 0],
   ];
-  assert.deepEqual(namePlace(bar, [[15, 40]], "coupler", 1), { at: [15, 0], away: [0, -1] });
-  assert.deepEqual(namePlace(bar, [[15, -40]], "coupler", 1), { at: [15, 0], away: [0, 1] });
+  assert.deepEqual(namePlace(bar, [[15, 40]], "coupler", 1).away, [0, -1]);
+  assert.deepEqual(namePlace(bar, [[15, -40]], "coupler", 1).away, [0, 1]);
 });
 
 test("one place alone has its name above", () => {
@@ -43,4 +44,22 @@ test("one place alone has its name above", () => {
     [3, 4],
   ];
   assert.deepEqual(namePlace(pin, [], "block", 1), { at: [3, 4], away: [0, 1] });
+});
+
+test("the name of a bar is nearer to it than to another, however sharp the angle between them", () => {
+  const viewport = new Viewport();
+  for (let degrees = -170; degrees <= 180; degrees += 5) {
+    if (Math.abs(degrees) < 15) continue; // one covers the other
+    const [bar, other] = [0, degrees].map((turn): Pair[] => {
+      const phi = ((turn + 20) * Math.PI) / 180;
+      return [viewport.screen(0, 0), viewport.screen(150 * Math.cos(phi), 150 * Math.sin(phi))];
+    }) as [Pair[], Pair[]];
+    const joints = bar.map((at) => viewport.world(...at));
+    const spots = nameSpots(viewport, namePlace(joints, [], "coupler", 1), "coupler");
+    const [x, y] = spots[clearSpot(spots, "coupler", [bar, [other]], () => true)]!;
+    for (const side of [-1, 0, 1]) {
+      const at: Pair = [x + side * halfOf("coupler"), y - 4];
+      assert.ok(toHull(bar, ...at) < toHull(other, ...at), `${degrees} degrees`);
+    }
+  }
 });

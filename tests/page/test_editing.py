@@ -165,6 +165,11 @@ def test_joints_of_a_link_are_not_dragged_onto_each_other(tab, crank_rocker):
     field.fill("0")
     field.press("Enter")
     assert "Two joints of a link cannot lie in one place." in told(page)
+    for wrong in ("1e9", "-1", "long"):
+        field.fill(wrong)
+        field.press("Enter")
+        assert "Expected a length of at least 0 and below 10⁹" in told(page)
+        assert field.get_attribute("aria-invalid") == "true"
 
 
 def test_a_length_that_fits_elsewhere_only_is_offered_there(tab, crank_rocker):
