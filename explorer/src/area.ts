@@ -6,6 +6,7 @@ import { number } from "./language";
 import type { Box } from "./viewport";
 
 const MARK = 3.2; // pixels that a mark has for each of its units
+const AROUND = 45; // pixels around a mark
 const LINES = 36; // pixels between lines of the grid, at least
 
 export interface Area extends Box {
@@ -20,7 +21,8 @@ export function areaOf(wide: number, places: readonly (readonly number[])[], ele
   const span = (axis: 0 | 1, half: number): [number, number] => {
     const values = places.map((place) => place[axis]!);
     const [low, most] = [Math.min(...values), Math.max(...values)];
-    const room = values.length ? 0.06 * (most - low) : 0;
+    // for marks and their numbers
+    const room = values.length ? Math.max(0.06 * (most - low), (AROUND * wide) / pixels) : 0;
     return [Math.min(-half, low - room), Math.max(half, most + room)];
   };
   const [left, right] = span(0, wide / 2);

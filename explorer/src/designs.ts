@@ -45,8 +45,9 @@ export class DesignCards {
     this.#found = found;
     // exact ones do not differ in their deviation
     this.#order = found?.items.some(({ error }) => !exact(error)) ? "error" : "size";
+    if (found) found.items = this.#sorted(); // by which they are numbered
     this.arrange();
-    return this.#sorted()[0] ?? null;
+    return found?.items[0] ?? null;
   }
 
   #sorted(): Design[] {
@@ -75,22 +76,44 @@ export class DesignCards {
             this.arrange();
           })
         : "",
+      found.items.some((design) => lengthsOf(design).length)
+        ? h("p.note", {}, t("Lengths in mm: crank · coupler · rocker · frame"))
+        : "",
       h("div.cards.sorted", { "data-list": "designs" }, ...this.#sorted().map((design) => this.#card(design))),
     );
   }
 
   #card(design: Design): HTMLElement {
     const { form, transmission, error, size } = design;
-    const deviation = error === null ? null : 100 * (exact(error) ? 0 : error);
+    const value = error === null || exact(error) ? 0 : 100 * error;
+    const deviation = value ? t("deviation {value} %", { value: number(value, 2) }) : t("met exactly");
+    const title = `${form[0]!.toUpperCase()}${form.slice(1)} ${this.#found!.items.indexOf(design) + 1}`;
+    const lengths = lengthsOf(design).map((one) => number(one, 3));
     const play = () => this.play(design);
     return h(
       "button.card",
       { onclick: () => this.open(design), onpointerenter: play, onfocus: play },
       thumbnail(design.picture, form),
-      h("b", {}, form),
+      h("b", {}, title),
+      h("span", {}, lengths.join(" · ")),
+      h("span", {}, error === null ? "" : deviation),
       h("span", {}, transmission === null ? "" : `μ ≥ ${angle((transmission * Math.PI) / 180, 3)}`),
-      h("span", {}, deviation === null ? "" : t("deviation {value} %", { value: number(deviation, 2) })),
-      h("span", {}, t("size {value}", { value: number(size, 3) })),
+      h("span", {}, t("size {value} mm", { value: number(size, 3) })),
     );
   }
+}
+
+/** The lengths of a four-bar, that of its frame last; none of what has other joints. */
+function lengthsOf({ frames, joints, members }: Design): number[] {
+  const pairs = members.map((own) => own.filter((k) => k < joints));
+  pairs.push([...Array(joints).keys()].filter((k) => pairs.flat().indexOf(k) === pairs.flat().lastIndexOf(k)));
+  const found = [0, frames.length >> 2].map((row) =>
+    pairs.map(([one, two]) => {
+      const [[x, y], [u, v]] = [frames[row]![one!] ?? [0, 0], frames[row]![two!] ?? [0, 0]];
+      return Math.hypot(u! - x!, v! - y!);
+    }),
+  );
+  const [first, later] = found as [number[], number[]];
+  const stay = first.every((one, k) => one && Math.abs(one - later[k]!) < 1e-3 * Math.max(...first));
+  return joints === 4 && pairs.every((one) => one.length === 2) && stay ? first : [];
 }

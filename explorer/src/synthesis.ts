@@ -17,6 +17,9 @@ type Puts = "" | "pivot" | "curve";
 /** The rows of each kind at first, and how few there are at least. */
 const FEWEST: Record<Kind, number> = { positions: 3, points: 5, function: 3, "dead-centres": 1 };
 
+/** Points of a page without the library. */
+const NINE = 9;
+
 const WIDE = 240; // of the plane, in millimetres; that of a phone is narrower
 const NEAR = 4; // units of marks that a pointer reaches; a finger needs more
 const OF_STROKE = 20; // points of a curve that is drawn
@@ -292,8 +295,18 @@ export class SynthesisView implements View {
       this.points.push(last.map((value) => value + 30));
       this.#draw();
     };
+    const count = this.points.length;
+    const wanted = this.page.served || this.kind !== "points" ? FEWEST[this.kind] : NINE;
+    const missing = wanted - count;
     renew(
       this.#list,
+      this.#planar && missing >= 0
+        ? h(
+            "p.note",
+            { "data-fact": "set" },
+            t("{count} of {wanted} set, {missing} missing", { count, wanted, missing }),
+          )
+        : "",
       this.points.length
         ? h(
             "div.points",
@@ -301,7 +314,7 @@ export class SynthesisView implements View {
             table(this.points, title, names),
             this.kind === "positions" && this.#pivots.length ? table(this.#pivots, t("Fixed pivot"), ["x", "y"]) : null,
           )
-        : h("p.note", {}, t("No points yet.")),
+        : "",
       this.kind === "function" ? h("button.plain", { "data-act": "pair", onclick: add }, t("Another pair")) : "",
       this.kind === "positions" && this.points.length > 1 && this.points.every(([, , angle]) => angle === last[2])
         ? h("p.note", {}, t("All at one angle: the link is shifted and does not turn."))

@@ -50,7 +50,7 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
     view.click('[data-act="synthesise"]')
     view.locator('[data-list="designs"] .card').first.wait_for(timeout=60_000)
     sizes = [
-        float(text.split()[-1]) for text in view.locator("[data-list=designs] span:text('size')").all_text_contents()
+        float(text.split()[-2]) for text in view.locator("[data-list=designs] span:text('size')").all_text_contents()
     ]
     assert sizes == sorted(sizes)  # all of them exact
     # it plays over the targets: three moving links, one curve

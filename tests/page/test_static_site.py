@@ -250,11 +250,19 @@ def searching(page, rows=ROWS):
 def test_nine_points_are_met_without_python(tab, folder, address, from_disk):
     page = tab().open((folder / "index.html").as_uri() if from_disk else address)
     assert not any("points" in url for url in page.requests)  # what it takes is loaded when it is asked for
+    page.page.evaluate("(rows) => gruebler.views.synthesis.take(rows, false)", ROWS[:5])
+    set_already = page.page.locator('[data-fact="set"]')
+    assert set_already.text_content() == "5 of 9 set, 4 missing"
     searching(page)
+    assert set_already.text_content() == "9 of 9 set, 0 missing"
     page.until("gruebler.views.synthesis.status.textContent.includes('of 1442 solutions followed')", 60)
     page.until("gruebler.views.synthesis.designs.element.querySelectorAll('.card svg .gr-curve').length === 4", 120)
     assert "Of the 1442 solutions of nine points" in page.page.locator('[data-page="synthesis"]').text_content()
-    page.page.click('[data-page="synthesis"] .card >> nth=0')
+    cards = page.page.locator('[data-page="synthesis"] .card')
+    assert cards.locator("b").all_text_contents() == [f"Four-bar {number}" for number in (1, 2, 3, 4)]
+    assert "25 · 70 · 40 · 70" in cards.locator("span:nth-of-type(1)").all_text_contents()  # that of the points
+    assert set(cards.locator("span:nth-of-type(2)").all_text_contents()) == {"met exactly"}
+    cards.first.click()
     page.until("gruebler.view === 'motion'")
     assert page.page.evaluate("gruebler.shown.name") == "A design for 9 points"
     assert page.page.evaluate("gruebler.motion.linkage.cycle.full")

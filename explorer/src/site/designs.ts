@@ -11,7 +11,7 @@ import { pack } from "./packs";
 interface PointsPack {
   script: string;
   template: Model;
-  texts: Record<Language, Record<"progress" | "complete" | "missing" | "equal" | "line" | "circle", string>>;
+  texts: Record<Language, Record<"progress" | "complete" | "missing" | "equal" | "line" | "circle" | "form", string>>;
 }
 
 /** A generic task, and its solutions as float32. */
@@ -85,7 +85,7 @@ export class DesignWorker {
           } else {
             const { missing, real } = data;
             this.#models = data.found.items.map((design) => (design as { model?: Model }).model!);
-            const items = data.found.items.map((design) => ({ ...design, model: undefined }));
+            const items = data.found.items.map((design) => ({ ...design, model: undefined, form: texts[lang].form }));
             const count = missing ? say("missing", { count: missing }) : "";
             resolve({ ...data.found, items, note: `${say("complete", { real })} ${count}`.trim() });
           }

@@ -32,6 +32,7 @@ def point_packs() -> Iterator[tuple[str, Any]]:
     """
     first, other = GuidingDyad(CRANK, 1 + 2j, 0j), GuidingDyad(CRANK, 5 + 3j, 4 + 0j)
     texts: dict[str, Message] = {
+        "form": message("four-bar"),
         "progress": message("{done} of {total} solutions followed", done="{done}", total="{total}"),
         "complete": message(
             "Of the {classes} solutions of nine points {real} are real, each of them three cognates.",
