@@ -60,13 +60,6 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
         if (note) page.say(note, "done");
       }, failed);
   };
-  const own = [
-    button("SVG", () => save("svg", "image/svg+xml", shown.picture())),
-    button("PNG", () => void png(shown.picture()).then((blob) => save("png", "image/png", blob))),
-    button("CSV", () => save("csv", "text/csv", shown.table())),
-    button("JSON", () => save("json", "application/json", JSON.stringify(shown.document(), null, 1))),
-  ];
-  const served = page.served ? ["TOML", "HTML", "PDF"].map((kind) => button(kind, () => ask(kind.toLowerCase()))) : [];
   const recorded = filmType();
   const record = async () => {
     page.say(t("The film is being recorded …"), "done");
@@ -80,9 +73,40 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
     { "aria-label": t("Width of films"), onchange: () => (choice.width = Number(width.value)) },
     ...WIDTHS.map(([text, value]) => h("option", { value, selected: value === choice.width }, text)),
   );
-  const films = [
-    ...(recorded ? [button(t("Film"), () => void record().catch(failed))] : []),
-    ...(page.served ? [button("GIF", gif)] : []),
+  const served = (kind: string) => (page.served ? button(kind, () => ask(kind.toLowerCase())) : null);
+  const group = (title: string, note: string, ...ways: (Node | null)[]) =>
+    h("div.form", { "data-group": "" }, h("p.note", {}, h("b", {}, title), ` ${note}`), ...ways);
+  const { unit } = page.shown;
+  const groups = [
+    group(
+      t("Picture"),
+      t("PNG: twice as large as on the screen"),
+      button("PNG", () => void png(shown.picture()).then((blob) => save("png", "image/png", blob), failed)),
+      button("SVG", () => save("svg", "image/svg+xml", shown.picture())),
+      served("PDF"),
+    ),
+    group(
+      t("Moving picture"),
+      "",
+      width,
+      recorded ? button(t("Film"), () => void record().catch(failed)) : null,
+      page.served ? button("GIF", gif) : null,
+    ),
+    ...(page.served ? [group(t("Drawing for CAD"), `1 : 1${unit && `, ${unit}`}`, served("DXF"))] : []),
+    group(
+      t("Data"),
+      t("CSV: the motion, a row for each position"),
+      button("CSV", () => save("csv", "text/csv", shown.table())),
+      button("JSON", () => save("json", "application/json", JSON.stringify(shown.document(), null, 1))),
+      served("TOML"),
+    ),
+    ...(page.served ? [group(t("Other programs"), "", ...programs(page, ask))] : []),
+    group(
+      t("For others"),
+      "",
+      button(t("Copy the link"), () => void page.share()),
+      served("HTML"),
+    ),
   ];
   const model = page.shown;
   const [reader, measured] = ["from gruebler.files import read_linkage", "print(gr.measures(linkage).explain())"];
@@ -92,17 +116,8 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
   return h(
     "div",
     {},
-    h(
-      "div.chips",
-      {},
-      ...own,
-      ...served,
-      button(t("Copy the link"), () => void page.share()),
-    ),
-    h("div.form", {}, h("span", {}, t("Moving picture")), width, ...films),
-    page.served
-      ? programs(page, ask)
-      : h("p.note", {}, t("DXF and files of other programs: gruebler convert FILE OUT")),
+    ...groups,
+    page.served ? null : h("p.note", {}, t("DXF and files of other programs: gruebler convert FILE OUT")),
     h("p.note", {}, t("The chain as text")),
     h("pre", { "data-text": "chain" }, chainText(model)),
     named
@@ -122,7 +137,7 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
 }
 
 /** The formats of other programs, which the library writes. */
-function programs(page: Page, ask: (kind: string) => void): HTMLElement {
+function programs(page: Page, ask: (kind: string) => void): HTMLElement[] {
   const onchange = () => (choice.kind = kind.value);
   const kind = h("select", { "aria-label": t("File of another program"), "data-field": "kind", onchange });
   const lang = currentLanguage();
@@ -134,8 +149,7 @@ function programs(page: Page, ask: (kind: string) => void): HTMLElement {
       ),
     () => kinds.delete(lang), // it is asked again
   );
-  const save = h("button.plain", { "data-act": "save", onclick: () => ask(kind.value) }, t("Save"));
-  return h("div.form", {}, kind, save);
+  return [kind, h("button.plain", { "data-act": "save", onclick: () => ask(kind.value) }, t("Save"))];
 }
 
 async function png(file: string): Promise<Blob> {

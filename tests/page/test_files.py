@@ -117,6 +117,11 @@ def test_a_file_of_another_program_is_dropped_and_saved_as_dxf(tab, server, tmp_
     assert sorted(lengths)[-4:] == pytest.approx([25, 40, 70, 70], abs=1e-3)
     panel = page.page.locator('[data-panel="export"]')
     panel.locator("summary").click()
+    assert [title.split()[0] for title in panel.locator("[data-group] b").all_text_contents()] == [
+        *("Bild", "Bewegtes", "Zeichnung", "Daten", "Andere", "Für")  # by purpose, what is used most first
+    ]
+    assert panel.locator("[data-group] button").all_text_contents()[:3] == ["PNG", "SVG", "PDF"]
+    assert "1 : 1, mm" in panel.inner_text()
     panel.locator('[data-field="kind"] option[value="dxf"]').wait_for(state="attached")
     with page.page.expect_download() as saved:
         panel.locator('[data-act="save"]').click()
@@ -143,6 +148,21 @@ def test_a_file_of_another_program_is_dropped_and_saved_as_dxf(tab, server, tmp_
     page.until("gruebler.views.synthesis.points.length === 5")
     dropped(page, "leg.xyz", b"?")
     page.page.locator(".message", has_text="leg.xyz").wait_for()
+
+
+def test_the_drive_of_a_drawn_four_bar_comes_back_from_another_program():
+    """Linkage has inputs: a crank on the frame, which the reader finds again."""
+    drawn = {
+        "unit": "mm",
+        "joints": "R(Gestell-1) R(1-2) R(2-3) R(Gestell-3)",
+        "frame": "Gestell",
+        "drives": ["R(Gestell-1)"],
+        "places": {"R(Gestell-1)": [0, 0], "R(1-2)": [0, 25], "R(2-3)": [60, 45], "R(Gestell-3)": [70, 0]},
+    }
+    saved = answer("export", {"document": drawn, "kind": "linkage2"}, "de", print)
+    opened = answer("open_file", {"name": "bar.linkage2", "base64": saved["base64"]}, "de", print)
+    assert (saved["note"], opened["note"]) == ("", "")
+    assert [drive["name"] for drive in opened["model"]["drives"]] == ["R(frame-1)"]
 
 
 def test_the_single_file_opens_its_own_document_and_records_a_film(tab, tmp_path):
