@@ -12,6 +12,8 @@ interface Entry {
   name: string;
   links: number;
   counted: number;
+  /** The mobility that special dimensions give, null where they give none other. */
+  special: number | null;
   moves: boolean;
   /** Whether it has a page of its own, on which it moves in space. */
   space: boolean;
@@ -141,15 +143,17 @@ export class CatalogView implements View {
   }
 
   #card(entry: Entry): HTMLElement {
-    const { id, links, counted, moves, space } = entry;
+    const { id, links, counted, moves, space, special } = entry;
     const sizes = t("{links} links, F = {counted}", { links, counted });
+    const really =
+      special === null || special === counted ? [] : [t("F = {special} by special dimensions", { special })];
     const kinds = space ? [t("in space")] : [t("structure only")].slice(Number(moves));
     const card = h(
       "button.card",
       { "data-id": id, title: entry.name, onclick: () => void this.#choose(entry) },
       h("div", { "data-place": "" }),
       h("b", {}, entry.name),
-      h("span", {}, [sizes, ...kinds].join(" · ")),
+      h("span", {}, [sizes, ...really, ...kinds].join(" · ")),
     );
     if (moves) movesOnHover(card, id, () => this.page.ask("moving", { id }));
     return card;

@@ -116,6 +116,68 @@ def test_names_stand_beside_their_links(tab, crank_rocker):
         assert min(page.page.evaluate(near)) > 2, drive
 
 
+@pytest.mark.parametrize("locale", ["en-US", "de-DE"])
+def test_names_of_a_phone_are_nearer_to_their_own_bar_than_to_another(tab, crank_rocker, locale):
+    """Where two bars do not lie on each other, at any drive: the middle and both ends of each name."""
+    page = tab(width=390, height=844, touch=True, locale=locale).open(crank_rocker)
+    distances = """(() => {
+        const { linkage, stage } = gruebler.motion;
+        const bars = [1, 2, 3].map((link) =>
+            linkage.sizes.elementsOn(link).map((e) => stage.viewport.screen(...linkage.elementAt(e))));
+        const names = [...stage.root.querySelectorAll("text.name")];
+        return [bars, names.map((name) => {
+            const box = name.getBBox(), { e, f } = name.transform.baseVal[0].matrix;
+            return [0, 0.5, 1].map((part) => [e + box.x + part * box.width, f + box.y + box.height / 2]);
+        })];
+    })()"""
+
+    def away(place, bar) -> float:
+        (x, y), (u, v) = (np.subtract(end, bar[0]) for end in (place, bar[1]))
+        part = np.clip((x * u + y * v) / (u * u + v * v), 0, 1)
+        return float(np.hypot(x - part * u, y - part * v))
+
+    sharpest = 180.0
+    for drive in range(0, 360, 10):
+        page.page.evaluate(f"gruebler.motion.transport.pick({np.radians(drive)})")
+        bars, names = page.page.evaluate(distances)
+        angles = [np.degrees(np.angle(complex(*np.subtract(*bar)))) for bar in bars]
+        apart = min(abs((one - other + 90) % 180 - 90) for k, one in enumerate(angles) for other in angles[:k])
+        if apart < 15:
+            continue
+        sharpest = min(apart, sharpest)
+        for k, places in enumerate(names):
+            for place in places:
+                own, *others = (away(place, bars[(k + shift) % 3]) for shift in range(3))
+                assert own < min(others), (drive, k)
+    assert sharpest < 30
+
+
+def test_arrows_say_how_much_the_longest_of_them_is(tab, crank_rocker):
+    """The end of the crank, 25 mm long, has 25 mm/rad; nothing of a rocker of 40 mm that swings 80 degrees has more at
+    90 degrees of the crank."""
+    page = tab().open(crank_rocker)
+    page.page.evaluate("gruebler.motion.transport.pick(1.5)")
+    values = page.page.locator(".stage [data-arrow]")
+    assert values.all_text_contents() == ["", "", ""]
+    page.page.locator("[data-panel=show] summary").click()
+    page.page.get_by_label("Velocities").check()
+    rate = 40 * page.page.evaluate("gruebler.motion.linkage.pose.rates[3]")  # rocker: length by angular velocity
+    assert values.all_text_contents() == ["", f"{max(25, rate):.3g} mm/rad", ""]
+
+
+def test_lengths_without_a_unit_leave_no_empty_brackets(tab, tmp_path):
+    from gruebler.mechanics.fourbar import SliderCrank
+    from gruebler.page.model import model_of
+    from gruebler.page.page import single_file
+
+    path = tmp_path / "plain.html"
+    path.write_text(single_file(model_of(SliderCrank(25, 70).linkage(unit=""), name="plain")), encoding="utf-8")
+    page = tab().open(path.as_uri())
+    titles = page.page.locator(".plot").evaluate_all("all => all.map((one) => one.textContent)")
+    assert any("[length]" in title for title in titles)
+    assert not any(sign in page.page.locator(".side").inner_text() for sign in ("[]", "[/", "·\n", "/]"))
+
+
 def test_the_grid_has_numbers(tab, crank_rocker):
     """Where their places lie; drawn again only where they come to lie elsewhere."""
     page = tab().open(crank_rocker)
@@ -231,6 +293,16 @@ def test_tools_stand_in_one_row_on_a_small_desk(tab, server):
     boxes = page.page.locator("[data-tool]").evaluate_all("all => all.map((e) => e.getBoundingClientRect().toJSON())")
     assert np.ptp([box["y"] for box in boxes]) < min(box["height"] for box in boxes) / 2
     assert max(box["right"] for box in boxes) < page.page.locator('[data-page="build"] .side').bounding_box()["x"]
+
+
+def test_a_machine_that_moves_by_its_dimensions_says_so_beside_the_count(tab, server):
+    """Sarrus 1853: the count gives 6(6 - 1) - 6·5 = 0, the platform moves with one freedom."""
+    page = tab().open(server.address)
+    page.page.click('[data-view="catalog"]')
+    card = page.page.locator('.card[data-id="sarrus"]')
+    card.wait_for(timeout=60_000)
+    assert "6 links, F = 0 · F = 1 by special dimensions" in card.inner_text()
+    assert "special" not in page.page.locator('.card[data-id="crankrocker"]').inner_text()
 
 
 def test_tabs_of_a_phone_show_that_they_scroll_and_cards_have_one_height(tab, server):

@@ -85,6 +85,7 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
             "name": candidate.name.in_language(lang),
             "links": candidate.chain().n,
             "counted": counted(candidate.chain()),
+            "special": candidate.claims.mobility,
             "moves": candidate.dimensions is not None and candidate.space == "planar",
             "space": candidate.in_space,
             "text": Mechanism(
