@@ -7,13 +7,13 @@ import pytest
 
 from gruebler.design.synthesis import Demands, PositionTask, synthesise_positions
 from gruebler.design.synthesis.burmester import burmester_curves
-from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, halves, short_cells
+from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, short_cells
 from gruebler.design.synthesis.dyads import SLIDER, Displacements
 from gruebler.design.synthesis.enclosures import Enclosure
 from gruebler.design.synthesis.family_bounds import bound_notes, excluded
 from gruebler.design.synthesis.pair_search import pair_facts
+from gruebler.design.synthesis.partner_bounds import left_of_cranks
 from gruebler.design.synthesis.positions import guiding_dyads
-from gruebler.design.synthesis.slide_bounds import left_of_cranks
 
 FOUR = [(2.071235, -0.032527, 19.8126), (2.036152, 1.429641, 44.4843), (0.706012, 1.606846, 68.1715)]
 FOUR += [(0.329970, 2.223983, 92.2134)]
@@ -76,7 +76,7 @@ def _all_held(seed, lines):
     cells, singular = short_cells(curve)
     assert curve.fits
     assert not len(singular)
-    covers = [DyadCells(curve, cells), DyadCells(curve, halves(halves(halves(cells))))]
+    covers = [DyadCells(curve, cells), DyadCells(curve, curve.halves(curve.halves(curve.halves(cells))))]
     dyads = list(_dyads_on_lines(given, rng, lines))
     for cover in covers:
         assert all(_held(cover, x, m) for x, m in dyads), seed

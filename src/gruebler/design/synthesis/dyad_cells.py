@@ -1,17 +1,19 @@
-"""All dyads of four positions in cells: short pieces of Burmester's curves, enclosed with what follows from them.
+"""All dyads of a family in cells, enclosed with what follows from them: of four positions pieces of Burmester's curves.
 
 docs/theory/synthesis-positions.md, "Proofs in the family of four positions".
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cached_property, partial
 from itertools import combinations, pairwise
+from types import MappingProxyType
+from typing import Any, Protocol
 
 import numpy as np
 
-from gruebler.base.arrays import Complexes, Flags, Reals
+from gruebler.base.arrays import Complexes, Flags, Integers, Reals
 from gruebler.design.synthesis.dyads import Displacements
 from gruebler.design.synthesis.enclosures import Enclosure
 from gruebler.design.synthesis.polar_cubics import PolarCubic
@@ -24,6 +26,9 @@ _FIRST = 24  # cells of a span to begin with
 _SHORT = 0.3  # lengths of the dyad: no cell is longer
 _MOST = 4000  # cells; a curve that needs more has a singular dyad
 _HALVINGS = 40
+Direction = tuple[Flags, Enclosure]
+"""Where the normal of a bisector is known besides, and what it is."""
+_NO_POLES: Mapping[tuple[int, int], Direction] = MappingProxyType({})
 
 
 class DyadCurve:
@@ -86,11 +91,7 @@ class DyadCurve:
         linear, square, cube = (_valued(form, angle) for form in self._forms)
         part = Enclosure(none, (none,), none)
         for k, harmonics in enumerate(self._parts):
-            here = _valued(harmonics, angle)
-            chosen = span == k
-            slopes = (np.where(chosen, here.slopes[0], part.slopes[0]),)
-            value, rest = np.where(chosen, here.value, part.value), np.where(chosen, here.rest, part.rest)
-            part = Enclosure(value, slopes, rest)
+            part = _valued(harmonics, angle).where(span == k, part)
         if self.cubic.closes:
             between = part * _sinc(angle - low) * _sinc(high - angle)
             half = at.mapped(width / 2 * np.sin(middle), width / 2 * np.cos(middle), width / 2)
@@ -104,26 +105,52 @@ class DyadCurve:
         pivots = angle.mapped(turn, 1j * turn, 1.0) * along + self.cubic.start
         return pivots, np.asarray(least - abs(self.cubic.start))
 
+    def fixed_pivots(self, _: Reals, moving: Enclosure) -> tuple[Enclosure, Reals]:
+        """The pivots on the frame, and a lower bound of their distances from the origin where they may be far."""
+        return centres(moving, *self.given.with_first)
+
+    def halves(self, cells: Reals) -> Reals:
+        """Each cell in two, one after the other."""
+        return halves(cells, np.zeros(len(cells), np.int64))
+
+
+class DyadFamily(Protocol):
+    """Dyads by parameters: rows of piece, sheet, and begin and end of each parameter."""
+
+    given: Displacements
+
+    def first_cells(self) -> Reals:
+        """Cells that hold all dyads at hand."""
+
+    def halves(self, cells: Reals) -> Reals:
+        """Each cell in two, one after the other."""
+
+    def moving_pivots(self, cells: Reals) -> tuple[Enclosure, Reals]:
+        """The pivots on the body, and a lower bound of their distances from the origin where they may be far."""
+
+    def fixed_pivots(self, cells: Reals, moving: Enclosure) -> tuple[Enclosure, Reals]:
+        """The pivots on the frame likewise."""
+
 
 class DyadCells:
     """The dyads of cells, enclosed: pivots, length, crank angles and more, in sizes of the task about its origin."""
 
-    def __init__(self, curve: DyadCurve, cells: Reals) -> None:
+    def __init__(self, family: DyadFamily, cells: Reals) -> None:
         self.cells = cells
         with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
-            moving, far = curve.moving_pivots(cells)
+            moving, far = family.moving_pivots(cells)
             known = np.isfinite(moving.rest)
             moving = _finite(moving, known)
             self.moving = moving.widened(_SLACK * (1 + np.abs(moving.value)))
-            q, t = np.append(1, curve.given.q), np.append(0, curve.given.t)
+            q, t = family.given.with_first
             places = self.moving.column * q + t
-            fixed, beyond = _centres(self.moving, q, t)
+            fixed, beyond = family.fixed_pivots(cells, self.moving)
             self.known: Flags = known & np.isfinite(fixed.rest)
             """Whether both pivots are bounded; nothing else is said of the other cells."""
             fixed = _finite(fixed, self.known)
             self.fixed = fixed.widened(_SLACK * (1 + np.abs(fixed.value) + np.abs(moving.value)))
             away = np.where(self.known, self.fixed.least, beyond)
-            self.far: Flags = (np.where(known, self.moving.least, far) > FAR) | (away > FAR)
+            self.far: Flags = (np.fmax(self.moving.least, far) > FAR) | (away > FAR)
             """Whether a pivot certainly lies too far away."""
             self.length = (self.moving - self.fixed).modulus
             arm = places - self.fixed.column
@@ -137,10 +164,7 @@ class DyadCells:
     @cached_property
     def steps(self) -> tuple[Reals, Reals]:
         """Angles from each position to the next, up to whole turns: in the middle, and how far they can be from it."""
-        angle = self.angle
-        (slope,) = angle.slopes
-        reach = np.abs(np.diff(slope, axis=1)) + angle.rest[:, 1:] + angle.rest[:, :-1]
-        return np.diff(angle.value, axis=1), reach
+        return _difference(self.angle, np.s_[:, 1:], np.s_[:, :-1])
 
     @cached_property
     def ways(self) -> tuple[Reals, Reals]:
@@ -161,11 +185,12 @@ class DyadCells:
         )
 
 
-def halves(cells: Reals) -> Reals:
-    """Each cell in two, one after the other."""
+def halves(cells: Reals, parameters: Integers) -> Reals:
+    """Each cell in two, by one of its parameters, one after the other."""
+    rows, begin = np.arange(len(cells)), 2 + 2 * parameters
     first, second = cells.copy(), cells.copy()
-    first[:, 3] = second[:, 2] = (cells[:, 2] + cells[:, 3]) / 2
-    return np.stack([first, second], axis=1).reshape(-1, 4)
+    first[rows, begin + 1] = second[rows, begin] = (cells[rows, begin] + cells[rows, begin + 1]) / 2
+    return np.stack([first, second], axis=1).reshape(-1, cells.shape[1])
 
 
 def short_cells(curve: DyadCurve) -> tuple[Reals, Reals]:
@@ -177,7 +202,7 @@ def short_cells(curve: DyadCurve) -> tuple[Reals, Reals]:
         short = seen.known & (seen.extent < _SHORT * seen.length.low)
         good.append(cells[short & ~seen.far])
         count += len(good[-1])
-        cells = halves(cells[~short & ~seen.far])
+        cells = curve.halves(cells[~short & ~seen.far])
         if not len(cells) or count + len(cells) > _MOST:
             break
     return np.concatenate(good), cells
@@ -212,15 +237,20 @@ def _sinc(angle: Enclosure) -> Enclosure:
 
 def _finite(pivots: Enclosure, known: Flags) -> Enclosure:
     """The same with huge rests where they are infinite, so that nothing becomes undefined."""
-    slopes = (np.where(known, pivots.slopes[0], 0),)
-    return Enclosure(np.where(known, pivots.value, 0), slopes, np.where(known, pivots.rest, 1e30))
+    none = np.zeros_like(pivots.value)
+    return pivots.where(known, Enclosure(none, (none,) * len(pivots.slopes), np.full(len(none), 1e30)))
 
 
-def _centres(moving: Enclosure, turns: Complexes, shifts: Complexes) -> tuple[Enclosure, Reals]:
+def centres(
+    moving: Enclosure,
+    turns: Complexes,
+    shifts: Complexes,
+    directions: Mapping[tuple[int, int], Direction] = _NO_POLES,
+) -> tuple[Enclosure, Reals]:
     """The centres of the circles through the places of the pivots, from two bisectors, whichever two tell most.
 
     With them a lower bound of their distances from the origin. The centre m of the bisectors Re(g_j* m) = h_j is
-    i (h_2 g_1 - h_1 g_2)/Im(g_1* g_2).
+    i (h_2 g_1 - h_1 g_2)/Im(g_1* g_2). Directions of the normals g_j are given where two places may be one.
     """
     about = moving.value  # so that numbers are small
     places = about[:, None] * (turns - 1) + shifts
@@ -229,14 +259,26 @@ def _centres(moving: Enclosure, turns: Complexes, shifts: Complexes) -> tuple[En
     for j, k in combinations(range(len(turns)), 2):
         gap = moving * (turns[k] - turns[j]) + (places[:, k] - places[:, j])
         middle = moving * ((turns[k] + turns[j]) / 2) + (places[:, k] + places[:, j]) / 2
+        if (j, k) in directions:
+            there, direction = directions[j, k]
+            gap = direction.where(there, gap)
         bisectors.append((gap, (gap.conjugate * middle).real))
     none = np.zeros(len(about), np.complex128)
-    centre, least = Enclosure(none, (none,), np.full(len(about), np.inf)), np.zeros(len(about))
+    centre = Enclosure(none, (none,) * len(moving.slopes), np.full(len(about), np.inf))
+    least = np.zeros(len(about))
     for (gap, height), (other, high) in combinations(bisectors, 2):
         across, product = 1j * (high * gap - height * other), (gap.conjugate * other).imaginary
         centre = centre.or_narrower(across * product.inverse)
         least = np.fmax(least, across.least / product.most - np.abs(about))
     return centre + about, least
+
+
+def _difference(angles: Enclosure, end: Any, begin: Any) -> tuple[Reals, Reals]:
+    """Of angles of the same cells: in the middle, and how far they can be from it."""
+    reach = angles.rest[end] + angles.rest[begin]
+    for slope in angles.slopes:
+        reach = reach + np.abs(slope[end] - slope[begin])
+    return angles.value[end] - angles.value[begin], reach
 
 
 def _least_way(steps: Reals, reach: Reals) -> Reals:

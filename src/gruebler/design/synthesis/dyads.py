@@ -50,6 +50,11 @@ class Displacements(NamedTuple):
         """The displacements of the frame as seen from the body."""
         return Displacements(np.conj(self.q), -np.conj(self.q) * self.t)
 
+    @property
+    def with_first(self) -> tuple[Complexes, Complexes]:
+        """(positions,) each: q and t, with those of the first position, 1 and 0, before them."""
+        return np.append(1, self.q), np.append(0, self.t)
+
     def images(self, x: complex) -> Complexes:
         """The point in all positions, the first included."""
         return np.concatenate([[x], self.q * x + self.t])

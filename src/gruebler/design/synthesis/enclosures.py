@@ -161,20 +161,21 @@ class Enclosure:
         """Each as a row of one, to be combined with several."""
         return self.at((slice(None), None))
 
-    def placed(self, parameter: int) -> Enclosure:
-        """One parameter becomes the given one of two."""
-        (slope,) = self.slopes
-        none = np.zeros_like(slope)
-        return Enclosure(self.value, (none, slope) if parameter else (slope, none), self.rest)
+    def placed(self, side: int, others: int) -> Enclosure:
+        """With so many parameters more on which it does not depend: behind its own for side 0, before them for 1."""
+        none = (np.zeros_like(self.value),) * others
+        return Enclosure(self.value, none + self.slopes if side else self.slopes + none, self.rest)
 
     def widened(self, by: Reals) -> Enclosure:
         """With a larger rest."""
         return Enclosure(self.value, self.slopes, self.rest + by)
 
+    def where(self, chosen: Flags, other: Enclosure) -> Enclosure:
+        """These numbers where they are chosen, others elsewhere."""
+        slopes = tuple(np.where(chosen, a, b) for a, b in zip(self.slopes, other.slopes, strict=True))
+        value, rest = np.where(chosen, self.value, other.value), np.where(chosen, self.rest, other.rest)
+        return Enclosure(value, slopes, np.asarray(rest))
+
     def or_narrower(self, other: Enclosure) -> Enclosure:
         """Of two enclosures of the same numbers the one with the smaller rest."""
-        own = ~(other.rest < self.rest) & ~np.isnan(self.rest)
-        slopes = tuple(np.where(own, a, b) for a, b in zip(self.slopes, other.slopes, strict=True))
-        return Enclosure(
-            np.where(own, self.value, other.value), slopes, np.asarray(np.where(own, self.rest, other.rest))
-        )
+        return self.where(~(other.rest < self.rest) & ~np.isnan(self.rest), other)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from math import ceil, degrees, radians
 from typing import NamedTuple
 
@@ -16,7 +17,7 @@ import numpy as np
 from gruebler.base.arrays import Flags, Integers, Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, message
-from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, halves, short_cells
+from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, short_cells
 from gruebler.design.synthesis.dyads import Displacements
 from gruebler.design.synthesis.enclosures import Enclosure
 from gruebler.design.synthesis.judging import Demands
@@ -69,7 +70,7 @@ def excluded(task: PositionTask, demands: Demands, budget: int = _BUDGET) -> Exc
     cells, singular = short_cells(curve)
     whole = len(curve.spans) * (1 if curve.cubic.closes else 2) * curve.end
     beyond = float(np.sum(singular[:, 3] - singular[:, 2])) / whole if len(singular) else 0.0
-    search = _Search(curve, demands, origin, size)
+    search = PairTests(demands, origin, size)
     seen = DyadCells(curve, cells)
     drivers, others = search.kept(seen)
     i, j = (side.ravel() for side in np.meshgrid(np.flatnonzero(drivers), np.flatnonzero(others), indexing="ij"))
@@ -134,16 +135,16 @@ def _halved(curve: DyadCurve, seen: DyadCells, i: Integers, j: Integers) -> tupl
     same = np.unique(np.concatenate([i[~first], j[first]]))
     at = np.zeros((2, len(seen.cells)), np.int64)
     at[0, split], at[1, same] = 2 * np.arange(len(split)), 2 * len(split) + np.arange(len(same))
-    cells = DyadCells(curve, np.concatenate([halves(seen.cells[split]), seen.cells[same]]))
+    cells = DyadCells(curve, np.concatenate([curve.halves(seen.cells[split]), seen.cells[same]]))
     own, other = np.where(first, at[0, i], at[1, i]), np.where(first, at[1, j], at[0, j])
     return cells, np.concatenate([own, own + first]), np.concatenate([other, other + ~first])
 
 
-class _Search:
+class PairTests:
     """The demands as tests of pairs of cells: true where all four-bars of a pair certainly fail."""
 
-    def __init__(self, curve: DyadCurve, demands: Demands, origin: complex, size: float) -> None:
-        self.curve, self.demands = curve, demands
+    def __init__(self, demands: Demands, origin: complex, size: float) -> None:
+        self.demands = demands
         least = demands.transmission
         # Without one branch there is no way on which a transmission angle could be kept.
         self.on_a_branch = demands.one_branch or least > 0
@@ -162,11 +163,12 @@ class _Search:
             kept &= ~seen.outside(self.region)
         return (kept & ~seen.keeps_no_order if self.ordered and self.demands.crank else kept), kept
 
-    def fails(self, seen: DyadCells, i: Integers, j: Integers) -> Flags:
-        """Pairs of cells, the driven one first."""
-        moving = seen.moving.at(j).placed(1) - seen.moving.at(i).placed(0)
-        frame = seen.fixed.at(j).placed(1) - seen.fixed.at(i).placed(0)
-        a, b, c, d = seen.length.at(i).placed(0), moving.modulus, seen.length.at(j).placed(1), frame.modulus
+    def fails(self, seen: DyadCells, i: Integers, j: Integers, seconds: DyadCells | None = None) -> Flags:
+        """Pairs of cells, the driven one first; the other ones out of `seconds`, where they are given."""
+        beside, count = seconds or seen, len(seen.moving.slopes)
+        driven, other = (partial(_placed, side=side, rows=rows, others=count) for side, rows in enumerate((i, j)))
+        moving, frame = other(beside.moving) - driven(seen.moving), other(beside.fixed) - driven(seen.fixed)
+        a, b, c, d = driven(seen.length), moving.modulus, other(beside.length), frame.modulus
         longest = np.maximum.reduce([length.low for length in (a, b, c, d)])
         shortest = np.minimum.reduce([length.high for length in (a, b, c, d)])
         fails: Flags = longest > self.demands.size_ratio * shortest
@@ -180,10 +182,10 @@ class _Search:
         if self.demands.crank:
             fails |= turns_not
         if self.on_a_branch:
-            fails |= self._leaves_branch(moving, seen.back.at(j).placed(1))
+            fails |= self._leaves_branch(moving, other(beside.back))
         if not self.demands.one_branch:
             return fails
-        phi = seen.angle.at(i).placed(0) - frame.angle.column
+        phi = driven(seen.angle) - frame.angle.column
         ranges = Ranges(pi_free=pi_free, pi_shut=pi_shut, zero_free=zero_free, zero_shut=zero_shut)
         return np.asarray(fails | no_way(phi, seen, i, ranges, self._too_flat(a, b, c, d), self.demands))
 
@@ -208,6 +210,10 @@ class _Search:
             ((squares - far * far - allowed).low > 0) | ((squares - far * far + allowed).high < 0)
             for far in (d - a, d + a)
         )
+
+
+def _placed(enclosed: Enclosure, side: int, rows: Integers, others: int) -> Enclosure:
+    return enclosed.at(rows).placed(side, others)
 
 
 class Ranges(NamedTuple):

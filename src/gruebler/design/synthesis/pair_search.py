@@ -110,8 +110,8 @@ def pair_facts(
     directions = np.array([dyad.direction for dyad in second], np.complex128)
     slides = directions[None, :, None] * (1 if second[0].kind == SLIDER else task.turns / task.turns[0])
     driven, other = (pins[:, None], own[:, None]), (far_pins[None], far[None])
-    reached = np.ones(len(far), bool) if second[0].kind.pairs[0].is_sliding else _inside(far, demands)
-    inside = np.asarray(_inside(own, demands)[:, None] & reached[None, :])
+    reached = np.ones(len(far), bool) if second[0].kind.pairs[0].is_sliding else inside_region(far, demands)
+    inside = np.asarray(inside_region(own, demands)[:, None] & reached[None, :])
     size = task.size if np.ptp(task.origins) else np.inf
     return facts_of_pins(driven, other, slides, second[0].kind, inside=inside, size=size)
 
@@ -275,7 +275,8 @@ def _extreme(begin: Reals, travel: Reals, at: float) -> Reals:
     return np.where(passed, np.cos(at), nearest)
 
 
-def _inside(pivots: Complexes, demands: Demands) -> Flags:
+def inside_region(pivots: Complexes, demands: Demands) -> Flags:
+    """Whether pivots lie in the region that is demanded, all if there is none."""
     if demands.region is None:
         return np.ones(len(pivots), bool)
     x1, y1, x2, y2 = demands.region

@@ -35,8 +35,8 @@ from gruebler.design.synthesis.dyads import (
 from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design
 from gruebler.design.synthesis.pair_search import FoundPairs, Nearby, best_pairs
+from gruebler.design.synthesis.partner_bounds import bettered, slide_notes
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
-from gruebler.design.synthesis.slide_bounds import slide_notes
 from gruebler.design.synthesis.targets import Targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PositionTask
 from gruebler.mechanics.fourbar import grashof
@@ -295,8 +295,14 @@ def _judged_best(
             searches.append(
                 best_pairs(task, turning, demands, near, second=second, orders=sort, number=max(1, number // 4))
             )
-    notes += [note for search in searches for note in search.notes]
-    pairs = [pair for search in searches for pair in search.pairs]
+    pairs: list[tuple[GuidingDyad, GuidingDyad]] = []
+    for search in searches:
+        notes += search.notes
+        if len(task) < 4 and search.pairs:
+            better, proved = bettered(task, demands, search.pairs)
+            pairs += [better] if better else []
+            notes += proved
+        pairs += search.pairs
     designs: list[Design] = []
     for done, (first, second_dyad) in enumerate(pairs, 1):
         with suppress(LinkageError):  # two dyads with a common pivot are no linkage

@@ -1,0 +1,152 @@
+"""All cranks of two and three positions in cells: every point of the body is a pivot.
+
+docs/theory/synthesis-positions.md, "Proofs for two and three positions".
+"""
+
+from __future__ import annotations
+
+from itertools import combinations, pairwise, product
+
+import numpy as np
+
+from gruebler.base.arrays import Reals
+from gruebler.design.synthesis.dyad_cells import FAR, DyadCurve, DyadFamily, centres, halves
+from gruebler.design.synthesis.dyads import Displacements, GuidingDyad
+from gruebler.design.synthesis.enclosures import Enclosure
+
+_POLES_APART = 1e-3
+"""Sizes: poles nearer to each other are nearly one, and what lies between them is lost in rounding."""
+_FARTHEST_POLE = 100.0
+
+
+def crank_family(given: Displacements) -> DyadFamily | None:
+    """The cranks of two to four positions, or None where their equations are nearly singular."""
+    if len(given.q) == 3:
+        return DyadCurve(given)
+    poles = _poles(given)
+    if len(given.q) == 1:
+        return DyadPencil(given, *poles.values()) if poles else None
+    gaps = [abs(first - second) for first, second in combinations(poles.values(), 2)]
+    together = [abs(t) for q, t in zip(*_steps(given), strict=True) if abs(q) < _POLES_APART]
+    return DyadPlane(given, poles) if min(gaps + together, default=1.0) > _POLES_APART else None
+
+
+def _steps(given: Displacements) -> tuple[list[complex], list[complex]]:
+    q, t = given.with_first
+    chosen = list(combinations(range(len(q)), 2))
+    return [complex(q[k] - q[j]) for j, k in chosen], [complex(t[k] - t[j]) for j, k in chosen]
+
+
+def _poles(given: Displacements) -> dict[tuple[int, int], complex]:
+    """The points of the body that lie at one place in two positions, as far as they are at hand."""
+    pairs = combinations(range(len(given.q) + 1), 2)
+    poles = {pair: -t / q for pair, q, t in zip(pairs, *_steps(given), strict=True) if q}
+    return {pair: pole for pair, pole in poles.items() if abs(pole) < _FARTHEST_POLE}
+
+
+def _ranges(cells: Reals) -> list[Enclosure]:
+    """The parameters of cells."""
+    none = np.zeros(len(cells))
+    count = (cells.shape[1] - 2) // 2
+    parameters = []
+    for k in range(count):
+        low, high = cells[:, 2 + 2 * k], cells[:, 3 + 2 * k]
+        slopes = [none] * count
+        slopes[k] = (high - low) / 2
+        parameters.append(Enclosure((low + high) / 2, tuple(slopes), none))
+    return parameters
+
+
+def _turn(angle: Enclosure) -> Enclosure:
+    value = np.exp(1j * angle.value)
+    return angle.mapped(value, 1j * value, 1.0)
+
+
+class DyadPlane:
+    """Three positions: x and y of the pivot on the body; about each pole its distance and direction from it.
+
+    A pole lies at one place in two positions. Their bisector is then perpendicular to the direction in which the pivot
+    left the pole, so that there is one dyad for each direction.
+    """
+
+    def __init__(self, given: Displacements, poles: dict[tuple[int, int], complex]) -> None:
+        self.given, self.poles = given, poles
+        places = list(poles.values())
+        self.radii = [
+            min([0.3, *(0.3 * abs(place - other) for other in places if other is not place)]) for place in places
+        ]
+
+    def first_cells(self) -> Reals:
+        """The square at hand, and a disc about each pole."""
+        rows = [(0, 1, -FAR, FAR, -FAR, FAR)]
+        rows += [(1 + k, 1, 0, radius, 0, 2 * np.pi) for k, radius in enumerate(self.radii)]
+        return np.array(rows, np.float64)
+
+    def cell_of(self, dyad: GuidingDyad) -> Reals:
+        """The cell of this dyad alone."""
+        x, y = dyad.moving.real, dyad.moving.imag
+        return np.array([[0, 1, x, x, y, y]], np.float64)
+
+    def halves(self, cells: Reals) -> Reals:
+        """Each cell in two, one after the other."""
+        scale = np.array([1.0, *self.radii])[cells[:, 0].astype(int)]
+        turns = (cells[:, 5] - cells[:, 4]) * scale > cells[:, 3] - cells[:, 2]
+        return halves(cells, turns.astype(np.int64))
+
+    def moving_pivots(self, cells: Reals) -> tuple[Enclosure, Reals]:
+        """The pivots on the body; those of the square are infinitely far where the disc of a pole has them."""
+        first, second = _ranges(cells)
+        pivots, least, turn = first + 1j * second, np.zeros(len(cells)), _turn(second)
+        for k, (pole, radius) in enumerate(zip(self.poles.values(), self.radii, strict=True), 1):
+            pivots = (first * turn + pole).where(cells[:, 0] == k, pivots)
+            beyond = (cells[:, 0] == 0) & (np.abs(pivots.value - pole) + pivots.reach < radius)
+            least = np.where(beyond, np.inf, least)
+        return pivots, least
+
+    def fixed_pivots(self, cells: Reals, moving: Enclosure) -> tuple[Enclosure, Reals]:
+        """The centres of the circles through the three places."""
+        q, t = self.given.with_first
+        turn = _turn(_ranges(cells)[1])
+        normals = {(j, k): (cells[:, 0] == number, turn * (q[k] - q[j])) for number, (j, k) in enumerate(self.poles, 1)}
+        return centres(moving, q, t, normals)
+
+
+class DyadPencil:
+    """Two positions: distance and direction of the pivot on the body from the pole, and the distance of the other.
+
+    The bisector of the places of x = P + r exp(i v) passes the pole P, turned by half the angle of the body.
+    """
+
+    def __init__(self, given: Displacements, pole: complex) -> None:
+        self.given, self.pole = given, pole
+        self.half = complex(np.exp(0.5j * np.angle(given.q[0])))
+
+    def first_cells(self) -> Reals:
+        """All within reach."""
+        far = FAR + abs(self.pole)
+        ends = [np.linspace(low, high, 5) for low, high in ((0, far), (0, 2 * np.pi), (-far, far))]
+        return np.array([(0, 1, *np.ravel(cell)) for cell in product(*map(pairwise, ends))], np.float64)
+
+    def cell_of(self, dyad: GuidingDyad) -> Reals:
+        """The cell of this dyad alone."""
+        arm = dyad.moving - self.pole
+        along = ((dyad.fixed - self.pole) * np.conj(self.half * arm)).real / abs(arm)
+        place = abs(arm), float(np.angle(arm)), along
+        return np.array([[0, 1, *np.repeat(place, 2)]], np.float64)
+
+    def halves(self, cells: Reals) -> Reals:
+        """Each cell in two, one after the other."""
+        low, high = cells[:, 2::2], cells[:, 3::2]
+        widths = high - low
+        widths[:, 1] *= np.maximum(np.abs(low + high)[:, [0, 2]].max(axis=1) / 2, 0.3)
+        return halves(cells, np.argmax(widths, axis=1))
+
+    def moving_pivots(self, cells: Reals) -> tuple[Enclosure, Reals]:
+        """The pivots on the body."""
+        distance, angle, _ = _ranges(cells)
+        return distance * _turn(angle) + self.pole, np.zeros(len(cells))
+
+    def fixed_pivots(self, cells: Reals, _: Enclosure) -> tuple[Enclosure, Reals]:
+        """The pivots on the bisectors."""
+        _, angle, distance = _ranges(cells)
+        return distance * _turn(angle) * self.half + self.pole, np.zeros(len(cells))

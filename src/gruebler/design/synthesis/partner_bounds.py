@@ -1,0 +1,311 @@
+"""Proofs beside a dyad that is held: that no crank of the family with it, or no other dyad with a crank, does better.
+
+Four positions have finitely many sliding dyads, so that the cranks beside each are all there is. Of two and three
+positions a dyad of the best linkage is held. docs/theory/synthesis-positions.md, "Proofs for two and three positions".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from functools import cached_property
+from math import ceil, cos, degrees, pi, radians
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.base.arrays import Flags, Reals
+from gruebler.base.errors import SynthesisError
+from gruebler.base.text import Message, message
+from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, DyadFamily
+from gruebler.design.synthesis.dyad_planes import DyadPencil, DyadPlane, crank_family
+from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, GuidingDyad
+from gruebler.design.synthesis.enclosures import Enclosure
+from gruebler.design.synthesis.family_bounds import MARGINS, NARROW, PairTests, Ranges, no_way
+from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.pair_search import facts_of_pins, inside_region, pair_facts
+from gruebler.design.synthesis.results import form_symbols
+from gruebler.design.synthesis.tasks import PositionTask
+
+Pair = tuple[GuidingDyad, GuidingDyad]
+_BUDGET = 80_000  # cells that are looked at
+_ON_A_CURVE = 20_000  # those of four positions
+_HALVINGS = 60  # of each parameter
+_TURNS = 6  # in which one dyad is held
+_WIDER = 10.0  # by what the margin grows where it was too narrow for a proof
+MARGIN = {2: radians(0.5), 3: radians(0.05)}
+"""Above the best transmission angle, by the number of positions: none beyond is proved."""
+_CRANKS = 4  # that are tried where none is known to meet the demands
+_SLACK = 1e-9  # of what is measured from the slide: far above the rounding of a dyad
+_NONE = message(
+    "Proved: no linkage {form} of this family with a crank within {far:g} sizes of the task meets all demands."
+)
+_AT_MOST = message(
+    "Proved: no linkage {form} of this family with a crank within {far:g} sizes of the task meets all demands with a "
+    "transmission angle above {angle:.1f}°."
+)
+_UNKNOWN = message("Not decided: whether a linkage {form} of this family meets all demands.")
+_BESIDE = message(
+    "Proved: no other dyad beside the crank of the best four-bar, and no other crank beside its second dyad, meets all "
+    "demands with a transmission angle above {angle:.1f}° and pivots within {far:g} sizes of the task. Four-bars that "
+    "share neither dyad with it were sampled."
+)
+_BESIDE_SLIDE = message(
+    "Proved: no other crank beside the slide of the best linkage {form} meets all demands with a transmission angle "
+    "above {angle:.1f}° and pivots within {far:g} sizes of the task. Other slides were sampled."
+)
+_BESIDE_NONE = message(
+    "Proved: the {count} cranks that came nearest to the demands meet them with no other dyad whose pivots lie within "
+    "{far:g} sizes of the task. Other cranks were sampled."
+)
+_BESIDE_UNKNOWN = message("Linkages {form}: no bound could be proved beside the dyads of the best one; it is sampled.")
+
+
+class Partner(NamedTuple):
+    """What is known of all dyads of a family beside one that is held."""
+
+    left: float
+    """The part of them, by their parameters, that is not excluded; 0 is a proof."""
+    angle: float
+    """The largest transmission angle that was found, or that with which the search began, in radians."""
+    dyad: GuidingDyad | None
+    """With which it was found."""
+
+
+Tests = Callable[[DyadCells, float], Flags]
+"""Which cells may have linkages with such a transmission angle."""
+Angles = Callable[[DyadCells], Reals]
+"""The transmission angles of the linkages in the middle of cells; minus infinity where they fail."""
+
+
+def searched(
+    family: DyadFamily, may: Tests, angles: Angles | None, begin: float, margin: float, budget: int = _BUDGET
+) -> tuple[float, float, tuple[complex, complex] | None]:
+    """Branch and bound over the cells of a family.
+
+    Returns the part that is not excluded under a transmission angle that is a margin larger than the best one, that
+    best one, or `begin` if it is larger, and its pivots. Without `angles` nothing but `begin` is asked.
+    """
+    cells = family.first_cells()
+    whole, left, looked, best, place = _content(cells), 0.0, 0, begin, None
+    for _ in range(_HALVINGS * (cells.shape[1] // 2 - 1)):
+        looked += len(cells)
+        seen = DyadCells(family, cells)
+        if angles is not None:
+            reached = np.where(seen.known & ~seen.far, angles(seen), -np.inf)
+            if reached.max() > best:
+                k = int(np.argmax(reached))
+                best, place = float(reached[k]), (complex(seen.moving.value[k]), complex(seen.fixed.value[k]))
+        if best + margin >= pi / 2:
+            return left / whole, best, place
+        stays = ~seen.far & (may(seen, best + margin) | ~seen.known)
+        done = stays & ((seen.extent < NARROW) | (looked + 2 * np.count_nonzero(stays) > budget))
+        left += _content(cells[done])
+        cells = family.halves(cells[stays & ~done])
+        if not len(cells):
+            break
+    return (left + _content(cells)) / whole, best, place
+
+
+def _content(cells: Reals) -> float:
+    """Of their parameters."""
+    return float(np.prod(cells[:, 3::2] - cells[:, 2::2], axis=1).sum())
+
+
+class PartnerSearch:
+    """Branch and bound over all cranks beside a dyad, or over all RR dyads beside a crank that is driven."""
+
+    def __init__(self, task: PositionTask, demands: Demands, held: GuidingDyad, *, driven: bool) -> None:
+        self.given, self.origin, self.size = Displacements.of(task.origins, task.turns)
+        self.task, self.demands, self.driven = task, demands, driven
+        self.family: DyadFamily | None
+        try:
+            self.family = crank_family(self.given)
+        except SynthesisError:  # no point of the curve is known
+            self.family = None
+        self.held = held.moved(1 / self.size, -self.origin / self.size)
+        at = np.array([held.fixed], np.complex128)
+        self.inside = held.kind.pairs[0].is_sliding or bool(inside_region(at, demands)[0])
+
+    def may(self, seen: DyadCells, angle: float) -> Flags:
+        """Cells that may have a linkage with such a transmission angle."""
+        wanted = replace(self.demands, transmission=angle)
+        tests = PairTests(wanted, self.origin, self.size)
+        drivers, others = tests.kept(seen)
+        if self.held.slides:
+            return self.inside & drivers & ~_fails(seen, self.given, self.held, wanted)
+        varied, own = np.arange(len(seen.cells)), np.zeros(len(seen.cells), np.int64)
+        fails = tests.fails(self.cell, own, varied, seen) if self.driven else tests.fails(seen, varied, own, self.cell)
+        return np.asarray(self.inside & (others if self.driven else drivers) & ~fails)
+
+    @cached_property
+    def cell(self) -> DyadCells:
+        """That of the dyad that is held."""
+        assert isinstance(self.family, DyadPlane | DyadPencil)
+        return DyadCells(self.family, self.family.cell_of(self.held))
+
+    def angles(self, seen: DyadCells) -> Reals:
+        """The transmission angles of the linkages in the middle of cells; minus infinity where a demand fails."""
+        q, t = self.given.with_first
+        kind, moving, fixed = self.held.kind, seen.moving.value, seen.fixed.value
+        places = (moving[:, None] * q + t)[:, None], fixed[:, None]
+        own = (self.given.images(self.held.moving)[None, None], np.array([[self.held.fixed]]))
+        slides = self.held.direction * (np.ones_like(q) if kind == SLIDER else q)
+        driven, other = (own, places) if self.driven else (places, own)
+        inside = self.inside & inside_region(np.asarray(fixed * self.size + self.origin, np.complex128), self.demands)
+        size = 1.0 if np.ptp(self.task.origins) else np.inf
+        facts = facts_of_pins(driven, other, slides[None, None], kind, inside=inside[:, None], size=size)
+        good = np.logical_and.reduce([flags for _, flags in facts.met(self.demands)]) & facts.branch
+        return np.where(good, facts.transmission, -np.inf)[:, 0]
+
+    def searched(self, begin: float, margin: float, budget: int = _BUDGET, *, bettered: bool = True) -> Partner:
+        """What is left of the family above the best transmission angle, or `begin`, and a margin."""
+        if self.family is None or (isinstance(self.family, DyadCurve) and not self.family.fits):
+            return Partner(left=1.0, angle=begin, dyad=None)
+        left, best, place = searched(self.family, self.may, self.angles if bettered else None, begin, margin, budget)
+        dyad = None if place is None else GuidingDyad(CRANK, *place).moved(self.size, self.origin)
+        return Partner(left=left, angle=best, dyad=dyad)
+
+
+def left_of_cranks(task: PositionTask, demands: Demands, dyad: GuidingDyad, budget: int = _ON_A_CURVE) -> float:
+    """The part of all cranks, by the parameters of their family, that is not excluded beside a dyad; 0 is a proof.
+
+    Ratios and sizes of lengths are not asked beside a slide: what is excluded is so without them. Cost: 0.1 s for four
+    positions, else 1 s.
+    """
+    search = PartnerSearch(task, demands, dyad, driven=False)
+    return search.searched(demands.transmission, 0.0, budget, bettered=False).left
+
+
+def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, demands: Demands) -> Flags:
+    """Cells all of whose cranks certainly fail with the slide."""
+    q, t = given.with_first
+    pins = seen.moving.column * q + t
+    a, least = seen.length, cos(demands.transmission)
+    if slide.kind == SLIDER:
+        # From B to A, along the slide and across; the crank angle is counted from the normal of the slide.
+        arms = _slack((pins - given.images(slide.moving)) * np.conj(slide.direction))
+        across = _slack((slide.moving - seen.fixed) * np.conj(slide.direction))
+        b, e = _first(arms).modulus, across.imaginary
+        flat = _beyond(arms.imaginary, least * b.column)
+        at_zero, at_pi = _beyond(a - e, least * b), _beyond(a + e, least * b)
+        to_zero, to_pi = b - a + e, b - a - e
+        pi_free, pi_shut = to_pi.low > 0, to_pi.high <= 0
+        phi = seen.angle - float(np.angle(1j * slide.direction))
+    else:
+        frame = slide.fixed - seen.fixed
+        arms = _slack((slide.fixed - pins) * np.conj(slide.direction * q))
+        d, e = frame.modulus, _first(arms).imaginary
+        flat = _beyond(e.column, least * arms.modulus)
+        at_zero, at_pi = _beyond(e, least * (a - d)) & _beyond(e, least * (d - a)), _beyond(e, least * (a + d))
+        to_zero = (a - d) * (a - d) - e * e
+        pi_free, pi_shut = np.ones(len(seen.cells), bool), np.zeros(len(seen.cells), bool)
+        phi = seen.angle - frame.angle.column
+    zero_free, zero_shut = to_zero.low > 0, to_zero.high <= 0
+    along = arms.real
+    fails: Flags = np.zeros(len(seen.cells), bool)
+    if demands.crank:
+        fails |= pi_shut | zero_shut
+        if demands.one_branch and demands.in_order:
+            fails |= seen.keeps_no_order
+    if demands.transmission:
+        fails |= flat.any(axis=1)
+    else:
+        at_zero, at_pi = np.zeros((2, len(seen.cells)), bool)
+    if demands.one_branch or demands.transmission:
+        fails |= (along.low > 0).any(axis=1) & (along.high < 0).any(axis=1)
+    if not demands.one_branch:
+        return fails
+    ranges = Ranges(pi_free=pi_free, pi_shut=pi_shut, zero_free=zero_free, zero_shut=zero_shut)
+    closed = no_way(phi, seen, np.arange(len(seen.cells)), ranges, (at_zero, at_pi), demands)
+    return np.asarray(fails | closed)
+
+
+def _slack(measured: Enclosure) -> Enclosure:
+    return measured.widened(_SLACK * (1 + np.abs(measured.value)))
+
+
+def _first(row: Enclosure) -> Enclosure:
+    return Enclosure(row.value[:, 0], tuple(slope[:, 0] for slope in row.slopes), row.rest[:, 0])
+
+
+def _beyond(value: Enclosure, most: Enclosure) -> Flags:
+    """Whether it is certainly larger in size than something that is positive, or than both where it may be negative."""
+    return np.asarray(((value - most).low > 0) | ((value + most).high < 0))
+
+
+def slide_notes(
+    task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad], best: float | None, form: str
+) -> Iterator[Message]:
+    """What is proved of cranks with these sliding dyads of one kind; see `family_bounds.bound_notes`. Cost: 0.1 s."""
+    symbols = form_symbols(form)
+    if best is None and not any(left_of_cranks(task, demands, dyad) for dyad in dyads):
+        yield _NONE.filled(form=symbols, far=FAR)
+        return
+    begin = degrees(demands.transmission if best is None else best)
+    for margin in MARGINS:
+        angle = ceil(10 * (begin + margin)) / 10
+        if angle >= 90:
+            break
+        bound = replace(demands, transmission=radians(angle))
+        if not any(left_of_cranks(task, bound, dyad) for dyad in dyads):
+            yield _AT_MOST.filled(form=symbols, far=FAR, angle=angle)
+            return
+    if best is None:
+        yield _UNKNOWN.filled(form=symbols)
+
+
+def bettered(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -> tuple[Pair | None, list[Message]]:
+    """A better linkage than the best of pairs of two or three positions, and what is proved beside its dyads.
+
+    One of its dyads is held while the whole family of the other is searched, then the other way round. Where no pair
+    meets the demands, the cranks of the first ones are held in turn. Cost: 1 s each time.
+    """
+    best, pair = max(((_angle(task, demands, pair), pair) for pair in pairs), key=lambda row: row[0])
+    form, margin = form_symbols(f"{CRANK.form}-{pair[1].kind.form}"), MARGIN[len(task)]
+    if best + margin >= pi / 2:
+        return None, []  # no angle is larger
+    if best == -np.inf:
+        return (None, []) if pair[1].slides else _first_found(task, demands, pairs)
+    improved, proved = None, [False, pair[1].slides]
+    for turn in range(_TURNS):
+        side = 1 if pair[1].slides else turn % 2
+        proved[1 - side] |= pair[1].slides
+        partner = PartnerSearch(task, demands, pair[side], driven=side == 0).searched(best, margin)
+        if partner.dyad is not None:
+            best, improved = partner.angle, (pair[0], partner.dyad) if side == 0 else (partner.dyad, pair[1])
+            pair, proved[1 - side] = improved, pair[1].slides
+        proved[side] = not partner.left
+        if all(proved):
+            if best + margin >= pi / 2:
+                return improved, []
+            note = _BESIDE_SLIDE if pair[1].slides else _BESIDE
+            return improved, [note.filled(form=form, far=FAR, angle=_upward(best + margin))]
+        if partner.left and partner.dyad is None:
+            margin *= _WIDER
+    return improved, [_BESIDE_UNKNOWN.filled(form=form)]
+
+
+def _first_found(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -> tuple[Pair | None, list[Message]]:
+    """A pair that meets the demands beside the cranks of these, which do not, or that there is none."""
+    cranks = list(dict.fromkeys(first for first, _ in pairs))[:_CRANKS]
+    for crank in cranks:
+        partner = PartnerSearch(task, demands, crank, driven=True).searched(demands.transmission, 0.0)
+        if partner.dyad is not None:
+            improved, notes = bettered(task, demands, [(crank, partner.dyad)])
+            return improved or (crank, partner.dyad), notes
+        if partner.left:
+            return None, [_BESIDE_UNKNOWN.filled(form=form_symbols(f"{CRANK.form}-{CRANK.form}"))]
+    return None, [_BESIDE_NONE.filled(count=len(cranks), far=FAR)]
+
+
+def _angle(task: PositionTask, demands: Demands, pair: Pair) -> float:
+    """The transmission angle of a pair that meets the demands, minus infinity of others."""
+    facts = pair_facts(task, pair[:1], pair[1:], demands)
+    good = all(flags[0, 0] for _, flags in facts.met(demands)) and facts.branch[0, 0]
+    return float(facts.transmission[0, 0]) if good else -np.inf
+
+
+def _upward(angle: float) -> float:
+    """In degrees, to a tenth."""
+    return ceil(10 * degrees(angle)) / 10
