@@ -168,6 +168,7 @@ class ReferenceScrews(msgspec.Struct, frozen=True, forbid_unknown_fields=True, k
     unit: str
     joints: dict[str, Any]
     points: dict[str, Any] = {}
+    round_bodies: dict[str, Any] = {}
     assumed: bool = False
     source: str = ""
     drive: str | tuple[str, ...] | None = None
@@ -295,7 +296,12 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         """The machine with what dimensions it has: the screws of its joints, else the sizes of its links, else None."""
         if self.screws is not None:
             chain = self.chain()
-            screws = ScrewsRecord(unit=self.screws.unit, joints=self.screws.joints, points=self.screws.points)
+            screws = ScrewsRecord(
+                unit=self.screws.unit,
+                joints=self.screws.joints,
+                points=self.screws.points,
+                round_bodies=self.screws.round_bodies,
+            )
             drives = self.screws.shown_drives or self.drives
             mechanism = Mechanism(chain, self.frame or chain.links[0], drives)
             return spatial_linkage_from_record(screws, mechanism, self.outputs)
@@ -313,7 +319,7 @@ def _short_names(full: Mapping[str, str], lang: str) -> dict[str, str]:
 _NO_NUMBER = message("none")
 _NAME_LINKS: Mapping[str, tuple[str, ...]] = {
     "dimensions": ("elements", "reference_pose", "places", "points", "outlines", "drive"),
-    "screws": ("joints", "points", "drive"),
+    "screws": ("joints", "points", "round_bodies", "drive"),
     "picture": ("places", "outlines"),
     "claims": ("idle", "motion", "travel", "dead_centres"),
     "loads": ("bodies", "masses", "forces", "moments", "springs", "torsion_springs", "motors"),

@@ -15,13 +15,15 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.mechanics.screws.round_bodies import RoundBody
 from gruebler.structure.chain.spaces import Space
 
-_SIDES = 16
+_SIDES, _SIDES_OF_WHEEL = 16, 48
 _SLENDER = 45  # the size of a linkage over the radius of its bars
 _THIN = 0.45  # pins and rods against bars
 _LONG = 2.2  # of a sleeve to each side, in radii of a bar
 _DISC = 0.8
+_POST = 5.0  # radii of a bar from a bearing of the frame to its foot
 _CONE = 0.75  # of the radius of the sphere, where a bevel wheel begins
 _BALL = 1.7
 _SAME = 1e-9
@@ -47,7 +49,7 @@ class Solid:
         return float((a * np.cross(b, c)).sum() / 6)
 
 
-def turned_solid(start: Reals, end: Reals, profile: Reals, phase: float = 0.0) -> Solid:
+def turned_solid(start: Reals, end: Reals, profile: Reals, phase: float = 0.0, sides: int = _SIDES) -> Solid:
     """A turned body: (along, radius) from start (0) to end (1), beginning and ending on the axis.
 
     Bars that begin at one place differ by their phase: bodies that share an edge are not closed to a reader.
@@ -61,28 +63,55 @@ def turned_solid(start: Reals, end: Reals, profile: Reals, phase: float = 0.0) -
     u = np.cross(unit, np.eye(3)[int(np.argmin(np.round(abs(unit), 6)))])
     u /= np.linalg.norm(u)
     v = np.cross(unit, u)
-    turn = 2 * pi * np.arange(_SIDES) / _SIDES + phase
+    turn = 2 * pi * np.arange(sides) / sides + phase
     ring = np.cos(turn)[:, None] * u + np.sin(turn)[:, None] * v
     rings = [start + along * axis + radius * ring for along, radius in profile[1:-1]]
     first, last = start + profile[0, 0] * axis, start + profile[-1, 0] * axis
-    k = np.arange(_SIDES)
-    after = (k + 1) % _SIDES
+    k = np.arange(sides)
+    after = (k + 1) % sides
     faces = [np.stack([0 * k, 1 + after, 1 + k], axis=1)]
     for n in range(len(rings) - 1):
-        low = 1 + n * _SIDES
+        low = 1 + n * sides
         faces += [
-            np.stack([low + k, low + after, low + _SIDES + k], axis=1),
-            np.stack([low + after, low + _SIDES + after, low + _SIDES + k], axis=1),
+            np.stack([low + k, low + after, low + sides + k], axis=1),
+            np.stack([low + after, low + sides + after, low + sides + k], axis=1),
         ]
-    low, top = 1 + (len(rings) - 1) * _SIDES, 1 + len(rings) * _SIDES
+    low, top = 1 + (len(rings) - 1) * sides, 1 + len(rings) * sides
     faces.append(np.stack([low + k, low + after, 0 * k + top], axis=1))
     return Solid(np.concatenate([[first], *rings, [last]]), np.concatenate(faces))
 
 
-def cylinder_solid(start: Reals, end: Reals, radius: float, last: float | None = None, phase: float = 0.0) -> Solid:
+def cylinder_solid(
+    start: Reals, end: Reals, radius: float, last: float | None = None, phase: float = 0.0, sides: int = _SIDES
+) -> Solid:
     """A cylinder, or a cone's piece with another radius at its end."""
     profile = np.array([[0, 0], [0, radius], [1, radius if last is None else last], [1, 0]])
-    return turned_solid(start, end, profile, phase)
+    return turned_solid(start, end, profile, phase, sides)
+
+
+def round_solid(body: RoundBody) -> Solid:
+    """A round body with rounded edges and hollows on both sides, as a wheel with its tyre."""
+    middle, axis = np.array(body.at), np.array(body.z) / np.linalg.norm(body.z)
+    half, edge = body.length / 2 * axis, min(0.12 * body.radius, 0.3 * body.length)
+    part = edge / body.length
+    inner = 0.62 * body.radius
+    profile = np.array(
+        [
+            [0.2, 0],
+            [0.2, inner],
+            [0, 1.06 * inner],
+            [0, body.radius - edge],
+            [0.3 * part, body.radius - 0.3 * edge],
+            [part, body.radius],
+            [1 - part, body.radius],
+            [1 - 0.3 * part, body.radius - 0.3 * edge],
+            [1, body.radius - edge],
+            [1, 1.06 * inner],
+            [0.8, inner],
+            [0.8, 0],
+        ]
+    )
+    return turned_solid(middle - half, middle + half, profile, 0.03, _SIDES_OF_WHEEL)
 
 
 def ball_solid(middle: Reals, radius: float) -> Solid:
@@ -127,6 +156,8 @@ def link_solids(
                 solids[link].append(wheel)
             else:
                 solids[link] += _symbol(linkage, number, at, radius, ends, outer=link == outer)
+                if link == frame and not spherical:
+                    solids[link] += _foot(linkage, number, at, radius, np.mean(bearings, axis=0))
             holds[link].append(hold)
     for link, point in linkage.points.values():
         holds[link].append(np.array(point))
@@ -137,6 +168,8 @@ def link_solids(
                 for k, (a, b) in enumerate(bars_between(np.array(ends_of_bars)), 1)
                 if np.linalg.norm(b - a) > radius / 4
             ]
+    for body in linkage.round_bodies.values():
+        solids[body.link].append(round_solid(body))
     return {link: _distinct(each) for link, each in solids.items()}
 
 
@@ -190,7 +223,15 @@ def _symbol(
         axis = axes[:, "xyz".index(slides[0])]
         if not outer:
             low, high = ends  # the sleeve goes from low to high along the rod
-            yield cylinder_solid(at + (low - 4 * r) * axis, at + (high + 4 * r) * axis, _THIN * r)
+            if free[0].has_pitch:  # up to the bearings of the screw on its axis
+                along = [float((other[:3, 3] - at) @ axis) for other in linkage.frames]
+                lines = [float(np.linalg.norm(np.cross(other[:3, 3] - at, axis))) for other in linkage.frames]
+                on_axis = [t for t, off in zip(along, lines, strict=True) if off < r]
+                yield _thread(
+                    at + (min([low, *on_axis]) - 4 * r) * axis, at + (max([high, *on_axis]) + 4 * r) * axis, r
+                )
+            else:
+                yield cylinder_solid(at + (low - 4 * r) * axis, at + (high + 4 * r) * axis, _THIN * r)
         elif turns:
             yield cylinder_solid(at - _LONG * r * axis, at + _LONG * r * axis, 1.3 * r)
         else:
@@ -204,6 +245,31 @@ def _symbol(
         yield box_solid(at, axes, (3 * r, 0.3 * r, 3 * r)) if outer else ball_solid(at, r)
 
 
+def _thread(start: Reals, end: Reals, r: float) -> Solid:
+    """A rod with grooves, as a thread is drawn from the side."""
+    count = max(2, round(float(np.linalg.norm(end - start)) / (0.7 * r)))
+    along = np.linspace(0, 1, 2 * count + 1)
+    radii = np.where(np.arange(2 * count + 1) % 2, 1.25, 0.95) * r
+    profile = np.concatenate([[[0, 0]], np.stack([along, radii], axis=1), [[1, 0]]])
+    return turned_solid(start, end, profile)
+
+
+def _foot(linkage: SpatialLinkage, number: int, at: Reals, r: float, middle: Reals) -> Iterator[Solid]:
+    """What a bearing of the frame stands on: a post away from the linkage, across the bearing's axis, and a plate."""
+    pair = linkage.mechanism.chain.joints[number].pair
+    axis = linkage.frames[number, :3, 0 if pair.guides and not any(f.turns for f in pair.motion) else 2]
+    free = pair.is_ball or pair.is_cross
+    tried = [at - middle, -r * np.eye(3)[2], r * linkage.frames[number, :3, 0], r * linkage.frames[number, :3, 2]]
+    across = [heading if free else heading - (heading @ axis) * axis for heading in tried]
+    away = next(each for each in across if np.linalg.norm(each) > r / 2)
+    away = away / np.linalg.norm(away)
+    u = np.cross(away, np.eye(3)[int(np.argmin(np.round(abs(away), 6)))])
+    u /= np.linalg.norm(u)
+    foot = at + _POST * r * away
+    yield cylinder_solid(at, foot, 0.8 * r, phase=0.02)
+    yield box_solid(foot, np.stack([away, u, np.cross(away, u)], axis=1), (0.35 * r, 3.2 * r, 3.2 * r))
+
+
 def _wheel(linkage: SpatialLinkage, number: int, index: int, r: float) -> tuple[Solid, Reals]:
     """The disc or cone of one body of a contact, and its middle."""
     place, frame = linkage.places[number], linkage.frames[number]
@@ -212,12 +278,13 @@ def _wheel(linkage: SpatialLinkage, number: int, index: int, r: float) -> tuple[
     y, z = frame[:3, 1], frame[:3, 2]
     if linkage.mechanism.chain.space is Space.SPHERICAL:
         end = cos(radius) * (cos(radius) * z + sign * sin(radius) * y)
-        return cylinder_solid(_CONE * end, end, _CONE * sin(radius), sin(radius)), end
+        return cylinder_solid(_CONE * end, end, _CONE * sin(radius), sin(radius), sides=_SIDES_OF_WHEEL), end
     at = frame[:3, 3]
     if not isfinite(radius):
         return box_solid(at + sign * _DISC * r * y, frame[:3, :3], (6 * r, _DISC * r, 2 * r)), at
     middle = at + sign * radius * y
-    return cylinder_solid(middle - _DISC * r * z, middle + _DISC * r * z, max(abs(radius), r)), middle
+    half = _DISC * r * z
+    return cylinder_solid(middle - half, middle + half, max(abs(radius), r), sides=_SIDES_OF_WHEEL), middle
 
 
 def bars_between(places: Reals) -> Iterator[tuple[Reals, Reals]]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Literal
 
@@ -47,6 +48,18 @@ class ScrewsRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_o
     joints: dict[str, Any]
     points: dict[str, Any] = {}
     """Named points of links, their coordinates in that position."""
+    round_bodies: dict[str, Any] = {}
+    """Cylinders on links, for pictures."""
+
+
+class RoundBodyRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A cylinder on a link: its middle, its axis, its size."""
+
+    link: str
+    at: tuple[float, float, float]
+    z: tuple[float, float, float]
+    radius: float
+    length: float
 
 
 class SpatialRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -83,7 +96,13 @@ def spatial_linkage_from_record(
     for name, raw in screws.points.items():
         point = convert_document(raw, PointRecord, LinkageError, f"screws.points.{name}")
         points[name] = (point.link, *point.at)
-    return SpatialLinkage(mechanism, places, unit=screws.unit, points=points, outputs=outputs)
+    bodies = {
+        name: msgspec.structs.asdict(
+            convert_document(raw, RoundBodyRecord, LinkageError, f"screws.round_bodies.{name}")
+        )
+        for name, raw in screws.round_bodies.items()
+    }
+    return SpatialLinkage(mechanism, places, unit=screws.unit, points=points, outputs=outputs, round_bodies=bodies)
 
 
 def spatial_from_json(document: Mapping[str, Any]) -> SpatialLinkage:
@@ -121,6 +140,7 @@ def screws_to_json(linkage: SpatialLinkage) -> dict[str, Any]:
             "unit": linkage.unit,
             "joints": {name: _plain(place, angles) for name, place in zip(names, linkage.places, strict=True)},
             "points": {name: {"link": link, "at": list(at)} for name, (link, at) in linkage.points.items()},
+            **({"round_bodies": bodies} if (bodies := _bodies(linkage)) else {}),
         },
     }
 
@@ -135,12 +155,18 @@ def write_screws(path: Path, linkage: SpatialLinkage) -> None:
         screws = document.pop("screws")
         lines = [f"{key} = {toml_value(value)}" for key, value in document.items()]
         lines += ["", "[screws]", f"unit = {toml_value(screws['unit'])}"]
-        for name in ("joints", "points"):
+        for name in [key for key in screws if key != "unit"]:
             lines += ["", f"[screws.{name}]"]
             lines += [f"{toml_key(key)} = {toml_value(value)}" for key, value in screws[name].items()]
         text = "\n".join(lines) + "\n"
     with atomic_file(path, durable=False) as file:
         file.write(text.encode("utf-8"))
+
+
+def _bodies(linkage: SpatialLinkage) -> dict[str, dict[str, Any]]:
+    return {
+        name: asdict(body) | {"at": list(body.at), "z": list(body.z)} for name, body in linkage.round_bodies.items()
+    }
 
 
 def _plain(place: JointPlace, angles: bool) -> dict[str, Any]:

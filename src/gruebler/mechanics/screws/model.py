@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from math import isfinite
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,6 +19,7 @@ from gruebler.base.immutable import Immutable, settle
 from gruebler.mechanics.linkages.points import link_number
 from gruebler.mechanics.screws.joint_places import JointPlace, Vector, joint_axes, read_place
 from gruebler.mechanics.screws.rigid_motions import exponential
+from gruebler.mechanics.screws.round_bodies import RoundBody, read_bodies
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
@@ -40,6 +42,8 @@ class SpatialLinkage(Immutable):
         unit: the unit of lengths; a name only.
         points: named points (link, x, y, z), their coordinates in the reference pose.
         outputs: the links whose motion is wanted.
+        round_bodies: cylinders on links that pictures show, such as the wheel of a car: a `RoundBody` each, or a
+            mapping with its keys.
 
     Raises:
         LinkageError: a joint without a place, an axis that its pair needs and that is missing, numbers that are not
@@ -64,6 +68,7 @@ class SpatialLinkage(Immutable):
     points: Mapping[str, tuple[str, Vector]]
     """The link of each named point and its coordinates in the reference pose."""
     outputs: tuple[str, ...]
+    round_bodies: Mapping[str, RoundBody]
 
     @door_that_raises(LinkageError)
     def __init__(
@@ -74,6 +79,7 @@ class SpatialLinkage(Immutable):
         unit: str = "mm",
         points: Mapping[str, Sequence[object]] | None = None,
         outputs: Iterable[str] = (),
+        round_bodies: Mapping[str, RoundBody | Mapping[str, Any]] | None = None,
     ) -> None:
         chain = mechanism.chain
         names = chain.joint_names()
@@ -89,7 +95,17 @@ class SpatialLinkage(Immutable):
         wanted = tuple(outputs)
         for link in wanted:
             link_number(link, mechanism.chain.links)
-        settle(self, mechanism=mechanism, places=places, unit=unit, points=MappingProxyType(named), outputs=wanted)
+        bodies = MappingProxyType(read_bodies(round_bodies or {}, chain.links))
+        points_read = MappingProxyType(named)
+        settle(
+            self,
+            mechanism=mechanism,
+            places=places,
+            unit=unit,
+            points=points_read,
+            outputs=wanted,
+            round_bodies=bodies,
+        )
 
     @classmethod
     @door_that_raises(LinkageError)
@@ -185,7 +201,11 @@ class SpatialLinkage(Immutable):
             for p in self.places
         ]
         points = {n: (link, *(m[:3, :3] @ at + shift).tolist()) for n, (link, at) in self.points.items()}
-        return self._changed(tuple(places), points)
+        bodies = {
+            name: replace(body, at=_vector(m[:3, :3] @ body.at + shift), z=_vector(m[:3, :3] @ body.z))
+            for name, body in self.round_bodies.items()
+        }
+        return self._changed(tuple(places), points, bodies)
 
     def scaled(self, factor: float) -> SpatialLinkage:
         """Every length times a positive factor."""
@@ -200,25 +220,44 @@ class SpatialLinkage(Immutable):
             replace(p, at=_vector(factor * np.array(p.at)), pitch=factor * p.pitch, radii=radii(p)) for p in self.places
         ]
         points = {n: (link, *(factor * np.array(at)).tolist()) for n, (link, at) in self.points.items()}
-        return self._changed(tuple(places), points)
+        bodies = {
+            name: replace(
+                body,
+                at=_vector(factor * np.array(body.at)),
+                radius=factor * body.radius,
+                length=factor * body.length,
+            )
+            for name, body in self.round_bodies.items()
+        }
+        return self._changed(tuple(places), points, bodies)
 
     def with_points(self, points: Mapping[str, Sequence[object]]) -> SpatialLinkage:
         """The same linkage with these named points (link, x, y, z) besides its own."""
         own = {name: (link, *at) for name, (link, at) in self.points.items()}
-        return self._changed(self.places, own | dict(points))
+        return self._changed(self.places, own | dict(points), self.round_bodies)
 
     def with_drives(self, drives: Iterable[int | str]) -> SpatialLinkage:
         """The same linkage with other drives."""
         mechanism = Mechanism(self.mechanism.chain, self.mechanism.frame, drives)
         own = {name: (link, *at) for name, (link, at) in self.points.items()}
-        return SpatialLinkage(mechanism, self.places, unit=self.unit, points=own, outputs=self.outputs)
+        return SpatialLinkage(
+            mechanism, self.places, unit=self.unit, points=own, outputs=self.outputs, round_bodies=self.round_bodies
+        )
 
-    def _changed(self, places: tuple[JointPlace, ...], points: Mapping[str, Sequence[object]]) -> SpatialLinkage:
-        return SpatialLinkage(self.mechanism, places, unit=self.unit, points=points, outputs=self.outputs)
+    def _changed(
+        self,
+        places: tuple[JointPlace, ...],
+        points: Mapping[str, Sequence[object]],
+        bodies: Mapping[str, RoundBody],
+    ) -> SpatialLinkage:
+        return SpatialLinkage(
+            self.mechanism, places, unit=self.unit, points=points, outputs=self.outputs, round_bodies=bodies
+        )
 
     def _identity(self) -> tuple[object, ...]:
         points = tuple(sorted(self.points.items()))
-        return self.mechanism.written_form, self.places, self.unit, points, self.outputs
+        bodies = tuple(sorted(self.round_bodies.items()))
+        return self.mechanism.written_form, self.places, self.unit, points, self.outputs, bodies
 
     def __repr__(self) -> str:
         places = ("(" + ", ".join(f"{number:.6g}" for number in place.at) + ")" for place in self.places)

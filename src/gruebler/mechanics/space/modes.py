@@ -141,8 +141,17 @@ class SpatialModes:
             at = moved(place.at, first, True) or place.at
             places.append(replace(place, at=at, x=moved(x, first), y=y, z=moved(z, first)))
         points = {name: (link, *(moved(at, link, True) or at)) for name, (link, at) in self.linkage.points.items()}
+        bodies = {
+            name: replace(body, at=moved(body.at, body.link, True) or body.at, z=moved(body.z, body.link) or body.z)
+            for name, body in self.linkage.round_bodies.items()
+        }
         return SpatialLinkage(
-            self.linkage.mechanism, tuple(places), unit=self.linkage.unit, points=points, outputs=self.linkage.outputs
+            self.linkage.mechanism,
+            tuple(places),
+            unit=self.linkage.unit,
+            points=points,
+            outputs=self.linkage.outputs,
+            round_bodies=bodies,
         )
 
     def explain(self, lang: str = "en") -> str:

@@ -129,6 +129,10 @@ def scene_of(linkage: SpatialLinkage, view: View, poses: Reals | None = None) ->
             solids.append(link)
         for first, second in [*pairwise(order), *spurs]:
             parts += _bars(link, *ends[first], *ends[second], spherical)
+    for body in linkage.round_bodies.values():
+        at, z = scale * (np.array(body.at) - middle), np.array(body.z) / np.linalg.norm(body.z)
+        half = scale * body.length / 2 * z
+        parts.append(wheel(body.link, at - half, at + half, scale * body.radius))
     lines = [(joint.links[0], "pitch", np.array(s.axis)) for joint, s in zip(joints, symbols, strict=True) if s.axis]
     for number in {drive.joint for drive in linkage.mechanism.drives}:
         if joints[number].pair.motion[0].turns or not joints[number].pair.is_higher:
