@@ -7,7 +7,6 @@ import { ExercisesView } from "./exercises";
 import { languageMenu, tabs, viewNames } from "./header";
 import { showKeys } from "./help";
 import { Backend, type HostModel } from "./host";
-import { type Icon, icon } from "./icons";
 import { missing } from "./kernel";
 import { currentLanguage, type Language, setLanguage, t } from "./language";
 import { LibraryView } from "./library";
@@ -16,8 +15,8 @@ import type { Model } from "./model";
 import { MotionView } from "./motion";
 import { contentOf } from "./opening";
 import { another, isOf, modelOf, type Shared, sharedOf, shareLink, unshared } from "./sharing";
+import { firstTheme, setTheme, shell, type Theme, tool } from "./shell";
 import { StructureView } from "./structure";
-import styles from "./style.css";
 import { SynthesisView } from "./synthesis";
 import type { Page, View } from "./view";
 
@@ -42,16 +41,11 @@ export class App implements Page {
     readonly model: HostModel,
     element: HTMLElement,
   ) {
-    this.host = h("div.gruebler-explorer", {});
-    element.append(this.host);
-    this.host.style.display = "block";
-    this.host.style.height = model.get("host") === "notebook" ? `${Number(model.get("height") ?? 640)}px` : "100%";
-    const shadow = this.host.attachShadow({ mode: "open" });
-    const sheet = new CSSStyleSheet();
-    sheet.replaceSync(styles + String(model.get("styles") ?? ""));
-    shadow.adoptedStyleSheets = [sheet];
+    const height = model.get("host") === "notebook" ? `${Number(model.get("height") ?? 640)}px` : "100%";
+    const { host, shadow } = shell(element, height, String(model.get("styles") ?? ""));
+    this.host = host;
     setLanguage(this.#firstLanguage());
-    this.setTheme(this.#firstTheme());
+    this.setTheme(firstTheme());
     this.backend = new Backend(model);
     this.motion = new MotionView(this);
     this.views = { motion: this.motion };
@@ -138,15 +132,8 @@ export class App implements Page {
     return wanted.startsWith("de") ? "de" : "en";
   }
 
-  #firstTheme(): "light" | "dark" {
-    return window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
-  }
-
-  setTheme(theme: "light" | "dark"): void {
-    this.host.dataset.theme = theme;
-    // a page that is longer than the window is of one colour down to its end
-    if (this.#linkable)
-      document.documentElement.style.background = getComputedStyle(this.host).getPropertyValue("--paper");
+  setTheme(theme: Theme): void {
+    setTheme(this.host, theme, this.#linkable);
   }
 
   // --- views ---------------------------------------------------------------------------------------------------------
@@ -204,8 +191,6 @@ export class App implements Page {
     const names = viewNames();
     const keys = Object.keys(this.views);
     const [back, forth] = this.#undoing.undoable!;
-    const tool = (sign: Icon, title: string, act: () => void, disabled = false) =>
-      h("button.quiet", { title, "aria-label": title, "data-icon": sign, onclick: act, disabled }, icon(sign));
     const file = h("input", { type: "file", hidden: true, onchange: () => void this.openFile(file.files?.[0]) });
     if (keys.length > 1)
       for (const key of keys) {
@@ -312,6 +297,14 @@ export class App implements Page {
     const text = location.hash.slice(1);
     if (!text) return;
     this.hash = location.hash;
+    const [lang, name] = text.split("/");
+    if (name && name in this.views) {
+      // from the page of a machine in space
+      this.#unread = false;
+      setLanguage(lang as Language);
+      this.show(name);
+      return this.arrange();
+    }
     try {
       await this.#openShared(await unshared(text));
       this.#unread = false;

@@ -170,8 +170,10 @@ export class CatalogView implements View {
   }
 
   async #choose(entry: Entry): Promise<void> {
-    if (entry.space && ownPage())
-      return void window.open(`space/${entry.id}.html#${currentLanguage()}`, "_blank", "noopener");
+    if (entry.space && ownPage()) {
+      location.href = `space/${entry.id}.html#${currentLanguage()}`;
+      return;
+    }
     if (!entry.moves) return this.page.describe(entry.text);
     try {
       this.page.open(await this.page.ask<Model>("open", { id: entry.id }));

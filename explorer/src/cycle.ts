@@ -1,9 +1,10 @@
 /** The whole motion of one drive, the others at rest: found from the pose that is shown. */
 
-import { type Rows, type State, Status } from "./kernel";
+import type { Rows, State } from "./kernel";
 import type { DriveRecord } from "./model";
 import { direction, joined, leastRoot, origin, place, stateAt, turn } from "./rows";
 import type { Sizes } from "./sizes";
+import { Status } from "./status";
 
 export const TURN = 2 * Math.PI;
 const MOST_TURNS = 8;
@@ -21,16 +22,20 @@ export interface Stop {
   links: string[];
 }
 
-export interface Cycle {
-  drive: number;
-  values: Float64Array;
-  rows: Rows;
+/** How far a drive goes. */
+export interface Reach {
   full: boolean;
   /** After how many turns everything repeats; 0 if the drive does not go round. */
   turns: number;
   low: number;
   high: number;
   stops: [Stop | null, Stop | null];
+}
+
+export interface Cycle extends Reach {
+  drive: number;
+  values: Float64Array;
+  rows: Rows;
   /** The row of the pose from which it was found. */
   home: number;
 }
@@ -222,7 +227,7 @@ function opening(sizes: Sizes, rows: Rows, row: number, joint: number): number {
 }
 
 /** A drive value as it is shown: of full turns the one from 0 on. */
-export function wrapped({ full, turns }: Cycle, value: number): number {
+export function wrapped({ full, turns }: Reach, value: number): number {
   if (!full) return value;
   const period = turns * TURN;
   const rest = ((value % period) + period) % period;

@@ -5,7 +5,8 @@ import { angle, number, t } from "./language";
 import type { Linkage } from "./linkage";
 import { type DeadCentre, type Least, output, transmission } from "./measures";
 import { readingsOf } from "./rulers";
-import { driveText, placeOf, rateUnit } from "./wording";
+import { driveText } from "./track";
+import { placeOf, rateUnit } from "./wording";
 
 /** From here on a transmission angle is good. */
 const GOOD = (40 / 180) * Math.PI;
@@ -67,10 +68,4 @@ export function factsOf(linkage: Linkage, { dead, least }: Found, inLap: (angle:
   }
   for (const { name, text } of readingsOf(linkage)) facts.push({ name, text });
   return facts;
-}
-
-/** The value of the active drive as it is shown. */
-export function driveValue(linkage: Linkage): string {
-  const drive = linkage.drives[linkage.active];
-  return drive === undefined ? "" : driveText(linkage, wrapped(linkage.cycle, drive), 4);
 }

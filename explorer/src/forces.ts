@@ -7,10 +7,10 @@ import { t } from "./language";
 import type { Linkage } from "./linkage";
 import { LoadForm } from "./loads";
 import type { Model } from "./model";
+import type { PlaneTransport } from "./planetransport";
 import { Plot } from "./plot";
 import { Polar, type Vectors, vectorAt } from "./polar";
 import type { Spring } from "./springs";
-import type { Transport } from "./transport";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
 import { momentUnit } from "./wording";
@@ -40,7 +40,7 @@ export type Arrow = [joint: number, x: number, y: number, force: number];
 export interface Loaded {
   readonly page: Page;
   readonly linkage: Linkage;
-  readonly transport: Transport;
+  readonly transport: PlaneTransport;
   redraw(): void;
 }
 

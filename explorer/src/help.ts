@@ -16,6 +16,11 @@ export function showKeys(root: HTMLElement): void {
     ["+ − 0", t("zoom, show everything")],
     ["?", t("this list")],
   ];
+  showRows(root, rows);
+}
+
+/** Show what keys do, until it is read. */
+export function showRows(root: HTMLElement, rows: [string, string][]): void {
   const dialog = h(
     "dialog",
     { "aria-label": t("Keys") },

@@ -5,14 +5,7 @@
 import packed from "../../core/page/motion.wasm.gz";
 import { unpackedBytes } from "./packed";
 import type { Program } from "./program";
-
-export const enum Status {
-  DONE,
-  LIMIT,
-  SINGULAR,
-  START,
-  GIVEN_UP,
-}
+import type { Status } from "./status";
 
 /** Where a motion starts: the signs of its dyads and the unknowns of its larger groups. */
 export interface State {

@@ -1,5 +1,6 @@
 /** The view of the motion: stage, drive, sizes, measures, plots, export. */
 
+import type { Stop } from "./cycle";
 import { applyDocument, documentOf, savedDocument } from "./document";
 import { h, renew } from "./dom";
 import { Dragging } from "./dragging";
@@ -14,16 +15,18 @@ import { Linkage, Refused } from "./linkage";
 import { deadCentres, floatingLink, leastTransmission } from "./measures";
 import type { LinkageDocument, Model } from "./model";
 import { type Editor, modesPanel, optionsPanel, pointsPanel, rulersPanel, SizeRows } from "./panels";
+import { PlaneTransport } from "./planetransport";
 import { Plots } from "./plots";
 import { type Pair, place } from "./rows";
+import { panelOf } from "./shell";
 import type { Shown } from "./shown";
 import { snappedOn } from "./snapping";
 import { alike, type Snapshot, sameSizes } from "./snapshot";
 import { Stage } from "./stage";
 import { tableOf } from "./table";
-import { type Driven, Transport } from "./transport";
+import type { Driven } from "./transport";
 import type { Page, View } from "./view";
-import { refusedText } from "./wording";
+import { refusedText, stopText } from "./wording";
 
 const MOST_FRAMES = 2000;
 const RESTING = 100; // milliseconds without a step of a drag
@@ -54,7 +57,7 @@ export class MotionView implements View, Editor, Driven {
   linkage!: Linkage;
   dragging!: Dragging;
   readonly stage: Stage;
-  readonly transport = new Transport(this);
+  readonly transport = new PlaneTransport(this);
   readonly plots = new Plots((value) => this.transport.pick(value));
   /** Milliseconds of the last frames in which something was drawn. */
   readonly frames: number[] = [];
@@ -181,12 +184,7 @@ export class MotionView implements View, Editor, Driven {
   }
 
   #panel(key: string, title: string, ...content: Node[]): HTMLElement {
-    const element = h(
-      "details",
-      { open: this.#opened.has(key), "data-panel": key },
-      h("summary", {}, title),
-      h("div", {}, ...content),
-    );
+    const element = panelOf(key, title, this.#opened.has(key), ...content);
     element.addEventListener("toggle", () => {
       if (element.open) this.#opened.add(key);
       else this.#opened.delete(key);
@@ -346,6 +344,14 @@ export class MotionView implements View, Editor, Driven {
   chosen(): void {
     this.measured();
     this.stage.sized();
+  }
+
+  paused(): void {
+    this.page.changed();
+  }
+
+  picked(stop: Stop | null): void {
+    this.page.say(stop ? stopText(this.linkage, stop) : "");
   }
 
   posed(): void {

@@ -1,6 +1,6 @@
 /** Play and pause: the drive goes on by itself. */
 
-import { type Cycle, TURN } from "./cycle";
+import { type Reach, TURN } from "./cycle";
 import { h, svg } from "./dom";
 import { t } from "./language";
 
@@ -60,7 +60,7 @@ export function later(
   way: number,
   seconds: number,
   speed: number,
-  cycle: Cycle,
+  cycle: Reach,
   [low, high]: [number, number],
 ): { value: number; way: number } {
   if (cycle.full) return { value: value + (seconds * speed * TURN) / 60, way };

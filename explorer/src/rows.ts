@@ -1,6 +1,7 @@
 /** What stands in the rows of poses that the kernel gives: places, turns and rates of the links. */
 
-import { type Rows, type State, Status } from "./kernel";
+import type { Rows, State } from "./kernel";
+import { Status } from "./status";
 
 /** Two coordinates. */
 export type Pair = [number, number];

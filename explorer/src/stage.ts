@@ -4,13 +4,13 @@ import { Painter } from "./canvas";
 import { h, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import { gridOf } from "./grid";
-import { type Icon, icon } from "./icons";
 import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
 import { type Board, Pointer, type StageEvents } from "./pointer";
 import { type Pair, place } from "./rows";
 import { Scene } from "./scene";
 import { linesOf } from "./shapes";
+import { stageButton } from "./shell";
 import { ownColour, type Shown } from "./shown";
 import { type Box, Viewport } from "./viewport";
 
@@ -78,9 +78,7 @@ export class Stage implements Board {
 
   /** Write the buttons on the picture, in the language of the page. */
   arrange(): void {
-    const button = (sign: Icon, title: string, onclick: () => void) =>
-      h("button", { title, "aria-label": title, onclick }, icon(sign));
-    const adder = button("point", t("Add a coupler point: click on a link"), () => {
+    const adder = stageButton("point", t("Add a coupler point: click on a link"), () => {
       this.adding = !this.adding;
       adder.setAttribute("aria-pressed", String(this.adding));
       this.element.classList.toggle("adding", this.adding);
@@ -91,9 +89,9 @@ export class Stage implements Board {
       h(
         "div.tools",
         {},
-        button("more", t("Zoom in"), () => this.zoom(1.25)),
-        button("less", t("Zoom out"), () => this.zoom(0.8)),
-        button("fit", t("Show everything"), () => this.fit()),
+        stageButton("more", t("Zoom in"), () => this.zoom(1.25)),
+        stageButton("less", t("Zoom out"), () => this.zoom(0.8)),
+        stageButton("fit", t("Show everything"), () => this.fit()),
         adder,
       ),
       this.#hint,

@@ -1,6 +1,6 @@
 /** The slider of the drive: where it may go, where the output turns back, where the transmission is worst. */
 
-import { type Cycle, TURN, wrapped } from "./cycle";
+import { type Reach, TURN, wrapped } from "./cycle";
 import { h, put, svg } from "./dom";
 import { angle, currentLanguage, number, t } from "./language";
 
@@ -8,7 +8,7 @@ export class Track {
   readonly element: HTMLElement;
   readonly #root = svg("svg", { "aria-hidden": "true" });
   readonly #knob = svg("circle.knob", { r: 9, cy: 17 });
-  #cycle: Cycle | null = null;
+  #cycle: Reach | null = null;
   #unit = 1;
   #from = 0;
   #to = 1;
@@ -52,7 +52,7 @@ export class Track {
   }
 
   show(
-    cycle: Cycle,
+    cycle: Reach,
     turning: boolean,
     between: [number, number] | null,
     dead: number[],
@@ -90,7 +90,7 @@ export class Track {
       );
       parts.push(group);
     };
-    this.#textOf = (value) => (turning ? angle(value, 5) : `${number(value, 5)} ${unit}`);
+    this.#textOf = (value) => driveText({ drive: { turning }, model: { unit } }, value);
     const shown = (value: number) => this.#textOf(wrap(value));
     for (const value of dead)
       mark(value, "dead", "M0 8 L-5 0 H5 Z", t("Dead centre at {value}", { value: shown(value) }));
@@ -130,8 +130,17 @@ export class Track {
   }
 }
 
+/** A value of a drive with its unit. */
+export function driveText(
+  { drive, model }: { drive: { turning: boolean } | null; model: { unit: string } },
+  value: number,
+  digits = 5,
+): string {
+  return drive?.turning ? angle(value, digits) : `${number(value, digits)} ${model.unit}`;
+}
+
 /** The drive values that are played: the range, or the part of it that the mechanism is used in. */
-export function limitsOf(cycle: Cycle, turning: boolean, between: [number, number] | null): [number, number] {
+export function limitsOf(cycle: Reach, turning: boolean, between: [number, number] | null): [number, number] {
   if (cycle.full) return [0, TURN * cycle.turns];
   const room = 1e-7 * (cycle.high - cycle.low);
   const [low, high] = [cycle.low + room, cycle.high - room];
@@ -145,6 +154,6 @@ export function limitsOf(cycle: Cycle, turning: boolean, between: [number, numbe
 export function shownRange([low, high]: [number, number], full: boolean, turning: boolean): [number, number] {
   if (full) return [low, high];
   const width = high - low;
-  if (turning && width < TURN) return [(low + high) / 2 - Math.PI, (low + high) / 2 + Math.PI];
+  if (turning && width > 1 && width < TURN) return [(low + high) / 2 - Math.PI, (low + high) / 2 + Math.PI];
   return [low - 0.12 * (width || 1), high + 0.12 * (width || 1)];
 }

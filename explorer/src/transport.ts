@@ -1,47 +1,59 @@
-/** The row under the picture: the drive of the linkage, which is set, pulled and played; how it falls by its weight. */
+/** The row under the picture: the drive of the linkage, which is set, pulled and played. */
 
-import { TURN, wrapped } from "./cycle";
+import { type Reach, type Stop, TURN, wrapped } from "./cycle";
 import { h, renew } from "./dom";
-import { driveValue, type Found } from "./facts";
-import { type Fall, Falling } from "./falling";
 import { parsed, t } from "./language";
-import type { Linkage } from "./linkage";
 import { later, Player } from "./player";
-import { place } from "./rows";
-import { Track } from "./track";
-import { FRAMES } from "./video";
-import type { Page } from "./view";
-import { stopText } from "./wording";
+import { driveText, Track } from "./track";
+
+/** A linkage as far as it is driven. */
+export interface Drivable {
+  /** The number of the drive that is moved, and what it is. */
+  readonly active: number;
+  readonly drive: { turning: boolean } | null;
+  readonly cycle: Reach;
+  readonly drives: ArrayLike<number>;
+  readonly model: { drives: { name: string }[]; span: { between: [number, number] | null }; unit: string };
+  readonly size: number;
+  jointName(name: string): string;
+  choose(active: number): void;
+  /** Whether it could. */
+  moveTo(value: number): boolean;
+}
 
 /** The view whose linkage is driven. */
 export interface Driven {
-  readonly page: Page;
-  readonly linkage: Linkage;
+  readonly linkage: Drivable;
   /** The pose is another one. */
   posed(): void;
   /** Another drive turns, the others are held. */
   chosen(): void;
+  /** It plays no more. */
+  paused(): void;
+  /** A value was asked for, beyond this stop unless there is none. */
+  picked(stop: Stop | null): void;
   /** A frame that began at this time, in milliseconds, is drawn. */
   timed(start: number): void;
 }
 
-export class Transport {
+/** What is found over a cycle, to be marked. */
+interface Marked {
+  dead: { value: number }[];
+  least: { value: number } | null;
+}
+
+export class Transport<View extends Driven = Driven> {
   readonly element = h("div.transport", {});
   readonly player = new Player(
-    (seconds) => this.#advance(seconds),
-    () => {
-      this.#land();
-      this.view.page.changed();
-    },
+    (seconds) => this.advance(seconds),
+    () => this.paused(),
   );
-  /** Where poses of a free motion are played, not those of the drive. */
-  falling: Falling | null = null;
-  private speed = 12; // turns a minute; of a slide, strokes
+  protected speed = 12; // turns a minute; of a slide, strokes
   #way = 1;
   readonly #track = new Track((value, beyond) => this.pick(value, beyond));
   readonly #value = h("input.value", { size: 8, onchange: () => this.#typed() });
 
-  constructor(private readonly view: Driven) {}
+  constructor(protected readonly view: View) {}
 
   /** Lay the row out anew: play, the drive, its slider and value, the speed. */
   arrange(): void {
@@ -83,15 +95,20 @@ export class Transport {
   }
 
   /** The range is another one, or what was found in it. */
-  showRange({ dead, least }: Found): void {
+  showRange({ dead, least }: Marked): void {
     const { cycle, drive, model } = this.view.linkage;
     const places = dead.map(({ value }) => value);
     this.#track.show(cycle, drive?.turning ?? true, model.span.between, places, least?.value ?? null, model.unit);
   }
 
+  /** The value of the drive as it is shown. */
+  protected get text(): string {
+    return this.view.linkage.drive ? driveText(this.view.linkage, this.drive, 4) : "";
+  }
+
   showValue(): void {
     const { linkage } = this.view;
-    this.#value.value = this.falling?.text ?? driveValue(linkage);
+    this.#value.value = this.text;
     const drive = linkage.drives[linkage.active];
     if (drive !== undefined) this.#track.set(drive);
   }
@@ -100,11 +117,10 @@ export class Transport {
 
   pick(value: number, beyond = false): void {
     this.pause();
-    this.#go(value);
-    const { page, linkage } = this.view;
-    const { stops, low, high } = linkage.cycle;
+    this.go(value);
+    const { stops, low, high } = this.view.linkage.cycle;
     const stop = Math.abs(value - low) < Math.abs(value - high) ? stops[0] : stops[1];
-    page.say(beyond && stop ? stopText(linkage, stop) : "");
+    this.view.picked(beyond ? stop : null);
   }
 
   /** A drive value that is typed, in degrees or in the unit of length. */
@@ -128,26 +144,7 @@ export class Transport {
     else this.pick(Math.max(low, Math.min(high, value)), value < low || value > high);
   }
 
-  /** Let the drive follow a place of a link that is pulled, in a few steps along its velocity. */
-  pull(link: number, u: number, v: number, x: number, y: number): void {
-    this.pause();
-    const { linkage } = this.view;
-    const [low, high] = this.range;
-    const limit = linkage.drive?.turning ? 0.35 : 0.1 * linkage.size;
-    for (let k = 0; k < 4; k++) {
-      const [px, py] = place(linkage.pose, 0, link, u, v);
-      const [vx, vy] = place(linkage.pose, 0, link, u, v, 1);
-      const square = vx * vx + vy * vy;
-      if (!(square > 1e-18) || !Number.isFinite(square)) break;
-      const step = Math.max(-limit, Math.min(limit, ((x - px) * vx + (y - py) * vy) / square));
-      let value = linkage.drives[linkage.active]! + step;
-      if (!linkage.cycle.full) value = Math.max(low, Math.min(high, value));
-      if (!linkage.moveTo(value) || Math.abs(step) < 1e-4 * limit) break;
-    }
-    this.view.posed();
-  }
-
-  #go(value: number): void {
+  protected go(value: number): void {
     if (this.view.linkage.moveTo(value)) this.view.posed();
   }
 
@@ -161,48 +158,16 @@ export class Transport {
     this.player.pause();
   }
 
-  /** Play poses of a free motion once, in real time. */
-  play(fall: Fall): void {
-    this.pause();
-    this.falling = new Falling(fall, this.view.linkage);
-    this.toggle();
+  protected paused(): void {
+    this.view.paused();
   }
 
-  /** A free motion is over: the linkage is as it was. */
-  #land(): void {
-    if (!this.falling) return;
-    this.view.linkage.pose = this.falling.start;
-    this.falling = null;
-    this.view.posed();
-  }
-
-  #advance(seconds: number): void {
-    if (this.falling) {
-      const pose = this.falling.later(seconds);
-      if (!pose) return this.pause();
-      this.view.linkage.pose = pose;
-      return this.view.posed();
-    }
+  protected advance(seconds: number): void {
     const start = performance.now();
     const { range } = this;
     const next = later(this.drive, this.#way, seconds, this.speed, this.view.linkage.cycle, range);
     this.#way = next.way;
-    if (range[1] > range[0]) this.#go(next.value);
+    if (range[1] > range[0]) this.go(next.value);
     this.view.timed(start);
-  }
-
-  /** What is shown in each frame of a film, once through the motion from where the drive is. */
-  *film<Shown>(shown: () => Shown): Generator<Shown> {
-    this.pause();
-    const { active, cycle, drives } = this.view.linkage;
-    const start = drives[active] ?? 0;
-    const turns = cycle.full ? cycle.turns : 1;
-    let [value, way] = [wrapped(cycle, start), 1];
-    for (let left = Math.round((turns * 60 * FRAMES) / this.speed); left > 0; left--) {
-      yield shown();
-      ({ value, way } = later(value, way, 1 / FRAMES, this.speed, cycle, this.range));
-      this.#go(value);
-    }
-    this.#go(start);
   }
 }

@@ -1,15 +1,11 @@
 /** Drive values and ends of a motion in words. */
 
 import { type Stop, wrapped } from "./cycle";
-import { Status } from "./kernel";
-import { angle, inLetters, number, t } from "./language";
+import { inLetters, t } from "./language";
 import type { Linkage, Refused } from "./linkage";
 import type { Model } from "./model";
-
-/** A value of the active drive with its unit. */
-export function driveText({ drive, model }: Linkage, value: number, digits = 5): string {
-  return drive?.turning ? angle(value, digits) : `${number(value, digits)} ${model.unit}`;
-}
+import { Status } from "./status";
+import { driveText } from "./track";
 
 /** The unit of lengths as a part of others, where none is given in words. */
 export function lengthUnit({ unit }: Pick<Model, "unit">): string {

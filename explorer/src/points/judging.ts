@@ -2,11 +2,12 @@
  * `gruebler.design.synthesis.judging` does it, on the way from the first point to the last. */
 
 import { type Cycle, findCycle, type Moved, TURN } from "../cycle";
-import { Kernel, type State, Status } from "../kernel";
+import { Kernel, type State } from "../kernel";
 import type { Model } from "../model";
 import { programOf } from "../program";
 import { place } from "../rows";
 import { Sizes } from "../sizes";
+import { Status } from "../status";
 import { abs, angle, type Complex, sub } from "./complex";
 import { couplerTurns, type FourBar, lengthsOf, modelOf, placed } from "./fourbars";
 

@@ -45,7 +45,8 @@ export interface Camera {
   middle: Vector;
 }
 
-const OPENING = 1.9; // of the cotangent of half the angle of view
+const OPENING = 3; // the cotangent of half the angle of view
+const FILLED = 0.8; // of the picture, by what is fitted into it
 
 /** The eye, and unit vectors to the right, up and towards the eye. */
 export function axes(camera: Camera): { eye: Vector; right: Vector; up: Vector; near: Vector } {
@@ -75,6 +76,24 @@ export function seen(matrix: Float32Array, p: Vector): [number, number] {
   const row = (k: number): number =>
     matrix[k]! * p[0] + matrix[k + 4]! * p[1] + matrix[k + 8]! * p[2] + matrix[k + 12]!;
   return [row(0) / row(3), row(1) / row(3)];
+}
+
+/** A camera from the same side that sees all places, in a picture so many times as wide as high. */
+export function fitted(camera: Camera, wide: number, places: Vector[]): Camera {
+  const { right, up, near } = axes(camera);
+  const ends = [right, up, near].map((axis) => {
+    const along = places.map((place) => dot(axis, place));
+    const [low, high] = [along.reduce((a, b) => Math.min(a, b)), along.reduce((a, b) => Math.max(a, b))];
+    return (low + high) / 2;
+  });
+  const [h, v, n] = ends as Vector;
+  const middle = right.map((r, k) => h * r + v * up[k]! + n * near[k]!) as Vector;
+  const needed = places.map((place) => {
+    const d = minus(place, middle);
+    const [x, y] = [Math.abs(dot(d, right)) / Math.max(wide, 1), Math.abs(dot(d, up)) * Math.min(wide, 1)];
+    return dot(d, near) + (OPENING * Math.max(x, y)) / FILLED;
+  });
+  return { ...camera, middle, distance: needed.reduce((a, b) => Math.max(a, b), 1e-9) };
 }
 
 /** The ray through a place of the picture. */

@@ -37,7 +37,7 @@ export interface Live {
   gears: [number, number][][];
 }
 
-type Pose = number[];
+export type Pose = number[];
 type Row = { value: number; links: number[]; of: (poses: Pose[]) => number };
 
 const STEP = 0.08; // radians, or parts of the size, from one solution to the next

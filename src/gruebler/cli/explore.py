@@ -73,11 +73,12 @@ def _in_space(spatial: SpatialWord, arguments: argparse.Namespace) -> int:
     word = arguments.linkage
     if arguments.site is not None:
         raise GrueblerError("a site opens with a linkage in the plane; it has the machines in space beside it")
-    record = entry_of(word)
+    record, home = entry_of(word), arguments.out is None
     if record is None:
-        model = space_model(spatial.linkage, titles=dict.fromkeys(LANGUAGES, _name(word)), between=spatial.range)
+        titles = dict.fromkeys(LANGUAGES, _name(word))
+        model = space_model(spatial.linkage, titles=titles, between=spatial.range, home=home)
     else:
-        model = machine_model(word)
+        model = machine_model(word, home=home)
     page = space_file(model, arguments.lang)
     if arguments.out is None:
         return _serve(_model(_FIRST, arguments.lang), arguments, in_space=page)

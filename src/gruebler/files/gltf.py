@@ -28,7 +28,15 @@ from gruebler.structure.chain.spaces import Space
 _FRAMES = 73
 _SECONDS = 4.0
 _FLOAT, _UINT = 5126, 5125
-_COLOURS = ((0.75, 0.72, 0.65), (0.18, 0.42, 0.67), (0.84, 0.37, 0.0), (0.16, 0.55, 0.35), (0.55, 0.35, 0.65))
+_FRAME = (0.75, 0.72, 0.65)
+_COLOURS = (
+    (0.24, 0.50, 0.76),
+    (0.87, 0.44, 0.12),
+    (0.20, 0.62, 0.42),
+    (0.62, 0.42, 0.72),
+    (0.84, 0.66, 0.20),
+    (0.40, 0.68, 0.82),
+)
 _UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # glTF has y upwards, the linkage z: a quarter turn about x
 
 
@@ -116,16 +124,18 @@ def glb_from_linkage(
         left_out.append(message("a motion: the drives do not move the linkage"))
     document = _Document(metres_a_unit(linkage))
     chain = linkage.mechanism.chain
-    for number, link in enumerate(chain.links):
-        document.add_link(link, moving.solids[link], link_colour(number))
+    for link in chain.links:
+        document.add_link(link, moving.solids[link], link_colour(linkage, link))
     for name, _, motion, full in moving.named():
         document.add_animation(name, motion, full)
     return document.written()
 
 
-def link_colour(number: int) -> tuple[float, float, float]:
-    """Red, green and blue of a link by its number."""
-    return _COLOURS[number % len(_COLOURS)]
+def link_colour(linkage: SpatialLinkage, link: str) -> tuple[float, float, float]:
+    """Red, green and blue of a link: the frame is grey."""
+    mechanism = linkage.mechanism
+    moving = [each for each in mechanism.chain.links if each != mechanism.frame]
+    return _FRAME if link == mechanism.frame else _COLOURS[moving.index(link) % len(_COLOURS)]
 
 
 class _Document:

@@ -115,7 +115,7 @@ def _moving(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
 def _in_space(asked: CatalogId, lang: str, _: Progress) -> str:
     from gruebler.page.space_page import machine_model, space_file
 
-    return space_file(machine_model(asked.id), lang)
+    return space_file(machine_model(asked.id, home=True), lang)
 
 
 def _open(asked: CatalogId, _: str, __: Progress) -> dict[str, Any]:

@@ -13,8 +13,9 @@ import numpy as np
 
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import LANGUAGES, joined, message
+from gruebler.base.text import LANGUAGES, message
 from gruebler.files.gltf import MovingSolids, link_colour, moving_solids, united
+from gruebler.files.link_solids import Solid, round_solid
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.wheels import gear_rows
 from gruebler.mechanics.space.outputs import against_frame
@@ -26,15 +27,26 @@ from gruebler.structure.chain.spaces import Space
 from gruebler.teaching.catalog import entry
 
 _WORDS = {
-    "play": message("Play"),
-    "stop": message("Stop"),
-    "drive": message("Drive"),
-    "help": message(
-        "Drag beside the bodies to go round them, drag a body to pull it along; its point then draws its path. "
-        "Wheel or two fingers: nearer and farther."
-    ),
+    "hint": message("Drag a body to pull it along, drag beside it to go round."),
+    "pull": message("Drag a body"),
+    "pulled": message("pull it along; the place where it was taken draws its path"),
+    "round": message("Drag beside it, arrow keys on the picture"),
+    "rounded": message("go round the machine"),
+    "near": message("Wheel, two fingers"),
+    "nearer": message("nearer and farther"),
+    "drives": message("Drives"),
+    "turned": message("{link}: turned from the reference pose"),
+    "shifted": message("{link}: shifted from the reference pose"),
+    "traced": message("{link}: place that was pulled"),
+    "paths": message("Paths of points"),
+    "grid": message("Grid"),
+    "view": message("View"),
+    "oblique": message("Oblique"),
+    "front": message("Front"),
+    "side": message("Side"),
+    "top": message("Top"),
     "none": message("No drive moves this linkage."),
-    "end": message("no farther while the other drives stand here"),
+    "end": message("{drive} goes no farther while the other drives stand here."),
     "flat": message("This browser cannot draw in space: it has no WebGL 2."),
 }
 _ALONE = message("The drives move one at a time here, since the page does not solve {joint}.")
@@ -67,32 +79,33 @@ def space_model(
     *,
     titles: Mapping[str, str] | None = None,
     drives: Mapping[str, Sequence[str]] | None = None,
+    links: Mapping[str, Sequence[str]] | None = None,
     between: tuple[float, float] | None = None,
+    home: bool = False,
 ) -> dict[str, Any]:
     """What the page shows: bodies, named points, and the poses of all links over the range of the one drive.
 
     With several drives the page moves them itself, from joints, ranges of the drives and rows of wheels. ``between``
     are values of the drives in place of all that they can reach.
 
-    ``titles`` and names of ``drives`` by language are those of the linkage unless they are given.
+    ``titles`` and names of ``drives`` and ``links`` by language are those of the linkage unless they are given; with
+    ``home`` the page with the other views lies above this one, in a server or a site.
     """
     moving = moving_solids(linkage, between=between)
     live = _live(moving)
     chain, mechanism = linkage.mechanism.chain, linkage.mechanism
     words, unsolved = dict(_WORDS), _unsolved(linkage)
     if len(moving.motions) > 1 and unsolved is not None:
-        words["help"] = joined([words["help"], _ALONE.filled(joint=chain.joint_title(unsolved))], " ")
+        words["alone"] = _ALONE.filled(joint=chain.joint_title(unsolved))
     bodies = []
-    for number, link in enumerate(chain.links):
-        solids = moving.solids[link]
-        whole = united(solids) if solids else None
-        bodies.append(
-            {
-                "colour": link_colour(number),
-                "vertices": [] if whole is None else _numbers(whole.vertices),
-                "triangles": [] if whole is None else whole.triangles.ravel().tolist(),
-            }
-        )
+    for link in chain.links:
+        round_ones = sum(body.link == link for body in linkage.round_bodies.values())  # they are its last
+        solids = moving.solids[link][: len(moving.solids[link]) - round_ones]
+        bodies.append(_body(link_colour(linkage, link), solids))
+    glass = [
+        _body(link_colour(linkage, body.link), (round_solid(body),)) | {"link": chain.index(body.link)}
+        for body in linkage.round_bodies.values()
+    ]
     spherical = chain.space is Space.SPHERICAL
     turning = [drive.turning for drive in mechanism.drives]
     return {
@@ -100,13 +113,18 @@ def space_model(
             lang: {
                 "title": (titles or {}).get(lang) or title(mechanism, lang),
                 "drives": [*(drives or {}).get(lang, mechanism.drive_names(Alphabet.of_language(lang)))],
+                "links": [*(links or {}).get(lang, chain.links)],
                 "words": {key: text.in_language(lang) for key, text in words.items()},
             }
             for lang in LANGUAGES
         },
+        "home": home,
+        "unit": "" if spherical else linkage.unit,
+        "outputs": [chain.index(link) for link in linkage.outputs],
         "middle": [0.0, 0.0, 0.0] if spherical else linkage.centre.tolist(),
         "size": 1.0 if spherical else linkage.size,
         "bodies": bodies,
+        "glass": glass,
         "points": [{"name": key, "link": chain.index(link), "at": at} for key, (link, at) in linkage.points.items()],
         "motions": [
             {
@@ -119,6 +137,15 @@ def space_model(
             for _, k, motion, full in moving.named()
         ],
         "live": live,
+    }
+
+
+def _body(colour: tuple[float, float, float], solids: Sequence[Solid]) -> dict[str, Any]:
+    whole = united(solids) if solids else None
+    return {
+        "colour": colour,
+        "vertices": [] if whole is None else _numbers(whole.vertices),
+        "triangles": [] if whole is None else whole.triangles.ravel().tolist(),
     }
 
 
@@ -172,7 +199,7 @@ def _unsolved(linkage: SpatialLinkage) -> int | None:
     return next((k for k, each in enumerate(joints) if each.pair.has_body_between or len(each.links) > 2), None)
 
 
-def machine_model(id: str) -> dict[str, Any]:
+def machine_model(id: str, *, home: bool = False) -> dict[str, Any]:
     """The model of a machine of the catalog in space; `GrueblerError` for another one."""
     record = entry(id)
     if not record.in_space:
@@ -188,7 +215,9 @@ def machine_model(id: str) -> dict[str, Any]:
             for lang, each in placed.items()
             if each is not None
         },
+        links={lang: list(record.link_names(lang).values()) for lang in LANGUAGES},
         between=record.between,
+        home=home,
     )
 
 

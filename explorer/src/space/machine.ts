@@ -1,0 +1,180 @@
+/** A linkage in space that is driven: along rows that are there, or by the page's own solver. */
+
+import { type Reach, TURN } from "../cycle";
+import { currentLanguage } from "../language";
+import type { Drivable } from "../transport";
+import { type Camera, moved, projection, seen, type Vector } from "./algebra";
+import type { Model, Motion, Spot } from "./model";
+import { type Pose, Solver } from "./solver";
+
+const STILL = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
+const NEAR = 8; // rows before and behind among which a pulled link looks for its place
+const OFF = 1e-7; // by this part of its range a slider keeps off the ends, which can be reached here
+const TRAIL = 600; // places of a point that are remembered
+
+export class Machine implements Drivable {
+  active = 0;
+  /** Of the drives that move it: radians or lengths. */
+  readonly drives: number[];
+  readonly model: Drivable["model"];
+  readonly size: number;
+  /** Whether the drive could not go where it was sent. */
+  ended = false;
+  /** The links that do not only shift. */
+  readonly turning: Set<number>;
+  /** The place that was pulled last. */
+  traced: Spot | null = null;
+  readonly #solver: Solver | null;
+  #trails: Vector[][] = [];
+
+  constructor(readonly data: Model) {
+    const { bodies, live, middle, motions, size } = data;
+    this.size = size;
+    this.#solver = live && new Solver(live, size, middle, bodies.length);
+    const names = motions.map(({ drive }) => ({ name: String(drive) }));
+    this.model = { drives: names, span: { between: null }, unit: data.unit };
+    const turns = (link: number) => live || motions.some(({ poses }) => poses.some((row) => turnOf(row[link]!) > 1e-6));
+    this.turning = new Set(bodies.map((_, link) => link).filter(turns));
+    this.drives = motions.map((motion) => {
+      const [low, high] = endsOf(motion);
+      return live ? 0 : Math.min(Math.max(0, low), high);
+    });
+  }
+
+  get #motion(): Motion | undefined {
+    return this.data.motions[this.active];
+  }
+
+  get drive(): { turning: boolean } | null {
+    return this.#motion ? { turning: this.#motion.unit === "°" } : null;
+  }
+
+  get cycle(): Reach {
+    return this.cycleOf(this.active);
+  }
+
+  cycleOf(number: number): Reach {
+    const motion = this.data.motions[number];
+    const [low, high] = motion ? endsOf(motion) : [0, 0];
+    const full = motion?.round ?? false;
+    const room = OFF * (high - low);
+    return { full, turns: Number(full), low: low - room, high: high + room, stops: [null, null] };
+  }
+
+  jointName(name: string): string {
+    return this.data.texts[currentLanguage()].drives[Number(name)]!;
+  }
+
+  choose(active: number): void {
+    this.active = active;
+  }
+
+  moveTo(value: number): boolean {
+    const { active, drives } = this;
+    const [motion, solver] = [this.#motion, this.#solver];
+    if (!motion) return false;
+    const turns = motion.round ? Math.round((drives[active]! - value) / TURN) : 0;
+    drives[active] = value + TURN * turns; // on from where it stands
+    if (!solver) return true;
+    const wanted = [...solver.values];
+    wanted[motion.drive] = drives[active]!;
+    this.ended = !solver.drive(wanted);
+    this.#follow();
+    return true;
+  }
+
+  /** After the solver: where its drives stand, and where points were. */
+  #follow(): void {
+    const { data, drives, spots } = this;
+    const solver = this.#solver;
+    for (const [k, { drive }] of data.motions.entries()) drives[k] = solver!.values[drive]!;
+    this.#trails = spots.map(({ link, at }, k) =>
+      [...(this.#trails[k] ?? []), moved(solver!.poses[link]!, at)].slice(-TRAIL),
+    );
+  }
+
+  /** The poses of all links, by the drives as they stand. */
+  get poses(): ArrayLike<number>[] {
+    const { data } = this;
+    const [motion, solver] = [this.#motion, this.#solver];
+    if (solver) return solver.poses;
+    if (!motion) return data.bodies.map(() => STILL);
+    return between(motion.poses, rowOf(motion, this.drives[this.active]!));
+  }
+
+  /** Some of the poses that it reaches. */
+  reached(): ArrayLike<number>[][] {
+    const all = this.data.motions.flatMap(({ poses }) => poses);
+    const some = all.filter((_, k) => k % Math.ceil(all.length / 24) === 0);
+    return some.length ? some : [this.poses];
+  }
+
+  /** The places whose paths are drawn. */
+  get spots(): Spot[] {
+    const { data, traced } = this;
+    return traced ? [...data.points, traced] : data.points;
+  }
+
+  get paths(): Vector[][] {
+    if (this.#solver) return this.#trails;
+    const rows = this.#motion?.poses ?? [];
+    return this.spots.map(({ link, at }) => rows.map((poses) => moved(poses[link]!, at)));
+  }
+
+  /** A place is taken: its path begins. */
+  take(spot: Spot): void {
+    this.traced = spot;
+    this.#trails = this.#trails.slice(0, this.data.points.length);
+  }
+
+  /** Bring the place that was taken as near as can be to one on the picture. */
+  pull(camera: Camera, wide: number, x: number, y: number): void {
+    const { link, at } = this.traced!;
+    const view = projection(camera, wide);
+    const off = (pose: ArrayLike<number>): [number, number] => {
+      const [u, v] = seen(view, moved(pose, at));
+      return [wide * (u - x), v - y];
+    };
+    if (this.#solver) {
+      this.ended = false;
+      this.#solver.pull(link, off as (pose: Pose) => [number, number]);
+      return this.#follow();
+    }
+    const motion = this.#motion;
+    if (!motion) return;
+    const [last, here] = [motion.values.length - 1, rowOf(motion, this.drives[this.active]!)];
+    let [best, nearest] = [here, Infinity];
+    for (let step = -NEAR; step <= NEAR; step += 0.25) {
+      const tried = motion.round ? (here + step + last) % last : Math.min(Math.max(here + step, 0), last);
+      const gap = Math.hypot(...off(between(motion.poses, tried)[link]!));
+      if (gap < nearest) [nearest, best] = [gap, tried];
+    }
+    const [low, high] = endsOf(motion);
+    this.moveTo(low + (best / last) * (high - low));
+  }
+}
+
+/** By what angle a link is turned. */
+export function turnOf(pose: ArrayLike<number>): number {
+  return Math.acos(Math.min(Math.max((pose[0]! + pose[5]! + pose[10]! - 1) / 2, -1), 1));
+}
+
+/** The first and the last value of a motion's drive, in radians or as lengths. */
+export function endsOf({ unit, values }: Motion): [number, number] {
+  const part = unit === "°" ? TURN / 360 : 1;
+  return [part * values[0]!, part * values.at(-1)!];
+}
+
+/** The row, between two perhaps, at a value of the drive: rows are evenly spaced. */
+function rowOf(motion: Motion, value: number): number {
+  const [low, high] = endsOf(motion);
+  const part = (value - low) / (high - low);
+  return (motion.values.length - 1) * (motion.round ? part - Math.floor(part) : Math.min(Math.max(part, 0), 1));
+}
+
+/** Poses between two rows. */
+function between(rows: number[][][], at: number): number[][] {
+  const low = Math.min(Math.floor(at), rows.length - 2);
+  const [a, b] = [rows[low]!, rows[low + 1]!];
+  return a.map((pose, link) => pose.map((v, k) => v + (at - low) * (b[link]![k]! - v)));
+}

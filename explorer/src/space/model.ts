@@ -1,0 +1,56 @@
+/** What Python says of a linkage in space (`gruebler.page.space_page.space_model`). */
+
+import type { Language } from "../language";
+import type { Vector } from "./algebra";
+import type { Live } from "./solver";
+
+export interface Body {
+  colour: Vector;
+  vertices: number[];
+  triangles: number[];
+}
+
+/** A place of a link, by its coordinates in the reference pose. */
+export interface Spot {
+  name?: string;
+  link: number;
+  at: Vector;
+}
+
+export interface Motion {
+  /** The number of its drive. */
+  drive: number;
+  round: boolean;
+  unit: string;
+  /** (rows) of the drive. */
+  values: number[];
+  /** (rows, links, 12). */
+  poses: number[][][];
+}
+
+interface Texts {
+  title: string;
+  drives: string[];
+  links: string[];
+  /** What only this page says, by short keys. */
+  words: Record<string, string>;
+}
+
+export interface Model {
+  /** Whether the page with the other views lies above it. */
+  home: boolean;
+  texts: Record<Language, Texts>;
+  unit: string;
+  middle: Vector;
+  size: number;
+  /** One of each link. */
+  bodies: Body[];
+  /** What is seen through, on its link. */
+  glass: (Body & { link: number })[];
+  points: Spot[];
+  /** The links whose motion is wanted. */
+  outputs: number[];
+  motions: Motion[];
+  /** What moves several drives together; with one drive its motion is there. */
+  live: Live | null;
+}

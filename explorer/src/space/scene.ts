@@ -1,0 +1,294 @@
+/** The picture of a machine in space: bodies on a canvas, names of points over them, what a pointer does to it. */
+
+import { h, svg } from "../dom";
+import { gridStep } from "../grid";
+import { number, t } from "../language";
+import { stageButton } from "../shell";
+import { axes, before, type Camera, fitted, meeting, moved, projection, ray, seen, type Vector } from "./algebra";
+import type { Machine } from "./machine";
+import type { Spot } from "./model";
+import { type Drawn, Painter } from "./painter";
+
+const ARM = 26; // pixels of the axes in the corner
+const STEEP = 1.5; // radians: no farther up or down
+
+export interface SceneEvents {
+  /** A link is taken, or one that was taken has moved. */
+  taken(): void;
+  pulled(): void;
+  /** The mouse is over a link, or over none. */
+  pointed(link: number | null): void;
+}
+
+export class Scene {
+  readonly element = h("div.stage", {});
+  /** Whether floor, paths and names of points are shown. */
+  readonly shown = { floor: true, paths: true, names: true };
+  /** The link that stands out. */
+  marked: number | null = null;
+  readonly canvas = h("canvas", { "aria-hidden": "true" });
+  readonly root = svg("svg", { role: "application", tabindex: "0" });
+  readonly #hint = h("div.hint", {});
+  readonly #painter: Painter | null = null;
+  #camera: Camera;
+  #whole = true;
+  #level = 0;
+  #step = 1;
+  readonly #colours = new Map<string, Vector>();
+  readonly #fingers = new Map<number, PointerEvent>();
+  #pulling = false;
+
+  constructor(
+    private readonly machine: Machine,
+    private readonly events: SceneEvents,
+  ) {
+    const { bodies, glass, middle, size } = machine.data;
+    this.#camera = { turn: 0.9, lift: 0.5, middle, distance: 5 * size };
+    try {
+      this.#painter = new Painter(this.canvas, bodies, glass);
+    } catch {
+      // it is said when the page is arranged
+    }
+    const corners = this.#corners();
+    this.#level = corners.reduce((low, [, , z]) => Math.min(low, z), Infinity) - 0.01 * size;
+    this.#step = gridStep(size / 6);
+    const { root } = this;
+    root.addEventListener("pointerdown", (event) => this.#down(event));
+    root.addEventListener("pointermove", (event) => this.#move(event));
+    for (const name of ["pointerup", "pointercancel"] as const)
+      root.addEventListener(name, ({ pointerId }) => {
+        this.#fingers.delete(pointerId);
+        this.#pulling = false;
+      });
+    root.addEventListener("pointerleave", () => this.mark(null));
+    root.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        this.zoom(Math.exp(-event.deltaY / 900));
+      },
+      { passive: false },
+    );
+    root.addEventListener("keydown", (event) => this.#key(event));
+    new ResizeObserver(() => (this.#whole ? this.fit() : this.draw())).observe(this.element);
+  }
+
+  /** Lay it out anew, in the language of the page. */
+  arrange(title: string, words: Record<string, string>, unit: string): void {
+    this.root.setAttribute("aria-label", `${title}. ${words.hint}`);
+    this.#hint.textContent = words.hint!;
+    const grid = unit ? `${words.grid} ${number(this.#step)} ${unit}` : "";
+    const tools = h(
+      "div.tools",
+      {},
+      stageButton("more", t("Zoom in"), () => this.zoom(1.25)),
+      stageButton("less", t("Zoom out"), () => this.zoom(0.8)),
+      stageButton("fit", t("Show everything"), () => this.fit()),
+    );
+    const picture = this.#painter ? [this.canvas, this.root] : [h("p.note.flat", { role: "alert" }, words.flat)];
+    this.element.replaceChildren(...picture, tools, this.#hint, h("div.hint.unit", {}, grid));
+  }
+
+  // --- where from ----------------------------------------------------------------------------------------------------
+
+  /** The corners of all bodies in the poses that are reached. */
+  #corners(): Vector[] {
+    const { bodies, glass } = this.machine.data;
+    const all = [...bodies.map((body, link) => ({ ...body, link })), ...glass];
+    return this.machine.reached().flatMap((poses) =>
+      all.flatMap(({ vertices, link }) => {
+        const places: Vector[] = [];
+        for (let k = 0; k < vertices.length; k += 3)
+          places.push(moved(poses[link]!, vertices.slice(k, k + 3) as Vector));
+        return places;
+      }),
+    );
+  }
+
+  fit(): void {
+    this.#whole = true;
+    this.#camera = fitted(this.#camera, this.#wide, this.#corners());
+    this.draw();
+  }
+
+  zoom(factor: number): void {
+    this.#whole = false;
+    this.#camera.distance /= factor;
+    this.draw();
+  }
+
+  /** Look from another side: angles in radians. */
+  look(turn: number, lift: number): void {
+    Object.assign(this.#camera, { turn, lift });
+    this.fit();
+  }
+
+  #round(turn: number, lift: number): void {
+    this.#camera.turn += turn;
+    this.#camera.lift = Math.min(Math.max(this.#camera.lift + lift, -STEEP), STEEP);
+    this.draw();
+  }
+
+  get #wide(): number {
+    return this.element.clientWidth / Math.max(this.element.clientHeight, 1);
+  }
+
+  // --- drawing -------------------------------------------------------------------------------------------------------
+
+  draw(): void {
+    const { canvas, element, machine } = this;
+    const painter = this.#painter;
+    if (!painter || !element.clientWidth) return;
+    const ratio = Math.min(devicePixelRatio, 2);
+    const [width, height] = [Math.round(element.clientWidth * ratio), Math.round(element.clientHeight * ratio)];
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    const view = projection(this.#camera, this.#wide);
+    const { eye, right, up, near } = axes(this.#camera);
+    const lamp = near.map((n, k) => 0.62 * n + 0.66 * up[k]! - 0.42 * right[k]!) as Vector;
+    const { poses } = machine;
+    const lines: Drawn[] = this.shown.floor
+      ? [{ colour: this.#colour("--grid"), pairs: true, places: this.#floor() }]
+      : [];
+    if (this.shown.paths)
+      lines.push(...machine.paths.map((places) => ({ colour: this.#colour("--accent"), pairs: false, places })));
+    const colours = { paper: this.#colour("--paper"), ink: this.#colour("--ink"), marked: this.marked };
+    painter.paint({ view, eye, lamp }, poses, lines, colours);
+    this.#over(view, poses, [right, up]);
+  }
+
+  /** Names of points, and the axes in the corner. */
+  #over(view: Float32Array, poses: ArrayLike<number>[], [right, up]: [Vector, Vector]): void {
+    const { clientWidth, clientHeight } = this.element;
+    this.root.setAttribute("viewBox", `0 0 ${clientWidth} ${clientHeight}`);
+    const parts: SVGElement[] = [];
+    for (const { name, link, at } of this.machine.spots) {
+      const [x, y] = seen(view, moved(poses[link]!, at));
+      const [px, py] = [((x + 1) * clientWidth) / 2, ((1 - y) * clientHeight) / 2];
+      parts.push(svg("circle.spot", { cx: px, cy: py, r: 4.5 }));
+      if (name && this.shown.names) parts.push(svg("text.mark", { x: px + 9, y: py - 7 }, name));
+    }
+    const [ox, oy] = [44, 46];
+    ["x", "y", "z"].forEach((axis, k) => {
+      const [dx, dy] = [ARM * right[k]!, -ARM * up[k]!];
+      parts.push(svg("line", { class: `axis ${axis}`, x1: ox, y1: oy, x2: ox + dx, y2: oy + dy }));
+      parts.push(svg("text.axis", { x: ox + 1.45 * dx - 4, y: oy + 1.45 * dy + 4 }, axis));
+    });
+    this.root.replaceChildren(...parts);
+  }
+
+  /** The lines of the floor. */
+  #floor(): Vector[] {
+    const [level, step] = [this.#level, this.#step];
+    const { middle, size } = this.machine.data;
+    const half = step * Math.ceil((0.75 * size) / step);
+    const [x, y] = [step * Math.round(middle[0] / step), step * Math.round(middle[1] / step)];
+    const places: Vector[] = [];
+    for (let k = -half; k <= half + step / 2; k += step) {
+      places.push([x + k, y - half, level], [x + k, y + half, level]);
+      places.push([x - half, y + k, level], [x + half, y + k, level]);
+    }
+    return places;
+  }
+
+  /** A colour of the style sheet; to ask for one makes the browser apply all of it. */
+  #colour(name: string): Vector {
+    const known = this.#colours.get(name);
+    if (known) return known;
+    const text = getComputedStyle(this.element).getPropertyValue(name).trim();
+    const found = [1, 3, 5].map((k) => parseInt(text.slice(k, k + 2), 16) / 255) as Vector;
+    this.#colours.set(name, found);
+    return found;
+  }
+
+  /** The page is light or dark now. */
+  recoloured(): void {
+    this.#colours.clear();
+    this.draw();
+  }
+
+  // --- pointer and keys ----------------------------------------------------------------------------------------------
+
+  /** Where an event is on the picture, -1 to 1. */
+  #placed({ clientX, clientY }: MouseEvent): [number, number] {
+    const box = this.root.getBoundingClientRect();
+    return [(2 * (clientX - box.left)) / box.width - 1, 1 - (2 * (clientY - box.top)) / box.height];
+  }
+
+  /** The link under a place, and where on it. */
+  #hit(x: number, y: number): Spot | null {
+    const { from, along } = ray(this.#camera, this.#wide, x, y);
+    let best: Spot | null = null;
+    let nearest = Infinity;
+    this.machine.poses.forEach((pose, link) => {
+      const { vertices, triangles } = this.machine.data.bodies[link]!;
+      const start = before(pose, from);
+      const end = before(pose, from.map((v, k) => v + along[k]!) as Vector);
+      const way = end.map((v, k) => v - start[k]!) as Vector;
+      const corner = (k: number): Vector => vertices.slice(3 * k, 3 * k + 3) as Vector;
+      for (let k = 0; k < triangles.length; k += 3) {
+        const far = meeting(start, way, corner(triangles[k]!), corner(triangles[k + 1]!), corner(triangles[k + 2]!));
+        if (far < nearest) [nearest, best] = [far, { link, at: start.map((v, n) => v + far * way[n]!) as Vector }];
+      }
+    });
+    return best;
+  }
+
+  mark(link: number | null): void {
+    if (link === this.marked) return;
+    this.marked = link;
+    this.draw();
+  }
+
+  #down(event: PointerEvent): void {
+    this.root.setPointerCapture(event.pointerId);
+    this.#fingers.set(event.pointerId, event);
+    this.#pulling = false;
+    this.marked = null;
+    if (this.#fingers.size > 1) return;
+    const spot = this.#hit(...this.#placed(event));
+    if (!spot) return;
+    this.#pulling = true;
+    this.machine.take(spot);
+    this.events.taken();
+  }
+
+  #move(event: PointerEvent): void {
+    const old = this.#fingers.get(event.pointerId);
+    if (!old) {
+      if (event.pointerType !== "mouse") return;
+      const link = this.#hit(...this.#placed(event))?.link ?? null;
+      this.root.style.cursor = link === null ? "" : "move";
+      this.mark(link);
+      this.events.pointed(link);
+      return;
+    }
+    const was = apart(this.#fingers);
+    this.#fingers.set(event.pointerId, event);
+    if (this.#fingers.size > 1) return this.zoom(apart(this.#fingers) / Math.max(was, 1));
+    if (this.#pulling) {
+      this.machine.pull(this.#camera, this.#wide, ...this.#placed(event));
+      return this.events.pulled();
+    }
+    this.#round((old.clientX - event.clientX) / 150, (event.clientY - old.clientY) / 150);
+  }
+
+  #key(event: KeyboardEvent): void {
+    const ways: Record<string, [number, number]> = {
+      ArrowLeft: [0.1, 0],
+      ArrowRight: [-0.1, 0],
+      ArrowUp: [0, 0.1],
+      ArrowDown: [0, -0.1],
+    };
+    const way = ways[event.key];
+    if (!way) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.#round(...way);
+  }
+}
+
+/** How far apart two fingers are. */
+function apart(fingers: Map<number, PointerEvent>): number {
+  const [one, two] = [...fingers.values()];
+  return one && two ? Math.hypot(one.clientX - two.clientX, one.clientY - two.clientY) : 0;
+}

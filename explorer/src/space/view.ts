@@ -1,0 +1,301 @@
+/** The page of a machine in space: header, picture, drive, and beside them measures, drives, links, options. */
+
+import { wrapped } from "../cycle";
+import { choice, h, renew } from "../dom";
+import { download } from "../export";
+import { FactList } from "../factlist";
+import type { Fact } from "../facts";
+import { languageMenu, viewNames } from "../header";
+import { showRows } from "../help";
+import { angle, currentLanguage, number, t } from "../language";
+import { firstTheme, panelOf, setTheme, shell, tool } from "../shell";
+import { driveText } from "../track";
+import { type Driven, Transport } from "../transport";
+import { moved } from "./algebra";
+import { endsOf, Machine, turnOf } from "./machine";
+import type { Model } from "./model";
+import { Scene } from "./scene";
+import styles from "./space.css";
+
+/** Angles of the views that have names, in radians: from where, from how high. */
+const VIEWS: Record<string, [number, number]> = {
+  oblique: [0.9, 0.5],
+  front: [-Math.PI / 2, 0],
+  side: [0, 0],
+  top: [-Math.PI / 2, 1.5],
+};
+const DIGITS = 4;
+
+export class SpaceView implements Driven {
+  readonly linkage: Machine;
+  readonly scene: Scene;
+  readonly transport = new Transport(this);
+  readonly #host: HTMLElement;
+  readonly #root: HTMLElement;
+  readonly #header = h("header", {});
+  readonly #message = h("div.message", { role: "status", hidden: true });
+  readonly #side = h("div.side", {});
+  readonly #facts = new FactList();
+  #sliders: { input: HTMLInputElement; output: HTMLElement }[] = [];
+  #view = "oblique";
+
+  constructor(
+    parent: HTMLElement,
+    private readonly data: Model,
+  ) {
+    const { host, shadow } = shell(parent, "100%", styles);
+    this.#host = host;
+    this.linkage = new Machine(data);
+    this.scene = new Scene(this.linkage, {
+      taken: () => this.transport.pause(),
+      pulled: () => this.posed(),
+      pointed: (link) => this.#pointed(link),
+    });
+    const view = h("div.view.motion.shown", {}, this.scene.element, this.transport.element, this.#side);
+    this.#root = h("div.app", {}, this.#header, this.#message, h("main.views", {}, view));
+    shadow.append(this.#root);
+    setTheme(host, firstTheme(), true);
+    document.addEventListener("keydown", (event) => this.#key(event));
+    this.#arrange();
+    if (!window.matchMedia("(prefers-reduced-motion: reduce)").matches && this.linkage.drive) this.transport.toggle();
+  }
+
+  get #words(): Record<string, string> {
+    return this.#texts.words;
+  }
+
+  get #texts() {
+    return this.data.texts[currentLanguage()];
+  }
+
+  // --- laid out ------------------------------------------------------------------------------------------------------
+
+  /** Everything anew, in another language. */
+  #arrange(): void {
+    const { title } = this.#texts;
+    document.title = `${title} – gruebler`;
+    document.documentElement.lang = currentLanguage();
+    this.#host.lang = currentLanguage();
+    renew(
+      this.#header,
+      h("h1", {}, "gruebler ", h("small", {}, title)),
+      ...(this.data.home ? [this.#ways()] : []),
+      h("span.spring", {}),
+      ...(this.data.home ? [tool("link", t("Copy the link"), () => void this.#share())] : []),
+      tool("theme", t("Light or dark"), () => {
+        setTheme(this.#host, this.#host.dataset.theme === "dark" ? "light" : "dark", true);
+        this.scene.recoloured();
+      }),
+      tool("keys", t("Keys"), () => this.#help()),
+      languageMenu(() => {
+        history.replaceState(null, "", `#${currentLanguage()}`);
+        this.#arrange();
+      }),
+    );
+    this.scene.arrange(title, this.#words, this.data.unit);
+    this.transport.arrange();
+    renew(this.#side, ...this.#panels());
+    this.#say("");
+    this.chosen();
+  }
+
+  /** The ways to the other views, which are on the page above. */
+  #ways(): HTMLElement {
+    const above = location.protocol === "file:" ? "../index.html" : "../";
+    const way = ([key, name]: [string, string]) =>
+      key === "motion"
+        ? h("a", { "aria-current": "page" }, name)
+        : h("a", { href: `${above}#${currentLanguage()}/${key}` }, name);
+    return h("nav", {}, ...Object.entries(viewNames()).map(way));
+  }
+
+  #panels(): HTMLElement[] {
+    const { data, linkage } = this;
+    const [texts, words] = [this.#texts, this.#words];
+    const panels = [panelOf("measures", t("Measures"), true, this.#facts.element)];
+    const alone = words.alone ? [h("p.note", {}, words.alone)] : [];
+    if (!linkage.drive) alone.push(h("p.note", {}, words.none));
+    this.#sliders = data.motions.length > 1 ? data.motions.map((_, k) => this.#slider(k)) : [];
+    const rows = this.#sliders.flatMap(({ input, output }) => [
+      h("label", { for: input.id }, input.title),
+      input,
+      output,
+    ]);
+    if (rows.length + alone.length)
+      panels.push(panelOf("drives", words.drives!, true, h("div.rows", {}, ...rows), ...alone));
+    const chips = texts.links.map((name, link) => {
+      const chip = h("span.chip", {}, h("i", {}), name);
+      const colour = data.bodies[link]!.colour.map((part) => Math.round(255 * part)).join(" ");
+      chip.style.setProperty("--own", `rgb(${colour})`);
+      chip.addEventListener("pointerenter", () => this.scene.mark(link));
+      chip.addEventListener("pointerleave", () => this.scene.mark(null));
+      return chip;
+    });
+    panels.push(panelOf("links", t("Links"), true, h("div.chips", {}, ...chips)));
+    const { scene } = this;
+    const option = (key: keyof Scene["shown"], text: string) => {
+      const change = () => {
+        scene.shown[key] = box.checked;
+        scene.draw();
+      };
+      const box = h("input", { type: "checkbox", checked: scene.shown[key], onchange: change });
+      return h("label", {}, box, text);
+    };
+    const look = (name: string) => {
+      this.#view = name;
+      scene.look(...VIEWS[name]!);
+    };
+    const views = choice(
+      words.view!,
+      Object.keys(VIEWS).map((key) => [key, words[key]!]),
+      this.#view,
+      look,
+    );
+    const options = h(
+      "div.options",
+      {},
+      option("floor", t("Grid")),
+      option("paths", words.paths!),
+      option("names", t("Names")),
+    );
+    panels.push(panelOf("show", t("Show"), true, views, options));
+    const save = () => scene.canvas.toBlob((blob) => blob && download(`${this.#texts.title}.png`, blob));
+    panels.push(panelOf("export", t("Export"), true, h("div.chips", {}, h("button.plain", { onclick: save }, "PNG"))));
+    return panels;
+  }
+
+  /** A slider of one of several drives. */
+  #slider(drive: number): { input: HTMLInputElement; output: HTMLElement } {
+    const { linkage } = this;
+    const { full, high, low } = linkage.cycleOf(drive);
+    const input = h("input", {
+      id: `drive-${drive}`,
+      title: linkage.jointName(linkage.model.drives[drive]!.name),
+      type: "range",
+      min: full ? -Math.PI : low,
+      max: full ? Math.PI : high,
+      step: "any",
+      oninput: () => {
+        const value = Number(input.value); // before it is written anew
+        if (drive !== linkage.active) {
+          linkage.choose(drive);
+          this.transport.arrange();
+          this.chosen();
+        }
+        this.transport.pick(value);
+      },
+    });
+    return { input, output: h("output.value", {}) };
+  }
+
+  #say(text: string): void {
+    if (this.#message.textContent === text) return;
+    this.#message.hidden = !text;
+    this.#message.replaceChildren(h("span", {}, text));
+  }
+
+  async #share(): Promise<void> {
+    await navigator.clipboard.writeText(location.href).catch(() => undefined);
+  }
+
+  // --- driven --------------------------------------------------------------------------------------------------------
+
+  chosen(): void {
+    this.transport.showRange({ dead: [], least: null });
+    this.posed();
+  }
+
+  paused(): void {}
+
+  picked(): void {}
+
+  timed(): void {}
+
+  posed(): void {
+    const { linkage } = this;
+    if (linkage.ended) this.transport.pause();
+    const drive = linkage.jointName(linkage.model.drives[linkage.active]?.name ?? "");
+    this.#say(linkage.ended ? this.#words.end!.replace("{drive}", drive) : "");
+    this.scene.draw();
+    this.transport.showValue();
+    this.#facts.show(this.#measures());
+    this.#sliders.forEach(({ input, output }, k) => {
+      const { full } = linkage.cycleOf(k);
+      const value = wrapped(linkage.cycleOf(k), linkage.drives[k]!);
+      input.value = String(full && value > Math.PI ? value - 2 * Math.PI : value);
+      output.textContent = this.#valueOf(k, value);
+    });
+  }
+
+  #valueOf(drive: number, value: number): string {
+    const turning = this.data.motions[drive]!.unit === "°";
+    return driveText({ drive: { turning }, model: this.linkage.model }, value, DIGITS);
+  }
+
+  #measures(): Fact[] {
+    const { data, linkage } = this;
+    const [texts, words] = [this.#texts, this.#words];
+    const { poses } = linkage;
+    const facts: Fact[] = data.outputs.map((link) => {
+      const pose = poses[link]!;
+      const turns = linkage.turning.has(link);
+      const far = `${number(Math.hypot(pose[3]!, pose[7]!, pose[11]!), DIGITS)} ${data.unit}`;
+      const text = turns ? angle(turnOf(pose), DIGITS) : far;
+      return { name: words[turns ? "turned" : "shifted"]!.replace("{link}", texts.links[link]!), text };
+    });
+    for (const { name, link, at } of linkage.spots) {
+      const text = moved(poses[link]!, at).map((v) => number(Math.abs(v) < 1e-9 * data.size ? 0 : v, DIGITS));
+      facts.push({
+        name: name ?? words.traced!.replace("{link}", texts.links[link]!),
+        text: text.join(" | "),
+        note: data.unit,
+      });
+    }
+    if (linkage.drive) {
+      const { full } = linkage.cycle;
+      const ends = endsOf(data.motions[linkage.active]!)
+        .map((value) => this.#valueOf(linkage.active, value))
+        .join(" … ");
+      facts.push({ name: t("Range of the drive"), text: full ? t("full turns") : ends });
+    }
+    return facts;
+  }
+
+  /** The name of the link under the mouse, as a tip. */
+  #pointed(link: number | null): void {
+    this.scene.element.title = link === null ? "" : this.#texts.links[link]!;
+  }
+
+  // --- keys ----------------------------------------------------------------------------------------------------------
+
+  #help(): void {
+    const words = this.#words;
+    showRows(this.#root, [
+      [words.pull!, words.pulled!],
+      [words.round!, words.rounded!],
+      [words.near!, words.nearer!],
+      [t("Space"), t("play and pause")],
+      ["← →", t("move the drive by 1°, with Shift by 10°")],
+      ["+ − 0", t("zoom, show everything")],
+      ["?", t("this list")],
+    ]);
+  }
+
+  #key(event: KeyboardEvent): void {
+    const target = event.composedPath()[0] as HTMLElement;
+    if (/^(INPUT|SELECT)$/.test(target.tagName) || event.ctrlKey || event.metaKey) return;
+    const keys: Record<string, () => void> = {
+      "?": () => this.#help(),
+      ArrowRight: () => this.transport.nudge(event.shiftKey ? 10 : 1),
+      ArrowLeft: () => this.transport.nudge(event.shiftKey ? -10 : -1),
+      "+": () => this.scene.zoom(1.25),
+      "-": () => this.scene.zoom(0.8),
+      "0": () => this.scene.fit(),
+    };
+    if (!/^(BUTTON|SUMMARY|A)$/.test(target.tagName)) keys[" "] = () => this.transport.toggle();
+    const act = keys[event.key];
+    if (!act) return;
+    event.preventDefault();
+    act();
+  }
+}
