@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws import SpatialLinkage
-from gruebler.mechanics.screws.round_bodies import RoundBody
+from gruebler.mechanics.screws.round_bodies import TurnedBody
 from gruebler.structure.chain.spaces import Space
 
 _SIDES, _SIDES_OF_WHEEL = 16, 48
@@ -89,7 +89,7 @@ def cylinder_solid(
     return turned_solid(start, end, profile, phase, sides)
 
 
-def round_solid(body: RoundBody) -> Solid:
+def round_solid(body: TurnedBody) -> Solid:
     """A round body with rounded edges and hollows on both sides, as a wheel with its tyre."""
     middle, axis = np.array(body.at), np.array(body.z) / np.linalg.norm(body.z)
     half, edge = body.length / 2 * axis, min(0.12 * body.radius, 0.3 * body.length)

@@ -52,7 +52,7 @@ class ScrewsRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_o
     """Cylinders on links, for pictures."""
 
 
-class RoundBodyRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class TurnedBodyRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """A cylinder on a link: its middle, its axis, its size."""
 
     link: str
@@ -98,7 +98,7 @@ def spatial_linkage_from_record(
         points[name] = (point.link, *point.at)
     bodies = {
         name: msgspec.structs.asdict(
-            convert_document(raw, RoundBodyRecord, LinkageError, f"screws.round_bodies.{name}")
+            convert_document(raw, TurnedBodyRecord, LinkageError, f"screws.round_bodies.{name}")
         )
         for name, raw in screws.round_bodies.items()
     }

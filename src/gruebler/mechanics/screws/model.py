@@ -19,7 +19,7 @@ from gruebler.base.immutable import Immutable, settle
 from gruebler.mechanics.linkages.points import link_number
 from gruebler.mechanics.screws.joint_places import JointPlace, Vector, joint_axes, read_place
 from gruebler.mechanics.screws.rigid_motions import exponential
-from gruebler.mechanics.screws.round_bodies import RoundBody, read_bodies
+from gruebler.mechanics.screws.round_bodies import TurnedBody, read_bodies
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.spaces import Space
 from gruebler.structure.mechanism import Mechanism
@@ -42,7 +42,7 @@ class SpatialLinkage(Immutable):
         unit: the unit of lengths; a name only.
         points: named points (link, x, y, z), their coordinates in the reference pose.
         outputs: the links whose motion is wanted.
-        round_bodies: cylinders on links that pictures show, such as the wheel of a car: a `RoundBody` each, or a
+        round_bodies: cylinders on links that pictures show, such as the wheel of a car: a `TurnedBody` each, or a
             mapping with its keys.
 
     Raises:
@@ -68,7 +68,7 @@ class SpatialLinkage(Immutable):
     points: Mapping[str, tuple[str, Vector]]
     """The link of each named point and its coordinates in the reference pose."""
     outputs: tuple[str, ...]
-    round_bodies: Mapping[str, RoundBody]
+    round_bodies: Mapping[str, TurnedBody]
 
     @door_that_raises(LinkageError)
     def __init__(
@@ -79,7 +79,7 @@ class SpatialLinkage(Immutable):
         unit: str = "mm",
         points: Mapping[str, Sequence[object]] | None = None,
         outputs: Iterable[str] = (),
-        round_bodies: Mapping[str, RoundBody | Mapping[str, Any]] | None = None,
+        round_bodies: Mapping[str, TurnedBody | Mapping[str, Any]] | None = None,
     ) -> None:
         chain = mechanism.chain
         names = chain.joint_names()
@@ -248,7 +248,7 @@ class SpatialLinkage(Immutable):
         self,
         places: tuple[JointPlace, ...],
         points: Mapping[str, Sequence[object]],
-        bodies: Mapping[str, RoundBody],
+        bodies: Mapping[str, TurnedBody],
     ) -> SpatialLinkage:
         return SpatialLinkage(
             self.mechanism, places, unit=self.unit, points=points, outputs=self.outputs, round_bodies=bodies

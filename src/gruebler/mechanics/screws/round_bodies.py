@@ -14,10 +14,10 @@ from gruebler.mechanics.screws.joint_places import Vector
 
 @final
 @dataclass(frozen=True, kw_only=True)
-class RoundBody:
+class TurnedBody:
     """A cylinder on a link, in the reference pose.
 
-    >>> RoundBody(link="knuckle", at=(760, 0, 320), z=(1, 0, 0), radius=320, length=200).radius
+    >>> TurnedBody(link="knuckle", at=(760, 0, 320), z=(1, 0, 0), radius=320, length=200).radius
     320
     """
 
@@ -31,7 +31,7 @@ class RoundBody:
     """Along the axis."""
 
 
-def read_bodies(given: Mapping[str, RoundBody | Mapping[str, Any]], links: tuple[str, ...]) -> dict[str, RoundBody]:
+def read_bodies(given: Mapping[str, TurnedBody | Mapping[str, Any]], links: tuple[str, ...]) -> dict[str, TurnedBody]:
     """Bodies by their names; `LinkageError` names the first that does not fit.
 
     >>> read_bodies({"wheel": {"link": "0", "at": (0, 0), "z": (0, 0, 1), "radius": 3, "length": 1}}, ("0", "1"))
@@ -40,7 +40,7 @@ def read_bodies(given: Mapping[str, RoundBody | Mapping[str, Any]], links: tuple
     """
     bodies = {}
     for name, raw in given.items():
-        body = raw if isinstance(raw, RoundBody) else _read(name, raw)
+        body = raw if isinstance(raw, TurnedBody) else _read(name, raw)
         link_number(body.link, links)
         for key in ("radius", "length"):
             value = getattr(body, key)
@@ -51,15 +51,15 @@ def read_bodies(given: Mapping[str, RoundBody | Mapping[str, Any]], links: tuple
         at, z = _three(name, "at", body.at), _three(name, "z", body.z)
         if hypot(*z) == 0:
             raise LinkageError("{name}: z: expected a direction, but found {value!r}", name=name, value=body.z)
-        bodies[name] = RoundBody(link=body.link, at=at, z=z, radius=float(body.radius), length=float(body.length))
+        bodies[name] = TurnedBody(link=body.link, at=at, z=z, radius=float(body.radius), length=float(body.length))
     return bodies
 
 
-def _read(name: str, raw: Mapping[str, Any]) -> RoundBody:
+def _read(name: str, raw: Mapping[str, Any]) -> TurnedBody:
     wanted = ("link", "at", "z", "radius", "length")
     if set(raw) != set(wanted):
         raise LinkageError("{name}: expected the keys {keys}", name=name, keys=", ".join(wanted))
-    return RoundBody(**raw)
+    return TurnedBody(**raw)
 
 
 def _three(name: str, key: str, value: Any) -> Vector:
