@@ -13,12 +13,13 @@ from numpy.typing import NDArray
 from gruebler.base.errors import GrueblerError
 from gruebler.base.events import Extremum
 from gruebler.base.plain_data import plain
-from gruebler.base.text import Message, message, number, reason_of
+from gruebler.base.text import Message, message, number
 from gruebler.cli.machine_pictures import add_picture_options, angle_of, refuse_picture, write_machine_picture
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
+from gruebler.files.text_files import read_text
 from gruebler.machines.cams import (
     LAWS,
     Cam,
@@ -162,12 +163,8 @@ def _contour(arguments: argparse.Namespace, follower: Follower) -> int:
 
 def _contour_points(path: Path) -> list[tuple[float, float]]:
     """The points of a file with two numbers a line; `#` begins a comment."""
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise GrueblerError("{path}: cannot be read ({reason})", path=path, reason=reason_of(error)) from None
     points = []
-    for line_number, line in enumerate(lines, 1):
+    for line_number, line in enumerate(read_text(path).splitlines(), 1):
         cells = line.partition("#")[0].replace(",", " ").replace(";", " ").split()
         if not cells:
             continue

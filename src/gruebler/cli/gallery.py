@@ -10,12 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from gruebler.base.errors import GrueblerError, naming
-from gruebler.base.text import Message, message, plural, reason_of, translate
+from gruebler.base.text import Message, message, plural, translate
 from gruebler.cli.draw import called, subject
 from gruebler.cli.inputs import assortment_of, outputs_of
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
 from gruebler.files.structures import is_structure_text
+from gruebler.files.text_files import read_text
 from gruebler.pictures.canvas import Item, Section, gallery_html
 from gruebler.pictures.canvas.arrangement import gallery_figure
 from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
@@ -127,12 +128,7 @@ def _lines(word: str) -> list[str]:
         return [word]
     if word != "-" and not path.is_file() and not path.suffix and len(path.parts) == 1:
         return [word]  # an id that the catalog does not have: the caller's error names the nearest ones
-    try:
-        text = sys.stdin.read() if word == "-" else path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise GrueblerError("{path}: cannot be read ({reason})", path=word, reason=reason_of(error)) from None
-    except UnicodeDecodeError:
-        raise GrueblerError("{path}: is not UTF-8 text", path=word) from None
+    text = sys.stdin.read() if word == "-" else read_text(path)
     lines = [line.strip() for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if path.suffix == ".g6":
         lines = [f"g6:{line}" for line in lines]

@@ -10,12 +10,13 @@ from typing import Any
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.plain_data import plain
-from gruebler.base.text import LANGUAGES, message, reason_of, translate
+from gruebler.base.text import LANGUAGES, message, translate
 from gruebler.cli.link_names import language_of_names
 from gruebler.cli.machine_pictures import add_picture_options, is_few, is_printed, write_machine_picture
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table, print_text
+from gruebler.files.text_files import read_text
 from gruebler.machines.gears import (
     Balance,
     Speeds,
@@ -154,10 +155,7 @@ def _read(word: str, lang: str) -> TrainReading:
         return known
     if "\n" in word or ";" in word or ":" in word or path.suffix not in (".toml", ".txt"):
         return read_train(word)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise GrueblerError("{path}: cannot be read ({reason})", path=path, reason=reason_of(error)) from None
+    text = read_text(path)
     return read_toml(text, word) if path.suffix == ".toml" else read_train(text)
 
 

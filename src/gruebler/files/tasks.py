@@ -19,7 +19,6 @@ import msgspec
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import SynthesisError, UnitWarning, naming
-from gruebler.base.text import reason_of
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.tasks import (
     DeadCentreTask,
@@ -31,6 +30,7 @@ from gruebler.design.synthesis.tasks import (
     function_task,
 )
 from gruebler.files.angles import in_degrees, in_radians
+from gruebler.files.text_files import read_text
 
 
 class _Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -263,20 +263,12 @@ def read_task(path: Path | str) -> Task:
     path = Path(path)
     if path.suffix.lower() not in (".toml", ".json", ".csv"):
         raise SynthesisError("{path}: a task is in a .toml, .json or .csv file", path=path)
+    text = read_text(path, kind=SynthesisError) if path.suffix.lower() == ".csv" else ""
     with naming(path, SynthesisError):
-        if path.suffix.lower() == ".csv":
-            return _from_csv(_text(path))
+        if text:
+            return _from_csv(text)
         data = load_document(path, SynthesisError)
         return task_from_json(data)
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_bytes()[:1_000_001].decode("utf-8-sig")
-    except OSError as error:
-        raise SynthesisError("cannot be read ({reason})", reason=reason_of(error)) from None
-    except UnicodeDecodeError:
-        raise SynthesisError("is not UTF-8 text") from None
 
 
 def _from_csv(text: str) -> Task:

@@ -7,7 +7,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
-from gruebler.base.errors import GrueblerError
+from gruebler.base.errors import GrueblerError, naming
 from gruebler.base.text import reason_of
 
 LARGEST = 2_000_000
@@ -15,25 +15,26 @@ LARGEST = 2_000_000
 _DEEPEST = 100  # elements within elements
 
 
-def read_text(path: Path, largest: int = LARGEST) -> str:
+def read_text(path: Path, largest: int = LARGEST, kind: type[GrueblerError] = GrueblerError) -> str:
     """The text of a file, UTF-8 or UTF-16 with a byte order mark.
 
-    Raises `GrueblerError` that names the file if it cannot be read, is too large or is not such text.
+    Raises an error of the kind given, which names the file, if it cannot be read, is too large, empty or not such text.
     """
-    try:
-        with path.open("rb") as file:
-            content = file.read(largest + 1)
-    except OSError as error:
-        raise GrueblerError("{path}: cannot be read ({reason})", path=path, reason=reason_of(error)) from None
-    if len(content) > largest:
-        raise GrueblerError("{path}: larger than {limit:,} bytes", path=path, limit=largest)
-    encoding = "utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
-    try:
-        text = content.decode(encoding)
-    except UnicodeDecodeError:
-        raise GrueblerError("{path}: is not UTF-8 text", path=path) from None
-    if not text.strip():
-        raise GrueblerError("{path}: is empty", path=path)
+    with naming(path, kind):
+        try:
+            with path.open("rb") as file:
+                content = file.read(largest + 1)
+        except OSError as error:
+            raise GrueblerError("cannot be read ({reason})", reason=reason_of(error)) from None
+        if len(content) > largest:
+            raise GrueblerError("larger than {limit:,} bytes", limit=largest)
+        encoding = "utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
+        try:
+            text = content.decode(encoding)
+        except UnicodeDecodeError:
+            raise GrueblerError("is not UTF-8 text") from None
+        if not text.strip():
+            raise GrueblerError("is empty")
     return text
 
 

@@ -171,3 +171,10 @@ def test_bad_files_are_refused_with_their_place(tmp_path, name, text, sentence):
         read_task(path)
     assert sentence in str(error.value)
     assert str(path) in str(error.value)
+
+
+def test_a_table_too_large_is_refused_rather_than_cut(tmp_path):
+    path = tmp_path / "long.csv"
+    path.write_text("x,y\n" + "1.5,2.5\n" * 300_000, encoding="utf-8")
+    with pytest.raises(SynthesisError, match=r"long\.csv: larger than 2,000,000 bytes"):
+        read_task(path)
