@@ -272,9 +272,10 @@ def bettered(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -> tup
         side = 1 if pair[1].slides else turn % 2
         proved[1 - side] |= pair[1].slides
         partner = PartnerSearch(task, demands, pair[side], driven=side == 0).searched(best, margin)
-        if partner.dyad is not None:
-            best, improved = partner.angle, (pair[0], partner.dyad) if side == 0 else (partner.dyad, pair[1])
+        if partner.dyad is not None and partner.angle > best + margin:
+            improved = (pair[0], partner.dyad) if side == 0 else (partner.dyad, pair[1])
             pair, proved[1 - side] = improved, pair[1].slides
+        best = max(best, partner.angle)  # a gain within the margin is no reason to begin anew
         proved[side] = not partner.left
         if all(proved):
             if best + margin >= pi / 2:
