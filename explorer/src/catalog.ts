@@ -20,6 +20,13 @@ interface Entry {
   text: string;
 }
 
+const EMPTY = 24; // cards: more than a screen
+
+/** The place of a machine that is not there yet. */
+function emptyCard(): HTMLElement {
+  return h("div.card", {}, h("div", { "data-place": "" }), h("b", {}), h("span", {}));
+}
+
 export class CatalogView implements View {
   readonly element = h("div.view", { "data-page": "catalog" });
   #words = "";
@@ -124,7 +131,11 @@ export class CatalogView implements View {
     const features = Object.fromEntries(
       Object.entries(this.#features).flatMap(([key, text]) => (/^\s*\d+\s*$/.test(text) ? [[key, Number(text)]] : [])),
     );
-    if (!this.#filled) renew(this.#cards, moment());
+    this.#cards.toggleAttribute("data-waiting", !this.#filled);
+    if (!this.#filled) {
+      renew(this.#note, ...moment().childNodes);
+      renew(this.#cards, ...Array.from({ length: EMPTY }, emptyCard));
+    }
     try {
       const found = await this.page.ask<Entry[]>("catalog", {
         words: this.#words,
@@ -134,11 +145,14 @@ export class CatalogView implements View {
       });
       if (number !== this.#asked) return;
       this.#filled = true;
+      this.#cards.removeAttribute("data-waiting");
       this.#note.textContent = t("{count} machines", { count: found.length });
       renew(this.#cards, ...found.map((entry) => this.#card(entry)));
       for (const card of this.#cards.children) this.#watcher.observe(card);
     } catch (error) {
-      if (number === this.#asked) this.#note.textContent = (error as Error).message;
+      if (number !== this.#asked) return;
+      this.#note.textContent = (error as Error).message;
+      if (!this.#filled) renew(this.#cards);
     }
   }
 

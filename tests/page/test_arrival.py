@@ -75,6 +75,34 @@ def test_a_view_that_waits_says_so(tab, server):
         page.page.locator(f'[data-page="{view}"] [data-waiting]').wait_for(timeout=2000)
 
 
+def test_cards_of_the_catalog_come_to_places_of_their_size(tab, server):
+    page = tab().open(server.address)
+    page.page.evaluate(
+        """() => {
+        window.held = [];
+        gruebler.model.send = (content) => held.push(content);
+        }"""
+    )
+    size = """(() => {
+        const { x, y, width, height } = gruebler.views.catalog.element.querySelector('.card').getBoundingClientRect();
+        return [x, y, width, height];
+    })()"""
+    page.page.click('[data-view="catalog"]')
+    assert page.page.locator("[data-waiting] > .card").count() > 12
+    empty = page.page.evaluate(size)
+    # the list comes, no picture yet
+    answer = """(method) => held.splice(0).filter((one) => one.method === method)
+        .forEach((one) => Object.getPrototypeOf(gruebler.model).send.call(gruebler.model, one))"""
+    page.until("held.length > 0")
+    page.page.evaluate(answer, "catalog")
+    page.until("gruebler.views.catalog.element.querySelector('[data-waiting]') === null")
+    assert page.page.evaluate(size) == empty
+    page.until("held.some((one) => one.method === 'picture')")
+    page.page.evaluate(answer, "picture")
+    page.page.locator(".card svg").first.wait_for()
+    assert page.page.evaluate(size) == empty
+
+
 @pytest.fixture(scope="module")
 def crank_rocker(tmp_path_factory):
     path = tmp_path_factory.mktemp("page") / "crank-rocker.html"
