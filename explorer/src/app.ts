@@ -331,8 +331,10 @@ export class App implements Page {
 
   async openFile(file: File | undefined): Promise<void> {
     if (!file) return;
+    this.say(t("Opening {name} …", { name: file.name }), "done", h("progress", { "aria-hidden": "true" }));
     try {
       const found = await contentOf(file, this);
+      this.say("");
       if (found.document) this.motion.openDocument(found.document);
       else if (found.model) this.open(found.model);
       else if (found.text) this.describe(found.text);

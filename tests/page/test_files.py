@@ -165,6 +165,23 @@ def test_the_drive_of_a_drawn_four_bar_comes_back_from_another_program():
     assert [drive["name"] for drive in opened["model"]["drives"]] == ["R(frame-1)"]
 
 
+def test_a_file_that_is_dropped_is_said_to_be_opened_at_once(tab, server):
+    """The library may still start, or be busy."""
+    page = tab().open(server.address)
+    page.page.evaluate(
+        """() => {
+        window.held = [];
+        gruebler.model.send = (content) => held.push(content);
+        }"""
+    )
+    dropped(page, "chain.txt", b"R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)")
+    page.page.locator(".message.done", has_text="Opening chain.txt").wait_for()
+    page.until("held.length > 0")
+    page.page.evaluate("() => { delete gruebler.model.send; held.forEach((one) => gruebler.model.send(one)); }")
+    page.page.locator('[data-page="structure"] [data-fact="counted"]:text-is("F = 2")').wait_for()
+    assert page.page.evaluate("gruebler.message.hidden")
+
+
 def test_the_single_file_opens_its_own_document_and_records_a_film(tab, tmp_path):
     path = tmp_path / "bar.html"
     assert main(["explore", "four-bar:25,70,40,70", "-o", str(path)]) == 0
