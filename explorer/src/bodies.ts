@@ -22,18 +22,19 @@ const FEW_ROWS = 60; // of a cycle: enough for its extent
 
 export class Bodies {
   readonly #bands: ReadonlyMap<number, Band>;
+  readonly #linkage: Linkage;
+  /** Pixels a unit of length. */
+  readonly #scale: number;
 
-  constructor(
-    private readonly linkage: Linkage,
-    /** Pixels a unit of length. */
-    private readonly scale: number,
-  ) {
+  constructor(linkage: Linkage, scale: number) {
+    this.#linkage = linkage;
+    this.#scale = scale;
     this.#bands = bandsOf(linkage);
   }
 
   /** What is drawn of a link, in its own coordinates. */
   of(link: number): Drawn[] {
-    const { model, sizes } = this.linkage;
+    const { model, sizes } = this.#linkage;
     if (link >= model.own) return [];
     const out = this.#shapesOf(link);
     const nodes: Pair[] = [];
@@ -56,7 +57,7 @@ export class Bodies {
   }
 
   #px(value: number): string {
-    return (value * this.scale).toFixed(2);
+    return (value * this.#scale).toFixed(2);
   }
 
   #place(x: number, y: number): string {
@@ -64,7 +65,7 @@ export class Bodies {
   }
 
   #shapesOf(link: number): Drawn[] {
-    const { model, sizes } = this.linkage;
+    const { model, sizes } = this.#linkage;
     const out: Drawn[] = [];
     for (const shape of model.shapes) {
       if (shape.link !== link) continue;
@@ -86,7 +87,7 @@ export class Bodies {
 
   /** Draw the line of a slide: a cylinder, a rail, a bar or a block; add the places that the body reaches to. */
   #addLine(k: number, out: Drawn[], nodes: Pair[]): void {
-    const { model, sizes } = this.linkage;
+    const { model, sizes } = this.#linkage;
     const { joint, link } = sizes.element(k);
     const cylinder = this.#cylinder(k);
     if (cylinder) {
@@ -104,7 +105,7 @@ export class Bodies {
       nodes.push(here);
       return;
     }
-    const room = 26 / this.scale;
+    const room = 26 / this.#scale;
     const pins = frame ? [] : this.#pinsAlong(link, band);
     const at = (way: number): Pair => [band.x + band.c * way, band.y + band.s * way];
     const from = Math.min(band.low - room, ...pins);
@@ -119,7 +120,7 @@ export class Bodies {
 
   /** Where along a line the pins of its link lie that are on it. */
   #pinsAlong(link: number, { x, y, c, s }: Band): number[] {
-    const { sizes } = this.linkage;
+    const { sizes } = this.#linkage;
     return sizes
       .elementsOn(link)
       .filter((m) => sizes.is(m, "pin"))
@@ -133,7 +134,7 @@ export class Bodies {
 
   /** Whether of the two links of a slide this one has the bar: the frame, the one with more joints, or at the frame. */
   #carries(link: number, joint: number): boolean {
-    const { model, sizes } = this.linkage;
+    const { model, sizes } = this.#linkage;
     const [one, two] = model.joints[joint]!.links as Pair;
     const atFrame = (k: number) => model.joints.some(({ links }) => links.includes(k) && links.includes(model.frame));
     const rank = (k: number) => (k === model.frame ? 100 : 0) + 2 * sizes.elementsOn(k).length + Number(atFrame(k));
@@ -142,7 +143,7 @@ export class Bodies {
 
   /** A cylinder's barrel, or its rod, from its pin towards the other; null if the slide is no cylinder. */
   #cylinder(k: number): Drawn[] | null {
-    const { linkage } = this;
+    const linkage = this.#linkage;
     const { sizes } = linkage;
     const { joint, link } = sizes.element(k);
     const found = sizes.cylinder(joint);

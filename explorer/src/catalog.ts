@@ -49,8 +49,11 @@ export class CatalogView implements View {
     },
     { rootMargin: "200px" },
   );
+  readonly #page: Page;
 
-  constructor(private readonly page: Page) {}
+  constructor(page: Page) {
+    this.#page = page;
+  }
 
   appeared(): void {
     if (!this.#filled) void this.#search();
@@ -137,7 +140,7 @@ export class CatalogView implements View {
       renew(this.#cards, ...Array.from({ length: EMPTY }, emptyCard));
     }
     try {
-      const found = await this.page.ask<Entry[]>("catalog", {
+      const found = await this.#page.ask<Entry[]>("catalog", {
         words: this.#words,
         pairs: this.#pairs,
         joints: this.#joints,
@@ -169,14 +172,14 @@ export class CatalogView implements View {
       h("b", {}, entry.name),
       h("span", {}, [sizes, ...really, ...kinds].join(" · ")),
     );
-    if (moves) movesOnHover(card, id, () => this.page.ask("moving", { id }));
+    if (moves) movesOnHover(card, id, () => this.#page.ask("moving", { id }));
     return card;
   }
 
   async #draw(card: HTMLElement): Promise<void> {
     const id = card.dataset.id!;
     try {
-      const { picture } = await this.page.ask<{ picture: string }>("picture", { id });
+      const { picture } = await this.#page.ask<{ picture: string }>("picture", { id });
       card.querySelector("[data-place]")?.replaceWith(thumbnail(picture, id));
     } catch {
       // it keeps its name
@@ -188,11 +191,11 @@ export class CatalogView implements View {
       location.href = `space/${entry.id}.html#${currentLanguage()}`;
       return;
     }
-    if (!entry.moves) return this.page.describe(entry.text);
+    if (!entry.moves) return this.#page.describe(entry.text);
     try {
-      this.page.open(await this.page.ask<Model>("open", { id: entry.id }));
+      this.#page.open(await this.#page.ask<Model>("open", { id: entry.id }));
     } catch (error) {
-      this.page.say((error as Error).message);
+      this.#page.say((error as Error).message);
     }
   }
 }

@@ -33,8 +33,10 @@ export class Dragging {
   readonly #pivots: readonly (Pivot | null)[];
   /** What stays as it is while joints are dragged. */
   readonly locks: Locks;
+  readonly #linkage: Linkage;
 
-  constructor(private readonly linkage: Linkage) {
+  constructor(linkage: Linkage) {
+    this.#linkage = linkage;
     this.locks = new Locks(linkage);
     const { model, sizes } = linkage;
     const held = model.joints.map((_, joint) => this.#touches(joint));
@@ -50,7 +52,7 @@ export class Dragging {
 
   /** Where wheels, cams and the like touch, places are not free. */
   #touches(joint: number): boolean {
-    const { sizes } = this.linkage;
+    const { sizes } = this.#linkage;
     const mine = sizes.elementsOf(joint);
     if (!mine.some((k) => sizes.is(k, "pin"))) return true;
     if (mine.some((k) => sizes.is(k, "round"))) return true;
@@ -59,7 +61,7 @@ export class Dragging {
   }
 
   #axisOf(link: number): Pair | null {
-    const { model, sizes } = this.linkage;
+    const { model, sizes } = this.#linkage;
     if (link === model.frame || link >= model.own) return null;
     const pins = sizes.elementsOn(link).filter((k) => sizes.is(k, "pin"));
     const first = pins.find((k) => Math.hypot(...sizes.xy(k)) <= sizes.near);
@@ -77,7 +79,7 @@ export class Dragging {
   /** Where a joint comes to when it is dragged to a place. */
   permitted(joint: number, x: number, y: number): Pair {
     const pivot = this.#pivots[joint];
-    return pivot ? onCircle(this.linkage, pivot, joint, x, y) : [x, y];
+    return pivot ? onCircle(this.#linkage, pivot, joint, x, y) : [x, y];
   }
 
   // --- joints --------------------------------------------------------------------------------------------------------
@@ -88,7 +90,7 @@ export class Dragging {
    */
   dragJoint(joint: number, toX: number, toY: number): void {
     if (!this.draggable(joint)) return;
-    const { linkage } = this;
+    const linkage = this.#linkage;
     const { model, sizes } = linkage;
     const pose = oneRow(linkage.pose, 0);
     const pivot = this.#pivots[joint];
@@ -117,7 +119,8 @@ export class Dragging {
   /** Where joints come to when one is dragged: others follow where lengths and directions are kept, and move as little
    * as they can. */
   #placesWith(joint: number, x: number, y: number): Map<number, Pair> {
-    const { linkage, locks } = this;
+    const { locks } = this;
+    const linkage = this.#linkage;
     const { model, sizes } = linkage;
     const directions = locks.pairs("direction");
     if (!locks.pairs("length").length && !directions.length) return new Map([[joint, [x, y]]]);
@@ -148,7 +151,7 @@ export class Dragging {
 
   /** Refuse places at which two pins of a link would all but meet. */
   #keepApart(places: ReadonlyMap<number, Pair>): void {
-    const { linkage } = this;
+    const linkage = this.#linkage;
     const { sizes } = linkage;
     const least = NEAREST * linkage.size;
     const placeOf = (k: number) => places.get(sizes.element(k).joint) ?? linkage.elementAt(k);
@@ -163,7 +166,7 @@ export class Dragging {
 
   /** Whether all of a link is kept: it has pins only, and all their distances stay. */
   #isKept(link: number): boolean {
-    const { model, sizes } = this.linkage;
+    const { model, sizes } = this.#linkage;
     const mine = sizes.elementsOn(link);
     const pairs = mine.flatMap((k, j) => mine.slice(0, j).map((m) => this.locks.keeps("length", m, k)));
     // a triangle is fixed by its sides; what has more pins by the distances from the first two
@@ -173,7 +176,7 @@ export class Dragging {
 
   /** Take a link along as a whole, by two of its pins. */
   #carry(pose: Rows, link: number, places: ReadonlyMap<number, Pair>): void {
-    const { linkage } = this;
+    const linkage = this.#linkage;
     const { sizes } = linkage;
     const [one, two] = sizes.elementsOn(link) as [number, number];
     const placeOf = (k: number) => places.get(sizes.element(k).joint) ?? linkage.elementAt(k);
@@ -193,7 +196,7 @@ export class Dragging {
   }
 
   #moveElement(k: number, x: number, y: number, cylinders: readonly Cylinder[]): void {
-    const { linkage } = this;
+    const linkage = this.#linkage;
     const { model, sizes } = linkage;
     const { joint, link } = sizes.element(k);
     const [u, v] = linkage.toLocal(link, x, y);
@@ -218,7 +221,7 @@ export class Dragging {
 
   /** A cylinder whose end is dragged keeps its links, and turns into the line of its pins. */
   #straighten(pose: Rows, cylinder: Cylinder, places: ReadonlyMap<number, Pair>): void {
-    const { linkage } = this;
+    const linkage = this.#linkage;
     const { sizes } = linkage;
     const [one, two, pinOne, pinTwo] = cylinder;
     const moved = (pin: number) => places.get(sizes.element(pin).joint);
@@ -243,7 +246,7 @@ export class Dragging {
 
   /** Give a link its x axis back, from pin to pin; nothing moves in the plane. */
   #align(pose: Rows, link: number, [first, other]: Pair): void {
-    const { sizes } = this.linkage;
+    const { sizes } = this.#linkage;
     const [x, y] = sizes.xy(first);
     const [ox, oy] = sizes.xy(other);
     const dx = ox - x;
@@ -269,7 +272,7 @@ export class Dragging {
 
   /** The sizes that a panel shows: for each link the distances of its joints, for slides of the frame their angle. */
   lengths(): Length[] {
-    const { model, sizes } = this.linkage;
+    const { model, sizes } = this.#linkage;
     const out: Length[] = [];
     for (let link = 0; link < model.own; link++) {
       const mine = sizes.elementsOn(link).filter((k) => !sizes.is(k, "round"));
@@ -285,7 +288,7 @@ export class Dragging {
 
   /** The distance of two elements of a link, null where it is no size. */
   #length(link: number, first: number, second: number): Length | null {
-    const { model, sizes } = this.linkage;
+    const { model, sizes } = this.#linkage;
     const lines = [first, second].filter((k) => sizes.is(k, "line"));
     if (lines.length === 2) return null;
     let value: number;
@@ -299,13 +302,13 @@ export class Dragging {
   }
 
   #lineFirst(first: number, second: number): Pair {
-    return this.linkage.sizes.is(first, "line") ? [first, second] : [second, first];
+    return this.#linkage.sizes.is(first, "line") ? [first, second] : [second, first];
   }
 
   /** Give two joints of a link another distance: the second moves on the line through both. */
   setLength(first: number, second: number, length: number): void {
     if (!(length >= 0) || !(length < LONGEST)) throw new Refused(null);
-    const { sizes } = this.linkage;
+    const { sizes } = this.#linkage;
     const goal = new Float64Array(sizes.at);
     if (sizes.is(first, "line") || sizes.is(second, "line")) {
       const [line, pin] = this.#lineFirst(first, second);
@@ -321,12 +324,12 @@ export class Dragging {
       const now = Math.hypot(u - x, v - y);
       this.#putPin(goal, first, second, [x + ((u - x) / now) * length, y + ((v - y) / now) * length], length);
     }
-    this.linkage.changeSlowly(goal);
+    this.#linkage.changeSlowly(goal);
   }
 
   /** Put a pin elsewhere on its link; other pins of it follow as far as lengths are kept. */
   #putPin(goal: Float64Array, first: number, second: number, at: Pair, length: number): void {
-    const { sizes } = this.linkage;
+    const { sizes } = this.#linkage;
     const mine = sizes.elementsOn(sizes.element(first).link).filter((k) => sizes.is(k, "pin"));
     const number = (k: number) => mine.indexOf(k);
     const others = this.locks

@@ -66,8 +66,11 @@ export class ExercisesView implements View {
   #answers: Record<string, string> = {};
   /** The tasks that were marked, and whether all their answers were right. */
   private readonly record = new Map<string, boolean>();
+  readonly #page: Page;
 
-  constructor(private readonly page: Page) {}
+  constructor(page: Page) {
+    this.#page = page;
+  }
 
   appeared(): void {
     if (!this.task) void this.#fillKinds().then(() => this.fresh());
@@ -82,7 +85,7 @@ export class ExercisesView implements View {
 
   async #fillKinds(): Promise<void> {
     if (!this.task) renew(this.#kinds, moment());
-    this.#listed = await this.page.ask<Kind[]>("exercise_kinds", {});
+    this.#listed = await this.#page.ask<Kind[]>("exercise_kinds", {});
     const options = this.#listed.map(({ kind, name }): [string, string] => [kind, name]);
     const choose = (kind: string) => {
       this.kind = kind;
@@ -134,7 +137,7 @@ export class ExercisesView implements View {
     this.#showTasks();
     const id = this.#numbered().length ? this.#chosen : `${this.kind}-${this.level}-${this.seed}`;
     try {
-      const task = await this.page.ask<Task>("exercise", { id });
+      const task = await this.#page.ask<Task>("exercise", { id });
       if (task.id !== this.task?.id) this.#answers = {};
       this.task = task;
       this.#marked = null;
@@ -247,13 +250,13 @@ export class ExercisesView implements View {
   async #mark(): Promise<void> {
     const task = this.task!;
     if (!Object.values(this.#answers).some((answer) => answer.trim()))
-      return this.page.say(t("Give at least one answer."));
+      return this.#page.say(t("Give at least one answer."));
     try {
-      this.#marked = await this.page.ask<Marked>("mark", { id: task.id, answers: this.#answers });
+      this.#marked = await this.#page.ask<Marked>("mark", { id: task.id, answers: this.#answers });
     } catch (error) {
-      return this.page.say((error as Error).message);
+      return this.#page.say((error as Error).message);
     }
-    this.page.say("");
+    this.#page.say("");
     const right = this.#marked.marks.filter(({ mark }) => mark === "right");
     this.record.set(task.id, right.length === task.asked.length);
     this.#show();
@@ -275,11 +278,11 @@ export class ExercisesView implements View {
 
   async #tryIt(part: number): Promise<void> {
     try {
-      const { model, text, drive } = await this.page.ask<Tried>("try", { id: this.task!.id, part });
-      if (model) this.page.open(model, drive ?? undefined);
-      else this.page.describe(text!);
+      const { model, text, drive } = await this.#page.ask<Tried>("try", { id: this.task!.id, part });
+      if (model) this.#page.open(model, drive ?? undefined);
+      else this.#page.describe(text!);
     } catch (error) {
-      this.page.say((error as Error).message);
+      this.#page.say((error as Error).message);
     }
   }
 }

@@ -54,15 +54,17 @@ export class Forces {
   #model: Model | null = null;
   #forces: (Vectors & { joint: number })[] = [];
   #timer = 0;
+  readonly #view: Loaded;
+  readonly #opened: () => boolean;
 
-  constructor(
-    private readonly view: Loaded,
-    private readonly opened: () => boolean,
-  ) {}
+  constructor(view: Loaded, opened: () => boolean) {
+    this.#view = view;
+    this.#opened = opened;
+  }
 
   /** The linkage, its sizes, its loads or the language are others. */
   changed(): void {
-    const { page, linkage } = this.view;
+    const { page, linkage } = this.#view;
     clearTimeout(this.#timer);
     if (!page.served || !linkage.drive) {
       const word = linkage.model.source || "LINK";
@@ -77,26 +79,26 @@ export class Forces {
     }
     if (!this.#form.element.isConnected) renew(this.element, this.#form.element, this.#result);
     this.#result.classList.add("waiting");
-    if (!this.opened()) return;
+    if (!this.#opened()) return;
     if (!this.#result.firstChild) renew(this.#result, moment());
     this.#timer = window.setTimeout(() => void this.#ask(), ASKED_AFTER);
   }
 
   get #question(): Record<string, unknown> {
-    const { linkage } = this.view;
+    const { linkage } = this.#view;
     const { drives, model } = linkage;
     const held = [...drives].slice(0, model.drives.length);
     return { document: documentOf(linkage), source: model.source, drives: held, ...this.#form.record };
   }
 
   async #ask(): Promise<void> {
-    const { page, linkage } = this.view;
-    const { range } = this.view.transport;
+    const { page, linkage } = this.#view;
+    const { range } = this.#view.transport;
     const { active, cycle } = linkage;
     const running = { active, range, full: cycle.full, speed: this.#form.speed };
     try {
       const found = await page.ask<Answer>("forces", { ...this.#question, ...running });
-      if (linkage === this.view.linkage) this.#show(linkage, found);
+      if (linkage === this.#view.linkage) this.#show(linkage, found);
     } catch (error) {
       renew(this.#result, h("p.note.error", {}, (error as Error).message));
     }
@@ -122,8 +124,8 @@ export class Forces {
       const places = Float64Array.from(drives);
       const turning = drive!.turning;
       const title = turning ? `${t("Drive torque")} [${momentUnit(model)}]` : `${t("Drive force")} [N]`;
-      this.#plot = new Plot(turning ? Math.PI / 180 : 1, (value) => this.view.transport.pick(value));
-      this.#plot.show(places, { title, colour: "--motion", values: numbers(effort) }, this.view.transport.range);
+      this.#plot = new Plot(turning ? Math.PI / 180 : 1, (value) => this.#view.transport.pick(value));
+      this.#plot.show(places, { title, colour: "--motion", values: numbers(effort) }, this.#view.transport.range);
       this.#forces = forces.map(({ joint, force }) => {
         const [x, y] = force.map(numbers) as [Float64Array, Float64Array];
         const sizes = x.map((one, k) => Math.hypot(one, y[k]!)).filter(Number.isFinite);
@@ -152,44 +154,44 @@ export class Forces {
       );
       this.#showJoint();
     }
-    this.at(this.view.transport.drive);
-    this.view.redraw();
+    this.at(this.#view.transport.drive);
+    this.#view.redraw();
   }
 
   #showJoint(): void {
     const force = this.#forces[this.#joint.selectedIndex];
     if (!force) return;
     this.#polar.show(force, "N");
-    this.#polar.at(this.view.transport.drive);
+    this.#polar.at(this.#view.transport.drive);
   }
 
   /** The drive is elsewhere. */
   at(drive: number): void {
-    if (!this.opened()) return;
+    if (!this.#opened()) return;
     this.#plot?.at(drive);
     this.#polar.at(drive);
   }
 
   get springs(): readonly Spring[] {
-    return this.opened() && this.#model === this.view.linkage.model ? this.#form.shown : [];
+    return this.#opened() && this.#model === this.#view.linkage.model ? this.#form.shown : [];
   }
 
   /** The forces on the stage where the drive is, against the largest of the range. */
   arrows(): Arrow[] {
-    if (!this.opened() || this.#model !== this.view.linkage.model) return [];
+    if (!this.#opened() || this.#model !== this.#view.linkage.model) return [];
     const most = Math.max(...this.#forces.map((force) => force.most));
     return this.#forces.map((force) => {
-      const [x, y] = vectorAt(force, this.view.transport.drive);
+      const [x, y] = vectorAt(force, this.#view.transport.drive);
       return [force.joint, (x * force.most) / most, (y * force.most) / most, Math.hypot(x, y) * force.most];
     });
   }
 
   async #fall(place: HTMLElement): Promise<void> {
-    const { linkage, page } = this.view;
+    const { linkage, page } = this.#view;
     const found = await awaited(place, () => page.ask<Fall>("fall", this.#question));
-    if (!found || linkage !== this.view.linkage) return;
+    if (!found || linkage !== this.#view.linkage) return;
     renew(place, h("p.note", {}, found.lines.join(" ")));
-    this.view.transport.play(found);
+    this.#view.transport.play(found);
   }
 }
 

@@ -55,11 +55,12 @@ export class Pointer {
   #following: Follow | null = null;
   #shift = false;
   readonly #fingers = new Fingers();
+  readonly #board: Board;
+  readonly #events: StageEvents;
 
-  constructor(
-    private readonly board: Board,
-    private readonly events: StageEvents,
-  ) {
+  constructor(board: Board, events: StageEvents) {
+    this.#board = board;
+    this.#events = events;
     const { root, viewport } = board;
     root.addEventListener("pointerdown", (event) => this.#down(event));
     root.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
@@ -67,9 +68,9 @@ export class Pointer {
       const [x, y] = this.#at(event);
       if (!board.linkage) return;
       const joint = this.#jointNear(x, y, GRIP, true);
-      if (joint !== null) this.events.holdJoint(joint);
+      if (joint !== null) this.#events.holdJoint(joint);
       else if (this.#pointNear(x, y, GRIP) === null)
-        this.events.addPoint(this.#linkNear(x, y, NEAR), ...viewport.world(x, y));
+        this.#events.addPoint(this.#linkNear(x, y, NEAR), ...viewport.world(x, y));
     });
     root.addEventListener("pointermove", (event) => {
       if (this.#fingers.move(event.pointerId, this.#at(event), viewport)) board.zoom(1, 0, 0);
@@ -87,18 +88,18 @@ export class Pointer {
 
   /** The pixel of an event. */
   #at(event: MouseEvent): Pair {
-    const box = this.board.root.getBoundingClientRect();
+    const box = this.#board.root.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   }
 
   #wheel(event: WheelEvent): void {
     if (!ownPage() && !event.ctrlKey) return; // a notebook scrolls past it
     event.preventDefault();
-    this.board.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), ...this.#at(event));
+    this.#board.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), ...this.#at(event));
   }
 
   #jointNear(x: number, y: number, reach: number, held = false): number | null {
-    const { dragging, joints, linkage, viewport } = this.board;
+    const { dragging, joints, linkage, viewport } = this.#board;
     let best: number | null = null;
     let least = reach;
     for (const joint of joints) {
@@ -111,8 +112,8 @@ export class Pointer {
   }
 
   #pointNear(x: number, y: number, reach: number): number | null {
-    const { viewport } = this.board;
-    const { pose, sizes } = this.board.linkage!;
+    const { viewport } = this.#board;
+    const { pose, sizes } = this.#board.linkage!;
     let best: number | null = null;
     let least = reach;
     sizes.points.forEach(({ link, at }, number) => {
@@ -124,8 +125,8 @@ export class Pointer {
   }
 
   #linkNear(x: number, y: number, reach: number): number | null {
-    const { viewport } = this.board;
-    const linkage = this.board.linkage!;
+    const { viewport } = this.#board;
+    const linkage = this.#board.linkage!;
     const { model, pose, sizes } = linkage;
     let best: number | null = null;
     let least = reach;
@@ -140,13 +141,13 @@ export class Pointer {
   }
 
   #down(event: PointerEvent): void {
-    const { adding, linkage, root, viewport } = this.board;
+    const { adding, linkage, root, viewport } = this.#board;
     if (!linkage || event.button > 0) return;
     event.preventDefault();
     const [x, y] = this.#at(event);
     const reach = event.pointerType === "touch" ? 1.6 * GRIP : GRIP;
     const link = this.#linkNear(x, y, reach / 1.4);
-    if (adding) return this.events.addPoint(link, ...viewport.world(x, y));
+    if (adding) return this.#events.addPoint(link, ...viewport.world(x, y));
     root.setPointerCapture(event.pointerId);
     if (this.#following && event.pointerType === "touch") {
       this.#fingers.clear();
@@ -158,45 +159,45 @@ export class Pointer {
     const joint = this.#jointNear(x, y, reach);
     const point = this.#pointNear(x, y, joint === null ? reach : 0.3 * reach);
     if (point !== null) {
-      this.events.dragStart();
-      this.#follow(event, this.#pointMove(point, x, y), () => this.events.dragEnd());
+      this.#events.dragStart();
+      this.#follow(event, this.#pointMove(point, x, y), () => this.#events.dragEnd());
     } else if (joint !== null) {
-      this.events.dragStart();
-      this.board.focus(joint);
-      this.#follow(event, this.#jointMove(joint, x, y), () => this.events.dragEnd());
+      this.#events.dragStart();
+      this.#board.focus(joint);
+      this.#follow(event, this.#jointMove(joint, x, y), () => this.#events.dragEnd());
     } else if (link !== null) {
       const local = linkage.toLocal(link, ...viewport.world(x, y));
-      this.#follow(event, (u, v) => this.events.pull(link, ...local, ...viewport.world(u, v)));
+      this.#follow(event, (u, v) => this.#events.pull(link, ...local, ...viewport.world(u, v)));
     } else this.#follow(event, this.#pan(x, y));
   }
 
   /** Take a joint along; the pointer keeps its distance from it. */
   #jointMove(joint: number, x: number, y: number): (u: number, v: number) => void {
-    const { linkage, viewport } = this.board;
+    const { linkage, viewport } = this.#board;
     const [px, py] = viewport.screen(...linkage!.jointAt(joint));
-    return (u, v) => this.events.dragJoint(joint, viewport.world(u + px - x, v + py - y), this.#shift);
+    return (u, v) => this.#events.dragJoint(joint, viewport.world(u + px - x, v + py - y), this.#shift);
   }
 
   /** Take a point of a link along in the same way. */
   #pointMove(point: number, x: number, y: number): (u: number, v: number) => void {
-    const { linkage, viewport } = this.board;
+    const { linkage, viewport } = this.#board;
     const { link, at } = linkage!.sizes.points[point]!;
     const [px, py] = viewport.screen(...place(linkage!.pose, 0, link, ...at));
-    return (u, v) => this.events.dragPoint(point, viewport.world(u + px - x, v + py - y), this.#shift);
+    return (u, v) => this.#events.dragPoint(point, viewport.world(u + px - x, v + py - y), this.#shift);
   }
 
   #pan(x: number, y: number): (u: number, v: number) => void {
     let [lastX, lastY] = [x, y];
     return (u, v) => {
-      this.board.viewport.pan(u - lastX, v - lastY);
+      this.#board.viewport.pan(u - lastX, v - lastY);
       [lastX, lastY] = [u, v];
-      this.board.draw();
+      this.#board.draw();
     };
   }
 
   /** Follow a pointer that is down, once a frame, until it is up. */
   #follow(first: PointerEvent, move: (x: number, y: number) => void, done?: () => void): void {
-    const { root } = this.board;
+    const { root } = this.#board;
     let latest: Pair | null = null;
     let frame = 0;
     const flush = () => {
@@ -219,7 +220,7 @@ export class Pointer {
       root.removeEventListener("pointercancel", end);
       this.#following = null;
       if (reached) done?.();
-      else this.events.dragCancel();
+      else this.#events.dragCancel();
     };
     const end = (next: PointerEvent) => {
       if (next.pointerId === first.pointerId) stop(true);
@@ -237,7 +238,7 @@ export class Pointer {
     if (!way) return;
     event.preventDefault();
     event.stopPropagation();
-    const step = this.board.linkage!.size * (event.shiftKey ? 0.001 : 0.01);
+    const step = this.#board.linkage!.size * (event.shiftKey ? 0.001 : 0.01);
     move(step * way[0], step * way[1]);
   }
 }

@@ -38,8 +38,10 @@ export class StructureView implements View {
   readonly #field = h("textarea", { spellcheck: false, "data-field": "chain" });
   #typing = 0;
   #asked = 0;
+  readonly #page: Page;
 
-  constructor(private readonly page: Page) {
+  constructor(page: Page) {
+    this.#page = page;
     this.chains = new ChainList(page, (text) => void this.describe(text));
     this.#field.addEventListener("input", () => {
       clearTimeout(this.#typing);
@@ -48,7 +50,7 @@ export class StructureView implements View {
   }
 
   appeared(): void {
-    if (!this.text) void this.describe(chainText(this.page.shown));
+    if (!this.text) void this.describe(chainText(this.#page.shown));
     this.chains.appeared();
   }
 
@@ -69,10 +71,10 @@ export class StructureView implements View {
     if (!this.structure) renew(this.#shown, moment());
     this.#detail.classList.add("asking"); // a click would choose among frames of the chain before
     try {
-      const found = await this.page.ask<Structure>("structure", {
+      const found = await this.#page.ask<Structure>("structure", {
         text,
         at_frame: this.#atFrame,
-        names: namesOf(this.page.shown),
+        names: namesOf(this.#page.shown),
         document: this.#contacts(text),
       });
       if (number !== this.#asked) return;
@@ -104,7 +106,7 @@ export class StructureView implements View {
 
   /** The linkage that is shown if it has higher pairs and the text is of its chain; else nothing. */
   #contacts(text: string): object {
-    const model = this.page.shown;
+    const model = this.#page.shown;
     const higher = model.joints.some((joint) => joint.pair.contours);
     return higher && text.split(";")[0]!.trim() === String(model.document.joints).trim() ? model.document : {};
   }
@@ -223,10 +225,10 @@ export class StructureView implements View {
     const text = this.#field.value; // as it stands, described or not yet
     const place = h("span.form", {});
     this.#detail.querySelector('[data-act="realise"]')!.parentElement!.append(place);
-    const found = await awaited(place, (progress) => this.page.ask<Realised>("realise", { text }, progress));
+    const found = await awaited(place, (progress) => this.#page.ask<Realised>("realise", { text }, progress));
     if (!found) return;
     place.remove();
-    this.page.open({ ...found.model, name: t("A mechanism with found dimensions") });
-    this.page.say(found.message, "done");
+    this.#page.open({ ...found.model, name: t("A mechanism with found dimensions") });
+    this.#page.say(found.message, "done");
   }
 }

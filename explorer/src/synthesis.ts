@@ -57,8 +57,10 @@ export class SynthesisView implements View {
     (design) => void this.#open(design),
   );
   private readonly status = h("div.form", {});
+  readonly #page: Page;
 
-  constructor(private readonly page: Page) {
+  constructor(page: Page) {
+    this.#page = page;
     this.#plane.addEventListener("pointerdown", (event) => this.#down(event));
     this.#plane.addEventListener("pointermove", (event) => this.#held?.(this.#at(event)));
     for (const event of ["pointerup", "pointercancel"])
@@ -143,7 +145,7 @@ export class SynthesisView implements View {
         h("h2", {}, t("Synthesis")),
         choice(t("What a linkage is to do"), kinds, this.kind, (kind) => this.#turnTo(kind as Kind)),
         h("p.note", {}, hints[this.kind]),
-        this.page.served
+        this.#page.served
           ? null
           : h(
               "p.note",
@@ -296,7 +298,7 @@ export class SynthesisView implements View {
       this.#draw();
     };
     const count = this.points.length;
-    const wanted = this.page.served || this.kind !== "points" ? FEWEST[this.kind] : NINE;
+    const wanted = this.#page.served || this.kind !== "points" ? FEWEST[this.kind] : NINE;
     const missing = wanted - count;
     renew(
       this.#list,
@@ -334,7 +336,7 @@ export class SynthesisView implements View {
       crank: this.#crank,
       transmission: this.#least,
     };
-    const found = await awaited(this.status, (progress) => this.page.ask<Found>("synthesise", question, progress));
+    const found = await awaited(this.status, (progress) => this.#page.ask<Found>("synthesise", question, progress));
     if (!found) return;
     this.#play(this.designs.show(found));
     this.designs.element.scrollIntoView({ block: "nearest" });
@@ -382,9 +384,9 @@ export class SynthesisView implements View {
     };
     try {
       const document = { ...design.document, page: { targets: this.targets } };
-      this.page.open(await this.page.ask<Model>("open_document", { document, name: names[this.kind] }));
+      this.#page.open(await this.#page.ask<Model>("open_document", { document, name: names[this.kind] }));
     } catch (error) {
-      this.page.say((error as Error).message);
+      this.#page.say((error as Error).message);
     }
   }
 }
