@@ -70,7 +70,8 @@ type Numbers = Float64Array | BigInt64Array;
 export class Kernel {
   /** What stands first in the block but for counts of rows; points, lines and values change when joints are dragged. */
   readonly #program: readonly Numbers[];
-  readonly #counts: readonly number[];
+  /** Of the program, then of rows and derivatives. */
+  readonly #counts: BigInt64Array;
   readonly #unknowns: number;
 
   constructor(private readonly p: Program) {
@@ -81,7 +82,7 @@ export class Kernel {
     this.#unknowns = 3 * p.roots.length + 2 * p.windings.filter((winding) => winding >= 0).length;
     const groups = p.conditions.length - 1;
     const first = [p.operations.length, p.links.length, p.linkCount, p.drives, p.dyads, groups, p.kinds.length];
-    this.#counts = [...first, p.roots.length, this.#unknowns, p.pieces.length, width];
+    this.#counts = whole([...first, p.roots.length, this.#unknowns, p.pieces.length, width, 0, 0]);
     this.#program = [
       whole(p.operations.flat()),
       whole(p.links),
@@ -105,8 +106,9 @@ export class Kernel {
   run(path: Float64Array, start: State, order = 0, speeds: readonly Float64Array[] = [], least = 1e-14): Rows {
     const { dyads, drives, linkCount: links, size } = this.p;
     const count = drives ? path.length / drives : 1;
+    this.#counts.set([BigInt(count), BigInt(order)], 11);
     const given: Numbers[] = [
-      BigInt64Array.from([...this.#counts, count, order].map(BigInt)),
+      this.#counts,
       Float64Array.of(size),
       ...this.#program,
       path,

@@ -8,7 +8,7 @@ import { convexHull } from "./hull";
 import { number as numberText } from "./language";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
-import { clearSpot, halfOf, namePlace, nameSpots } from "./names";
+import { clearSpot, halfOf, type NamePlace, namePlace, nameSpots } from "./names";
 import { direction, origin, type Pair, place, turn } from "./rows";
 import { readingsOf } from "./rulers";
 import { ownColour, type Shown } from "./shown";
@@ -128,8 +128,9 @@ export class Scene {
     return element;
   }
 
-  /** Draw the bodies of the links after their sizes or the scale changed. */
+  /** Draw the bodies of the links and find where their names stand on them, after their sizes or the scale changed. */
   sized(linkage: Linkage): void {
+    for (const label of this.#labels) label.sized?.(this.viewport.scale);
     const bodies = new Bodies(linkage, this.viewport.scale);
     for (const [link, group] of this.#links.entries()) {
       const made = bodies.of(link);
@@ -256,6 +257,8 @@ type Vector = [number, number, number, number, number];
 interface Label {
   element: SVGTextElement;
   name: string;
+  /** After the sizes of its link or the scale changed. */
+  sized?: (scale: number) => void;
   /** Where it may stand, and which of these places it takes. */
   spots: (viewport: Viewport) => Pair[];
   taken: number;
@@ -273,9 +276,13 @@ function labelsOf(linkage: Linkage): Label[] {
   const names = links.map((link): Label => {
     const name = linkage.linkName(link);
     const joints = () => sizes.elementsOn(link).map((k) => sizes.xy(k));
-    const spots = (viewport: Viewport) => {
+    let on!: NamePlace;
+    const sized = (scale: number) => {
       const points = sizes.points.filter((point) => point.link === link).map((point) => point.at);
-      const { at, away, along, ...more } = namePlace(joints(), points, name, viewport.scale);
+      on = namePlace(joints(), points, name, scale);
+    };
+    const spots = (viewport: Viewport) => {
+      const { at, away, along, ...more } = on;
       const turned = (way: Pair) => direction(linkage.pose, 0, link, way);
       const where = { at: place(linkage.pose, 0, link, ...at), away: away && turned(away) };
       return nameSpots(viewport, { ...where, ...more, along: turned(along ?? [0, 0]) }, name);
@@ -283,7 +290,7 @@ function labelsOf(linkage: Linkage): Label[] {
     const hull = (viewport: Viewport) =>
       convexHull(joints().map((at) => viewport.screen(...place(linkage.pose, 0, link, ...at))));
     const element = svg("text.name", { "text-anchor": "middle" }, name);
-    return { element, name, spots, taken: 0, hull, half: halfOf(name), begins: false };
+    return { element, name, sized, spots, taken: 0, hull, half: halfOf(name), begins: false };
   });
   const marks = sizes.points.map(
     (point): Label => ({
