@@ -3,12 +3,13 @@
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
 import type { PointRecord, Target } from "./model";
+import type { OtherModes } from "./modes";
 import { origin, type Pair, place, placesOf, turn } from "./rows";
 import { ownColour, type Shown } from "./shown";
 import type { Viewport } from "./viewport";
 
 const DASHES = [6, 4];
-const GHOST = 0.3; // how much is seen of the curves of other assembly modes
+const GHOST = 0.3; // how much is seen of the curves of other assembly modes; half of it while they may be old
 const FARTHEST = 1e5; // pixels: what is farther off is not drawn
 
 export class Painter {
@@ -19,7 +20,8 @@ export class Painter {
     private readonly colour: (name: string) => string,
   ) {}
 
-  paint(linkage: Linkage, shown: Shown): void {
+  /** Draw the curves, those of other assembly modes behind them. */
+  paint(linkage: Linkage, shown: Shown, modes: OtherModes): void {
     const { pen, viewport } = this;
     const ratio = pen.canvas.width / viewport.width;
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -27,8 +29,8 @@ export class Painter {
     const { points } = linkage.sizes;
     const { rows, values } = linkage.cycle;
     if (shown.curves)
-      for (const shape of linkage.dragged ? [...linkage.otherModes(), rows] : [rows]) {
-        pen.globalAlpha = shape === rows ? 1 : GHOST;
+      for (const shape of [...modes.beside(linkage), rows]) {
+        pen.globalAlpha = shape === rows ? 1 : GHOST / (linkage.quick ? 2 : 1);
         points.forEach((point, k) => {
           const all = placesOf(shape, point.link, ...point.at);
           const at = (row: number) => viewport.screen(all[2 * row]!, all[2 * row + 1]!);

@@ -126,7 +126,7 @@ function fullTurns(
   const order = moved.cycle?.full === false ? 0 : 2;
   let turns = 1;
   while (turns <= most) {
-    let steps = 360;
+    let steps = moved.quick ? 180 : 360;
     if (turns > 1) steps = turns <= MOST_TURNS ? 120 : 60;
     const values = new Float64Array(turns * steps + 1).map((_, k) => start + (k * TURN) / steps);
     let rows = moved.runAlong(values, moved.state, order);

@@ -14,7 +14,6 @@ import type { Snapshot } from "./snapshot";
 const NEAR_CHANGE = 1e-5;
 /** The least step of a quick search, in rows: what is shown does not tell it from the end. */
 const QUICK = 1e-8;
-const MOST_MODES = 2;
 
 /** Why a change was refused. */
 export class Refused extends Error {
@@ -45,6 +44,8 @@ export class Linkage {
   readonly wheels: boolean;
   /** Whether a joint or a point of it is being dragged. */
   dragged = false;
+  /** Whether the drag moves: then ends of larger groups are found less exactly, and half as many rows of the cycle. */
+  quick = false;
   readonly #kernel: Kernel;
   /** Of each element of the plan: its direction against that of its element in the linkage. */
   readonly #offsets: Float64Array;
@@ -292,29 +293,17 @@ export class Linkage {
     this.writeSizes();
   }
 
-  /** While it is dragged ends of larger groups are found less exactly, and half as many rows of their cycle. */
-  get quick(): boolean {
-    return this.dragged && this.program.roots.length > 0;
-  }
-
-  /** Begin to drag, or end: then its cycle is exact again. */
+  /** Begin to drag, or end. */
   drag(on: boolean): void {
-    const was = this.quick;
+    this.rest();
     this.dragged = on;
-    if (was && !on) this.cycle = findCycle(this);
   }
 
-  /** The motions over every third drive value with one dyad assembled the other way, places alone. */
-  otherModes(): Rows[] {
-    const { cycle, model, program } = this;
-    if (program.roots.length) return [];
-    const dyads = model.groups.filter((group) => group.modes).slice(0, MOST_MODES);
-    const values = cycle.values.filter((_, row) => row % 3 === 0);
-    return dyads.map(({ number }) => {
-      const state = stateAt(cycle.rows, 0);
-      state.signs[number]! *= -1;
-      return this.runAlong(values, state, 0, true);
-    });
+  /** The drag does not move, or is over: the cycle is exact again. */
+  rest(): void {
+    const was = this.quick;
+    this.quick = false;
+    if (was) this.cycle = findCycle(this);
   }
 
   /** Do something to the sizes; if it cannot be assembled then, everything is as before and `Refused` says why. */
@@ -330,6 +319,7 @@ export class Linkage {
       this.#put(old);
       throw error;
     }
+    this.quick = this.dragged;
     this.cycle = findCycle(this);
   }
 

@@ -264,12 +264,21 @@ export class MotionView implements View, Editor, Driven {
   /** After each step of a drag: what follows at once. Plots and texts take turns; all of them follow where it rests. */
   #followed(): void {
     this.stage.sized();
-    this.transport.showRange(this.found);
     this.#plotting = !this.#plotting && this.#opened.has("plots");
     if (this.#plotting) this.plots.follow(this.linkage);
-    else this.#showFacts();
+    else {
+      this.transport.showRange(this.found);
+      this.#showFacts();
+    }
     clearTimeout(this.#resting);
-    this.#resting = window.setTimeout(() => this.#plotAll(), RESTING);
+    this.#resting = window.setTimeout(() => this.#rest(), RESTING);
+  }
+
+  #rest(): void {
+    this.linkage.rest();
+    this.transport.showRange(this.found);
+    this.redraw();
+    this.#plotAll();
   }
 
   #plotAll(): void {

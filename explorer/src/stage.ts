@@ -6,6 +6,7 @@ import type { Dragging } from "./dragging";
 import { gridOf } from "./grid";
 import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
+import { OtherModes } from "./modes";
 import { type Board, Pointer, type StageEvents } from "./pointer";
 import { type Pair, place } from "./rows";
 import { Scene } from "./scene";
@@ -44,6 +45,7 @@ export class Stage implements Board {
   private readonly canvas = h("canvas", { "aria-hidden": "true" });
   readonly #scene: Scene;
   readonly #pointer: Pointer;
+  readonly #modes = new OtherModes();
   readonly #observer: ResizeObserver;
   /** Values of variables of the style sheet. To ask for one makes the browser apply all of it. */
   readonly #colours = new Map<string, string>();
@@ -170,7 +172,7 @@ export class Stage implements Board {
     if (this.#hint.textContent !== said) this.#hint.textContent = said;
     const pen = this.canvas.getContext("2d");
     if (!pen) return;
-    new Painter(pen, this.viewport, this.#colour).paint(this.linkage, this.shown);
+    new Painter(pen, this.viewport, this.#colour).paint(this.linkage, this.shown, this.#modes);
   }
 
   #rule(unit: string): void {

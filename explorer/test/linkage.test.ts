@@ -4,7 +4,9 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { denseAtEnds, principal, TURN, wrapped } from "../src/cycle";
 import { documentOf } from "../src/document";
+import type { Rows } from "../src/kernel";
 import { Linkage } from "../src/linkage";
+import { OtherModes } from "../src/modes";
 import { place, rate } from "../src/rows";
 import { A, angleBetween, angles, B, C, COUPLER, CRANK_ROCKER, D, fourBar, ROCKER } from "./fourbar";
 import { close, near } from "./near";
@@ -77,6 +79,44 @@ test("the other assembly mode is the mirror image at the line from B to D", () =
   close(70 * (x - u) - 25 * (y - v), 0, 1e-7);
   assert.ok(Math.hypot(x - u, y - v) > 10);
   assert.equal(linkage.state.signs[0], -1);
+});
+
+test("other assembly modes follow in every second step of a drag, and at once where it rests", () => {
+  const linkage = new Linkage(fourBar(CRANK_ROCKER, 1));
+  const modes = new OtherModes();
+  const step = (long: number) => linkage.change(() => linkage.sizes.put(2, long, 0));
+  assert.deepEqual(modes.beside(linkage), []); // nothing is dragged
+  linkage.drag(true);
+  const seen = [31, 32, 33, 34, 35].map((long) => {
+    step(long);
+    return modes.beside(linkage)[0];
+  });
+  assert.equal(seen[0], undefined); // none stands there from the drag before
+  assert.ok(seen[1] && seen[3] && seen[1] !== seen[3]);
+  assert.equal(seen[2], seen[1]);
+  assert.equal(seen[4], seen[3]);
+  linkage.rest();
+  const [rested] = modes.beside(linkage) as [Rows];
+  // C lies as far from B as the coupler is long, and mirrored at the line from B to D, (70, 0)
+  const [x, y] = linkage.jointAt(C, rested, 0);
+  const [u, v] = linkage.jointAt(C, linkage.cycle.rows, 0);
+  const [bx, by] = linkage.jointAt(B, rested, 0);
+  close(Math.hypot(x - bx, y - by), Math.hypot(u - bx, v - by));
+  close((x - u) * (70 - bx) - (y - v) * by, 0, 1e-7);
+  assert.ok(Math.hypot(x - u, y - v) > 10);
+  linkage.drag(false);
+  assert.deepEqual(modes.beside(linkage), []);
+});
+
+test("a drag that moves has half as many rows, one that rests all of them", () => {
+  const linkage = new Linkage(fourBar(CRANK_ROCKER, 1));
+  linkage.drag(true);
+  linkage.change(() => linkage.sizes.put(2, 31, 0));
+  const { rows, values } = linkage.cycle;
+  assert.equal(values.length, 181);
+  linkage.rest();
+  assert.equal(linkage.cycle.values.length, 361);
+  for (const row of [0, 60, 180]) near(linkage.jointAt(C, rows, row), linkage.jointAt(C, linkage.cycle.rows, 2 * row));
 });
 
 test("what was is restored", () => {
