@@ -19,11 +19,14 @@ import { firstTheme, setTheme, shell, type Theme, tool } from "./shell";
 import { StructureView } from "./structure";
 import { SynthesisView } from "./synthesis";
 import type { Page, View } from "./view";
+import { drawn } from "./waiting";
 
 export class App implements Page {
   readonly backend: Backend;
   readonly motion: MotionView;
+  /** The views that were wanted until now, by their names in `makers`. */
   private readonly views: Record<string, View>;
+  readonly #makers: Record<string, () => View>;
   private view = "motion";
   /** The views that were shown: others are laid out when they are. */
   readonly #laid = new Set(["motion"]);
@@ -31,7 +34,9 @@ export class App implements Page {
   private readonly message = h("div.message", { role: "status", hidden: true });
   private readonly lost = h("div.lost", { role: "status", hidden: true });
   private readonly root: HTMLElement;
+  readonly #place: HTMLElement;
   private readonly host: HTMLElement;
+  readonly #shadow: ShadowRoot;
   /** Whether the address is that of a link that could not be read: it stays until something is changed. */
   #unread = false;
   #writing = 0;
@@ -44,30 +49,26 @@ export class App implements Page {
     const height = model.get("host") === "notebook" ? `${Number(model.get("height") ?? 640)}px` : "100%";
     const { host, shadow } = shell(element, height, String(model.get("styles") ?? ""));
     this.host = host;
+    this.#shadow = shadow;
     setLanguage(this.#firstLanguage());
     this.setTheme(firstTheme());
     this.backend = new Backend(model);
     this.motion = new MotionView(this);
     this.views = { motion: this.motion };
+    this.#makers = { motion: () => this.motion };
     if (this.backend.present) {
-      this.views = {
-        build: this.served ? new BuildView(this) : new LibraryView(),
-        structure: new StructureView(this),
-        motion: this.motion,
-        synthesis: new SynthesisView(this),
-        catalog: new CatalogView(this),
-        exercises: new ExercisesView(this),
+      this.#makers = {
+        build: () => (this.served ? new BuildView(this) : new LibraryView()),
+        structure: () => new StructureView(this),
+        ...this.#makers,
+        synthesis: () => new SynthesisView(this),
+        catalog: () => new CatalogView(this),
+        exercises: () => new ExercisesView(this),
       };
     }
-    this.root = h(
-      "div.app",
-      {},
-      this.#header,
-      this.lost,
-      this.message,
-      // a notebook has its own main part
-      h(this.#linkable ? "main" : "div", { class: "views" }, ...Object.values(this.views).map((view) => view.element)),
-    );
+    // a notebook has its own main part
+    this.#place = h(this.#linkable ? "main" : "div", { class: "views" }, this.motion.element);
+    this.root = h("div.app", {}, this.#header, this.lost, this.message, this.#place);
     // a page of its own listens everywhere, a cell of a notebook to itself
     (this.#linkable ? document : this.root).addEventListener("keydown", (event) => this.#key(event as KeyboardEvent));
     this.host.addEventListener("dragover", (event) => event.preventDefault());
@@ -75,30 +76,42 @@ export class App implements Page {
       event.preventDefault();
       void this.openFile(event.dataTransfer?.files[0]);
     });
-    shadow.append(this.root);
     model.on("connection", ((on: boolean) => this.#connection(on)) as (message: never) => void);
     model.on("change:machine", (() => this.open(model.get("machine") as Model)) as (message: never) => void);
   }
 
   async start(): Promise<void> {
     if (missing) {
+      this.#appear();
       const text = t("This page needs WebAssembly, and the browser does not allow it: {why}", { why: missing });
       return this.say(text, "error");
     }
     this.#unread = this.#linkable && location.hash.length > 1; // until it is read
-    this.motion.open(this.model.get("machine") as Model);
-    this.show("motion");
+    await drawn();
+    this.motion.take(this.model.get("machine") as Model);
+    await drawn();
+    for (const _ of this.motion.pieces()) {
+      if (!this.root.isConnected) {
+        this.show("motion");
+        this.#appear();
+      }
+      await drawn();
+    }
     const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches || location.hash.length > 1;
     if ((this.model.get("machine") as Model).plays && !still) this.motion.transport.toggle();
     if (this.#linkable) {
       const { view } = (history.state ?? {}) as { view?: string }; // that of a page which is loaded again
       await this.#read();
-      if (view && view in this.views) this.show(view);
+      if (view && view in this.#makers) this.show(view);
       this.motion.forget();
       if (location.hash.length > 1) this.motion.recall();
       this.#arrangeHeader();
       window.addEventListener("popstate", (event) => void this.#goneBack(event));
     }
+  }
+
+  #appear(): void {
+    this.#shadow.append(this.root);
   }
 
   destroy(): void {
@@ -144,12 +157,21 @@ export class App implements Page {
       if (this.#linkable) window.scrollTo(0, 0);
     }
     this.view = name;
-    for (const [key, view] of Object.entries(this.views)) view.element.classList.toggle("shown", key === name);
+    const view = this.#viewOf(name);
+    for (const [key, { element }] of Object.entries(this.views)) element.classList.toggle("shown", key === name);
     if (name !== "motion") this.motion.transport.pause();
     this.#arrangeHeader();
-    if (!this.#laid.has(name)) this.views[name]!.arrange();
+    if (!this.#laid.has(name)) view.arrange();
     this.#laid.add(name);
-    this.views[name]!.appeared?.();
+    view.appeared?.();
+  }
+
+  /** A view, which is made when it is first wanted. */
+  #viewOf(name: string): View {
+    const view = this.views[name] ?? this.#makers[name]!();
+    if (!this.views[name]) this.#place.append(view.element);
+    this.views[name] = view;
+    return view;
   }
 
   /** Show another view, to which the browser's way back leads from the next one. */
@@ -176,7 +198,7 @@ export class App implements Page {
   async #goneBack(event: PopStateEvent): Promise<void> {
     if (location.hash !== this.hash) await this.#read();
     const view = (event.state as { view?: string } | null)?.view;
-    if (view && view in this.views) this.show(view);
+    if (view && view in this.#makers) this.show(view);
   }
 
   /** The name of the mechanism in the language of the page. */
@@ -189,13 +211,13 @@ export class App implements Page {
   #arrangeHeader(): void {
     this.host.lang = currentLanguage();
     const names = viewNames();
-    const keys = Object.keys(this.views);
+    const keys = Object.keys(this.#makers);
     const [back, forth] = this.#undoing.undoable!;
     const file = h("input", { type: "file", hidden: true, onchange: () => void this.openFile(file.files?.[0]) });
     if (keys.length > 1)
-      for (const key of keys) {
-        this.views[key]!.element.setAttribute("role", "tabpanel");
-        this.views[key]!.element.setAttribute("aria-label", names[key]!);
+      for (const [key, { element }] of Object.entries(this.views)) {
+        element.setAttribute("role", "tabpanel");
+        element.setAttribute("aria-label", names[key]!);
       }
     if (this.#linkable) {
       document.documentElement.lang = currentLanguage();
@@ -261,7 +283,7 @@ export class App implements Page {
   /** Show the structure of a text. */
   describe(text: string): void {
     this.#turnTo("structure");
-    void (this.views.structure as StructureView).describe(text);
+    void (this.#viewOf("structure") as StructureView).describe(text);
   }
 
   /** After a change: the link follows, a notebook is told. */
@@ -298,7 +320,7 @@ export class App implements Page {
     if (!text) return;
     this.hash = location.hash;
     const [lang, name] = text.split("/");
-    if (name && name in this.views) {
+    if (name && name in this.#makers) {
       // from the page of a machine in space
       this.#unread = false;
       setLanguage(lang as Language);
@@ -339,7 +361,7 @@ export class App implements Page {
       else if (found.model) this.open(found.model);
       else if (found.text) this.describe(found.text);
       else if (found.points) {
-        (this.views.synthesis as SynthesisView).take(found.points, found.closed ?? false);
+        (this.#viewOf("synthesis") as SynthesisView).take(found.points, found.closed ?? false);
         this.#turnTo("synthesis");
       }
       if (found.note) this.say(found.note, "done");

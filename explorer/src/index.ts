@@ -39,8 +39,7 @@ function begin(at: HTMLElement): void {
   const site = (window as { grueblerSite?: (values: object, texts: typeof t) => HostModel }).grueblerSite;
   const model = host === "server" ? new SocketModel(made, address.href) : (site?.(made, t) ?? new StillModel(made));
   const app = new App(model, at);
-  Object.assign(window, { gruebler: app });
-  void app.start();
+  void app.start().then(() => Object.assign(window, { gruebler: app }));
 }
 
 const place = typeof document === "undefined" ? null : document.querySelector<HTMLElement>("[data-gruebler]");

@@ -26,6 +26,7 @@ import { Stage } from "./stage";
 import { tableOf } from "./table";
 import type { Driven } from "./transport";
 import type { Page, View } from "./view";
+import { whole } from "./waiting";
 import { refusedText, stopText } from "./wording";
 
 const MOST_FRAMES = 2000;
@@ -110,10 +111,15 @@ export class MotionView implements View, Editor, Driven {
   open(model: Model): void {
     this.transport.pause();
     if (this.linkage) this.#history.add(this.#state());
+    this.take(model);
+    this.#renewed();
+  }
+
+  /** Another linkage, which is not shown yet. */
+  take(model: Model): void {
     this.linkage = new Linkage(model);
     this.dragging = new Dragging(this.linkage);
     this.shown.link = floatingLink(model);
-    this.#renewed();
   }
 
   /** Other sizes of the same structure, as a link holds them. */
@@ -146,11 +152,22 @@ export class MotionView implements View, Editor, Driven {
   }
 
   #renewed(): void {
+    whole(this.pieces());
+  }
+
+  /** Everything anew, in pieces: between them the browser may draw what is there. */
+  *pieces(): Generator<void> {
     this.stage.cancelDrag();
-    this.arrange();
+    this.#arrangeStage();
     this.show();
-    this.measured();
     this.stage.fit();
+    // until all panels are filled, those below one would jump
+    this.side.style.visibility = "hidden";
+    yield;
+    this.#arrangeSide();
+    yield;
+    yield* this.#measuring();
+    this.side.style.visibility = "";
     this.page.changed();
   }
 
@@ -164,8 +181,17 @@ export class MotionView implements View, Editor, Driven {
 
   /** Lay the view out anew, in the language of the page. */
   arrange(): void {
+    this.#arrangeStage();
+    this.#arrangeSide();
+  }
+
+  #arrangeStage(): void {
     this.stage.arrange();
     this.transport.arrange();
+  }
+
+  /** The panels; what is measured is put into them afterwards. */
+  #arrangeSide(): void {
     this.#words.arrange();
     const { scrollTop } = this.side; // before its parts leave it for new panels
     renew(
@@ -175,9 +201,9 @@ export class MotionView implements View, Editor, Driven {
       this.#panel("plots", t("Plots"), this.plots.element),
       this.#panel("forces", t("Forces"), this.#forces.element),
       this.#panel("points", t("Coupler points"), pointsPanel(this)),
-      this.#panel("modes", t("Assembly modes"), modesPanel(this)),
+      this.#panel("modes", t("Assembly modes")),
       this.#panel("show", t("Show"), optionsPanel(this)),
-      this.#panel("export", t("Export"), exportPanel(this.page, this)),
+      this.#panel("export", t("Export")),
     );
     this.side.scrollTop = scrollTop;
     this.plots.arrange(this.linkage);
@@ -186,9 +212,10 @@ export class MotionView implements View, Editor, Driven {
   #panel(key: string, title: string, ...content: Node[]): HTMLElement {
     const element = panelOf(key, title, this.#opened.has(key), ...content);
     element.addEventListener("toggle", () => {
+      if (element.open === this.#opened.has(key)) return; // as it was laid out
       if (element.open) this.#opened.add(key);
       else this.#opened.delete(key);
-      if (key === "plots" && element.open) this.plots.draw(this.linkage);
+      if (key === "plots" && element.open) whole(this.plots.drawing(this.linkage));
       if (key !== "forces") return;
       this.#forces.changed();
       this.redraw();
@@ -216,9 +243,9 @@ export class MotionView implements View, Editor, Driven {
   edit(change: () => void): void {
     this.#begin();
     change();
-    this.#end();
-    this.show();
     this.arrange();
+    this.show();
+    this.#end();
   }
 
   #begin(): void {
@@ -283,7 +310,7 @@ export class MotionView implements View, Editor, Driven {
 
   #plotAll(): void {
     clearTimeout(this.#resting);
-    if (this.#opened.has("plots")) this.plots.draw(this.linkage);
+    if (this.#opened.has("plots")) whole(this.plots.drawing(this.linkage));
     this.#showPose();
   }
 
@@ -377,14 +404,23 @@ export class MotionView implements View, Editor, Driven {
 
   /** After a change: what takes longer than a frame, and what Python says. */
   measured(): void {
+    whole(this.#measuring());
+  }
+
+  *#measuring(): Generator<void> {
     this.found = { dead: deadCentres(this.linkage), least: leastTransmission(this.linkage) };
+    yield;
     this.transport.showRange(this.found);
-    this.#plotAll();
+    clearTimeout(this.#resting);
+    this.#showPose();
     this.#sizes.show();
+    yield;
     this.#refresh("points", pointsPanel(this));
     this.#refresh("modes", modesPanel(this));
     this.#refresh("export", exportPanel(this.page, this));
     this.#forces.changed();
+    yield;
+    if (this.#opened.has("plots")) yield* this.plots.drawing(this.linkage);
     const { linkage } = this;
     this.#words.ask(linkage, () => documentOf(linkage, linkage.cycle.rows, linkage.cycle.home));
   }

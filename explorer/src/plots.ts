@@ -10,6 +10,7 @@ import type { OutputRecord } from "./model";
 import { Plot, type Series } from "./plot";
 import { place } from "./rows";
 import { Span } from "./span";
+import { whole } from "./waiting";
 import { lengthUnit, rateUnit } from "./wording";
 
 /** The rows of a cycle in the order in which they are plotted, with their drive values. */
@@ -42,7 +43,7 @@ export class Plots {
 
   constructor(private readonly pick: (drive: number) => void) {}
 
-  /** The plots anew: of another linkage, with other points, in another language. */
+  /** Empty plots: of another linkage, with other points, in another language. */
   arrange(linkage: Linkage): void {
     const { drive, model, sizes } = linkage;
     const record = model.outputs[0];
@@ -83,16 +84,16 @@ export class Plots {
       tool("fit", t("The whole range"), 0),
     );
     renew(this.element, tools, this.#still, ...this.parts.map(({ plot }) => plot.element), ...notes);
-    this.draw(linkage);
   }
 
   /** While sizes are dragged: one plot a frame by turns. */
   follow(linkage: Linkage): void {
     this.#turn = (this.#turn + 1) % (this.parts.length || 1);
-    this.draw(linkage, this.parts.slice(this.#turn, this.#turn + 1));
+    whole(this.drawing(linkage, this.parts.slice(this.#turn, this.#turn + 1)));
   }
 
-  draw(linkage: Linkage, parts = this.parts): void {
+  /** Draw them, one after the other. */
+  *drawing(linkage: Linkage, parts = this.parts): Generator<void> {
     const { active, cycle, drives, model } = linkage;
     if (cycle.values.length < 2) return;
     const plotted = this.#plotted(linkage);
@@ -101,8 +102,10 @@ export class Plots {
     this.#still.hidden = !still;
     for (const { plot } of record ? this.parts.slice(0, OF_OUTPUT) : [])
       plot.element.style.display = still ? "none" : "";
-    for (const { plot, make } of parts)
+    for (const { plot, make } of parts) {
       plot.show(plotted.drives, make(plotted), rangeOf(cycle), wrapped(cycle, drives[active]!));
+      yield;
+    }
   }
 
   #zoom({ active, cycle, drives }: Linkage, factor: number): void {

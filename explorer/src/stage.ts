@@ -157,7 +157,7 @@ export class Stage implements Board {
 
   /** Draw the bodies of the links after their sizes or the scale changed. */
   sized(): void {
-    if (!this.linkage) return;
+    if (!this.linkage || this.viewport.width < 2) return; // it follows when the picture has its size
     this.#scene.sized(this.linkage);
     this.draw();
   }

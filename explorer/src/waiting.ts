@@ -1,4 +1,4 @@
-/** Questions that take time. */
+/** What takes time. */
 
 import { h, renew } from "./dom";
 import { Cancelled, type Request } from "./host";
@@ -34,4 +34,17 @@ export async function awaited<Result>(
     renew(place, h("span.error", { role: "alert" }, text));
     return null;
   }
+}
+
+/** After the browser has drawn; a page that nobody sees is not drawn. */
+export function drawn(): Promise<void> {
+  return new Promise((go) => {
+    requestAnimationFrame(() => setTimeout(go));
+    setTimeout(go, 100);
+  });
+}
+
+/** Do all pieces of a work at once. */
+export function whole(pieces: Generator<void>): void {
+  while (!pieces.next().done);
 }

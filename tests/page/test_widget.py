@@ -90,7 +90,7 @@ def test_the_front_end_in_a_cell(tab, tmp_path):
         page.page.route(f"http://cell.test/{name}", served(content, kind))
     page.page.goto("http://cell.test/")
     page.page.locator('[data-joint="R(coupler-rocker)"]').wait_for()
-    assert "Abmessungen" in page.page.locator('[data-panel="sizes"] summary').inner_text()
+    page.page.locator('[data-panel="sizes"] summary', has_text="Abmessungen").wait_for()
     page.drag(page.middle('[data-joint="R(coupler-rocker)"] .joint'), (40, -10))
     page.until("saved.length > 1")
     document = page.page.evaluate("saved.at(-1)")
@@ -102,7 +102,8 @@ def test_the_front_end_in_a_cell(tab, tmp_path):
     page.until("document.querySelector('.gruebler-explorer').shadowRoot.textContent.includes('Gut.')")
     # the notebook scrolls on over the picture, unless Ctrl is held
     wheel = """(ctrlKey) => {
-        const stage = document.querySelector('.gruebler-explorer').shadowRoot.querySelector('.motion .stage > svg');
+        const { shadowRoot } = document.querySelector('.gruebler-explorer');
+        const stage = shadowRoot.querySelector('.motion .stage > svg[role]');
         const event = new WheelEvent('wheel', { deltaY: 50, ctrlKey, cancelable: true });
         stage.dispatchEvent(event);
         return event.defaultPrevented;
