@@ -1,7 +1,7 @@
-// Builds the page into the folder given, else into the Python package: an ES module, one more for static sites, one for
-// their synthesis, and one for linkages in space.
+// Builds the page into the folder given, else into the package: an ES module and its style sheet, one more module
+// for static sites, one for their synthesis, one for linkages in space and what this adds to the style sheet.
 
-import { readFile } from "node:fs/promises";
+import { readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import zopfli from "@gfx/zopfli";
@@ -34,8 +34,7 @@ function numbered(source) {
   });
 }
 
-/** The kernel, style sheets, minified, and tables of texts stand packed in the module; the packer does the same
- * everywhere. */
+/** The kernel and tables of texts stand packed in the module; the packer does the same everywhere. */
 const packed = {
   name: "packed",
   setup: ({ onLoad }) => {
@@ -46,15 +45,10 @@ const packed = {
       const contents = `import { bytesOf } from "./packed";\nexport default bytesOf(${written(await readFile(file))});`;
       return { contents, loader: "js", resolveDir: path.join(here, "src") };
     });
-    onLoad({ filter: /\.(css|json)$/ }, async ({ path: file }) => {
-      const text = await readFile(file, "utf8");
-      const table = file.endsWith(".json");
-      const code = table
-        ? JSON.stringify(JSON.parse(text))
-        : (await transform(text, { loader: "css", charset: "utf8", minify: true })).code.trim();
-      const unpacked = `await textOf(${written(await zopfli.gzipAsync(Buffer.from(code), {}))})`;
-      const value = table ? `JSON.parse(${unpacked})` : unpacked;
-      const contents = `import { textOf } from "./packed";\nexport default ${value};`;
+    onLoad({ filter: /\.json$/ }, async ({ path: file }) => {
+      const table = JSON.stringify(JSON.parse(await readFile(file, "utf8")));
+      const text = `await textOf(${written(await zopfli.gzipAsync(Buffer.from(table), {}))})`;
+      const contents = `import { textOf } from "./packed";\nexport default JSON.parse(${text});`;
       return { contents, loader: "js", resolveDir: path.join(here, "src") };
     });
   },
@@ -88,3 +82,12 @@ await build({
   legalComments: "none",
   plugins: [packed],
 });
+
+// Before the script is there nobody but the browser knows which colours are wanted: dark ones stand there twice.
+const night = /:host\(\[data-theme="dark"\]\)(\{[^}]*\})/;
+const both = "$&@media (prefers-color-scheme:dark){:host(:not([data-theme]))$1}";
+for (const [name, source] of Object.entries({ explorer: "src/style.css", space: "src/space/space.css" })) {
+  const sheet = await readFile(path.join(here, source), "utf8");
+  const { code } = await transform(sheet, { loader: "css", charset: "utf8", minify: true });
+  await writeFile(path.join(target, `${name}.css`), code.trim().replace(night, both));
+}

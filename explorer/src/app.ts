@@ -111,6 +111,7 @@ export class App implements Page {
   }
 
   #appear(): void {
+    this.#shadow.querySelector(".loading")?.remove(); // the outline, which stood there until now
     this.#shadow.append(this.root);
   }
 

@@ -26,10 +26,6 @@ function render({ model, el }: { model: HostModel; el: HTMLElement }): () => voi
 export default { render };
 
 function begin(at: HTMLElement): void {
-  for (const element of [document.documentElement, document.body, at]) {
-    element.style.margin = "0";
-    element.style.height = "100%";
-  }
   const values = JSON.parse(document.getElementById("gruebler-model")!.textContent ?? "{}") as Record<string, unknown>;
   const host = at.dataset.gruebler ?? "file";
   const address = new URL("ws", location.href);

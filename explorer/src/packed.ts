@@ -24,7 +24,7 @@ export function bytesOf(text: string): Uint8Array<ArrayBuffer> {
   return out;
 }
 
-/** The text of its packed bytes: of a style sheet, of a table of texts. */
+/** The text of its packed bytes. */
 export async function textOf(packed: string): Promise<string> {
   return new TextDecoder().decode(await unpackedBytes(bytesOf(packed)));
 }

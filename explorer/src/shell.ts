@@ -2,19 +2,23 @@
 
 import { h } from "./dom";
 import { type Icon, icon } from "./icons";
-import styles from "./style.css";
 
 export type Theme = "light" | "dark";
 
-/** The element of a page, and the shadow in which the page stands with its styles. */
-export function shell(parent: HTMLElement, height: string, more = ""): { host: HTMLElement; shadow: ShadowRoot } {
-  const host = h("div.gruebler-explorer", {});
-  parent.append(host);
+/** The element of a page, and the shadow in which the page stands: those of the HTML with its styles, else new ones. */
+export function shell(parent: HTMLElement, height: string, styles = ""): { host: HTMLElement; shadow: ShadowRoot } {
+  const outlined = parent.querySelector<HTMLElement>(".gruebler-explorer");
+  const host = outlined ?? h("div.gruebler-explorer", {});
   Object.assign(host.style, { display: "block", height });
-  const shadow = host.attachShadow({ mode: "open" });
-  const sheet = new CSSStyleSheet();
-  sheet.replaceSync(styles + more);
-  shadow.adoptedStyleSheets = [sheet];
+  const shadow = host.shadowRoot ?? host.attachShadow({ mode: "open" });
+  const outline = host.querySelector("template"); // which an older browser left as it was
+  if (outline) shadow.append(outline.content);
+  if (!outlined) {
+    parent.append(host);
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(styles);
+    shadow.adoptedStyleSheets = [sheet];
+  }
   return { host, shadow };
 }
 

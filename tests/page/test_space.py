@@ -132,7 +132,9 @@ def test_a_drive_turns_round_and_one_at_its_limit_says_so(tmp_path, chromium):
 
 
 def test_a_site_has_the_machines_in_space(tmp_path):
-    write_site(tmp_path / "site", {"name": ""}, groups=[FileGroup("space", ("universal_joint",))])
+    write_site(
+        tmp_path / "site", {"name": "", "names": {}, "source": ""}, groups=[FileGroup("space", ("universal_joint",))]
+    )
     assert "default-src 'none'" in (tmp_path / "site" / "space" / "universal_joint.html").read_text(encoding="utf-8")
 
 

@@ -250,6 +250,7 @@ def searching(page, rows=ROWS):
 def test_nine_points_are_met_without_python(tab, folder, address, from_disk):
     page = tab().open((folder / "index.html").as_uri() if from_disk else address)
     assert not any("points" in url for url in page.requests)  # what it takes is loaded when it is asked for
+    page.page.click('[data-view="synthesis"]')
     page.page.evaluate("(rows) => gruebler.views.synthesis.take(rows, false)", ROWS[:5])
     set_already = page.page.locator('[data-fact="set"]')
     assert set_already.text_content() == "5 of 9 set, 4 missing"

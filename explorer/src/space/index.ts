@@ -7,9 +7,5 @@ import { SpaceView } from "./view";
 const model: Model = JSON.parse(document.getElementById("gruebler-model")!.textContent!);
 const asked = location.hash.slice(1);
 setLanguage((asked in model.texts ? asked : document.documentElement.lang) as keyof Model["texts"]);
-for (const element of [document.documentElement, document.body]) {
-  element.style.margin = "0";
-  element.style.height = "100%";
-}
 const view = new SpaceView(document.body, model);
 Object.assign(window, { gruebler: view });

@@ -15,7 +15,6 @@ import { moved } from "./algebra";
 import { endsOf, Machine, turnOf } from "./machine";
 import type { Model } from "./model";
 import { Scene } from "./scene";
-import styles from "./space.css";
 
 /** Angles of the views that have names, in radians: from where, from how high. */
 const VIEWS: Record<string, [number, number]> = {
@@ -43,7 +42,7 @@ export class SpaceView implements Driven {
     parent: HTMLElement,
     private readonly data: Model,
   ) {
-    const { host, shadow } = shell(parent, "100%", styles);
+    const { host, shadow } = shell(parent, "100%");
     this.#host = host;
     this.linkage = new Machine(data);
     this.scene = new Scene(this.linkage, {

@@ -30,7 +30,7 @@ from gruebler.base.atomic_files import atomic_file
 from gruebler.base.errors import GrueblerError, RunError
 from gruebler.base.private_folder import private_folder
 from gruebler.base.text import LANGUAGES, error_in_language, message, reason_of
-from gruebler.page.page import module_text, served_page
+from gruebler.page.page import module_text, served_page, style_policy
 from gruebler.page.workers import CancelledError, Workers
 
 LARGEST = 400_000
@@ -120,7 +120,9 @@ class ExplorerServer:
     async def _page(self, request: Request) -> Response:
         if not self._known(request):
             return self._refusal()
-        return Response(served_page(self.model, self.lang), media_type="text/html", headers=_HEADERS)
+        text = served_page(self.model, self.lang, _language(request))
+        headers = _HEADERS | {"Content-Security-Policy": f"{_POLICY}; {style_policy()}"}
+        return Response(text, media_type="text/html", headers=headers)
 
     async def _module(self, request: Request) -> Response:
         if not self._known(request):

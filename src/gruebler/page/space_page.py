@@ -19,7 +19,7 @@ from gruebler.files.link_solids import Solid, round_solid
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.wheels import gear_rows
 from gruebler.mechanics.space.outputs import against_frame
-from gruebler.page.page import data_page, module_text
+from gruebler.page.page import WHOLE_WINDOW, data_page, module_text, page_styles, shadow_tree
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
 from gruebler.pictures.structure.messages import title
 from gruebler.structure.chain.pairs import Alphabet
@@ -231,6 +231,7 @@ def space_file(model: dict[str, Any], lang: str = "en") -> str:
 
     It opens in the language, or in the one that an address names behind ``#``.
     """
-    script = module_text("space")
-    policy = policy_element(script, styles=False)
-    return data_page(str(model["texts"][lang]["title"]), lang, model, script_element(script, "module"), policy)
+    script, sheet = module_text("space"), page_styles("space")
+    policy = policy_element(script, sheets=(WHOLE_WINDOW, sheet))
+    name = str(model["texts"][lang]["title"])
+    return data_page(name, lang, model, script_element(script, "module"), policy, shadow_tree(sheet))

@@ -12,7 +12,7 @@ from gruebler.base.text import LANGUAGES, Message, error_in_language, message, t
 from gruebler.files import linkage_from_json
 from gruebler.mechanics.linkages import Linkage
 from gruebler.page.model import model_of
-from gruebler.page.page import LISTED_CHAINS, module_text, picture_styles
+from gruebler.page.page import LISTED_CHAINS, module_text, page_styles
 from gruebler.page.requests import answer
 from gruebler.pictures.linkage.picture import draw_linkage
 
@@ -39,7 +39,7 @@ class Explorer(anywidget.AnyWidget):
 
     def __init__(self, linkage: Linkage, *, lang: str = "", height: int = 640) -> None:
         model = model_of(linkage)
-        super().__init__(machine=model, document=model["document"], lang=lang, height=height, styles=picture_styles())
+        super().__init__(machine=model, document=model["document"], lang=lang, height=height, styles=page_styles())
         self.on_msg(self._asked)
 
     def __repr__(self) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import hashlib
+from collections.abc import Iterable
 
 
 def script_element(script: str, kind: str = "") -> str:
@@ -12,14 +13,27 @@ def script_element(script: str, kind: str = "") -> str:
     return f"<script{typed}>{_closed(script)}</script>"
 
 
+def style_rule(sheets: Iterable[str]) -> str:
+    """The rule that allows these style sheets and no others.
+
+    >>> style_rule(["p{margin:0}"])[:18]
+    "style-src 'sha256-"
+    """
+    return "style-src " + (" ".join(map(_named, sheets)) or "'none'")
+
+
 def policy_element(
-    *scripts: str, styles: bool = True, webassembly: bool = False, beside: bool = False, workers: bool = False
+    *scripts: str,
+    sheets: Iterable[str] | None = None,
+    webassembly: bool = False,
+    beside: bool = False,
+    workers: bool = False,
 ) -> str:
     r"""The element of a page's head that lets it run these scripts, by their digests, and load nothing at all.
 
     Args:
         scripts: as given to `script_element`.
-        styles: whether the page has style sheets and styles of elements.
+        sheets: its style sheets; any, and styles of elements, if None.
         beside: whether it loads scripts from its own folder.
         workers: whether its scripts start workers from texts that they hold.
         webassembly: whether its scripts compile WebAssembly that they hold; texts as code stay forbidden.
@@ -27,7 +41,7 @@ def policy_element(
     >>> policy_element()[:77]
     '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; style'
     """
-    allowed = [f"'sha256-{_digest(script)}'" for script in scripts]
+    allowed = [_named(_closed(script)) for script in scripts]
     if webassembly:
         allowed.append("'wasm-unsafe-eval'")
     if beside:
@@ -35,7 +49,7 @@ def policy_element(
     rules = [
         "default-src 'none'",
         *([f"script-src {' '.join(allowed)}"] if allowed else []),
-        *(["style-src 'unsafe-inline'"] if styles else []),
+        "style-src 'unsafe-inline'" if sheets is None else style_rule(sheets),
         *(["worker-src blob:"] if workers else []),
         "img-src data: blob:",
         "base-uri 'none'",
@@ -49,5 +63,6 @@ def _closed(script: str) -> str:
     return script.replace("</script", r"<\/script")
 
 
-def _digest(script: str) -> str:
-    return base64.b64encode(hashlib.sha256(_closed(script).encode("utf-8")).digest()).decode("ascii")
+def _named(text: str) -> str:
+    """A text as a rule names it: by its digest."""
+    return f"'sha256-{base64.b64encode(hashlib.sha256(text.encode('utf-8')).digest()).decode('ascii')}'"
