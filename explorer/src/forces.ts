@@ -77,7 +77,7 @@ export class Forces {
       this.#form.clear();
       renew(this.#result);
     }
-    if (!this.#form.element.isConnected) renew(this.element, this.#form.element, this.#result);
+    if (!this.#form.element.isConnected) renew(this.element, this.#result, this.#form.element);
     this.#result.classList.add("waiting");
     if (!this.#opened()) return;
     if (!this.#result.firstChild) renew(this.#result, moment());

@@ -1,4 +1,4 @@
-/** Small plots over the drive, linked with it by a cursor; the value at the drive, or at the pointer, stands above. */
+/** Small plots over the drive, linked with it by a cursor; the value at the drive, or at the pointer, stands above, where no curve is. */
 
 import { put, svg } from "./dom";
 import { gridStep } from "./grid";
@@ -36,7 +36,7 @@ export class Plot {
   readonly #cursor = svg("path.cursor", {});
   readonly #here = svg("circle.here", { r: 3 });
   readonly #title = svg("text.title", { x: 2, y: 13 });
-  readonly #value = svg("text.read", { y: TOP + 10 });
+  readonly #value = svg("text.read", { x: WIDTH - RIGHT, y: 13, "text-anchor": "end" });
   readonly #mesh = svg("path.mesh", {});
   readonly #upward = svg("g");
   readonly #across = svg("g");
@@ -218,9 +218,6 @@ export class Plot {
     put(this.#here, { cx: x, cy: y.toFixed(1) });
     const where = place === drive ? "" : `${number(place / this.unit, 4)}${this.unit === 1 ? "" : "°"}: `;
     this.#value.textContent = where + number(Math.abs(value) < (series.same ?? 0) ? 0 : value, 4);
-    const right = this.#x(place) < (LEFT + WIDTH) / 2;
-    const beside = outside ? "-99" : (this.#x(place) + (right ? 5 : -5)).toFixed(1);
-    put(this.#value, { "text-anchor": right ? "start" : "end", x: beside });
   }
 
   #x(drive: number): number {

@@ -216,6 +216,23 @@ def test_springs_are_chosen_drawn_and_turn_the_drive(tab, server):
     page.until(f"{path}.split('M').length === 2")
 
 
+def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_fields(tab, server):
+    page = tab(width=390, height=844, touch=True).open(server.address).page
+    panel = page.locator(PANEL)
+    panel.locator("summary").click()
+    offer = panel.locator('[data-act="assume"]')
+    offer.wait_for()
+    assert offer.bounding_box()["y"] < panel.locator("#force-speed").bounding_box()["y"]  # what to do, before fields
+    offer.click()
+    panel.locator(".plot.polar").wait_for()
+    assert panel.locator(".plot.polar").bounding_box()["y"] < panel.locator("#force-speed").bounding_box()["y"]
+    assert panel.locator('label:has([type="checkbox"])').bounding_box()["height"] >= 44
+    for drive in (0.5, 1.5, 3.0, 5.0):  # what is read stands above the lines of the plot, wherever the drive is
+        page.evaluate(f"gruebler.motion.transport.pick({drive})")
+        read, curve = (panel.locator(f".plot {part}").first.bounding_box() for part in (".read", ".curve"))
+        assert read["y"] + read["height"] <= curve["y"] + 1
+
+
 def test_without_the_library_it_says_so(tab, tmp_path):
     from gruebler.cli import main
 

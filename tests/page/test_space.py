@@ -34,7 +34,8 @@ def test_poses_of_the_page_are_those_of_the_motion():
 
 def test_every_drive_of_a_delta_robot_has_a_motion():
     model = space_model(entry("delta").placed())
-    assert [model["texts"]["en"]["drives"][each["drive"]] for each in model["motions"]] == list(entry("delta").drives)
+    moved = [drive.between[1] for drive in entry("delta").placed().mechanism.drives]  # of the frame and an arm
+    assert [model["texts"]["en"]["drives"][each["drive"]] for each in model["motions"]] == moved
 
 
 def test_a_joint_that_the_page_does_not_solve_is_named():
@@ -340,6 +341,27 @@ def test_a_machine_in_space_is_accessible(tmp_path, chromium, id, width):
         found = page.evaluate("axe.run({resultTypes: ['violations']})")["violations"]
         assert [each["id"] for each in found if each["impact"] in ("serious", "critical")] == []
         context.close()
+    assert errors == []
+    browser.close()
+
+
+def test_several_drives_have_short_names_and_the_bar_one_row(tmp_path, chromium):
+    """Six legs: each is driven between its cylinder and its rod, and the rod names it."""
+    path = tmp_path / "machine.html"
+    assert main(["explore", "gough", "-o", str(path)]) == 0
+    browser, _, errors = browsed(chromium, path)
+    page = browser.new_page(viewport={"width": 1024, "height": 800}, reduced_motion="reduce")
+    page.goto(path.as_uri() + "#de")
+    page.locator(".rows input").first.wait_for()
+    labels = page.locator(".rows label")
+    names = [f"Kolbenstange {k}" for k in range(1, 7)]
+    assert labels.all_inner_texts() == names == page.locator(".transport option").all_text_contents()
+    assert max(label.bounding_box()["height"] for label in labels.all()) < 20
+    middles = page.locator(".transport > *").evaluate_all(
+        "all => all.map((one) => one.getBoundingClientRect()).map(({ top, bottom }) => (top + bottom) / 2)"
+    )
+    assert len(middles) == 5
+    assert max(middles) - min(middles) < 5
     assert errors == []
     browser.close()
 

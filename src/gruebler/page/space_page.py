@@ -24,6 +24,7 @@ from gruebler.pictures.canvas.page_policy import policy_element, script_element
 from gruebler.pictures.structure.messages import title
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.chain.spaces import Space
+from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 
 _WORDS = {
@@ -112,11 +113,13 @@ def space_model(
         "texts": {
             lang: {
                 "title": (titles or {}).get(lang) or title(mechanism, lang),
-                "drives": [*(drives or {}).get(lang, mechanism.drive_names(Alphabet.of_language(lang)))],
-                "links": [*(links or {}).get(lang, chain.links)],
+                "drives": _short(mechanism, names)
+                or [*(drives or {}).get(lang, mechanism.drive_names(Alphabet.of_language(lang)))],
+                "links": [*names],
                 "words": {key: text.in_language(lang) for key, text in words.items()},
             }
             for lang in LANGUAGES
+            for names in [(links or {}).get(lang, chain.links)]
         },
         "home": home,
         "unit": "" if spherical else linkage.unit,
@@ -197,6 +200,13 @@ def _unsolved(linkage: SpatialLinkage) -> int | None:
     """The first joint that the page does not solve: with a body between its links, or of more than two links."""
     joints = linkage.mechanism.chain.joints
     return next((k for k, each in enumerate(joints) if each.pair.has_body_between or len(each.links) > 2), None)
+
+
+def _short(mechanism: Mechanism, names: Sequence[str]) -> list[str]:
+    """Several drives by the links that they move, where these tell them apart; otherwise nothing."""
+    moved = [next(link for link in reversed(each.between) if link != mechanism.frame) for each in mechanism.drives]
+    apart = 1 < len(moved) == len(set(moved))
+    return [names[mechanism.chain.index(link)] for link in moved] if apart else []
 
 
 def machine_model(id: str, *, home: bool = False) -> dict[str, Any]:
