@@ -1,4 +1,4 @@
-/** Small plots over the drive, linked with it by a cursor; the value at the drive, or at the pointer, stands above, where no curve is. */
+/** Small plots over the drive, linked with it by a cursor; the value at the drive or pointer stands above the curve. */
 
 import { put, svg } from "./dom";
 import { gridStep } from "./grid";

@@ -282,7 +282,8 @@ def test_tools_of_a_phone_stand_in_one_row(tab, server):
     palette = page.page.locator(".transport.palette")
     assert palette.evaluate("(e) => e.scrollWidth > e.clientWidth")  # the last ones are reached by a swipe
     page.page.locator('[data-tool="gears"]').click()
-    assert page.page.locator("[data-page] .hint, .drawing + .hint").first.inner_text().startswith("Zahnradpaar Drei Klicks")
+    hint = page.page.locator("[data-page] .hint, .drawing + .hint").first
+    assert hint.inner_text().startswith("Zahnradpaar Drei Klicks")
     last = page.page.locator('[data-tool="gears"]').bounding_box()
     assert last["x"] + last["width"] <= 390  # it stays in sight when it is chosen
 
