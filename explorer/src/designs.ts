@@ -97,7 +97,11 @@ export class DesignCards {
       h("b", {}, title),
       h("span", {}, lengths.join(" · ")),
       h("span", {}, error === null ? "" : deviation),
-      h("span", {}, transmission === null ? "" : `μ ≥ ${angle((transmission * Math.PI) / 180, 3)}`),
+      h(
+        "span",
+        {},
+        transmission === null ? "" : t("on the way: μ ≥ {angle}", { angle: angle((transmission * Math.PI) / 180, 3) }),
+      ),
       h("span", {}, t("size {value} mm", { value: number(size, 3) })),
     );
   }

@@ -80,11 +80,7 @@ export class Stage implements Board {
 
   /** Write the buttons on the picture, in the language of the page. */
   arrange(): void {
-    const adder = stageButton("point", t("Add a coupler point: click on a link"), () => {
-      this.adding = !this.adding;
-      adder.setAttribute("aria-pressed", String(this.adding));
-      this.element.classList.toggle("adding", this.adding);
-    });
+    const adder = stageButton("point", t("Add a coupler point: click on a link"), () => this.add(!this.adding));
     adder.setAttribute("aria-pressed", String(this.adding));
     this.element.querySelector(".tools")?.remove();
     this.element.append(
@@ -106,6 +102,15 @@ export class Stage implements Board {
 
   focus(joint: number): void {
     this.#scene.focus(joint);
+  }
+
+  /** Whether clicks make coupler points; returns whether they did. */
+  add(on: boolean): boolean {
+    const before = this.adding;
+    this.adding = on;
+    this.element.querySelector(".tools [aria-pressed]")?.setAttribute("aria-pressed", String(on));
+    this.element.classList.toggle("adding", on);
+    return before;
   }
 
   /** Give up what the pointer is dragging; false if it drags nothing. */

@@ -174,7 +174,7 @@ export class SynthesisView implements View {
             h(
               "div.form",
               {},
-              h("button.key", { "data-act": "synthesise", onclick: () => void this.#search() }, t("Find four-bars")),
+              h("button.key", { "data-act": "synthesise", onclick: () => void this.#search() }, t("Find linkages")),
               this.#planar
                 ? h("button.plain", { "data-act": "clear", onclick: () => this.#clear() }, t("Remove all points"))
                 : null,

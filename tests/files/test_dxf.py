@@ -74,6 +74,11 @@ def test_a_drawing_opens_without_complaint(name):
     plates = plates_of(whole_motion(lower_linkage(linkage)))
     assert len(edges) == sum(1 + len(cut_outs(plate, 2.0).slots) for plate in plates.plates.values())
     assert all(line.closed for line in edges)
+    corners = [corner for line in space.query("LWPOLYLINE") for corner in line.get_points("xy")]
+    for axis in (0, 1):  # what a program shows first; arcs of the edges reach beyond their ends, by the margin at most
+        values = [corner[axis] for corner in corners]
+        assert min(values) - 3.0 <= document.header["$EXTMIN"][axis] <= min(values) + 1e-9
+        assert max(values) - 1e-9 <= document.header["$EXTMAX"][axis] <= max(values) + 3.0
 
 
 def test_holes_are_as_far_apart_as_the_pins_of_the_link():

@@ -153,7 +153,10 @@ def test_dead_centres_are_those_that_were_asked_for(design):
     cards = view.locator('[data-list="designs"] .card')
     cards.nth(1).wait_for(timeout=60_000)
     view.locator('[data-value="transmission"]').click()
-    angles = [float(text.split("≥")[1].strip(" °")) for text in cards.locator("span:text('μ')").all_text_contents()]
+    angles = [
+        float(text.split("≥")[1].strip(" °"))
+        for text in cards.locator("span:text('on the way: μ')").all_text_contents()
+    ]
     assert len(angles) > 2
     assert angles == sorted(angles, reverse=True)
     found = measures(opened(design))

@@ -74,6 +74,18 @@ def test_a_point_without_a_mouse(tab, crank_rocker):
     assert after[0] == pytest.approx(before[0], abs=0.1)
 
 
+def test_clicks_make_points_until_escape(tab, crank_rocker):
+    page = tab().open(crank_rocker)
+    adder = page.page.locator(".stage .tools [aria-pressed]")
+    adder.click()
+    assert adder.get_attribute("aria-pressed") == "true"
+    page.page.keyboard.press("Escape")
+    assert adder.get_attribute("aria-pressed") == "false"
+    joint = page.middle('[data-joint="R(coupler-rocker)"] .joint')
+    page.drag(joint, (8, 5))
+    assert page.page.evaluate(f"{POINTS}.length") == 0
+
+
 def test_a_drag_is_given_up(tab, crank_rocker):
     page = tab().open(crank_rocker)
     sizes = page.page.evaluate(SIZES)

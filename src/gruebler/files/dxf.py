@@ -148,6 +148,10 @@ def _new_document(unit: str, left_out: list[Message]) -> Any:
 
 
 def _text(document: Any) -> str:
+    from ezdxf.bbox import extents
+
+    box = extents(document.modelspace())
+    document.modelspace().reset_extents(box.extmin, box.extmax)  # what programs show first
     stream = io.StringIO()
     document.write(stream)
     return stream.getvalue()
