@@ -128,6 +128,7 @@ def key_list(rows: Iterable[tuple[str, str]], at: Point) -> list[Shape]:
 def at_time(bodies: Iterable[Body], time: float) -> list[Shape]:
     """The shapes of all bodies after a part of the time (0 to 1).
 
+    >>> from gruebler.pictures.canvas.shapes import CircleShape
     >>> body = Body((CircleShape(Point(10, 0), 2, "joint"),), (Shift((Point(5, 5),)), even_keys(1)))
     >>> at = at_time([body], 0.25)[0].at  # a quarter turn upwards
     >>> round(at.x, 9), round(at.y, 9)
