@@ -377,7 +377,7 @@ export class App implements Page {
     const target = event.composedPath()[0] as HTMLElement;
     const undo = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z";
     if ((event.key === "Escape" || undo) && this.motion.stage.cancelDrag()) return event.preventDefault();
-    if (event.key === "Escape" && this.motion.stage.add(false)) return event.preventDefault();
+    if (event.key === "Escape" && this.motion.stage.setAdding(false)) return event.preventDefault();
     if (/^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) && (target as HTMLInputElement).type !== "range") return;
     if (event.ctrlKey || event.metaKey) {
       if (event.key === "z" && !event.shiftKey) this.#undoing.undo?.();

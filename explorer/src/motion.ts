@@ -158,7 +158,7 @@ export class MotionView implements View, Editor, Driven {
   /** Everything anew, in pieces: between them the browser may draw what is there. */
   *pieces(): Generator<void> {
     this.stage.cancelDrag();
-    this.stage.add(false);
+    this.stage.setAdding(false);
     this.#arrangeStage();
     this.show();
     this.stage.fit();

@@ -80,7 +80,7 @@ export class Stage implements Board {
 
   /** Write the buttons on the picture, in the language of the page. */
   arrange(): void {
-    const adder = stageButton("point", t("Add a coupler point: click on a link"), () => this.add(!this.adding));
+    const adder = stageButton("point", t("Add a coupler point: click on a link"), () => this.setAdding(!this.adding));
     adder.setAttribute("aria-pressed", String(this.adding));
     this.element.querySelector(".tools")?.remove();
     this.element.append(
@@ -105,7 +105,7 @@ export class Stage implements Board {
   }
 
   /** Whether clicks make coupler points; returns whether they did. */
-  add(on: boolean): boolean {
+  setAdding(on: boolean): boolean {
     const before = this.adding;
     this.adding = on;
     this.element.querySelector(".tools [aria-pressed]")?.setAttribute("aria-pressed", String(on));

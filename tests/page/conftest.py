@@ -118,6 +118,10 @@ class Tab:
         self.until("window.gruebler?.motion?.linkage !== undefined")
         return self
 
+    def hold(self) -> None:
+        """What the page asks of the library waits in `held`."""
+        self.page.evaluate("() => { window.held = []; gruebler.model.send = (content) => held.push(content); }")
+
     def target(self, x: float, y: float) -> tuple[float, float]:
         """Where a place of the plane of the synthesis is seen."""
         matrix = "(({ a, d, e, f }) => [a, d, e, f])(gruebler.views.synthesis.marks.getScreenCTM())"

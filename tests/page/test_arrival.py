@@ -77,12 +77,7 @@ def test_a_view_that_waits_says_so(tab, server):
 
 def test_cards_of_the_catalog_come_to_places_of_their_size(tab, server):
     page = tab().open(server.address)
-    page.page.evaluate(
-        """() => {
-        window.held = [];
-        gruebler.model.send = (content) => held.push(content);
-        }"""
-    )
+    page.hold()
     size = """(() => {
         const { x, y, width, height } = gruebler.views.catalog.element.querySelector('.card').getBoundingClientRect();
         return [x, y, width, height];

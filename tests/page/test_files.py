@@ -168,12 +168,7 @@ def test_the_drive_of_a_drawn_four_bar_comes_back_from_another_program():
 def test_a_file_that_is_dropped_is_said_to_be_opened_at_once(tab, server):
     """The library may still start, or be busy."""
     page = tab().open(server.address)
-    page.page.evaluate(
-        """() => {
-        window.held = [];
-        gruebler.model.send = (content) => held.push(content);
-        }"""
-    )
+    page.hold()
     dropped(page, "chain.txt", b"R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)")
     page.page.locator(".message.done", has_text="Opening chain.txt").wait_for()
     page.until("held.length > 0")

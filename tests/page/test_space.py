@@ -198,6 +198,23 @@ def test_several_drives_move_together(tmp_path, chromium, id):
     browser.close()
 
 
+def test_a_platform_that_only_shifts_is_said_to_shift(tmp_path, chromium):
+    """Three equal angles of a delta robot: up or down. The page solves it, and it does not say that it is turned."""
+    path = tmp_path / "delta.html"
+    assert main(["explore", "delta", "-o", str(path)]) == 0
+    browser, page, errors = browsed(chromium, path)
+    page.get_by_role("button", name="Pause").click()
+    for slider in page.locator(".rows input").all():
+        slider.fill("0.2")
+    linkage = entry("delta").placed()
+    pose = move(linkage, [np.zeros(3), np.full(3, 0.2)]).poses[0, -1, linkage.mechanism.chain.index("platform")]
+    name, value = page.locator('[data-panel="measures"]').inner_text().split("\n")[1:3]
+    assert name == "platform: shifted from the reference pose"
+    assert float(value.split()[0]) == pytest.approx(np.linalg.norm(pose[:3, 3]), rel=1e-3)
+    assert errors == []
+    browser.close()
+
+
 CANVAS = "document.querySelector('.gruebler-explorer').shadowRoot.querySelector('canvas')"
 PIXELS = (
     f"const c = {CANVAS}, g = c.getContext('webgl2'), p = new Uint8Array(4 * c.width * c.height);"

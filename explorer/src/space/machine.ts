@@ -7,6 +7,8 @@ import { type Camera, moved, projection, seen, type Vector } from "./algebra";
 import type { Model, Motion, Spot } from "./model";
 import { type Pose, Solver } from "./solver";
 
+/** Radians: a link that is turned less only shifts. */
+export const TURNED = 1e-6;
 const STILL = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 const NEAR = 8; // rows before and behind among which a pulled link looks for its place
 const OFF = 1e-7; // by this part of its range a slider keeps off the ends, which can be reached here
@@ -20,7 +22,7 @@ export class Machine implements Drivable {
   readonly size: number;
   /** Whether the drive could not go where it was sent. */
   ended = false;
-  /** The links that do not only shift. */
+  /** The links that do not only shift on the rows. */
   readonly turning: Set<number>;
   /** The place that was pulled last. */
   traced: Spot | null = null;
@@ -33,7 +35,7 @@ export class Machine implements Drivable {
     this.#solver = live && new Solver(live, size, middle, bodies.length);
     const names = motions.map(({ drive }) => ({ name: String(drive) }));
     this.model = { drives: names, span: { between: null }, unit: data.unit };
-    const turns = (link: number) => live || motions.some(({ poses }) => poses.some((row) => turnOf(row[link]!) > 1e-6));
+    const turns = (link: number) => motions.some(({ poses }) => poses.some((row) => turnOf(row[link]!) > TURNED));
     this.turning = new Set(bodies.map((_, link) => link).filter(turns));
     this.drives = motions.map((motion) => {
       const [low, high] = endsOf(motion);
@@ -154,9 +156,10 @@ export class Machine implements Drivable {
   }
 }
 
-/** By what angle a link is turned. */
+/** By what angle a link is turned: its cosine alone would not tell small ones. */
 export function turnOf(pose: ArrayLike<number>): number {
-  return Math.acos(Math.min(Math.max((pose[0]! + pose[5]! + pose[10]! - 1) / 2, -1), 1));
+  const [x, y, z] = [pose[9]! - pose[6]!, pose[2]! - pose[8]!, pose[4]! - pose[1]!];
+  return Math.atan2(Math.hypot(x, y, z), pose[0]! + pose[5]! + pose[10]! - 1);
 }
 
 /** The first and the last value of a motion's drive, in radians or as lengths. */

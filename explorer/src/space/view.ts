@@ -12,7 +12,7 @@ import { firstTheme, panelOf, setTheme, shell, tool } from "../shell";
 import { driveText } from "../track";
 import { type Driven, Transport } from "../transport";
 import { moved } from "./algebra";
-import { endsOf, Machine, turnOf } from "./machine";
+import { endsOf, Machine, TURNED, turnOf } from "./machine";
 import type { Model } from "./model";
 import { Scene } from "./scene";
 
@@ -237,7 +237,7 @@ export class SpaceView implements Driven {
     const { poses } = linkage;
     const facts: Fact[] = data.outputs.map((link) => {
       const pose = poses[link]!;
-      const turns = linkage.turning.has(link);
+      const turns = data.live ? turnOf(pose) > TURNED : linkage.turning.has(link);
       const far = `${number(Math.hypot(pose[3]!, pose[7]!, pose[11]!), DIGITS)} ${data.unit}`;
       const text = turns ? angle(turnOf(pose), DIGITS) : far;
       return { name: words[turns ? "turned" : "shifted"]!.replace("{link}", texts.links[link]!), text };
