@@ -263,12 +263,12 @@ def read_task(path: Path | str) -> Task:
     path = Path(path)
     if path.suffix.lower() not in (".toml", ".json", ".csv"):
         raise SynthesisError("{path}: a task is in a .toml, .json or .csv file", path=path)
-    text = read_text(path, kind=SynthesisError) if path.suffix.lower() == ".csv" else ""
-    with naming(path, SynthesisError):
-        if text:
+    if path.suffix.lower() == ".csv":
+        text = read_text(path, kind=SynthesisError)
+        with naming(path, SynthesisError):
             return _from_csv(text)
-        data = load_document(path, SynthesisError)
-        return task_from_json(data)
+    with naming(path, SynthesisError):
+        return task_from_json(load_document(path, SynthesisError))
 
 
 def _from_csv(text: str) -> Task:

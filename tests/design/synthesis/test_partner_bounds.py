@@ -56,7 +56,7 @@ def _never_better(seed, positions, count):
             facts = pair_facts(task, *pairs, wish)
             good = np.logical_and.reduce([flags for _, flags in facts.met(wish)])
             best = float(facts.transmission[good].max(initial=-np.inf))
-            found = PartnerSearch(task, wish, held, driven=driven).searched(0.0, margin)
+            found = PartnerSearch(task, wish, held, driven=driven).partner(0.0, margin)
             if not found.left:
                 checked += best > 0
                 assert best <= found.angle + margin, (seed, number, driven)

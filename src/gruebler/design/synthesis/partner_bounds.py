@@ -78,8 +78,8 @@ Angles = Callable[[DyadCells], Reals]
 """The transmission angles of the linkages in the middle of cells; minus infinity where they fail."""
 
 
-def searched(
-    family: DyadFamily, may: Tests, angles: Angles | None, begin: float, margin: float, budget: int = _BUDGET
+def branch_and_bound(
+    family: DyadFamily, possible: Tests, angles: Angles | None, begin: float, margin: float, budget: int = _BUDGET
 ) -> tuple[float, float, tuple[complex, complex] | None]:
     """Branch and bound over the cells of a family.
 
@@ -98,7 +98,7 @@ def searched(
                 best, place = float(reached[k]), (complex(seen.moving.value[k]), complex(seen.fixed.value[k]))
         if best + margin >= pi / 2:
             return left / whole, best, place
-        stays = ~seen.far & (may(seen, best + margin) | ~seen.known)
+        stays = ~seen.far & (possible(seen, best + margin) | ~seen.known)
         done = stays & ((seen.extent < NARROW) | (looked + 2 * np.count_nonzero(stays) > budget))
         left += _content(cells[done])
         cells = family.halves(cells[stays & ~done])
@@ -127,7 +127,7 @@ class PartnerSearch:
         at = np.array([held.fixed], np.complex128)
         self.inside = held.kind.pairs[0].is_sliding or bool(inside_region(at, demands)[0])
 
-    def may(self, seen: DyadCells, angle: float) -> Flags:
+    def possible(self, seen: DyadCells, angle: float) -> Flags:
         """Cells that may have a linkage with such a transmission angle."""
         wanted = replace(self.demands, transmission=angle)
         tests = PairTests(wanted, self.origin, self.size)
@@ -158,11 +158,12 @@ class PartnerSearch:
         good = np.logical_and.reduce([flags for _, flags in facts.met(self.demands)]) & facts.branch
         return np.where(good, facts.transmission, -np.inf)[:, 0]
 
-    def searched(self, begin: float, margin: float, budget: int = _BUDGET, *, bettered: bool = True) -> Partner:
+    def partner(self, begin: float, margin: float, budget: int = _BUDGET, *, improves: bool = True) -> Partner:
         """What is left of the family above the best transmission angle, or `begin`, and a margin."""
         if self.family is None or (isinstance(self.family, DyadCurve) and not self.family.fits):
             return Partner(left=1.0, angle=begin, dyad=None)
-        left, best, place = searched(self.family, self.may, self.angles if bettered else None, begin, margin, budget)
+        angles = self.angles if improves else None
+        left, best, place = branch_and_bound(self.family, self.possible, angles, begin, margin, budget)
         dyad = None if place is None else GuidingDyad(CRANK, *place).moved(self.size, self.origin)
         return Partner(left=left, angle=best, dyad=dyad)
 
@@ -174,7 +175,7 @@ def left_of_cranks(task: PositionTask, demands: Demands, dyad: GuidingDyad, budg
     positions, else 1 s.
     """
     search = PartnerSearch(task, demands, dyad, driven=False)
-    return search.searched(demands.transmission, 0.0, budget, bettered=False).left
+    return search.partner(demands.transmission, 0.0, budget, improves=False).left
 
 
 def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, demands: Demands) -> Flags:
@@ -255,7 +256,7 @@ def slide_notes(
         yield _UNKNOWN.filled(form=symbols)
 
 
-def bettered(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -> tuple[Pair | None, list[Message]]:
+def improved_pair(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -> tuple[Pair | None, list[Message]]:
     """A better linkage than the best of pairs of two or three positions, and what is proved beside its dyads.
 
     One of its dyads is held while the whole family of the other is searched, then the other way round. Where no pair
@@ -271,7 +272,7 @@ def bettered(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -> tup
     for turn in range(_TURNS):
         side = 1 if pair[1].slides else turn % 2
         proved[1 - side] |= pair[1].slides
-        partner = PartnerSearch(task, demands, pair[side], driven=side == 0).searched(best, margin)
+        partner = PartnerSearch(task, demands, pair[side], driven=side == 0).partner(best, margin)
         if partner.dyad is not None and partner.angle > best + margin:
             improved = (pair[0], partner.dyad) if side == 0 else (partner.dyad, pair[1])
             pair, proved[1 - side] = improved, pair[1].slides
@@ -291,9 +292,9 @@ def _first_found(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) ->
     """A pair that meets the demands beside the cranks of these, which do not, or that there is none."""
     cranks = list(dict.fromkeys(first for first, _ in pairs))[:_CRANKS]
     for crank in cranks:
-        partner = PartnerSearch(task, demands, crank, driven=True).searched(demands.transmission, 0.0)
+        partner = PartnerSearch(task, demands, crank, driven=True).partner(demands.transmission, 0.0)
         if partner.dyad is not None:
-            improved, notes = bettered(task, demands, [(crank, partner.dyad)])
+            improved, notes = improved_pair(task, demands, [(crank, partner.dyad)])
             return improved or (crank, partner.dyad), notes
         if partner.left:
             return None, [_BESIDE_UNKNOWN.filled(form=form_symbols(f"{CRANK.form}-{CRANK.form}"))]

@@ -35,7 +35,7 @@ from gruebler.design.synthesis.dyads import (
 from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design
 from gruebler.design.synthesis.pair_search import FoundPairs, Nearby, best_pairs
-from gruebler.design.synthesis.partner_bounds import bettered, slide_notes
+from gruebler.design.synthesis.partner_bounds import improved_pair, slide_notes
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.targets import Targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PositionTask
@@ -299,7 +299,7 @@ def _judged_best(
     for search in searches:
         notes += search.notes
         if len(task) < 4 and search.pairs:
-            better, proved = bettered(task, demands, search.pairs)
+            better, proved = improved_pair(task, demands, search.pairs)
             pairs += [better] if better else []
             notes += proved
         pairs += search.pairs
