@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from math import isfinite
 from pathlib import Path
-from xml.etree.ElementTree import Element, TreeBuilder
-from xml.parsers import expat
+from typing import TYPE_CHECKING
 
 from gruebler.base.errors import GrueblerError, naming
 from gruebler.base.text import reason_of
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
 
 LARGEST = 2_000_000
 """Bytes of a file; drawings of a thousand links fit."""
@@ -49,6 +51,9 @@ def parse_xml(text: str) -> Element:
     Traceback (most recent call last):
     gruebler.base.errors.GrueblerError: a document type (DOCTYPE) is not allowed here
     """
+    from xml.etree.ElementTree import TreeBuilder
+    from xml.parsers import expat
+
     builder = TreeBuilder()
     parser = expat.ParserCreate()
     depth = 0

@@ -196,7 +196,7 @@ def synthesise_positions(
         progress: called with the pairs of dyads that are judged, and their number.
 
     Raises `SynthesisError` for positions that infinitely many dyads of no known family serve. Cost: 1 ms for the dyads
-    of five positions and about 10 ms for the verdict on each design.
+    of five positions, 2 to 7 s for search and proof of two and three, about 10 ms for the verdict on each design.
 
     >>> task = PositionTask([(0, 0, 0), (-2, 3.8, np.radians(81)), (-0.1, 3.4, np.radians(-16)),
     ...                      (1.5, 0.8, np.radians(-32)), (-1.8, 2.2, np.radians(55))])

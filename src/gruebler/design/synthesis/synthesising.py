@@ -70,8 +70,8 @@ def synthesise(
             not take.
 
     Cost:
-        1 ms to 3 s (nine points) and 10 ms for each verdict; a rest 20 s; six-bars 20 to 60 s; a structure
-        1 to 3 s a start, by its atlas 5 s.
+        1 ms to 3 s (nine points), two and three positions 2 to 7 s, and 10 ms for each verdict; a rest 20 s; six-bars
+        20 to 60 s; a structure 1 to 3 s a start, by its atlas 5 s.
 
     Example:
         >>> from gruebler.design.synthesis import DeadCentreTask
