@@ -1,6 +1,6 @@
 """How many six-bars turn through pairs of angles: by monodromy, with a trace test; docs/theory/synthesis-functions.md.
 
-`python -m benchmarks.six_bars FAMILY PAIRS FOLDER` keeps what is found in a folder and goes on from there.
+`python -m benchmarks.six_bars FAMILY PAIRS FOLDER SEED` keeps what is found in a folder and goes on from there.
 """
 
 import sys
@@ -227,6 +227,15 @@ def trace(search: Search, node: int) -> tuple[float, float, int]:
     return whole, abs(bends[1:].sum()) / abs(ways[1:].sum()), int((~kept).sum())
 
 
+def with_arm_given(search: Search) -> tuple[int, int]:
+    """How many solutions of the first task stay finite, and how many of these differ, as its plane becomes p p* = r."""
+    task = search.tasks[0].copy()
+    task[2], task[3, 0] = 0, complex(random(search.rng))
+    ends, good = follow(search.family, search.pairs, search.found[0], search.tasks[0], task)
+    different, _ = places(ends[:0], ends[good])
+    return int(good.sum()), len(different)
+
+
 def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 1) -> None:
     search = Search(family, pairs, seed)
     file = Path(folder or ".") / f"{family.replace(' ', '_')}_{pairs}_{seed}.npz"
@@ -250,6 +259,8 @@ def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 
             whole, less, lost = trace(search, 0)
             print(f"trace test: {whole:.1e}, without one solution {less:.1e}; {lost} paths lost", flush=True)
             if whole < LINEAR:
+                finite, different = with_arm_given(search)
+                print(f"with the arm alone given: {finite:,} finite, {different:,} different", flush=True)
                 break
             search.add_way(*search.ways[len(search.ways) % 6][:2])
     print(search, f"{time.process_time():.0f} s of processor", sep="; ")
