@@ -28,17 +28,17 @@ from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 
 _WORDS = {
-    "hint": message("Drag a body to pull it along, drag beside it to go round."),
+    "hint": message("Drag a body to move the machine, drag the background to turn the view."),
     "pull": message("Drag a body"),
-    "pulled": message("pull it along; the place where it was taken draws its path"),
-    "round": message("Drag beside it, arrow keys on the picture"),
-    "rounded": message("go round the machine"),
+    "pulled": message("move the machine; the point that you drag draws its path"),
+    "round": message("Drag the background, arrow keys on the picture"),
+    "rounded": message("turn the view"),
     "near": message("Wheel, two fingers"),
-    "nearer": message("nearer and farther"),
+    "nearer": message("zoom in and out"),
     "drives": message("Drives"),
     "turned": message("{link}: turned from the reference pose"),
     "shifted": message("{link}: shifted from the reference pose"),
-    "traced": message("{link}: place that was pulled"),
+    "traced": message("{link}: dragged point"),
     "paths": message("Paths of points"),
     "grid": message("Grid"),
     "view": message("View"),

@@ -58,7 +58,9 @@ _BESIDE_NONE = message(
     "Proved: the {count} cranks that came nearest to the demands meet them with no other dyad whose pivots lie within "
     "{far:g} sizes of the task. Other cranks were sampled."
 )
-_BESIDE_UNKNOWN = message("Linkages {form}: no bound could be proved beside the dyads of the best one; it is sampled.")
+_BESIDE_UNKNOWN = message(
+    "Linkages {form}: no bound could be proved beside the dyads of the best one, which was found by sampling."
+)
 
 
 class Partner(NamedTuple):
