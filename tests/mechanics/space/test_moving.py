@@ -253,7 +253,7 @@ def test_radii_of_wheels_in_space_fit_their_axes():
 
 
 def test_a_differential_with_one_drive_says_what_still_moves():
-    with pytest.raises(LinkageError, match=r"F = 1 is left: R\(frame-sun1\), R\(frame-sun2\)"):
+    with pytest.raises(LinkageError, match=r"F = 1 is left, in R\(frame-sun1\), R\(frame-sun2\), R\(carrier-planet\)"):
         move(entry("diff_bevel").placed().with_drives(["R(frame-carrier)"]), [0.0, 1.0])
 
 

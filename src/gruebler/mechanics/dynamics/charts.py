@@ -97,6 +97,8 @@ class Charts:
         """Side by side along the drive."""
         self.current: Chart | None = None
         """The one that was asked for last."""
+        self.seams = set[float]()
+        """Drives at which a law passes from one piece to the next; no chart reaches over one."""
         self.closed: float | None = None
         """The low end of a whole turn, once it is known that it comes back."""
         self._blocked = set[int]()  # the sides, 1 and -1, on which the branch ends
@@ -247,7 +249,10 @@ class Charts:
     def _at_joint(self, q: float, start: ReferencePose) -> bool:
         """Whether a law passes from one piece to the next there."""
         seen = self._past_joints(np.array([q]), start) if self._joints else None
-        return seen is not None and bool((np.abs(seen - 1) < _AT_JOINT).any())
+        if seen is None or not (np.abs(seen - 1) < _AT_JOINT).any():
+            return False
+        self.seams.add(q)
+        return True
 
     def _smooth(self, edge: float, far: float, start: ReferencePose) -> float:
         """So far towards another value of the drive as no law of a cam passes from one piece to the next."""
@@ -267,7 +272,9 @@ class Charts:
             return np.array([np.nan if z is None else z[0, k].imag for z, k in zip(there, columns, strict=True)])
 
         ends = bracketed_root(off, np.full(len(columns), path[row]), np.full(len(columns), path[row + 1]))
-        return float(ends[np.abs(ends - edge).argmin()])
+        seam = float(ends[np.abs(ends - edge).argmin()])
+        self.seams.add(seam)
+        return seam
 
     def _ordinary(self, low: float, high: float, start: ReferencePose) -> Chart | None:
         """A chart of poses that the kernel walks to without passing a change point."""

@@ -18,6 +18,8 @@ from gruebler.mechanics.forces import Statics
 from gruebler.mechanics.forces.acting import MovingLinks, loads_over_rows
 from gruebler.mechanics.forces.equilibrium import link_loads, reactions
 from gruebler.mechanics.forces.laws import SwitchedLaw
+from gruebler.mechanics.kinematics.contacts import Condition
+from gruebler.mechanics.kinematics.law_directions import law_direction
 from gruebler.mechanics.kinematics.messages import drive_name, drive_values
 from gruebler.structure.chain.pairs import SymbolText
 from gruebler.structure.mechanism import Mechanism
@@ -39,6 +41,9 @@ _STALLED = message("The motor at {joint} stalls at {time:n} s, {values}: the loa
 _PULL = 1e-9  # of the largest force of a joint so far: a smaller pull is rounding
 _ON_JUMP = 1e-11  # of the largest value so far of what a load looks at: nearer to its jump it is on it
 _TOGETHER = 1e-9  # likewise: what is so near to its own jump turns over with it
+_PAST_SEAM = 1e-9  # radians: so far behind a seam of a law a step ends
+AT_SEAM = _PAST_SEAM / 2  # radians: so exactly; far more than rounding
+_WIDEST = 2.0  # radians: of a piece of a law in which no step ends
 _AHEAD = 1e-7  # of the time that is followed: so far it is looked ahead on which side of a jump the motion goes
 
 
@@ -51,6 +56,8 @@ class Watch(NamedTuple):
     """What is said then; nothing if the motion goes on."""
     passed: Callable[[Instants], None] = lambda _: None
     """What happens where it goes on."""
+    is_seam: bool = False
+    """Whether what acts is not smooth there, so that the step must end there."""
 
 
 def watched_ends(free: FreeLinkage, first: Instants, ends: Mapping[str, tuple[float, float]]) -> Iterator[Watch]:
@@ -230,6 +237,50 @@ class Jumps:
             speeds=moving.speeds + step * self._free.own_acceleration(now, acceleration),
         )
         return (self._gaps(ahead) - self._gaps(moving)) / step
+
+
+class Seams:
+    """Where the laws of cams and the like pass from one piece to the next.
+
+    Higher derivatives jump there, and a step over them misses more than it tells.
+    """
+
+    def __init__(self, free: FreeLinkage) -> None:
+        self._plan = free.plan
+        laws = [c for group in free.plan.conditions for c in group if c.law.joints]
+        self._laws = [(law, _pieces(law.law.joints)) for law in laws]
+        self._now = list[Reals]()
+
+    def watched(self) -> list[Watch]:
+        """What is looked at: the nearest of all seams, if there are any."""
+        return [Watch(self._nearest, lambda _: None, is_seam=True)] if self._laws else []
+
+    def look(self, now: Instants) -> None:
+        """The pieces on which a step begins."""
+        self._now = [pieces[[_within(self._seen(now, law), pieces).argmax()]] for law, pieces in self._laws]
+
+    def _nearest(self, now: Instants) -> float:
+        parts = zip(self._laws, self._now, strict=True)
+        return min(float(_within(self._seen(now, law), piece)[0]) for (law, _), piece in parts) + _PAST_SEAM
+
+    def _seen(self, now: Instants, law: Condition) -> complex:
+        its, size = now.influences, self._plan.lower.size
+        return complex(law_direction(self._plan, its.places[:1] / size, its.turns[:1], law)[0])
+
+
+def _pieces(joints: tuple[float, ...]) -> Reals:
+    """(pieces, 2): the middles and half widths of what lies between angles, in parts that are not too wide."""
+    ends = np.unique(np.mod(joints, 2 * np.pi))
+    parts = list[tuple[float, float]]()
+    for low, width in zip(ends, np.diff(ends, append=ends[0] + 2 * np.pi), strict=True):
+        count = int(np.ceil(width / _WIDEST))
+        parts += [(low + width * (k + 0.5) / count, width / count / 2) for k in range(count)]
+    return np.array(parts)
+
+
+def _within(seen: complex, pieces: Reals) -> Reals:
+    """So far within each piece a direction lies; negative outside."""
+    return np.asarray(pieces[:, 1] - np.abs(np.angle(seen * np.exp(-1j * pieces[:, 0]))))
 
 
 def _motors_at_rest(free: FreeLinkage, first: Instants) -> Iterator[tuple[int, float]]:

@@ -64,6 +64,17 @@ class ReducedSeries:
         self.table = self._tabled()
         return reduced_forces(*self.table, q, v)
 
+    def smooth(self, q: float) -> tuple[SeriesTable, NDArray[np.uint8]]:
+        """The table and its calm charts between the seams of laws that lie round a value."""
+        seams = self.charts.seams
+        if not seams:
+            return self.table, self.calm
+        low = max((seam for seam in seams if seam <= q), default=-np.inf)
+        high = min((seam for seam in seams if seam > q), default=np.inf)
+        ends = self.table.ends
+        here = (ends[:, 0] >= low) & (ends[:, 1] <= high)
+        return self.table._replace(ends=ends[here], coefficients=self.table.coefficients[here]), self.calm[here]
+
     def _tabled(self) -> SeriesTable:
         known = [(chart, series) for chart in self.charts.known if (series := self._known.get(chart)) is not None]
         self.calm: NDArray[np.uint8] = np.array([self._is_calm(self.charts, chart) for chart, _ in known], np.uint8)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from copy import copy
 from functools import partial
 from typing import Any
 
@@ -20,7 +21,9 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.dynamics.charts import Blocked
 from gruebler.mechanics.dynamics.events import (
+    AT_SEAM,
     Jumps,
+    Seams,
     Watch,
     watched_contacts,
     watched_ends,
@@ -186,11 +189,14 @@ class ChartedSteps(DOP853):  # type: ignore[misc]  # scipy has no types
         there is no such step.
         """
         series = self._free.series
-        if series is None or not len(series.table.ends):
+        if series is None:
+            return None
+        table, calm = series.smooth(float(self.y[0]))
+        if not len(table.ends):
             return None
         method, lengths, errors = (*self._METHOD, *self._BETWEEN), (self.h_abs, self.t_bound), (self.rtol, self.atol)
         steps, passed, rate, self.h_abs, evaluations = free_run(
-            *series.table, *method, series.calm, self.t, self.y, self.f, *lengths, *errors, _MOST, stops
+            *table, *method, calm, self.t, self.y, self.f, *lengths, *errors, _MOST, stops
         )
         self._free.evaluations += evaluations
         if not len(steps):
@@ -222,6 +228,7 @@ class _Run:
         self.ahead = (0, 0.0)  # after so many evaluations it was so far
         self.reason: Message | None = None
         self.count = free.coordinates.count
+        self.seams = Seams(free)
         self.watched: list[Watch] = []
         self.used = list[tuple[float, tuple[str, ...]]]()
 
@@ -245,6 +252,7 @@ class _Run:
             *watched_motors(free, first),
             *watched_contacts(free, first),
             *jumps.watched(),
+            *self.seams.watched(),
         ]
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # of steps that lead where the linkage cannot be assembled
@@ -279,7 +287,7 @@ class _Run:
     def _step(self, solver: DOP853 | Radau) -> DOP853 | Radau:
         """One step, or many where nothing happens between them; what it passes is noted. Who takes the next one."""
         begin = solver.t
-        if isinstance(solver, ChartedSteps) and not self.watched:
+        if isinstance(solver, ChartedSteps) and all(watch.is_seam for watch in self.watched):
             leapt = solver.leap(self._stops(begin, self.until))
             if leapt is not None:
                 steps, passed = leapt
@@ -291,6 +299,9 @@ class _Run:
                 if len(steps) > 1:
                     self.free.keep(self.free.instants(steps[:-1, 0], *self._parts(steps[:-1, 1:])))
                 return solver
+        if self.watched:
+            self.seams.look(self._at(begin, solver.y))
+        before = copy(solver)
         solver.step()
         self.steps += 1
         if solver.status == "failed" or not np.isfinite(solver.y).all():
@@ -302,11 +313,36 @@ class _Run:
         if len(stops) or self.watched:
             path = solver.dense_output()
             event = self._event(path, begin, solver.t)
+            if event is not None and event[1].is_seam:
+                solver, event = self._up_to(event[1], event[0], before, solver)
+                stops, path = self._stops(begin, solver.t), solver.dense_output()
             if event is not None:
                 return self._after(event, path, solver)
             self._note([(t, path(t), True) for t in stops.tolist()])
         self._note([(solver.t, solver.y, False)])
         return solver
+
+    def _up_to(
+        self, seam: Watch, near: float, before: DOP853 | Radau, solver: DOP853 | Radau
+    ) -> tuple[DOP853 | Radau, tuple[float, Watch] | None]:
+        """A step over a seam, taken again to end at it: who takes the next one, and the event if it came so far."""
+        taken = solver
+
+        def gap(t: float) -> float:
+            nonlocal taken
+            taken = copy(before)
+            if t > before.t:
+                taken.h_abs = taken.max_step = t - before.t
+                taken.step()
+                taken.max_step = np.inf
+            left = seam.gap(self._at(taken.t, taken.y))
+            return 0.0 if abs(left) <= AT_SEAM else left
+
+        end = solver.t if seam.gap(self._at(solver.t, solver.y)) < 0 else near
+        if gap(end) < 0:
+            end = float(brentq(gap, before.t, end, xtol=1e-15 * self.until))
+        arrived = gap(end) <= 0
+        return taken, (taken.t, seam) if arrived else None
 
     def _after(
         self, event: tuple[float, Watch], path: Callable[[float], Reals], solver: DOP853 | Radau
