@@ -239,6 +239,7 @@ def with_arm_given(search: Search) -> tuple[int, int]:
 def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 1) -> None:
     search = Search(family, pairs, seed)
     file = Path(folder or ".") / f"{family.replace(' ', '_')}_{pairs}_{seed}.npz"
+    file.parent.mkdir(parents=True, exist_ok=True)
     if folder and file.exists():
         search.load(file)
     saved = time.time()
