@@ -132,9 +132,9 @@ def _disagreements(seeds):
 
 
 def test_verdicts_of_random_tasks_are_those_of_a_simulation():
-    wrong, accepted, rejected, _ = _disagreements(range(30))
+    wrong, accepted, rejected, _ = _disagreements(range(16))
     assert wrong == []
-    assert min(accepted, rejected) > 7
+    assert min(accepted, rejected) > 3
 
 
 @pytest.mark.slow
