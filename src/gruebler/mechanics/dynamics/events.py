@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Flags, Reals
+from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.mechanics.dynamics.coordinates import JointFreedom, freedom_of
@@ -44,6 +44,8 @@ _TOGETHER = 1e-9  # likewise: what is so near to its own jump turns over with it
 _PAST_SEAM = 1e-9  # radians: so far behind a seam of a law a step ends
 AT_SEAM = _PAST_SEAM / 2  # radians: so exactly; far more than rounding
 _WIDEST = 2.0  # radians: of a piece of a law in which no step ends
+_OVER = 0.5  # radians: so far over a seam a step may lead at the speeds at which it begins
+_SHORT = 1e-6  # radians: by which the fastest link turns to see how fast laws are passed
 _AHEAD = 1e-7  # of the time that is followed: so far it is looked ahead on which side of a jump the motion goes
 
 
@@ -255,17 +257,25 @@ class Seams:
         """What is looked at: the nearest of all seams, if there are any."""
         return [Watch(self._nearest, lambda _: None, is_seam=True)] if self._laws else []
 
-    def look(self, now: Instants) -> None:
-        """The pieces on which a step begins."""
-        self._now = [pieces[[_within(self._seen(now, law), pieces).argmax()]] for law, pieces in self._laws]
+    def look(self, now: Instants) -> float:
+        """The pieces on which a step begins; returns how long a step leads little farther at these speeds."""
+        moving, longest = now.moving, np.inf
+        self._now = []
+        for law, pieces in self._laws:
+            seen = self._seen(law, moving.places, moving.turns)
+            self._now.append(pieces[[_within(seen, pieces).argmax()]])
+            short = _SHORT / max(float(np.abs(moving.rates).max()), 1e-300)
+            moved = moving.places + short * moving.velocities, moving.turns * np.exp(1j * short * moving.rates)
+            turned = abs(float(np.angle(self._seen(law, *moved) / seen)))
+            longest = min(longest, (float(_within(seen, self._now[-1])[0]) + _OVER) * short / max(turned, 1e-12))
+        return longest
 
     def _nearest(self, now: Instants) -> float:
-        parts = zip(self._laws, self._now, strict=True)
-        return min(float(_within(self._seen(now, law), piece)[0]) for (law, _), piece in parts) + _PAST_SEAM
+        seen = [self._seen(law, now.moving.places, now.moving.turns) for law, _ in self._laws]
+        return min(float(_within(*part)[0]) for part in zip(seen, self._now, strict=True)) + _PAST_SEAM
 
-    def _seen(self, now: Instants, law: Condition) -> complex:
-        its, size = now.influences, self._plan.lower.size
-        return complex(law_direction(self._plan, its.places[:1] / size, its.turns[:1], law)[0])
+    def _seen(self, law: Condition, places: Complexes, turns: Complexes) -> complex:
+        return complex(law_direction(self._plan, places[:1] / self._plan.lower.size, turns[:1], law)[0])
 
 
 def _pieces(joints: tuple[float, ...]) -> Reals:

@@ -300,7 +300,7 @@ class _Run:
                     self.free.keep(self.free.instants(steps[:-1, 0], *self._parts(steps[:-1, 1:])))
                 return solver
         if self.watched:
-            self.seams.look(self._at(begin, solver.y))
+            solver.h_abs = min(solver.h_abs, self.seams.look(self._at(begin, solver.y)))
         before = copy(solver)
         solver.step()
         self.steps += 1
