@@ -41,6 +41,8 @@ export class SynthesisView implements View {
   #puts: Puts = "";
   #closed = false;
   #crank = true;
+  /** Places of the targets in the order, as they are typed. */
+  #order = "";
   #least = 20; // degrees
   #shownDesign: Design | null = null;
   /** How wide the plane is before there is anything in it; that of points out of a file is as wide as they need. */
@@ -107,6 +109,13 @@ export class SynthesisView implements View {
       "data-field": "least",
       onchange: () => (this.#least = Number(least.value)),
     });
+    const order = h("input", {
+      value: this.#order,
+      placeholder: "1 2 3",
+      title: t("One number for each target: the same for those in any order, – for one at any time"),
+      "data-field": "order",
+      onchange: () => (this.#order = order.value),
+    });
     const kinds: [Kind, string][] = [
       ["points", t("Points of a path")],
       ["positions", t("Positions of a link")],
@@ -170,6 +179,7 @@ export class SynthesisView implements View {
               open ? option(t("closed curve"), this.#closed, (on) => this.#close(on), "closed") : null,
               option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
               h("label", {}, t("transmission angle from"), least, "°"),
+              this.#planar && this.#page.served ? h("label", {}, t("order"), order) : null,
             ),
             h(
               "div.form",
@@ -333,6 +343,7 @@ export class SynthesisView implements View {
       rows: this.points,
       pivots: this.kind === "positions" ? this.#pivots : [],
       closed: this.kind === "points" && this.#closed,
+      order: this.#planar ? (this.#order.match(/[^\s,;]+/g) ?? []).map((rank) => (/\d/.test(rank) ? +rank : null)) : [],
       crank: this.#crank,
       transmission: this.#least,
     };

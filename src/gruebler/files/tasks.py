@@ -42,6 +42,7 @@ class _Positions(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True)
     moving_pivots: list[list[float]] = []
     fixed_pivots: list[list[float]] = []
     curve_parameters: list[float] = []
+    order: list[Any] = []
 
 
 class _Path(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -53,6 +54,7 @@ class _Path(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
     output_angles: list[Any] = []
     tolerances: list[float | None] = []
     weights: list[float] = []
+    order: list[Any] = []
 
 
 class _Function(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -125,7 +127,7 @@ def task_from_json(document: Mapping[str, Any]) -> Task:
             "found none of them"
         )
     given = dict(document)
-    for key in ("points", *_TURNED, "tolerances"):  # null stands for what is free in JSON, "" in TOML
+    for key in ("points", *_TURNED, "tolerances", "order"):  # null stands for what is free in JSON, "" in TOML
         if isinstance(given.get(key), list):
             given[key] = [None if value == "" else value for value in given[key]]
     record = convert_document(given, kind, SynthesisError)
@@ -192,7 +194,7 @@ def task_to_json(task: Task) -> dict[str, Any]:
         case PositionTask():
             document["positions"] = [[x, y, in_degrees(angle)] for x, y, angle in task.positions]
             more: dict[str, Any] = {name: [list(p) for p in getattr(task, name)] for name in _PIVOTS}
-            more["curve_parameters"] = list(task.curve_parameters)
+            more |= {"curve_parameters": list(task.curve_parameters), "order": list(task.order)}
         case PathTask():
             document["points"] = [None if point is None else list(point) for point in task.points]
             more = {key: [None if a is None else in_degrees(a) for a in getattr(task, key)] for key in _TURNED}
@@ -201,6 +203,7 @@ def task_to_json(task: Task) -> dict[str, Any]:
                 "closed": task.closed,
                 "tolerances": list(task.tolerances),
                 "weights": list(task.weights),
+                "order": list(task.order),
             }
         case FunctionTask(law=FunctionLaw() as law):
 
@@ -245,6 +248,7 @@ _TURNED = ("angles", "crank_angles", "output_angles")
 _COLUMNS_OF = {"angles": "angle", "crank_angles": "crank", "output_angles": "output"} | {
     "tolerances": "tolerance",
     "weights": "weight",
+    "order": "order",
 }
 """The columns of a CSV file beside x and y for what a path gives for its targets."""
 
@@ -253,10 +257,10 @@ def read_task(path: Path | str) -> Task:
     """The task in a ``.toml``, ``.json`` or ``.csv`` file.
 
     The columns of a CSV file say what it is: ``x,y,angle`` positions (an empty angle is free: a mixed task), ``x,y``
-    points, perhaps with ``angle``, ``crank``, ``output``, ``tolerance``, ``weight`` (empty cells are free),
-    ``input,output`` or ``input,travel`` a function, ``swing`` or ``stroke`` with ``crank_angle`` or ``time_ratio`` dead
-    centres, with ``dwell`` a rest. Without a header two columns are points, three
-    positions. With semicolons between the columns a comma is the decimal sign.
+    points, perhaps with ``angle``, ``crank``, ``output``, ``tolerance``, ``weight`` (empty cells are free), both
+    perhaps with ``order``, ``input,output`` or ``input,travel`` a function, ``swing`` or ``stroke`` with
+    ``crank_angle`` or ``time_ratio`` dead centres, with ``dwell`` a rest. Without a header two columns are points,
+    three positions. With semicolons between the columns a comma is the decimal sign.
 
     Raises `SynthesisError` with file and key or line of the first thing that does not fit.
     """
@@ -312,17 +316,22 @@ def _from_csv(text: str) -> Task:
     def angles(name: str) -> list[Any]:
         return [_angle(cell) for cell in columns[name]]
 
+    def ranks() -> list[Any]:
+        return [int(cell) if cell.lstrip("+-").isdecimal() else cell or None for cell in columns["order"]]
+
     match frozenset(header):
-        case names if names == {"x", "y", "angle"} and all(columns["angle"]):
+        case names if names - {"order"} == {"x", "y", "angle"} and all(columns["angle"]):
             rows_of_numbers = zip(numbers("x"), numbers("y"), angles("angle"), strict=True)
-            return task_from_json({"positions": [list(row) for row in rows_of_numbers]})
+            order = {"order": ranks()} if "order" in names else {}
+            return task_from_json({"positions": [list(row) for row in rows_of_numbers], **order})
         case names if {"x", "y"} <= names <= {"x", "y", *_COLUMNS_OF.values()}:
             placed = [bool(x or y) for x, y in zip(columns["x"], columns["y"], strict=True)]
             for name in ("x", "y"):
                 columns[name] = list(compress(columns[name], placed))
             places = map(list, zip(numbers("x"), numbers("y"), strict=True))
             given: dict[str, Any] = {"points": [next(places) if there else None for there in placed]}
-            return task_from_json(given | {key: angles(name) for key, name in _COLUMNS_OF.items() if name in names})
+            given |= {key: angles(name) for key, name in _COLUMNS_OF.items() if name in names}
+            return task_from_json(given | ({"order": ranks()} if "order" in names else {}))
         case names if names == {"input", "output"}:
             return task_from_json({"inputs": angles("input"), "outputs": angles("output")})
         case names if names == {"input", "travel"}:
@@ -402,8 +411,13 @@ def _to_csv(document: Mapping[str, Any]) -> str:
     keys = {key for key in document if key != "unit"}
     rows: list[list[Any]]
     match keys:
-        case _ if keys == {"positions"}:
-            header, rows = ["x", "y", "angle"], document["positions"]
+        case _ if keys - {"order"} == {"positions"}:
+            own = [[rank] for rank in document.get("order", [])] or [[] for _ in document["positions"]]
+            header = ["x", "y", "angle", *(["order"] if "order" in keys else [])]
+            rows = [
+                [*row, *("" if v is None else v for v in rank)]
+                for row, rank in zip(document["positions"], own, strict=True)
+            ]
         case _ if keys == {"points"}:
             header, rows = ["x", "y"], document["points"]
         case _ if {"points"} < keys <= {"points", *_COLUMNS_OF}:

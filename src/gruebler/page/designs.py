@@ -34,26 +34,33 @@ _FRAMES = 48  # of a motion, there and back if it does not turn fully
 
 
 def task_of(
-    kind: str, rows: Sequence[Sequence[float]], *, closed: bool = False, pivots: Sequence[Sequence[float]] = ()
+    kind: str,
+    rows: Sequence[Sequence[float]],
+    *,
+    closed: bool = False,
+    pivots: Sequence[Sequence[float]] = (),
+    order: Sequence[int | None] = (),
 ) -> Task:
     """The task of the rows of the page: lengths as they are, angles in degrees, those of a function from free starts.
 
     >>> task_of("dead-centres", [[60, 1.2]]).swing
     1.047...
+    >>> task_of("points", [[0, 0], [1, 1], [2, 0]], order=[2, 1, None]).order
+    (2, 1, None)
     """
     columns = _COLUMNS if kind == "positions" else _COLUMNS - 1
     if any(len(row) != columns for row in rows) or any(len(pivot) != _COLUMNS - 1 for pivot in pivots):
         raise SynthesisError("{key}: expected {count} numbers in each row", key=kind, count=columns)
     if kind == "positions":
         places = tuple((x, y, radians(angle)) for x, y, angle in rows)
-        return PositionTask(places, fixed_pivots=tuple((x, y) for x, y in pivots))
+        return PositionTask(places, fixed_pivots=tuple((x, y) for x, y in pivots), order=tuple(order))
     if kind == "function":
         angles = [tuple(radians(row[k]) for row in rows) for k in (0, 1)]
         return FunctionTask(angles[0], outputs=angles[1], start_input=False, start_output=False)
     if kind == "dead-centres":
         swing, ratio = rows[0]
         return DeadCentreTask(swing=radians(swing), time_ratio=ratio)
-    return PathTask(tuple((x, y) for x, y in rows), closed=closed)
+    return PathTask(tuple((x, y) for x, y in rows), closed=closed, order=tuple(order))
 
 
 def design_records(

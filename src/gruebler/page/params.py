@@ -164,6 +164,8 @@ class SynthesiseTask(Params):
     kind: Literal["points", "positions", "function", "dead-centres"] = "points"
     pivots: Annotated[list[Row], msgspec.Meta(max_length=4)] = []
     """Fixed pivots of a linkage through positions."""
+    order: Annotated[list[int | None], msgspec.Meta(max_length=60)] = []
+    """Of each point or position its place in the order, nothing at any time."""
     closed: bool = False
     crank: bool = True
     """Whether the drive must turn fully."""

@@ -187,7 +187,7 @@ def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:
 def _synthesise(asked: SynthesiseTask, lang: str, progress: Progress) -> dict[str, Any]:
     from gruebler.page.designs import design_records, task_of
 
-    task = task_of(asked.kind, asked.rows, closed=asked.closed, pivots=asked.pivots)
+    task = task_of(asked.kind, asked.rows, closed=asked.closed, pivots=asked.pivots, order=asked.order)
     return design_records(task, asked.crank, asked.transmission, lang, progress)
 
 

@@ -2,7 +2,7 @@
 
 Tasks are random positions of a body; what the simulation needs of a design are its four pivots in the first position.
 It shares no code with `circuit` or `move`, and asks for no sign, limit or order by theorem: the pin follows its own
-way, and is compared with the place that the task gives it.
+way, and is compared with the place that the task gives it. Every second task gives each position a place in the order.
 """
 
 import numpy as np
@@ -10,6 +10,8 @@ import pytest
 
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, PositionTask, synthesise_positions
+
+from .test_target_orders import kept_by_angles, random_ranks
 
 _RATIO = 50
 
@@ -101,8 +103,9 @@ def _verdicts(seeds):
             chosen["moving_pivots"] = [tuple(row) for row in rng.uniform(-2, 3, (3, 2))]
         elif count == 4:
             chosen["curve_parameters"] = tuple(rng.uniform(0, 1, 3))
+        ranks = random_ranks(rng, count) if seed % 2 else ()
         try:
-            task = PositionTask(list(zip(z.real, z.imag, angles, strict=True)), **chosen)
+            task = PositionTask(list(zip(z.real, z.imag, angles, strict=True)), order=ranks, **chosen)
             found = synthesise_positions(task, Demands(size_ratio=_RATIO))
         except SynthesisError:
             continue
@@ -111,8 +114,16 @@ def _verdicts(seeds):
             if design.form == "RR-RR" and design.verdict.size_ratio < _RATIO:
                 pivots = np.array(_pivots(design))
                 moved = z + (pivots[1:3, None] - z[0]) * np.exp(1j * (angles - angles[0]))
-                rows.append((seed, pivots, moved, design.verdict.accepted))
+                rows.append((seed, pivots, moved, design.verdict.accepted, ranks or tuple(range(count))))
     return rows, tasks
+
+
+def _passes(onward, back, ranks):
+    """Whether a crank reaches all targets, in order; onward and back it turns to each by so much, or NaN."""
+    if np.isnan(np.fmin(onward, back)).any():
+        return False
+    turns = not np.isnan(onward + back).any()
+    return kept_by_angles(ranks, np.where(np.isnan(onward), -back, onward), turns=turns)
 
 
 def _disagreements(seeds):
@@ -125,7 +136,8 @@ def _disagreements(seeds):
             continue
         pivots = np.array([row[1] for row in same]).T
         moved = np.array([row[2] for row in same]).transpose(1, 0, 2)
-        passed = np.any([(np.diff(each, axis=1) > 0).all(axis=1) for each in simulated(pivots, moved)], axis=0)
+        reached = zip(*simulated(pivots, moved), strict=True)
+        passed = [_passes(*both, row[4]) for both, row in zip(reached, same, strict=True)]
         wrong += [(row[0], row[3]) for row, moves in zip(same, passed, strict=True) if row[3] != moves]
     accepted = sum(row[3] for row in rows)
     return wrong, accepted, len(rows) - accepted, tasks

@@ -367,7 +367,7 @@ def _judged(task: PathTask, demands: Demands, fit: Fit) -> list[Design]:
     def targets(linkage: Linkage) -> Targets:
         size, curve = _extent(task.z), GuidedCurve.of(task)
         if not task.crank_angles:
-            return Targets((Probe("P"),), task.z[:, None], size, curve=curve)
+            return Targets((Probe("P"),), task.z[:, None], size, curve=curve, ranks=task.order)
         timing = np.array(task.crank_angles)
         crank = size * np.exp(1j * (linkage.required_pose["crank"].angle + timing - timing[0]))
         return Targets(

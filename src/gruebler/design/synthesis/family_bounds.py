@@ -54,6 +54,11 @@ class Exclusion(NamedTuple):
     """Pairs of cells that were looked at."""
 
 
+def order_dropped(task: PositionTask, demands: Demands) -> Demands:
+    """Without the order if it is not that of the list: what is excluded without it is excluded all the more."""
+    return replace(demands, in_order=False) if task.order else demands
+
+
 def excluded(task: PositionTask, demands: Demands, budget: int = _BUDGET) -> Exclusion:
     """Whether enclosures exclude every four-bar of four positions, with pivots within 30 sizes, under the demands.
 
@@ -70,7 +75,7 @@ def excluded(task: PositionTask, demands: Demands, budget: int = _BUDGET) -> Exc
     cells, singular = short_cells(curve)
     whole = len(curve.spans) * (1 if curve.cubic.closes else 2) * curve.end
     beyond = float(np.sum(singular[:, 3] - singular[:, 2])) / whole if len(singular) else 0.0
-    search = PairTests(demands, origin, size)
+    search = PairTests(order_dropped(task, demands), origin, size)
     seen = DyadCells(curve, cells)
     drivers, others = search.kept(seen)
     i, j = (side.ravel() for side in np.meshgrid(np.flatnonzero(drivers), np.flatnonzero(others), indexing="ij"))

@@ -6,7 +6,7 @@ docs/theory/synthesis-points.md has the equations and the counts.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations
 from typing import NamedTuple
@@ -231,9 +231,9 @@ def _judged(task: PathTask, demands: Demands, pairs: Iterable[Sequence[GuidingDy
 
 def _targets(task: PathTask, first: int, linkage: Linkage) -> Targets:
     if not any(angle is not None for angle in task.angles):
-        return point_targets("P", task.z, task.size)
+        return replace(point_targets("P", task.z, task.size), ranks=task.order)
     start = task.angles[first]
     assert start is not None
     start_angle = linkage.required_pose["coupler"].angle
     angles = [None if a is None else start_angle + a - start for a in task.angles]
-    return position_targets("P", "coupler", task.z, angles, task.size)
+    return replace(position_targets("P", "coupler", task.z, angles, task.size), ranks=task.order)

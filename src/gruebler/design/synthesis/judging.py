@@ -186,6 +186,8 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     """
     ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
     reasons, known = faults_of_size(linkage, ratio, inside, demands), DesignVerdict(size_ratio=ratio, inside=inside)
+    if targets.in_any_order:
+        demands = replace(demands, in_order=False)
     try:
         course = circuit(linkage, step=0.05)
         limit = demands.tolerance + _ROUNDING * linkage.size / targets.size

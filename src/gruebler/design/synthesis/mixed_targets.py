@@ -352,7 +352,7 @@ def _judged(
         turned = wanted.angles[k] - state.rows[_OWN + k, 0] - float(np.angle(moved[1 + k, 0]))
         values.append(size * np.exp(1j * (linkage.required_pose[link].angle + turned)))
         probes.append(Probe(link=link, length=size))
-    targets = Targets(tuple(probes), np.stack(values, axis=1), size, allowed=wanted.band)
+    targets = Targets(tuple(probes), np.stack(values, axis=1), size, allowed=wanted.band, ranks=task.order)
     exact = bool((wanted.band == 0).all())
     least = demands.tolerance if demands.tolerance > EXACT_AT_MOST else ACCEPTED
     limit = demands.tolerance if exact else max(least, *wanted.band[np.isfinite(wanted.band)].tolist(), 0.0)

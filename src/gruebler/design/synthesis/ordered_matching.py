@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.base.arrays import Complexes, Flags, Integers, Reals
+from gruebler.design.synthesis.target_orders import Groups, TargetOrder
 
 _PARTS = 2  # of the curve from sample to sample, in each of which a distance has one extreme at most
 _SHIFT = 1e-12  # of the length: a place that lies so little behind another is the same
@@ -58,19 +59,19 @@ class SmoothCurve(NamedTuple):
 
 
 class OrderedMatch(NamedTuple):
-    """A place for each target, in order along the curve."""
+    """A place for each target, in order along the curve; those at any time within the same lap."""
 
     error: float
     """The largest distance of a target from its place."""
     mean: float
     """The root of the mean square distance."""
     arcs: Reals
-    """(targets,) rising or falling throughout; on a closed curve within one lap, perhaps beyond its ends."""
+    """(targets,) rising or falling from group to group; on a closed curve within one lap, perhaps beyond its ends."""
 
     @property
     def span(self) -> float:
         """How much of the curve lies between the first place and the last."""
-        return float(abs(self.arcs[-1] - self.arcs[0]))
+        return float(np.ptp(self.arcs))
 
 
 def preferred(matches: Sequence[OrderedMatch], size: float) -> OrderedMatch:
@@ -119,33 +120,36 @@ class Places:
         """For each target where it is nearest in its intervals."""
         return [np.array(self.best[low:high]) for low, high in pairwise(self.starts)]
 
-    def matches(self, piece: tuple[float, float] | None, *, sharp: bool = True) -> Iterator[Reals]:
+    def matches(
+        self, piece: tuple[float, float] | None, *, groups: Groups | None = None, sharp: bool = True
+    ) -> Iterator[Reals]:
         """Places of all targets in order, in both senses and from all starts that have to be looked at.
 
         Args:
             piece: from which arc to which; None for a whole closed curve from any start, within one lap.
+            groups: of targets that are passed one after the other; each by itself without them. Others have no place.
             sharp: each target as near its best place as the others leave room for, instead of as early as possible.
         """
-        count = len(self.starts) - 1
-        for order in (range(count), range(count - 1, -1, -1)):
+        rising = groups or tuple((target,) for target in range(len(self.starts) - 1))
+        for order in (rising, rising[::-1]):
             yield from self.matches_in(order, piece, sharp=sharp)
 
-    def matches_in(
-        self, order: Sequence[int], piece: tuple[float, float] | None, *, sharp: bool = True
-    ) -> Iterator[Reals]:
-        """Those in which the places rise along the curve when the targets are taken in an order."""
-        for begin, end in self._pieces(order[0]) if piece is None else (piece,):
-            places = self._swept(order, begin, end)
+    def matches_in(self, groups: Groups, piece: tuple[float, float] | None, *, sharp: bool = True) -> Iterator[Reals]:
+        """Those in which the places rise along the curve when groups of targets are taken one after the other."""
+        begins = (lap for first in groups[0] for lap in self._pieces(first)) if piece is None else (piece,)
+        for begin, end in begins:
+            places = self._swept(groups, begin, end)
             if places is None:
                 continue
             if sharp:
-                self._sharpen(places, begin, end, around=piece is None)
-            arcs = np.empty(len(order))
-            arcs[list(order)] = [at for at, _ in places]
+                self._sharpen(groups, places, begin, end, around=piece is None)
+            arcs = np.full(len(self.starts) - 1, np.nan)
+            for target, (at, _) in places.items():
+                arcs[target] = at
             yield arcs
 
     def _pieces(self, first: int) -> Iterator[tuple[float, float]]:
-        """Where a lap may begin: the ends of the first target's intervals, and ends of others within these.
+        """Where a lap may begin: the ends of a first target's intervals, and ends of others within these.
 
         Between such ends the end of the sweep does not fall behind its start (theorem 2).
         """
@@ -174,29 +178,73 @@ class Places:
             return None
         return max(arc, self.low[k] + lap), self.best[k] + lap
 
-    def _swept(self, order: Sequence[int], begin: float, end: float) -> list[tuple[float, float]] | None:
+    def _swept(self, groups: Groups, begin: float, end: float) -> dict[int, tuple[float, float]] | None:
         """The earliest places in order, each with the best one of its interval; None if the end is passed."""
-        places: list[tuple[float, float]] = []
+        places: dict[int, tuple[float, float]] = {}
         at, last = begin, end + _SHIFT * self.length
-        for target in order:
-            place = self._next(target, at)
-            if place is None or place[0] > last:
-                return None
-            at = place[0]
-            places.append(place)
+        for group in groups:
+            for target in group:
+                place = self._next(target, at)
+                if place is None or place[0] > last:
+                    return None
+                places[target] = place
+            at = max(places[target][0] for target in group)
         return places
 
-    def _sharpen(self, places: list[tuple[float, float]], begin: float, end: float, *, around: bool) -> None:
+    def _sharpen(
+        self, groups: Groups, places: dict[int, tuple[float, float]], begin: float, end: float, *, around: bool
+    ) -> None:
         """Move each place towards the best one of its interval, as far as those before and after leave room.
 
         Distances fall towards the best place, so none grows. First from the end, since places are as early as possible.
         """
-        count = len(places)
+
+        def reach(k: int) -> tuple[float, float]:
+            own = [places[target][0] for target in groups[k]]
+            return min(own), max(own)
+
+        count = len(groups)
         for k in (*range(count - 1, -1, -1), *range(count)):
-            low = places[k - 1][0] if k else places[-1][0] - self.length if around else begin
-            high = places[k + 1][0] if k + 1 < count else places[0][0] + self.length if around else end
-            at, best = places[k]
-            places[k] = max(low, min(best, high)) if low <= high else at, best
+            for target in groups[k]:
+                low = reach(k - 1)[1] if k else reach(-1)[1] - self.length if around else begin
+                high = reach(k + 1)[0] if k + 1 < count else reach(0)[0] + self.length if around else end
+                at, best = places[target]
+                places[target] = max(low, min(best, high)) if low <= high else at, best
+
+
+def lap_about(arcs: Reals, length: float) -> tuple[float, float]:
+    """From where to where other places lie in one lap with some; NaN are left out."""
+    return float(np.nanmax(arcs)) - length, float(np.nanmin(arcs)) + length
+
+
+def with_free(
+    arcs: Reals, free: Sequence[int], places: Sequence[Reals], window: tuple[float, float], most: float = np.inf
+) -> Reals | None:
+    """Places for targets at any time, too, so that the way through all is the shortest; None if one has no place.
+
+    Args:
+        arcs: (targets,) NaN for those at any time.
+        free: their numbers.
+        places: of each of them those that it may have, rising.
+        window: from which arc to which they may lie.
+        most: how long the way may be.
+
+    >>> with_free(np.array([2.0, 4.0, np.nan]), [2], [np.array([0.5, 4.5])], (0.0, 5.0)).tolist()
+    [2.0, 4.0, 4.5]
+    """
+    low, high = float(np.nanmin(arcs)), float(np.nanmax(arcs))
+    inside = [own[(own >= window[0]) & (own <= window[1])] for own in places]
+    best: tuple[float, list[float]] | None = None
+    for begin in (low, *(float(at) for own in inside for at in own[own < low])):
+        chosen = [float(own[k]) for own in inside if (k := int(np.searchsorted(own, begin))) < len(own)]
+        span = max([high, *chosen]) - begin
+        if len(chosen) == len(free) and span <= most and (best is None or span < best[0]):
+            best = span, chosen
+    if best is None:
+        return None
+    arcs = arcs.copy()
+    arcs[list(free)] = best[1]
+    return arcs
 
 
 def _bracketed(
@@ -376,40 +424,58 @@ class TargetDistances:
         edge[own] = _bracketed(height, np.minimum(at, beyond), np.maximum(at, beyond), guess, signs)
         return edge
 
-    def best_in_order(self, piece: tuple[float, float] | None = None) -> OrderedMatch:
+    def best_in_order(self, piece: tuple[float, float] | None = None, order: TargetOrder | None = None) -> OrderedMatch:
         """The places in order whose farthest target is as near as possible.
 
         Args:
             piece: of the curve, from which arc to which; by default all of it, on a closed curve from any start.
+            order: of the targets; by default one after the other.
 
         The error is the ordered distance of the curve to 1e-10 of the natural size, never less. Cost: 1 ms for each
         try of a bound with 300 targets, about 30 tries.
         """
         if piece is None and not self.curve.closed:
             piece = 0.0, self.curve.length
-        count = len(self.targets)
-        least = float(self.nearest.max()) * (1 + 1e-12)
-        best: list[tuple[float, range]] = []
-        for order in (range(count), range(count - 1, -1, -1)):
+        order = order or TargetOrder.of((), len(self.targets))
+        least = float(self.nearest[order.rows].max()) * (1 + 1e-12)
+        best: list[tuple[float, Groups]] = []
+        for groups in (order.groups, order.groups[::-1]):
             most = best[0][0] + _EQUAL * self.size if best else np.inf
-            bound = self._least_bound(order, piece, least, most)
+            bound = self._least_bound(groups, piece, least, most)
             if bound < np.inf:
-                best.append((bound, order))
+                best.append((bound, groups))
         smallest = min(bound for bound, _ in best)
         matches = []
-        for bound, order in best:
+        for bound, groups in best:
             if bound <= smallest + _EQUAL * self.size:
-                for arcs in self.places(bound).matches_in(order, piece):
+                for ordered in self.places(bound).matches_in(groups, piece):
+                    arcs = self._with_free(ordered, order.free, piece)
                     distances = self.of(arcs)
                     mean = float(np.sqrt(np.mean(distances**2)))
                     matches.append(OrderedMatch(float(distances.max()), mean, arcs))
         return preferred(matches, self.size)
 
-    def _least_bound(self, order: Sequence[int], piece: tuple[float, float] | None, least: float, most: float) -> float:
+    def _with_free(self, arcs: Reals, free: Sequence[int], piece: tuple[float, float] | None) -> Reals:
+        """Targets at any time where they are nearest, on a closed curve in the same lap."""
+        if not free:
+            return arcs
+        valleys, window = self._valleys, piece or lap_about(arcs, self.curve.length)
+        laps = self.curve.length * np.arange(-2, 3) if self.curve.closed else np.zeros(1)
+        places = []
+        for target in free:
+            at = (valleys.at[valleys.target == target][:, None] + laps).ravel()
+            at = np.append(at[(at >= window[0]) & (at <= window[1])], [] if piece is None else window)
+            gaps = np.sqrt(2 * self._square(np.full(len(at), target), at)[0])
+            places.append(np.sort(at[gaps <= gaps.min() + _EQUAL * self.size]))
+        whole = with_free(arcs, free, places, window, self.curve.length if piece is None else np.inf)
+        assert whole is not None
+        return whole
+
+    def _least_bound(self, groups: Groups, piece: tuple[float, float] | None, least: float, most: float) -> float:
         """The smallest bound that leaves places in order, in a bracket that is halved; infinite if above a limit."""
 
         def suffices(bound: float) -> bool:
-            return next(self.places(bound).matches_in(order, piece, sharp=False), None) is not None
+            return next(self.places(bound).matches_in(groups, piece, sharp=False), None) is not None
 
         if suffices(least):
             return least

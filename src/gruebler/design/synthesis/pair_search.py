@@ -19,6 +19,7 @@ from gruebler.base.text import Message, message
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, DyadKind, GuidingDyad
 from gruebler.design.synthesis.judging import BUILDABLE, Demands
 from gruebler.design.synthesis.results import form_symbols
+from gruebler.design.synthesis.target_orders import Ranks, TargetOrder
 from gruebler.design.synthesis.tasks import PositionTask
 
 Flags = NDArray[np.bool_]
@@ -29,6 +30,7 @@ _WIDTHS = tuple(0.004 * 0.4**k for k in range(6))
 _APART = 4  # places in the sample: designs nearer to a better one are not listed
 _LOOKED_AT = 2000  # pairs for each design that is wanted
 _ALIKE = 0.05  # sizes: pivots of two designs that are improved differ by more
+_SAME_WAY = 1e-9  # radians: of two ways that differ by less the first one is taken
 _BITS = 30  # costs that differ behind them are equal: a tie is not decided by how a machine rounds
 USUAL = ("full-turn", "transmission", "size-ratio")
 """By what designs are sorted unless the caller says otherwise."""
@@ -113,16 +115,23 @@ def pair_facts(
     reached = np.ones(len(far), bool) if second[0].kind.pairs[0].is_sliding else inside_region(far, demands)
     inside = np.asarray(inside_region(own, demands)[:, None] & reached[None, :])
     size = task.size if np.ptp(task.origins) else np.inf
-    return facts_of_pins(driven, other, slides, second[0].kind, inside=inside, size=size)
+    return facts_of_pins(driven, other, slides, second[0].kind, inside=inside, size=size, ranks=task.order)
 
 
 def facts_of_pins(
-    driven: Places, other: Places, slides: Complexes, kind: DyadKind, *, inside: Flags, size: float
+    driven: Places,
+    other: Places,
+    slides: Complexes,
+    kind: DyadKind,
+    *,
+    inside: Flags,
+    size: float,
+    ranks: Ranks = (),
 ) -> PairFacts:
     """What cranks do with rockers, sliders or blocks, from the pins of both in all positions and their pivots."""
     with np.errstate(divide="ignore", invalid="ignore"):
         closure = _CLOSURES[kind](driven, other, slides)
-        branch, moves, turns, transmission = motion_of_pairs(closure)
+        branch, moves, turns, transmission = motion_of_pairs(closure, ranks)
     # Two dyads with a common pivot are no linkage.
     lengths = closure.lengths
     usable = np.isfinite(transmission) & (np.nanmin(lengths, axis=0) > 1e-9 * np.nanmax(lengths, axis=0))
@@ -146,29 +155,45 @@ class PairMotion(NamedTuple):
     transmission: Reals
 
 
-def motion_of_pairs(closure: PairClosure) -> PairMotion:
+def motion_of_pairs(closure: PairClosure, ranks: Ranks = ()) -> PairMotion:
     """Whether all targets lie on one branch, and in order on it; whether the crank turns; its transmission angle.
 
-    The last is at most a right angle and only meant for linkages that meet the targets.
+    The last is at most a right angle and only meant for linkages that meet the targets; that of the shortest way which
+    keeps the order, where several do.
     """
     low, high, angle, side = closure.low, closure.high, closure.angle, closure.side
     turns = (low < -1) & (high > 1)
     split = (low >= -1) & (high <= 1)
     passes_back = (low < -1) & ~turns
     angle = np.where(passes_back[..., None], angle % (2 * np.pi), angle)
-    steps = np.diff(angle, axis=2)
-    onward, back = (steps % (2 * np.pi)).sum(axis=2), ((-steps) % (2 * np.pi)).sum(axis=2)
-    within_lap = np.minimum(onward, back) < 2 * np.pi
-    ordered = np.where(turns, within_lap, (steps > 0).all(axis=2) | (steps < 0).all(axis=2))
-    travel = np.where(onward <= back, onward, -back)  # of two positions both ways lead there: the shorter is taken
-    travel = np.where(turns, travel, angle[..., -1] - angle[..., 0])
-    begin, width = shortest_arc(angle, closed=turns)
-    begin, travel = np.where(ordered, angle[..., 0], begin), np.where(ordered, travel, width)
+    begin, travel = shortest_arc(angle, closed=turns)
+    ordered, shortest = np.zeros(turns.shape, bool), np.full(turns.shape, np.inf)
+    for sequence in _sequences(ranks, angle.shape[-1]):
+        along = angle[..., sequence]
+        gone = _way(along, turns)
+        better = np.abs(gone) < shortest - _SAME_WAY
+        ordered |= np.isfinite(gone)
+        shortest = np.where(better, np.abs(gone), shortest)
+        begin, travel = np.where(better, along[..., 0], begin), np.where(better, gone, travel)
     same_part = ~split | (np.sign(angle) == np.sign(angle[..., :1])).all(axis=2)
     branch = (side == side[..., :1]).all(axis=2) & (side[..., 0] != 0) & same_part
     cosines = [closure.cosine(_extreme(begin, travel, at)) for at in (0.0, np.pi)]
     transmission = np.arccos(np.clip(np.maximum(*map(np.abs, cosines)), 0, 1))
     return PairMotion(*map(np.asarray, (branch, branch & ordered, turns, transmission)))
+
+
+def _sequences(ranks: Ranks, count: int) -> list[list[int]]:
+    """Those that keep an order, one of each and its reverse."""
+    return [list(sequence) for sequence in TargetOrder.of(ranks, count).sequences()] if ranks else [list(range(count))]
+
+
+def _way(angle: Reals, turns: Flags) -> Reals:
+    """How far the crank goes through angles one after the other, within a lap; infinite if it cannot without a turn."""
+    steps = np.diff(angle, axis=2)
+    onward, back = (steps % (2 * np.pi)).sum(axis=2), ((-steps) % (2 * np.pi)).sum(axis=2)
+    ordered = np.where(turns, np.minimum(onward, back) < 2 * np.pi, (steps > 0).all(axis=2) | (steps < 0).all(axis=2))
+    travel = np.where(onward <= back, onward, -back)  # of two positions both ways lead there: the shorter is taken
+    return np.where(ordered, np.where(turns, travel, angle[..., -1] - angle[..., 0]), np.inf)
 
 
 def shortest_arc(angles: Reals, *, closed: Flags | bool) -> tuple[Reals, Reals]:

@@ -21,7 +21,7 @@ from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, Dyad
 from gruebler.design.synthesis.dyad_planes import DyadPencil, DyadPlane, crank_family
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, GuidingDyad
 from gruebler.design.synthesis.enclosures import Enclosure
-from gruebler.design.synthesis.family_bounds import MARGINS, NARROW, PairTests, Ranges, no_way
+from gruebler.design.synthesis.family_bounds import MARGINS, NARROW, PairTests, Ranges, no_way, order_dropped
 from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.pair_search import facts_of_pins, inside_region, pair_facts
 from gruebler.design.synthesis.results import form_symbols
@@ -131,7 +131,7 @@ class PartnerSearch:
 
     def possible(self, seen: DyadCells, angle: float) -> Flags:
         """Cells that may have a linkage with such a transmission angle."""
-        wanted = replace(self.demands, transmission=angle)
+        wanted = replace(order_dropped(self.task, self.demands), transmission=angle)
         tests = PairTests(wanted, self.origin, self.size)
         drivers, others = tests.kept(seen)
         if self.held.slides:
@@ -156,7 +156,9 @@ class PartnerSearch:
         driven, other = (own, places) if self.driven else (places, own)
         inside = self.inside & inside_region(np.asarray(fixed * self.size + self.origin, np.complex128), self.demands)
         size = 1.0 if np.ptp(self.task.origins) else np.inf
-        facts = facts_of_pins(driven, other, slides[None, None], kind, inside=inside[:, None], size=size)
+        facts = facts_of_pins(
+            driven, other, slides[None, None], kind, inside=inside[:, None], size=size, ranks=self.task.order
+        )
         good = np.logical_and.reduce([flags for _, flags in facts.met(self.demands)]) & facts.branch
         return np.where(good, facts.transmission, -np.inf)[:, 0]
 

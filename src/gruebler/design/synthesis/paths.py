@@ -168,7 +168,9 @@ def _as_positions(run: _Run) -> SynthesisResult:
     """Every point has its coupler angle: positions."""
     task = run.task
     rows = [(p.real, p.imag, a) for p, a in zip(task.z, task.angles, strict=True) if a is not None]
-    result = synthesise_positions(PositionTask(tuple(rows), unit=task.unit), run.demands, progress=run.progress)
+    result = synthesise_positions(
+        PositionTask(tuple(rows), unit=task.unit, order=task.order), run.demands, progress=run.progress
+    )
     return SynthesisResult(
         task=task, designs=result.designs, rejected=result.rejected, count=result.count, notes=result.notes
     )

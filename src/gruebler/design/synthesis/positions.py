@@ -371,7 +371,8 @@ def near_in_plane(task: PositionTask, dyad: GuidingDyad, width: float) -> list[G
 
 def _targets(task: PositionTask, linkage: Linkage) -> Targets:
     first = linkage.required_pose["coupler"].angle
-    return position_targets("P", "coupler", task.origins, first + task.angles - task.angles[0], task.size)
+    targets = position_targets("P", "coupler", task.origins, first + task.angles - task.angles[0], task.size)
+    return replace(targets, ranks=task.order)
 
 
 def four_bar_linkages(

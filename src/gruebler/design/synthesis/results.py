@@ -15,8 +15,9 @@ from gruebler.base.notebook import brief, html_table, text_table
 from gruebler.base.text import Message, joined, message, number, plural, translate
 from gruebler.design.synthesis.coordination import Minimax
 from gruebler.design.synthesis.sensitivity import Sensitivity, length_sensitivity
+from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.targets import Targets
-from gruebler.design.synthesis.tasks import Task, gives_lengths
+from gruebler.design.synthesis.tasks import PathTask, PositionTask, Task, gives_lengths
 from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import measure_transmission
@@ -277,10 +278,13 @@ class SynthesisResult:
 
     @property
     def remarks(self) -> tuple[Message, ...]:
-        """The notes, and how many designs would be accepted if their lengths were allowed to differ more."""
+        """The order that is asked, the notes, how many designs would be accepted if their lengths might differ more."""
+        task = self.task
+        ranks = task.order if isinstance(task, PositionTask | PathTask) else ()
+        order = (TargetOrder.of(ranks, len(ranks)).remark,) if ranks else ()
         beyond = sum([reason.text for reason in each.verdict.reasons] == [TOO_SLENDER.text] for each in self.rejected)
         more = message("Designs rejected only because their lengths differ too much: {count}.", count=beyond)
-        return (*self.notes, more) if beyond else self.notes
+        return (*order, *self.notes, *((more,) if beyond else ()))
 
     def sorted_by(self, *orders: str) -> SynthesisResult:
         """The same result with its designs, accepted and rejected, in another order: the names of `ORDERS`.

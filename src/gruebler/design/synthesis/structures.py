@@ -169,7 +169,7 @@ def _fitted(task: Task, demands: Demands, link: str, job: _Job) -> list[Design]:
     fits = fit_drawings(structure, job.drawn_link, task.z, closed=task.closed, number=_NEIGHBOURS * job.kept)
     names = job.mechanism.chain.joint_names()
     fitted = fit_targets(task)
-    targets = replace(point_targets("P", task.z, fitted.size), curve=fitted.curve)
+    targets = replace(point_targets("P", task.z, fitted.size), curve=fitted.curve, ranks=task.order)
     designs = []
     for *joints, point in fits.places[: job.kept]:
         drawing: dict[str | int, object] = {name: (z.real, z.imag) for name, z in zip(names, joints, strict=True)}

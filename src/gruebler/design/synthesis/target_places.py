@@ -8,7 +8,15 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
-from gruebler.design.synthesis.ordered_matching import OrderedMatch, Places, SmoothCurve, TargetDistances, preferred
+from gruebler.design.synthesis.ordered_matching import (
+    OrderedMatch,
+    Places,
+    SmoothCurve,
+    TargetDistances,
+    lap_about,
+    preferred,
+    with_free,
+)
 from gruebler.design.synthesis.targets import Targets
 from gruebler.mechanics.kinematics import Circuit, Poses
 
@@ -75,9 +83,16 @@ def places_met(course: Circuit, targets: Targets, limit: float) -> TargetPlaces:
         error = max(error, min(float(misses.min()), float(np.sqrt(square[k].min())) / targets.size))
         found_at.append(_distinct(np.sort(all_arcs[misses <= limit]), course))
     places = Places.of_points(found_at, course.length, closed=course.closed)
+    order, laps = targets.order, course.length * np.arange(-2, 3) if course.closed else np.zeros(1)
 
     def in_order(piece: Piece) -> OrderedMatch | None:
-        matches = [OrderedMatch(0.0, 0.0, arcs) for arcs in places.matches(piece)]
+        matches = []
+        for arcs in places.matches(piece, groups=order.groups):
+            window = piece or lap_about(arcs, course.length)
+            free = [(places.best_of_each[k][:, None] + laps).ravel() for k in order.free]
+            most = course.length if piece is None else np.inf
+            if (whole := with_free(arcs, order.free, free, window, most)) is not None:
+                matches.append(OrderedMatch(0.0, 0.0, whole))
         return preferred(matches, 1.0) if matches else None
 
     whole = None if course.closed else (0.0, course.length)
@@ -93,7 +108,7 @@ def places_approached(course: Circuit, targets: Targets, limit: float) -> Target
     distances = TargetDistances(SmoothCurve(arcs, values, rates, course.closed), targets.values, size)
 
     def in_order(piece: Piece) -> OrderedMatch:
-        match = distances.best_in_order(piece)
+        match = distances.best_in_order(piece, targets.order)
         arcs = _sharpened(course, targets, distances, match.arcs, piece)
         return OrderedMatch(match.error / size, match.mean / size, arcs)
 
@@ -102,7 +117,9 @@ def places_approached(course: Circuit, targets: Targets, limit: float) -> Target
 
 def _sharpened(course: Circuit, targets: Targets, distances: TargetDistances, arcs: Reals, piece: Piece) -> Reals:
     """Places put right by the circuit itself, between their neighbours: a target that is met is met exactly."""
-    sense = 1.0 if arcs[-1] >= arcs[0] else -1.0
+    order = targets.order
+    sense = 1 if max(arcs[list(order.groups[-1])]) >= min(arcs[list(order.groups[0])]) else -1
+    rows = np.lexsort((sense * order.ranks, arcs))
     low, high = (-np.inf, np.inf) if piece is None else piece
     if piece is not None and not course.closed:
         low, high = max(low, 0.0), min(high, course.length)
@@ -115,11 +132,11 @@ def _sharpened(course: Circuit, targets: Targets, distances: TargetDistances, ar
         bend = distances.bend(arcs)
         with np.errstate(invalid="ignore", divide="ignore"):
             step = np.where(bend > 0, -slope / bend, 0.0)
-        rising, lap = sense * arcs, course.length if piece is None else np.inf
+        rising, lap = arcs[rows], course.length if piece is None else np.inf
         before, after = np.append(rising[-1] - lap, rising[:-1]), np.append(rising[1:], rising[0] + lap)
-        rising = np.maximum.accumulate(np.clip(rising + sense * np.nan_to_num(step), before, after))
+        rising = np.maximum.accumulate(np.clip(rising + np.nan_to_num(step)[rows], before, after))
         rising = np.minimum(rising, rising[0] + lap)
-        arcs = np.clip(sense * rising, low + inside, high - inside)
+        arcs[rows] = np.clip(rising, low + inside, high - inside)
     return arcs
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
+from gruebler.design.synthesis.target_orders import Ranks, TargetOrder
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask
 from gruebler.mechanics.kinematics import Poses
 from gruebler.mechanics.kinematics.motion import Motion
@@ -74,6 +75,18 @@ class Targets:
     curve: GuidedCurve = GuidedCurve.NONE
     allowed: Reals | None = None
     """(targets,) how far each may be missed, an unlimited one as the demands say; None if this holds for all."""
+    ranks: Ranks = ()
+    """The order in which they are to be passed, as of a task."""
+
+    @property
+    def in_any_order(self) -> bool:
+        """Whether their order is free."""
+        return bool(self.ranks) and TargetOrder.of(self.ranks, len(self.values)).demands_nothing
+
+    @property
+    def order(self) -> TargetOrder:
+        """That of their ranks; as they are listed, where it is free."""
+        return TargetOrder.of(() if self.in_any_order else self.ranks, len(self.values))
 
     def gaps(self, poses: Poses, which: NDArray[np.int64]) -> tuple[Complexes, Complexes]:
         """How far each row is from its target, and the derivatives by the arc; (rows, probes)."""

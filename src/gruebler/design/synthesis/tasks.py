@@ -18,6 +18,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.base.immutable import settle
 from gruebler.base.text import Message, joined_by_and, message
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
+from gruebler.design.synthesis.target_orders import Ranks
 
 Pair = tuple[float, float]
 _Pairs = tuple[tuple[float, ...], tuple[float, ...], bool, bool]  # inputs, outputs, whether their starts are given
@@ -77,6 +78,28 @@ def number_rows(task: object, key: str, count: int) -> tuple[tuple[float, ...], 
     return tuple(_row(row, _numbered(key, k), count) for k, row in enumerate(_entries(task, key)))
 
 
+def _check_order(task: PositionTask | PathTask, curve: bool) -> None:
+    """Each target has a whole number or None as its place in the order; a whole curve has none to choose."""
+    ranks: tuple[Any, ...] = _entries(task, "order")
+    settle(task, order=ranks)
+    if ranks and curve:
+        raise SynthesisError("order: the points of a whole curve are passed in the order of the list")
+    if ranks and len(ranks) != len(task):
+        raise SynthesisError(
+            "order: expected one for each of the {targets} targets, but found {count}",
+            targets=len(task),
+            count=len(ranks),
+        )
+    for k, rank in enumerate(ranks):
+        if rank is not None and (isinstance(rank, bool) or not isinstance(rank, int | np.integer)):
+            raise SynthesisError(
+                "{where}: expected a whole number, or nothing, but found {found!r}",
+                where=_numbered("order", k),
+                found=str(rank)[:40],
+            )
+    settle(task, order=tuple(None if rank is None else int(rank) for rank in ranks))
+
+
 def _size(z: Complexes) -> float:
     """The largest distance from the first point."""
     return float(np.abs(z - z[0]).max(initial=0.0))
@@ -88,7 +111,8 @@ class PositionTask:
 
     With two to four positions pivots may be chosen: ``moving_pivots`` where they lie on the body in its first position,
     ``fixed_pivots`` on the frame. With four the nearest points of Burmester's curves are taken; ``curve_parameters``
-    are places along the circle-point curve, from 0 to 1.
+    are places along the circle-point curve, from 0 to 1. ``order`` gives each position its place in the order in which
+    they are passed, the same to those that may follow in any order, None at any time; by default that of the list.
 
     Raises `SynthesisError` for fewer than two positions and for two equal ones, naming them.
 
@@ -103,6 +127,7 @@ class PositionTask:
     fixed_pivots: tuple[Pair, ...] = ()
     unit: str = "mm"
     curve_parameters: tuple[float, ...] = ()
+    order: Ranks = ()
 
     def __post_init__(self) -> None:
         rows = number_rows(self, "positions", 3)
@@ -127,6 +152,7 @@ class PositionTask:
                     where=_numbered("curve_parameters", k),
                     value=place,
                 )
+        _check_order(self, curve=False)
         warn_of_degrees("positions", self.angles, once=True)
         size = self.size
         for k, (z, turn) in enumerate(zip(self.origins, self.turns, strict=True)):
@@ -164,13 +190,14 @@ _FREE_FOR_SOME = ("angles", "crank_angles", "output_angles", "tolerances")
 
 @dataclass(frozen=True)
 class PathTask:
-    """Points through which a point of the coupler is to pass, in this order.
+    """Points through which a point of the coupler is to pass, in this order unless another is given.
 
     Args of the constructor, all but the first optional: ``angles`` of the coupler, one for each point or None where it
     is free (mixed tasks); ``crank_angles`` for prescribed timing, one for each point, only their differences count;
     ``output_angles`` of the rocker likewise; ``fixed_pivots``, one or two of them; ``closed`` for a whole curve of many
     points. A point is None where only angles are given. ``tolerances`` say how far each target may be missed, angles as
-    arcs of the task's size: 0 exactly, None as near as possible, which ``weights`` weigh.
+    arcs of the task's size: 0 exactly, None as near as possible, which ``weights`` weigh. ``order`` as of
+    `PositionTask`; a whole curve has none.
 
     Raises `SynthesisError` for two equal points and for angles, pivots or tolerances that do not fit.
 
@@ -188,6 +215,7 @@ class PathTask:
     output_angles: tuple[float | None, ...] = ()
     tolerances: tuple[float | None, ...] = ()
     weights: tuple[float, ...] = ()
+    order: Ranks = ()
 
     def __post_init__(self) -> None:
         given = enumerate(_entries(self, "points"))
@@ -221,6 +249,7 @@ class PathTask:
                     raise SynthesisError(
                         "{where}: expected at least 0, but found {value:g}", where=_numbered(name, k), value=value
                     )
+        _check_order(self, curve=self.closed or len(rows) > MOST_POINTS)
         self._check_distinct()
         self._check_timing()
         warn_of_degrees("angles", [angle for angle in self.angles if angle is not None], once=True)
@@ -250,6 +279,8 @@ class PathTask:
             raise SynthesisError("crank_angles: the timing is contradictory, the crank has to turn one way throughout")
         if len(steps) and abs(timing[-1] - timing[0]) >= 2 * pi:
             raise SynthesisError("crank_angles: the timing is contradictory, all points lie within one turn of 2 pi")
+        if self.order and len(timing) == len(self.points):
+            raise SynthesisError("order: the crank angles of all points give it already")
 
     def __len__(self) -> int:
         return len(self.points)

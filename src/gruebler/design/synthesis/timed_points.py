@@ -120,5 +120,5 @@ def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: Gui
         angles = [first + (a or 0.0) - (task.angles[0] or 0.0) for a in task.angles]
     placed = position_targets("P", "coupler", task.z, angles, task.size)
     probes = (*placed.probes, Probe(link="crank", length=task.size))
-    targets = Targets(probes, np.concatenate([placed.values, crank[:, None]], axis=1), task.size)
+    targets = Targets(probes, np.concatenate([placed.values, crank[:, None]], axis=1), task.size, ranks=task.order)
     return [judge_design(linkage, targets, demands, f"{own.kind.form}-{other.kind.form}")]
