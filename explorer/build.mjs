@@ -5,7 +5,7 @@ import { readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import zopfli from "@gfx/zopfli";
-import { build, transform } from "esbuild";
+import { build } from "esbuild";
 
 const here = path.dirname(fileURLToPath(import.meta.url));
 const target = process.argv[2] ?? path.join(here, "../src/gruebler/page/static");
@@ -87,7 +87,7 @@ await build({
 const night = /:host\(\[data-theme="dark"\]\)(\{[^}]*\})/;
 const both = "$&@media (prefers-color-scheme:dark){:host(:not([data-theme]))$1}";
 for (const [name, source] of Object.entries({ explorer: "src/style.css", space: "src/space/space.css" })) {
-  const sheet = await readFile(path.join(here, source), "utf8");
-  const { code } = await transform(sheet, { loader: "css", charset: "utf8", minify: true });
-  await writeFile(path.join(target, `${name}.css`), code.trim().replace(night, both));
+  const options = { bundle: true, charset: "utf8", minify: true, write: false };
+  const [sheet] = (await build({ absWorkingDir: here, entryPoints: [source], ...options })).outputFiles;
+  await writeFile(path.join(target, `${name}.css`), sheet.text.trim().replace(night, both));
 }
