@@ -117,7 +117,7 @@ export class CatalogView implements View {
         h(
           "div.form",
           {},
-          field(t("Words"), this.#words, (text) => (this.#words = text), t("crank, Kurbel, …"), "words"),
+          field(t("Words"), this.#words, (text) => (this.#words = text), t("crank, six-bar, …"), "words"),
           field(t("Joint types"), this.#pairs, (text) => (this.#pairs = text), "P G", "pairs"),
           feature("links", t("Links")),
         ),
@@ -149,7 +149,8 @@ export class CatalogView implements View {
       if (number !== this.#asked) return;
       this.#filled = true;
       this.#cards.removeAttribute("data-waiting");
-      this.#note.textContent = t("{count} machines", { count: found.length });
+      const none = t("No machine has all of this; fewer words and features find more.");
+      this.#note.textContent = found.length ? t("{count} machines", { count: found.length }) : none;
       renew(this.#cards, ...found.map((entry) => this.#card(entry)));
       for (const card of this.#cards.children) this.#watcher.observe(card);
     } catch (error) {

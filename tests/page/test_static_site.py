@@ -100,7 +100,15 @@ def test_the_site_answers_as_the_library_does(tab, folder, address):
                 chains_alone = [kind | {"text": kind["text"].partition(";")[0]} for kind in other["types"]]
                 assert one["types"] == chains_alone
             assert [j["name"] for j in of_site["joints"]] == [j["name"] for j in of_library["joints"]]
-        for params in ({}, {"words": "Kurbel"}, {"pairs": "G"}, {"links": 4}, {"joints": "R:4,P:0"}, {"ternary": 1}):
+        for params in (
+            {},
+            {"words": "Kurbel four-BAR"},
+            {"words": "viergelenk Lámbda"},
+            {"pairs": "G"},
+            {"links": 4},
+            {"joints": "R:4,P:0"},
+            {"ternary": 1},
+        ):
             of_library = answer("catalog", params, lang, nothing)
             here = [one for one in of_library if one["id"] in ("crankrocker", "bennett", "lambda")]
             assert asked(page, "catalog", params, lang) == here, params

@@ -30,6 +30,15 @@ const ASKED_BY_NUMBER = [
   "multiple_joints",
 ];
 
+/** A word as it is looked for (`gruebler.teaching.catalog.loader.plain_word`). */
+function plainWord(word: string): string {
+  return word
+    .toLowerCase()
+    .replaceAll("ß", "ss")
+    .normalize("NFKD")
+    .replace(/[-‐‑–'’\p{M}]/gu, "");
+}
+
 /** The machines that fit what is asked (`gruebler.page.params.ListCatalog`). */
 export function fitting({ machines, symbols }: Catalog, asked: Record<string, unknown>): Machine[] {
   const parts = (key: string, by: RegExp) =>
@@ -44,7 +53,7 @@ export function fitting({ machines, symbols }: Catalog, asked: Record<string, un
     if (!name) throw new RangeError(part);
     kinds.push([name, Number(number)]);
   }
-  const words = parts("words", /\s+/).map((word) => word.toLowerCase());
+  const words = parts("words", /\s+/).map(plainWord);
   const wanted = parts("pairs", /\s+/).map(meanings);
   const same = (found: unknown, key: string) => asked[key] === undefined || asked[key] === (found ?? 0);
   return machines.filter(

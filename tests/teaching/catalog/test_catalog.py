@@ -110,6 +110,27 @@ def test_search_by_purpose():
     assert not {"crankrocker", "geneva", "geartrain", "vcomp"} & guides
 
 
+@pytest.mark.parametrize(
+    ("words", "found", "others"),
+    [
+        (
+            "six-bar sixbar 6-bar SIX-BAR Sechsgelenk 6gelenk sechsgliedrig",
+            "e3_watt klann whitworth",
+            "quad belt jansen",
+        ),
+        ("four-bar 4-bar Viergelenk Viergelenkgetriebe", "crankrocker bennett slidercrank", "klann cam_rocker"),
+        ("slider-crank slidercrank Schubkurbel", "slidercrank compressor", "crankrocker"),
+        ("Führungsgetriebe Fuhrungsgetriebe", "mzc crane", "geneva belt"),
+    ],
+)
+def test_search_by_what_a_linkage_is_called(words, found, others):
+    """By the number of its links, which are in the file as rows only; spelled in any way."""
+    for word in words.split():
+        ids = {e.id for e in search(Query(words=(word,)))}
+        assert set(found.split()) <= ids, word
+        assert not set(others.split()) & ids, word
+
+
 def test_search_by_drive():
     driven = {e.id for e in search(Query(drive="P"))}
     assert {"loader", "crane_cyl", "hubpodium_blocks"} <= driven

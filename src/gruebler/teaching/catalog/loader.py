@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import re
+import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
@@ -13,6 +15,7 @@ from gruebler.base.text import LANGUAGES
 from gruebler.files.catalog_records import Entry, Exercise, read_entry, read_exercise
 from gruebler.structure.chain.pairs import PAIRS, Pair, pair
 from gruebler.structure.mechanism import Mechanism
+from gruebler.structure.mechanism.inversion import family
 from gruebler.structure.mobility import counted
 from gruebler.teaching.catalog.claims import CheckedEntry, WrongClaim, check_claims
 from gruebler.teaching.catalog.features import purpose
@@ -129,7 +132,7 @@ class Query:
     """A search; None and empty mean no requirement."""
 
     words: tuple[str, ...] = ()
-    """Each must occur in the id, a name, a remark, the source, a link's name or the purpose, in any language."""
+    """Each must occur in `searched_text`, in any language; case, accents and hyphens do not matter."""
     links: int | None = None
     joints: int | None = None
     mobility: int | None = None
@@ -150,7 +153,7 @@ class Query:
             and (self.mobility is None or counted(chain) == self.mobility)
             and all(_meanings(symbol) & present for symbol in self.pairs)
             and (self.drive is None or bool(_meanings(self.drive) & driven))
-            and all(word.casefold() in searched_text(candidate) for word in self.words)
+            and all(plain_word(word) in searched_text(candidate) for word in self.words)
         )
 
 
@@ -159,16 +162,50 @@ def _meanings(symbol: str) -> set[Pair]:
     return {p for p in PAIRS if symbol in p.symbols.values()} or {pair(symbol)}
 
 
+_NUMBERS = {
+    3: ("three", "drei"),
+    4: ("four", "vier"),
+    5: ("five", "fünf"),
+    6: ("six", "sechs"),
+    7: ("seven", "sieben"),
+    8: ("eight", "acht"),
+    9: ("nine", "neun"),
+    10: ("ten", "zehn"),
+    11: ("eleven", "elf"),
+    12: ("twelve", "zwölf"),
+}
+"""Of links, as linkages are called by them."""
+
+
+def plain_word(text: str) -> str:
+    """A text as it is looked for: small letters without accents, words without hyphens and apostrophes.
+
+    >>> plain_word("Six-Bar"), plain_word("Fünfgelenk"), plain_word("Hart's")
+    ('sixbar', 'funfgelenk', 'harts')
+    """
+    letters = unicodedata.normalize("NFKD", text.casefold())
+    return re.sub(r"[-‐‑–'’]", "", "".join(sign for sign in letters if not unicodedata.combining(sign)))
+
+
 def searched_text(candidate: Entry) -> str:
-    """Everything in which a word is looked for, in small letters."""
+    """Everything in which a word is looked for, as `plain_word` writes it.
+
+    Id, names, remark, source, names of links, what the mechanism is for, its family, and what a linkage is called by
+    the number of its links, in every language.
+    """
     remark = candidate.remark
     chain = candidate.chain()
-    use = purpose(Mechanism(chain, candidate.frame or chain.links[0]), candidate.outputs)
+    mechanism = Mechanism(chain, candidate.frame or chain.links[0])
+    use = purpose(mechanism, candidate.outputs)
     parts = [candidate.id, candidate.name.en, candidate.name.de, candidate.source]
     parts += [*candidate.links, *candidate.links.values()]
     parts += [remark.en, remark.de] if remark else []
     parts += [use.in_language(lang) for lang in LANGUAGES]
-    return "\n".join(parts).casefold()
+    parts += [family(mechanism, lang) or "" for lang in LANGUAGES]
+    if chain.n in _NUMBERS and {joint.pair.name for joint in chain.joints} <= {"revolute", "prismatic"}:
+        for english, german in (_NUMBERS[chain.n], (str(chain.n), str(chain.n))):
+            parts += [f"{english}-bar", f"{german}gelenkgetriebe {german}gliedrig"]
+    return plain_word("\n".join(parts))
 
 
 def search(query: Query) -> list[Entry]:
