@@ -57,10 +57,11 @@ const packed = {
 /** Long names of methods and fields of the page's own, which get short ones; nobody outside, neither tests nor the
  * library, calls them. */
 const own = `
-  addPoint appeared arrange atFrame attemptAnywhere cancelDrag dragCancel dragEnd dragPoint dragStart floatingLink holdJoint
-  jointName leftOf lineFirst linkList linkName moveJointBy movePointBy openDocument openFile
-  plottedAngle pointName pointed poleAside recoloured runAlong setTheme shiftLine showRange
-  showValue shownDesign sized snapping toLocal turnTo writeSizes
+  addPoint appeared arrange atFrame attemptAnywhere cancelDrag dragCancel dragEnd
+  dragPoint dragStart floatingLink holdJoint jointName leftOf lineFirst linkList linkName
+  moveJointBy movePointBy openDocument openFile plottedAngle pointed pointName poleAside
+  recoloured runAlong setTheme shiftLine shownDesign showRange showValue sized snapping
+  toLocal turnTo writeSizes
 `.match(/\w+/g);
 
 await build({
