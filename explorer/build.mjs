@@ -57,14 +57,47 @@ const packed = {
 /** Long names of methods and fields of the page's own, which get short ones; nobody outside, neither tests nor the
  * library, calls them. */
 const own = `
-  addPoint appeared arrange atFrame attemptAnywhere cancelDrag dragCancel dragEnd
-  dragPoint dragStart floatingLink holdJoint jointName leftOf lineFirst linkList linkName
-  moveJointBy movePointBy openDocument openFile plottedAngle pointed pointName poleAside
-  recoloured runAlong setTheme shiftLine shownDesign showRange showValue sized snapping
-  toLocal turnTo writeSizes
+  adding addPoint appeared arrange atFrame attemptAnywhere cancelDrag changeSlowly dragCancel
+  dragEnd dragPoint dragStart element elementAt elementsOf elementsOn falling holdJoint
+  jointName leftOf lineFirst linkList linkName moveJointBy movePointBy openDocument openFile
+  paused picked plottedAngle pointed pointName poleAside possible present recoloured runAlong
+  served setAdding setLength setTheme shiftLine shownDesign showRange showValue sized snapping
+  switchMode toLocal turnTo writeSizes
 `.match(/\w+/g);
 
-await build({
+/** Long names that others call, too, above all the browser's own, and that stand in a module again and again. */
+const often = `
+  addEventListener appendChild changed classList clientWidth describe documentElement dragging drawing
+  getAttribute getBoundingClientRect getPropertyValue hasAttribute isConnected linkage message motion
+  overconstrained pointerId pointerType preventDefault querySelector querySelectorAll reference_pose
+  removeAttribute replaceChildren replaceWith scrollIntoView setAttribute setPointerCapture stopPropagation
+  structure textContent toLowerCase transport turning unknowns viewport
+`.match(/\w+/g);
+
+/** These names, and texts that stand there as often, as constants: keys and operands, told by the signs beside them. */
+function shared(code) {
+  if (/\$_/.test(code.replace(/"[^"]*"/g, ""))) throw new Error("a name of the module is that of a shared text");
+  const repeated = /(?<=[([{,=?:&|+>])"([\w .#-]{6,60})"(?=[)\]},?:;&|+])/g;
+  const member = new RegExp(`"(?:[^"\\\\]|\\\\.)*"|(\\?\\.|\\.)(${often.join("|")})\\b`, "g"); // texts are passed over
+  const counts = new Map();
+  const count = (text) => counts.set(text, (counts.get(text) ?? 0) + 1);
+  for (const [text] of code.matchAll(repeated)) count(text);
+  for (const [, , called] of code.matchAll(member)) if (called) count(`"${called}"`);
+  const long = [...counts].filter(([text, times]) => (times - 1) * (text.length - 6) > 12).map(([text]) => text);
+  const name = (text) => `$_${long.indexOf(text).toString(36)}`;
+  const made = code
+    .replace(repeated, (text, _, at) => {
+      if (!long.includes(text)) return text;
+      return "{,".includes(code[at - 1]) && code[at + text.length] === ":" ? `[${name(text)}]` : name(text);
+    })
+    .replace(member, (text, dot, called) => {
+      if (!called || !long.includes(`"${called}"`)) return text;
+      return `${dot === "." ? "" : dot}[${name(`"${called}"`)}]`;
+    });
+  return long.length ? `const ${long.map((text) => `${name(text)}=${text}`).join()};${made}` : code;
+}
+
+const { outputFiles } = await build({
   absWorkingDir: here,
   entryPoints: {
     explorer: "src/index.ts",
@@ -82,7 +115,9 @@ await build({
   charset: "utf8",
   legalComments: "none",
   plugins: [packed],
+  write: false,
 });
+for (const { path: file, text } of outputFiles) await writeFile(file, shared(text));
 
 // Before the script is there nobody but the browser knows which colours are wanted: dark ones stand there twice.
 const night = /:host\(\[data-theme="dark"\]\)(\{[^}]*\})/;

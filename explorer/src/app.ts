@@ -97,8 +97,7 @@ export class App implements Page {
       }
       await drawn();
     }
-    const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches || location.hash.length > 1;
-    if ((this.model.get("machine") as Model).plays && !still) this.motion.transport.toggle();
+    if (!(location.hash.length > 1)) this.motion.run();
     if (this.#linkable) {
       const { view } = (history.state ?? {}) as { view?: string }; // that of a page which is loaded again
       await this.#read();
@@ -123,6 +122,10 @@ export class App implements Page {
 
   get served(): boolean {
     return this.backend.served;
+  }
+
+  get linkage() {
+    return this.motion.linkage;
   }
 
   get shown(): Model {
@@ -204,8 +207,7 @@ export class App implements Page {
 
   /** The name of the mechanism in the language of the page. */
   get #name(): string {
-    const model = this.motion.linkage?.model;
-    const name = model?.names[currentLanguage()] ?? model?.name ?? "";
+    const name = this.motion.linkage?.title ?? "";
     return name && this.motion.changed ? t("{name}, changed", { name }) : name;
   }
 
@@ -276,8 +278,9 @@ export class App implements Page {
   open(model: Model, drive?: number): void {
     this.say("");
     if (this.motion.linkage) this.#remember("motion");
-    this.motion.open(model);
+    this.motion.open(model, this.views[this.view]?.undoable && this.view !== "motion" ? this.view : undefined);
     this.show("motion");
+    this.motion.run();
     if (drive !== undefined) this.motion.transport.pick(drive);
   }
 
@@ -376,8 +379,8 @@ export class App implements Page {
   #key(event: KeyboardEvent): void {
     const target = event.composedPath()[0] as HTMLElement;
     const undo = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z";
-    if ((event.key === "Escape" || undo) && this.motion.stage.cancelDrag()) return event.preventDefault();
-    if (event.key === "Escape" && this.motion.stage.setAdding(false)) return event.preventDefault();
+    if (undo && this.motion.stage.cancelDrag()) return event.preventDefault();
+    if (event.key === "Escape" && this.view === "motion" && this.motion.escape()) return event.preventDefault();
     if (/^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) && (target as HTMLInputElement).type !== "range") return;
     if (event.ctrlKey || event.metaKey) {
       if (event.key === "z" && !event.shiftKey) this.#undoing.undo?.();

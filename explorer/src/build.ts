@@ -2,15 +2,12 @@
 
 import { gripAt, gripped } from "./backdrop";
 import { choiceOf, removeChosen } from "./choice";
-import { h, ownPage, renew, svg } from "./dom";
+import { h, renew, svg } from "./dom";
 import {
   type Drawing,
   documentOfDrawing,
   EMPTY,
-  isPin,
   joined,
-  lengthsOf,
-  linksOf,
   moved,
   type Spot,
   withCylinder,
@@ -20,75 +17,64 @@ import {
   withLink,
   withSlider,
 } from "./drawing";
-import { Fingers } from "./fingers";
+import { Fingers, pixelIn, wheelZooms, whileDown } from "./fingers";
 import { stepOf } from "./grid";
 import { History } from "./history";
-import { toHull } from "./hull";
+import { keepDrawing, keptDrawing } from "./kept";
 import { t } from "./language";
 import { type Drawn, MobilityPanel } from "./mobility";
 import type { Model } from "./model";
+import { hintOf, KEYS, NEEDED, palette, type Tool } from "./palette";
 import { placesPanel } from "./places";
-import { type Chosen, outlineOf, type Plane, planePicture } from "./plane";
+import { type Aim, type Chosen, GRIP, type Plane, planePicture, spotAt } from "./plane";
+import { WAYS } from "./pointer";
 import type { Pair } from "./rows";
-import { snapped } from "./snapping";
+import { zoomButtons } from "./shell";
+import { extentOf, starters, takenOver } from "./starters";
 import type { Page, View } from "./view";
-import { Viewport } from "./viewport";
+import { type Box, Viewport } from "./viewport";
 
-type Tool = "move" | "ground" | "link" | "slider" | "dyad" | "cylinder" | "gears";
-const NEEDED: Record<Tool, number> = { move: 0, ground: 1, link: 2, slider: 1, dyad: 3, cylinder: 2, gears: 3 };
-const KEYS: Record<string, Tool> = {
-  v: "move",
-  g: "ground",
-  l: "link",
-  s: "slider",
-  d: "dyad",
-  c: "cylinder",
-  w: "gears",
-};
-const WAYS: Record<string, Pair> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-const GRIP = 16; // pixels
-const KEPT = "gruebler-drawing";
+const FIRST: Box = { left: -60, right: 140, bottom: -50, top: 90 }; // an empty plane
 
 export class BuildView implements View, Plane, Drawn {
   readonly element = h("div.view.motion", { "data-page": "build" });
-  drawing: Drawing = kept();
+  drawing: Drawing = keptDrawing();
   readonly viewport = new Viewport();
   #tool: Tool = this.drawing.knots.length ? "link" : "ground";
   spots: Spot[] = [];
   chosen: Chosen | null = null;
   cursor: Pair = [0, 0];
+  aim: Aim = "here";
   #snapping = true;
   readonly #fingers = new Fingers();
   /** What was there when the first finger came. */
   #begun: [Drawing, Spot[]] = [EMPTY, []];
   readonly #history = new History<Drawing>();
-  private readonly root = svg("svg", { role: "application", tabindex: 0, class: "drawing" });
+  private readonly root = svg("svg.drawing", {
+    role: "application",
+    tabindex: 0,
+    onpointerdown: (event: PointerEvent) => this.#down(event),
+    onpointermove: (event: PointerEvent) => this.#hover(event),
+    onpointerleave: () => this.#aimAt("away"),
+    onpointerup: (event: PointerEvent) => this.#fingers.lift(event.pointerId),
+    onpointercancel: (event: PointerEvent) => this.#fingers.lift(event.pointerId),
+    onkeydown: (event: KeyboardEvent) => this.#key(event),
+  });
   readonly #tools = h("div.transport.palette", {});
   readonly #hint = h("div.hint", {});
+  readonly #buttons = h("div.tools", {});
+  readonly #starters = h("div.starters", {});
   readonly #side = h("div.side", {});
   private readonly mobility = new MobilityPanel(this);
   readonly #choice = h("div", {});
+  readonly #taking = h("div.options", {});
   readonly #places = h("section.panel.options", {});
 
   constructor(readonly page: Page) {
     this.viewport.scale = 4;
-    const stage = h("div.stage", {}, this.root, this.#hint);
+    const stage = h("div.stage", {}, this.root, this.#hint, this.#buttons, this.#starters);
     this.element.append(stage, this.#tools, this.#side);
-    this.root.addEventListener("pointerdown", (event) => this.#down(event));
-    this.root.addEventListener("pointermove", (event) => this.#hover(event));
-    for (const end of ["pointerup", "pointercancel"] as const)
-      this.root.addEventListener(end, (event) => this.#fingers.lift(event.pointerId));
-    this.root.addEventListener("keydown", (event) => this.#key(event));
-    this.root.addEventListener(
-      "wheel",
-      (event) => {
-        if (!ownPage() && !event.ctrlKey) return; // a notebook scrolls past it
-        event.preventDefault();
-        this.viewport.zoom(Math.exp(-event.deltaY * 0.0015), ...this.#pixel(event));
-        this.#draw();
-      },
-      { passive: false },
-    );
+    wheelZooms(this.root, (...about) => this.zoom(...about));
     new ResizeObserver(() => this.#resize()).observe(stage);
   }
 
@@ -98,48 +84,32 @@ export class BuildView implements View, Plane, Drawn {
     const first = this.viewport.width < 2;
     Object.assign(this.viewport, { width, height });
     this.root.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    const part = width < 500 ? 0.75 : 1;
-    if (first) this.viewport.fit({ left: -60 * part, right: 140 * part, bottom: -50 * part, top: 90 * part }, 1);
+    if (first) this.fit();
+    else this.#draw();
+  }
+
+  zoom(factor: number, x?: number, y?: number): void {
+    this.viewport.zoom(factor, x, y);
+    this.#draw();
+  }
+
+  /** Show all that is drawn. */
+  fit(): void {
+    const box = extentOf(this.drawing);
+    const seen = box.right > box.left || box.top > box.bottom;
+    this.viewport.fit(seen ? box : FIRST, 1e-9);
+    this.#draw();
+  }
+
+  #aimAt(aim: Aim, cursor = this.cursor): void {
+    Object.assign(this, { aim, cursor });
     this.#draw();
   }
 
   arrange(): void {
-    const names: Record<Tool, string> = {
-      move: t("Move"),
-      ground: t("Ground"),
-      link: t("Link"),
-      slider: t("Slider"),
-      dyad: t("Dyad"),
-      cylinder: t("Cylinder"),
-      gears: t("Gear pair"),
-    };
-    const tools = Object.entries(KEYS).map(([letter, key]) =>
-      h(
-        "button",
-        {
-          class: key === this.#tool ? "key" : "plain",
-          "data-tool": key,
-          "aria-pressed": String(key === this.#tool),
-          onclick: () => this.#take(key),
-        },
-        names[key],
-        h("span.letter.keys", {}, ` (${letter.toUpperCase()})`),
-      ),
-    );
-    renew(this.#tools, ...tools);
-    const ends = t("Two clicks, from end to end.");
-    const hints: Record<Tool, string> = {
-      move: t("Drag joints; click on a joint or a link to choose it."),
-      ground: t("A click puts it, on a joint too."),
-      slider: t("A click puts it, on a joint too."),
-      link: ends,
-      cylinder: ends,
-      dyad: t("Three clicks: end, middle, end."),
-      gears: t(
-        "Three clicks: both centres, then where they touch; beyond a centre the other wheel has internal teeth.",
-      ),
-    };
-    renew(this.#hint, h("b", {}, names[this.#tool]), " ", hints[this.#tool]);
+    renew(this.#tools, ...palette(this.#tool, (tool) => this.#take(tool)));
+    renew(this.#hint, ...hintOf(this.#tool));
+    renew(this.#buttons, ...zoomButtons(this));
     const snap = h("input", {
       type: "checkbox",
       checked: this.#snapping,
@@ -163,6 +133,7 @@ export class BuildView implements View, Plane, Drawn {
           h("span.keys", {}, " ", t("With Shift links are level or upright. Keys: arrows and Enter.")),
         ),
         h("button.plain", { "data-act": "empty", onclick: () => this.#empty() }, t("Empty plane")),
+        this.#taking,
       ),
       this.#places,
     );
@@ -172,16 +143,36 @@ export class BuildView implements View, Plane, Drawn {
 
   appeared(): void {
     this.#resize();
+    this.#offer();
+  }
+
+  get linkage() {
+    return this.page.linkage;
+  }
+
+  /** What can be begun with: over the plane while it is empty, then beside it. */
+  #offer(): void {
+    const empty = !this.drawing.knots.length;
+    renew(this.#starters, ...(empty ? starters(this) : []));
+    renew(this.#taking, ...(empty ? [] : [takenOver(this)]));
+  }
+
+  begin(drawing: Drawing): void {
+    this.change(drawing);
+    this.#take("move");
+    this.fit();
   }
 
   #empty(): void {
     this.change(EMPTY);
     this.#take("ground");
+    this.fit();
   }
 
   #take(tool: Tool): void {
     this.#tool = tool;
     this.spots = [];
+    this.aim = "away";
     this.arrange();
   }
 
@@ -219,12 +210,9 @@ export class BuildView implements View, Plane, Drawn {
   }
 
   #changed(): void {
-    try {
-      localStorage.setItem(KEPT, JSON.stringify(this.drawing));
-    } catch {
-      // what cannot be kept lasts as long as the page
-    }
+    keepDrawing(this.drawing);
     this.#draw();
+    this.#offer();
     this.#showChoice();
     renew(this.#places, ...placesPanel(this));
     void this.mobility.tell();
@@ -235,6 +223,7 @@ export class BuildView implements View, Plane, Drawn {
     const { drawing, spots } = this;
     const tool = this.#tool;
     spots.push(spot);
+    if (this.aim === "aiming") this.aim = "here";
     if (spots.length < NEEDED[tool]) return this.#draw();
     this.spots = [];
     const [one, two, three] = spots as [Spot, Spot, Spot];
@@ -249,35 +238,8 @@ export class BuildView implements View, Plane, Drawn {
 
   // --- the pointer ---------------------------------------------------------------------------------------------------
 
-  #pixel(event: MouseEvent): Pair {
-    const box = this.root.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  }
-
-  /** What is at a pixel: a knot, a link, else a place, on the grid if that is wanted. */
-  #spot([x, y]: Pair, upright: boolean, but = -1): Spot {
-    const { drawing, viewport } = this;
-    let [knot, least]: [number | null, number] = [null, GRIP];
-    drawing.knots.forEach(({ at }, k) => {
-      const [px, py] = viewport.screen(...at);
-      if (k !== but && Math.hypot(px - x, py - y) < least) [knot, least] = [k, Math.hypot(px - x, py - y)];
-    });
-    const last = this.spots.at(-1);
-    const pins = drawing.knots.filter((one, k) => isPin(one) && k !== but);
-    let [u, v] = viewport.world(x, y);
-    if (this.#snapping)
-      [u, v] = snapped([u, v], viewport, {
-        places: [...pins, ...this.spots].map(({ at }) => at),
-        from: last ? [last.at] : [],
-        lengths: lengthsOf(drawing),
-      });
-    if (upright && last) {
-      if (Math.abs(u - last.at[0]) > Math.abs(v - last.at[1])) v = last.at[1];
-      else u = last.at[0];
-    }
-    if (knot !== null) return { at: drawing.knots[knot]!.at, knot, link: null };
-    const link = linksOf(drawing).find((one) => one !== drawing.frame && toHull(outlineOf(this, one), x, y) < GRIP / 2);
-    return { at: [u, v], knot: null, link: link ?? null };
+  #spot(pixel: Pair, upright: boolean, but = -1): Spot {
+    return spotAt(this, pixel, { snapping: this.#snapping, upright, but });
   }
 
   get step(): number {
@@ -289,24 +251,23 @@ export class BuildView implements View, Plane, Drawn {
   }
 
   #hover(event: PointerEvent): void {
-    if (this.#fingers.move(event.pointerId, this.#pixel(event), this.viewport)) return this.#draw();
+    if (this.#fingers.move(event.pointerId, pixelIn(this.root, event), this.viewport)) return this.#draw();
     if (this.#tool === "move") return;
-    this.cursor = this.#spot(this.#pixel(event), event.shiftKey).at;
-    this.#draw();
+    this.#aimAt("aiming", this.#spot(pixelIn(this.root, event), event.shiftKey).at);
   }
 
   #down(event: PointerEvent): void {
     if (event.button > 0) return;
     event.preventDefault();
     this.root.focus({ preventScroll: true });
-    this.#fingers.put(event.pointerId, this.#pixel(event));
+    this.#fingers.put(event.pointerId, pixelIn(this.root, event));
     if (this.#fingers.count > 1) return this.#takeBack();
     this.#begun = [this.drawing, [...this.spots]];
-    const spot = this.#spot(this.#pixel(event), event.shiftKey);
+    const spot = this.#spot(pixelIn(this.root, event), event.shiftKey);
     if (this.#tool !== "move") return this.#put(spot);
     const before = this.drawing;
     const { picture } = before;
-    let last = this.#pixel(event);
+    let last = pixelIn(this.root, event);
     const start = this.viewport.world(...last);
     const held = picture && this.chosen && "picture" in this.chosen;
     const grip = held && spot.knot === null ? gripAt(picture, start, GRIP / this.viewport.scale) : null;
@@ -314,29 +275,30 @@ export class BuildView implements View, Plane, Drawn {
     this.root.setPointerCapture(event.pointerId);
     const moves = (next: PointerEvent) => {
       if (this.#fingers.count > 1) return;
-      const now = this.#pixel(next);
+      const now = pixelIn(this.root, next);
       if (grip) {
         const place = this.viewport.world(...now);
         this.drawing = { ...before, picture: gripped(picture!, grip, start, place) };
       } else if (spot.knot === null) this.viewport.pan(now[0] - last[0], now[1] - last[1]);
-      else this.drawing = moved(before, spot.knot, this.#spot(now, false, spot.knot).at);
+      else {
+        this.cursor = this.#spot(now, false, spot.knot).at;
+        this.aim = "aiming";
+        this.drawing = moved(before, spot.knot, this.cursor);
+      }
       last = now;
       this.#draw();
     };
     const up = (next: PointerEvent) => {
-      this.root.removeEventListener("pointermove", moves);
-      this.root.removeEventListener("pointerup", up);
-      this.root.removeEventListener("pointercancel", up);
+      stop();
+      this.#aimAt("away");
       if (this.drawing === before) return;
       const placed = this.drawing;
-      const target = spot.knot === null ? null : this.#spot(this.#pixel(next), false, spot.knot).knot;
+      const target = spot.knot === null ? null : this.#spot(pixelIn(this.root, next), false, spot.knot).knot;
       this.drawing = before;
       this.change((target !== null && joined(before, spot.knot!, target)) || placed);
       if (grip) this.#choose(spot, this.viewport.world(...last));
     };
-    this.root.addEventListener("pointermove", moves);
-    this.root.addEventListener("pointerup", up);
-    this.root.addEventListener("pointercancel", up);
+    const stop = whileDown(this.root, moves, up);
   }
 
   /** What the first of two fingers put was not meant. */
@@ -363,8 +325,7 @@ export class BuildView implements View, Plane, Drawn {
     const tool = KEYS[event.key.toLowerCase()];
     if (way) {
       const step = event.shiftKey ? this.step / 5 : this.step;
-      this.cursor = [this.cursor[0] + step * way[0], this.cursor[1] + step * way[1]];
-      this.#draw();
+      this.#aimAt("aiming", [this.cursor[0] + step * way[0], this.cursor[1] + step * way[1]]);
     } else if (event.key === "Enter" || event.key === " ") {
       const spot = this.#spot(this.viewport.screen(...this.cursor), false);
       if (this.#tool === "move") this.#choose(spot);
@@ -374,6 +335,9 @@ export class BuildView implements View, Plane, Drawn {
       this.spots = [];
       this.#draw();
     } else if (tool) this.#take(tool);
+    else if (event.key === "+") this.zoom(1.25);
+    else if (event.key === "-") this.zoom(0.8);
+    else if (event.key === "0") this.fit();
     else return;
     event.preventDefault();
     event.stopPropagation();
@@ -387,8 +351,10 @@ export class BuildView implements View, Plane, Drawn {
 
   async move(): Promise<void> {
     try {
-      const document = documentOfDrawing(this.drawing, "mm");
-      this.page.open(await this.page.ask<Model>("open_document", { document, name: t("A drawn mechanism") }));
+      const { title } = this.drawing;
+      const question = { document: documentOfDrawing(this.drawing), name: title ?? t("A drawn mechanism") };
+      const model = await this.page.ask<Model>("open_document", question);
+      this.page.open({ ...model, changed: title !== undefined, plays: true });
     } catch (error) {
       this.page.say((error as Error).message);
     }
@@ -397,14 +363,4 @@ export class BuildView implements View, Plane, Drawn {
 
 function same(one: Spot, two: Spot): boolean {
   return one.at[0] === two.at[0] && one.at[1] === two.at[1];
-}
-
-/** The drawing that was kept when the page was left. */
-function kept(): Drawing {
-  try {
-    const found = JSON.parse(localStorage.getItem(KEPT) ?? "null") as Drawing | null;
-    return found && Array.isArray(found.knots) && Array.isArray(found.drives) ? found : EMPTY;
-  } catch {
-    return EMPTY;
-  }
 }

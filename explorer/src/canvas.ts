@@ -1,4 +1,4 @@
-/** The canvas under the picture: curves of points, centrodes, hodographs. */
+/** The canvas over the bodies: curves of points, centrodes, hodographs. */
 
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";

@@ -2,6 +2,7 @@
  * browser. The library makes a linkage of its document. */
 
 import type { Backdrop } from "./backdrop";
+import type { Beside } from "./beside";
 import { t } from "./language";
 import type { LinkageDocument } from "./model";
 import type { Pair } from "./rows";
@@ -17,6 +18,8 @@ export interface Knot {
   /** Of gears: where on the line of centres they touch, as a part of the distance; beyond a centre the teeth of the
    * other wheel are internal. */
   readonly part?: number;
+  /** Of an open end: what the point of its link is called. */
+  readonly name?: string;
 }
 
 export interface Drawing {
@@ -27,6 +30,10 @@ export interface Drawing {
   /** The picture behind it, and whether the document of the linkage keeps it. */
   readonly picture?: Backdrop | undefined;
   readonly keeps?: boolean;
+  /** Of a linkage that was taken over: its unit of length, its name, what its document keeps for the page. */
+  readonly unit?: string;
+  readonly title?: string;
+  readonly beside?: Beside;
 }
 
 /** Where something is put: at a knot, on a link, or beside all of them. */
@@ -37,6 +44,10 @@ export interface Spot {
 }
 
 export const EMPTY: Drawing = { knots: [], frame: null, drives: [] };
+
+export function unitOf({ unit }: Drawing): string {
+  return unit ?? "mm";
+}
 
 /** The links in the order in which they were drawn. */
 export function linksOf(drawing: Drawing): string[] {
@@ -146,7 +157,7 @@ function withWheel(drawing: Drawing, spot: Spot): [Drawing, string] {
 }
 
 /** A cylinder or gears where their ends or centres have them. */
-function placed(knot: Knot): Knot {
+export function placed(knot: Knot): Knot {
   const { between, part = 0.5 } = knot;
   if (!between) return knot;
   const [[x, y], [u, v]] = between;
@@ -213,9 +224,14 @@ export function withoutLink(drawing: Drawing, link: string): Drawing {
   return out;
 }
 
+/** Whether links may be called so. */
+export function isName(text: string): boolean {
+  return /^[\p{L}\d_]+$/u.test(text);
+}
+
 /** With another name of a link; null if it is no name, or taken. */
 export function renamed(drawing: Drawing, link: string, name: string): Drawing | null {
-  if (!/^[\p{L}\d_]+$/u.test(name) || (name !== link && linksOf(drawing).includes(name))) return null;
+  if (!isName(name) || (name !== link && linksOf(drawing).includes(name))) return null;
   const change = (one: string) => (one === link ? name : one);
   return {
     ...drawing,
@@ -246,23 +262,32 @@ export function jointName({ knots }: Drawing, number: number): string {
 }
 
 /** The document of the linkage, which the library reads; open ends are named points of their links. */
-export function documentOfDrawing(drawing: Drawing, unit: string): LinkageDocument {
+export function documentOfDrawing(drawing: Drawing): LinkageDocument {
   const joints = jointsOf(drawing);
   const name = (k: number) => jointName(drawing, k);
-  const ends = drawing.knots.filter(({ links }) => links.length === 1 && links[0] !== drawing.frame);
+  const ends = drawing.knots.filter(
+    ({ links, name: own }) => links.length === 1 && (own || links[0] !== drawing.frame),
+  );
+  const taken = new Set(ends.map((end) => end.name));
+  let number = 1;
+  const another = () => {
+    while (taken.has(`K${number}`)) number++;
+    return `K${number++}`;
+  };
+  const beside = { ...drawing.beside, ...(drawing.picture && drawing.keeps && { picture: drawing.picture }) };
   return {
-    unit,
+    unit: unitOf(drawing),
     joints: joints.map(name).join(" "),
     links: linksOf(drawing),
     ...(drawing.frame === null ? {} : { frame: drawing.frame }),
     drives: drawing.drives.map(name),
-    ...(drawing.picture && drawing.keeps && { page: { picture: drawing.picture } }),
+    ...(Object.keys(beside).length && { page: beside }),
     places: Object.fromEntries(
       joints.map((k) => {
         return [name(k), placeOf(drawing.knots[k]!)];
       }),
     ),
-    points: Object.fromEntries(ends.map(({ at, links }, k) => [`K${k + 1}`, { link: links[0]!, at: [...at] }])),
+    points: Object.fromEntries(ends.map((end) => [end.name ?? another(), { link: end.links[0]!, at: [...end.at] }])),
   };
 }
 

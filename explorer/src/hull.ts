@@ -48,3 +48,19 @@ function toSegment(x: number, y: number, [ax, ay]: Pair, [bx, by]: Pair): number
   const part = d ? Math.max(0, Math.min(1, ((x - ax) * dx + (y - ay) * dy) / d)) : 0;
   return Math.hypot(x - ax - part * dx, y - ay - part * dy);
 }
+
+/** How far a place is from another. */
+export function away([px, py]: Pair, x: number, y: number): number {
+  return Math.hypot(px - x, py - y);
+}
+
+/** The number of what is nearest, if anything is within reach. */
+export function nearest<Item>(items: readonly Item[], reach: number, far: (item: Item, k: number) => number) {
+  let best: number | null = null;
+  let least = reach;
+  for (const [k, item] of items.entries()) {
+    const gap = far(item, k);
+    if (gap < least) [best, least] = [k, gap];
+  }
+  return best;
+}

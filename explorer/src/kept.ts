@@ -1,5 +1,6 @@
-/** What can be undone, kept for the same page when it is loaded again. */
+/** What can be undone, and what was drawn, kept for the same page when it is loaded again. */
 
+import { type Drawing, EMPTY } from "./drawing";
 import { chainText, type Model } from "./model";
 import type { Snapshot } from "./snapshot";
 
@@ -26,5 +27,26 @@ export function keptSizes(model: Model): Snapshot[] {
     return kept.of === structureOf(model) ? kept.past! : [];
   } catch {
     return [];
+  }
+}
+
+const DRAWING = "gruebler-drawing";
+
+/** Keep the drawing for when the page is opened again. */
+export function keepDrawing(drawing: Drawing): void {
+  try {
+    localStorage.setItem(DRAWING, JSON.stringify(drawing));
+  } catch {
+    // what cannot be kept lasts as long as the page
+  }
+}
+
+/** The drawing that was kept when the page was left. */
+export function keptDrawing(): Drawing {
+  try {
+    const found = JSON.parse(localStorage.getItem(DRAWING) ?? "null") as Drawing | null;
+    return found && Array.isArray(found.knots) && Array.isArray(found.drives) ? found : EMPTY;
+  } catch {
+    return EMPTY;
   }
 }

@@ -82,6 +82,11 @@ export class Linkage {
     return this.model.drives[this.active] ?? null;
   }
 
+  /** Its name in the reader's language. */
+  get title(): string {
+    return this.model.names[currentLanguage()] ?? this.model.name;
+  }
+
   /** What a link is called in the reader's language. */
   linkName(link: number): string {
     return this.model.linkNames[currentLanguage()]?.[link] ?? this.model.links[link]!;

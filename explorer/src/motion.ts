@@ -52,6 +52,7 @@ export class MotionView implements View, Editor, Driven {
     grid: true,
     snap: false,
     link: 0,
+    chosen: null,
     forces: () => this.#arrows(),
     springs: () => this.#forces.springs,
   };
@@ -65,6 +66,8 @@ export class MotionView implements View, Editor, Driven {
   /** What was found over the cycle. */
   found: Found = { dead: [], least: null };
   readonly #history = new History<State>();
+  /** The views in which linkages were drawn. */
+  readonly #drawnIn = new WeakMap<Linkage, string>();
   /** What was before the change that is going on. */
   #before: State | null = null;
   private readonly side = h("div.side", {});
@@ -90,6 +93,7 @@ export class MotionView implements View, Editor, Driven {
         movePointBy: (point, dx, dy) => this.#movePointBy(point, dx, dy),
         pull: (link, u, v, x, y) => this.transport.pull(link, u, v, x, y),
         addPoint: (link, x, y) => this.addPoint(link ?? this.shown.link, x, y),
+        choose: (link) => this.#choose(link),
         holdJoint: (joint) => {
           this.attempt(() => this.dragging.locks.hold(joint));
           this.show();
@@ -108,10 +112,11 @@ export class MotionView implements View, Editor, Driven {
   // --- what is shown -------------------------------------------------------------------------------------------------
 
   /** Show another linkage; the way back to the one before is undoing. */
-  open(model: Model): void {
+  open(model: Model, view?: string): void {
     this.transport.pause();
     if (this.linkage) this.#history.add(this.#state());
     this.take(model);
+    if (view) this.#drawnIn.set(this.linkage, view);
     this.#renewed();
   }
 
@@ -119,7 +124,14 @@ export class MotionView implements View, Editor, Driven {
   take(model: Model): void {
     this.linkage = new Linkage(model);
     this.dragging = new Dragging(this.linkage);
+    this.shown.chosen = null;
     this.shown.link = floatingLink(model);
+  }
+
+  /** Let what was opened move, if it is to, unless the reader wants no motion. */
+  run(): void {
+    const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+    if (this.linkage.model.plays && !still) this.transport.toggle();
   }
 
   /** Other sizes of the same structure, as a link holds them. */
@@ -321,7 +333,10 @@ export class MotionView implements View, Editor, Driven {
   }
 
   undo(): void {
+    const { linkage } = this;
     this.#goTo(this.#history.undo(this.#state()));
+    const view = this.#drawnIn.get(linkage);
+    if (view && linkage !== this.linkage) this.page.show(view);
   }
 
   redo(): void {
@@ -336,7 +351,7 @@ export class MotionView implements View, Editor, Driven {
     this.dragging = old.dragging;
     this.linkage.restore(old.sizes);
     this.page.say("");
-    if (other) this.shown.link = floatingLink(this.linkage.model);
+    if (other) Object.assign(this.shown, { chosen: null, link: floatingLink(this.linkage.model) });
     this.arrange();
     this.show();
     this.measured();
@@ -356,6 +371,23 @@ export class MotionView implements View, Editor, Driven {
 
   addPoint(link: number, x: number, y: number): void {
     this.edit(() => this.linkage.addPoint(link, x, y));
+  }
+
+  /** Mark a link: its sizes, and new points and poles are its own. */
+  #choose(link: number | null): void {
+    Object.assign(this.shown, { chosen: link, ...(link !== null && { link }) });
+    this.redraw();
+    this.#sizes.show();
+    this.#refresh("points", pointsPanel(this));
+    this.#refresh("show", optionsPanel(this));
+  }
+
+  /** Give up what is going on, what is chosen; whether there was anything. */
+  escape(): boolean {
+    if (this.stage.cancelDrag() || this.stage.setAdding(false)) return true;
+    const { chosen } = this.shown;
+    if (chosen !== null) this.#choose(null);
+    return chosen !== null;
   }
 
   /** Where a joint or a point is meant that is dragged to a place. */

@@ -49,6 +49,7 @@ export class SizeRows {
   readonly element = h("div.rows.sizes", {});
   #fields: HTMLInputElement[] = [];
   #locks: HTMLElement[] = [];
+  #labels: HTMLElement[] = [];
   #names = "";
 
   constructor(private readonly editor: Editor) {}
@@ -61,8 +62,10 @@ export class SizeRows {
     const alone = ({ link }: Length) => sizes.filter((one) => one.link === link).length === 1;
     const rows = sizes.map((size) => sizeRow(editor, size, alone(size)));
     const names = rows.map(([label]) => label!.outerHTML).join("");
-    if (names !== this.#names || !this.element.isConnected) {
+    const anew = names !== this.#names || !this.element.isConnected;
+    if (anew) {
       this.#names = names;
+      this.#labels = rows.map(([label]) => label!);
       this.#fields = rows.map(([, input]) => input as HTMLInputElement);
       // behind all fields, so that Tab leads from field to field
       this.#locks = rows.map((row, k) => {
@@ -73,8 +76,11 @@ export class SizeRows {
       const more = lengths.length - sizes.length;
       const rest = more > 0 ? [h("p.note", {}, t("{count} more sizes are not listed.", { count: more }))] : [];
       renew(this.element, ...rows.flat(), ...this.#locks, ...rest);
-      return;
     }
+    sizes.forEach(({ link }, k) => {
+      this.#labels[k]!.classList.toggle("chosen", link === editor.shown.chosen);
+    });
+    if (anew) return;
     sizes.forEach(({ first, second, value }, k) => {
       for (const button of this.#locks[k]!.children) showLock(editor, button as HTMLElement, first, second);
       this.#fields[k]!.value = number(value, 7);
@@ -321,7 +327,7 @@ async function listModes(editor: Editor, place: HTMLElement): Promise<void> {
 
 export function optionsPanel(editor: Editor): HTMLElement {
   const { linkage, shown } = editor;
-  const option = (key: Exclude<keyof Shown, "link" | "forces" | "springs">, text: string) => {
+  const option = (key: Exclude<keyof Shown, "chosen" | "link" | "forces" | "springs">, text: string) => {
     const onchange = () => {
       shown[key] = box.checked;
       editor.show();

@@ -2,14 +2,16 @@
 
 import { type Backdrop, backdropElement, cornersOf, gripsOf, putBackdrop } from "./backdrop";
 import { svg } from "./dom";
-import { type Drawing, isPin, type Knot, linksOf, type Spot } from "./drawing";
+import { type Drawing, isPin, type Knot, lengthsOf, linksOf, type Spot, unitOf } from "./drawing";
 import { gridOf, stepOf } from "./grid";
-import { convexHull } from "./hull";
+import { away, convexHull, nearest, toHull } from "./hull";
 import { angle, number } from "./language";
 import { clearSpot, namePlace, nameSpots } from "./names";
 import type { Pair } from "./rows";
-import { guidelines } from "./snapping";
+import { guidelines, snapped } from "./snapping";
 import type { Viewport } from "./viewport";
+
+export const GRIP = 16; // pixels
 
 export type Chosen = { knot: number } | { link: string } | { picture: true };
 
@@ -20,7 +22,11 @@ export interface Plane {
   /** What the tool has got already. */
   readonly spots: readonly Spot[];
   readonly cursor: Pair;
+  /** Whether the cursor is shown, and the lines to what is in line with it. */
+  readonly aim: Aim;
 }
+
+export type Aim = "away" | "here" | "aiming";
 
 /** The hull of the knots of a link, in pixels. */
 export function outlineOf({ drawing, viewport }: Pick<Plane, "drawing" | "viewport">, link: string): Pair[] {
@@ -28,9 +34,37 @@ export function outlineOf({ drawing, viewport }: Pick<Plane, "drawing" | "viewpo
   return convexHull(mine.map(({ at }) => viewport.screen(...at)));
 }
 
+/** What is at a pixel: a knot, a link, else a place, which snaps and is level or upright if that is wanted; one knot is
+ * passed over. */
+export function spotAt(
+  plane: Plane,
+  [x, y]: Pair,
+  { snapping, upright, but }: { snapping: boolean; upright: boolean; but: number },
+): Spot {
+  const { drawing, spots, viewport } = plane;
+  const off = ({ at }: Knot, k: number) => (k === but ? Infinity : away(viewport.screen(...at), x, y));
+  const knot = nearest(drawing.knots, GRIP, off);
+  if (knot !== null) return { at: drawing.knots[knot]!.at, knot, link: null };
+  const last = spots.at(-1);
+  const pins = drawing.knots.filter((one, k) => isPin(one) && k !== but);
+  let [u, v] = viewport.world(x, y);
+  if (snapping)
+    [u, v] = snapped([u, v], viewport, {
+      places: [...pins, ...spots].map(({ at }) => at),
+      from: last ? [last.at] : [],
+      lengths: lengthsOf(drawing),
+    });
+  if (upright && last) {
+    if (Math.abs(u - last.at[0]) > Math.abs(v - last.at[1])) v = last.at[1];
+    else u = last.at[0];
+  }
+  const link = linksOf(drawing).find((one) => one !== drawing.frame && toHull(outlineOf(plane, one), x, y) < GRIP / 2);
+  return { at: [u, v], knot: null, link: link ?? null };
+}
+
 /** The picture of all of it, with the spots that are put already and the place of the cursor. */
 export function planePicture(plane: Plane): SVGElement[] {
-  const { chosen, cursor, drawing, spots, viewport } = plane;
+  const { aim, chosen, cursor, drawing, spots, viewport } = plane;
   const bodies = linksOf(drawing).filter((link) => link !== drawing.frame);
   const path = (corners: readonly Pair[]) =>
     corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
@@ -50,13 +84,15 @@ export function planePicture(plane: Plane): SVGElement[] {
     ];
   });
   const knots = drawing.knots.map((knot, k) => knotElement(plane, k, knot.at));
-  const waiting = [...spots.map(({ at }) => at), cursor].map((at) => viewport.screen(...at));
-  const [cx, cy] = waiting.at(-1)!;
+  const waiting = [...spots.map(({ at }) => at), ...(aim === "away" ? [] : [cursor])].map((at) =>
+    viewport.screen(...at),
+  );
+  const [cx, cy] = viewport.screen(...cursor);
   const inLine = drawing.knots.filter(isPin).map(({ at }) => at);
-  const guides = guidelines(cursor, [...inLine, ...spots.map(({ at }) => at)]);
+  const guides = aim !== "aiming" ? [] : guidelines(cursor, [...inLine, ...spots.map(({ at }) => at)]);
   const last = spots.at(-1);
-  const [dx, dy] = last ? [cursor[0] - last.at[0], cursor[1] - last.at[1]] : [0, 0];
-  const read = dx || dy ? `${number(Math.hypot(dx, dy), 4)} mm, ${angle(Math.atan2(dy, dx), 3)}` : "";
+  const [dx, dy] = last && aim === "aiming" ? [cursor[0] - last.at[0], cursor[1] - last.at[1]] : [0, 0];
+  const read = dx || dy ? `${number(Math.hypot(dx, dy), 4)} ${unitOf(drawing)}, ${angle(Math.atan2(dy, dx), 3)}` : "";
   const { picture } = drawing;
   const behind = picture ? [backdropElement(picture)] : [];
   for (const element of behind) putBackdrop(element, picture!, viewport);
@@ -70,7 +106,7 @@ export function planePicture(plane: Plane): SVGElement[] {
     ...(waiting.length > 1 ? [svg("path.pending", { d: path(waiting) })] : []),
     svg("text.tick", { x: cx + 12, y: cy + 18 }, read),
     ...(picture && chosen && "picture" in chosen ? grips(plane, picture) : []),
-    svg("path.crosshair", { d: `M${cx - 7} ${cy}h14M${cx} ${cy - 7}v14` }),
+    ...(aim === "away" ? [] : [svg("path.crosshair", { d: `M${cx - 7} ${cy}h14M${cx} ${cy - 7}v14` })]),
   ];
 }
 
@@ -125,12 +161,14 @@ function knotElement({ chosen, drawing, viewport }: Plane, k: number, at: Pair):
 }
 
 /** The grid, and a bar as long as a step. */
-function grid({ viewport }: Plane): SVGElement[] {
+function grid({ drawing, viewport }: Plane): SVGElement[] {
   const { width, height } = viewport;
+  const unit = unitOf(drawing);
+  const right = width - 64; // beside the buttons
   const step = stepOf(viewport);
   const long = step * viewport.scale;
-  const d = `M${width - 20 - long} 24v6h${long}v-6`;
-  const text = svg("text.tick", { x: width - 20 - long / 2, y: 22, "text-anchor": "middle" });
-  text.append(`${number(step)} mm`);
-  return [...gridOf(viewport, "mm", height - 8), svg("path.scale", { d }), text];
+  const d = `M${right - long} 24v6h${long}v-6`;
+  const text = svg("text.tick", { x: right - long / 2, y: 22, "text-anchor": "middle" });
+  text.append(`${number(step)} ${unit}`);
+  return [...gridOf(viewport, unit, height - 8), svg("path.scale", { d }), text];
 }

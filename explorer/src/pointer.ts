@@ -1,9 +1,8 @@
 /** What a pointer and the arrow keys do to the picture. */
 
-import { ownPage } from "./dom";
 import type { Dragging } from "./dragging";
-import { Fingers } from "./fingers";
-import { convexHull, toHull } from "./hull";
+import { Fingers, pixelIn, wheelZooms, whileDown } from "./fingers";
+import { away, convexHull, nearest, toHull } from "./hull";
 import type { Linkage } from "./linkage";
 import { type Pair, place } from "./rows";
 import type { Viewport } from "./viewport";
@@ -19,6 +18,8 @@ export interface StageEvents {
   dragCancel(): void;
   /** A point is wanted at a place: on this link, or, beside all of them, on the chosen one. */
   addPoint(link: number | null, x: number, y: number): void;
+  /** A link is chosen, or none. */
+  choose(link: number | null): void;
   dragPoint(point: number, place: Pair, snap: boolean): void;
   movePointBy(point: number, dx: number, dy: number): void;
   moveJointBy(joint: number, dx: number, dy: number): void;
@@ -34,16 +35,25 @@ export interface Board {
   readonly dragging: Dragging | null;
   /** Whether a click adds a point. */
   readonly adding: boolean;
+  readonly chosen: number | null;
   /** The joints that are drawn. */
   readonly joints: readonly number[];
   focus(joint: number): void;
+  /** Show that a link would be taken. */
+  hover(link: number | null): void;
   zoom(factor: number, x: number, y: number): void;
   draw(): void;
 }
 
+const STILL = 4; // pixels: a pointer that goes no farther has clicked
 const NEAR = 14; // pixels: how near a link must be for a point that is put on it
 const GRIP = 20; // pixels: how near a pointer must be
-const WAYS: Record<string, Pair> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+export const WAYS: Record<string, Pair> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+};
 
 interface Follow {
   id: number;
@@ -63,9 +73,9 @@ export class Pointer {
     this.#events = events;
     const { root, viewport } = board;
     root.addEventListener("pointerdown", (event) => this.#down(event));
-    root.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
+    wheelZooms(root, (...about) => board.zoom(...about));
     root.addEventListener("dblclick", (event) => {
-      const [x, y] = this.#at(event);
+      const [x, y] = pixelIn(root, event);
       if (!board.linkage) return;
       const joint = this.#jointNear(x, y, GRIP, true);
       if (joint !== null) this.#events.holdJoint(joint);
@@ -73,7 +83,9 @@ export class Pointer {
         this.#events.addPoint(this.#linkNear(x, y, NEAR), ...viewport.world(x, y));
     });
     root.addEventListener("pointermove", (event) => {
-      if (this.#fingers.move(event.pointerId, this.#at(event), viewport)) board.zoom(1, 0, 0);
+      const at = pixelIn(root, event);
+      if (this.#fingers.move(event.pointerId, at, viewport)) board.zoom(1, 0, 0);
+      else if (board.adding && board.linkage) board.hover(board.chosen ?? this.#linkNear(...at, GRIP));
     });
     for (const name of ["pointerup", "pointercancel"] as const)
       root.addEventListener(name, (event) => this.#fingers.lift(event.pointerId));
@@ -86,68 +98,41 @@ export class Pointer {
     return true;
   }
 
-  /** The pixel of an event. */
-  #at(event: MouseEvent): Pair {
-    const box = this.#board.root.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  }
-
-  #wheel(event: WheelEvent): void {
-    if (!ownPage() && !event.ctrlKey) return; // a notebook scrolls past it
-    event.preventDefault();
-    this.#board.zoom(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), ...this.#at(event));
-  }
-
   #jointNear(x: number, y: number, reach: number, held = false): number | null {
     const { dragging, joints, linkage, viewport } = this.#board;
-    let best: number | null = null;
-    let least = reach;
-    for (const joint of joints) {
-      if (!dragging!.draggable(joint) && !(held && dragging!.locks.held.has(joint))) continue;
-      const [px, py] = viewport.screen(...linkage!.jointAt(joint));
-      const gap = Math.hypot(px - x, py - y);
-      if (gap < least) [best, least] = [joint, gap];
-    }
-    return best;
+    const free = (joint: number) => dragging!.draggable(joint) || (held && dragging!.locks.held.has(joint));
+    const taken = joints.filter(free);
+    const number = nearest(taken, reach, (joint) => away(viewport.screen(...linkage!.jointAt(joint)), x, y));
+    return number === null ? null : taken[number]!;
   }
 
   #pointNear(x: number, y: number, reach: number): number | null {
-    const { viewport } = this.#board;
-    const { pose, sizes } = this.#board.linkage!;
-    let best: number | null = null;
-    let least = reach;
-    sizes.points.forEach(({ link, at }, number) => {
-      const [px, py] = viewport.screen(...place(pose, 0, link, ...at));
-      const gap = Math.hypot(px - x, py - y);
-      if (gap < least) [best, least] = [number, gap];
-    });
-    return best;
+    const { linkage, viewport } = this.#board;
+    const { pose, sizes } = linkage!;
+    return nearest(sizes.points, reach, ({ link, at }) => away(viewport.screen(...place(pose, 0, link, ...at)), x, y));
   }
 
   #linkNear(x: number, y: number, reach: number): number | null {
     const { viewport } = this.#board;
     const linkage = this.#board.linkage!;
     const { model, pose, sizes } = linkage;
-    let best: number | null = null;
-    let least = reach;
-    for (let link = 0; link < model.own; link++) {
-      if (link === model.frame) continue;
+    return nearest(model.links.slice(0, model.own), reach, (_, link) => {
+      if (link === model.frame) return Infinity;
       const points = sizes.points.filter((p) => p.link === link).map((p) => place(pose, 0, link, ...p.at));
       const elements = sizes.elementsOn(link).map((k) => linkage.elementAt(k));
-      const gap = toHull(convexHull([...elements, ...points].map((p) => viewport.screen(...p))), x, y);
-      if (gap < least) [best, least] = [link, Math.max(gap, 0.01)];
-    }
-    return best;
+      return Math.max(toHull(convexHull([...elements, ...points].map((p) => viewport.screen(...p))), x, y), 0.01);
+    });
   }
 
   #down(event: PointerEvent): void {
-    const { adding, linkage, root, viewport } = this.#board;
+    const { adding, chosen, linkage, root, viewport } = this.#board;
     if (!linkage || event.button > 0) return;
     event.preventDefault();
-    const [x, y] = this.#at(event);
+    const [x, y] = pixelIn(root, event);
     const reach = event.pointerType === "touch" ? 1.6 * GRIP : GRIP;
     const link = this.#linkNear(x, y, reach / 1.4);
-    if (adding) return this.#events.addPoint(link, ...viewport.world(x, y));
+    if (adding && chosen !== null) return this.#events.addPoint(chosen, ...viewport.world(x, y));
+    if (adding) return this.#events.choose(link);
     root.setPointerCapture(event.pointerId);
     if (this.#following && event.pointerType === "touch") {
       this.#fingers.clear();
@@ -156,6 +141,9 @@ export class Pointer {
       this.cancel();
       return;
     }
+    const choose = (far: number) => {
+      if (far < STILL) this.#events.choose(link);
+    };
     const joint = this.#jointNear(x, y, reach);
     const point = this.#pointNear(x, y, joint === null ? reach : 0.3 * reach);
     if (point !== null) {
@@ -167,8 +155,8 @@ export class Pointer {
       this.#follow(event, this.#jointMove(joint, x, y), () => this.#events.dragEnd());
     } else if (link !== null) {
       const local = linkage.toLocal(link, ...viewport.world(x, y));
-      this.#follow(event, (u, v) => this.#events.pull(link, ...local, ...viewport.world(u, v)));
-    } else this.#follow(event, this.#pan(x, y));
+      this.#follow(event, (u, v) => this.#events.pull(link, ...local, ...viewport.world(u, v)), choose);
+    } else this.#follow(event, this.#pan(x, y), choose);
   }
 
   /** Take a joint along; the pointer keeps its distance from it. */
@@ -195,10 +183,12 @@ export class Pointer {
     };
   }
 
-  /** Follow a pointer that is down, once a frame, until it is up. */
-  #follow(first: PointerEvent, move: (x: number, y: number) => void, done?: () => void): void {
+  /** Follow a pointer that is down, once a frame, until it is up; in the end how far it went, in pixels. */
+  #follow(first: PointerEvent, move: (x: number, y: number) => void, done: (far: number) => void): void {
     const { root } = this.#board;
+    const start = pixelIn(root, first);
     let latest: Pair | null = null;
+    let far = 0;
     let frame = 0;
     const flush = () => {
       frame = 0;
@@ -207,29 +197,26 @@ export class Pointer {
     };
     const moved = (next: PointerEvent) => {
       if (next.pointerId !== first.pointerId) return;
-      latest = this.#at(next);
+      latest = pixelIn(this.#board.root, next);
       this.#shift = next.shiftKey;
+      far = Math.max(far, Math.hypot(latest[0] - start[0], latest[1] - start[1]));
       mine.at = latest;
       frame ||= requestAnimationFrame(flush);
     };
     const stop = (reached: boolean) => {
       cancelAnimationFrame(frame);
       if (reached) flush();
-      root.removeEventListener("pointermove", moved);
-      root.removeEventListener("pointerup", end);
-      root.removeEventListener("pointercancel", end);
+      leave();
       this.#following = null;
-      if (reached) done?.();
+      if (reached) done(far);
       else this.#events.dragCancel();
     };
     const end = (next: PointerEvent) => {
       if (next.pointerId === first.pointerId) stop(true);
     };
-    const mine: Follow = { id: first.pointerId, at: this.#at(first), stop };
+    const mine: Follow = { id: first.pointerId, at: start, stop };
     this.#following = mine;
-    root.addEventListener("pointermove", moved);
-    root.addEventListener("pointerup", end);
-    root.addEventListener("pointercancel", end);
+    const leave = whileDown(root, moved, end);
   }
 
   /** Move a joint or a point with the arrow keys. */

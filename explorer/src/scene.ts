@@ -43,6 +43,8 @@ export class Scene {
 
   constructor(
     private readonly root: SVGSVGElement,
+    /** Where bodies are drawn, below the curves. */
+    private readonly under: SVGSVGElement,
     private readonly viewport: Viewport,
     private readonly keys: Record<"joint" | "point", (event: KeyboardEvent, number: number) => void>,
   ) {}
@@ -50,6 +52,12 @@ export class Scene {
   /** The joints that are drawn. */
   get joints(): number[] {
     return this.#pins.map(({ joint }) => joint);
+  }
+
+  /** Give one link a class, or none. */
+  mark(marked: number | null, name: "chosen" | "hovered"): void {
+    for (const [link, { classList }] of this.#links.entries())
+      if (classList.contains(name) !== (link === marked)) classList.toggle(name);
   }
 
   focus(joint: number): void {
@@ -104,7 +112,8 @@ export class Scene {
     );
     const { picture } = linkage.beside;
     this.#backdrop = picture ? backdropElement(picture) : null;
-    renew(this.root, ...(this.#backdrop ? [this.#backdrop] : []), back, bodies, marks, front);
+    renew(this.under, ...(this.#backdrop ? [this.#backdrop] : []), back, bodies);
+    renew(this.root, marks, front);
   }
 
   #pin(linkage: Linkage, number: number, dragging: Dragging): SVGGElement {

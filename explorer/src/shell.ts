@@ -2,6 +2,7 @@
 
 import { h } from "./dom";
 import { type Icon, icon } from "./icons";
+import { t } from "./language";
 
 export type Theme = "light" | "dark";
 
@@ -41,6 +42,15 @@ export function tool(sign: Icon, title: string, act: () => void, disabled = fals
 /** A button over the picture. */
 export function stageButton(sign: Icon, title: string, onclick: () => void): HTMLElement {
   return h("button", { title, "aria-label": title, onclick }, icon(sign));
+}
+
+/** The buttons that enlarge the picture and show all of it. */
+export function zoomButtons(picture: { zoom(factor: number): void; fit(): void }): HTMLElement[] {
+  return [
+    stageButton("more", t("Zoom in"), () => picture.zoom(1.25)),
+    stageButton("less", t("Zoom out"), () => picture.zoom(0.8)),
+    stageButton("fit", t("Show everything"), () => picture.fit()),
+  ];
 }
 
 /** A panel beside the picture, open or closed. */

@@ -15,6 +15,8 @@ export interface Shown {
   snap: boolean;
   /** The link whose poles are shown. */
   link: number;
+  /** The link that a click chose. */
+  chosen: number | null;
   /** The forces that are drawn: joints, with parts against the largest force, and how much each is. */
   forces: () => [joint: number, x: number, y: number, force: number][];
   springs: () => readonly Spring[];

@@ -1,35 +1,24 @@
-/** The picture: links in SVG over curves on one canvas. */
+/** The picture: bodies in SVG, over them curves on one canvas, over these joints, points and names in SVG again. */
 
 import { Painter } from "./canvas";
 import { h, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import { gridOf } from "./grid";
-import { currentLanguage, t } from "./language";
+import { currentLanguage, number, t } from "./language";
 import type { Linkage } from "./linkage";
 import { OtherModes } from "./modes";
 import { type Board, Pointer, type StageEvents } from "./pointer";
 import { type Pair, place } from "./rows";
 import { Scene } from "./scene";
 import { linesOf } from "./shapes";
-import { stageButton } from "./shell";
+import { stageButton, zoomButtons } from "./shell";
 import { ownColour, type Shown } from "./shown";
 import { type Box, Viewport } from "./viewport";
 
 /** What a style sheet says of an element, and a file on its own must. */
-const STYLES = [
-  "fill",
-  "fill-rule",
-  "stroke",
-  "stroke-width",
-  "stroke-linecap",
-  "stroke-linejoin",
-  "stroke-dasharray",
-  "opacity",
-  "font-size",
-  "font-family",
-  "font-weight",
-  "paint-order",
-];
+const STYLES =
+  "fill fill-rule stroke stroke-width stroke-linecap stroke-linejoin stroke-dasharray opacity font-size font-family " +
+  "font-weight paint-order";
 
 export class Stage implements Board {
   readonly element: HTMLElement;
@@ -42,6 +31,7 @@ export class Stage implements Board {
   readonly #grid = svg("svg.grid", { "aria-hidden": "true" });
   /** Of what the grid is: drawn anew each time, it took a third of a frame. */
   #ruled = "";
+  readonly #under = svg("svg.grid", { "aria-hidden": "true" });
   private readonly canvas = h("canvas", { "aria-hidden": "true" });
   readonly #scene: Scene;
   readonly #pointer: Pointer;
@@ -61,9 +51,9 @@ export class Stage implements Board {
     events: StageEvents,
     private shown: Shown,
   ) {
-    this.element = h("div.stage", {}, this.#grid, this.canvas, this.root);
+    this.element = h("div.stage", {}, this.#grid, this.#under, this.canvas, this.root);
     this.#pointer = new Pointer(this, events);
-    this.#scene = new Scene(this.root, this.viewport, {
+    this.#scene = new Scene(this.root, this.#under, this.viewport, {
       joint: (event, joint) => {
         if (event.key === "Enter") events.holdJoint(joint);
         else this.#pointer.key(event, (dx, dy) => events.moveJointBy(joint, dx, dy));
@@ -83,25 +73,23 @@ export class Stage implements Board {
     const adder = stageButton("point", t("Add a coupler point: click on a link"), () => this.setAdding(!this.adding));
     adder.setAttribute("aria-pressed", String(this.adding));
     this.element.querySelector(".tools")?.remove();
-    this.element.append(
-      h(
-        "div.tools",
-        {},
-        stageButton("more", t("Zoom in"), () => this.zoom(1.25)),
-        stageButton("less", t("Zoom out"), () => this.zoom(0.8)),
-        stageButton("fit", t("Show everything"), () => this.fit()),
-        adder,
-      ),
-      this.#hint,
-    );
+    this.element.append(h("div.tools", {}, ...zoomButtons(this), adder), this.#hint);
   }
 
   get joints(): number[] {
     return this.#scene.joints;
   }
 
+  get chosen(): number | null {
+    return this.shown.chosen;
+  }
+
   focus(joint: number): void {
     this.#scene.focus(joint);
+  }
+
+  hover(link: number | null): void {
+    this.#scene.mark(link, "hovered");
   }
 
   /** Whether clicks make coupler points; returns whether they did. */
@@ -110,6 +98,8 @@ export class Stage implements Board {
     this.adding = on;
     this.element.querySelector(".tools [aria-pressed]")?.setAttribute("aria-pressed", String(on));
     this.element.classList.toggle("adding", on);
+    this.hover(null);
+    this.draw();
     return before;
   }
 
@@ -154,8 +144,7 @@ export class Stage implements Board {
   build(): void {
     const { linkage, dragging } = this;
     if (!linkage || !dragging) return;
-    const { name, names, source } = linkage.model;
-    this.root.setAttribute("aria-label", names[currentLanguage()] || name || source || t("The mechanism"));
+    this.root.setAttribute("aria-label", linkage.title || linkage.model.source || t("The mechanism"));
     this.#scene.build(linkage, dragging, this.shown);
     this.sized();
   }
@@ -172,12 +161,26 @@ export class Stage implements Board {
     if (!this.linkage) return;
     this.#rule(this.linkage.model.unit);
     this.#scene.draw(this.linkage, this.shown);
-    const aside = this.#scene.poleAside ? ` ${t("The pole lies outside of the picture.")}` : "";
-    const said = t("Drag a joint to change sizes, a link to move it.") + aside;
+    this.#scene.mark(this.chosen, "chosen");
+    const said = this.#said(this.linkage, this.chosen);
     if (this.#hint.textContent !== said) this.#hint.textContent = said;
     const pen = this.canvas.getContext("2d");
     if (!pen) return;
     new Painter(pen, this.viewport, this.#colour).paint(this.linkage, this.shown, this.#modes);
+  }
+
+  /** What can be done next; of a link that is chosen its lengths. */
+  #said(linkage: Linkage, chosen: number | null): string {
+    const name = chosen === null ? "" : linkage.linkName(chosen);
+    if (this.adding)
+      return name
+        ? t("A point of {name}: click where it is to be, on it or beside it; Escape ends.", { name })
+        : t("A coupler point: click on the link that carries it; Escape ends.");
+    const aside = this.#scene.poleAside ? ` ${t("The pole lies outside of the picture.")}` : "";
+    if (!name) return t("Drag a joint to change sizes, a link to move it.") + aside;
+    const mine = this.dragging!.lengths().filter(({ link }) => link === chosen);
+    const lengths = mine.map(({ value }) => `${number(value, 5)} ${linkage.model.unit}`.trim());
+    return [name, lengths.join(", ")].filter(Boolean).join(": ") + aside;
   }
 
   #rule(unit: string): void {
@@ -195,31 +198,37 @@ export class Stage implements Board {
   /** The picture as one SVG file, its colours written out. */
   file(): string {
     const { viewport } = this;
-    const copy = this.root.cloneNode(true) as SVGSVGElement;
-    const from = [...this.root.querySelectorAll<SVGElement>("*")];
+    const [below, copy] = [this.#under, this.root].map((root) => this.#styled(root)) as [SVGSVGElement, SVGSVGElement];
+    const { rows, values } = this.linkage!.cycle;
+    const points = this.shown.curves ? this.linkage!.sizes.points : [];
+    const curves = points.map(({ link, at }, k) => {
+      const places = Array.from(values, (_, row) => viewport.screen(...place(rows, row, link, ...at)));
+      const d = places.map(([x, y], row) => `${row ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
+      return svg("path", { d, fill: "none", stroke: this.#colour(ownColour(k)), "stroke-width": 2 });
+    });
+    const paper = svg("rect", { width: viewport.width, height: viewport.height, fill: this.#colour("--paper") });
+    copy.prepend(paper, ...below.children, ...curves);
+    copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
+    copy.setAttribute("width", String(viewport.width));
+    copy.setAttribute("height", String(viewport.height));
+    copy.removeAttribute("tabindex");
+    return new XMLSerializer().serializeToString(copy);
+  }
+
+  /** A copy of a part of the picture, its styles written out. */
+  #styled(root: SVGSVGElement): SVGSVGElement {
+    const copy = root.cloneNode(true) as SVGSVGElement;
+    const from = [...root.querySelectorAll<SVGElement>("*")];
     for (const [k, element] of [...copy.querySelectorAll<SVGElement>("*")].entries()) {
       const style = getComputedStyle(from[k]!);
       if (style.display === "none") {
         element.remove();
         continue;
       }
-      for (const name of STYLES) element.setAttribute(name, style.getPropertyValue(name));
-      for (const name of ["class", "tabindex", "role", "style"]) element.removeAttribute(name);
+      for (const name of STYLES.split(" ")) element.setAttribute(name, style.getPropertyValue(name));
+      for (const name of "class tabindex role style".split(" ")) element.removeAttribute(name);
     }
-    const colour = this.#colour;
-    const { rows, values } = this.linkage!.cycle;
-    const points = this.shown.curves ? this.linkage!.sizes.points : [];
-    points.forEach((point, number) => {
-      const places = Array.from(values, (_, row) => viewport.screen(...place(rows, row, point.link, ...point.at)));
-      const d = places.map(([x, y], row) => `${row ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
-      copy.prepend(svg("path", { d, fill: "none", stroke: colour(ownColour(number)), "stroke-width": 2 }));
-    });
-    copy.prepend(svg("rect", { width: viewport.width, height: viewport.height, fill: colour("--paper") }));
-    copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
-    copy.setAttribute("width", String(viewport.width));
-    copy.setAttribute("height", String(viewport.height));
-    copy.removeAttribute("tabindex");
-    return new XMLSerializer().serializeToString(copy);
+    return copy;
   }
 }
 

@@ -228,7 +228,7 @@ export class StructureView implements View {
     const found = await awaited(place, (progress) => this.#page.ask<Realised>("realise", { text }, progress));
     if (!found) return;
     place.remove();
-    this.#page.open({ ...found.model, name: t("A mechanism with found dimensions") });
+    this.#page.open({ ...found.model, plays: true, name: t("A mechanism with found dimensions") });
     this.#page.say(found.message, "done");
   }
 }

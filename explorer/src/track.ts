@@ -19,13 +19,12 @@ export class Track {
   #told = "";
 
   constructor(private readonly pick: (value: number, beyond: boolean) => void) {
-    this.element = h("div.track", { role: "slider", tabindex: 0 }, this.#root);
-    this.element.addEventListener("pointerdown", (event) => {
+    const onpointerdown = (event: PointerEvent) => {
       this.element.setPointerCapture(event.pointerId);
       this.#at(event);
-    });
-    this.element.addEventListener("pointermove", (event) => event.buttons && this.#at(event));
-    this.element.addEventListener("keydown", (event) => {
+    };
+    const onpointermove = (event: PointerEvent) => event.buttons && this.#at(event);
+    const onkeydown = (event: KeyboardEvent) => {
       const [low, high] = this.#limits;
       const part = (high - low) / (/^Page/.test(event.key) ? 12 : 360);
       const here = this.#here;
@@ -35,7 +34,9 @@ export class Track {
       if (Number.isNaN(value)) return;
       event.preventDefault();
       this.pick(Math.max(low, Math.min(high, value)), value < low || value > high);
-    });
+    };
+    const heard = { onpointerdown, onpointermove, onkeydown };
+    this.element = h("div.track", { role: "slider", tabindex: 0, ...heard }, this.#root);
   }
 
   #at(event: PointerEvent): void {

@@ -81,7 +81,8 @@ export class Transport<View extends Driven = Driven> {
     const drives = choices.length > 1 ? [h("select", { "aria-label": t("Drive"), onchange }, ...choices)] : [];
     const speedLabel = h("label.speed", {}, t("Speed"), speed, rate);
     this.#value.setAttribute("aria-label", t("Drive"));
-    renew(this.element, this.player.button, ...drives, this.#track.element, this.#value, speedLabel);
+    const row = [this.player.button, ...drives, this.#track.element, this.#value, speedLabel];
+    renew(this.element, ...(this.view.linkage.drive ? row : []));
   }
 
   /** The value of the drive as it is plotted. */

@@ -1,6 +1,7 @@
 /** What the page and its views know of one another. */
 
 import type { Request } from "./host";
+import type { Linkage } from "./linkage";
 import type { Model } from "./model";
 
 export interface View {
@@ -19,12 +20,15 @@ export interface View {
 export interface Page {
   /** Whether there is a Python behind the page. */
   readonly served: boolean;
-  /** The linkage that is shown. */
+  /** The linkage that is shown in motion, and what it was opened as. */
+  readonly linkage: Linkage;
   readonly shown: Model;
   /** The chains of which lists are made, as far as there is somebody who makes them. */
   readonly limits: Partial<Record<"links" | "mobility", { min: number; max: number }>>;
   ask<Result>(method: string, params: Record<string, unknown>, progress?: (text: string) => void): Request<Result>;
-  /** Show another linkage, in motion, at a value of its drive. */
+  /** Show a view by its name. */
+  show(view: string): void;
+  /** Show another linkage, in motion, at a value of its drive; undoing leads back to the view that drew it. */
   open(model: Model, drive?: number): void;
   /** Show the structure of a text. */
   describe(text: string): void;

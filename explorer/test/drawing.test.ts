@@ -60,7 +60,7 @@ test("a slider-crank", () => {
   const three = withLink(two, knot(two, 1), place(70, 0));
   const whole = driven(withSlider(three, knot(three, 2)), 0);
   assert.equal(counted(whole), 1);
-  const document = documentOfDrawing(whole, "mm");
+  const document = documentOfDrawing(whole);
   assert.equal(document.joints, "R(frame-1) R(1-2) R(2-3) P(frame-3)");
   assert.deepEqual(document.places, {
     "R(frame-1)": [0, 0],
@@ -114,7 +114,7 @@ test("names", () => {
 
 test("open ends are points", () => {
   const two = withLink(EMPTY, place(0, 0), place(10, 0));
-  assert.deepEqual(documentOfDrawing(two, "mm").points, {
+  assert.deepEqual(documentOfDrawing(two).points, {
     K1: { link: "1", at: [0, 0] },
     K2: { link: "1", at: [10, 0] },
   });
@@ -134,7 +134,7 @@ test("a cylinder pushes a lever: four links, F = 1", () => {
   const base = withGround(lever, place(60, 0));
   const drawing = withCylinder(base, knot(base, 2), knot(base, 1));
   assert.equal(counted(drawing), 1); // 3(4 - 1) - 2 * 4
-  const { joints, places } = documentOfDrawing(driven(drawing, 3), "mm") as { joints: string; places: object };
+  const { joints, places } = documentOfDrawing(driven(drawing, 3)) as { joints: string; places: object };
   assert.equal(joints, "R(frame-1) R(1-3) R(frame-2) P(2-3)");
   near((places as Record<string, number[]>)["P(2-3)"]!, [60, 0, (Math.atan2(40, -50) * 180) / Math.PI]);
   const other = moved(drawing, 1, [20, 50]); // its end goes along
@@ -146,7 +146,7 @@ test("a cylinder pushes a lever: four links, F = 1", () => {
 test("gears touch where they are put: 20 and 40 of 60", () => {
   const drawing = withGears(EMPTY, place(0, 0), place(60, 0), [22, 7])!;
   assert.equal(counted(drawing), 1); // 3(3 - 1) - 2 * 2 - 1
-  const wheels = (one: Drawing) => (documentOfDrawing(one, "mm").places as Record<string, unknown>)["G(1-2)"];
+  const wheels = (one: Drawing) => (documentOfDrawing(one).places as Record<string, unknown>)["G(1-2)"];
   const touching = moved(drawing, jointsOf(drawing).at(-1)!, [20, -3]);
   assert.deepEqual(wheels(touching), { "1": { at: [0, 0], radius: 20 }, "2": { at: [60, 0], radius: 40 } });
   const wider = moved(touching, 1, [90, 0]); // the ratio stays

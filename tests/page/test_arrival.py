@@ -79,7 +79,8 @@ def test_cards_of_the_catalog_come_to_places_of_their_size(tab, server):
     page = tab().open(server.address)
     page.hold()
     size = """(() => {
-        const { x, y, width, height } = gruebler.views.catalog.element.querySelector('.card').getBoundingClientRect();
+        const card = gruebler.root.querySelector('[data-page=catalog] .card');
+        const { x, y, width, height } = card.getBoundingClientRect();
         return [x, y, width, height];
     })()"""
     page.page.click('[data-view="catalog"]')
@@ -90,7 +91,7 @@ def test_cards_of_the_catalog_come_to_places_of_their_size(tab, server):
         .forEach((one) => Object.getPrototypeOf(gruebler.model).send.call(gruebler.model, one))"""
     page.until("held.length > 0")
     page.page.evaluate(answer, "catalog")
-    page.until("gruebler.views.catalog.element.querySelector('[data-waiting]') === null")
+    page.until("gruebler.root.querySelector('[data-page=catalog] [data-waiting]') === null")
     assert page.page.evaluate(size) == empty
     page.until("held.some((one) => one.method === 'picture')")
     page.page.evaluate(answer, "picture")
@@ -139,7 +140,7 @@ def test_two_fingers_enlarge_the_plane_that_is_drawn_on_and_put_nothing(tab, ser
     page.page.tap('[data-view="build"]')
     page.page.tap('[data-tool="ground"]')
     box = page.page.locator(".drawing").bounding_box()
-    x, y = box["x"] + 90, box["y"] + 150
+    x, y = box["x"] + 90, box["y"] + 250
     view = "gruebler.views.build"
     before = page.page.evaluate(f"{view}.viewport.scale")
     send = touches(page)

@@ -3,6 +3,7 @@
 import json
 import math
 
+import numpy as np
 import pytest
 
 from gruebler.files import linkage_from_json
@@ -11,6 +12,7 @@ from gruebler.mechanics.kinematics import move
 from gruebler.page.drawings import drawing_record
 from gruebler.structure.chain import Chain
 from gruebler.structure.mobility import mobility_report
+from gruebler.teaching import catalog
 
 FOUR_BAR = "R(0-1) R(1-2) R(2-3) R(3-0)"
 FREEDOMS = '[data-fact="freedoms"]'
@@ -73,13 +75,17 @@ def test_a_four_bar_and_then_a_watt_six_bar_are_drawn_and_moved(plane):
     assert linkage.mechanism.chain.text() == "R(frame-1) R(1-2) R(2-3) R(frame-3)"
     assert linkage.length("1", 0, 1) == pytest.approx(20, abs=1e-9)
     assert measures(linkage).span.full  # 20 + 70 < 63.2 + 41.2
-    view.go_back()
-    plane.until("gruebler.view === 'build'")
+    assert view.evaluate("gruebler.motion.transport.player.playing")
+    drawing = "JSON.stringify(gruebler.views.build.drawing)"
+    drawn = view.evaluate(drawing)
+    view.keyboard.press("Control+z")  # back to what it was drawn as, and the machine before it is in motion again
+    assert view.evaluate("[gruebler.view, gruebler.motion.linkage.model.source]") == ["build", "crankrocker"]
+    assert view.evaluate(drawing) == drawn
     view.click('[data-tool="dyad"]')
     click(plane, (30, 30), (40, 80), (110, 60))  # from the coupler
     view.keyboard.press("g")
     click(plane, (110, 60))
-    plane.until("gruebler.views.build.mobility.element.textContent.includes('Mobility 1, drives: 1')")
+    plane.until("gruebler.root.querySelector('[data-place=mobility]').textContent.includes('Mobility 1, drives: 1')")
     view.locator('[data-act="move"]').click()
     plane.until("gruebler.motion.linkage.model.joints.length === 7")
     view.go_back()
@@ -96,6 +102,22 @@ def test_an_empty_plane_begins_with_the_ground_and_ends_stay_on_axes(plane):
     assert view.locator('.palette [aria-pressed="true"]').get_attribute("data-tool") == "ground"
     assert view.locator(".drawing + .hint").inner_text().startswith("Ground")
     assert "ground" in view.locator('[data-place="mobility"]').inner_text()
+    for key in ("four-bar", "slider-crank", "six-bar"):
+        view.click(f'[data-begin="{key}"]')
+        view.locator('[data-act="move"]').wait_for()  # its mobility is 1, and a joint drives it
+        assert not view.locator("[data-begin]:not(.side *)").count()
+        view.keyboard.press("Control+z")
+    scale = "gruebler.views.build.viewport.scale"
+    seen = []
+    for sign in ("0", "+", "0"):
+        view.locator(".drawing").press(sign)
+        seen.append(view.evaluate(scale))
+    assert seen == pytest.approx([seen[0], 1.25 * seen[0], seen[0]])
+    for number in (1, 2):
+        view.click(f".stage:has(.drawing) .tools button:nth-child({number})")
+    assert view.evaluate(scale) == pytest.approx(seen[0])  # 1.25 · 0.8
+    view.keyboard.press("g")
+    view.click('[data-tool="ground"]')
     click(plane, (0, 0))
     assert "(L)" in view.locator('[data-place="mobility"]').inner_text()
     view.keyboard.press("l")
@@ -105,6 +127,10 @@ def test_an_empty_plane_begins_with_the_ground_and_ends_stay_on_axes(plane):
     assert view.evaluate(last) == [60, 35]
     click(plane, (0, 0), (69.6, 0.5))
     assert view.evaluate(last) == [70, 0]
+    guides = view.locator(".guide")
+    assert guides.get_attribute("d") == ""  # the click is over
+    plane.page.mouse.move(*plane.middle('[data-tool="move"]'), steps=8)
+    assert guides.get_attribute("d") == ""  # nor does one stay where the pointer left
     view.click('[data-act="empty"]')
     assert view.locator('.palette [aria-pressed="true"]').get_attribute("data-tool") == "ground"
 
@@ -125,7 +151,7 @@ def test_a_slider_crank_is_drawn_by_keys_alone(plane):
     view.keyboard.press("Enter")
     view.keyboard.press("s")
     view.keyboard.press("Enter")
-    plane.until("gruebler.views.build.mobility.element.textContent.includes('Mobility 1, drives: 0')")
+    plane.until("gruebler.root.querySelector('[data-place=mobility]').textContent.includes('Mobility 1, drives: 0')")
     assert view.evaluate("gruebler.views.build.drawing.knots.map((knot) => knot.links.join('-'))") == [
         "frame-1",
         "1-2",
@@ -248,3 +274,37 @@ def test_joints_are_joined_split_named_and_removed(plane):
     click(plane, (20, 0))
     view.click('[data-act="remove"]')
     assert view.evaluate(knots) == ["2", "2"]
+
+
+@pytest.mark.parametrize("machine", ["crane_cyl", "geartrain", "toggle_press"])
+def test_the_machine_at_hand_is_taken_over(plane, machine):
+    """Cylinder, gears, slide and double joint: where a drawing of the machine moves to is where the machine does."""
+    view = plane.page
+    shown = """() => {
+        const { linkage } = gruebler.motion;
+        return JSON.stringify([gruebler.motion.document(), linkage.drives[0], linkage.size, linkage.drive.turning]);
+    }"""
+    taken = """async (id) => {
+        gruebler.open(await gruebler.ask("open", { id }));
+        gruebler.motion.edit(() => gruebler.motion.linkage.sizes.points.push({ name: "tip", link: 1, at: [30, 40] }));
+        gruebler.show("build");
+    }"""
+    view.evaluate(taken, machine)
+    first = json.loads(view.evaluate(shown))
+    view.click('[data-begin="hand"]')
+    view.locator('[data-act="move"]').click()
+    plane.until("gruebler.view === 'motion'")
+    view.evaluate("gruebler.motion.transport.pause()")
+    name = view.locator("h1 small").inner_text()
+    view.evaluate("gruebler.motion.linkage.moveTo(gruebler.motion.linkage.model.start.drives[0])")
+    second = json.loads(view.evaluate(shown))
+    assert name == f"{catalog.entry(machine).name.en}, changed"
+    paths = []
+    for document, drive, size, turning in (first, second):
+        linkage = linkage_from_json(document)
+        motion = move(linkage, drive + np.linspace(0, 0.1, 5) * (1 if turning else size))
+        joints = [motion.point(joint) for joint in linkage.mechanism.chain.joint_names() if joint[0] == "R"]
+        turns = [motion.angle(link) - motion.angle(link)[0] for link in sorted(linkage.mechanism.chain.links)]
+        paths.append((joints, turns, motion.point("tip")))
+    for one, other in zip(*paths, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-8)

@@ -77,13 +77,36 @@ def test_a_point_without_a_mouse(tab, crank_rocker):
 def test_clicks_make_points_until_escape(tab, crank_rocker):
     page = tab().open(crank_rocker)
     adder = page.page.locator(".stage .tools [aria-pressed]")
+    hint = page.page.locator(".stage .hint")
+    x, y = page.middle('[data-link="coupler"] .bar')
     adder.click()
     assert adder.get_attribute("aria-pressed") == "true"
+    page.page.mouse.click(x, y - 60)  # no link is there, and none is chosen
+    assert page.page.evaluate(f"{POINTS}.length") == 0
+    page.page.mouse.move(x, y)
+    page.page.locator('[data-link="coupler"].hovered').wait_for(state="attached")
+    page.page.mouse.click(x, y)
+    assert "coupler" in hint.inner_text()
+    assert page.page.evaluate(f"{POINTS}.length") == 0
+    page.page.mouse.click(x, y - 60)
+    assert page.middle('[data-mark="K1"] .dot') == pytest.approx((x, y - 60), abs=1.5)
+    assert page.page.evaluate(f"gruebler.motion.linkage.model.links[{POINTS}[0].link]") == "coupler"
     page.page.keyboard.press("Escape")
     assert adder.get_attribute("aria-pressed") == "false"
     joint = page.middle('[data-joint="R(coupler-rocker)"] .joint')
     page.drag(joint, (8, 5))
-    assert page.page.evaluate(f"{POINTS}.length") == 0
+    assert page.page.evaluate(f"{POINTS}.length") == 1
+
+
+def test_a_link_is_chosen_by_a_click_and_shows_its_length(tab, crank_rocker):
+    page = tab().open(crank_rocker)
+    chosen = page.page.locator(".rows.sizes .chosen")
+    page.page.mouse.click(*page.middle('[data-link="rocker"] .bar'))
+    assert page.page.locator(".stage .hint").inner_text() == "rocker: 40 mm"
+    assert chosen.all_inner_texts() == ["rocker"]
+    assert page.page.locator(".link.chosen").get_attribute("data-link") == "rocker"
+    page.page.keyboard.press("Escape")
+    assert chosen.count() == page.page.locator(".link.chosen").count() == 0
 
 
 def test_a_drag_is_given_up(tab, crank_rocker):
@@ -232,7 +255,7 @@ def test_the_drive_is_typed_and_walked_by_keys(tab, crank_rocker):
     page.page.keyboard.press("End")
     assert math.remainder(page.page.evaluate(drive), 360) == pytest.approx(0)
     # the row of the drive comes before the panel
-    order = "[...gruebler.motion.element.children].map((one) => one.className)"
+    order = "[...gruebler.root.querySelector('.stage').parentElement.children].map((one) => one.className)"
     assert page.page.evaluate(order) == ["stage", "transport", "side"]
 
 
@@ -491,8 +514,8 @@ def test_all_curves_follow_a_drag_and_those_of_the_other_mode_shine_through(tab,
 def test_plots_and_measures_follow_where_a_drag_rests(tab, crank_rocker):
     """In each step one plot or the measures follow; all of them do before the joint is let go."""
     page = tab().open(crank_rocker)
-    said = """() => [...gruebler.motion.plots.parts.map(({ plot }) => plot.element.outerHTML),
-                     gruebler.motion.facts.element.querySelector("dd").textContent]"""
+    said = """() => [...gruebler.root.querySelectorAll(".plot"), gruebler.root.querySelector(".facts dd")].map(
+        (one) => one.outerHTML)"""
     page.page.evaluate(f"window.before = ({said})()")
     x, y = page.middle('.stage [data-joint="R(coupler-rocker)"] .joint')
     page.page.mouse.move(x, y)

@@ -98,9 +98,11 @@ def test_names_stand_beside_their_links(tab, crank_rocker):
     page = tab().open(crank_rocker)
     near = """(() => {
         const { linkage, stage } = gruebler.motion;
+        const hull = (link) => linkage.model.elements.filter((e) => e.link === link)
+            .map((e) => stage.viewport.screen(...linkage.jointAt(e.joint)));
         const names = [...stage.root.querySelectorAll("text.name")];
         return [1, 2, 3].map((link, k) => {
-            const ends = linkage.sizes.elementsOn(link).map((e) => stage.viewport.screen(...linkage.elementAt(e)));
+            const ends = hull(link);
             const [[ax, ay], [bx, by]] = ends;
             const box = names[k].getBBox();
             const { e, f } = names[k].transform.baseVal[0].matrix;
@@ -122,8 +124,9 @@ def test_names_of_a_phone_are_nearer_to_their_own_bar_than_to_another(tab, crank
     page = tab(width=390, height=844, touch=True, locale=locale).open(crank_rocker)
     distances = """(() => {
         const { linkage, stage } = gruebler.motion;
-        const bars = [1, 2, 3].map((link) =>
-            linkage.sizes.elementsOn(link).map((e) => stage.viewport.screen(...linkage.elementAt(e))));
+        const hull = (link) => linkage.model.elements.filter((e) => e.link === link)
+            .map((e) => stage.viewport.screen(...linkage.jointAt(e.joint)));
+        const bars = [1, 2, 3].map(hull);
         const names = [...stage.root.querySelectorAll("text.name")];
         return [bars, names.map((name) => {
             const box = name.getBBox(), { e, f } = name.transform.baseVal[0].matrix;
@@ -255,6 +258,8 @@ def test_no_name_lies_on_the_edge_of_its_link(tab, server):
     page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'klann'")
     crossed = """(() => {
         const { linkage, stage } = gruebler.motion;
+        const hull = (link) => linkage.model.elements.filter((e) => e.link === link)
+            .map((e) => stage.viewport.screen(...linkage.jointAt(e.joint)));
         const names = [...stage.root.querySelectorAll("text.name")];
         const links = linkage.model.links.map((_, link) => link).filter((link) => link !== linkage.model.frame);
         return links.filter((link, number) => {
@@ -262,7 +267,7 @@ def test_no_name_lies_on_the_edge_of_its_link(tab, server):
             const { e, f } = names[number].transform.baseVal[0].matrix;
             const within = ([x, y]) => Math.abs(x - e - box.x - box.width / 2) < box.width / 2
                 && Math.abs(y - f - box.y - box.height / 2) < box.height / 2 - 3;
-            const ends = linkage.sizes.elementsOn(link).map((k) => stage.viewport.screen(...linkage.elementAt(k)));
+            const ends = hull(link);
             return ends.some(([x, y]) => ends.some(([u, v]) =>
                 [...Array(101).keys()].some((k) => within([x + (u - x) * k / 100, y + (v - y) * k / 100]))));
         }).map((link) => linkage.model.links[link]);

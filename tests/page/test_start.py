@@ -73,7 +73,7 @@ def test_nothing_jumps_when_the_script_comes(tab, server, width):
     assert len(held) == 1
     held[0].continue_()
     page.until("window.gruebler !== undefined")
-    page.until("gruebler.motion.facts.element.childElementCount > 0")
+    page.until("gruebler.root.querySelector('.facts dd')")
     page.page.wait_for_timeout(300)
     assert sum(page.page.evaluate("shifts")) == 0
 

@@ -213,12 +213,12 @@ def test_a_link_made_there_opens_there_for_everyone(tab, address):
     page.page.click('[data-view="structure"]')
     page.page.fill('[data-page="structure"] input[aria-label="Links"]', "4")
     page.page.press('[data-page="structure"] input[aria-label="Links"]', "Enter")
-    page.until("gruebler.views.structure.element.querySelectorAll('[data-list=chains] .card').length === 1")
+    page.until("gruebler.root.querySelectorAll('[data-page=structure] [data-list=chains] .card').length === 1")
     page.page.click('[data-list="chains"] .card')
     page.page.click('[data-list="driven"] .card')
     page.page.click('[data-act="realise"]')
     page.until("gruebler.shown.name.startsWith('A mechanism with')")
-    page.page.evaluate("gruebler.share()")
+    page.page.evaluate("gruebler.motion.transport.toggle(), gruebler.share()")  # what runs stands still
     link = page.until("location.hash.length > 200 && location.href")
     other = tab().open(address + "#" + link.partition("#")[2])
     other.until("gruebler.shown.name.startsWith('A mechanism with')")
@@ -229,7 +229,7 @@ def test_a_link_made_there_opens_there_for_everyone(tab, address):
 def test_the_disk_alone_is_enough_and_the_rest_says_how(tab, folder):
     page = tab(locale="de-DE").open((folder / "index.html").as_uri())
     page.page.click('[data-view="catalog"]')
-    page.until("gruebler.views.catalog.element.querySelectorAll('.card svg').length === 3")
+    page.until("gruebler.root.querySelectorAll('[data-page=catalog] .card svg').length === 3")
     page.page.click('.card[data-id="crankrocker"]')
     page.until("gruebler.view === 'motion'")
     page.page.click('[data-view="structure"]')
@@ -265,7 +265,7 @@ def test_nine_points_are_met_without_python(tab, folder, address, from_disk):
     searching(page)
     assert set_already.text_content() == "9 of 9 set, 0 missing"
     page.until("gruebler.views.synthesis.status.textContent.includes('of 1442 solutions followed')", 60)
-    page.until("gruebler.views.synthesis.designs.element.querySelectorAll('.card svg .gr-curve').length === 4", 120)
+    page.until("gruebler.root.querySelectorAll('[data-page=synthesis] .card svg .gr-curve').length === 4", 120)
     assert "Of the 1442 solutions of nine points" in page.page.locator('[data-page="synthesis"]').text_content()
     cards = page.page.locator('[data-page="synthesis"] .card')
     assert cards.locator("b").all_text_contents() == [f"Four-bar {number}" for number in (1, 2, 3, 4)]
@@ -286,7 +286,7 @@ def test_nine_points_are_met_without_python(tab, folder, address, from_disk):
         assert np.hypot(*(np.array(curve) - row).T).min() < 0.1
     if from_disk:
         return
-    page.page.evaluate("gruebler.share()")
+    page.page.evaluate("gruebler.motion.transport.toggle(), gruebler.share()")  # what runs stands still
     link = page.until("location.hash.length > 200 && location.href")
     other = tab().open(address + "#" + link.partition("#")[2])
     other.until("gruebler.shown.name === 'A design for 9 points'")

@@ -48,9 +48,9 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     view.locator('[data-page="structure"] [aria-label="Mobility"]').press("ArrowDown")
     links.fill("7")  # F = 3·6 - 2g is even
     links.press("Enter")
-    page.until("gruebler.views.structure.element.textContent.includes('one is even and one is odd')")
+    page.until("gruebler.root.textContent.includes('one is even and one is odd')")
     view.evaluate("gruebler.describe('R(a-b) R(b-c) R(c-d) R(d-a) R(a-c)')")
-    page.until("gruebler.views.structure.element.textContent.includes('Purple: links that are rigid')")
+    page.until("gruebler.root.textContent.includes('Purple: links that are rigid')")
 
 
 def test_links_are_called_by_the_names_of_the_machine():

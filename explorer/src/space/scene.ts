@@ -2,8 +2,8 @@
 
 import { h, svg } from "../dom";
 import { gridStep } from "../grid";
-import { number, t } from "../language";
-import { stageButton } from "../shell";
+import { number } from "../language";
+import { zoomButtons } from "../shell";
 import { axes, before, type Camera, fitted, meeting, moved, projection, ray, seen, type Vector } from "./algebra";
 import type { Machine } from "./machine";
 import type { Spot } from "./model";
@@ -78,13 +78,7 @@ export class Scene {
     this.root.setAttribute("aria-label", `${title}. ${words.hint}`);
     this.#hint.textContent = words.hint!;
     const grid = unit ? `${words.grid} ${number(this.#step)} ${unit}` : "";
-    const tools = h(
-      "div.tools",
-      {},
-      stageButton("more", t("Zoom in"), () => this.zoom(1.25)),
-      stageButton("less", t("Zoom out"), () => this.zoom(0.8)),
-      stageButton("fit", t("Show everything"), () => this.fit()),
-    );
+    const tools = h("div.tools", {}, ...zoomButtons(this));
     const picture = this.#painter ? [this.canvas, this.root] : [h("p.note.flat", { role: "alert" }, words.flat)];
     this.element.replaceChildren(...picture, tools, this.#hint, h("div.hint.unit", {}, grid));
   }

@@ -1,0 +1,64 @@
+/** The tools with which is drawn: their names and keys, what each asks for. */
+
+import { h } from "./dom";
+import { t } from "./language";
+
+export type Tool = "move" | "ground" | "link" | "slider" | "dyad" | "cylinder" | "gears";
+
+/** How many places a tool needs. */
+export const NEEDED: Record<Tool, number> = { move: 0, ground: 1, link: 2, slider: 1, dyad: 3, cylinder: 2, gears: 3 };
+
+export const KEYS: Record<string, Tool> = {
+  v: "move",
+  g: "ground",
+  l: "link",
+  s: "slider",
+  d: "dyad",
+  c: "cylinder",
+  w: "gears",
+};
+
+function nameOf(tool: Tool): string {
+  const names: Record<Tool, string> = {
+    move: t("Move"),
+    ground: t("Ground"),
+    link: t("Link"),
+    slider: t("Slider"),
+    dyad: t("Dyad"),
+    cylinder: t("Cylinder"),
+    gears: t("Gear pair"),
+  };
+  return names[tool];
+}
+
+/** A button for each tool. */
+export function palette(chosen: Tool, take: (tool: Tool) => void): HTMLElement[] {
+  return Object.entries(KEYS).map(([letter, key]) =>
+    h(
+      "button",
+      {
+        class: key === chosen ? "key" : "plain",
+        "data-tool": key,
+        "aria-pressed": String(key === chosen),
+        onclick: () => take(key),
+      },
+      nameOf(key),
+      h("span.letter.keys", {}, ` (${letter.toUpperCase()})`),
+    ),
+  );
+}
+
+/** What is to be done with a tool. */
+export function hintOf(tool: Tool): (Node | string)[] {
+  const ends = t("Two clicks, from end to end.");
+  const hints: Record<Tool, string> = {
+    move: t("Drag joints; click on a joint or a link to choose it."),
+    ground: t("A click puts it, on a joint too."),
+    slider: t("A click puts it, on a joint too."),
+    link: ends,
+    cylinder: ends,
+    dyad: t("Three clicks: end, middle, end."),
+    gears: t("Three clicks: both centres, then where they touch; beyond a centre the other wheel has internal teeth."),
+  };
+  return [h("b", {}, nameOf(tool)), " ", hints[tool]];
+}

@@ -1,0 +1,101 @@
+/** What a drawing begins with: the linkage at hand, or a mechanism that one then changes. */
+
+import { h, svg } from "./dom";
+import { type Drawing, isPin, type Knot, linksOf } from "./drawing";
+import { t } from "./language";
+import type { Linkage } from "./linkage";
+import { outlineOf } from "./plane";
+import type { Pair } from "./rows";
+import { drawingOf } from "./taken";
+import { type Box, Viewport } from "./viewport";
+
+const WIDE = 104; // pixels of a card's picture
+const HIGH = 58;
+
+/** Where a drawing begins, and what takes it. */
+interface Beginning {
+  readonly linkage: Linkage;
+  begin(drawing: Drawing): void;
+}
+
+/** A drawing whose first knot is driven; its knots are written as x, y, the links ("f" is the frame), the slide. */
+function drawn(text: string): Drawing {
+  const frame = t("frame");
+  const knots = text.split("/").map((row): Knot => {
+    const [x, y, links, slide] = row.split(" ");
+    const named = [...links!].map((link) => (link === "f" ? frame : link));
+    return { at: [Number(x), Number(y)], links: named, ...(slide && { slide: Number(slide) }) };
+  });
+  return { knots, frame, drives: [0] };
+}
+
+// 20 + 70 < 63.2 + 41.2: the crank turns fully
+const FOUR_BAR = "0 0 f1/0 20 12/60 40 23/70 0 f3/30 60 2";
+const SLIDER_CRANK = "0 0 f1/0 20 12/80 0 23/80 0 f3 0";
+const SIX_BAR = `${FOUR_BAR}/92 32 34/150 42 45/150 0 f5`;
+
+/** Where knots lie, and wheels about them. */
+export function extentOf({ knots }: Drawing): Box {
+  const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
+  const add = ([x, y]: Pair, room = 0) => {
+    box.left = Math.min(box.left, x - room);
+    box.right = Math.max(box.right, x + room);
+    box.bottom = Math.min(box.bottom, y - room);
+    box.top = Math.max(box.top, y + room);
+  };
+  for (const { at, between, part } of knots) {
+    add(at);
+    for (const centre of between ?? [])
+      add(centre, part === undefined ? 0 : Math.hypot(at[0] - centre[0], at[1] - centre[1]));
+  }
+  return box;
+}
+
+/** The links of a drawing as a small picture. */
+function sketch(drawing: Drawing): SVGElement {
+  const viewport = new Viewport();
+  const { left, right, bottom, top } = extentOf(drawing);
+  viewport.scale = Math.min((WIDE - 16) / (right - left), (HIGH - 16) / (top - bottom));
+  viewport.pan(8 - viewport.scale * left, HIGH - 8 + viewport.scale * bottom);
+  const links = linksOf(drawing).filter((link) => link !== drawing.frame);
+  const hulls = links.map((link) => outlineOf({ drawing, viewport }, link));
+  return svg(
+    "svg",
+    { width: WIDE, height: HIGH, "aria-hidden": "true" },
+    ...hulls.map((hull) => svg("path", { d: `M${hull.join("L")}Z` })),
+    ...drawing.knots.filter(isPin).map(({ at }) => {
+      const [cx, cy] = viewport.screen(...at);
+      return svg("circle", { cx, cy, r: 2.5 });
+    }),
+  );
+}
+
+/** Cards over an empty plane. */
+export function starters(view: Beginning): HTMLElement[] {
+  const found = drawingOf(view.linkage).drawing;
+  const cards: [string, string, Drawing | undefined][] = [
+    ["hand", t("Edit {name}", { name: view.linkage.title }), found],
+    ["four-bar", t("Four-bar linkage"), drawn(FOUR_BAR)],
+    ["slider-crank", t("Slider-crank"), drawn(SLIDER_CRANK)],
+    ["six-bar", t("Six-bar (Watt II)"), drawn(SIX_BAR)],
+  ];
+  return cards.flatMap(([key, text, drawing]) => {
+    if (!drawing) return [];
+    const begin = () => view.begin(drawing);
+    return [h("button.plain", { "data-begin": key, onclick: begin }, sketch(drawing), text)];
+  });
+}
+
+/** The linkage at hand beside a drawing that has begun, or why it cannot be drawn. */
+export function takenOver(view: Beginning): HTMLElement {
+  const { drawing, other } = drawingOf(view.linkage);
+  const name = view.linkage.title;
+  if (!drawing)
+    return h(
+      "p.note",
+      {},
+      t("{name} cannot be drawn: {joint} is neither pin, slide nor gear pair.", { name, joint: other[0]! }),
+    );
+  const onclick = () => view.begin(drawing);
+  return h("button.plain", { "data-begin": "hand", onclick }, t("Edit {name}", { name }));
+}

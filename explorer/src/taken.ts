@@ -1,0 +1,79 @@
+/** A linkage as a drawing: its joints where they are now, its links, drives and points. */
+
+import type { Beside } from "./beside";
+import { type Drawing, isName, type Knot, placed } from "./drawing";
+import type { Linkage } from "./linkage";
+import { direction, type Pair, place } from "./rows";
+
+/** The drawing of a linkage in the pose that is shown; without one the joints that cannot be drawn. */
+export function drawingOf(linkage: Linkage): { drawing?: Drawing; other: string[] } {
+  const { beside, model, pose, sizes } = linkage;
+  const shown = model.links.map((_, link) => linkage.linkName(link));
+  const named = new Set(shown).size === shown.length && shown.every(isName);
+  const names = named ? shown : model.links;
+  const joints = model.joints.map((_, joint) => knotOf(linkage, joint, names));
+  const other = model.joints.flatMap(({ name }, joint) => (joints[joint] ? [] : [linkage.jointName(name)]));
+  if (other.length) return { other };
+  const points = sizes.points.map(({ name, link, at }): Knot => {
+    return { at: place(pose, 0, link, ...at), links: [names[link]!], name };
+  });
+  const { picture, ...rest } = beside;
+  // names as the drawing has them
+  const called = new Map<string, string>(
+    model.joints.map(({ name, links }) => [name, name.replace(/\(.*\)/, `(${links.map((k) => names[k]).join("-")})`)]),
+  );
+  for (const [link, name] of model.links.entries()) called.set(name, names[link]!);
+  const renamed = (row: readonly string[]) => row.map((name) => called.get(name) ?? name);
+  const { locks, rulers } = rest;
+  return {
+    drawing: {
+      knots: [...(joints as Knot[]), ...points],
+      frame: names[model.frame]!,
+      drives: model.drives.map(({ joint }) => joint),
+      unit: model.unit,
+      title: linkage.title,
+      beside: {
+        ...rest,
+        ...(locks && { locks: locks.map(renamed) }),
+        ...(rulers && { rulers: rulers.map(renamed) }),
+      } as Beside,
+      ...(picture && { picture, keeps: true }),
+    },
+    other,
+  };
+}
+
+/** A joint as the drawing has it: a pin, a slide or a cylinder, two gears; null if it is another one. */
+function knotOf(linkage: Linkage, joint: number, names: readonly string[]): Knot | null {
+  const { model, pose, sizes } = linkage;
+  const { name, pair } = model.joints[joint]!;
+  const mine = sizes.elementsOf(joint);
+  const all = (kind: "pin" | "line" | "round") => mine.length > 1 && mine.every((k) => sizes.is(k, kind));
+  const links = mine.map((k) => names[sizes.element(k).link]!);
+  const at = linkage.jointAt(joint);
+  if (mine.some((k) => sizes.element(k).link >= model.own)) return null;
+  if (pair.turning && all("pin")) return { at, links };
+  if (pair.sliding && all("line")) {
+    const cylinder = sizes.cylinder(joint);
+    if (cylinder) return placed({ at, links, between: ends(linkage, cylinder[2], cylinder[3]) });
+    const [line] = mine as [number];
+    const [c, s] = direction(pose, 0, sizes.element(line).link, sizes.line(line));
+    return { at, links, slide: (Math.atan2(s, c) * 180) / Math.PI };
+  }
+  if (!name.startsWith("G(") || !all("round")) return null;
+  const [one, two] = mine as [number, number];
+  const radius = (k: number) => {
+    const held = model.document.elements?.[model.links[sizes.element(k).link]!]?.[name];
+    return Number((held as { radius?: unknown } | undefined)?.radius);
+  };
+  const between = ends(linkage, one, two);
+  const [[x, y], [u, v]] = between;
+  const sum = radius(one) + radius(two);
+  // a belt goes round wheels that do not touch, an elliptic wheel has no radius
+  const touching = Math.abs(Math.abs(sum) - Math.hypot(u - x, v - y)) < 1e-9 * linkage.size;
+  return touching ? placed({ at, links, between, part: radius(one) / sum }) : null;
+}
+
+function ends(linkage: Linkage, one: number, two: number): [Pair, Pair] {
+  return [linkage.elementAt(one), linkage.elementAt(two)];
+}
