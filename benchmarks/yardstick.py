@@ -1,8 +1,8 @@
 """Thirty closed and open curves by name: how near four-bars and six-bars come, with the measures of learners.
 
 `python -m benchmarks.yardstick FILE ...` takes curves of others instead: .npy of (curves, points, 2), closed;
-`--drawn` fits paths that random six-bars drew; `--challenge FILE` tells the hypervolume of our four-bars as the
-challenge of MIT 2.156 (2025) does.
+`--drawn` fits paths that random six-bars drew; `--evolution NAME ...` asks scipy's differential evolution, too;
+`--challenge FILE` tells the hypervolume of our four-bars as the challenge of MIT 2.156 (2025) does.
 """
 
 import sys
@@ -11,6 +11,7 @@ from itertools import chain
 from math import pi
 
 import numpy as np
+from scipy.optimize import differential_evolution
 
 from benchmarks.synthesis import targets
 from gruebler.design.synthesis.curve_matching import resampled
@@ -139,6 +140,56 @@ def drawn_again(each: int = 3) -> None:
             print(f"{name:22}{error:>9.1e}{time.process_time() - start:>6.1f} s", flush=True)
 
 
+def evolved(z: np.ndarray, seed: int = 1) -> tuple[float, float]:
+    """The best four-bar by scipy's differential evolution, to a closed curve: its distance, the processor seconds.
+
+    Its nine numbers: the crank's pivot, the length and direction of the frame by the target's size; crank, coupler and
+    rocker by the frame; the coupler point by the coupler. The limits are those of `four_bar`: the crank turns fully, no
+    link is more than 20 times as long as another. Default settings: 15 times 9 members, at most 1,000 generations.
+    """
+    middle, size = z.mean(), max(np.ptp(z.real), np.ptp(z.imag))
+    target, phi = (z - middle) / size, np.linspace(0, 2 * pi, 400, endpoint=False)
+    spin = np.exp(1j * phi)
+
+    def miss(rows: np.ndarray) -> np.ndarray:
+        x, y, frame, angle, crank, coupler, rocker, u, v = rows
+        lengths = np.exp([0 * crank, crank, coupler, rocker])
+        turning = 2 * (lengths.max(axis=0) + np.minimum(1, lengths[1])) - lengths.sum(axis=0)
+        over = np.maximum(turning, 0) + np.maximum(np.log(lengths.max(axis=0) / lengths.min(axis=0) / 20), 0)
+        errors = 10 + over
+        for k in np.flatnonzero(over == 0):
+            _, a, b, c = lengths[:, k]
+            gap = 1 - a * spin
+            along = (b**2 - c**2 + np.abs(gap) ** 2) / (2 * np.abs(gap))
+            across = np.sqrt(np.maximum(b**2 - along**2, 0))
+            path = a * spin + gap / np.abs(gap) * (along + 1j * across) * complex(u[k], v[k])
+            path = complex(x[k], y[k]) + np.exp(frame[k] + 1j * angle[k]) * path
+            errors[k] = distance(target, path, closed=True)
+        return errors
+
+    def vectorized(rows: np.ndarray) -> np.ndarray | float:
+        return miss(rows) if rows.ndim == 2 else float(miss(rows[:, None])[0])
+
+    bounds = [(-3, 3), (-3, 3), (-2.5, 2), (-pi, pi), (-3, 0.5), (-2, 3), (-2, 3), (-3, 3), (-3, 3)]
+    start = time.process_time()
+    found = differential_evolution(vectorized, bounds, seed=seed, vectorized=True, updating="deferred")
+    return float(found.fun), time.process_time() - start
+
+
+def evolution(names: tuple[str, ...]) -> None:
+    """Four-bars for closed curves of these names, here and by differential evolution."""
+    fit_curve(np.exp(1j * np.linspace(0, 6, 20)), closed=True)  # the atlas
+    curves = thirty()
+    print(f"{'curve':22}{'here':>10}{'time':>8}{'evolution':>12}{'time':>8}")
+    for name in names:
+        z, start = curves[name][0], time.process_time()
+        best = fit_curve(z, closed=True, kinds=(FOUR_BAR,))[0]
+        path = curve_points(best.kind, best.row[:, None], TURN, best.side).z
+        own, first = distance(z, path, closed=True), time.process_time() - start
+        other, second = evolved(z)
+        print(f"{name:22}{own:>10.4%}{first:>6.1f} s{other:>12.4%}{second:>6.1f} s", flush=True)
+
+
 def hypervolume(points: list[tuple[float, float]], farthest: float = 0.75, most: float = 10.0) -> float:
     """The area that is worse than one of the points (distance, material) and better than (farthest, most)."""
     area = 0.0
@@ -206,6 +257,8 @@ def main(files: tuple[str, ...] = ()) -> None:
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--challenge"]:
         challenge(sys.argv[2])
+    elif sys.argv[1:2] == ["--evolution"]:
+        evolution(tuple(sys.argv[2:]))
     elif sys.argv[1:] == ["--drawn"]:
         drawn_again()
     else:
