@@ -6,6 +6,7 @@ docs/theory/synthesis-any.md.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import NamedTuple
@@ -22,6 +23,7 @@ _TRIALS = 120_000
 _LARGEST = 6.0  # places of joints, in crank lengths
 _SAFE = 0.15  # the least sine of an angle between two links of a dyad, so that small changes do not stop the motion
 _CURVES = 24_000
+_BLOCK = 1 << 15  # places of linkages that are looked at together
 
 
 class _Dyad(NamedTuple):
@@ -167,12 +169,10 @@ def structure_atlas(structure: DyadStructure) -> StructureAtlas:
     chain = structure.mechanism.chain
     own = [n for n, joint in enumerate(chain.joints) if structure.crank in joint.links and n != structure.pivot]
     drawn[own] /= np.abs(drawn[own[0]])
-    coarse = np.linspace(0, 2 * np.pi, 25)[:-1]
-    safe = _safe(structure, drawn, coarse)
-    drawn, unit = drawn[:, safe], unit[:, safe]
-    phi = np.linspace(0, 2 * np.pi, 2 * PLACES + 1)
-    safe = _safe(structure, drawn, phi[:-1])
-    drawn, unit = drawn[:, safe], unit[:, safe]
+    phi, coarse = np.linspace(0, 2 * np.pi, 2 * PLACES + 1), np.linspace(0, 2 * np.pi, 25)[:-1]
+    for angles in (coarse[::6], coarse, phi[:-1]):  # most fail at the first ones
+        safe = _safe(structure, drawn, angles)
+        drawn, unit = drawn[:, safe], unit[:, safe]
     links = structure.coupler_links
     drawings, each = drawn.shape[1], _CURVES // max(1, len(links))
     row, lap = np.arange(each) % drawings, np.arange(each) // drawings
@@ -207,14 +207,23 @@ def _evenly_spread(count: int, dimensions: int) -> Reals:
 
 def _safe(structure: DyadStructure, drawn: Complexes, phi: Reals) -> NDArray[np.bool_]:
     """Which linkages the crank turns fully, with no dyad near its limit."""
-    motions = link_motions(structure, drawn, phi[None, :])
     safe = np.ones(drawn.shape[1], bool)
-    for dyad in structure.dyads:
-        arms = [drawn[dyad.inner] - drawn[joint] for joint in dyad.outer]
-        turned = [motions[link][0] * (arm / np.abs(arm))[:, None] for link, arm in zip(dyad.links, arms, strict=True)]
-        with np.errstate(invalid="ignore"):
-            safe &= (np.abs(np.imag(np.conj(turned[0]) * turned[1])) > _SAFE).all(axis=1)
+    for block in _blocks(drawn.shape[1], len(phi)):
+        some = drawn[:, block]
+        motions = link_motions(structure, some, phi[None, :])
+        for dyad in structure.dyads:
+            arms = [some[dyad.inner] - some[joint] for joint in dyad.outer]
+            units = [arm / np.abs(arm) for arm in arms]
+            turned = [motions[link][0] * unit[:, None] for link, unit in zip(dyad.links, units, strict=True)]
+            with np.errstate(invalid="ignore"):
+                safe[block] &= (np.abs(np.imag(np.conj(turned[0]) * turned[1])) > _SAFE).all(axis=1)
     return safe
+
+
+def _blocks(count: int, each: int) -> Iterator[slice]:
+    """Parts of so many rows that their numbers stay near the processor."""
+    size = max(1, _BLOCK // each)
+    return (slice(k, k + size) for k in range(0, count, size))
 
 
 def _curves(
@@ -222,7 +231,9 @@ def _curves(
 ) -> Complexes:
     curves = np.empty(turned.shape, np.complex128)
     for number, link in enumerate(structure.coupler_links):
-        of_structure = owner == number
-        rotation, shift = link_motions(structure, drawn[:, of_structure], turned[of_structure])[link]
-        curves[of_structure] = rotation * point[of_structure, None] + shift
+        rows = np.flatnonzero(owner == number)
+        for block in _blocks(len(rows), turned.shape[1]):
+            some = rows[block]
+            rotation, shift = link_motions(structure, drawn[:, some], turned[some])[link]
+            curves[some] = rotation * point[some, None] + shift
     return curves
