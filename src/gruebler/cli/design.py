@@ -15,7 +15,7 @@ from gruebler.cli.output import print_json, say_written
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
 from gruebler.design.synthesis.proposals import Proposals, TriedType, propose
-from gruebler.design.synthesis.tasks import DwellTask, PathTask
+from gruebler.design.synthesis.tasks import DwellTask
 from gruebler.files.designs import result_to_json
 from gruebler.files.linkages import write_linkage
 from gruebler.files.specifications import read_specification
@@ -107,9 +107,8 @@ def _type_row(each: TriedType, lang: str) -> list[Cell]:
         known = family(each.mechanism, lang)
         name = f"{known}: {each.mechanism.text()}" if known else each.mechanism.text()
         links = len(each.mechanism.chain.links)
-    elif isinstance(task := each.result.task, DwellTask):
+    elif isinstance(each.result.task, DwellTask):
         name, links = message("four-bars with a rod to the output"), 6
     else:
-        mixed = isinstance(task, PathTask) and task.mixed
-        name, links = message("four-bars") if mixed else message("four-bars and slider-cranks"), 4
+        name, links = message("four-bars and slider-cranks"), 4
     return [name, str(links), str(len(each.result.designs)), each.reason or ""]

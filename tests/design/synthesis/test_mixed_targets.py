@@ -8,10 +8,10 @@ import pytest
 from scipy.optimize import minimize
 
 from gruebler.base.errors import SynthesisError
-from gruebler.design.synthesis import Demands, PathTask, synthesise_path
+from gruebler.design.synthesis import Demands, PathTask, synthesise, synthesise_path
 from gruebler.design.synthesis import mixed_targets as mixed
 from gruebler.design.synthesis.curves import limits_of
-from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR
+from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.proposals import propose
 from gruebler.design.synthesis.specification import Specification
@@ -19,6 +19,8 @@ from gruebler.design.synthesis.targets import point_targets
 from gruebler.files.tasks import read_task, task_from_json, task_to_json, write_task
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics import move
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.mechanism import Mechanism
 
 PHI = np.radians([10, 40, 75, 110, 150, 190])
 MOTION = move(FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)}), PHI)
@@ -131,11 +133,12 @@ def test_nearly_and_exactly_against_another_optimiser():
     assert min(costs) <= 1.01 * other.fun
 
 
-def test_the_derivatives_against_differences():
+@pytest.mark.parametrize("kind", [FOUR_BAR, SLIDER_CRANK], ids=lambda kind: kind.name)
+def test_the_derivatives_against_differences(kind):
     task = MIXED["bands about noisy points"]
     angles = np.stack([COUPLER, PHI, ROCKER])
     wanted = replace(mixed._wanted(task, task.size, complex(task.z.mean())), angles=angles)
-    limits = next(limits_of(None, (), (FOUR_BAR,), False, (complex(task.z.mean()), task.size)))
+    limits = next(limits_of(None, (), (kind,), False, (complex(task.z.mean()), task.size)))
     state = mixed._starts(wanted, limits).at([0, 7, 90])
     slopes, step = mixed._rest(wanted, state).slopes, 1e-6
     for k in range(slopes.shape[-1]):
@@ -146,7 +149,7 @@ def test_the_derivatives_against_differences():
                 rows[k] += sign * step
             else:
                 phi += sign * step
-            ends.append(mixed._rest(wanted, mixed._State(rows, phi, state.side)).errors)
+            ends.append(mixed._rest(wanted, state._replace(rows=rows, phi=phi)).errors)
         differences = (ends[0] - ends[1]) / (2 * step)
         assert slopes[..., k] == pytest.approx(differences, rel=1e-6, abs=1e-6 * (1 + np.abs(differences).max()))
 
@@ -184,6 +187,123 @@ def test_bad_mixes_are_told_in_one_sentence(given, message):
     assert "\n" not in str(caught.value)
 
 
+def cut(p, q, first, second, side):
+    """Where circles about p and q meet, to the left of the way from p to q or to its right."""
+    gap = q - p
+    along = (first**2 - second**2 + np.abs(gap) ** 2) / (2 * np.abs(gap))
+    return p + gap / np.abs(gap) * (along + side * 1j * np.sqrt(first**2 - along**2))
+
+
+def drawn(linkage):
+    """Joints by the two links that they join, and P, in the reference pose, x + iy."""
+    pose, chain = linkage.required_pose, linkage.mechanism.chain
+    places = {}
+    for (joint, link), element in linkage.elements.items():
+        frame = link == linkage.mechanism.frame
+        at = (0, 0, 0) if frame else pose[link]
+        places[tuple(sorted(chain.joints[joint].links)), link] = complex(at[0], at[1]) + np.exp(1j * at[2]) * complex(
+            element.x, element.y
+        )
+    point = linkage.points["P"]
+    x, y, turn = pose[point.link]
+    return places, complex(x, y) + np.exp(1j * turn) * complex(point.x, point.y)
+
+
+def carried(z, first, second, at_first, at_second):
+    """A point of a bar whose two pins have moved."""
+    return at_first + (z - first) * (at_second - at_first) / (second - first)
+
+
+def test_slider_cranks_meet_mixed_targets():
+    """Places, coupler angles and timing of a slider-crank in closed form; designs are moved in closed form, too."""
+    phi = np.radians([15, 60, 100, 160, 230])
+    pin = np.exp(1j * phi)
+    turned = np.exp(-1j * np.arcsin((np.imag(pin) - 0.3) / 2.8))
+    z, angle = pin + (1.1 + 0.9j) * turned, np.angle(turned)
+    task = PathTask(
+        points(z),
+        angles=[angle[0], None, angle[2], None, None],
+        crank_angles=[*phi[:3], None, None],
+        tolerances=[0] * 5,
+    )
+    found = [each for each in synthesise_path(task, number=8).designs if each.form == "slider-crank"]
+    assert found
+    for design in found:
+        places, point = drawn(design.linkage)
+        own, a, b = (
+            places[key]
+            for key in (
+                (("crank", "frame"), "frame"),
+                (("coupler", "crank"), "crank"),
+                (("coupler", "slider"), "coupler"),
+            )
+        )
+        line = next(e for (_, link), e in design.linkage.elements.items() if link == "frame" and e.is_line)
+        along = np.exp(1j * line.angle)
+        height = np.imag(np.conj(along) * (b - 1j * 0))
+        side = np.sign(np.real(np.conj(along) * (b - a)))
+        turn = np.array(design.drives) - design.linkage.required_pose["crank"].angle
+        pins = own + (a - own) * np.exp(1j * turn)
+        rise = height - np.imag(np.conj(along) * pins)
+        far = pins + along * (side * np.sqrt(abs(b - a) ** 2 - rise**2) + 1j * rise)
+        gaps = np.abs(carried(point, a, b, pins, far) - z)
+        assert gaps.max() < 1e-8
+        bars = np.unwrap(np.angle((far - pins) / (b - a)))
+        assert np.cos(bars[2] - bars[0] - angle[2] + angle[0]) == pytest.approx(1, abs=1e-12)
+        assert np.cos(np.diff(design.drives)[:2] - np.diff(phi)[:2]) == pytest.approx(1, abs=1e-12)
+
+
+def test_six_bars_meet_mixed_targets():
+    """All kinds at once, as a six-bar had them; designs are moved by cutting circles."""
+    six_bar = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); frame=0; drive=R(0-1)")
+    places = {0: (0, 0), 1: (1, 0), 2: (2.2, 2.1), 3: (3, 0), 4: (1.7, 2.9), 5: (3.6, 3.2), 6: (4.3, 0.6)}
+    motion = move(
+        Linkage.from_drawing(six_bar, places, points={"P": ("4", 2.6, 3.6)}), np.radians([0, 35, 70, 110, 150])
+    )
+    z, coupler, crank, output = motion.complex_point("P"), *(motion.angle(link) for link in "415")
+    task = PathTask(
+        points(z),
+        angles=[coupler[0], None, coupler[2], None, None],
+        crank_angles=[crank[0], crank[1], None, crank[3], crank[4]],
+        output_angles=[None, output[1], output[2], None, output[4]],
+        tolerances=[0, 0, 0, 0, 0.05],
+    )
+    found = synthesise(task, structures=[six_bar], starts=4, link="4", demands=Demands(size_ratio=100))
+    assert found.designs
+    for design in found.designs:
+        at, point = drawn(design.linkage)
+        pins = [at[tuple(key), key[0]] for key in ("01", "12", "23", "03", "24", "45", "05")]
+        turn = np.exp(1j * (np.array(design.drives) - design.linkage.required_pose["1"].angle))
+        a0, a, b, b0, c, d, d0 = pins
+        moved_a = a0 + (a - a0) * turn
+
+        def side(p, q, r):
+            return np.sign(np.imag(np.conj(q - p) * (r - p)))
+
+        moved_b = cut(moved_a, b0, abs(b - a), abs(b - b0), side(a, b0, b))
+        moved_c = carried(c, a, b, moved_a, moved_b)
+        moved_d = cut(moved_c, d0, abs(d - c), abs(d - d0), side(c, d0, d))
+        swings = {"3": (moved_b - b0) / (b - b0), "5": (moved_d - d0) / (d - d0)}  # links that turn at the frame
+        gaps = np.abs(carried(point, c, d, moved_c, moved_d) - z)
+        assert gaps[:4].max() < 1e-7
+        assert gaps[4] < 0.05
+        for bar, wanted, rows in (
+            ((moved_d - moved_c) / (d - c), coupler, [0, 2]),
+            (turn, crank, [0, 1, 3]),
+            (swings[design.linkage.outputs[0]], output, [1, 2]),
+        ):
+            turned = np.angle(bar[rows] * np.exp(-1j * wanted[rows]))
+            assert np.cos(turned - turned[0]) == pytest.approx(1, abs=1e-12)
+
+
+def test_a_slider_has_no_output_angle():
+    task = MIXED["angles without a point"]
+    slider_crank = Mechanism.parse("R(0-1) R(1-2) R(2-3) P(3-0); frame=0; drive=R(0-1)")
+    with pytest.raises(SynthesisError, match="but the driven one turns at the frame"):
+        synthesise(task, structures=[slider_crank])
+    assert {design.form for design in synthesise_path(task, number=3).designs} == {"four-bar"}
+
+
 def test_more_exact_conditions_than_numbers_are_refused():
     """Nine positions: 27 conditions; nine numbers, nine crank angles and the constant of the coupler angle are 19."""
     z = [(cos(k / 3), sin(k / 2)) for k in range(9)]
@@ -207,6 +327,6 @@ def test_files_keep_mixed_tasks(tmp_path, ending):
 
 
 def test_a_specification_of_mixed_targets_tries_four_bars():
-    found = propose(Specification(MIXED["angles without a point"], demands=Demands(crank=True)))
+    found = propose(Specification(MIXED["angles without a point"], demands=Demands(crank=True), links=4))
     assert [each.mechanism for each in found.tried] == [None]
     assert found.best

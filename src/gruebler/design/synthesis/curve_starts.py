@@ -132,14 +132,14 @@ def _moved(kind: FourBarKind, start: CurveStart, turn: complex, shift: complex) 
     return start._replace(row=transformed(kind, start.row, turn, shift), phi=start.phi + float(np.angle(turn)))
 
 
-def transformed(kind: FourBarKind, row: Reals, turn: complex, shift: complex) -> Reals:
-    """The numbers of a linkage that is turned, scaled and shifted."""
-    r = {name: float(value) for name, value in kind.named(row).items()}
-    own = turn * complex(r["a0x"], r["a0y"]) + shift
+def transformed(kind: FourBarKind, rows: Reals, turn: Complexes | complex, shift: Complexes | complex) -> Reals:
+    """The numbers of linkages that are turned, scaled and shifted, each by its own similarity or all by one."""
+    r = kind.named(rows)
+    own = turn * (r["a0x"] + 1j * r["a0y"]) + shift
     r |= {"a0x": own.real, "a0y": own.imag, **kind.moved_guide(r, turn, shift)}
     for name in ("a", "b", "c", "u", "v"):
         if name in r:
-            r[name] *= abs(turn)
+            r[name] = r[name] * np.abs(turn)
     return np.array([r[name] for name in kind.unknowns])
 
 

@@ -20,6 +20,7 @@ from gruebler.base.errors import LinkageError
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.curve_matching import resampled
 from gruebler.design.synthesis.fitting import FitState, FitTargets, output_links
+from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.mechanics.kinematics import circuit
 
 _SAMPLES = 96  # poses along a circuit
@@ -55,6 +56,7 @@ class _Proposal:
     point: complex
     mirrored: bool
     link: str
+    output: str
 
 
 def first_state(
@@ -113,7 +115,7 @@ def _proposed(course: _Course, targets: FitTargets, rng: np.random.Generator) ->
     """Rows of poses, one for each target."""
     count, poses = len(targets), len(course.q)
     if targets.inputs is not None:
-        yield from _at_inputs(course, targets.inputs)
+        yield from _at_inputs(course, filled(targets.inputs))
         return
     if not course.ordered:
         for _ in range(_PROPOSALS):
@@ -125,8 +127,10 @@ def _proposed(course: _Course, targets: FitTargets, rng: np.random.Generator) ->
             rows = np.sort(rng.choice(poses, count, replace=False))
             if course.closed:
                 rows = np.roll(rows, int(rng.integers(count)))
+            if targets.ranks:
+                rows[TargetOrder.of(targets.ranks, count).drawn(rng)] = rows.copy()
             yield rows[::-1] if k % 2 else rows
-    if count < 3:
+    if count < 3 or targets.ranks or np.isnan(targets.z).any():
         return
     lengths = [poses] if targets.closed else [poses // 6, poses // 4, poses // 3, poses // 2]
     for length in lengths:
@@ -135,6 +139,12 @@ def _proposed(course: _Course, targets: FitTargets, rng: np.random.Generator) ->
         for begin in range(0, poses if course.closed else poses - length, 4):
             for along in (steps, -steps if targets.closed else length - 1 - steps):
                 yield (begin + along) % poses
+
+
+def filled(values: Reals) -> Reals:
+    """Numbers of targets, evenly between those that are given where one is free."""
+    given = ~np.isnan(values)
+    return np.interp(np.arange(len(values)), np.flatnonzero(given), values[given])
 
 
 def _at_inputs(course: _Course, inputs: Reals) -> Iterator[Integers]:
@@ -194,9 +204,25 @@ def _best(
     if not np.isfinite(placed.cost[0]):
         return None
     turn, shift, point = (complex(values[0]) for values in (placed.turn, placed.shift, placed.point))
+    apart = {} if targets.outputs is None else _outputs_apart(closure, q, targets, chosen[None])
     return _Proposal(
-        rows=chosen, cost=float(placed.cost[0]), turn=turn, shift=shift, point=point, mirrored=mirrored, link=link
+        rows=chosen,
+        cost=float(placed.cost[0]),
+        turn=turn,
+        shift=shift,
+        point=point,
+        mirrored=mirrored,
+        link=link,
+        output=min(apart, key=lambda each: float(apart[each][0]), default=""),
     )
+
+
+def _outputs_apart(closure: DesignClosure, q: Reals, targets: FitTargets, rows: Integers) -> dict[str, Reals]:
+    """Of each link that may be the output beside a point, (proposals,) how far its angles are from those wanted."""
+    assert targets.outputs is not None
+    links = output_links(closure.linkage.mechanism, travel=False)
+    angles = {link: q[:, closure.column[link] + 2][rows] for link in links}
+    return {link: _turned_apart(np.exp(1j * own), targets.outputs) for link, own in angles.items()}
 
 
 def _placements(closure: DesignClosure, q: Reals, targets: FitTargets, rows: Integers, link: str) -> _Placements:
@@ -206,10 +232,12 @@ def _placements(closure: DesignClosure, q: Reals, targets: FitTargets, rows: Int
     """
     assert targets.z is not None
     c = closure.column[link]
-    every, each = q[:, c] + 1j * q[:, c + 1], np.exp(1j * q[:, c + 2])
-    origin, turn = every[rows], each[rows]
-    o, e = origin - origin.mean(axis=1, keepdims=True), turn - turn.mean(axis=1, keepdims=True)
-    z = targets.z - targets.z.mean()
+    origin, turn = (q[:, c] + 1j * q[:, c + 1])[rows], np.exp(1j * q[:, c + 2])[rows]
+    placed = ~np.isnan(targets.z)
+    own, each = origin[:, placed], turn[:, placed]
+    o, e = own - own.mean(axis=1, keepdims=True), each - each.mean(axis=1, keepdims=True)
+    middle = targets.z[placed].mean()
+    z = targets.z[placed] - middle
 
     def inner(u: Complexes, v: Complexes) -> Complexes:
         return np.asarray(np.sum(np.conj(u) * v, axis=1))
@@ -222,17 +250,23 @@ def _placements(closure: DesignClosure, q: Reals, targets: FitTargets, rows: Int
         arm = np.where(both, (oo * ez - np.conj(oe) * oz) / det, 0)
         point = arm / along
         cost = np.sum(np.abs(along[:, None] * o + arm[:, None] * e - z) ** 2, axis=1)
-    shift = targets.z.mean() - along * origin.mean(axis=1) - arm * turn.mean(axis=1)
+    shift = middle - along * own.mean(axis=1) - arm * each.mean(axis=1)
     if targets.angles is not None:
-        given = ~np.isnan(targets.angles)
-        gaps = turn[:, given] * np.exp(-1j * targets.angles[given])
-        constant = gaps.mean(axis=1, keepdims=True)
-        cost = cost + np.sum((targets.size * np.angle(gaps * np.conj(constant))) ** 2, axis=1)
+        cost = cost + targets.size**2 * _turned_apart(turn, targets.angles)
+    if targets.outputs is not None:
+        cost = cost + targets.size**2 * np.min([*_outputs_apart(closure, q, targets, rows).values()], axis=0)
     reach = closure.linkage.size
     # A linkage that is far larger or smaller than the task fits anything by its rounding.
     bad = ~np.isfinite(cost) | ~(np.abs(point) <= _FARTHEST * reach)
     bad |= (np.abs(along) * reach < _SMALLEST * targets.size) | (np.abs(along) * reach > _LARGEST * targets.size)
     return _Placements(np.where(bad, np.inf, cost), along, np.asarray(point, np.complex128), shift)
+
+
+def _turned_apart(turn: Complexes, wanted: Reals) -> Reals:
+    """(proposals,) the sum of the squares by which directions differ from angles, up to a constant."""
+    given = ~np.isnan(wanted)
+    gaps = turn[:, given] * np.exp(-1j * wanted[given])
+    return np.asarray(np.sum(np.angle(gaps * np.conj(gaps.mean(axis=1, keepdims=True))) ** 2, axis=1))
 
 
 def _similar(closure: DesignClosure, q: Reals, turn: complex, shift: complex, *, mirrored: bool) -> tuple[Reals, Reals]:
@@ -273,7 +307,9 @@ def _placed(closure: DesignClosure, course: _Course, targets: FitTargets, chosen
     free = [point.real, point.imag]
     free += [_constant(q[:, closure.column[chosen.link] + 2], targets.angles)] if targets.angles is not None else []
     free += [_constant(q[:, closure.column[crank] + 2], targets.inputs)] if targets.inputs is not None else []
-    return FitState(p, q=q, link=chosen.link, crank=crank, free=np.array(free))
+    if targets.outputs is not None:
+        free.append(_constant(q[:, closure.column[chosen.output] + 2], targets.outputs))
+    return FitState(p, q=q, link=chosen.link, crank=crank, output=chosen.output, free=np.array(free))
 
 
 def _constant(angles: Reals, wanted: Reals) -> float:

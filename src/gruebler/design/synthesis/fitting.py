@@ -14,6 +14,8 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis.closure import DesignClosure, PoseDerivatives
+from gruebler.design.synthesis.target_bands import STAGES, TargetBands, numbers_or
+from gruebler.design.synthesis.target_orders import Ranks
 from gruebler.design.synthesis.targets import GuidedCurve
 from gruebler.design.synthesis.tasks import DeadCentreTask, DwellTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.structure.mechanism import Mechanism
@@ -39,15 +41,24 @@ class FitTargets:
     size: float
     """Errors are relative to it; an angle counts as an arc of this radius."""
     z: Complexes | None = None
-    """(targets,) where a point of a link is wanted."""
+    """(targets,) where a point of a link is wanted; NaN where it is free, as below."""
     angles: Reals | None = None
-    """(targets,) the angle of that link up to a constant; NaN where it is free."""
+    """(targets,) the angle of that link up to a constant."""
     inputs: Reals | None = None
     """(targets,) the angle of the driven link up to a constant."""
     outputs: Reals | None = None
     """(targets,) the angle of the output link, or its travel, up to a constant."""
     travel: bool = False
     curve: GuidedCurve = GuidedCurve.NONE
+    ranks: Ranks = ()
+    bands: TargetBands | None = None
+    """How far each may be missed; None if all of them are met alike."""
+
+    @property
+    def given(self) -> int:
+        """How many numbers are wanted."""
+        kinds = (self.z, self.z, self.angles, self.inputs, self.outputs)
+        return sum(int(np.count_nonzero(~np.isnan(values))) for values in kinds if values is not None)
 
     @property
     def closed(self) -> bool:
@@ -73,22 +84,41 @@ class FitTargets:
 
 
 def fit_stages(task: Task) -> tuple[FitTargets, ...]:
-    """The targets of a task; those of dead centres nearer and nearer, for fits one after the other."""
-    return tuple(fit_targets(task, aside) for aside in (_ASIDE if isinstance(task, DeadCentreTask) else _ASIDE[-1:]))
+    """The targets of a task, for fits one after the other.
+
+    Those of dead centres come nearer and nearer; those with bands are first all met alike, then more and more as said.
+    """
+    if isinstance(task, DeadCentreTask):
+        return tuple(fit_targets(task, aside) for aside in _ASIDE)
+    targets = fit_targets(task)
+    if not isinstance(task, PathTask) or not task.mixed:
+        return (targets,)
+    bands = TargetBands.of(task, 1.0)
+    if bands.exact.all():
+        return (replace(targets, bands=replace(bands, hard=1.0)),)
+    return (targets, *(replace(targets, bands=replace(bands, hard=hard)) for hard in STAGES))
 
 
 def fit_targets(task: Task, aside: float = _ASIDE[-1]) -> FitTargets:
     """The targets of a task. A dead centre is one where the output is the same a little before and after it."""
     match task:
         case PositionTask():
-            return FitTargets(size=task.size, z=task.origins, angles=task.angles)
+            return FitTargets(size=task.size, z=task.origins, angles=task.angles, ranks=task.order)
         case PathTask():
-            if task.mixed:
-                raise SynthesisError("targets of several kinds are met by four-bars, not by given structures")
-            extent = float(max(np.ptp(task.z.real), np.ptp(task.z.imag)))
-            angles = np.array([np.nan if a is None else a for a in task.angles]) if task.angles else None
-            timing = np.array(task.crank_angles, np.float64) if task.crank_angles else None
-            return FitTargets(size=extent, z=task.z, angles=angles, inputs=timing, curve=GuidedCurve.of(task))
+            extent = task.size if task.mixed else float(max(np.ptp(task.z.real), np.ptp(task.z.imag)))
+            angles, timing, outputs = (
+                numbers_or(values, np.nan, len(task)) if values else None
+                for values in (task.angles, task.crank_angles, task.output_angles)
+            )
+            return FitTargets(
+                size=extent,
+                z=task.z,
+                angles=angles,
+                inputs=timing,
+                outputs=outputs,
+                curve=GuidedCurve.of(task),
+                ranks=task.order,
+            )
         case FunctionTask():
             outputs = np.array(task.outputs)
             travel = task.output == "travel"
@@ -180,13 +210,14 @@ def compared(closure: DesignClosure, targets: FitTargets, state: FitState) -> _C
         c = closure.column[state.link]
         turn = np.exp(1j * state.q[:, c + 2])
         arm = turn * state.point
-        rest = state.q[:, c] + 1j * state.q[:, c + 1] + arm - targets.z
+        given = ~np.isnan(targets.z)
+        rest = np.where(given, state.q[:, c] + 1j * state.q[:, c + 1] + arm - targets.z, 0)
         by_angle, by_point = 1j * arm, np.stack([turn, 1j * turn], axis=1)
         for row, part in enumerate((np.real, np.imag)):
             errors[:, row] = part(rest)
-            by_pose[:, row, c + row] = 1.0
-            by_pose[:, row, c + 2] = part(by_angle)
-            by_free[:, row, :2] = part(by_point)
+            by_pose[:, row, c + row] = given
+            by_pose[:, row, c + 2] = part(by_angle) * given
+            by_free[:, row, :2] = part(by_point) * given[:, None]
         at = free = 2
     turning = [
         (targets.angles, state.link),
@@ -212,7 +243,11 @@ def compared(closure: DesignClosure, targets: FitTargets, state: FitState) -> _C
         by_pose[:, at, c], by_pose[:, at, c + 1] = along.real, along.imag
         by_sizes[:, at, angle] = np.imag(np.conj(along) * place)
         by_free[:, at, free] = -1.0
-    return _Compared(errors, by_pose, by_sizes, by_free)
+    if targets.bands is None:
+        return _Compared(errors, by_pose, by_sizes, by_free)
+    errors, slopes = targets.bands.weighed(errors, np.concatenate([by_pose, by_sizes, by_free], axis=2))
+    borders = np.cumsum([closure.unknowns, len(state.p)])
+    return _Compared(errors, *np.split(slopes, borders, axis=2))
 
 
 def improved(closure: DesignClosure, state: FitState, targets: FitTargets, *, steps: int = _STEPS) -> FitState:
@@ -222,14 +257,15 @@ def improved(closure: DesignClosure, state: FitState, targets: FitTargets, *, st
     steps of least squares if that fails at first. Cost: for a six-bar 2 ms a step.
     """
     # Errors are in the task's size; the poses of a function task have that of the linkage.
-    size = closure.linkage.size if targets.z is None else float(np.abs(targets.z - targets.z.mean()).max())
+    size = closure.linkage.size if targets.z is None else float(np.nanmax(np.abs(targets.z - np.nanmean(targets.z))))
     q, good = closure.closed(state.q, state.p, size=size)
     if not good.all():
         return state
     units = _units(closure, targets, state, size)
     start = _at(closure, targets, replace(state, q=q), size)
-    errors, freedoms = start.by_motion.shape[1:]
-    if len(targets) * (errors - freedoms) > len(units):
+    freedoms = start.by_motion.shape[2]
+    alike = targets.bands is None or bool(targets.bands.exact.all())
+    if not alike or targets.given - len(targets) * freedoms > len(units):
         return _least_squares(closure, targets, start, size, units, steps).state
     for more in (0, min(steps, _FEW_STEPS), steps):
         start = _least_squares(closure, targets, start, size, units, more)

@@ -33,6 +33,8 @@ class FourBarKind(ABC):
     """The points that stand still, each of which a crank may have: two begins of names of numbers, or one."""
     links: ClassVar[tuple[str, ...]]
     """The names of the lengths between pins."""
+    output_turns: ClassVar[bool]
+    """Whether B turns about a fixed pivot b0 at the distance c."""
     mirrored_side: ClassVar[float]
     """The branch of the mirror image, by the own one."""
     trials: ClassVar[int]
@@ -63,8 +65,8 @@ class FourBarKind(ABC):
         """How far B at ``far`` goes in that direction with each number of what guides it."""
 
     @abstractmethod
-    def moved_guide(self, r: Mapping[str, float], turn: complex, shift: complex) -> dict[str, float]:
-        """The numbers of what guides B after a similarity; lengths apart."""
+    def moved_guide(self, r: Numbers, turn: Complexes | complex, shift: Complexes | complex) -> dict[str, Any]:
+        """The numbers of what guides B after similarities; lengths apart."""
 
     @abstractmethod
     def guide(self, r: Mapping[str, float], far: complex) -> GuidingDyad:
@@ -88,6 +90,7 @@ class _FourBar(FourBarKind):
     unknowns = ("a0x", "a0y", "b0x", "b0y", "a", "b", "c", "u", "v")
     pivots = ("a0", "b0")
     links = ("a", "b", "c", "frame")
+    output_turns = True
     mirrored_side = -1.0
     trials = 90_000  # of which the tenth part turns fully
 
@@ -111,8 +114,8 @@ class _FourBar(FourBarKind):
     def carried(self, far: Complexes, normal: Complexes) -> dict[str, Reals | float]:  # noqa: ARG002
         return {"b0x": np.real(normal), "b0y": np.real(1j * normal), "c": 1.0}
 
-    def moved_guide(self, r: Mapping[str, float], turn: complex, shift: complex) -> dict[str, float]:
-        far = turn * complex(r["b0x"], r["b0y"]) + shift
+    def moved_guide(self, r: Numbers, turn: Complexes | complex, shift: Complexes | complex) -> dict[str, Any]:
+        far = turn * (r["b0x"] + 1j * r["b0y"]) + shift
         return {"b0x": far.real, "b0y": far.imag}
 
     def guide(self, r: Mapping[str, float], far: complex) -> GuidingDyad:
@@ -144,6 +147,7 @@ class _SliderCrank(FourBarKind):
     unknowns = ("a0x", "a0y", "angle", "h", "a", "b", "u", "v")
     pivots = ("a0",)
     links = ("a", "b")
+    output_turns = False
     mirrored_side = 1.0
     trials = 12_000
 
@@ -164,9 +168,9 @@ class _SliderCrank(FourBarKind):
     def carried(self, far: Complexes, normal: Complexes) -> dict[str, Reals | float]:
         return {"h": 1.0, "angle": np.real(1j * normal * far)}
 
-    def moved_guide(self, r: Mapping[str, float], turn: complex, shift: complex) -> dict[str, float]:
-        angle = r["angle"] + float(np.angle(turn))
-        return {"angle": angle, "h": r["h"] * abs(turn) + float(np.imag(np.exp(-1j * angle) * shift))}
+    def moved_guide(self, r: Numbers, turn: Complexes | complex, shift: Complexes | complex) -> dict[str, Any]:
+        angle = r["angle"] + np.angle(turn)
+        return {"angle": angle, "h": r["h"] * np.abs(turn) + np.imag(np.exp(-1j * angle) * shift)}
 
     def guide(self, r: Mapping[str, float], far: complex) -> GuidingDyad:
         return GuidingDyad(SLIDER, far, far, complex(np.exp(1j * r["angle"])))

@@ -300,18 +300,21 @@ def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form
     reasons = faults_of_size(linkage, ratio, inside, demands)
     between = np.linspace(0, len(drives) - 1, _ROWS * (len(drives) - 1) + 1)
     rows = np.stack([np.interp(between, np.arange(len(drives)), column) for column in drives.T], axis=1)
-    error = np.inf
+    misses, rounding = np.full(len(drives), np.inf), _ROUNDING * linkage.size / targets.size
     try:
         motion = move_quietly(linkage, rows)
         if motion.complete:
             values = np.stack([probe.of_motion(motion)[::_ROWS] for probe in targets.probes], axis=1)
-            error = float(np.sqrt(np.nansum(np.abs(values - targets.values) ** 2, axis=1)).max() / targets.size)
+            misses = np.sqrt(np.nansum(np.abs(values - targets.values) ** 2, axis=1)) / targets.size
     except LinkageError as fault:
         reasons.append(message("it cannot be followed from its first position: {error}", error=fault))
+    error = float(misses.max())
     if not np.isfinite(error):
         reasons.append(message("`move` does not lead through all targets"))
-    elif error > demands.tolerance + _ROUNDING * linkage.size / targets.size:
+    elif error > demands.tolerance + rounding:
         reasons.append(message("a target is missed by {error:.3g} of the size", error=error))
+    elif targets.allowed is not None:
+        reasons += _beyond_tolerance(misses, targets.allowed, rounding)
     if demands.crank:
         reasons.append(message("with several drives none has to turn fully"))
     if demands.transmission > 0:

@@ -13,6 +13,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.base.notebook import brief
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.clearances import stays_clear
+from gruebler.design.synthesis.fitting import output_links
 from gruebler.design.synthesis.results import Design, ParetoRow, Progress, SolutionCount, SynthesisResult, pareto
 from gruebler.design.synthesis.specification import Specification
 from gruebler.design.synthesis.structures import synthesise_structures
@@ -83,15 +84,14 @@ def candidate_types(specification: Specification) -> tuple[Mechanism, ...]:
     """The mechanisms of more than four links that can do it: driven at the frame, with an output of the right kind.
 
     A guided body has no joint at the frame; an output turns or slides at it. Each mechanism once, those with fewer
-    sliding joints first. Targets of several kinds are met by four-bars alone; a
-    rest has six-bars of its own.
+    sliding joints first. A rest has six-bars of its own.
 
     >>> from gruebler.design.synthesis import DeadCentreTask
     >>> len(candidate_types(Specification(DeadCentreTask(swing=1.0, time_ratio=1.2))))
     9
     """
     task = specification.task
-    if isinstance(task, DwellTask) or (isinstance(task, PathTask) and task.mixed):
+    if isinstance(task, DwellTask):
         return ()
     travels = output_travels(specification.task)
     place = "@moving" if specification.guides else "P@frame" if travels else "R@frame"
@@ -106,6 +106,8 @@ def candidate_types(specification: Specification) -> tuple[Mechanism, ...]:
             )
             driven = (each for each in variants(requirements) if isinstance(each, DrivenMechanism))
             types.update(dict.fromkeys(each.mechanism for each in driven))
+    if isinstance(task, PathTask) and task.output_angles:
+        return tuple(mechanism for mechanism in types if output_links(mechanism, travel=False))
     return tuple(types)
 
 

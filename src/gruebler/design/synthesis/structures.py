@@ -21,7 +21,7 @@ from gruebler.design.realisation import realise
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.first_states import first_state
 from gruebler.design.synthesis.fitting import FitState, FitTargets, fit_stages, fit_targets, improved, output_links
-from gruebler.design.synthesis.judging import Demands, judge_design, judge_with_drives
+from gruebler.design.synthesis.judging import EXACT_AT_MOST, Demands, judge_design, judge_with_drives
 from gruebler.design.synthesis.positions import ranked
 from gruebler.design.synthesis.results import FITTED, Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.structure_atlas import dyad_structure
@@ -105,8 +105,9 @@ def _check(mechanism: Mechanism, targets: FitTargets, link: str) -> None:
                 "crank angles and functions need a drive that turns at the frame, unlike that of {mechanism!r}",
                 mechanism=mechanism.text(),
             )
-    if targets.z is None:
-        outputs = output_links(mechanism, targets.travel, link)
+    if targets.outputs is not None:
+        named = link if targets.z is None else ""
+        outputs = output_links(mechanism, targets.travel, named)
         if not outputs:
             raise (
                 SynthesisError(
@@ -117,9 +118,9 @@ def _check(mechanism: Mechanism, targets: FitTargets, link: str) -> None:
                     "no link of {mechanism!r} but the driven one turns at the frame", mechanism=mechanism.text()
                 )
             )
-        if link and link not in outputs:
+        if named and named not in outputs:
             raise SynthesisError("the output is one of {links}, not {link!r}", links=", ".join(outputs), link=link)
-    elif link and (link not in chain.links or link == frame):
+    if targets.z is not None and link and (link not in chain.links or link == frame):
         raise SynthesisError(
             "the link that carries the point is one of {links}, not {link!r}",
             links=", ".join(other for other in chain.links if other != frame),
@@ -149,7 +150,8 @@ class _Job(NamedTuple):
 
 def _jobs(task: Task, targets: FitTargets, mechanism: Mechanism, starts: int | None, link: str) -> list[_Job]:
     """The starts of one mechanism: from the atlas of its structure if it has one, else so many realisations."""
-    if isinstance(task, PathTask) and targets.angles is None and targets.inputs is None:
+    points_alone = targets.angles is None and targets.inputs is None and not targets.ranks
+    if isinstance(task, PathTask) and not task.mixed and points_alone:
         structure = dyad_structure(mechanism)
         links = () if structure is None else structure.coupler_links
         if links and (not link or link in links):
@@ -219,7 +221,12 @@ def _judged(
     except LinkageError:
         return None
     wanted = _wanted(closure, targets, state)
-    limits = replace(demands, tolerance=_limit(demands))
+    limit = _limit(demands)
+    if targets.bands is not None:
+        wanted = replace(wanted, allowed=targets.bands.band / targets.size)
+        bands = replace(targets.bands, band=targets.bands.band / targets.size)
+        limit = bands.tolerance(demands.tolerance, EXACT_AT_MOST, ACCEPTED)
+    limits = replace(demands, tolerance=limit)
     if len(linkage.mechanism.drives) < 2:
         return judge_design(linkage, wanted, limits, FITTED)
     return judge_with_drives(linkage, wanted, limits, FITTED, closure.drive_values(state.q, state.p))
@@ -252,4 +259,4 @@ def _wanted(closure: DesignClosure, targets: FitTargets, state: FitState) -> Tar
         between = float(np.real(np.conj(along) * (arm - complex(state.p[own], state.p[own + 1]))))
         probes.append(Probe(joint=joint))
         values.append((targets.outputs + free.pop(0) + between).astype(np.complex128))
-    return Targets(tuple(probes), np.stack(values, axis=1), size, curve=targets.curve)
+    return Targets(tuple(probes), np.stack(values, axis=1), size, curve=targets.curve, ranks=targets.ranks)
