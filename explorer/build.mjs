@@ -83,7 +83,8 @@ function shared(code) {
   const count = (text) => counts.set(text, (counts.get(text) ?? 0) + 1);
   for (const [text] of code.matchAll(repeated)) count(text);
   for (const [, , called] of code.matchAll(member)) if (called) count(`"${called}"`);
-  const long = [...counts].filter(([text, times]) => (times - 1) * (text.length - 6) > 12).map(([text]) => text);
+  const sorted = [...counts].sort(([, one], [, other]) => other - one);
+  const long = sorted.filter(([text, times]) => (times - 1) * (text.length - 6) > 12).map(([text]) => text);
   const name = (text) => `$_${long.indexOf(text).toString(36)}`;
   const made = code
     .replace(repeated, (text, _, at) => {

@@ -23,6 +23,9 @@ const RIGHT = 10;
 const TOP = 20;
 const BOTTOM = 18;
 const WIDE = WIDTH - LEFT - RIGHT;
+const LONG = 33; // letters of a title beside which its value has no room
+const EVEN = 200; // places of the drive at which values are compared
+const PART = 0.05; // of the drive: where values may be without bound
 const FLAT = 0.1; // pixels: the second difference below which a line is nearly straight
 
 export class Plot {
@@ -37,6 +40,8 @@ export class Plot {
   readonly #here = svg("circle.here", { r: 3 });
   readonly #title = svg("text.title", { x: 2, y: 13 });
   readonly #value = svg("text.read", { x: WIDTH - RIGHT, y: 13, "text-anchor": "end" });
+  #measure = "";
+  readonly #beyond = svg("path.here", {});
   readonly #mesh = svg("path.mesh", {});
   readonly #upward = svg("g");
   readonly #across = svg("g");
@@ -79,7 +84,7 @@ export class Plot {
       this.#across,
       frame,
       zero,
-      svg("svg", inner, curve),
+      svg("svg", inner, curve, this.#beyond),
       cursor,
       here,
       title,
@@ -151,17 +156,17 @@ export class Plot {
     if (!series) return;
     this.domain = this.span.of(range);
     const [first, last] = this.domain;
-    const seen = this.span.whole
-      ? series.values
-      : series.values.filter((_, k) => drives[k]! >= first && drives[k]! <= last);
-    const { low, high, wide } = plotRange(seen, series.same);
+    const within = (_: number, k: number) => this.span.whole || (drives[k]! >= first && drives[k]! <= last);
+    const { low, high } = plotRange(series.values.filter(within), series.same, drives.filter(within));
     const room = 0.06 * (high - low);
     [this.#low, this.#high] = [low - room, high + room];
-    const outside = (value: number) => !(value <= this.#high + 10 * wide && value >= this.#low - 10 * wide);
-    const places = series.values.map((value) =>
-      outside(value) ? NaN : Math.max(TOP - 4, Math.min(HEIGHT - BOTTOM + 4, this.#y(value))),
-    );
     const across = drives.map((drive) => this.#x(drive));
+    const sides = series.values.map((value) => Number(value > this.#high) - Number(value < this.#low));
+    const places = series.values.map((value, k) => {
+      const out = sides[k] && sides[k - 1] === sides[k] && sides[k + 1] === sides[k];
+      return out ? NaN : Math.max(TOP - 2, Math.min(HEIGHT - BOTTOM + 2, this.#y(value)));
+    });
+    put(this.#beyond, { d: beyondMarks(across, series.values, sides) });
     put(this.#curve, { d: lineThrough(across, places) });
     const crossed = this.#low < 0 && this.#high > 0;
     put(this.#zero, { d: crossed ? `M${LEFT} ${this.#y(0).toFixed(1)}H${WIDTH - RIGHT}` : "" });
@@ -169,8 +174,11 @@ export class Plot {
     const shaded =
       floor === undefined ? 0 : Math.max(0, Math.min(HEIGHT - BOTTOM - TOP, HEIGHT - BOTTOM - this.#y(floor)));
     put(this.#band, { height: shaded.toFixed(1), y: (HEIGHT - BOTTOM - shaded).toFixed(1) });
-    if (this.#title.textContent !== series.title) {
-      this.#title.textContent = series.title;
+    if (this.element.getAttribute("aria-label") !== series.title) {
+      const [text, unit = ""] = series.title.split(/ \[|\]/);
+      this.#title.textContent = text!;
+      this.#measure = unit === "°" ? unit : ` ${unit}`;
+      put(this.#value, { y: text!.length > LONG ? TOP + 10 : 13 });
       this.#curve.style.stroke = `var(${series.colour})`;
       put(this.element, { "aria-label": series.title });
     }
@@ -216,8 +224,9 @@ export class Plot {
     put(this.#cursor, { d: `M${x} ${TOP}V${HEIGHT - BOTTOM}` });
     const y = Number.isFinite(value) ? Math.max(TOP, Math.min(HEIGHT - BOTTOM, this.#y(value))) : -9;
     put(this.#here, { cx: x, cy: y.toFixed(1) });
-    const where = place === drive ? "" : `${number(place / this.unit, 4)}${this.unit === 1 ? "" : "°"}: `;
-    this.#value.textContent = where + number(Math.abs(value) < (series.same ?? 0) ? 0 : value, 4);
+    const read = number(Math.abs(value) < (series.same ?? 0) ? 0 : value, 4);
+    const where = `${number(place / this.unit, 4)}${this.unit === 1 ? "" : "°"}: ${read}`;
+    this.#value.textContent = place === drive ? read + this.#measure : where;
   }
 
   #x(drive: number): number {
@@ -258,22 +267,43 @@ export function lineThrough(x: Float64Array, y: Float64Array): string {
   return d;
 }
 
-/** From where to where values are plotted, and how wide the range of nearly all of them is.
+/** Triangles at the edge where a curve goes on beyond it: one for each part, where it is farthest. */
+function beyondMarks(across: Float64Array, values: Float64Array, sides: Float64Array): string {
+  let d = "";
+  let far = -1;
+  for (const [k, side] of sides.entries()) {
+    if (side && (far < 0 || side * values[k]! > side * values[far]!)) far = k;
+    if (!side || side === sides[k + 1]) continue;
+    d += `M${across[far]!.toFixed(1)} ${side > 0 ? TOP - 5 : HEIGHT - BOTTOM + 5}l-4 ${7 * side}h8z`;
+    far = -1;
+  }
+  return d;
+}
+
+/** From where to where values over the drive are plotted.
  *
- * Next to limits rates grow without bound: the two hundredths at either end may stick out. A range below
- * `same` is rounding, and shown as one value. */
-export function plotRange(values: Float64Array, same = 0): { low: number; high: number; wide: number } {
-  const finite = values.filter((value) => Number.isFinite(value)).sort();
-  let low = finite[0] ?? 0;
-  let high = finite[finite.length - 1] ?? 1;
-  const least = finite[Math.floor(0.02 * finite.length)] ?? low;
-  const most = finite[Math.floor(0.98 * (finite.length - 1))] ?? high;
+ * Next to limits and change points rates grow without bound: what five hundredths of the drive have at either end of
+ * the values does not squash the rest. A range below `same` is rounding, and shown as one value. */
+export function plotRange(
+  values: Float64Array,
+  same = 0,
+  places = values.map((_, k) => k),
+): { low: number; high: number } {
+  const finite = values.filter(Number.isFinite);
+  let low = finite.length ? Math.min(...finite) : 0;
+  let high = finite.length ? Math.max(...finite) : 1;
+  const [first, last] = [places[0] ?? 0, places[places.length - 1] ?? 0];
+  const even = Float64Array.from({ length: EVEN }, (_, k) =>
+    valueAt(places, values, first + ((k + 0.5) / EVEN) * (last - first)),
+  );
+  const sorted = even.filter(Number.isFinite).sort();
+  const [least, most] = [PART, 1 - PART].map((part) => sorted[Math.round(part * (sorted.length - 1))]!) as Pair;
   const wide = most - least;
-  if (high > most + 3 * wide) high = most + wide;
-  if (low < least - 3 * wide) low = least - wide;
+  if (wide > same && high > most + 2 * wide) high = most + wide / 2;
+  if (wide > same && low < least - 2 * wide) low = least - wide / 2;
   if (high - low < Math.max(same, 1e-9 * Math.max(Math.abs(high), Math.abs(low), 1e-9)))
     [low, high] = [low - 1, high + 1];
-  return { low, high, wide };
+  return { low, high };
 }
 
 /** The value between two places, on the straight line through both. */

@@ -89,13 +89,26 @@ test("lines on links", () => {
 });
 
 test("a plot shows all values, but not how rates grow without bound", () => {
-  assert.deepEqual(plotRange(Float64Array.of(2, NaN, 5, 3)), { low: 2, high: 5, wide: 1 });
-  assert.deepEqual(plotRange(Float64Array.of(4, 4, 4)), { low: 3, high: 5, wide: 0 });
-  const steep = Float64Array.from({ length: 101 }, (_, k) => (k === 100 ? 1e9 : k));
-  assert.deepEqual(plotRange(steep), { low: 0, high: 98 + 96, wide: 96 });
-  const deep = plotRange(steep.map((value) => -value)); // the same downwards
-  near([deep.low, deep.high, deep.wide], [-98 - 96, 0, 96]);
-  assert.deepEqual(plotRange(new Float64Array(0)), { low: 0, high: 1, wide: 1 });
+  assert.deepEqual(plotRange(Float64Array.of(2, NaN, 5, 3)), { low: 2, high: 5 });
+  assert.deepEqual(plotRange(Float64Array.of(4, 4, 4)), { low: 3, high: 5 });
+  assert.deepEqual(plotRange(new Float64Array(0)), { low: 0, high: 1 });
+  // 1 / x from 0.001 to 1, with more places next to 0: 1 / 0.95 to 1 / 0.05 but for five hundredths at either end
+  const places = Float64Array.from({ length: 201 }, (_, k) => 0.001 ** (1 - k / 200));
+  const pole = plotRange(
+    places.map((x) => 1 / x),
+    0,
+    places,
+  );
+  close(pole.low, 1);
+  assert.ok(Math.abs(pole.high - (1.5 / 0.05 - 0.5 / 0.95)) < 0.15 * pole.high);
+  const deep = plotRange(
+    places.map((x) => -1 / x),
+    0,
+    places,
+  ); // the same downwards
+  near([deep.low, deep.high], [-pole.high, -1]);
+  // a pulse that lasts longer is shown whole
+  assert.deepEqual(plotRange(Float64Array.from({ length: 100 }, (_, k) => Number(k > 90))), { low: 0, high: 1 });
   const rounding = plotRange(Float64Array.of(4e-12, -3e-12, 0), 1e-9);
   near([rounding.low, rounding.high], [-1, 1]); // not a curve of its own
 });

@@ -18,7 +18,7 @@ from gruebler.teaching.catalog import entries
 
 ROOT = "document.querySelector('.gruebler-explorer').shadowRoot"
 PANEL = '[data-panel="forces"]'
-READ = f"{ROOT}.querySelector('{PANEL} .plot .read')?.textContent"
+READ = f"{ROOT}.querySelector('{PANEL} .plot .read')?.textContent.split(' ')[0]"
 ARROWS = f"{ROOT}.querySelector('.stage path.force').getAttribute('d')"
 POSE = "JSON.stringify([...gruebler.motion.linkage.pose.turns])"
 
