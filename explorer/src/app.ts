@@ -30,6 +30,8 @@ export class App implements Page {
   private view = "motion";
   /** The views that were shown: others are laid out when they are. */
   readonly #laid = new Set(["motion"]);
+  /** How far each view was scrolled when it was left. */
+  readonly #scrolled: Record<string, number> = {};
   readonly #header = h("header", {});
   private readonly message = h("div.message", { role: "status", hidden: true });
   private readonly lost = h("div.lost", { role: "status", hidden: true });
@@ -105,6 +107,7 @@ export class App implements Page {
       this.motion.forget();
       if (location.hash.length > 1) this.motion.recall();
       this.#arrangeHeader();
+      history.scrollRestoration = "manual"; // each view knows where it was
       window.addEventListener("popstate", (event) => void this.#goneBack(event));
     }
   }
@@ -156,9 +159,10 @@ export class App implements Page {
   // --- views ---------------------------------------------------------------------------------------------------------
 
   show(name: string): void {
-    if (this.view !== name) {
+    const turned = this.view !== name;
+    if (turned) {
       this.say("");
-      if (this.#linkable) window.scrollTo(0, 0);
+      this.#scrolled[this.view] = window.scrollY;
     }
     this.view = name;
     const view = this.#viewOf(name);
@@ -168,6 +172,7 @@ export class App implements Page {
     if (!this.#laid.has(name)) view.arrange();
     this.#laid.add(name);
     view.appeared?.();
+    if (turned && this.#linkable) window.scrollTo(0, name === "motion" ? 0 : (this.#scrolled[name] ?? 0));
   }
 
   /** A view, which is made when it is first wanted. */

@@ -13,6 +13,8 @@ export interface Design extends Moving {
   transmission: number | null;
   error: number | null;
   size: number;
+  /** Of crank, coupler, rocker and frame; none of what has other joints. */
+  lengths: number[];
 }
 
 export interface Found {
@@ -34,6 +36,8 @@ export class DesignCards {
   readonly element = h("div", {});
   #found: Found | null = null;
   #order: Order = "error";
+  /** The form of those that are shown, at first the most frequent one; all if empty. */
+  #form = "";
 
   constructor(
     private readonly play: (design: Design) => void,
@@ -43,11 +47,12 @@ export class DesignCards {
   /** Show others, or none; returns the first. */
   show(found: Found | null): Design | null {
     this.#found = found;
+    this.#form = this.#forms()[0] ?? "";
     // exact ones do not differ in their deviation
-    this.#order = found?.items.some(({ error }) => !exact(error)) ? "error" : "size";
+    this.#order = found?.items.some(({ error }) => !exact(error)) ? "error" : "transmission";
     if (found) found.items = this.#sorted(); // by which they are numbered
     this.arrange();
-    return found?.items[0] ?? null;
+    return this.#shown[0] ?? null;
   }
 
   #sorted(): Design[] {
@@ -56,46 +61,68 @@ export class DesignCards {
     return [...(this.#found?.items ?? [])].sort((one, two) => worth(one) - worth(two) || 0);
   }
 
+  get #shown(): Design[] {
+    return this.#sorted().filter(({ form }) => [form, ""].includes(this.#form));
+  }
+
+  #of(wanted: string): Design[] {
+    return this.#found!.items.filter(({ form }) => form === wanted);
+  }
+
+  /** The most frequent one first. */
+  #forms(): string[] {
+    const forms = new Set(this.#found?.items.map(({ form }) => form));
+    return [...forms].sort((one, other) => this.#of(other).length - this.#of(one).length);
+  }
+
   /** Write them, in the language of the page. */
   arrange(): void {
     const found = this.#found;
     if (!found) return renew(this.element);
     const orders: [Order, string][] = [
-      ["error", t("by deviation")],
+      ...(found.items.every(({ error }) => exact(error)) ? [] : [["error", t("by deviation")] as [Order, string]]),
       ["size", t("by size")],
       ["transmission", t("by transmission angle")],
     ];
+    const shown = found.items.length;
+    const count = shown < found.total ? t("{shown} of {count} designs", { shown, count: found.total }) : "";
+    const kinds = this.#forms().map((form): [string, string] => [form, `${capital(form)} · ${this.#of(form).length}`]);
     renew(
       this.element,
-      h("h2", {}, t("{count} designs", { count: found.total })),
+      h("h2", {}, count || t("{count} designs", { count: shown })),
       h("p.note", {}, found.note ?? ""),
       h("p.note", {}, found.refused ? t("{count} others do not meet what is asked.", { count: found.refused }) : ""),
-      found.items.length > 1
+      kinds.length > 1
+        ? choice(t("Kinds of machines"), [["", `${t("All")} · ${shown}`], ...kinds], this.#form, (form) => {
+            this.#form = form;
+            this.arrange();
+          })
+        : "",
+      shown > 1
         ? choice(t("Order"), orders, this.#order, (order) => {
             this.#order = order as Order;
             this.arrange();
           })
         : "",
-      found.items.some((design) => lengthsOf(design).length)
+      found.items.some(({ lengths }) => lengths.length)
         ? h("p.note", {}, t("Lengths in mm: crank · coupler · rocker · frame"))
         : "",
-      h("div.cards.sorted", { "data-list": "designs" }, ...this.#sorted().map((design) => this.#card(design))),
+      h("div.cards.sorted", { "data-list": "designs" }, ...this.#shown.map((design) => this.#card(design))),
     );
   }
 
   #card(design: Design): HTMLElement {
-    const { form, transmission, error, size } = design;
+    const { form, lengths, transmission, error, size } = design;
     const value = error === null || exact(error) ? 0 : 100 * error;
     const deviation = value ? t("deviation {value} %", { value: number(value, 2) }) : t("met exactly");
-    const title = `${form[0]!.toUpperCase()}${form.slice(1)} ${this.#found!.items.indexOf(design) + 1}`;
-    const lengths = lengthsOf(design).map((one) => number(one, 3));
+    const title = `${capital(form)} ${this.#of(form).indexOf(design) + 1}`;
     const play = () => this.play(design);
     return h(
       "button.card",
       { onclick: () => this.open(design), onpointerenter: play, onfocus: play },
       thumbnail(design.picture, form),
       h("b", {}, title),
-      h("span", {}, lengths.join(" · ")),
+      h("span", {}, lengths.map((one) => number(one, 3)).join(" · ")),
       h("span", {}, error === null ? "" : deviation),
       h(
         "span",
@@ -107,17 +134,6 @@ export class DesignCards {
   }
 }
 
-/** The lengths of a four-bar, that of its frame last; none of what has other joints. */
-function lengthsOf({ frames, joints, members }: Design): number[] {
-  const pairs = members.map((own) => own.filter((k) => k < joints));
-  pairs.push([...Array(joints).keys()].filter((k) => pairs.flat().indexOf(k) === pairs.flat().lastIndexOf(k)));
-  const found = [0, frames.length >> 2].map((row) =>
-    pairs.map(([one, two]) => {
-      const [[x, y], [u, v]] = [frames[row]![one!] ?? [0, 0], frames[row]![two!] ?? [0, 0]];
-      return Math.hypot(u! - x!, v! - y!);
-    }),
-  );
-  const [first, later] = found as [number[], number[]];
-  const stay = first.every((one, k) => one && Math.abs(one - later[k]!) < 1e-3 * Math.max(...first));
-  return joints === 4 && pairs.every((one) => one.length === 2) && stay ? first : [];
+function capital(text: string): string {
+  return text[0]!.toUpperCase() + text.slice(1);
 }

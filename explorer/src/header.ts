@@ -40,8 +40,11 @@ export function tabs(keys: string[], chosen: string, turnTo: (key: string) => vo
     return h("button", { role: "tab", ...state, onclick: () => turnTo(key) }, names[key]!);
   };
   const list = h("nav", { role: "tablist", onkeydown: step }, ...keys.map(tab));
-  // on a phone they are wider than the screen
-  requestAnimationFrame(() => list.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: "nearest" }));
+  // on a phone they are wider than the screen: the chosen one stands in the middle, the page where it is
+  requestAnimationFrame(() => {
+    const here = list.querySelector<HTMLElement>('[aria-selected="true"]')!;
+    list.scrollLeft = here.offsetLeft - list.offsetLeft - (list.clientWidth - here.offsetWidth) / 2;
+  });
   return list;
 }
 

@@ -7,15 +7,12 @@ import { Ghost } from "./ghost";
 import { t } from "./language";
 import type { Model, Target } from "./model";
 import { evenly, rowsTable, targetMark, tip } from "./targets";
+import { FEWEST, type Kind, wordsOf } from "./tasks";
 import type { Page, View } from "./view";
 import { awaited } from "./waiting";
 
-type Kind = "positions" | "points" | "function" | "dead-centres";
 /** What a click or a stroke puts. */
 type Puts = "" | "pivot" | "curve";
-
-/** The rows of each kind at first, and how few there are at least. */
-const FEWEST: Record<Kind, number> = { positions: 3, points: 5, function: 3, "dead-centres": 1 };
 
 /** Points of a page without the library. */
 const NINE = 9;
@@ -54,6 +51,8 @@ export class SynthesisView implements View {
   readonly #ghost = new Ghost(() => this.element.classList.contains("shown"));
   readonly #plane = svg("svg.plane", { role: "application", tabindex: 0 }, this.marks, this.#ghost.element);
   readonly #list = h("div", {});
+  /** How many are set; while linkages are looked for, how far that is stands in its place. */
+  readonly #told = h("span.note", { "data-fact": "set" });
   private readonly designs = new DesignCards(
     (design) => this.#play(design),
     (design) => void this.#open(design),
@@ -116,24 +115,10 @@ export class SynthesisView implements View {
       "data-field": "order",
       onchange: () => (this.#order = order.value),
     });
-    const kinds: [Kind, string][] = [
-      ["points", t("Points of a path")],
-      ["positions", t("Positions of a link")],
-      ["function", t("Angles of crank and rocker")],
-      ["dead-centres", t("Dead centres")],
-    ];
-    const hints: Record<Kind, string> = {
-      points: t(
-        "Click points in the order in which a coupler point is to pass them; drag them to move them. " +
-          "Five to nine points are met exactly where that is possible, more as closely as possible.",
-      ),
-      positions: t(
-        "Click three to five places through which the coupler is to be carried; " +
-          "its arrow turns when its end is dragged.",
-      ),
-      function: t("While the crank turns by the first angle, the rocker turns by the second: three to five pairs."),
-      "dead-centres": t("A crank that drives a rocker to and fro: its swing, and the slow time to the quick one."),
-    };
+    const kinds = (["points", "positions", "function", "dead-centres"] as const).map((kind): [Kind, string] => [
+      kind,
+      wordsOf(kind).name,
+    ]);
     const clicks: [string, string][] =
       this.kind === "points"
         ? [
@@ -153,7 +138,7 @@ export class SynthesisView implements View {
         {},
         h("h2", {}, t("Synthesis")),
         choice(t("What a linkage is to do"), kinds, this.kind, (kind) => this.#turnTo(kind as Kind)),
-        h("p.note", {}, hints[this.kind]),
+        h("p.note", {}, wordsOf(this.kind).hint),
         this.#page.served
           ? null
           : h(
@@ -189,7 +174,7 @@ export class SynthesisView implements View {
                 ? h("button.plain", { "data-act": "clear", onclick: () => this.#clear() }, t("Remove all points"))
                 : null,
             ),
-            this.status,
+            h("div.told", {}, this.status, this.#told),
             this.#list, // grows, and moves nothing
           ),
         ),
@@ -285,21 +270,8 @@ export class SynthesisView implements View {
   }
 
   #drawList(): void {
-    const heads: Record<Kind, string[]> = {
-      points: ["x", "y"],
-      positions: ["x", "y", "φ [°]"],
-      function: [t("Crank [°]"), t("Rocker [°]")],
-      "dead-centres": [t("Swing [°]"), t("Time ratio")],
-    };
-    const names = heads[this.kind];
+    const { row, heads } = wordsOf(this.kind);
     const single = this.kind === "dead-centres";
-    const titles: Record<Kind, string> = {
-      points: t("Point"),
-      positions: t("Position"),
-      function: t("Pair"),
-      "dead-centres": t("Dead centres"),
-    };
-    const title = titles[this.kind];
     const last = this.points.at(-1) ?? [];
     const table = (rows: number[][], name: string, head: string[]) =>
       rowsTable(rows, name, head, !single, () => this.#draw());
@@ -310,20 +282,18 @@ export class SynthesisView implements View {
     const count = this.points.length;
     const wanted = this.#page.served || this.kind !== "points" ? FEWEST[this.kind] : NINE;
     const missing = wanted - count;
+    const told =
+      missing > 0
+        ? t("{count} of {wanted} set, {missing} missing", { count, wanted, missing })
+        : t("{count} set: enough to find linkages", { count });
+    this.#told.textContent = this.#planar ? told : "";
     renew(
       this.#list,
-      this.#planar && missing >= 0
-        ? h(
-            "p.note",
-            { "data-fact": "set" },
-            t("{count} of {wanted} set, {missing} missing", { count, wanted, missing }),
-          )
-        : "",
       this.points.length
         ? h(
             "div.points",
             {},
-            table(this.points, title, names),
+            table(this.points, row, heads),
             this.kind === "positions" && this.#pivots.length ? table(this.#pivots, t("Fixed pivot"), ["x", "y"]) : null,
           )
         : "",
@@ -350,7 +320,7 @@ export class SynthesisView implements View {
     const found = await awaited(this.status, (progress) => this.#page.ask<Found>("synthesise", question, progress));
     if (!found) return;
     this.#play(this.designs.show(found));
-    this.designs.element.scrollIntoView({ block: "nearest" });
+    this.designs.element.querySelector(".card")?.scrollIntoView({ block: "nearest" }); // of the plane little goes
   }
 
   // --- a design plays over its targets -------------------------------------------------------------------------------
@@ -387,15 +357,10 @@ export class SynthesisView implements View {
   }
 
   async #open(design: Design): Promise<void> {
-    const names: Record<Kind, string> = {
-      points: t("A design for {count} points", { count: this.points.length }),
-      positions: t("A design for {count} positions", { count: this.points.length }),
-      function: t("A design for {count} pairs of angles", { count: this.points.length }),
-      "dead-centres": t("A design for dead centres"),
-    };
+    const name = wordsOf(this.kind, this.points.length).design;
     try {
       const document = { ...design.document, page: { targets: this.targets } };
-      this.#page.open(await this.#page.ask<Model>("open_document", { document, name: names[this.kind] }));
+      this.#page.open(await this.#page.ask<Model>("open_document", { document, name }));
     } catch (error) {
       this.#page.say((error as Error).message);
     }

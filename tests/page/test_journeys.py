@@ -122,6 +122,32 @@ def test_three_positions_are_designed(reader):
     reader.tab.until("gruebler.view === 'motion' && gruebler.motion.linkage.beside.targets?.length === 3", 40)
     reader.plays()
     reader.end("positions", 12)
+    # on the way back all is as it was left: targets, list, the chosen type, the place on the page
+    reader.page.go_back()
+    reader.tab.until("gruebler.view === 'synthesis'")
+    kinds = reader.page.locator(".choice:has(~ [data-list=designs]) >> nth=0").locator("button")
+    names = [" ".join(name.split(" · ")) for name in kinds.all_inner_texts()]
+    counts = [int(name.split()[-1]) for name in names]
+    assert counts[1:] == sorted(counts[1:], reverse=True)
+    assert counts[0] == sum(counts[1:]) > counts[1]
+    cards = reader.page.locator('[data-list="designs"] .card')
+    assert cards.count() == counts[1]  # at first those that are most
+    kinds.nth(2).click()
+    assert cards.count() == counts[2]
+    cards.last.scroll_into_view_if_needed()
+    place = "(view) => window.scrollY + view.scrollTop"
+    view = reader.page.locator('[data-page="synthesis"]')
+    left = view.evaluate(place)
+    assert left > 200
+    cards.last.click()
+    reader.tab.until("gruebler.view === 'motion'")
+    assert reader.page.evaluate("window.scrollY") == 0
+    reader.page.go_back()
+    reader.tab.until("gruebler.view === 'synthesis'")
+    reader.page.wait_for_timeout(300)
+    assert cards.count() == counts[2]
+    assert reader.page.locator("[data-point]").count() == 3
+    assert abs(view.evaluate(place) - left) < 60  # a tap brings its card into sight itself
 
 
 def test_a_file_of_another_program_is_saved_as_dxf(reader, tmp_path):

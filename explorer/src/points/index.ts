@@ -68,11 +68,11 @@ export async function answered(question: Question, progress: (done: number, tota
       (one, other) =>
         Number(other.full) - Number(one.full) || other.transmission - one.transmission || one.ratio - other.ratio,
     );
-  const items = accepted.slice(0, MOST_DESIGNS).map(designOf);
+  const items = accepted.slice(0, MOST_DESIGNS).map((one) => designOf(one, targets));
   return { found: { total: accepted.length, refused: 0, items }, real: real.length, missing: best.missing };
 }
 
-function designOf({ model, cycle, full, transmission, error }: Judged) {
+function designOf({ model, cycle, full, transmission, error }: Judged, targets: readonly Complex[]) {
   const { rows, values, home } = cycle;
   const [{ link, at }] = model.points as [Model["points"][number]];
   const pins = model.joints.map((_, joint) => model.elements.find((e) => e.joint === joint)!);
@@ -88,10 +88,15 @@ function designOf({ model, cycle, full, transmission, error }: Judged) {
     return [own === link ? [...joints, pins.length] : joints];
   });
   const fixed = model.joints.flatMap(({ links }, joint) => (links.includes(model.frame) ? [joint] : []));
+  const lengths = [...members.map((own) => own.slice(0, 2)), fixed].map((ends) => {
+    const [one, other] = ends.map((joint) => shown[0]![joint]!);
+    return abs(sub(one!, other!));
+  });
   return {
     model,
     document: model.document,
-    picture: pictureOf({ places: placesAt(home), members, fixed, cycle, point: { link, at } }),
+    lengths,
+    picture: pictureOf({ places: placesAt(home), members, fixed, cycle, point: { link, at }, targets }),
     form: "RR-RR",
     transmission,
     error,

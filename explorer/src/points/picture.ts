@@ -5,7 +5,7 @@ import { placesOf } from "../rows";
 import type { Complex } from "./complex";
 
 const WIDE = 300; // pixels
-const [ROOM, PIN, TRIANGLE] = [24, 5, 9];
+const [ROOM, PIN, TRIANGLE, TARGET] = [24, 5, 9, 8];
 
 /** Places of joints and points in the first position, which of them each moving link has, and which stand still. */
 export interface Drawn {
@@ -14,9 +14,10 @@ export interface Drawn {
   fixed: readonly number[];
   cycle: Cycle;
   point: { link: number; at: [number, number] };
+  targets: readonly Complex[];
 }
 
-export function pictureOf({ places, members, fixed, cycle, point }: Drawn): string {
+export function pictureOf({ places, members, fixed, cycle, point, targets }: Drawn): string {
   const curve = placesOf(cycle.rows, point.link, ...point.at);
   const xs = [...places.map(([x]) => x), ...curve.filter((_, k) => k % 2 === 0)];
   const ys = [...places.map(([, y]) => y), ...curve.filter((_, k) => k % 2 === 1)];
@@ -40,13 +41,15 @@ export function pictureOf({ places, members, fixed, cycle, point }: Drawn): stri
     const end = line.length > 2 ? "Z" : "";
     return path(`outline${kind}`, line, end) + path(`body${kind}`, line, end);
   });
-  const pins = places.map((at) => {
+  const disc = (name: string, at: Complex, radius: number) => {
     const [x, y] = spot(at).split(" ");
-    return `<circle class="gr-joint" cx="${x}" cy="${y}" r="${PIN}"/>`;
-  });
+    return `<circle class="gr-${name}" cx="${x}" cy="${y}" r="${radius}"/>`;
+  };
+  const marks = targets.map((at) => disc("head", at, TARGET));
+  const pins = places.map((at) => disc("joint", at, PIN));
   return (
     `<svg xmlns="http://www.w3.org/2000/svg" class="gr" width="${size[0]}" height="${size[1]}" ` +
-    `viewBox="0 0 ${size.join(" ")}">${stand.join("")}${bodies.join("")}` +
+    `viewBox="0 0 ${size.join(" ")}">${stand.join("")}${bodies.join("")}${marks.join("")}` +
     `${path("curve", curvePlaces, cycle.full ? "Z" : "")}${pins.join("")}</svg>`
   );
 }

@@ -23,13 +23,18 @@ from gruebler.design.synthesis import (
 )
 from gruebler.files import linkage_to_json
 from gruebler.mechanics.linkages import Linkage
+from gruebler.pictures.linkage.bodies import CarriedLine
 from gruebler.pictures.linkage.picture import draw_linkage
-from gruebler.pictures.linkage.posed_linkage import posed_linkage
+from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
 
 _MOST_DESIGNS = 24
 _COLUMNS = 3  # of a position: x, y, angle
 _NAMES = {"RR-RR": "four-bar", "RR-PR": "slider-crank", "RR-RP": "inverted-slider-crank"}
 """Forms that have a name of their own."""
+_FOUR = 4
+_RING = 8.0  # pixels: the radius of the mark of a point
+_ARM = 34.0  # pixels: the arrow of a position
+_CIRCLE = np.exp(2j * np.pi * np.arange(17) / 16)
 _FRAMES = 48  # of a motion, there and back if it does not turn fully
 
 
@@ -80,27 +85,43 @@ def design_records(
     items = []
     for number, design in enumerate(designs[:_MOST_DESIGNS], 1):
         progress(translate("Drawing design {number} of {total}", lang, number=number, total=len(designs)))
-        items.append(_record(design, lang))
+        items.append(_record(design, task, lang))
     return {"total": len(designs), "refused": len(result.designs) - len(designs), "items": items}
 
 
-def _record(design: Design, lang: str) -> dict[str, Any]:
+def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
     linkage, verdict = design.linkage, design.verdict
+    posed = posed_linkage(linkage)
     angle = degrees(verdict.transmission)
+    marks = _target_marks(task, linkage.mechanism.frame, posed.scale)
     return {
         "document": linkage_to_json(linkage),
-        "picture": draw_linkage(linkage, curves=list(linkage.points), lang=lang).svg(styled=False),
+        "picture": draw_linkage(linkage, curves=list(linkage.points), lang=lang, outlines=marks).svg(styled=False),
         "form": replace(design, form=_NAMES.get(design.form, design.form)).form_in_language(lang),
         "transmission": angle if isfinite(angle) else None,
         "error": verdict.error if isfinite(verdict.error) else None,
         "size": linkage.size,
-        **_frames(linkage),
+        **_frames(linkage, posed),
     }
 
 
-def _frames(linkage: Linkage) -> dict[str, Any]:
-    """Places of joints and points, evenly in time, and which of them each moving link has."""
-    posed = posed_linkage(linkage)
+def _target_marks(task: Task, frame: str, scale: float) -> list[CarriedLine]:
+    """Where a design shall pass, on its frame: a disc at each place, the arrow of a position."""
+    rows: list[tuple[complex, float | None]] = []
+    if isinstance(task, PathTask):
+        rows = [(complex(*point), None) for point in task.points if point is not None]
+    elif isinstance(task, PositionTask):
+        rows = [(complex(x, y), turn) for x, y, turn in task.positions]
+    marks = []
+    for at, turn in rows:
+        if turn is not None:
+            marks.append(CarriedLine(frame, (at, at + _ARM / scale * np.exp(1j * turn)), "drive"))
+        marks.append(CarriedLine(frame, tuple(at + _RING / scale * _CIRCLE), "head"))
+    return marks
+
+
+def _frames(linkage: Linkage, posed: PosedLinkage) -> dict[str, Any]:
+    """Places of joints and points, evenly in time, and which of them each moving link has; lengths of a four-bar."""
     chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
     points = linkage.points
     places = np.stack([posed.path.point(name) for name in (*chain.joint_names(), *points)], axis=1)
@@ -109,4 +130,15 @@ def _frames(linkage: Linkage) -> dict[str, Any]:
     carried = [*(joint.links for joint in chain.joints), *((point.link,) for point in points.values())]
     members = [[k for k, links in enumerate(carried) if link in links] for link in chain.links if link != frame]
     digits = 5 - int(np.floor(np.log10(linkage.size)))
-    return {"frames": np.round(rows, digits).tolist(), "members": members, "joints": len(chain.joints)}
+    rows = np.round(rows, digits)
+    joints = [[k for k, joint in enumerate(chain.joints) if link in joint.links] for link in chain.links]
+    four_bar = chain.n == len(chain.joints) == _FOUR and all(joint.pair.name == "revolute" for joint in chain.joints)
+    ends = sorted(zip(chain.links, joints, strict=True), key=lambda one: one[0] == frame)  # the frame comes last
+    return {
+        "frames": rows.tolist(),
+        "members": members,
+        "joints": len(chain.joints),
+        "lengths": [float(np.hypot(*(rows[0, one] - rows[0, other]))) for _, (one, other) in ends]
+        if all_pinned
+        else [],
+    }
