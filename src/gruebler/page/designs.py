@@ -138,7 +138,5 @@ def _frames(linkage: Linkage, posed: PosedLinkage) -> dict[str, Any]:
         "frames": rows.tolist(),
         "members": members,
         "joints": len(chain.joints),
-        "lengths": [float(np.hypot(*(rows[0, one] - rows[0, other]))) for _, (one, other) in ends]
-        if all_pinned
-        else [],
+        "lengths": [float(np.hypot(*(rows[0, one] - rows[0, other]))) for _, (one, other) in ends] if four_bar else [],
     }
