@@ -161,7 +161,7 @@ class StructureAtlas:
 
 @cache
 def structure_atlas(structure: DyadStructure) -> StructureAtlas:
-    """The atlas of a structure, made at its first use from evenly spread drawings. Cost: 2 s for six links."""
+    """The atlas of a structure, made at its first use from evenly spread drawings. Cost: 1 s for six links."""
     joints = structure.joints
     unit = _evenly_spread(_TRIALS, 2 * joints + 3)
     drawn = np.exp(np.log(_LARGEST) * unit[0::2][:joints]) * np.exp(2j * np.pi * unit[1::2][:joints])

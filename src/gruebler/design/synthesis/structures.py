@@ -60,7 +60,7 @@ def synthesise_structures(
         executor: see `enumeration.worker_pool.run_work`; the answer is the same with any.
         progress: called with the starts done and their number.
 
-    Cost: a six-bar with an atlas 2 s for the atlas and 5 s for its neighbours; others 1 to 3 s a start.
+    Cost: a six-bar with an atlas 1 s for the atlas and 5 s for its neighbours; others 1 to 3 s a start.
     """
     wanted = demands or Demands()
     mechanisms = tuple(structures)
@@ -80,8 +80,11 @@ def synthesise_structures(
             progress(done, len(jobs))
     accepted, rejected = ranked(candidates)
     accepted = in_order_of(accepted, ["error"])
+    own = isinstance(task, PathTask) and bool(task.tolerances)
     note = message(
-        "Initial designs improved: {count}. Designs that come nearer than {limit:g} of the size are accepted.",
+        "Initial designs improved: {count}. Each target has its own tolerance, without one {limit:g} of the size."
+        if own
+        else "Initial designs improved: {count}. Designs that come nearer than {limit:g} of the size are accepted.",
         count=len(jobs),
         limit=_limit(wanted),
     )
