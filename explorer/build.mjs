@@ -34,12 +34,17 @@ function numbered(source) {
   });
 }
 
+/** `h("p", {}, text)` without its attributes, which are none. */
+function bare(source) {
+  return source.replace(/\b(h|svg)\((\s*"[\w.-]+"),\s*\{\},/g, "$1($2,");
+}
+
 /** The kernel and tables of texts stand packed in the module; the packer does the same everywhere. */
 const packed = {
   name: "packed",
   setup: ({ onLoad }) => {
     onLoad({ filter: /src.[\w-]+\.ts$/ }, async ({ path: file }) => {
-      return { contents: numbered(await readFile(file, "utf8")), loader: "ts" };
+      return { contents: bare(numbered(await readFile(file, "utf8"))), loader: "ts" };
     });
     onLoad({ filter: /\.gz$/ }, async ({ path: file }) => {
       const contents = `import { bytesOf } from "./packed";\nexport default bytesOf(${written(await readFile(file))});`;
@@ -77,16 +82,18 @@ const often = `
 
 /** These names, and texts that stand there as often, as constants: keys and operands, told by the signs beside them. */
 function shared(code) {
-  if (/\$_/.test(code.replace(/"[^"]*"/g, ""))) throw new Error("a name of the module is that of a shared text");
+  const taken = new Set(code.match(/[\w$]+/g));
+  const letters = [..."abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"];
+  const pairs = letters.flatMap((one) => letters.map((other) => one + other));
+  const unused = pairs.filter((pair) => !taken.has(pair) && !/^(do|if|in|of)$/.test(pair));
   const repeated = /(?<=[([{,=?:&|+>])"([\w .#-]{6,60})"(?=[)\]},?:;&|+])/g;
   const member = new RegExp(`"(?:[^"\\\\]|\\\\.)*"|(\\?\\.|\\.)(${often.join("|")})\\b`, "g"); // texts are passed over
   const counts = new Map();
   const count = (text) => counts.set(text, (counts.get(text) ?? 0) + 1);
   for (const [text] of code.matchAll(repeated)) count(text);
   for (const [, , called] of code.matchAll(member)) if (called) count(`"${called}"`);
-  const sorted = [...counts].sort(([, one], [, other]) => other - one);
-  const long = sorted.filter(([text, times]) => (times - 1) * (text.length - 6) > 12).map(([text]) => text);
-  const name = (text) => `$_${long.indexOf(text).toString(36)}`;
+  const long = [...counts].filter(([text, times]) => (times - 1) * (text.length - 5) > 9).map(([text]) => text);
+  const name = (text) => unused[long.indexOf(text)];
   const made = code
     .replace(repeated, (text, _, at) => {
       if (!long.includes(text)) return text;

@@ -6,8 +6,11 @@ type Attributes = Record<string, string | number | boolean | null | undefined | 
 
 const SVG = "http://www.w3.org/2000/svg";
 
-function filled<E extends Element>(element: E, classes: string[], attributes: Attributes, children: Child[]): E {
+function filled<E extends Element>(element: E, classes: string[], given: Attributes | Child, children: Child[]): E {
   if (classes.length) element.setAttribute("class", classes.join(" "));
+  const none = !given || typeof given === "string" || given instanceof Node; // it is a child (build.mjs)
+  if (none) children.unshift(given);
+  const attributes = none ? {} : given;
   for (const [name, value] of Object.entries(attributes)) {
     if (value === null || value === undefined || value === false) continue;
     if (typeof value === "function") element.addEventListener(name.slice(2), value as unknown as EventListener);
@@ -32,7 +35,7 @@ export function indexed(text: string): (string | Node)[] {
 
 export function h<K extends keyof HTMLElementTagNameMap>(
   tag: K | `${K}.${string}`,
-  attributes: Attributes = {},
+  attributes: Attributes | Child = {},
   ...children: Child[]
 ): HTMLElementTagNameMap[K] {
   const [name, ...classes] = tag.split(".") as [K, ...string[]];
@@ -41,7 +44,7 @@ export function h<K extends keyof HTMLElementTagNameMap>(
 
 export function svg<K extends keyof SVGElementTagNameMap>(
   tag: K | `${K}.${string}`,
-  attributes: Attributes = {},
+  attributes: Attributes | Child = {},
   ...children: Child[]
 ): SVGElementTagNameMap[K] {
   const [name, ...classes] = tag.split(".") as [K, ...string[]];
