@@ -4,11 +4,12 @@ import { BuildView } from "./build";
 import { CatalogView } from "./catalog";
 import { h, renew } from "./dom";
 import { ExercisesView } from "./exercises";
-import { languageMenu, tabs, viewNames } from "./header";
-import { showKeys } from "./help";
+import { saveDocument, showExport } from "./export";
+import { languageMenu, saving, sayIn, tabs, viewNames } from "./header";
+import { drivenBy, showKeys } from "./help";
 import { Backend, type HostModel } from "./host";
 import { missing } from "./kernel";
-import { currentLanguage, type Language, setLanguage, t } from "./language";
+import { currentLanguage, firstLanguage, type Language, setLanguage, t } from "./language";
 import { LibraryView } from "./library";
 import { BadLink, packed } from "./link";
 import type { Model } from "./model";
@@ -52,7 +53,7 @@ export class App implements Page {
     const { host, shadow } = shell(element, height, String(model.get("styles") ?? ""));
     this.host = host;
     this.#shadow = shadow;
-    setLanguage(this.#firstLanguage());
+    setLanguage(firstLanguage(String(model.get("lang") ?? "")));
     this.setTheme(firstTheme());
     this.backend = new Backend(model);
     this.motion = new MotionView(this);
@@ -73,6 +74,8 @@ export class App implements Page {
     this.root = h("div.app", {}, this.#header, this.lost, this.message, this.#place);
     // a page of its own listens everywhere, a cell of a notebook to itself
     (this.#linkable ? document : this.root).addEventListener("keydown", (event) => this.#key(event as KeyboardEvent));
+    // before a field that keeps its keys for itself
+    if (this.#linkable) document.addEventListener("keydown", (event) => this.#saveKey(event), true);
     this.host.addEventListener("dragover", (event) => event.preventDefault());
     this.host.addEventListener("drop", (event) => {
       event.preventDefault();
@@ -145,11 +148,6 @@ export class App implements Page {
 
   get #linkable(): boolean {
     return this.model.get("host") !== "notebook";
-  }
-
-  #firstLanguage(): Language {
-    const wanted = String(this.model.get("lang") ?? "") || navigator.language;
-    return wanted.startsWith("de") ? "de" : "en";
   }
 
   setTheme(theme: Theme): void {
@@ -233,13 +231,14 @@ export class App implements Page {
     }
     renew(
       this.#header,
-      h("h1", {}, "gruebler ", h("small", {}, this.#name)),
+      h("h1", { title: this.#name }, "gruebler ", h("small", {}, this.#name)),
       ...(keys.length > 1 ? [tabs(keys, this.view, (key) => this.#turnTo(key))] : []),
       h("span.spring", {}),
       tool("undo", t("Undo"), () => this.#undoing.undo?.(), !back),
       tool("redo", t("Redo"), () => this.#undoing.redo?.(), !forth),
       file,
       tool("open", t("Open a file"), () => file.click()),
+      saving(() => showExport(this.root, this, this.motion), this.view !== "motion"),
       tool("link", t("Copy the link"), () => void this.share()),
       tool("theme", t("Light or dark"), () => {
         this.setTheme(this.host.dataset.theme === "dark" ? "light" : "dark");
@@ -260,11 +259,7 @@ export class App implements Page {
   }
 
   say(text: string, kind: "error" | "done" = "error", action?: HTMLElement): void {
-    if (this.message.firstChild?.textContent === text && !action) return;
-    this.message.hidden = !text;
-    this.message.classList.toggle("done", kind === "done");
-    const close = h("button.quiet", { "aria-label": t("Close"), onclick: () => this.say("") }, "×");
-    this.message.replaceChildren(h("span", {}, text), ...(action ? [action] : []), close);
+    sayIn(this.message, text, kind, action);
   }
 
   #connection(on: boolean): void {
@@ -381,6 +376,12 @@ export class App implements Page {
 
   // --- keys ----------------------------------------------------------------------------------------------------------
 
+  #saveKey(event: KeyboardEvent): void {
+    if (!(event.ctrlKey || event.metaKey) || event.key !== "s" || this.view !== "motion") return;
+    event.preventDefault();
+    saveDocument(this, this.motion);
+  }
+
   #key(event: KeyboardEvent): void {
     const target = event.composedPath()[0] as HTMLElement;
     const undo = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z";
@@ -395,15 +396,7 @@ export class App implements Page {
       return;
     }
     if (event.key === "?") showKeys(this.root);
-    else if (this.view !== "motion") return;
-    else if (event.key === " " && target.tagName !== "BUTTON" && target.tagName !== "SUMMARY")
-      this.motion.transport.toggle();
-    else if (event.key === "ArrowRight") this.motion.transport.nudge(event.shiftKey ? 10 : 1);
-    else if (event.key === "ArrowLeft") this.motion.transport.nudge(event.shiftKey ? -10 : -1);
-    else if (event.key === "+") this.motion.stage.zoom(1.25);
-    else if (event.key === "-") this.motion.stage.zoom(0.8);
-    else if (event.key === "0") this.motion.stage.fit();
-    else return;
+    else if (this.view !== "motion" || !drivenBy(event, target, this.motion.transport, this.motion.stage)) return;
     event.preventDefault();
   }
 }

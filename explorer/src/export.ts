@@ -1,6 +1,7 @@
-/** What can be taken away: pictures, tables, files, the link, and the same in Python and on a command line. */
+/** The sheet of what can be taken away: files, the link, pictures, tables, the same on a command line and in Python. */
 
 import { h } from "./dom";
+import { showOver } from "./help";
 import { currentLanguage, t } from "./language";
 import { chainText, type LinkageDocument } from "./model";
 import { film, filmType, imageOf } from "./video";
@@ -41,14 +42,34 @@ const WIDTHS: [string, number][] = [
 const GIF_WIDTH = 423; // of a GIF with a zoom of 1
 const LARGEST_ZOOM = 4;
 
-/** What the reader chose, for the next time that the panel is made. */
-const choice = { width: 1280, kind: "dxf" };
+/** What the reader chose, for the next time that the sheet is shown. */
+const choice = { width: 1280, kind: "linkage2" };
 const kinds = new Map<string, Promise<{ name: string; title: string }[]>>();
 
-export function exportPanel(page: Page, shown: Exported): HTMLElement {
-  const stem = () => (page.shown.source || page.shown.name || "linkage").replace(/[^\w-]+/g, "_");
-  const save = (suffix: string, type: string, content: string | Blob) =>
-    download(`${stem()}.${suffix}`, content instanceof Blob ? content : new Blob([content], { type }));
+/** Show the sheet over the page until something of it is taken. */
+export function showExport(root: HTMLElement, page: Page, shown: Exported): void {
+  const dialog = showOver(root, t("Save and export"), ...groupsOf(page, shown));
+  dialog.dataset.panel = "export";
+  dialog.addEventListener("click", ({ target }) => {
+    if (target === dialog || (target as Element).closest("button")) dialog.close();
+  });
+}
+
+/** Save the linkage as it is opened again, and say under which name. */
+export function saveDocument(page: Page, shown: Exported): void {
+  save(page, "json", "application/json", JSON.stringify(shown.document(), null, 1));
+  page.say(t("Saved: {name}", { name: `${stemOf(page)}.json` }), "done");
+}
+
+function stemOf({ shown }: Page): string {
+  return (shown.source || shown.name || "linkage").replace(/[^\w-]+/g, "_");
+}
+
+function save(page: Page, suffix: string, type: string, content: string | Blob): void {
+  download(`${stemOf(page)}.${suffix}`, content instanceof Blob ? content : new Blob([content], { type }));
+}
+
+function groupsOf(page: Page, shown: Exported): (Node | null)[] {
   const button = (text: string, act: () => void) => h("button.plain", { onclick: act }, text);
   const failed = (error: Error) => page.say(error.message);
   const ask = (kind: string, more: Record<string, unknown> = {}) => {
@@ -56,7 +77,7 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
       .ask<Saved>("export", { document: shown.document(), kind, name: page.shown.name, ...more })
       .then(({ base64, type, ending, note }) => {
         const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-        save(ending?.slice(1) ?? kind, type, new Blob([bytes], { type }));
+        save(page, ending?.slice(1) ?? kind, type, new Blob([bytes], { type }));
         if (note) page.say(note, "done");
       }, failed);
   };
@@ -64,7 +85,7 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
   const record = async () => {
     page.say(t("The film is being recorded …"), "done");
     const blob = await film(shown.pictures(), choice.width, recorded!);
-    save(recorded!.startsWith("video/mp4") ? "mp4" : "webm", recorded!, blob);
+    save(page, recorded!.startsWith("video/mp4") ? "mp4" : "webm", recorded!, blob);
     page.say("");
   };
   const gif = () => ask("gif", { zoom: Math.min(LARGEST_ZOOM, choice.width / GIF_WIDTH) });
@@ -73,16 +94,28 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
     { "aria-label": t("Width of films"), onchange: () => (choice.width = Number(width.value)) },
     ...WIDTHS.map(([text, value]) => h("option", { value, selected: value === choice.width }, text)),
   );
-  const served = (kind: string) => (page.served ? button(kind, () => ask(kind.toLowerCase())) : null);
+  const served = (name: string, kind = name.toLowerCase()) => (page.served ? button(name, () => ask(kind)) : null);
   const group = (title: string, note: string, ...ways: (Node | null)[]) =>
-    h("div.form", { "data-group": "" }, h("p.note", {}, h("b", {}, title), ` ${note}`), ...ways);
+    h("div.form", { "data-group": "" }, h("p", {}, h("b", {}, title), h("small", {}, note)), ...ways);
   const { unit } = page.shown;
   const groups = [
     group(
+      t("Continue here"),
+      t("Opens here again; Ctrl S"),
+      button("JSON", () => saveDocument(page, shown)),
+      served("TOML"),
+    ),
+    group(
+      t("For others"),
+      "",
+      button(t("Copy the link"), () => void page.share()),
+      served("HTML"),
+    ),
+    group(
       t("Picture"),
       t("PNG: twice as large as on the screen"),
-      button("PNG", () => void png(shown.picture()).then((blob) => save("png", "image/png", blob), failed)),
-      button("SVG", () => save("svg", "image/svg+xml", shown.picture())),
+      button("PNG", () => void png(shown.picture()).then((blob) => save(page, "png", "image/png", blob), failed)),
+      button("SVG", () => save(page, "svg", "image/svg+xml", shown.picture())),
       served("PDF"),
     ),
     group(
@@ -92,48 +125,49 @@ export function exportPanel(page: Page, shown: Exported): HTMLElement {
       recorded ? button(t("Film"), () => void record().catch(failed)) : null,
       page.served ? button("GIF", gif) : null,
     ),
-    ...(page.served ? [group(t("Drawing for CAD"), `1 : 1${unit && `, ${unit}`}`, served("DXF"))] : []),
+    ...(page.served
+      ? [
+          group(t("Drawing for CAD"), `1 : 1${unit && `, ${unit}`}`, served("DXF")),
+          group(t("Simulation"), "", served("MuJoCo", "mjcf"), served("URDF")),
+        ]
+      : []),
     group(
       t("Data"),
       t("CSV: the motion, a row for each position"),
-      button("CSV", () => save("csv", "text/csv", shown.table())),
-      button("JSON", () => save("json", "application/json", JSON.stringify(shown.document(), null, 1))),
-      served("TOML"),
+      button("CSV", () => save(page, "csv", "text/csv", shown.table())),
     ),
     ...(page.served ? [group(t("Other programs"), "", ...programs(page, ask))] : []),
-    group(
-      t("For others"),
-      "",
-      button(t("Copy the link"), () => void page.share()),
-      served("HTML"),
-    ),
   ];
   const model = page.shown;
   const [reader, measured] = ["from gruebler.files import read_linkage", "print(gr.measures(linkage).explain())"];
   const named = model.source && !shown.changed; // by its name the library finds it as it was
-  const file = `${stem()}.json`;
+  const stem = stemOf(page);
+  const file = `${stem}.json`;
   const word = named ? model.source : file;
-  return h(
-    "div",
-    {},
+  return [
     ...groups,
     page.served ? null : h("p.note", {}, t("DXF and files of other programs: gruebler convert FILE OUT")),
-    h("p.note", {}, t("The chain as text")),
-    h("pre", { "data-text": "chain" }, chainText(model)),
-    named
-      ? null
-      : h("p.note", { "data-note": "file" }, t("Save it as JSON first; the commands read {file}.", { file })),
-    h("p.note", {}, t("The same on the command line")),
-    h("pre", {}, `gruebler analyse ${word}\ngruebler draw ${word} -o ${stem()}.svg`),
-    h("p.note", {}, t("The same in Python")),
     h(
-      "pre",
+      "details.words",
       {},
-      named && !model.source.includes(":")
-        ? `import gruebler as gr\n\nlinkage = gr.teaching.catalog.entry("${model.source}").linkage()\n${measured}`
-        : `${reader}\nimport gruebler as gr\n\nlinkage = read_linkage("${file}")\n${measured}`,
+      h("summary", {}, t("As text, in Python")),
+      h("p.note", {}, t("The chain as text")),
+      h("pre", { "data-text": "chain" }, chainText(model)),
+      named
+        ? null
+        : h("p.note", { "data-note": "file" }, t("Save it as JSON first; the commands read {file}.", { file })),
+      h("p.note", {}, t("The same on the command line")),
+      h("pre", {}, `gruebler analyse ${word}\ngruebler draw ${word} -o ${stem}.svg`),
+      h("p.note", {}, t("The same in Python")),
+      h(
+        "pre",
+        {},
+        named && !model.source.includes(":")
+          ? `import gruebler as gr\n\nlinkage = gr.teaching.catalog.entry("${model.source}").linkage()\n${measured}`
+          : `${reader}\nimport gruebler as gr\n\nlinkage = read_linkage("${file}")\n${measured}`,
+      ),
     ),
-  );
+  ];
 }
 
 /** The formats of other programs, which the library writes. */

@@ -1,7 +1,8 @@
-/** Parts of the header: the tabs of the views, the choice of the language. */
+/** Parts of the header: the tabs of the views, the choice of the language, what is said under it. */
 
 import { h } from "./dom";
 import { currentLanguage, type Language, setLanguage, t } from "./language";
+import { tool } from "./shell";
 
 /** The names of the views in the language of the page. */
 export function viewNames(): Record<string, string> {
@@ -61,4 +62,20 @@ export function languageMenu(arrange: () => void): HTMLElement {
     ...languages.map(([value, text]) => h("option", { value, selected: value === currentLanguage() }, text)),
   );
   return menu;
+}
+
+/** Say a sentence in its place under the header, an error or what is done; without a text the last one goes. */
+export function sayIn(place: HTMLElement, text: string, kind: "error" | "done", action?: HTMLElement): void {
+  if (place.firstChild?.textContent === text && !action) return;
+  place.hidden = !text;
+  place.classList.toggle("done", kind === "done");
+  const close = h("button.quiet", { "aria-label": t("Close"), onclick: () => sayIn(place, "", "error") }, "×");
+  place.replaceChildren(h("span", {}, text), ...(action ? [action] : []), close);
+}
+
+/** The button of what can be taken away, on a wide page with its word. */
+export function saving(show: () => void, disabled: boolean): HTMLElement {
+  const button = tool("save", t("Save and export"), show, disabled);
+  button.append(h("span.letter", {}, t("Save")));
+  return button;
 }

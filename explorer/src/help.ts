@@ -1,10 +1,17 @@
-/** The list of keys. */
+/** Keys: what they do, the list of them; and how it and other sheets are shown over the page. */
 
-import { h } from "./dom";
+import { type Child, h } from "./dom";
 import { t } from "./language";
+import type { Transport } from "./transport";
+
+interface Picture {
+  zoom(factor: number): void;
+  fit(): void;
+}
 
 /** Show the keys of the page over it, until they are read. */
 export function showKeys(root: HTMLElement): void {
+  const ctrl = t("Ctrl");
   const rows: [string, string][] = [
     [t("Space"), t("play and pause")],
     ["Esc", t("give up a drag")],
@@ -12,7 +19,8 @@ export function showKeys(root: HTMLElement): void {
     ["← →", t("move the drive by 1°, with Shift by 10°")],
     ["Tab, ← → ↑ ↓", t("choose a joint and move it, with Shift in small steps")],
     [t("Enter, double-click"), t("let a joint stay where it is while others are dragged")],
-    ["Ctrl Z, Ctrl Y", t("undo, redo")],
+    [`${ctrl} Z, ${ctrl} Y`, t("undo, redo")],
+    [`${ctrl} S`, t("save as JSON")],
     ["+ − 0", t("zoom, show everything")],
     ["?", t("this list")],
   ];
@@ -21,13 +29,31 @@ export function showKeys(root: HTMLElement): void {
 
 /** Show what keys do, until it is read. */
 export function showRows(root: HTMLElement, rows: [string, string][]): void {
-  const dialog = h(
-    "dialog",
-    { "aria-label": t("Keys") },
-    h("table", {}, ...rows.map(([key, text]) => h("tr", {}, h("td", {}, h("kbd", {}, key)), h("td", {}, text)))),
-    h("form", { method: "dialog" }, h("button.key", {}, t("Close"))),
-  );
-  dialog.addEventListener("close", () => dialog.remove());
+  const line = ([key, text]: [string, string]) => h("tr", {}, h("td", {}, h("kbd", {}, key)), h("td", {}, text));
+  showOver(root, t("Keys"), h("table", {}, ...rows.map(line)));
+}
+
+/** Show something over the page, until it is closed. */
+export function showOver(root: HTMLElement, title: string, ...content: Child[]): HTMLDialogElement {
+  const close = h("button.quiet", { "aria-label": t("Close") }, "×");
+  const head = h("form.sheet-head", { method: "dialog" }, h("h2", {}, title), close);
+  const dialog = h("dialog", { "aria-label": title, onclose: () => dialog.remove() }, head, ...content);
   root.append(dialog);
   dialog.showModal();
+  return dialog;
+}
+
+/** Do what a key does with the drive and the picture; whether it does anything. */
+export function drivenBy(event: KeyboardEvent, target: Element, transport: Transport, picture: Picture): boolean {
+  const far = event.shiftKey ? 10 : 1;
+  const acts: Record<string, () => void> = {
+    ArrowRight: () => transport.nudge(far),
+    ArrowLeft: () => transport.nudge(-far),
+    "+": () => picture.zoom(1.25),
+    "-": () => picture.zoom(0.8),
+    "0": () => picture.fit(),
+  };
+  if (!/^(BUTTON|SUMMARY|A)$/.test(target.tagName)) acts[" "] = () => transport.toggle();
+  acts[event.key]?.();
+  return event.key in acts;
 }

@@ -6,6 +6,7 @@ const PATHS = {
   undo: "M8 4L4 8l4 4M4 8h8a4 4 0 0 1 0 8H9",
   redo: "M12 4l4 4-4 4M16 8H8a4 4 0 0 0 0 8h3",
   open: "M3 16V4h5l2 2h7v10zM10 14V9M7.5 11.5L10 9l2.5 2.5",
+  save: "M3 3h11l3 3v11H3zM6 3v4h7V3M6 17v-6h8v6",
   link: "M8.5 11.5l3-3M9 6l2-2a3.5 3.5 0 0 1 5 5l-2 2M11 14l-2 2a3.5 3.5 0 0 1-5-5l2-2",
   theme: "M10 3a7 7 0 1 0 0 14zM10 3a7 7 0 0 1 0 14",
   keys: "M2.5 5h15v10h-15zM5.5 8h1M9.5 8h1M13.5 8h1M6.5 12h7",

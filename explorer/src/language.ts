@@ -13,6 +13,11 @@ export function setLanguage(chosen: Language): void {
   language = chosen;
 }
 
+/** The language asked for, else that of the browser, as far as there is one. */
+export function firstLanguage(wanted: string): Language {
+  return (wanted || navigator.language).startsWith("de") ? "de" : "en";
+}
+
 export function currentLanguage(): Language {
   return language;
 }

@@ -1,10 +1,9 @@
-/** The view of the motion: stage, drive, sizes, measures, plots, export. */
+/** The view of the motion: stage, drive, sizes, measures, plots. */
 
 import type { Stop } from "./cycle";
 import { applyDocument, documentOf, savedDocument } from "./document";
 import { h, renew } from "./dom";
 import { Dragging } from "./dragging";
-import { exportPanel } from "./export";
 import { FactList, InWords } from "./factlist";
 import { type Found, factsOf } from "./facts";
 import { type Arrow, Forces } from "./forces";
@@ -216,7 +215,6 @@ export class MotionView implements View, Editor, Driven {
       this.#panel("points", t("Coupler points"), pointsPanel(this)),
       this.#panel("modes", t("Assembly modes")),
       this.#panel("show", t("Show"), optionsPanel(this)),
-      this.#panel("export", t("Export")),
     );
     this.side.scrollTop = scrollTop;
     this.plots.arrange(this.linkage);
@@ -450,7 +448,6 @@ export class MotionView implements View, Editor, Driven {
     yield;
     this.#refresh("points", pointsPanel(this));
     this.#refresh("modes", modesPanel(this));
-    this.#refresh("export", exportPanel(this.page, this));
     this.#forces.changed();
     yield;
     if (this.#opened.has("plots")) yield* this.plots.drawing(this.linkage);

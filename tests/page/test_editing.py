@@ -350,17 +350,26 @@ def test_opening_another_machine_loses_nothing(tab, server):
 def test_what_was_changed_is_not_called_by_its_old_name(tab, crank_rocker, tmp_path, monkeypatch, capsys):
     """The commands that the page shows find the linkage that it shows, after a drag too."""
     page = tab().open(crank_rocker)
-    page.page.locator('[data-panel="export"] summary').click()
-    commands = page.page.locator('[data-panel="export"] pre').nth(1)
-    assert commands.inner_text().startswith("gruebler analyse crankrocker\n")
+
+    def commands(number: int) -> str:
+        page.page.locator('[data-icon="save"]').click()
+        page.page.locator('[data-panel="export"] summary').click()
+        text = page.page.locator('[data-panel="export"] pre').nth(number).inner_text()
+        page.page.keyboard.press("Escape")
+        return text
+
+    assert commands(1).startswith("gruebler analyse crankrocker\n")
+    behind = page.page.locator("header .spring").bounding_box()
     page.drag(page.middle('[data-joint="R(coupler-rocker)"] .joint'), (25, -15))
     assert page.page.locator("header h1").inner_text().endswith(", changed")
     assert page.page.title().startswith("Crank-rocker, changed")
+    assert page.page.locator("header .spring").bounding_box() == behind  # whatever the name
+    page.page.locator('[data-panel="sizes"] input').first.focus()  # which keeps other keys for itself
     with page.page.expect_download() as saved:
-        page.page.locator('[data-panel="export"] button:text-is("JSON")').click()
+        page.page.keyboard.press("Control+s")
     saved.value.save_as(tmp_path / saved.value.suggested_filename)
     monkeypatch.chdir(tmp_path)
-    program, *words = commands.inner_text().splitlines()[0].split()
+    program, *words = commands(1).splitlines()[0].split()
     assert program == "gruebler"
     capsys.readouterr()
     assert main([*words, "--json"]) == 0
@@ -368,11 +377,12 @@ def test_what_was_changed_is_not_called_by_its_old_name(tab, crank_rocker, tmp_p
     least = page.page.evaluate("gruebler.motion.found.least.mu") * 180 / np.pi
     assert any(value == pytest.approx(least, abs=1e-6) for value in numbers_of(told)), told
     namespace: dict = {}
-    exec(page.page.locator('[data-panel="export"] pre').nth(2).inner_text(), namespace)
+    exec(commands(2), namespace)
     wanted = page.page.evaluate(SIZES)
     assert namespace["linkage"].length("crank", 0, 1) == pytest.approx(wanted[1], rel=1e-12)
+    page.page.locator("header h1").click()
     page.page.keyboard.press("Control+z")
-    assert commands.inner_text().startswith("gruebler analyse crankrocker\n")
+    assert commands(1).startswith("gruebler analyse crankrocker\n")
 
 
 def numbers_of(value) -> list[float]:

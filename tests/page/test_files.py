@@ -22,17 +22,18 @@ BAR = FourBar(25, 70, 40, 70)
 def test_what_is_saved_in_a_format_of_another_program_is_opened_again():
     document = linkage_to_json(BAR.linkage())
     models = {}
-    for kind in answer("saved_kinds", {}, "en", print):
-        saved = answer("export", {"document": document, "kind": kind["name"]}, "en", print)
+    listed = [kind["name"] for kind in answer("saved_kinds", {}, "en", print)]
+    for kind in [*listed, "toml", "json", "dxf", "mjcf", "urdf"]:
+        saved = answer("export", {"document": document, "kind": kind}, "en", print)
         assert len(base64.b64decode(saved["base64"])) > 1
         asked = {"name": f"my file{saved['ending']}", "base64": saved["base64"]}
-        if kind["name"] in ("dxf", "mjcf", "urdf"):
-            with pytest.raises(GrueblerError, match=f"^my file.{kind['name']}: .* written only"):
+        if kind in ("dxf", "mjcf", "urdf"):
+            with pytest.raises(GrueblerError, match=f"^my file.{kind}: .* written only"):
                 answer("open_file", asked, "en", print)
             continue
         opened = answer("open_file", asked, "en", print)
         if "model" in opened:
-            models[kind["name"]] = opened["model"]["document"]
+            models[kind] = opened["model"]["document"]
         else:
             assert opened["text"].count("R(") == 4
     assert {"toml", "json", "linkage2", "pmks", "pyslvs", "motiongen", "pylinkage", "four-bar-rs"} == set(models)
@@ -116,21 +117,29 @@ def test_a_file_of_another_program_is_dropped_and_saved_as_dxf(tab, server, tmp_
     lengths = page.page.evaluate("gruebler.motion.dragging.lengths().map((one) => one.value)")
     assert sorted(lengths)[-4:] == pytest.approx([25, 40, 70, 70], abs=1e-3)
     panel = page.page.locator('[data-panel="export"]')
-    panel.locator("summary").click()
+    page.page.locator('[data-icon="save"]').click()
     assert [title.split()[0] for title in panel.locator("[data-group] b").all_text_contents()] == [
-        *("Bild", "Bewegtes", "Zeichnung", "Daten", "Andere", "Für")  # by purpose, what is used most first
+        *("Hier", "Für", "Bild", "Bewegtes", "Zeichnung", "Simulation", "Daten", "Andere")  # by purpose
     ]
-    assert panel.locator("[data-group] button").all_text_contents()[:3] == ["PNG", "SVG", "PDF"]
+    buttons = panel.locator("[data-group] button").all_text_contents()
+    assert buttons == [
+        *("JSON", "TOML", "Link kopieren", "HTML", "PNG", "SVG", "PDF", "Film", "GIF", "DXF", "MuJoCo", "URDF", "CSV"),
+        "Speichern",
+    ]
     assert "1 : 1, mm" in panel.inner_text()
-    panel.locator('[data-field="kind"] option[value="dxf"]').wait_for(state="attached")
+    panel.locator('[data-field="kind"] option[value="pmks"]').wait_for(state="attached")
+    kinds = panel.locator('[data-field="kind"] option').all_text_contents()
+    assert len({*kinds, *buttons}) == len(kinds) + len(buttons)  # each once
+    assert not [kind for kind in kinds if "DXF" in kind or "gruebler, JSON" in kind]
     with page.page.expect_download() as saved:
-        panel.locator('[data-act="save"]').click()
+        panel.locator('button:text-is("DXF")').click()
     assert saved.value.suggested_filename == "leg.dxf"
     saved.value.save_as(tmp_path / "leg.dxf")
     ezdxf = pytest.importorskip("ezdxf", reason="drawings are audited with ezdxf")
     assert not ezdxf.readfile(tmp_path / "leg.dxf").audit().errors
     assert "Nicht übernommen" in page.page.locator(".message.done").inner_text()
     # a German spreadsheet has semicolons and decimal commas
+    page.page.locator('[data-icon="save"]').click()
     with page.page.expect_download() as saved:
         panel.locator('button:text-is("CSV")').click()
     saved.value.save_as(tmp_path / "leg.csv")
@@ -187,7 +196,7 @@ def test_the_single_file_opens_its_own_document_and_records_a_film(tab, tmp_path
     page.until("gruebler.motion.dragging.lengths().some((one) => Math.abs(one.value - 45) < 1e-9)")
     dropped(page, "x.linkage2", b"<linkage2/>")
     page.until("gruebler.message.textContent.includes('gruebler explore FILE')")
-    page.page.locator('[data-panel="export"] summary').click()
+    page.page.locator('[data-icon="save"]').click()
     page.page.evaluate("gruebler.motion.transport.speed = 60")  # a second
     page.page.locator('[data-panel="export"] select').select_option("640")
     drive = page.page.evaluate("gruebler.motion.linkage.drives[0]")

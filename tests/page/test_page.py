@@ -458,6 +458,7 @@ def test_links_have_the_names_of_the_language(tab, server):
 
 def test_the_commands_that_the_page_shows_run(tab, single_file, tmp_path, monkeypatch):
     page = tab().open(single_file.as_uri())
+    page.page.locator('[data-icon="save"]').click()
     page.page.locator('[data-panel="export"] summary').click()
     commands = page.page.locator('[data-panel="export"] pre').nth(1).inner_text().splitlines()
     assert len(commands) == 2

@@ -5,8 +5,8 @@ import { choice, h, renew } from "../dom";
 import { download } from "../export";
 import { FactList } from "../factlist";
 import type { Fact } from "../facts";
-import { languageMenu, viewNames } from "../header";
-import { showRows } from "../help";
+import { languageMenu, sayIn, viewNames } from "../header";
+import { drivenBy, showRows } from "../help";
 import { angle, currentLanguage, number, t } from "../language";
 import { firstTheme, panelOf, setTheme, shell, tool } from "../shell";
 import { driveText } from "../track";
@@ -188,9 +188,7 @@ export class SpaceView implements Driven {
   }
 
   #say(text: string): void {
-    if (this.#message.textContent === text) return;
-    this.#message.hidden = !text;
-    this.#message.replaceChildren(h("span", {}, text));
+    sayIn(this.#message, text, "error");
   }
 
   async #share(): Promise<void> {
@@ -283,18 +281,8 @@ export class SpaceView implements Driven {
   #key(event: KeyboardEvent): void {
     const target = event.composedPath()[0] as HTMLElement;
     if (/^(INPUT|SELECT)$/.test(target.tagName) || event.ctrlKey || event.metaKey) return;
-    const keys: Record<string, () => void> = {
-      "?": () => this.#help(),
-      ArrowRight: () => this.transport.nudge(event.shiftKey ? 10 : 1),
-      ArrowLeft: () => this.transport.nudge(event.shiftKey ? -10 : -1),
-      "+": () => this.scene.zoom(1.25),
-      "-": () => this.scene.zoom(0.8),
-      "0": () => this.scene.fit(),
-    };
-    if (!/^(BUTTON|SUMMARY|A)$/.test(target.tagName)) keys[" "] = () => this.transport.toggle();
-    const act = keys[event.key];
-    if (!act) return;
+    if (event.key === "?") this.#help();
+    else if (!drivenBy(event, target, this.transport, this.scene)) return;
     event.preventDefault();
-    act();
   }
 }

@@ -24,14 +24,15 @@ from gruebler.mechanics.linkages import Linkage
 _OWN = ("toml", "json")
 _NO_LINKAGES = frozenset({"csv", "spreadsheet", "parquet", "dxf-links", "glb", "stl"})
 """Formats of tables and folders; the page writes its table by itself."""
+_WITH_BUTTONS = frozenset({*_OWN, "dxf", "mjcf", "urdf"})
 
 
 def saved_kinds(lang: str) -> list[dict[str, str]]:
-    """The formats into which a linkage is saved, with what they are called."""
+    """The formats of other programs that hold a linkage, those of its chain last, with what they are called."""
     return [
         {"name": form.name, "title": f"{form.title.in_language(lang)} ({_ending(form)})"}
-        for form in FORMATS
-        if form.name not in _NO_LINKAGES
+        for form in sorted(FORMATS, key=lambda form: form.lengths is None)
+        if form.name not in _NO_LINKAGES | _WITH_BUTTONS
     ]
 
 

@@ -21,7 +21,7 @@ _DESCRIPTION = message(
 )
 _LOADING = message("The page is loading")
 _STATIC = Path(__file__).parent / "static"
-_TOOLS = ("undo", "redo", "open", "link", "theme", "keys")
+_TOOLS = ("undo", "redo", "open", "save", "link", "theme", "keys")
 WHOLE_WINDOW = "html,body,[data-gruebler]{height:100%;margin:0}"
 
 
