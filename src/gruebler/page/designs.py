@@ -133,10 +133,12 @@ def _frames(linkage: Linkage, posed: PosedLinkage) -> dict[str, Any]:
     rows = np.round(rows, digits)
     joints = [[k for k, joint in enumerate(chain.joints) if link in joint.links] for link in chain.links]
     four_bar = chain.n == len(chain.joints) == _FOUR and all(joint.pair.name == "revolute" for joint in chain.joints)
-    ends = sorted(zip(chain.links, joints, strict=True), key=lambda one: one[0] == frame)  # the frame comes last
+    ends = sorted(zip(chain.links, joints, strict=True), key=lambda row: row[0] == frame)  # the frame comes last
     return {
         "frames": rows.tolist(),
         "members": members,
         "joints": len(chain.joints),
-        "lengths": [float(np.hypot(*(rows[0, one] - rows[0, other]))) for _, (one, other) in ends] if four_bar else [],
+        "lengths": [float(np.hypot(*(rows[0, first] - rows[0, other]))) for _, (first, other) in ends]
+        if four_bar
+        else [],
     }
