@@ -365,7 +365,7 @@ export class App implements Page {
       else if (found.model) this.open(found.model);
       else if (found.text) this.describe(found.text);
       else if (found.points) {
-        (this.#viewOf("synthesis") as SynthesisView).take(found.points, found.closed ?? false);
+        (this.#viewOf("synthesis") as SynthesisView).take(found.points, found.closed ?? false, found.order);
         this.#turnTo("synthesis");
       }
       if (found.note) this.say(found.note, "done");

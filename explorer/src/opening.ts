@@ -14,6 +14,8 @@ interface Content {
   text?: string;
   points?: [number, number][];
   closed?: boolean;
+  /** Of each point its place in the order; null at any time. */
+  order?: (number | null)[];
   note?: string;
 }
 

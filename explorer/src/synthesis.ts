@@ -77,10 +77,11 @@ export class SynthesisView implements View {
   }
 
   /** Other points, out of a file. */
-  take(points: [number, number][], closed: boolean): void {
+  take(points: [number, number][], closed: boolean, order: (number | null)[] = []): void {
     this.kind = "points";
     this.rows.points = points;
     this.#closed = closed;
+    this.#order = order.map((rank) => rank ?? "–").join(" ");
     const far = Math.max(...points.flat().map(Math.abs));
     this.#home = far > WIDE / 2 || far < WIDE / 12 ? 2.4 * far : 0;
     this.designs.show(null);

@@ -152,9 +152,10 @@ def test_a_file_of_another_program_is_dropped_and_saved_as_dxf(tab, server, tmp_
     # a chain goes to its view, points to that of the synthesis, rubbish nowhere
     dropped(page, "chain.txt", b"R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)")
     page.page.locator('[data-page="structure"] [data-fact="counted"]:text-is("F = 2")').wait_for()
-    points = "x,y\n0,0\n10,5\n20,8\n30,5\n40,0\n"
+    points = "x,y,order\n0,0,1\n10,5,2\n20,8,2\n30,5,3\n40,0,\n"
     dropped(page, "path.csv", points.encode())
     page.until("gruebler.views.synthesis?.points.length === 5")
+    assert page.page.locator('[data-field="order"]').input_value() == "1 2 2 3 –"
     dropped(page, "leg.xyz", b"?")
     page.page.locator(".message", has_text="leg.xyz").wait_for()
 

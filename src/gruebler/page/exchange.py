@@ -72,7 +72,9 @@ def opened_file(name: str, content: str, lang: str) -> dict[str, Any]:
     elif chains and isinstance(chains[0], Chain):
         shown = {"text": chains[0].text()}
     elif isinstance(value, PathTask):
-        shown = {"points": [list(point) for point in value.points if point], "closed": value.closed}
+        places = [list(point) for point in value.points if point]
+        order = value.order if len(places) == len(value) else ()
+        shown = {"points": places, "closed": value.closed, "order": list(order)}
     else:
         raise GrueblerError("{path}: the page shows planar linkages, chains and points of a path", path=name)
     return shown | {"note": _note(notes, lang)}
