@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import KroghInterpolator
 
-from benchmarks.six_bars import known_solution, places, random
-from gruebler.design.synthesis.alt_burmester import PROBLEMS, load_generic_solutions
+from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem, load_generic_solutions
+from gruebler.design.synthesis.six_bar_monodromy import known_solution, merged, random_numbers
 from tests.core.four_bar_equations import evaluate
 from tests.design.synthesis.test_points import random_parameters
 
@@ -196,13 +196,17 @@ def common_turns(family, z, task, pairs):
     return np.array(rows)
 
 
+def eight_or_nine(family, pairs):
+    return Problem(name="pairs", poses=0, points=pairs - 1, classes=0, members=1, family=family)
+
+
 @pytest.mark.parametrize("pairs", [8, 9])
 @pytest.mark.parametrize("family", ["Watt II", "Stephenson II", "Stephenson III"])
 def test_six_bars_turn_through_pairs(core, family, pairs):
     """Paths from a known six-bar to another task, in which both loops have one link that turns; all levels alike."""
     rng = np.random.default_rng(5)
-    z, task = known_solution(family, pairs, rng)
-    other = np.where(np.abs(task) > 0, task + 0.3 * random(rng, 4, 8), 0)
+    z, task = known_solution(eight_or_nine(family, pairs), rng)
+    other = np.where(np.abs(task) > 0, task + 0.3 * random_numbers(rng, 4, 8), 0)
     found = core.track(z, task, other, 0, pairs - 1, 1e-3, family=family)
     assert found[1].tolist() == [0]
     sharp, steps = core.refine_solutions(found[0], other, 0, pairs - 1, family=family)
@@ -219,8 +223,8 @@ def test_six_bars_turn_through_pairs(core, family, pairs):
 
 
 def test_solutions_that_are_known_are_known_again():
-    known, new = random(np.random.default_rng(1), 5, 8), random(np.random.default_rng(2), 8)
-    both, where = places(
+    known, new = random_numbers(np.random.default_rng(1), 5, 8), random_numbers(np.random.default_rng(2), 8)
+    both, where = merged(
         known, np.array([known[3] * (1 + 1e-9), new, known[0], new * (1 - 1e-9), known[4] * (1 + 1e-3)])
     )
     assert where.tolist() == [3, 5, 0, 5, 6]
@@ -228,7 +232,7 @@ def test_solutions_that_are_known_are_known_again():
 
 
 def test_families_that_are_none(core):
-    z, task = known_solution("Watt II", 8, np.random.default_rng(0))
+    z, task = known_solution(eight_or_nine("Watt II", 8), np.random.default_rng(0))
     with pytest.raises(ValueError, match="no family Watt"):
         core.refine_solutions(z, task, 0, 7, family="Watt")
     with pytest.raises(ValueError, match="7 or 8 points"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import cmath
 import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -28,6 +29,7 @@ from gruebler.design.synthesis import (
     FunctionTask,
     PathTask,
     PositionTask,
+    SixBarType,
     SynthesisResult,
     Task,
     synthesise_dead_centres,
@@ -74,6 +76,8 @@ _ALONE = ("--jobs", 1)
 """The default: this process does the work."""
 _STRUCTURE_OPTIONS = ("--link", "--initial-designs", "--jobs", "--scheduler")
 """The options that only --structure uses."""
+_SIX_BAR_OPTIONS = ("--six-bar-type", "--arm", "--shape")
+"""The options that only --six-bars uses."""
 _LEAST = {PositionTask: 16, FunctionTask: 16, PathTask: 6, DeadCentreTask: 12, DwellTask: 1}
 """How many dyads or designs of an infinite family are taken at least, so that the best are among them."""
 _TASKS: dict[str, type[Task]] = {
@@ -123,11 +127,14 @@ def add(parser: Parser) -> None:
         --interval FROM TO float  interval of x
         --swings INPUT OUTPUT float  ranges in degrees (or the unit of a slider)
         --starts INPUT OUTPUT float  fixed start values (default: free)
-        --points N int  number of precision points (default: 5, with fixed starts 3, of six-bars 9)
+        --points N int  number of precision points (default: 5, with fixed starts 3, of six-bars 9 or, of a type, 8)
         --free-starts  count the pairs of a file from start values that are free
         --travel  the output is a slider
         --minimax  the linkages nearby with the least largest error over the interval
-        --six-bars  all six-bars of Watt's second kind that meet nine pairs exactly, their starts free
+        --six-bars  all six-bars that meet nine pairs exactly (Watt II), or eight, their starts free
+        --six-bar-type TYPE =  of eight pairs: Watt II (default), Stephenson II or Stephenson III
+        --arm LENGTH float  of eight pairs: an arm of the ternary link, by the frame (default: 0.8)
+        --shape RATIO DEG float  of eight pairs by Stephenson's: the other arm, by this one (default: 1 60)
         """
     )
     path = parser.add_command(
@@ -300,6 +307,8 @@ def _demands(arguments: argparse.Namespace) -> Demands:
         other = [*_given(arguments, ("--minimax", "--travel")), *(["--structure"] if arguments.structure else [])]
         if other:
             raise SynthesisError("{options}: not with --six-bars", options=joined_by_and(other))
+    if arguments.action == "function" and not arguments.six_bars and (idle := _given(arguments, _SIX_BAR_OPTIONS)):
+        raise SynthesisError("{options}: only with --six-bars", options=joined_by_and(idle))
     if not arguments.structure and (idle := _given(arguments, _STRUCTURE_OPTIONS)):
         raise SynthesisError("{options}: only with --structure", options=joined_by_and(idle))
     if arguments.clearance is not None and not 0 <= arguments.clearance < math.inf:
@@ -407,7 +416,8 @@ def _function_task(arguments: argparse.Namespace) -> FunctionTask:
 
     on_sphere = arguments.action == "spherical-function"
     fixed = 4 if on_sphere and arguments.frame is None else 3
-    usual = 9 if arguments.six_bars else 5 if arguments.starts is None else fixed
+    six = 8 if not on_sphere and _given(arguments, _SIX_BAR_OPTIONS) else 9
+    usual = six if arguments.six_bars else 5 if arguments.starts is None else fixed
     points = usual if arguments.points is None else arguments.points
     return function_task(_law(arguments), points, output="travel" if arguments.travel else "angle")
 
@@ -441,13 +451,23 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
         return synthesise_positions(task, demands, sort=_orders(arguments), progress=progress, **more)
     if isinstance(task, FunctionTask):
         if arguments.six_bars:
-            return synthesise_six_bars(task, demands, progress=progress)
+            return synthesise_six_bars(task, demands, kind=_six_bar_type(arguments), progress=progress)
         return synthesise_function(task, demands, minimax=arguments.minimax, sort=_orders(arguments), **more)
     if isinstance(task, DeadCentreTask):
         return synthesise_dead_centres(task, demands, sort=_orders(arguments), **more)
     with _keys_as_options():
         method: Callable[..., SynthesisResult] = synthesise_dwells if isinstance(task, DwellTask) else synthesise_path
         return method(task, demands, progress=progress, **more)
+
+
+def _six_bar_type(arguments: argparse.Namespace) -> SixBarType | None:
+    """What the options say of a six-bar for eight pairs; None if they say nothing."""
+    if not _given(arguments, _SIX_BAR_OPTIONS):
+        return None
+    usual = SixBarType()
+    shape = usual.shape if arguments.shape is None else cmath.rect(arguments.shape[0], radians(arguments.shape[1]))
+    arm = usual.arm if arguments.arm is None else arguments.arm
+    return SixBarType(family=arguments.six_bar_type or usual.family, arm=arm, shape=shape)
 
 
 def _fitted(

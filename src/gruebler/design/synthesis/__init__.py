@@ -14,7 +14,7 @@ from gruebler.design.synthesis.minimax_search import minimax
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions
 from gruebler.design.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult, pareto
-from gruebler.design.synthesis.six_bar_functions import synthesise_six_bars
+from gruebler.design.synthesis.six_bar_functions import SixBarType, synthesise_six_bars
 from gruebler.design.synthesis.spherical import synthesise_orientations
 from gruebler.design.synthesis.spherical_functions import synthesise_spherical_function
 from gruebler.design.synthesis.structural_errors import structural_error
@@ -40,6 +40,7 @@ __all__ = [
     "FunctionTask",
     "PathTask",
     "PositionTask",
+    "SixBarType",
     "SolutionCount",
     "SynthesisResult",
     "Task",

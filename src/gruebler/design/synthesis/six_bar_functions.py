@@ -1,23 +1,24 @@
-"""Function generation by six-bars: every six-bar of Watt's second kind that coordinates nine pairs of angles.
+"""Function generation by six-bars: all that coordinate eight pairs of angles, or nine.
 
-Two four-bars one behind the other share a ternary rocker. Generic solutions were listed by monodromy
-(`python -m benchmarks.six_bars`) and are data of the package; they are followed to a task.
-docs/theory/synthesis-functions.md.
+Generic solutions were listed by monodromy: those of nine pairs (Watt II) are data of the package, those of eight pairs
+are computed once (`six_bar_starts`). They are followed to a task. docs/theory/synthesis-functions.md.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from gruebler.base.arrays import Complexes, Flags
+from gruebler.base.arrays import Complexes, Flags, compared_by_value
 from gruebler.base.errors import SynthesisError
-from gruebler.base.text import message
+from gruebler.base.text import Message, message
 from gruebler.design.synthesis.alt_burmester import (
     ARRIVED,
     CAREFUL,
     QUICK,
+    GenericSolutions,
     Problem,
     distinct,
     follow_from_generic,
@@ -30,6 +31,8 @@ from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.judging import Demands, judge_design
 from gruebler.design.synthesis.positions import ranked
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.six_bar_monodromy import LOOPS, LoopVectors, loop_vectors
+from gruebler.design.synthesis.six_bar_starts import StartSet, eight_pairs, start_set
 from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import FunctionTask
 from gruebler.mechanics.kinematics.solve import move_quietly
@@ -39,60 +42,109 @@ from gruebler.structure.mechanism import Mechanism
 NINE_PAIRS = Problem(name="nine pairs", poses=0, points=8, classes=26370, members=1, family="Watt II")
 """At least so many complex six-bars turn through nine general pairs."""
 FORM = "six-bar"
-_JOINTS = "R(frame-crank) R(crank-coupler) R(coupler-ternary) R(frame-ternary) R(ternary-link) R(link-rocker)"
-_MECHANISM = f"{_JOINTS} R(frame-rocker); frame=frame; drive=R(frame-crank)"
 _REAL = 1e-7  # relative: conjugate unknowns that differ by less are conjugate
 _PLACES = 400  # where the error of a function is looked at
+_SPECIAL = 0.05  # of the paths: where more are lost, the task is special, not the way to it
 _BENT = 0.1  # how far a way leads aside for what was lost on the straight one, relative to the task
+
+
+@compared_by_value
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SixBarType:
+    """A type of six-bar, and what of its ternary link is given besides eight pairs; the frame of its first loop is 1.
+
+    Raises `SynthesisError` for other types, an arm that is not positive, a shape that is zero.
+
+    >>> SixBarType(arm=0.5).family
+    'Watt II'
+    """
+
+    family: str = "Watt II"
+    """Watt II, Stephenson II or Stephenson III."""
+    arm: float = 0.8
+    """The length of one arm: of the ternary rocker that the coupler moves (Watt II), of the coupler from the crank to
+    the other rocker (Stephenson III), of the ternary link from the output to a rod of the crank (Stephenson II). One as
+    long as the frame has less regular solutions, since four-bars that fold move without their coupler."""
+    shape: complex = 0.5 + 0.75**0.5 * 1j
+    """Of Stephenson's: the other arm from the same pin, by this one; by default all sides are equal."""
+
+    def __post_init__(self) -> None:
+        """Refuse what there is not."""
+        if self.family not in LOOPS:
+            raise SynthesisError(
+                "six-bars coordinate angles as {known}, not as {found!r}", known=", ".join(LOOPS), found=self.family
+            )
+        if not 0 < self.arm < np.inf or not 0 < abs(self.shape) < np.inf:
+            raise SynthesisError(
+                "the arm of a six-bar has a positive length, and a shape that is not zero: {arm:g}, {shape:g}",
+                arm=self.arm,
+                shape=self.shape,
+            )
 
 
 def synthesise_six_bars(
     task: FunctionTask,
     demands: Demands | None = None,
     *,
+    kind: SixBarType | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> SynthesisResult:
-    """All six-bars of Watt's second kind that coordinate nine pairs of angles, whose starts are free.
+    """All six-bars that coordinate eight pairs of angles, or nine (Watt II), whose starts are free.
 
     Args:
-        task: nine pairs of angles.
+        task: pairs of angles. Eight leave one length free, which is given.
         demands: what a design has to do besides.
+        kind: of eight pairs: the type, and the arm that is given; Watt II with an arm of 0.8 frames by default.
         threads: that follow paths.
-        progress: called with the paths followed and their number.
+        progress: called with the paths followed and their number; of the first eight pairs of a type at first with the
+            ends of ways that are known and about how many there are.
 
     Returns:
-        `SynthesisResult`: the designs whose two four-bars keep their assembly modes through all pairs, judged by their
-        motion. The frame of the first four-bar is 1; the second four-bar has any size and place, and gets the size of
+        `SynthesisResult`: the designs that keep their assembly mode through all pairs, judged by their motion. The
+        frame of the first loop is 1; the second four-bar of Watt II has any size and place, and gets the size of
         the first on the same line. Of a function the error is the largest over its interval, seen at 400 places. The
-        notes say how many there are besides.
+        notes say how many there are besides, and whether the list is complete.
 
-    Raises `SynthesisError` for other tasks. Cost: 25 to 55 s of processor time, and 10 to 30 ms for each verdict.
+    Raises `SynthesisError` for other tasks. Cost: 25 to 55 s of processor time, of Stephenson's 60 to 100 s, and 10 to
+    30 ms for each verdict; the first time that a type meets eight pairs 150 to 600 s more.
     docs/theory/synthesis-functions.md.
     """
     wanted = demands or Demands()
     if task.output != "angle" or task.start_input or task.start_output:
         raise SynthesisError("six-bars coordinate angles whose starts are free: give only their differences")
-    if len(task) != NINE_PAIRS.points + 1:
-        raise SynthesisError("six-bars meet nine pairs exactly, but the task has {count}", count=len(task))
+    if len(task) not in (8, 9):
+        raise SynthesisError("six-bars meet eight or nine pairs exactly, but the task has {count}", count=len(task))
+    if len(task) == 9 and kind is not None:
+        raise SynthesisError("nine pairs leave nothing of a six-bar free; give its type and an arm with eight pairs")
+    of = kind or SixBarType()
     phi, output = (values - values[0] for values in pair_arrays(task))
     p = np.zeros((4, 8), np.complex128)
-    p[0], p[1] = np.exp(1j * phi[1:]), np.exp(1j * output[1:])
-    z = six_bar_solutions(p, threads=threads, progress=progress)
-    real = z[np.abs(z[:, 1::2] - np.conj(z[:, ::2])).max(axis=1) <= _REAL * (1 + np.abs(z).max(axis=1))][:, ::2]
-    kept = keeps_modes(real, p) if wanted.one_branch else np.ones(len(real), bool)
+    pairs = len(task) - 1
+    p[0, :pairs], p[1, :pairs] = np.exp(1j * phi[1:]), np.exp(1j * output[1:])
+    if kind is None and pairs == 8:
+        problem, base, known = NINE_PAIRS, load_generic_solutions(NINE_PAIRS), []
+    else:
+        problem, starts = eight_pairs(of.family), start_set(of.family, threads=threads, progress=progress)
+        base, known = GenericSolutions(starts.parameters, starts.z), [_how_complete(of.family, starts)]
+        p[3] = of.arm**2, 1, of.shape, np.conj(of.shape), 0, 0, 0, 0
+    z = six_bar_solutions(problem, base, p, threads=threads, progress=progress)
+    gaps = np.abs(z[:, 1::2] - np.conj(z[:, ::2])).max(axis=1, initial=0.0)
+    real = z[gaps <= _REAL * (1 + np.abs(z).max(axis=1, initial=0.0))][:, ::2]
     turns = np.exp(1j * np.stack([phi, output], axis=1))
-    accepted, rejected = ranked([_judged(task, wanted, arms, turns) for arms in real[kept]])
+    kept = keeps_modes(of, real, turns) if wanted.one_branch else np.ones(len(real), bool)
+    accepted, rejected = ranked([_judged(task, wanted, of, vectors, turns) for vectors in real[kept]])
     if task.law is not None:
         accepted = in_order_of((_with_error_between(design, task, task.law) for design in accepted), ["error"])
     notes = [
+        *known,
         message(
-            "At least {classes:,} complex six-bars turn through nine general pairs; {found:,} were followed to these, "
-            "{real:,} of them real. The others lie at infinity or were lost.",
-            classes=NINE_PAIRS.classes,
+            "Of {classes:,} start solutions {found:,} were followed to the pairs, {real:,} of them real six-bars. The "
+            "others lie at infinity or were lost.",
+            classes=len(base.z),
             found=len(z),
             real=len(real),
-        )
+        ),
     ]
     if not kept.all():
         notes.append(
@@ -106,12 +158,35 @@ def synthesise_six_bars(
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
 
 
-def six_bar_solutions(p: Complexes, *, threads: int | None = None, progress: Progress | None = None) -> Complexes:
+def _how_complete(family: str, starts: StartSet) -> Message:
+    """What the trace test says of a start set."""
+    return message(
+        "{family}, eight pairs: {listed:,} complex solutions in a general plane; the trace test leaves {residual:.0e} "
+        "of the change of their sum, so none is missing. With the length of the arm given {finite:,} stay finite."
+        if starts.complete
+        else "{family}, eight pairs: {listed:,} complex solutions in a general plane are known; the trace test "
+        "leaves {residual:.0e} of the change of their sum, so some may be missing. With the length of the arm given "
+        "{finite:,} stay finite.",
+        family=family,
+        listed=starts.listed,
+        residual=starts.residual,
+        finite=len(starts.z),
+    )
+
+
+def six_bar_solutions(
+    problem: Problem,
+    base: GenericSolutions,
+    p: Complexes,
+    *,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Complexes:
     """The regular complex solutions of a task, complex[4, 8] as `_core.track` takes it; (found, 8).
 
-    Paths that fail or end alike are followed again with fine steps, then along a way that is bent.
+    Paths that fail or end alike are followed again with fine steps, then along a way that is bent. Where many do, the
+    task is a special one, and only the bent way is tried.
     """
-    problem, base = NINE_PAIRS, load_generic_solutions(NINE_PAIRS)
     ends, status = follow_from_generic(problem, base.z, base.parameters, p, QUICK, threads=threads, progress=progress)
 
     def lost() -> Flags:
@@ -120,65 +195,80 @@ def six_bar_solutions(p: Complexes, *, threads: int | None = None, progress: Pro
         return np.asarray(~good | repeated(problem, ends, good))
 
     again = lost()
-    ends[again], status[again] = follow_from_generic(
-        problem, base.z[again], base.parameters, p, CAREFUL, threads=threads
-    )
-    again = lost()
+    loose = CAREFUL if again.mean() <= _SPECIAL else QUICK  # fine steps would follow singular ends without an end
+    if loose == CAREFUL:
+        ends[again], status[again] = follow_from_generic(
+            problem, base.z[again], base.parameters, p, loose, threads=threads
+        )
+        again = lost()
     rng = np.random.default_rng(9)  # fixed: the same task has the same answer
     aside = rng.normal(size=p.shape) + 1j * rng.normal(size=p.shape)
     middle = (base.parameters + p) / 2 + _BENT * np.where(p == 0, 0, aside)
-    halfway, there = follow_from_generic(problem, base.z[again], base.parameters, middle, CAREFUL, threads=threads)
-    more, arrived = follow_from_generic(problem, halfway[there == ARRIVED], middle, p, CAREFUL, threads=threads)
+    halfway, there = follow_from_generic(problem, base.z[again], base.parameters, middle, loose, threads=threads)
+    more, arrived = follow_from_generic(problem, halfway[there == ARRIVED], middle, p, loose, threads=threads)
     z = np.concatenate([ends[~again], more[arrived == ARRIVED]])
     return distinct(problem, z[sharpened(problem, z, p)])
 
 
-def common_turns(arms: Complexes, p: Complexes) -> Complexes:
-    """How the ternary rocker turns from the first pair to each of the nine; (solutions, 9)."""
-    a, f, first, second = arms.T[:, :, None]
-    inputs, outputs = (np.concatenate([[1], row]) for row in p[:2])
-    w, v = 1 - a * inputs, 1 - f * outputs
-    # |w + p T| is that of the first pair: p w* T + its conjugate + k = 0, and the same of the other four-bar.
+def common_turns(loops: Sequence[LoopVectors]) -> Complexes:
+    """How the link that both loops share turns from the first pair to each one; (solutions, pairs)."""
+    # |w + p T| is that of the first pair: p w* T + its conjugate + k = 0, and the same of the other loop.
     k, m = (
-        np.abs(now) ** 2 - np.abs(now[:, :1]) ** 2 - 2 * (arm * np.conj(now[:, :1])).real
-        for now, arm in ((w, first), (v, second))
+        np.abs(loop.w) ** 2 - np.abs(loop.w[:, :1]) ** 2 - 2 * (loop.arm * np.conj(loop.w[:, :1])).real
+        for loop in loops
     )
-    own, other = first * np.conj(w), second * np.conj(v)
+    own, other = (loop.arm * np.conj(loop.w) for loop in loops)
     with np.errstate(all="ignore"):
         turn = (m * np.conj(own) - k * np.conj(other)) / (own * np.conj(other) - np.conj(own) * other)
     turn[:, 0] = 1
     return np.asarray(turn)
 
 
-def keeps_modes(arms: Complexes, p: Complexes) -> Flags:
-    """Whether both four-bars of each solution have one assembly mode in all pairs, the crank and the rocker driven."""
-    a, f, first, second = arms.T[:, :, None]
-    turn = common_turns(arms, p)
-    inputs, outputs = (np.concatenate([[1], row]) for row in p[:2])
-    signs = [
-        np.sign((np.conj(1 - a * inputs) * first * turn).imag),
-        np.sign((np.conj(1 + second * turn) * f * outputs).imag),
-    ]
+def keeps_modes(kind: SixBarType, vectors: Complexes, turns: Complexes) -> Flags:
+    """Whether each six-bar (solutions, 4) has one assembly mode in all pairs (pairs, 2) of turns, the input driven.
+
+    The determinant by which the shared link and the output follow the input keeps its sign; if the first loop does not
+    see the output, both of its factors do.
+    """
+    loops = loop_vectors(kind.family, vectors, kind.shape, *turns.T)
+    turn = common_turns(loops)
+    (first, own), (other, second) = (
+        [np.imag(np.conj(loop.w + loop.arm * turn) * part) for part in (loop.arm * turn, loop.by_output)]
+        for loop in loops
+    )
+    signs = [np.sign(first * second - own * other)]
+    if not own.any():
+        signs = [np.sign(first), np.sign(second)]
     return np.asarray(np.all([(sign == sign[:, :1]).all(axis=1) for sign in signs], axis=0))
 
 
-def _judged(task: FunctionTask, demands: Demands, arms: Complexes, turns: Complexes) -> Design:
-    a, f, p, q = arms.tolist()
-    own, other = ([1.0, abs(arm), abs(rocker), abs(1 - arm + rocker)] for arm, rocker in ((a, p), (f, q)))
-    # The second four-bar is drawn from its own frame, output to ternary rocker, which lies on the first one's line.
-    size = float(np.exp(np.mean(np.log(own)) - np.mean(np.log(other))))
-    end = 1 + size
-    drawn = {
-        "R(frame-crank)": 0j,
-        "R(crank-coupler)": a,
-        "R(coupler-ternary)": 1 + p,
-        "R(frame-ternary)": 1 + 0j,
-        "R(ternary-link)": 1 - size * q,
-        "R(link-rocker)": end - size * f,
-        "R(frame-rocker)": end + 0j,
-    }
-    places: dict[str | int, object] = {name: (z.real, z.imag) for name, z in drawn.items()}
-    mechanism = Mechanism.parse(_MECHANISM)
+_WATT = "R(frame-crank) R(crank-coupler) R(coupler-ternary) R(frame-ternary) R(ternary-link) R(link-rocker)"
+_STEPHENSON_3 = "R(frame-crank) R(crank-coupler) R(coupler-rocker1) R(frame-rocker1) R(coupler-link) R(link-rocker)"
+_STEPHENSON_2 = "R(frame-crank) R(crank-coupler) R(coupler-ternary) R(crank-link) R(link-ternary) R(ternary-rocker)"
+_DRIVEN = "R(frame-rocker); frame=frame; drive=R(frame-crank)"
+
+
+def drawn_six_bar(kind: SixBarType, vectors: Complexes) -> tuple[Mechanism, Complexes]:
+    """The mechanism of a real six-bar (4,) and where its joints lie in the first pair."""
+    if kind.family == "Watt II":
+        a, f, p, q = vectors.tolist()
+        own, other = ([1.0, abs(arm), abs(rocker), abs(1 - arm + rocker)] for arm, rocker in ((a, p), (f, q)))
+        # The second four-bar is drawn from its own frame, output to ternary rocker, which lies on the first one's line.
+        size = float(np.exp(np.mean(np.log(own)) - np.mean(np.log(other))))
+        end = 1 + size
+        text, places = _WATT, [0, a, 1 + p, 1, 1 - size * q, end - size * f, end]
+    elif kind.family == "Stephenson III":
+        a, f, c, p = vectors.tolist()
+        text, places = _STEPHENSON_3, [0, a, a + p, 1, a + kind.shape * p, c + f, c]
+    else:
+        a, b, f, p = vectors.tolist()
+        text, places = _STEPHENSON_2, [0, a, 1 + f - p, b, 1 + f - kind.shape * p, 1 + f, 1]
+    return Mechanism.parse(f"{text} {_DRIVEN}"), np.array(places, np.complex128)
+
+
+def _judged(task: FunctionTask, demands: Demands, kind: SixBarType, vectors: Complexes, turns: Complexes) -> Design:
+    mechanism, drawn = drawn_six_bar(kind, vectors)
+    places: dict[str | int, object] = {k: (z.real, z.imag) for k, z in enumerate(drawn)}
     linkage = Linkage.from_drawing(mechanism, places, unit=task.unit, outputs=["rocker"])
     starts = np.exp(1j * np.array([linkage.required_pose[link].angle for link in ("crank", "rocker")]))
     targets = Targets((Probe(link="crank"), Probe(link="rocker")), starts * turns, 1.0)

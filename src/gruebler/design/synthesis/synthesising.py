@@ -18,7 +18,7 @@ from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions
 from gruebler.design.synthesis.results import Progress, SynthesisResult, in_order_of
-from gruebler.design.synthesis.six_bar_functions import synthesise_six_bars
+from gruebler.design.synthesis.six_bar_functions import SixBarType, synthesise_six_bars
 from gruebler.design.synthesis.structures import synthesise_structures
 from gruebler.design.synthesis.tasks import DeadCentreTask, DwellTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.structure.mechanism import Mechanism
@@ -35,7 +35,7 @@ def synthesise(
     sort: str | Sequence[str] = (),
     number: int | None = None,
     minimax: bool | None = None,
-    six_bars: bool = False,
+    six_bars: bool | SixBarType = False,
     starts: int | None = None,
     link: str | None = None,
     threads: int | None = None,
@@ -55,7 +55,8 @@ def synthesise(
             four positions or pairs, and of dead centres, are searched for the best by these.
         number: without structures: how many dyads or designs are taken from each infinite family.
         minimax: of a function: the linkages whose largest structural error is as small as possible.
-        six_bars: of a function: all six-bars of Watt's second kind that meet nine pairs of angles with free starts.
+        six_bars: of a function: all six-bars that meet nine pairs of angles with free starts, of Watt's second kind, or
+            eight; of eight pairs a `SixBarType` says which, and the length of one arm.
         starts: of structures: how many are improved of each mechanism.
         link: of structures: that is guided, or whose motion is the output.
         threads: of a path: how many follow it; as many as there are processors by default.
@@ -71,7 +72,8 @@ def synthesise(
 
     Cost:
         1 ms to 3 s (nine points), two and three positions 2 to 7 s, and 10 ms for each verdict; a rest 20 s; six-bars
-        20 to 60 s; a structure 1 to 3 s a start, by its atlas 5 s.
+        20 to 100 s, at the first eight pairs of a type 150 to 600 s more; a structure 1 to 3 s a start, by its atlas
+        5 s.
 
     Example:
         >>> from gruebler.design.synthesis import DeadCentreTask
@@ -104,6 +106,8 @@ def synthesise(
     if six_bars and (structures is not None or not isinstance(task, FunctionTask)):
         raise SynthesisError("six_bars: only of functions, and without structures")
     if six_bars:
+        if isinstance(six_bars, SixBarType):
+            given["kind"] = six_bars
         return _sorted(_called(synthesise_six_bars, task, message("with six_bars"), demands, given), orders)
     if orders and structures is None and not isinstance(task, PathTask):
         given["sort"] = orders

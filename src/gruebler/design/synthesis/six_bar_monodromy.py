@@ -1,0 +1,297 @@
+"""All complex six-bars that turn through pairs of angles, listed by monodromy, with a trace test.
+
+A way from one random task to another maps the solutions of one onto those of the other; from one six-bar that is
+chosen the ways between four tasks lead to the others. docs/theory/synthesis-functions.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from gruebler.base.arrays import Complexes, Flags, Integers
+from gruebler.base.atomic_files import atomic_file
+from gruebler.design.synthesis.alt_burmester import ARRIVED, CAREFUL, QUICK, Problem, follow_from_generic, sharpened
+
+_TASKS, _PIECE = 4, 2048
+_SAME = 1e-6  # relative: solutions nearer to each other are one
+_MARK = np.exp(1.234j * np.arange(1, 9) ** 2)  # weights of the numbers of a solution
+
+
+class Loops(NamedTuple):
+    """Of both loops: a constant, the signs of the unknown vectors; what each of those turns with."""
+
+    constants: tuple[int, int]
+    signs: tuple[tuple[int, ...], tuple[int, ...]]
+    turned: str
+    """Q with the input, U with the output, 1 not at all."""
+
+    @property
+    def vectors(self) -> int:
+        """How many vectors are unknown besides the arms; with two of them the second loop has an arm of its own."""
+        return len(self.turned)
+
+
+LOOPS = {
+    "Watt II": Loops((1, 1), ((-1, 0), (0, -1)), "QU"),
+    "Stephenson II": Loops((-1, -1), ((1, 0, -1), (0, 1, -1)), "QQU"),
+    "Stephenson III": Loops((-1, 0), ((1, 0, 0), (1, -1, -1)), "QU1"),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoopVectors:
+    """A loop of six-bars in pairs of angles: w + p T has a constant length, T the turn of the shared link."""
+
+    w: Complexes
+    """(solutions, pairs)"""
+    arm: Complexes
+    """(solutions, 1) p"""
+    by_output: Complexes
+    """(solutions, pairs) the part of w that turns with the output."""
+
+
+def loop_vectors(
+    family: str, vectors: Complexes, ratio: complex, inputs: Complexes, outputs: Complexes
+) -> tuple[LoopVectors, LoopVectors]:
+    """Both loops of real six-bars (solutions, 4), in pairs (pairs,) of turns."""
+    constants, signs, turned = LOOPS[family]
+    columns = vectors.T[:, :, None]
+    first = columns[len(turned)]
+    turns = {"Q": inputs, "U": outputs, "1": np.ones_like(inputs)}
+    loops = []
+    arms = first, columns[3] if len(turned) == 2 else ratio * first
+    for constant, row, arm in zip(constants, signs, arms, strict=True):
+        parts = [sign * each * turns[name] for sign, each, name in zip(row, columns, turned, strict=False)]
+        of_output = [part for part, name in zip(parts, turned, strict=True) if name == "U"]
+        loops.append(LoopVectors(w=constant + sum(parts), arm=arm, by_output=sum(of_output) + 0 * arm))
+    return loops[0], loops[1]
+
+
+def random_numbers(rng: np.random.Generator, *shape: int) -> Complexes:
+    """Complex normal numbers."""
+    return np.asarray(rng.normal(size=shape) + 1j * rng.normal(size=shape))
+
+
+def _lengths(family: str, z: Complexes, ratio: Complexes, turn: complex, output: complex, common: complex) -> Complexes:
+    """The squared lengths of the last links of both loops, in isotropic coordinates."""
+    constants, signs, turned = LOOPS[family]
+    arms = z[4:].reshape(2, 2) if family == "Watt II" else np.array([z[6:], ratio * z[6:]])
+    squares = []
+    for constant, sign, arm in zip(constants, signs, arms, strict=True):
+        w = np.array([constant, constant], complex) + arm * [common, 1 / common]
+        for k, (s, name) in enumerate(zip(sign, turned, strict=True)):
+            x = {"Q": turn, "U": output, "1": 1.0}[name]
+            w += s * z[2 * k : 2 * k + 2] * [x, 1 / x]
+        squares.append(w[0] * w[1])
+    return np.array(squares)
+
+
+def known_solution(problem: Problem, rng: np.random.Generator) -> tuple[Complexes, Complexes]:
+    """A random complex task of one solution that is chosen, and how the output turns; the rest by Newton's method.
+
+    Returns (1, 8) and the task, complex[4, 8] as `_core.track` takes it.
+    """
+    z, ratio, task = random_numbers(rng, 8), random_numbers(rng, 2), np.zeros((4, 8), np.complex128)
+    if problem.family == "Watt II":
+        ratio[:] = 1
+    wanted = _lengths(problem.family, z, ratio, 1, 1, 1)
+    j = 0
+    while j < problem.points:
+        output, x = complex(random_numbers(rng)), random_numbers(rng, 2)
+        for _ in range(60):
+            value = _lengths(problem.family, z, ratio, x[0], output, x[1]) - wanted
+            h = 1e-7
+            near = [
+                _lengths(problem.family, z, ratio, x[0] + a, output, x[1] + b) - wanted for a, b in ((h, 0), (0, h))
+            ]
+            step = np.linalg.solve((np.array(near) - value).T / h, value)
+            x -= step
+            if np.abs(step).max() < 1e-15 * np.abs(x).max():
+                break
+        if np.abs(value).max() < 1e-12 and np.abs(x).min() > 0.05 and np.abs(x).max() < 20:
+            task[:2, j] = x[0], output
+            j += 1
+    task[3, 2:4] = ratio
+    if problem.points == 7:
+        arm = arm_of(problem)
+        task[2, arm], task[3, 1] = random_numbers(rng, 2), 1
+        task[3, 0] = task[2, arm] @ z[arm] + np.prod(z[arm])
+    return z[None], task
+
+
+def arm_of(problem: Problem) -> slice:
+    """Which unknowns are the arm of the first loop and its conjugate."""
+    at = 2 * LOOPS[problem.family].vectors
+    return slice(at, at + 2)
+
+
+def follow(
+    problem: Problem, starts: Complexes, begin: Complexes, end: Complexes, threads: int | None = None
+) -> tuple[Complexes, Flags]:
+    """The ends of paths, sharpened, and which arrived at regular solutions; the lost ones once more with fine steps."""
+    ends, good = np.empty_like(starts), np.zeros(len(starts), bool)
+    for loose in (QUICK, CAREFUL):
+        left = np.flatnonzero(~good)
+        there, status = follow_from_generic(problem, starts[left], begin, end, loose, threads=threads)
+        good[left] = sharpened(problem, there, end) & (status == ARRIVED)
+        ends[left] = there
+    return ends, good
+
+
+def merged(known: Complexes, more: Complexes) -> tuple[Complexes, Integers]:
+    """Known solutions with those of others that are not among them, and where each of the others is in them.
+
+    Sorted by a mark that few have in common.
+    """
+    both = np.concatenate([known, more])
+    mark = np.real(both / (1 + np.abs(both)) @ _MARK)
+    order = np.argsort(mark, kind="stable")
+    first = np.arange(len(both))  # the same solution's first place
+    for _ in range(2):
+        for behind in range(1, 8):
+            a, b = order[:-behind], order[behind:]
+            close = mark[b] - mark[a] < 1e-7
+            a, b = a[close], b[close]
+            near = np.abs(both[a] - both[b]).max(axis=1) < _SAME * (1e-3 + np.abs(both[a]).max(axis=1))
+            a, b = a[near], b[near]
+            np.minimum.at(first, a, first[b])
+            np.minimum.at(first, b, first[a])
+    kept = first == np.arange(len(both))
+    number = np.cumsum(kept) - 1
+    return both[kept], number[first[len(known) :]]
+
+
+class Search:
+    """Solutions of some tasks, found along ways between them.
+
+    A way from task u to task v, each solution of u to one of v, is followed once for each pair of ends, from either of
+    them; first on the six ways between four tasks. Of eight pairs the last equation of v may have any factor, with the
+    same solutions: another way.
+    """
+
+    def __init__(self, problem: Problem, seed: int, threads: int | None = None) -> None:
+        rng = np.random.default_rng(seed)
+        z, task = known_solution(problem, rng)
+        self.problem, self.threads, self.lost, self.clashes, self.paths = problem, threads, 0, 0, 0
+        used = np.abs(task) > 0
+        used[3, 2:4] = problem.family != "Watt II"
+        self.tasks = [task] + [np.where(used, random_numbers(rng, 4, 8), task) for _ in range(_TASKS - 1)]
+        self.found: list[Complexes] = [z] + [z[:0]] * (_TASKS - 1)
+        self.ways: list[tuple[int, int, complex]] = []
+        self.matched: list[list[Flags]] = []
+        self.rng = rng
+        self.begin_again()
+
+    def begin_again(self) -> None:
+        """With six new ways: of few solutions all may be closed under those that there are."""
+        self.ways, self.matched = [], []
+        for u, v in combinations(range(_TASKS), 2):
+            self.add_way(u, v)
+
+    def add_way(self, u: int, v: int) -> None:
+        """One more way from task u to task v."""
+        self.ways.append((u, v, complex(random_numbers(self.rng)) if self.problem.points == 7 else 1.0))
+        self.matched.append([np.zeros(len(self.found[k]), bool) for k in (u, v)])
+
+    def left(self) -> list[tuple[int, int, int]]:
+        """Of each way and end: how many solutions have not been followed."""
+        return [(int((~ends[side]).sum()), number, side) for number, ends in enumerate(self.matched) for side in (0, 1)]
+
+    def step(self) -> bool:
+        """Follows some of the solutions where the most are left; False if there are none."""
+        most, number, side = max(self.left())
+        if most == 0:
+            return False
+        begin, end = (self.ways[number][:2][k] for k in (side, 1 - side))
+        some = np.flatnonzero(~self.matched[number][side])[:_PIECE]
+        tasks = [self.tasks[self.ways[number][0]], self._scaled(number)]
+        ends, good = follow(self.problem, self.found[begin][some], tasks[side], tasks[1 - side], self.threads)
+        self.matched[number][side][some] = True
+        known = len(self.found[end])
+        self.found[end], where = merged(self.found[end], ends[good])
+        for (u, v, _), matched in zip(self.ways, self.matched, strict=True):
+            for k in np.flatnonzero([u == end, v == end]):
+                matched[k] = np.concatenate([matched[k], np.zeros(len(self.found[end]) - known, bool)])
+        arrived = self.matched[number][1 - side]
+        self.clashes += int(arrived[where].sum()) + len(where) - len(np.unique(where))
+        arrived[where] = True
+        self.lost += int((~good).sum())
+        self.paths += len(some)
+        return True
+
+    @property
+    def followed(self) -> int:
+        """Of all ways together, how many pairs of ends are known."""
+        return sum(int(ends[0].sum()) for ends in self.matched)
+
+    def _scaled(self, number: int) -> Complexes:
+        """The second task of a way, its last equation times the factor of the way."""
+        _, v, factor = self.ways[number]
+        task = self.tasks[v].copy()
+        task[2] *= factor
+        task[3, :2] *= factor
+        return task
+
+    def save(self, file: Path) -> None:
+        """What is found and followed, to go on from."""
+        rows: dict[str, Any] = {f"z{k}": z for k, z in enumerate(self.found)}
+        rows |= {f"m{k}_{s}": end for k, ends in enumerate(self.matched) for s, end in enumerate(ends)}
+        rows |= {"ways": self.ways, "counts": [self.lost, self.clashes, self.paths]}
+        with atomic_file(file, durable=False) as stream:
+            np.savez(stream, **rows)
+
+    def load(self, file: Path) -> None:
+        """What an earlier search with the same seed saved."""
+        with np.load(file) as stored:
+            self.found = [stored[f"z{k}"] for k in range(_TASKS)]
+            self.ways = [(int(u.real), int(v.real), factor) for u, v, factor in stored["ways"].tolist()]
+            self.matched = [[stored[f"m{k}_{s}"] for s in (0, 1)] for k in range(len(self.ways))]
+            self.lost, self.clashes, self.paths = stored["counts"].tolist()
+
+    def __str__(self) -> str:
+        counts = ", ".join(f"{len(z):,}" for z in self.found)
+        text = f"{self.problem.family}, {self.problem.points + 1} pairs: {counts} solutions; {self.paths:,} paths on "
+        return f"{text}{len(self.ways)} ways, {self.lost} lost, {self.clashes} to one end"
+
+
+class Trace(NamedTuple):
+    """The trace test of a list."""
+
+    residual: float
+    """How far the sum of all arms is from linear as the last equation moves, relative to its change."""
+    without_one: float
+    """The same without one of the solutions."""
+    lost: int
+    """Paths that were not followed."""
+
+
+def trace(search: Search, node: int = 0) -> Trace:
+    """The trace test of the list for one of the tasks: a list that lacks some has a sum that is not linear."""
+    task, z, arm = search.tasks[node], search.found[node], arm_of(search.problem)
+    step, sets, kept = 0.3j * abs(task[3, 0]), [], np.ones(len(z), bool)
+    for sign in (-1, 1):
+        moved = task.copy()
+        moved[3, 0] += sign * step
+        ends, good = follow(search.problem, z, task, moved, search.threads)
+        sets.append(ends)
+        kept &= good
+    before, now, after = (row[kept][:, arm] @ _MARK[:2] for row in (sets[0], z, sets[1]))
+    bends, ways = before + after - 2 * now, after - before
+
+    def of(part: slice) -> float:
+        return float(abs(bends[part].sum()) / abs(ways[part].sum()))
+
+    return Trace(of(slice(None)), of(slice(1, None)), int((~kept).sum()))
+
+
+def with_arm_given(search: Search) -> tuple[Complexes, Complexes]:
+    """The first task as its plane becomes p p* = r, and its solutions: those that stay finite."""
+    task = search.tasks[0].copy()
+    task[2], task[3, 0] = 0, complex(random_numbers(search.rng))
+    ends, good = follow(search.problem, search.found[0], search.tasks[0], task, search.threads)
+    return task, merged(ends[:0], ends[good])[0]
