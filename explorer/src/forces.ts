@@ -2,8 +2,9 @@
 
 import { documentOf } from "./document";
 import { h, renew } from "./dom";
+import { FactList } from "./factlist";
 import type { Fall } from "./falling";
-import { t } from "./language";
+import { number, t } from "./language";
 import type { Linkage } from "./linkage";
 import { LoadForm } from "./loads";
 import type { Model } from "./model";
@@ -11,6 +12,7 @@ import type { PlaneTransport } from "./planetransport";
 import { Plot } from "./plot";
 import { Polar, type Vectors, vectorAt } from "./polar";
 import type { Spring } from "./springs";
+import { driveText } from "./track";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
 import { momentUnit } from "./wording";
@@ -48,6 +50,7 @@ export class Forces {
   readonly element = h("div", { "data-part": "forces" });
   readonly #form = new LoadForm(() => this.changed());
   readonly #result = h("div", {});
+  readonly #facts = new FactList();
   readonly #polar = new Polar();
   readonly #joint = h("select", { "data-field": "force-joint", onchange: () => this.#showJoint() });
   #plot: Plot | null = null;
@@ -136,20 +139,32 @@ export class Forces {
         const links = model.joints[joint]!.links.filter((other) => other !== link);
         const others = links.map((other) => linkage.linkName(other)).join(", ");
         const text = t("{others} on {link}", { others, link: linkage.linkName(link) });
-        return h("option", { value, selected: value === Math.max(0, chosen) }, text);
+        return h("option", { value }, text);
       });
       renew(this.#joint, ...options);
       const fallen = h("div.form", {});
       const onclick = () => void this.#fall(fallen);
-      const title2 = t("The drive is let go: the linkage falls by its weight, in real time");
+      const release = t("Release the drive: free motion");
+      const how = t("Weight and springs alone move the linkage, in real time");
+      const most = effort.reduce<number>((best, one, k) => (size(one) > size(effort[best]!) ? k : best), 0);
+      const largest = `${number(effort[most] ?? 0, 4)} ${turning ? momentUnit(model) : "N"}`;
+      const note = t("at {place}", { place: driveText(linkage, drives[most]!, 4) });
+      const strong = this.#forces.reduce((best, { most: own }, k) => (own > this.#forces[best]!.most ? k : best), 0);
+      const strongest = `${number(this.#forces[strong]!.most, 4)} N`;
+      this.#joint.selectedIndex = chosen < 0 ? strong : chosen;
+      this.#facts.show([
+        { name: turning ? t("Largest drive torque") : t("Largest drive force"), text: largest, note },
+        { name: t("Largest joint force"), text: strongest, note: options[strong]!.textContent! },
+      ]);
       renew(
         this.#result,
         ...offer,
+        this.#facts.element,
         this.#plot.element,
         h("div.form", {}, h("label", {}, t("Force"), this.#joint)),
         this.#polar.element,
-        ...lines.map((line) => h("p.note", {}, line)),
-        h("div.form", {}, h("button.plain", { "data-act": "fall", title: title2, onclick }, t("Let go"))),
+        h("details.words", {}, h("summary", {}, t("In words")), ...lines.map((line) => h("p.note", {}, line))),
+        h("div.form", {}, h("button.plain", { "data-act": "fall", onclick }, release), h("small", {}, how)),
         fallen,
       );
       this.#showJoint();
@@ -193,6 +208,10 @@ export class Forces {
     renew(place, h("p.note", {}, found.lines.join(" ")));
     this.#view.transport.play(found);
   }
+}
+
+function size(value: number | null): number {
+  return Math.abs(value ?? 0);
 }
 
 function numbers(values: Numbers): Float64Array {

@@ -31,8 +31,8 @@ export class Polar {
     this.element.replaceChildren(
       svg("path.mesh", { d: "M-140 0H140M0 -96V96" }),
       ...rings.map((value) => svg("circle.mesh", { fill: "none", r: scale * value })),
-      ...rings.map((value) => svg("text", { x: 3, y: -scale * value - 2 }, `${number(value)} ${unit}`)),
       svg("path.curve.force", { d: lineThrough(x.map(to(scale)), y.map(to(-scale))) }),
+      ...rings.map((value) => svg("text", { x: 3, y: -scale * value - 2 }, `${number(value)} ${unit}`)),
       this.#here,
     );
   }

@@ -226,6 +226,20 @@ def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_field
     offer.click()
     panel.locator(".plot.polar").wait_for()
     assert panel.locator(".plot.polar").bounding_box()["y"] < panel.locator("#force-speed").bounding_box()["y"]
+    result = panel.locator(".facts")
+    assert result.bounding_box()["y"] < panel.locator(".plot").first.bounding_box()["y"]
+    torque, force = result.locator("dd").all_text_contents()
+    question = asked(entries()["crankrocker"].linkage())
+    masses = answer("forces", question, "en", print)["assumed"]
+    told = answer("forces", {**question, "masses": masses}, "en", print)
+    largest = max(told["effort"], key=abs)
+    assert torque.startswith(f"\N{MINUS SIGN}{-largest:.4g} N·mm at ")
+    places = [drive for drive, effort in zip(told["drives"], told["effort"], strict=True) if effort == largest]
+    assert torque.endswith(f" at {math.degrees(places[0]):.4g}°")
+    strongest = max((math.hypot(x, y) for one in told["forces"] for x, y in zip(*one["force"], strict=True)))
+    assert force == f"{strongest:.4g} N frame on rocker"
+    size = "parseFloat(getComputedStyle(gruebler.root.querySelector('.stage text[data-arrow]:not(:empty)')).fontSize)"
+    assert page.evaluate(size) >= 12
     assert panel.locator('label:has([type="checkbox"])').bounding_box()["height"] >= 44
     for drive in (0.5, 1.5, 3.0, 5.0):  # what is read stands above the lines of the plot, wherever the drive is
         page.evaluate(f"gruebler.motion.transport.pick({drive})")
