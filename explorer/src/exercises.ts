@@ -1,6 +1,6 @@
 /** Exercises: a fresh task with its figure, answers marked with hints, its linkage to try, the solution, the score. */
 
-import { choice, h, indexed, picture, renew, withMinus } from "./dom";
+import { choice, h, indexed, picture, renew } from "./dom";
 import { t } from "./language";
 import type { Model } from "./model";
 import type { Page, View } from "./view";
@@ -39,9 +39,37 @@ interface Mark {
   hint: string;
 }
 
+/** A part of a solution: a heading, a step with its formula, a table under its title, or a sentence. */
+interface Part {
+  text: string;
+  formula: string;
+  heading: boolean;
+  rows: string[][];
+}
+
 interface Marked {
   marks: Mark[];
-  solution: string;
+  solution: Part[];
+}
+
+/** A formula whose quantities are slanted, with their indices: s1 and l_a. */
+function formula(text: string): (string | Node)[] {
+  return text
+    .split(/(?<![\p{L}\d])(\p{L}(?:_[\p{L}\d]+|\d+)?)(?![\p{L}(])/u)
+    .map((part, k) => (k % 2 ? h("i", {}, part[0], h("sub", {}, part.slice(1).replace("_", ""))) : part));
+}
+
+function partOf({ text, formula: line, heading, rows }: Part): HTMLElement {
+  if (heading) return h("h3", {}, text);
+  const cells = (tag: "th" | "td", row: string[]) => h("tr", {}, ...row.map((cell) => h(tag, {}, ...indexed(cell))));
+  const [head = [], ...body] = rows;
+  return h(
+    "div",
+    {},
+    h("p", {}, ...indexed(text)),
+    line ? h("p.formula", {}, ...formula(line)) : null,
+    rows.length ? h("table", {}, cells("th", head), ...body.map((row) => cells("td", row))) : null,
+  );
 }
 
 interface Tried {
@@ -77,8 +105,7 @@ export class ExercisesView implements View {
   }
 
   arrange(): void {
-    const form = h("div.form", {}, this.#tasks, this.#score);
-    renew(this.element, h("div.page", {}, h("h2", {}, t("Exercises")), this.#kinds, form, this.#place));
+    renew(this.element, h("div.page", {}, h("h2", {}, t("Exercises")), this.#kinds, this.#tasks, this.#place));
     this.#showScore();
     if (this.task) void this.#fillKinds().then(() => this.fresh());
   }
@@ -128,8 +155,7 @@ export class ExercisesView implements View {
       this.level = Number(value);
       void this.fresh();
     });
-    const next = h("button.plain", { "data-act": "fresh", onclick: () => this.#next() }, t("A fresh task"));
-    renew(this.#tasks, h("div.form", {}, level, next));
+    renew(this.#tasks, level);
   }
 
   /** The task that is chosen; of the one that is shown the answers stay. */
@@ -168,7 +194,7 @@ export class ExercisesView implements View {
           "div",
           {},
           h("h2", {}, task.name),
-          h("p", {}, ...indexed(task.task)),
+          h("p", {}, ...indexed(task.task.replaceAll(" = ", "\u00a0=\u00a0"))),
           task.remark ? h("p.note", {}, task.remark) : null,
         ),
         h(
@@ -198,13 +224,14 @@ export class ExercisesView implements View {
             "div.form",
             {},
             act("mark", t("Mark my answers"), !solved, () => undefined, "submit"),
-            marked ? act("next", t("Next task"), solved, () => this.#next()) : null,
+            act("next", t("Next task"), solved, () => this.#next()),
             ...(marked ? task.figures.slice(0, task.tries) : []).map(({ name }, k) =>
               act("try", [t("Try it"), name].filter(Boolean).join(": "), false, () => void this.#tryIt(k)),
             ),
+            this.#score,
           ),
           marked
-            ? h("details", {}, h("summary", {}, t("The solution")), h("pre", {}, withMinus(marked.solution)))
+            ? h("details.solution", {}, h("summary", {}, t("The solution")), ...marked.solution.map(partOf))
             : null,
         ),
       ),
@@ -236,7 +263,7 @@ export class ExercisesView implements View {
           set,
           { "data-answer": key },
         )
-      : h("span", {}, symbol ? h("i.symbol", {}, ...indexed(symbol), " = ") : null, input, ` ${unit}`);
+      : h("span", {}, symbol ? h("span.symbol", {}, ...formula(symbol), " = ") : null, input, ` ${unit}`);
     return h(
       "div.answer",
       { "data-state": mark?.mark },

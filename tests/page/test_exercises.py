@@ -127,7 +127,7 @@ def test_a_task_is_chosen_marked_mended_and_tried(exercises):
     page = exercises()
     view = page.page
     begin(page, "grashof", 3)
-    assert "a = 45 mm, b = 80 mm, c = 80 mm and d = 30 mm" in view.locator(".task").inner_text()
+    assert "a = 45 mm, b = 80 mm, c = 80 mm and d = 30 mm" in view.locator(".task").inner_text().replace("\xa0", " ")
     view.click('[data-act="mark"]')
     assert "at least one answer" in view.locator(".message").inner_text()
     view.locator('[data-answer="sum_ends"]').fill("110")
@@ -167,7 +167,20 @@ def test_answers_and_hints_in_german_on_a_phone(exercises):
     page.page.locator("[data-result]").wait_for()
     assert page.page.locator("[data-result]").inner_text() == "2 von 3 richtig"
     assert page.page.locator("[id=hint-H]").inner_text() == "Der Hub ist zweimal die Kurbellänge, nicht einmal."
+    page.page.locator(".solution summary").click()
+    formulas = page.page.locator(".solution .formula")
+    assert formulas.all_inner_texts() == [
+        "la = a + b = 30 + 100 = 130 mm",
+        "li = b − a = 100 − 30 = 70 mm",
+        "H = la − li = 130 − 70 = 60 mm",
+    ]
+    assert formulas.first.locator("i").all_inner_texts() == ["la", "a", "b"]
+    assert formulas.first.locator("sub").first.inner_text() == "a"
     assert page.page.evaluate("document.documentElement.scrollWidth") <= 390
+    page.page.fill('[data-answer="H"]', "6o")
+    page.page.click('[data-act="mark"]')
+    page.until("gruebler.root.querySelector('#hint-H').textContent.includes('6o')")
+    assert page.page.locator("[id=hint-H]").inner_text() == "Erwartet wird eine Zahl in mm, nicht 6o"
     figure, field = (page.page.locator(part).bounding_box() for part in (".task svg", '[data-answer="l_a"]'))
     assert figure["y"] + figure["height"] < field["y"]
 
@@ -175,7 +188,7 @@ def test_answers_and_hints_in_german_on_a_phone(exercises):
 def test_the_velocity_is_asked_where_the_linkage_then_stands(exercises):
     page = exercises()
     begin(page, "velocity", 3)
-    angle = page.page.locator(".task p").first.inner_text().split("φ = ")[1].split("°")[0]
+    angle = page.page.locator(".task p").first.inner_text().replace("\xa0", " ").split("φ = ")[1].split("°")[0]
     page.page.locator('[data-answer="v_B"]').fill("1")
     page.page.click('[data-act="mark"]')
     page.page.click('[data-act="try"]')

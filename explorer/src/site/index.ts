@@ -36,7 +36,7 @@ interface MachinePack {
 interface TaskPack extends Tolerances {
   tasks: {
     records: Record<Language, { id: string; asked: { key: string; choices: string[] }[] }>;
-    solutions: Said;
+    solutions: Record<Language, unknown>;
     answers: Record<string, Asked | Record<Language, Record<string, Answer>>>;
     try: object[];
     structures: StructurePack[];
@@ -197,8 +197,8 @@ class SiteModel extends StillModel {
       if (!("value" in asked)) return { key, ...asked[lang][answer]! };
       const { unit } = asked as Asked;
       const hint = unit
-        ? this.t("expected a number in {unit}, not {answer}", { unit, answer })
-        : this.t("expected a number, not {answer}", { answer });
+        ? this.t("Expected a number in {unit}, not {answer}", { unit, answer })
+        : this.t("Expected a number, not {answer}", { answer });
       return { key, ...(marked(asked as Asked, answer, lang, tolerances) ?? { mark: "wrong", hint }) };
     };
     const given = Object.entries(answers).filter(([, answer]) => answer.trim());

@@ -13,8 +13,8 @@ from gruebler.base.text import Readable
 from gruebler.files import Exercise
 from gruebler.page.site_structures import structure_pack
 from gruebler.page.structures import mechanism_of_text
-from gruebler.page.tasks import marked_task, task_record, tried_task, way
-from gruebler.teaching.exercises import Result, ascii_key, exercise, solution_text, solve
+from gruebler.page.tasks import marked_task, solution_parts, task_record, tried_task, way
+from gruebler.teaching.exercises import Result, ascii_key, exercise, solve
 from gruebler.teaching.exercises.answers import units_for
 from gruebler.teaching.exercises.grading import FINE, NEARLY, NEARLY_RIGHT, common_mistakes
 from gruebler.teaching.exercises.solution import Value
@@ -52,7 +52,7 @@ def task_pack(id: str, langs: Sequence[str]) -> dict[str, Any]:
         tried = [{"text": pack["text"]} for pack in chains]
     return {
         "records": records,
-        "solutions": {lang: solution_text(task, solution, lang) for lang in langs},
+        "solutions": {lang: solution_parts(task, solution, lang) for lang in langs},
         "answers": answers,
         "try": tried,
         "structures": chains,

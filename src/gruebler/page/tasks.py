@@ -19,10 +19,11 @@ from gruebler.teaching.exercises import (
     exercise,
     grade,
     plain_name,
-    solution_text,
     solve,
 )
 from gruebler.teaching.exercises.dyads import CHANGES
+from gruebler.teaching.exercises.messages import answer_lines, cells_of_table, check_text, step_lines
+from gruebler.teaching.exercises.solution import TeachingTable
 from gruebler.teaching.worksheets.exercise_figures import exercise_linkages
 from gruebler.teaching.worksheets.tasks import exercise_figure
 
@@ -124,14 +125,46 @@ def marked_task(id: str, answers: dict[str, str], lang: str) -> dict[str, Any]:
     task = exercise(id)
     solution = solve(task)
     marks = [_mark(task, solution, key, given, lang) for key, given in answers.items() if given.strip()]
-    return {"marks": marks, "solution": solution_text(task, solution, lang)}
+    return {"marks": marks, "solution": solution_parts(task, solution, lang)}
+
+
+def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[str, Any]]:
+    """The solution as parts that are set one below the other: headings, steps with formulas, tables, results, checks.
+
+    >>> task = exercise("dead-centre-1-7")
+    >>> for part in solution_parts(task, solve(task), "en")[:2]:
+    ...     print(part["text"], "|", part["formula"])
+    1. Outer dead centre, crank and connecting rod stretched | l_a = a + b = 30 + 100 = 130 mm
+    2. Inner dead centre, crank and connecting rod overlapping | l_i = b - a = 100 - 30 = 70 mm
+    """
+
+    def part(text: str, formula: str = "", *, heading: bool = False, rows: object = ()) -> dict[str, Any]:
+        return {"text": text.strip(), "formula": formula.strip(), "heading": heading, "rows": rows}
+
+    parts = []
+    count = 0
+    for each in solution.parts:
+        if isinstance(each, TeachingTable):
+            parts.append(part(each.title.in_language(lang), rows=cells_of_table(each, lang)))
+        elif isinstance(each, SolutionStep):
+            count += 1
+            parts.append(part(*step_lines(each, count, lang)))
+        else:
+            count = 0
+            parts.append(part(each.text.in_language(lang), heading=True))
+    checks = [check_text(check, lang) for check in solution.checks]
+    for title, lines in (("Results:", answer_lines(task, solution, lang)), ("Check by a second method:", checks)):
+        if lines:
+            parts += [part(translate(title, lang), heading=True), *map(part, lines)]
+    return parts
 
 
 def _mark(task: Exercise, solution: Solution, key: str, given: str, lang: str) -> dict[str, str]:
     try:
         graded = grade(task, {key: given})[0]
     except GrueblerError as error:
-        return {"key": key, "mark": str(Mark.WRONG), "hint": error_in_language(error, lang)}
+        said = error_in_language(error, lang)
+        return {"key": key, "mark": str(Mark.WRONG), "hint": said[:1].upper() + said[1:]}
     hint = graded.hint or (way(solution, graded.result) if graded.mark is Mark.WRONG else None)
     return {"key": key, "mark": str(graded.mark), "hint": hint.in_language(lang) if hint else ""}
 

@@ -147,7 +147,7 @@ def test_words_as_answers():
     ("answers", "words"),
     [
         ({"HH": "40"}, r"does not ask for 'HH' \(did you mean 'H'\?\)"),
-        ({"H": "forty"}, "expected a number in mm, not 'forty'"),
+        ({"H": "forty"}, "expected a number in mm, not forty"),
         ({"H": "nan"}, "expected a number"),
         ({"H": "inf"}, "expected a number"),
         ({"H": "1e9999"}, "expected a number"),

@@ -47,7 +47,7 @@ def read_answer(answer: str, result: Result) -> GivenAnswer:
     form = _NUMBER.fullmatch(answer)
     if form is None or (form[1] and not result.either_sign) or not isfinite(float(form[2].replace(",", "."))):
         raise GrueblerError(
-            "expected a number in {unit}, not {answer!r}" if result.unit else "expected a number, not {answer!r}",
+            "expected a number in {unit}, not {answer}" if result.unit else "expected a number, not {answer}",
             unit=result.unit,
             answer=answer,
         )
@@ -55,9 +55,9 @@ def read_answer(answer: str, result: Result) -> GivenAnswer:
     scale = unit_scale(form[3], result.unit) if form[3] else 1.0
     if scale is None:
         raise GrueblerError(
-            "expected a number in {unit}, not {answer!r}"
+            "expected a number in {unit}, not {answer}"
             if result.unit
-            else "expected a number without a unit, not {answer!r}",
+            else "expected a number without a unit, not {answer}",
             unit=result.unit,
             answer=answer,
         )

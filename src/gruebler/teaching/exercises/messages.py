@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
 from functools import partial
 
 from gruebler.base.text import Message, Readable, decimal_sign_in, in_every_language, message, number, translate
@@ -78,9 +77,9 @@ def solution_text(exercise: Exercise, solution: Solution, lang: str = "en") -> s
         else:
             count += 1
             lines += step_lines(part, count, lang)
-    answers = list(_answers(compare(exercise, solution), lang))
+    answers = answer_lines(exercise, solution, lang)
     if answers:
-        lines += ["", translate("Results:", lang), *answers]
+        lines += ["", translate("Results:", lang), *(f"  {line}" for line in answers)]
     if solution.checks:
         checks = (f"  {check_text(check, lang)}" for check in solution.checks)
         lines += ["", translate("Check by a second method:", lang), *checks]
@@ -105,13 +104,16 @@ def _capital(text: str) -> str:
     return text[:1].upper() + text[1:] if first is not None and first[0].islower() else text
 
 
-def _answers(comparisons: Sequence[Comparison], lang: str) -> Iterator[str]:
-    for comparison in comparisons:
+def answer_lines(exercise: Exercise, solution: Solution, lang: str) -> list[str]:
+    """What is asked with its result, a line each, and what the source prints."""
+    lines = []
+    for comparison in compare(exercise, solution):
         result = comparison.result
         symbol = f"{result.symbol} = " if result.symbol and _is_number(result.value) else ""
-        line = f"  {_capital(result.name.in_language(lang))}: {symbol}{result_text(result, lang)}"
+        line = f"{_capital(result.name.in_language(lang))}: {symbol}{result_text(result, lang)}"
         note = printed_note(comparison, lang)
-        yield f"{line}   [{note}]" if note else line
+        lines.append(f"{line}   [{note}]" if note else line)
+    return lines
 
 
 def result_text(result: Result, lang: str) -> str:
