@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from gruebler.base.errors import GrueblerError
@@ -138,8 +139,8 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
     2. Inner dead centre, crank and connecting rod overlapping | l_i = b - a = 100 - 30 = 70 mm
     """
 
-    def part(text: str, formula: str = "", *, heading: bool = False, rows: object = ()) -> dict[str, Any]:
-        return {"text": text.strip(), "formula": formula.strip(), "heading": heading, "rows": rows}
+    def part(text: str, formula: str = "", *, heading: bool = False, rows: Sequence[list[str]] = ()) -> dict[str, Any]:
+        return {"text": text.strip(), "formula": formula.strip(), "heading": heading, "rows": list(rows)}
 
     parts = []
     count = 0
