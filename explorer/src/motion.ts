@@ -1,24 +1,23 @@
 /** The view of the motion: stage, drive, sizes, measures, plots. */
 
 import type { Stop } from "./cycle";
-import { applyDocument, documentOf, savedDocument } from "./document";
-import { h, renew } from "./dom";
+import { applyDocument, savedDocument } from "./document";
+import { h } from "./dom";
 import { Dragging } from "./dragging";
-import { FactList, InWords } from "./factlist";
-import { type Found, factsOf } from "./facts";
-import { type Arrow, Forces } from "./forces";
+import type { Found } from "./facts";
+import type { Arrow } from "./forces";
 import { History } from "./history";
 import { keepSizes, keptSizes } from "./kept";
 import { t } from "./language";
 import { Linkage, Refused } from "./linkage";
-import { deadCentres, floatingLink, leastTransmission } from "./measures";
+import { floatingLink } from "./measures";
 import type { LinkageDocument, Model } from "./model";
-import { type Editor, modesPanel, optionsPanel, pointsPanel, rulersPanel, SizeRows } from "./panels";
+import type { Editor } from "./panels";
 import { PlaneTransport } from "./planetransport";
-import { Plots } from "./plots";
+import type { Plots } from "./plots";
 import { type Pair, place } from "./rows";
-import { panelOf } from "./shell";
 import type { Shown } from "./shown";
+import { Side } from "./side";
 import { snappedOn } from "./snapping";
 import { alike, type Snapshot, sameSizes } from "./snapshot";
 import { Stage } from "./stage";
@@ -29,7 +28,6 @@ import { whole } from "./waiting";
 import { refusedText, stopText } from "./wording";
 
 const MOST_FRAMES = 2000;
-const RESTING = 100; // milliseconds without a step of a drag
 
 /** What is shown, to be shown again. */
 interface State {
@@ -53,34 +51,23 @@ export class MotionView implements View, Editor, Driven {
     link: 0,
     chosen: null,
     forces: () => this.#arrows(),
-    springs: () => this.#forces.springs,
+    springs: () => this.side.forces.springs,
   };
   linkage!: Linkage;
   dragging!: Dragging;
   readonly stage: Stage;
   readonly transport = new PlaneTransport(this);
-  readonly plots = new Plots((value) => this.transport.pick(value));
+  private readonly side: Side;
   /** Milliseconds of the last frames in which something was drawn. */
   readonly frames: number[] = [];
-  /** What was found over the cycle. */
-  found: Found = { dead: [], least: null };
   readonly #history = new History<State>();
   /** The views in which linkages were drawn. */
   readonly #drawnIn = new WeakMap<Linkage, string>();
   /** What was before the change that is going on. */
   #before: State | null = null;
-  private readonly side = h("div.side", {});
-  private readonly facts = new FactList();
-  readonly #sizes = new SizeRows(this);
-  readonly #words: InWords;
-  /** Whether plots followed in the last step of a drag. */
-  #plotting = false;
-  #resting = 0;
-  readonly #opened = new Set(["sizes", "measures", "plots"]);
-  readonly #forces = new Forces(this, () => this.#opened.has("forces"));
 
   constructor(readonly page: Page) {
-    this.#words = new InWords(page);
+    this.side = new Side(this);
     this.stage = new Stage(
       {
         dragStart: () => this.#begin(),
@@ -105,7 +92,7 @@ export class MotionView implements View, Editor, Driven {
       },
       this.shown,
     );
-    this.element.append(this.stage.element, this.transport.element, this.side);
+    this.element.append(this.stage.element, this.transport.element, this.side.element);
   }
 
   // --- what is shown -------------------------------------------------------------------------------------------------
@@ -174,12 +161,12 @@ export class MotionView implements View, Editor, Driven {
     this.show();
     this.stage.fit();
     // until all panels are filled, those below one would jump
-    this.side.style.visibility = "hidden";
+    this.side.element.style.visibility = "hidden";
     yield;
-    this.#arrangeSide();
+    this.side.arrange();
     yield;
-    yield* this.#measuring();
-    this.side.style.visibility = "";
+    yield* this.side.measuring();
+    this.side.element.style.visibility = "";
     this.page.changed();
   }
 
@@ -194,49 +181,12 @@ export class MotionView implements View, Editor, Driven {
   /** Lay the view out anew, in the language of the page. */
   arrange(): void {
     this.#arrangeStage();
-    this.#arrangeSide();
+    this.side.arrange();
   }
 
   #arrangeStage(): void {
     this.stage.arrange();
     this.transport.arrange();
-  }
-
-  /** The panels; what is measured is put into them afterwards. */
-  #arrangeSide(): void {
-    this.#words.arrange();
-    const { scrollTop } = this.side; // before its parts leave it for new panels
-    renew(
-      this.side,
-      this.#panel("measures", t("Measures"), this.facts.element, rulersPanel(this), this.#words.element),
-      this.#panel("sizes", t("Sizes"), this.#sizes.element),
-      this.#panel("plots", t("Plots"), this.plots.element),
-      this.#panel("forces", t("Forces"), this.#forces.element),
-      this.#panel("points", t("Coupler points"), pointsPanel(this)),
-      this.#panel("modes", t("Assembly modes")),
-      this.#panel("show", t("Show"), optionsPanel(this)),
-    );
-    this.side.scrollTop = scrollTop;
-    this.plots.arrange(this.linkage);
-  }
-
-  #panel(key: string, title: string, ...content: Node[]): HTMLElement {
-    const element = panelOf(key, title, this.#opened.has(key), ...content);
-    element.addEventListener("toggle", () => {
-      if (element.open === this.#opened.has(key)) return; // as it was laid out
-      if (element.open) this.#opened.add(key);
-      else this.#opened.delete(key);
-      if (key === "plots" && element.open) whole(this.plots.drawing(this.linkage));
-      if (key !== "forces") return;
-      this.#forces.changed();
-      this.redraw();
-    });
-    return element;
-  }
-
-  #refresh(key: string, content: Node): void {
-    const panel = this.side.querySelector(`[data-panel="${key}"] > div`);
-    if (panel) renew(panel, content);
   }
 
   // --- changes -------------------------------------------------------------------------------------------------------
@@ -299,30 +249,9 @@ export class MotionView implements View, Editor, Driven {
     this.timed(start);
   }
 
-  /** After each step of a drag: what follows at once. Plots and texts take turns; all of them follow where it rests. */
   #followed(): void {
     this.stage.sized();
-    this.#plotting = !this.#plotting && this.#opened.has("plots");
-    if (this.#plotting) this.plots.follow(this.linkage);
-    else {
-      this.transport.showRange(this.found);
-      this.#showFacts();
-    }
-    clearTimeout(this.#resting);
-    this.#resting = window.setTimeout(() => this.#rest(), RESTING);
-  }
-
-  #rest(): void {
-    this.linkage.rest();
-    this.transport.showRange(this.found);
-    this.redraw();
-    this.#plotAll();
-  }
-
-  #plotAll(): void {
-    clearTimeout(this.#resting);
-    if (this.#opened.has("plots")) whole(this.plots.drawing(this.linkage));
-    this.#showPose();
+    this.side.follow();
   }
 
   timed(start: number): void {
@@ -375,9 +304,7 @@ export class MotionView implements View, Editor, Driven {
   #choose(link: number | null): void {
     Object.assign(this.shown, { chosen: link, ...(link !== null && { link }) });
     this.redraw();
-    this.#sizes.show();
-    this.#refresh("points", pointsPanel(this));
-    this.#refresh("show", optionsPanel(this));
+    this.side.chosen();
   }
 
   /** Give up what is going on, what is chosen; whether there was anything. */
@@ -424,51 +351,26 @@ export class MotionView implements View, Editor, Driven {
   posed(): void {
     this.stage.draw();
     if (this.transport.falling) this.transport.showValue();
-    else this.#showPose();
+    else this.side.showPose();
   }
 
   #arrows(): Arrow[] {
-    return this.transport.falling ? [] : this.#forces.arrows();
+    return this.transport.falling ? [] : this.side.forces.arrows();
   }
 
   // --- what is read off ----------------------------------------------------------------------------------------------
 
+  get found(): Found {
+    return this.side.found;
+  }
+
+  get plots(): Plots {
+    return this.side.plots;
+  }
+
   /** After a change: what takes longer than a frame, and what Python says. */
   measured(): void {
-    whole(this.#measuring());
-  }
-
-  *#measuring(): Generator<void> {
-    this.found = { dead: deadCentres(this.linkage), least: leastTransmission(this.linkage) };
-    yield;
-    this.transport.showRange(this.found);
-    clearTimeout(this.#resting);
-    this.#showPose();
-    this.#sizes.show();
-    yield;
-    this.#refresh("points", pointsPanel(this));
-    this.#refresh("modes", modesPanel(this));
-    this.#forces.changed();
-    yield;
-    if (this.#opened.has("plots")) yield* this.plots.drawing(this.linkage);
-    const { linkage } = this;
-    this.#words.ask(linkage, () => documentOf(linkage, linkage.cycle.rows, linkage.cycle.home));
-  }
-
-  #showPose(): void {
-    const { drive } = this.transport;
-    if (this.linkage.drive) {
-      this.plots.at(drive);
-      this.#forces.at(drive);
-    }
-    this.#showFacts();
-  }
-
-  #showFacts(): void {
-    const { linkage } = this;
-    this.transport.showValue();
-    const facts = factsOf(linkage, this.found, (angle) => this.plots.plottedAngle(linkage, angle));
-    this.facts.show(facts);
+    whole(this.side.measuring());
   }
 
   // --- what is taken away --------------------------------------------------------------------------------------------

@@ -37,9 +37,7 @@ def test_no_view_has_a_serious_fault(tab, server, axe, locale, scheme, width):
         page.page.evaluate(f"gruebler.show('{view}')")
         page.page.locator(part).first.wait_for()
         if view == "motion":
-            page.page.evaluate(
-                "gruebler.motion.side.querySelectorAll('details').forEach((one) => { one.open = true; })"
-            )
+            page.page.evaluate("gruebler.root.querySelectorAll('.side details').forEach((one) => { one.open = true; })")
         found[view] = [fault for fault in page.page.evaluate(FAULTS) if not fault.startswith(("minor", "moderate"))]
         assert page.page.locator("main").count() == 1
     assert found == {key: [] for key in VIEWS}

@@ -1,0 +1,143 @@
+/** The panels beside the motion: measures, sizes, plots, forces, points, assembly modes, options. */
+
+import { documentOf } from "./document";
+import { h, renew } from "./dom";
+import { FactList, InWords } from "./factlist";
+import { type Found, factsOf } from "./facts";
+import { Forces, type Loaded } from "./forces";
+import { t } from "./language";
+import { deadCentres, leastTransmission } from "./measures";
+import { type Editor, modesPanel, optionsPanel, pointsPanel, rulersPanel, SizeRows } from "./panels";
+import { Plots } from "./plots";
+import { panelOf } from "./shell";
+import { whole } from "./waiting";
+
+const RESTING = 100; // milliseconds without a step of a drag
+
+/** The view that they stand beside. */
+interface Panelled extends Editor, Loaded {
+  readonly page: Loaded["page"];
+  readonly linkage: Loaded["linkage"];
+}
+
+export class Side {
+  readonly element = h("div.side", {});
+  readonly plots: Plots;
+  /** What was found over the cycle. */
+  found: Found = { dead: [], least: null };
+  readonly forces: Forces;
+  readonly #facts = new FactList();
+  readonly #sizes: SizeRows;
+  readonly #words: InWords;
+  readonly #opened = new Set(["sizes", "measures", "plots"]);
+  /** Whether plots followed in the last step of a drag. */
+  #plotting = false;
+  #resting = 0;
+
+  constructor(private readonly view: Panelled) {
+    this.plots = new Plots((value) => view.transport.pick(value));
+    this.forces = new Forces(view, () => this.#opened.has("forces"));
+    this.#sizes = new SizeRows(view);
+    this.#words = new InWords(view.page);
+  }
+
+  /** Lay them out; what is measured is put into them afterwards. */
+  arrange(): void {
+    const { element, view } = this;
+    this.#words.arrange();
+    const { scrollTop } = element; // before its parts leave it for new panels
+    renew(
+      element,
+      this.#panel("measures", t("Measures"), this.#facts.element, rulersPanel(view), this.#words.element),
+      this.#panel("sizes", t("Sizes"), this.#sizes.element),
+      this.#panel("plots", t("Plots"), this.plots.element),
+      this.#panel("forces", t("Forces"), this.forces.element),
+      this.#panel("points", t("Coupler points"), pointsPanel(view)),
+      this.#panel("modes", t("Assembly modes")),
+      this.#panel("show", t("Show"), optionsPanel(view)),
+    );
+    element.scrollTop = scrollTop;
+    this.plots.arrange(view.linkage);
+  }
+
+  #panel(key: string, title: string, ...content: Node[]): HTMLElement {
+    const element = panelOf(key, title, this.#opened.has(key), ...content);
+    element.addEventListener("toggle", () => {
+      if (element.open === this.#opened.has(key)) return; // as it was laid out
+      if (element.open) this.#opened.add(key);
+      else this.#opened.delete(key);
+      if (key === "plots" && element.open) whole(this.plots.drawing(this.view.linkage));
+      if (key !== "forces") return;
+      this.forces.changed();
+      this.view.redraw();
+    });
+    return element;
+  }
+
+  #refresh(key: string, content: Node): void {
+    const panel = this.element.querySelector(`[data-panel="${key}"] > div`);
+    if (panel) renew(panel, content);
+  }
+
+  /** Another link is chosen. */
+  chosen(): void {
+    this.#sizes.show();
+    this.#refresh("points", pointsPanel(this.view));
+    this.#refresh("show", optionsPanel(this.view));
+  }
+
+  /** After a change: what takes longer than a frame, and what Python says, in pieces. */
+  *measuring(): Generator<void> {
+    const { linkage, transport } = this.view;
+    this.found = { dead: deadCentres(linkage), least: leastTransmission(linkage) };
+    yield;
+    transport.showRange(this.found);
+    clearTimeout(this.#resting);
+    this.showPose();
+    this.#sizes.show();
+    yield;
+    this.#refresh("points", pointsPanel(this.view));
+    this.#refresh("modes", modesPanel(this.view));
+    this.forces.changed();
+    yield;
+    if (this.#opened.has("plots")) yield* this.plots.drawing(linkage);
+    this.#words.ask(linkage, () => documentOf(linkage, linkage.cycle.rows, linkage.cycle.home));
+  }
+
+  /** After each step of a drag: what follows at once. Plots and texts take turns; all of them follow where it rests. */
+  follow(): void {
+    const { linkage, transport } = this.view;
+    this.#plotting = !this.#plotting && this.#opened.has("plots");
+    if (this.#plotting) this.plots.follow(linkage);
+    else {
+      transport.showRange(this.found);
+      this.#showFacts();
+    }
+    clearTimeout(this.#resting);
+    this.#resting = window.setTimeout(() => this.#rest(), RESTING);
+  }
+
+  #rest(): void {
+    const { linkage, transport } = this.view;
+    linkage.rest();
+    transport.showRange(this.found);
+    this.view.redraw();
+    if (this.#opened.has("plots")) whole(this.plots.drawing(linkage));
+    this.showPose();
+  }
+
+  showPose(): void {
+    const { linkage, transport } = this.view;
+    if (linkage.drive) {
+      this.plots.at(transport.drive);
+      this.forces.at(transport.drive);
+    }
+    this.#showFacts();
+  }
+
+  #showFacts(): void {
+    const { linkage, transport } = this.view;
+    transport.showValue();
+    this.#facts.show(factsOf(linkage, this.found, (angle) => this.plots.plottedAngle(linkage, angle)));
+  }
+}
