@@ -90,6 +90,11 @@ def test_demands_are_kept_in_the_search(demands):
     assert len(found.rejected) <= 3
 
 
+def test_one_crank_angle_alone_says_nothing():
+    task = PathTask(points(Z[:3]), crank_angles=[None, 0.3, None], tolerances=[0, 0, 0])
+    assert len(synthesise_path(task, number=2).designs) == 2
+
+
 def test_two_positions_with_crank_angles_have_many_four_bars():
     task = PathTask(points(Z[:2]), angles=COUPLER[:2], crank_angles=PHI[:2])
     found = synthesise_path(task, number=4)

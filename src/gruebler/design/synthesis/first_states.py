@@ -114,7 +114,7 @@ def _course(closure: DesignClosure, rng: np.random.Generator) -> _Course:
 def _proposed(course: _Course, targets: FitTargets, rng: np.random.Generator) -> Iterator[Integers]:
     """Rows of poses, one for each target."""
     count, poses = len(targets), len(course.q)
-    if targets.inputs is not None:
+    if targets.inputs is not None and np.count_nonzero(~np.isnan(targets.inputs)) > 1:  # one alone says nothing
         yield from _at_inputs(course, filled(targets.inputs))
         return
     if not course.ordered:

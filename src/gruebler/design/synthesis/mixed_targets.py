@@ -298,7 +298,7 @@ def _scattered(wanted: _Wanted, kind: FourBarKind) -> _State:
     given = ~np.isnan(wanted.angles[1])
     turned = rng.uniform(0.5, 5, _SCATTERED) * rng.choice([-1.0, 1.0], _SCATTERED)
     phi = turned[:, None] * targets / targets[-1]
-    if given.any():
+    if np.count_nonzero(given) > 1:  # one alone says nothing, its constant is free
         timing = np.interp(targets, targets[given], wanted.angles[1, given])
         phi = np.broadcast_to(timing - timing[0], phi.shape)
     phi = phi + rng.uniform(0, 2 * np.pi, (_SCATTERED, 1))
