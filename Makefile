@@ -5,8 +5,9 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 INSTALLED := $(VENV)/.installed
 
-# Each of two workers begins with one half, so that files are not split between them and what they share is made once.
-TESTED := -m pytest -q -n 2 --dist worksteal
+# Each worker begins with one part, so that few files are split between them and what they share is made once; three on two
+# cores, since tests in a browser wait for a quarter of their time.
+TESTED := -m pytest -q -n 3 --dist worksteal
 
 .PHONY: help demo test lint fast docs handbook messages slow wheel-test test-blas lowest-packages test-lowest test-newest \
 	page core test-core core-sanitize core-sanitize-python torture mutants bench evidence paper clean
