@@ -149,7 +149,7 @@ export class CatalogView implements View {
       if (number !== this.#asked) return;
       this.#filled = true;
       this.#cards.removeAttribute("data-waiting");
-      const none = t("No machine has all of this; fewer words and features find more.");
+      const none = t("No machine has all of this.");
       this.#note.textContent = found.length ? t("{count} machines", { count: found.length }) : none;
       renew(this.#cards, ...found.map((entry) => this.#card(entry)));
       for (const card of this.#cards.children) this.#watcher.observe(card);

@@ -1,9 +1,10 @@
 /** The list of all chains of a size, of which one is taken. */
 
+import type { Structure } from "./chain";
 import { h, renew, thumbnail } from "./dom";
 import { t } from "./language";
 import type { Page } from "./view";
-import { awaited } from "./waiting";
+import { awaited, moment } from "./waiting";
 
 interface Chains {
   total: number;
@@ -15,6 +16,8 @@ export class ChainList {
   readonly element = h("div", {});
   #links = 6;
   private mobility = 1;
+  /** The structure of the machine at hand, with which the list begins. */
+  #own: Structure | null = null;
   #found: Chains | null = null;
   /** The text of the chain that is described. */
   #chosen = "";
@@ -28,8 +31,17 @@ export class ChainList {
     private readonly take: (text: string) => void,
   ) {}
 
-  appeared(): void {
-    if (!this.#found) void this.#ask(0);
+  /** A structure is described, that of the machine at hand or another; or there is none. */
+  follow(found: Structure | null, own: boolean): void {
+    if (own) this.#own = found;
+    const { limits } = this.page;
+    const [links, mobility] = [found?.links.length ?? 0, found?.counted ?? 0];
+    const within = (value: number, range = { min: 1, max: 0 }) => range.min <= value && value <= range.max;
+    const listed = within(links, limits.links) && within(mobility, limits.mobility);
+    const turned = listed && (own || !this.#asked) && (links !== this.#links || mobility !== this.mobility);
+    if (turned) [this.#links, this.mobility] = [links, mobility];
+    if (own || turned) this.arrange();
+    if (turned || !this.#asked) void this.#ask(0);
   }
 
   arrange(): void {
@@ -66,8 +78,8 @@ export class ChainList {
   /** Mark the chain of a text. */
   choose(text: string): void {
     this.#chosen = text;
-    for (const card of this.#list.querySelectorAll<HTMLElement>("[data-chain]"))
-      card.setAttribute("aria-pressed", String(text.startsWith(card.dataset.chain!)));
+    for (const card of this.#list.querySelectorAll<HTMLElement>("[data-of]"))
+      card.setAttribute("aria-pressed", String(text.startsWith(card.dataset.of!)));
   }
 
   /** Ask for the chains of the numbers that are typed, if there can be such; else the list stays that of the last. */
@@ -97,15 +109,18 @@ export class ChainList {
   }
 
   #show(): void {
-    const found = this.#found;
-    if (!found) return;
+    const [found, own] = [this.#found, this.#own];
+    if (!found) return renew(this.#list, moment());
     this.#count.textContent = t("{shown} of {total} chains", { shown: found.items.length, total: found.total });
+    // without a list of names, if there is one
+    const drawn = (own?.inversions.find(({ frame }) => frame === own.chosen) ?? own)?.picture ?? "";
+    const mine = own ? [this.#card(own.text, drawn, t("Your machine"), "data-own")] : [];
     if (!found.total) {
       const odd = (this.#links + this.mobility) % 2 === 0;
       const why = odd
         ? t("There is none: F = 3(n − 1) − 2g, so that of links and mobility one is even and one is odd.")
         : t("There is none with so few links.");
-      return renew(this.#list, h("p.note", {}, why));
+      return renew(this.#list, h("p.note", {}, why), h("div.cards.few", {}, ...mine));
     }
     const more =
       found.items.length < found.total
@@ -116,20 +131,25 @@ export class ChainList {
       h(
         "div.cards.few",
         { "data-list": "chains" },
-        ...found.items.map(({ text, picture: drawn }, k) =>
-          h(
-            "button.card",
-            {
-              "data-chain": text,
-              "aria-pressed": String(this.#chosen.startsWith(text)),
-              onclick: () => this.take(text),
-            },
-            thumbnail(drawn, text),
-            h("span", {}, `${k + 1}`),
-          ),
-        ),
+        ...mine,
+        ...found.items.map(({ text, picture }, k) => this.#card(text, picture, `${k + 1}`, "data-chain")),
       ),
       ...(more ? [more] : []),
+    );
+  }
+
+  #card(text: string, picture: string, name: string, kind: string): HTMLElement {
+    const of = text.split(";")[0]!;
+    return h(
+      "button.card",
+      {
+        [kind]: text,
+        "data-of": of,
+        "aria-pressed": String(this.#chosen.startsWith(of)),
+        onclick: () => this.take(text),
+      },
+      thumbnail(picture, text),
+      h("span", {}, name),
     );
   }
 }

@@ -85,11 +85,10 @@ export class DesignCards {
       ["transmission", t("by transmission angle")],
     ];
     const shown = found.items.length;
-    const count = shown < found.total ? t("{shown} of {count} designs", { shown, count: found.total }) : "";
     const kinds = this.#forms().map((form): [string, string] => [form, `${capital(form)} · ${this.#of(form).length}`]);
     renew(
       this.element,
-      h("h2", {}, count || t("{count} designs", { count: shown })),
+      h("h2", {}, t("{shown} of {count} designs", { shown, count: found.total })),
       h("p.note", {}, found.note ?? ""),
       h("p.note", {}, found.refused ? t("{count} others do not meet what is asked.", { count: found.refused }) : ""),
       kinds.length > 1

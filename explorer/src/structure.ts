@@ -27,6 +27,8 @@ interface Realised {
 export class StructureView implements View {
   readonly element = h("div.view", { "data-page": "structure" });
   private text = "";
+  /** The text of the machine at hand. */
+  #own = "";
   private structure: Structure | null = null;
   #joint = -1;
   #atFrame = true;
@@ -50,8 +52,9 @@ export class StructureView implements View {
   }
 
   appeared(): void {
-    if (!this.text) void this.describe(chainText(this.#page.shown));
-    this.chains.appeared();
+    const own = chainText(this.#page.shown);
+    if (own !== this.#own) void this.describe(own);
+    this.#own = own;
   }
 
   arrange(): void {
@@ -86,9 +89,11 @@ export class StructureView implements View {
       this.#field.setAttribute("aria-invalid", "false");
       this.#showStructure();
       this.chains.choose(text);
+      this.chains.follow(found, text === this.#own);
     } catch (error) {
       if (number !== this.#asked) return;
       if (!this.structure) renew(this.#shown);
+      this.chains.follow(null, false);
       const said = (error as Error).message;
       this.#field.setAttribute("aria-invalid", "true");
       this.#words.hidden = false;

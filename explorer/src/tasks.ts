@@ -18,8 +18,8 @@ interface TaskWords {
 }
 
 export function wordsOf(kind: Kind, count = 0): TaskWords {
-  const words: Record<Kind, () => TaskWords> = {
-    points: () => ({
+  const words: Record<Kind, TaskWords> = {
+    points: {
       name: t("Points of a path"),
       hint: t(
         "Click points in the order in which a coupler point is to pass them; drag them to move them. " +
@@ -28,8 +28,8 @@ export function wordsOf(kind: Kind, count = 0): TaskWords {
       row: t("Point"),
       heads: ["x", "y"],
       design: t("A design for {count} points", { count }),
-    }),
-    positions: () => ({
+    },
+    positions: {
       name: t("Positions of a link"),
       hint: t(
         "Click three to five places through which the coupler is to be carried; " +
@@ -38,21 +38,21 @@ export function wordsOf(kind: Kind, count = 0): TaskWords {
       row: t("Position"),
       heads: ["x", "y", "φ [°]"],
       design: t("A design for {count} positions", { count }),
-    }),
-    function: () => ({
+    },
+    function: {
       name: t("Angles of crank and rocker"),
       hint: t("While the crank turns by the first angle, the rocker turns by the second: three to five pairs."),
       row: t("Pair"),
       heads: [t("Crank [°]"), t("Rocker [°]")],
       design: t("A design for {count} pairs of angles", { count }),
-    }),
-    "dead-centres": () => ({
+    },
+    "dead-centres": {
       name: t("Dead centres"),
       hint: t("A crank that drives a rocker to and fro: its swing, and the slow time to the quick one."),
       row: t("Dead centres"),
       heads: [t("Swing [°]"), t("Time ratio")],
       design: t("A design for dead centres"),
-    }),
+    },
   };
-  return words[kind]();
+  return words[kind];
 }

@@ -73,6 +73,9 @@ def reader(request, tab, server):
 
 def test_a_six_bar_moves_and_draws_a_curve(reader):
     reader.click('[data-view="structure"]')
+    reader.page.locator("[data-chain]").wait_for()  # one: that of the four-bar at hand
+    reader.fill('[data-page="structure"] input[type="number"]', "6")
+    reader.page.locator("[data-chain]").nth(1).wait_for()
     reader.click("[data-chain]")
     reader.click('[data-list="inversions"] .card')
     reader.click('[data-list="driven"] .card')
@@ -82,7 +85,7 @@ def test_a_six_bar_moves_and_draws_a_curve(reader):
     reader.click('[data-act="add-point"]')
     assert reader.page.evaluate("gruebler.motion.linkage.sizes.points.length") == 1
     reader.plays()
-    reader.end("six-bar", 8)
+    reader.end("six-bar", 9)
 
 
 def test_a_watt_six_bar_is_drawn_and_moved(reader):

@@ -36,6 +36,13 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     view.click('[data-view="structure"]')
     view.locator('[data-list="chains"] .card').first.wait_for()
     links = view.locator('[data-page="structure"] [aria-label="Links"]')
+    # it begins with the machine at hand, a four-bar, before the only chain of four links
+    assert links.input_value() == "4"
+    cards = view.locator('[data-list="chains"] .card')
+    assert cards.evaluate_all("all => all.map((e) => [e.querySelector('span').textContent, e.ariaPressed])") == [
+        ["Your machine", "true"],
+        ["1", "false"],
+    ]
     links.fill("40")
     links.press("Enter")
     most = links.get_attribute("max")
