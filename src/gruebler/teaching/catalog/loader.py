@@ -165,16 +165,16 @@ def _meanings(symbol: str) -> set[Pair]:
 _NUMBERS = {
     3: ("three", "drei"),
     4: ("four", "vier"),
-    5: ("five", "fünf"),
+    5: ("five", "funf"),
     6: ("six", "sechs"),
     7: ("seven", "sieben"),
     8: ("eight", "acht"),
     9: ("nine", "neun"),
     10: ("ten", "zehn"),
     11: ("eleven", "elf"),
-    12: ("twelve", "zwölf"),
+    12: ("twelve", "zwolf"),
 }
-"""Of links, as linkages are called by them."""
+"""Of links, as linkages are called by them and `plain_word` writes them."""
 
 
 def plain_word(text: str) -> str:
