@@ -17,6 +17,7 @@ from gruebler.base.units import MILLIMETRES
 from gruebler.files import values as files
 from gruebler.files.four_bar_rs import drawing_from_ron, ron_from_drawing
 from gruebler.files.linkage2 import drawing_from_linkage2, linkage2_from_drawing
+from gruebler.files.linkages import read_loaded
 from gruebler.files.motiongen import drawing_from_motiongen, motiongen_from_drawing
 from gruebler.files.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, drawing_of, linkage_of_drawing
 from gruebler.files.pmks import drawing_from_pmks, pmks_from_drawing
@@ -373,7 +374,7 @@ def test_what_is_left_out_is_said(tmp_path):
     with pytest.warns(files.FormatWarning, match="not written: .*the unit of the numbers, which are mm"):
         files.write(FourBar(25, 70, 40, 70).linkage(unit="cm"), path)
     notes = files.convert(FOLDER / "klann.linkage2", tmp_path / "klann.graphml")
-    assert [str(note) for note in notes] == ["speeds of drives: 15 rpm", "dimensions, frame and drives"]
+    assert [str(note) for note in notes] == ["dimensions, frame and drives", "loads, masses and the speed of the drive"]
 
 
 def test_wheels_and_cams_are_refused(tmp_path):
@@ -582,3 +583,27 @@ def test_curves_of_four_bar_rs_are_tasks(tmp_path):
     path.write_text("1,2\n3,nan\n", encoding="utf-8")
     with pytest.raises(GrueblerError, match="csv: coordinate: expected a number"):
         files.read(path)
+
+
+def test_masses_and_the_speed_come_with_an_address(tmp_path):
+    """The punch press, read off its address by hand, in base 64: 10/min (A), clockwise (2v is odd); crank 2 g (VG),
+    0.05 kg cm² (o), centre (0, 0.6 cm) (9O); rod 3 g (ku), 0.4 kg cm² (6G), centre (0, -1.1 cm) (0HC)."""
+    notes = files.convert(FOLDER / "punch-press.pmks", tmp_path / "press.toml")
+    assert [str(note) for note in notes] == ["the force F1", "colours", "the sense of rotation of the drive"]
+    linkage, loads, speed = read_loaded(tmp_path / "press.toml")
+    assert speed == pytest.approx(10 * 2 * pi / 60, rel=1e-12)
+    found = {link: (body.mass, body.inertia) for link, body in loads.bodies.items()}
+    assert found == {"AB": (0.002, pytest.approx(0.05)), "BC": (0.003, pytest.approx(0.4))}
+    for link, centre in {"AB": (0, 0.6), "BC": (0, -1.1)}.items():
+        assert linkage.reference_pose[link].put(*loads.bodies[link].centre) == pytest.approx(centre, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "rate"),
+    [("cylinder-driven-boom.pmks", 1.0), ("klann.linkage2", pi / 2), ("two-sliders.linkage2", None)],
+)
+def test_a_speed_is_that_of_the_only_drive(name, rate, tmp_path):
+    """A cylinder at 1 cm/s (Fe), a crank at 15 rpm; of two inputs each has its own, which is said."""
+    notes = files.convert(FOLDER / name, tmp_path / "a.toml")
+    assert read_loaded(tmp_path / "a.toml")[2] == (rate if rate is None else pytest.approx(rate, rel=1e-12))
+    assert ("speeds of drives: 15, 15.7 rpm" in map(str, notes)) == (rate is None)

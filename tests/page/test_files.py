@@ -5,6 +5,7 @@ import csv
 import io
 import json
 import math
+from pathlib import Path
 
 import pytest
 
@@ -173,6 +174,18 @@ def test_the_drive_of_a_drawn_four_bar_comes_back_from_another_program():
     opened = answer("open_file", {"name": "bar.linkage2", "base64": saved["base64"]}, "de", print)
     assert (saved["note"], opened["note"]) == ("", "")
     assert [drive["name"] for drive in opened["model"]["drives"]] == ["R(frame-1)"]
+
+
+def test_masses_and_speed_of_another_program_act_on_the_page():
+    """The punch press of PMKS+: 10/min, 2 g and 3 g, as its address says (tests/files/test_other_programs.py)."""
+    content = (Path(__file__).parents[1] / "files" / "samples" / "punch-press.pmks").read_bytes()
+    asked = {"name": "press.pmks", "base64": base64.b64encode(content).decode()}
+    opened = answer("open_file", asked, "en", print)
+    assert opened["note"] == "Left out: the force F1; colours; the sense of rotation of the drive"
+    told = answer("forces", {"document": opened["model"]["document"], "drives": [1.0]}, "en", print)
+    assert sorted(told["masses"])[-2:] == pytest.approx([0.002, 0.003])
+    assert told["speed"] == pytest.approx(10 * 2 * math.pi / 60)
+    assert told["lines"]
 
 
 def test_a_file_that_is_dropped_is_said_to_be_opened_at_once(tab, server):

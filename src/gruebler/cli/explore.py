@@ -14,7 +14,7 @@ from gruebler.cli.linkage_inputs import SpatialWord, spatial_of_word
 from gruebler.cli.long_work import progress
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
-from gruebler.page.exchange import own_document
+from gruebler.page.exchange import document_of
 from gruebler.page.model import model_of, with_document
 
 _PORT = 8117
@@ -129,7 +129,7 @@ def _model(word: str, lang: str) -> dict[str, Any]:
     linkage, between = linkage_and_range(word, unit="mm")  # which the page writes into files
     record = entry_of(word)
     model = model_of(linkage, name=_name(word) if record is None else record.name, source=word, between=between)
-    return with_document(model, linkage, own_document(Path(word))) if Path(word).is_file() else model
+    return with_document(model, linkage, document_of(Path(word), linkage)) if Path(word).is_file() else model
 
 
 def _name(word: str) -> str:

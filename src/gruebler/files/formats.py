@@ -57,9 +57,11 @@ class Format:
     """Write its motion between two values of the drive; None if the file has no motion."""
     lengths: Message | None = None
     """What the numbers of lengths are; None if there are none."""
+    loads: Callable[[Path], Mapping[str, Any]] | None = None
+    """What a file of another program has of a table ``[loads]``, with places in its drawing."""
 
 
-LOADS = message("loads and masses")
+LOADS = message("loads, masses and the speed of the drive")
 """What is left out of a linkage by those who want the linkage alone."""
 
 _WITH_UNIT = message("with their unit")
@@ -218,11 +220,25 @@ def _linkage(path: Path, drawing: Callable[[], PinDrawing], left_out: list[Messa
     from gruebler.files.pin_drawings import linkage_of_drawing
 
     try:
-        return linkage_of_drawing(drawing(), left_out)
+        drawn = drawing()
+        left_out += [LOADS] if drawn.loads else []
+        return linkage_of_drawing(drawn, left_out)
     except OverflowError:
         raise GrueblerError("{path}: it has numbers that are too large to be lengths", path=path) from None
     except GrueblerError as error:
         raise GrueblerError("{path}: {error}", path=path, error=error) from None
+
+
+def loads_document(path: Path, form: Format, linkage: Linkage) -> dict[str, Any]:
+    """What another program's file says of what acts on its linkage, as `loads_of_document` takes it; else nothing."""
+    table = {} if form.loads is None else form.loads(path)
+    mechanism = linkage.mechanism
+    bodies = {link: body for link, body in table.get("bodies", {}).items() if link in mechanism.chain.links}
+    loads: dict[str, Any] = {"bodies": bodies} if bodies else {}
+    speed = str(table.get("speed", ""))
+    if speed and [drive.turning for drive in mechanism.drives] == [speed.endswith("rpm")]:
+        loads["speed"] = speed
+    return {"loads": loads, "places": {}} if loads else {}
 
 
 def _as_linkage(value: Any) -> Linkage:
@@ -256,7 +272,15 @@ def _drawn(
         drawing = drawing_of(_as_linkage(value), left_out)
         _write_text(path, _function(module, f"{called}_from_drawing")(drawing, left_out))
 
-    return Format(name=name, suffixes=(suffix,), title=title, carries=carries, read=read, write=write, lengths=lengths)
+    def loads(path: Path) -> Mapping[str, Any]:
+        from gruebler.files.text_files import read_text
+
+        return _function(module, f"drawing_from_{called}")(read_text(path), []).loads  # type: ignore[no-any-return]
+
+    suffixes = (suffix,)
+    return Format(
+        name=name, suffixes=suffixes, title=title, carries=carries, read=read, write=write, lengths=lengths, loads=loads
+    )
 
 
 _JSON_OF_OTHERS = ("motiongen", "pylinkage")

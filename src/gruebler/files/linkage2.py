@@ -3,7 +3,7 @@
 A connector is a pin at x, y (y upwards) in 1/96 inch, whatever unit the program shows; on an anchor it is fixed to the
 frame, as an input it is driven. A connector with ``slider`` runs between two others, its limits: it is a pin in the
 slot of the link that has both. A link is a list of connectors; an actuator is a link of two connectors that changes its
-length. A link with one connector more is a point of it. Speeds, colours and the view are not part of a linkage. Source:
+length. A link with one connector more is a point of it. The speed of the only input goes into its loads. Source:
 the program's reader (linkageDoc.cpp, linkageDoc.h: ``GetBaseUnitsPerInch``) and the examples that come with it.
 """
 
@@ -21,6 +21,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message
 from gruebler.files.measured_lengths import in_unit
 from gruebler.files.pin_drawings import (
+    SENSE,
     DrawnDrive,
     DrawnJoint,
     PinDrawing,
@@ -152,10 +153,22 @@ def _drawing(
         joints.append(joint)
         if connector.get("input") == "true" and len(links) > 1 and slot is None:
             drives.append(DrawnDrive(joint.name, links[0], links[1]))
-    speeds = {connector.get("rpm", "") for connector in connectors.values() if connector.get("input") == "true"}
-    if speeds - {""}:
-        left_out.append(message("speeds of drives: {speeds} rpm", speeds=", ".join(sorted(speeds - {""}))))
-    return PinDrawing(frame=_FRAME, joints=tuple(joints), drives=tuple(drives), unit=unit, rigid=tuple(rigid))
+    speeds = [connector.get("rpm", "") for connector in connectors.values() if connector.get("input") == "true"]
+    loads = _speed([speed for speed in speeds if speed], len(drives) == 1, left_out)
+    return PinDrawing(
+        frame=_FRAME, joints=tuple(joints), drives=tuple(drives), unit=unit, rigid=tuple(rigid), loads=loads
+    )
+
+
+def _speed(speeds: list[str], alone: bool, left_out: list[Message]) -> dict[str, str]:
+    """The speed of the only drive; of several drives it is left out."""
+    what = message("speeds of drives: {speeds} rpm", speeds=", ".join(sorted({*speeds})))
+    if not speeds or not alone:
+        left_out += [what] if speeds else []
+        return {}
+    speed = read_number(speeds[0], what)
+    left_out += [SENSE] if speed < 0 else []
+    return {"speed": f"{abs(speed)!r} rpm"} if speed else {}
 
 
 def _connector_names(connectors: Mapping[str, Element]) -> dict[str, str]:

@@ -7,13 +7,14 @@ has not is a message in a list that the caller passes, so that nothing is lost i
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import KW_ONLY, dataclass, replace
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, field, replace
 from itertools import chain as chain_of
 from itertools import combinations
 from itertools import count as count_from
 from math import cos, hypot, isfinite, pi, remainder, sin
 from string import ascii_uppercase
+from typing import Any
 
 from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.base.errors import LinkageError
@@ -73,6 +74,12 @@ class PinDrawing:
     unit: str = "mm"
     rigid: tuple[tuple[str, str], ...] = ()
     """Links that are fastened to each other."""
+    loads: Mapping[str, Any] = field(default_factory=dict)
+    """What stands in a table ``[loads]``: the ``speed`` of the only drive, ``bodies`` with centres in the drawing."""
+
+
+SENSE = message("the sense of rotation of the drive")
+"""What readers leave out of a speed."""
 
 
 # --- from a drawing to a linkage ---------------------------------------------------------------------

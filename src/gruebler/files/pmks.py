@@ -12,7 +12,8 @@ Version 1: ``j=id,x,y,links|,type,ground,angle,friction,input`` in lines, and ``
 PMKS-Refactor: ``data=`` and compressed tables (`pmks_tables`) without a unit, cm when the program starts; a slider is
 a block on the frame with a pin.
 
-Masses, forces and colours are not part of a linkage. Sources: the programs' transcoders and published addresses.
+Of version 2 the speed of the only drive and the masses of links, unless they are the program's own, go into the loads;
+forces and colours are left out. Sources: the programs' transcoders, units and published addresses.
 """
 
 from __future__ import annotations
@@ -21,12 +22,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import repeat
 from math import atan2, cos, pi, radians, sin, ulp
-from typing import NamedTuple
+from typing import Any, NamedTuple
 from urllib.parse import parse_qs, unquote
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message
-from gruebler.files.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, drawing_in, no_unit, one_drive_a_joint
+from gruebler.files.pin_drawings import (
+    SENSE,
+    DrawnDrive,
+    DrawnJoint,
+    PinDrawing,
+    drawing_in,
+    no_unit,
+    one_drive_a_joint,
+)
 from gruebler.files.pmks_tables import tables_of_address
 from gruebler.files.text_files import read_number
 
@@ -42,6 +51,9 @@ _DIGEST = 6
 _EXACT = "P"
 _EXACT_FIELDS = {"0": "x", "1": "y", "2": "angle", "3": "", "4": ""}  # speed and mass are not of a linkage
 _EXACT_OTHERS = ("L", "F", "D", "I")  # links, forces, settings
+_CLOCKWISE = 1  # of the settings
+_MASSES = {"in": ("lb", "lb in2"), "cm": ("g", "kg cm2"), "m": ("kg", "kg m2")}  # siUnitFactors of the program
+_NO_LOADS = message("masses, colours and speeds")
 _ULPS = 4  # within which thousandths are the number
 
 
@@ -86,7 +98,38 @@ def _version_2(query: str, left_out: list[Message]) -> PinDrawing:
     joints = _with_exact_numbers(joints, exact)
     if len(entries) > len(exact):
         left_out.append(message("locks and notes of the drawing"))
-    return _drawing(joints, links, unit, left_out)
+    drawing = _drawing(joints, links, unit, left_out)
+    left_out[left_out.index(_NO_LOADS)] = message("colours")
+    clockwise = _integer(sections[0]) & _CLOCKWISE
+    speeds = _integer(sections[2].split(",")[0]), _integer(f"{sections[1]},".split(",")[1]) / 1000
+    return replace(drawing, loads=_loads(drawing, links, speeds, bool(clockwise), left_out))
+
+
+def _loads(
+    drawing: PinDrawing, links: list[_Link], speeds: tuple[float, float], clockwise: bool, left_out: list[Message]
+) -> dict[str, Any]:
+    """The speed of the only drive, in turns a minute or lengths a second, and the masses of links.
+
+    Mass 1 with inertia 1 (of a piston 0) is what every link has until somebody changes it: it is no mass.
+    """
+    mass_unit, inertia_unit = _MASSES[drawing.unit]
+    bodies = {
+        link.id: {"mass": f"{mass!r} {mass_unit}", "centre": [x, y], "inertia": f"{inertia!r} {inertia_unit}"}
+        for link in links
+        for mass, inertia, x, y in [link.body]
+        if mass > 0 and inertia >= 0 and (mass, inertia) != (1.0, 0.0 if link.piston else 1.0)
+    }
+    loads: dict[str, Any] = {"bodies": bodies} if bodies else {}
+    drives = drawing.drives or ()
+    if len(drives) == 1:
+        slides = {joint.name for joint in drawing.joints if joint.slot is not None}
+        speed, unit = (speeds[1], f"{drawing.unit}/s") if drives[0].joint in slides else (speeds[0], "rpm")
+        if speed > 0:
+            loads["speed"] = f"{speed!r} {unit}"
+            left_out += [SENSE] if clockwise and unit == "rpm" else []
+    elif drives:
+        left_out.append(message("speeds of drives: {speeds} rpm", speeds=str(speeds[0])))
+    return loads
 
 
 def _checked(query: str) -> str:
@@ -156,6 +199,8 @@ class _Link(NamedTuple):
     id: str
     joints: tuple[str, ...]
     piston: bool = False
+    body: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    """Mass, moment of inertia and centre of mass, in the units of the address."""
 
 
 def _joint(record: str) -> _Joint:
@@ -176,7 +221,8 @@ def _link(record: str) -> _Link:
         )
     joints = fields[7:]
     end = joints.index("") if "" in joints else len(joints)
-    return _Link(fields[0], tuple(joints[:end]), record[1] == "P")
+    mass, inertia, x, y = (_integer(field) / 1000 for field in fields[2:6])
+    return _Link(fields[0], tuple(joints[:end]), record[1] == "P", (mass, inertia, x, y))
 
 
 def _with_exact_numbers(joints: list[_Joint], entries: list[str]) -> list[_Joint]:
@@ -269,7 +315,7 @@ def _drawing(joints: list[_Joint], links: list[_Link], unit: str, left_out: list
         if joint.flags & _INPUT and len(own_links) > 1:
             drives.append(DrawnDrive(joint.id, own_links[0], own_links[1]))
     if any(link.joints for link in links):
-        left_out.append(message("masses, colours and speeds"))
+        left_out.append(_NO_LOADS)
     if not unit:
         left_out.append(no_unit("cm"))
     return PinDrawing(frame=_FRAME, joints=tuple(drawn), drives=tuple(drives), unit=unit or "cm")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from gruebler.base.doors import door
 from gruebler.base.errors import GrueblerError, unknown, warn
 from gruebler.base.text import Message, joined, joined_by_or, message
-from gruebler.files.formats import FORMATS, LOADS, Format, json_of_another_program
+from gruebler.files.formats import FORMATS, LOADS, Format, json_of_another_program, loads_document
 
 if TYPE_CHECKING:
     from gruebler.files.formats import Value
@@ -223,6 +223,7 @@ def convert(
         value = read(source, format_name=source_format, left_out=not_read)
         loaded = _loaded(source, from_form, value)
         if loaded is not None:
+            left_out += [note for note in not_read if note != LOADS]
             write_loaded(*loaded, target, target_format, left_out)
         else:
             left_out += not_read
@@ -234,10 +235,14 @@ def _loaded(path: Path, form: Format, value: Value) -> tuple[Linkage, Loads, flo
     """The linkage of a file with its loads and speed; None where it has no loads."""
     from gruebler.base.documents import load_document
     from gruebler.files.linkages import read_loaded
+    from gruebler.files.load_reading import loads_of_document
     from gruebler.mechanics.linkages import Linkage
 
-    if form.name not in _DOCUMENTS or not isinstance(value, Linkage):
+    if not isinstance(value, Linkage):
         return None
+    if form.name not in _DOCUMENTS:
+        drawn = loads_document(path, form, value)
+        return (value, *loads_of_document(drawn, value)) if drawn else None
     document = load_document(path, lambda problem: GrueblerError("{path}: {problem}", path=path, problem=problem))
     return read_loaded(path) if "loads" in document else None
 

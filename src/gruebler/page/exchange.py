@@ -15,7 +15,7 @@ from gruebler.base.atomic_files import atomic_file, temporary_directory
 from gruebler.base.documents import load_document
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, error_in_language, joined, translate
-from gruebler.files.formats import FORMATS, LOADS, Format
+from gruebler.files.formats import FORMATS, LOADS, Format, loads_document
 from gruebler.files.linkages import toml_key, toml_value
 from gruebler.files.load_reading import loads_of_document
 from gruebler.files.values import format_of, read, write, write_loaded
@@ -63,7 +63,7 @@ def opened_file(name: str, content: str, lang: str) -> dict[str, Any]:
         except GrueblerError as error:
             text = error_in_language(error, lang).replace(f"{folder}{os.sep}", "")
             raise GrueblerError("{message}", message=text) from None
-        document = own_document(file) if isinstance(value, Linkage) else {}
+        document = document_of(file, value) if isinstance(value, Linkage) else {}
     chains = value if isinstance(value, list) else [value]
     shown: dict[str, Any]
     if isinstance(value, Linkage):
@@ -90,10 +90,10 @@ def _with_page(data: bytes, form: str, page: dict[str, Any]) -> bytes:
     return data + f"\n[page]\n{targets}{''.join(table)}".encode()
 
 
-def own_document(file: Path) -> dict[str, Any]:
-    """What stands in a file of ours; nothing for those of other programs."""
+def document_of(file: Path, linkage: Linkage) -> dict[str, Any]:
+    """What stands in a file of ours; of those of other programs what acts on the linkage."""
     if file.suffix.lower().lstrip(".") not in _OWN:
-        return {}
+        return loads_document(file, format_of(file, to_read=True), linkage)
     document = load_document(file, lambda problem: GrueblerError("{problem}", problem=problem))
     return document if isinstance(document, dict) else {}
 
