@@ -14,10 +14,11 @@ export interface Area extends Box {
   unit: number;
 }
 
-/** A square about the origin of that width, or less of its height where the window is low, and all of the places. */
+/** A square about the origin of that width, or less of its height where the window is low, and all of the places; it is
+ * as wide as the element, not higher than that. */
 export function areaOf(wide: number, places: readonly (readonly number[])[], element: Element): Area {
   const pixels = element.clientWidth || 840;
-  const high = wide * Math.min(1, Math.max(0.5, (0.6 * window.innerHeight) / pixels));
+  const ratio = Math.min(1, Math.max(0.5, (0.6 * window.innerHeight) / pixels));
   const span = (axis: 0 | 1, half: number): [number, number] => {
     const values = places.map((place) => place[axis]!);
     const [low, most] = [Math.min(...values), Math.max(...values)];
@@ -25,8 +26,11 @@ export function areaOf(wide: number, places: readonly (readonly number[])[], ele
     const room = values.length ? Math.max(0.06 * (most - low), (AROUND * wide) / pixels) : 0;
     return [Math.min(-half, low - room), Math.max(half, most + room)];
   };
-  const [left, right] = span(0, wide / 2);
-  const [bottom, top] = span(1, high / 2);
+  let [left, right] = span(0, wide / 2);
+  const [bottom, top] = span(1, (ratio * wide) / 2);
+  const more = Math.max(0, (top - bottom) / ratio - (right - left)) / 2;
+  left -= more;
+  right += more;
   return { left, right, bottom, top, unit: (MARK * (right - left)) / pixels };
 }
 

@@ -168,7 +168,7 @@ export class CatalogView implements View {
     const kinds = space ? [t("in space")] : [t("structure only")].slice(Number(moves));
     const card = h(
       "button.card",
-      { "data-id": id, title: entry.name, onclick: () => void this.#choose(entry) },
+      { "data-id": id, onclick: () => void this.#choose(entry) },
       h("div", { "data-place": "" }),
       h("b", {}, entry.name),
       h("span", {}, [sizes, ...really, ...kinds].join(" · ")),

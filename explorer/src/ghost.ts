@@ -2,7 +2,7 @@
 
 import { renew, svg } from "./dom";
 
-const PACE = 16; // frames of a motion in a second
+const PACE = 48; // frames of a motion in a second
 
 export interface Moving {
   /** Places of the joints, then of the points, evenly in time. */

@@ -12,7 +12,7 @@ import { pictureOf } from "./picture";
 import { type Fault, faultOf } from "./soundness";
 
 const MOST_DESIGNS = 24;
-const FRAMES = 48; // of a motion, there and back if the drive does not turn fully
+const FRAMES = 144; // of a motion, there and back if the drive does not turn fully
 
 /** What it is asked. */
 export interface Question {

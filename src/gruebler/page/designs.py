@@ -25,7 +25,7 @@ from gruebler.files import linkage_to_json
 from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.linkage.bodies import CarriedLine
 from gruebler.pictures.linkage.picture import draw_linkage
-from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
+from gruebler.pictures.linkage.posed_linkage import PosedLinkage, drive_rows, posed_linkage
 
 _MOST_DESIGNS = 24
 _COLUMNS = 3  # of a position: x, y, angle
@@ -35,7 +35,7 @@ _FOUR = 4
 _RING = 8.0  # pixels: the radius of the mark of a point
 _ARM = 34.0  # pixels: the arrow of a position
 _CIRCLE = np.exp(2j * np.pi * np.arange(17) / 16)
-_FRAMES = 48  # of a motion, there and back if it does not turn fully
+_FRAMES = 144  # of a motion, there and back if it does not turn fully
 
 
 def task_of(
@@ -124,8 +124,8 @@ def _frames(linkage: Linkage, posed: PosedLinkage) -> dict[str, Any]:
     """Places of joints and points, evenly in time, and which of them each moving link has; lengths of a four-bar."""
     chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
     points = linkage.points
-    places = np.stack([posed.path.point(name) for name in (*chain.joint_names(), *points)], axis=1)
-    places = places[:: max(1, len(places) // _FRAMES)]
+    path = posed.path if posed.cycle is None else posed.cycle.at(drive_rows(posed.cycle, count=_FRAMES), 0)
+    places = np.stack([path.point(name) for name in (*chain.joint_names(), *points)], axis=1)
     rows = places if posed.repeats else np.concatenate([places, places[-2:0:-1]])
     carried = [*(joint.links for joint in chain.joints), *((point.link,) for point in points.values())]
     members = [[k for k, links in enumerate(carried) if link in links] for link in chain.links if link != frame]
