@@ -72,12 +72,13 @@ const own = `
 
 /** Long names that others call, too, above all the browser's own, and that stand in a module again and again. */
 const often = `
-  addEventListener append appendChild changed classList clientWidth describe documentElement dragging
-  drawing drives filter flatMap forEach getAttribute getBoundingClientRect getPropertyValue hasAttribute
-  includes isConnected joints linkage message motion overconstrained pointerId pointerType points
-  preventDefault querySelector querySelectorAll reference_pose removeAttribute replace replaceChildren
-  replaceWith scrollIntoView setAttribute setPointerCapture stopPropagation structure textContent
-  toFixed toLowerCase transport turning unknowns viewport
+  addEventListener append appendChild beside change changed chosen classList clientWidth describe
+  documentElement dragging drawing drives elements filter flatMap forEach getAttribute
+  getBoundingClientRect getPropertyValue hasAttribute includes isConnected joints linkage links message
+  mobility model motion overconstrained pointerId pointerType points preventDefault querySelector
+  querySelectorAll reached reference_pose removeAttribute replace replaceChildren replaceWith screen
+  scrollIntoView setAttribute setPointerCapture stopPropagation structure textContent toFixed
+  toLowerCase transport turning unknowns viewport
 `.match(/\w+/g);
 
 /** These names, and texts that stand there as often, as constants: keys and operands, told by the signs beside them. */

@@ -114,12 +114,15 @@ def space_model(
             lang: {
                 "title": (titles or {}).get(lang) or title(mechanism, lang),
                 "drives": _short(mechanism, names)
-                or [*(drives or {}).get(lang, mechanism.drive_names(Alphabet.of_language(lang)))],
+                or [
+                    name.replace("_", " ")
+                    for name in (drives or {}).get(lang, mechanism.drive_names(Alphabet.of_language(lang)))
+                ],
                 "links": [*names],
                 "words": {key: text.in_language(lang) for key, text in words.items()},
             }
             for lang in LANGUAGES
-            for names in [(links or {}).get(lang, chain.links)]
+            for names in [[name.replace("_", " ") for name in (links or {}).get(lang, chain.links)]]
         },
         "home": home,
         "unit": "" if spherical else linkage.unit,
