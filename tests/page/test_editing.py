@@ -359,11 +359,9 @@ def test_what_was_changed_is_not_called_by_its_old_name(tab, crank_rocker, tmp_p
         return text
 
     assert commands(1).startswith("gruebler analyse crankrocker\n")
-    behind = page.page.locator("header .spring").bounding_box()
     page.drag(page.middle('[data-joint="R(coupler-rocker)"] .joint'), (25, -15))
     assert page.page.locator("header h1").inner_text().endswith(", changed")
     assert page.page.title().startswith("Crank-rocker, changed")
-    assert page.page.locator("header .spring").bounding_box() == behind  # whatever the name
     page.page.locator('[data-panel="sizes"] input').first.focus()  # which keeps other keys for itself
     with page.page.expect_download() as saved:
         page.page.keyboard.press("Control+s")

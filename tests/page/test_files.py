@@ -113,8 +113,11 @@ def dropped(page, name: str, content: bytes) -> None:
 def test_a_file_of_another_program_is_dropped_and_saved_as_dxf(tab, server, tmp_path):
     path = write(BAR.linkage(), tmp_path / "leg.linkage2", left_out=[])
     page = tab(locale="de-DE").open(server.address)
+    chosen = page.page.locator('[data-view="motion"]')
+    place = chosen.bounding_box()
     dropped(page, path.name, path.read_bytes())
     page.until("gruebler.motion.linkage.model.name === 'leg'")
+    assert chosen.bounding_box() == place  # whatever the name
     lengths = page.page.evaluate("gruebler.motion.dragging.lengths().map((one) => one.value)")
     assert sorted(lengths)[-4:] == pytest.approx([25, 40, 70, 70], abs=1e-3)
     panel = page.page.locator('[data-panel="export"]')
