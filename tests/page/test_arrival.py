@@ -72,7 +72,7 @@ def test_a_view_that_waits_says_so(tab, server):
     page.page.evaluate("gruebler.model.send = () => undefined")  # nobody answers
     for view in ("structure", "catalog", "exercises"):
         page.page.click(f'[data-view="{view}"]')
-        page.page.locator(f'[data-page="{view}"] [data-waiting]').wait_for(timeout=2000)
+        page.page.locator(f'[data-page="{view}"] [data-waiting]').first.wait_for(timeout=2000)
 
 
 def test_cards_of_the_catalog_come_to_places_of_their_size(tab, server):
