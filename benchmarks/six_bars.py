@@ -51,7 +51,7 @@ def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 
             tested = trace(search)
             told = f"trace test: {tested.residual:.1e}, without one solution {tested.without_one:.1e}"
             print(f"{told}; {tested.lost} paths lost", flush=True)
-            if tested.residual < LINEAR:
+            if tested.residual < LINEAR and search.alike:
                 print(f"with the arm alone given: {len(with_arm_given(search)[1]):,} finite", flush=True)
                 break
             search.add_way(*search.ways[len(search.ways) % 6][:2])

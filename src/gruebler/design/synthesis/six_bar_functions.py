@@ -161,11 +161,12 @@ def synthesise_six_bars(
 def _how_complete(family: str, starts: StartSet) -> Message:
     """What the trace test says of a start set."""
     return message(
-        "{family}, eight pairs: {listed:,} complex solutions in a general plane; the trace test leaves {residual:.0e} "
-        "of the change of their sum, so none is missing. With the length of the arm given {finite:,} stay finite."
+        "{family}, eight pairs: {listed:,} complex solutions in a general plane, as many in each of four tasks; the "
+        "trace test leaves {residual:.0e} of the change of their sum. All are known. With the length of the arm given "
+        "{finite:,} stay finite."
         if starts.complete
         else "{family}, eight pairs: {listed:,} complex solutions in a general plane are known; the trace test "
-        "leaves {residual:.0e} of the change of their sum, so some may be missing. With the length of the arm given "
+        "leaves {residual:.0e} of the change of their sum. Some may be missing. With the length of the arm given "
         "{finite:,} stay finite.",
         family=family,
         listed=starts.listed,

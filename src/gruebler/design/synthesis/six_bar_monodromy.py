@@ -253,6 +253,11 @@ class Search:
             self.matched = [[stored[f"m{k}_{s}"] for s in (0, 1)] for k in range(len(self.ways))]
             self.lost, self.clashes, self.paths = stored["counts"].tolist()
 
+    @property
+    def alike(self) -> bool:
+        """Whether all tasks have as many solutions, as they must when all are known."""
+        return len({len(z) for z in self.found}) == 1
+
     def __str__(self) -> str:
         counts = ", ".join(f"{len(z):,}" for z in self.found)
         text = f"{self.problem.family}, {self.problem.points + 1} pairs: {counts} solutions; {self.paths:,} paths on "

@@ -20,8 +20,8 @@ from gruebler.design.synthesis.alt_burmester import Problem, sharpened
 from gruebler.design.synthesis.results import Progress
 from gruebler.design.synthesis.six_bar_monodromy import Search, trace, with_arm_given
 
-LISTED = {"Watt II": 19_414, "Stephenson III": 53_980, "Stephenson II": 72_900}
-"""How many six-bars through eight pairs there are in a plane, of Stephenson II about: progress is counted by it."""
+LISTED = {"Watt II": 19_414, "Stephenson III": 53_980, "Stephenson II": 72_430}
+"""How many six-bars through eight pairs there are in a plane: progress is counted by it."""
 LINEAR = 1e-6
 """A sum that is as linear as that is of all."""
 FEW = 500
@@ -45,10 +45,13 @@ class StartSet:
     residual: float
     """What the trace test of that list leaves of the change of its sum."""
 
+    alike: bool
+    """Whether all tasks of the search have as many: a sum hardly tells of a solution that moves almost along a line."""
+
     @property
     def complete(self) -> bool:
-        """Whether the trace test certifies the list."""
-        return self.residual < LINEAR
+        """Whether the trace test and the number of each task say so."""
+        return self.alike and self.residual < LINEAR
 
 
 def eight_pairs(family: str) -> Problem:
@@ -81,7 +84,7 @@ def start_set(family: str, *, threads: int | None = None, progress: Progress | N
 
 def save_start_set(starts: StartSet, file: Path) -> None:
     """The file appears whole."""
-    rows: dict[str, Any] = {name: getattr(starts, name) for name in ("parameters", "z", "listed", "residual")}
+    rows: dict[str, Any] = {name: getattr(starts, name) for name in ("parameters", "z", "listed", "residual", "alike")}
     with atomic_file(file, durable=False) as stream:
         np.savez(stream, **rows)
 
@@ -93,7 +96,8 @@ def _stored(problem: Problem, file: Path) -> StartSet | None:
             parameters, z = kept["parameters"], kept["z"]
             if not sharpened(problem, z, parameters).all():
                 return None
-            return StartSet(parameters=parameters, z=z, listed=int(kept["listed"]), residual=float(kept["residual"]))
+            listed, residual, alike = int(kept["listed"]), float(kept["residual"]), bool(kept["alike"])
+            return StartSet(parameters=parameters, z=z, listed=listed, residual=residual, alike=alike)
     except (OSError, ValueError, KeyError, EOFError, BadZipFile):
         return None
 
@@ -115,7 +119,7 @@ def _listed(problem: Problem, file: Path | None, threads: int | None, progress: 
             search.begin_again()
             continue
         residual = trace(search).residual
-        if residual < LINEAR or len(search.ways) >= _MOST_WAYS:
+        if (residual < LINEAR and search.alike) or len(search.ways) >= _MOST_WAYS:
             break
         search.add_way(*search.ways[len(search.ways) % 6][:2])
     if file is not None:
@@ -123,4 +127,4 @@ def _listed(problem: Problem, file: Path | None, threads: int | None, progress: 
     parameters, z = with_arm_given(search)
     if progress is not None:
         progress(search.followed, search.followed)
-    return StartSet(parameters=parameters, z=z, listed=len(search.found[0]), residual=residual)
+    return StartSet(parameters=parameters, z=z, listed=len(search.found[0]), residual=residual, alike=search.alike)
