@@ -194,11 +194,22 @@ def _masses(linkage: Linkage, loads: Loads) -> list[float]:
 
 
 def _places(linkage: Linkage, link: str) -> list[complex]:
-    """Where a link has its joints and points, each place once."""
-    places = [complex(e.x, e.y) for (_, owner), e in sorted(linkage.elements.items()) if owner == link]
-    places += [complex(point.x, point.y) for point in linkage.points.values() if point.link == link]
+    """Where a link has its joints, each place once; of a link with one joint also its points.
+
+    Of others they are no part: they only draw curves.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> _places(FourBar(25, 70, 40, 70).linkage({"K": (45, 40)}), "coupler")
+    [0j, (70+0j)]
+    """
     near = 1e-9 * linkage.size
-    return [place for k, place in enumerate(places) if all(abs(place - other) > near for other in places[:k])]
+    places: list[complex] = []
+    joints = [complex(e.x, e.y) for (_, owner), e in sorted(linkage.elements.items()) if owner == link]
+    points = [complex(point.x, point.y) for point in linkage.points.values() if point.link == link]
+    for place in [*joints, *points]:
+        if (place in joints or len(places) < 2) and all(abs(place - other) > near for other in places):
+            places.append(place)
+    return places
 
 
 def _assumed(linkage: Linkage) -> list[float]:
