@@ -106,10 +106,10 @@ export function withLink(drawing: Drawing, from: Spot, to: Spot): Drawing {
   return reaching(reaching(drawing, from, name), to, name);
 }
 
-/** Two links with a joint between them. */
+/** Two links with a joint between them, which also takes in what it is put on. */
 export function withDyad(drawing: Drawing, from: Spot, middle: Spot, to: Spot): Drawing {
-  const one = withLink(drawing, from, { ...middle, knot: null, link: null });
-  return withLink(one, { ...middle, knot: one.knots.length - 1, link: null }, to);
+  const one = withLink(drawing, from, middle);
+  return withLink(one, { ...middle, knot: middle.knot ?? one.knots.length - 1, link: null }, to);
 }
 
 /** The ground at a spot: what is there is joined to the frame. */

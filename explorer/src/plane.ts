@@ -34,6 +34,13 @@ export function outlineOf({ drawing, viewport }: Pick<Plane, "drawing" | "viewpo
   return convexHull(mine.map(({ at }) => viewport.screen(...at)));
 }
 
+/** The place on the line through two others that is the nearest to a third. */
+function onLine([x, y]: Pair, [u, v]: Pair, [p, q]: Pair): Pair {
+  const [dx, dy] = [u - x, v - y];
+  const part = ((p - x) * dx + (q - y) * dy) / (dx * dx + dy * dy);
+  return [x + part * dx, y + part * dy];
+}
+
 /** What is at a pixel: a knot, a link, else a place, which snaps and is level or upright if that is wanted; one knot is
  * passed over. */
 export function spotAt(
@@ -59,6 +66,9 @@ export function spotAt(
     else u = last.at[0];
   }
   const link = linksOf(drawing).find((one) => one !== drawing.frame && toHull(outlineOf(plane, one), x, y) < GRIP / 2);
+  const [first, second, more] = pins.filter(({ links }) => links.includes(link!));
+  const bar = but < 0 && second && !more; // it stays one
+  if (bar && snapping && !upright) [u, v] = onLine(first!.at, second.at, [u, v]);
   return { at: [u, v], knot: null, link: link ?? null };
 }
 

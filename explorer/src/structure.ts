@@ -193,7 +193,7 @@ export class StructureView implements View {
           { "data-act": "realise", onclick: () => void this.#realise() },
           t("Find dimensions and move it"),
         ),
-        found.drives ? "" : h("span.note", {}, t("Choose a frame and a drive first.")),
+        found.drives ? "" : h("span.note", {}, t("Frame and drive are chosen for you unless you choose them.")),
       ),
     );
     if (before !== false) for (const scrolled of [this.element, window]) scrolled.scrollBy(0, top() - before);

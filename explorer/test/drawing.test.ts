@@ -52,6 +52,8 @@ test("a four-bar has F = 1, its dyad changes nothing", () => {
   const six = withDyad(drawing, on("2", 30, 60), place(90, 90), on("frame", 120, 0));
   assert.equal(counted(six), 1); // 3(6 - 1) - 2·7: a dyad has no freedom
   assert.equal(linksOf(six).length, 6);
+  const held = withDyad(drawing, on("2", 30, 60), on("3", 65, 20), on("frame", 120, 0));
+  assert.equal(counted(held), -1); // 3(6 - 1) - 2·8: its middle is pinned to the link that it lies on, too
 });
 
 test("a slider-crank", () => {
