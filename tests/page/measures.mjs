@@ -28,7 +28,7 @@ for await (const line of createInterface({ input: createReadStream(process.argv[
       const [u, v] = linkage.jointAt(joint);
       result.missed = Math.hypot(u - x, v - y) / linkage.size;
       model.joints.forEach((_, k) => {
-        if (k === joint || sizes.elementsOf(k).every((m) => model.elements[m].kind !== "pin")) return;
+        if (k === joint || model.elements.every((e) => e.joint !== k || e.kind !== "pin")) return;
         const [a, b] = linkage.jointAt(k);
         result.moved = Math.max(result.moved, Math.hypot(a - before[k][0], b - before[k][1]) / linkage.size);
       });

@@ -173,9 +173,12 @@ def test_from_a_chain_to_a_moving_mechanism(tab, server):
     page = tab().open(server.address)
     view = page.page
     view.click('[data-view="structure"]')
-    view.locator('[data-list="chains"] .card').nth(1).wait_for()
-    assert view.locator('[data-list="chains"] .card').count() == 2
-    view.locator('[data-list="chains"] .card').first.click()
+    view.locator("[data-chain]").wait_for()  # that of the four-bar at hand
+    view.locator('[data-page="structure"] input[type="number"]').first.fill("6")
+    view.locator('[data-page="structure"] input[type="number"]').first.press("Enter")
+    view.locator("[data-chain]").nth(1).wait_for()
+    assert view.locator("[data-chain]").count() == 2
+    view.locator("[data-chain]").first.click()
     view.locator('[data-list="inversions"] .card span:text-is("Watt II")').wait_for()
     # Watt's chain: a ternary or a binary frame, each with two joints that no symmetry exchanges
     frames, drives = (view.locator(f'[data-list="{key}"] .card') for key in ("inversions", "driven"))

@@ -132,7 +132,7 @@ def _frames(linkage: Linkage, posed: PosedLinkage) -> dict[str, Any]:
     digits = 5 - int(np.floor(np.log10(linkage.size)))
     rows = np.round(rows, digits)
     joints = [[k for k, joint in enumerate(chain.joints) if link in joint.links] for link in chain.links]
-    four_bar = chain.n == len(chain.joints) == _FOUR and all(joint.pair.name == "revolute" for joint in chain.joints)
+    four_bar = chain.n == len(chain.joints) == _FOUR and all(joint.pair.is_turning for joint in chain.joints)
     ends = sorted(zip(chain.links, joints, strict=True), key=lambda row: row[0] == frame)  # the frame comes last
     return {
         "frames": rows.tolist(),

@@ -184,7 +184,7 @@ def plain_word(text: str) -> str:
     ('sixbar', 'funfgelenk', 'harts')
     """
     letters = unicodedata.normalize("NFKD", text.casefold())
-    return re.sub(r"[-‐‑–'’]", "", "".join(sign for sign in letters if not unicodedata.combining(sign)))
+    return re.sub(r"[-\u2010\u2011–'’]", "", "".join(sign for sign in letters if not unicodedata.combining(sign)))
 
 
 def searched_text(candidate: Entry) -> str:
@@ -202,7 +202,7 @@ def searched_text(candidate: Entry) -> str:
     parts += [remark.en, remark.de] if remark else []
     parts += [use.in_language(lang) for lang in LANGUAGES]
     parts += [family(mechanism, lang) or "" for lang in LANGUAGES]
-    if chain.n in _NUMBERS and {joint.pair.name for joint in chain.joints} <= {"revolute", "prismatic"}:
+    if chain.n in _NUMBERS and all(joint.pair.is_basic for joint in chain.joints):
         for english, german in (_NUMBERS[chain.n], (str(chain.n), str(chain.n))):
             parts += [f"{english}-bar", f"{german}gelenkgetriebe {german}gliedrig"]
     return plain_word("\n".join(parts))
