@@ -37,15 +37,13 @@ class Module(NamedTuple):
         return HERE / f"{self.name}.wasm.gz"
 
 
+MOTION = ("bars", "closure", "closure_rates", "dyads", "newton", "placing", "plan", "sweep", "swept", "walk")
 MODULES = (
     Module(
         name="motion",
         units=(
             "page/door.cpp",
-            *(
-                f"src/motion/{name}.cpp"
-                for name in ("closure", "closure_rates", "dyads", "newton", "placing", "plan", "sweep", "swept", "walk")
-            ),
+            *(f"src/motion/{name}.cpp" for name in MOTION),
         ),
         exports=("reserve", "run", "unwound"),
         hot="src/motion/sweep.cpp",  # rows of dyads abreast

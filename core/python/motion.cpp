@@ -300,7 +300,7 @@ nb::tuple newton_door(const nb::tuple& conditions, const Room<double, -1>& x, in
     const int n = static_cast<int>(x.shape(0));
     expect(own.equation_count == n, "Newton's method needs as many equations as unknowns");
     LinearRoom room(n);
-    const NewtonEnd end = newton(own.view, x.data(), n, steps, room);
+    const NewtonEnd end = newton(own.view, {own.list.data(), own.view.count, n / 3}, x.data(), n, steps, room);
     return nb::make_tuple(end.steps, end.determinant);
 }
 

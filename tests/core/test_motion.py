@@ -1,5 +1,6 @@
 """The motion kernels: every row against plain Python and print, equal bits from all levels."""
 
+import math
 import signal
 from copy import deepcopy
 from math import cos, sin
@@ -274,14 +275,24 @@ def test_designs_move_as_each_alone(core):
     assert sorted(out.reached) == [0, rows, rows]
 
 
-def test_newtons_method_closes_groups(core):
-    group = conditions([(0, -1, 0, 0j, 1, 0j, 1), (0, 0, 1, 1, 1, 0j, 1), (0, 1, -1, 1, 1, 1.2, 1)])
+DYAD = [(0, -1, 0, 0j, 1, 0j, 1), (0, 0, 1, 1, 1, 0j, 1), (0, 1, -1, 1, 1, 1.2, 1)]
+TRIAD = [  # a triangle on three bars, the last pin of which is said the other way round
+    *((0, -1, k + 1, place, 1, 0j, 1) for k, place in enumerate((0.13 - 0.65j, 2.4 + 0.06j, 0.02 + 1.9j))),
+    *((0, 0, k + 1, corner, 1, 1 + 0.2j, 1) for k, corner in enumerate((0j, 1 + 0j))),
+    (0, 3, 0, 1 + 0.2j, 1, 0.4 + 0.8j, 1),
+]
+
+
+@pytest.mark.parametrize("joined", [DYAD, TRIAD], ids=["dyad", "triangle on bars"])
+def test_newtons_method_closes_groups(core, joined):
+    group = conditions(joined)
     kept = GroupSolver(group)._conditions
+    n = 2 * len(joined)
     random = np.random.default_rng(1)
-    arrived = 0
+    arrived, signs = 0, set()
     for _ in range(50):
-        x = random.normal(size=6)
-        residual, slopes, expected, plain = np.zeros(6), np.zeros((6, 6)), np.zeros(6), np.zeros((6, 6))
+        x = random.normal(size=n)
+        residual, slopes, expected, plain = np.zeros(n), np.zeros((n, n)), np.zeros(n), np.zeros((n, n))
         assert core.closing(kept, x, residual, slopes) == np.abs(residual).max()
         closure.closing(kept, x, expected, plain)
         assert within_an_ulp(residual, expected)
@@ -290,11 +301,13 @@ def test_newtons_method_closes_groups(core):
         if steps > 0:
             arrived += 1
             assert closure.closing(kept, x, expected, plain) < 1e-14
-            assert determinant == pytest.approx(np.linalg.det(plain), rel=1e-6)
-            x += 1e-3 * random.normal(size=6)
+            signs.add(math.copysign(1, determinant * np.linalg.det(plain)))
+            assert abs(determinant) == pytest.approx(abs(np.linalg.det(plain)), rel=1e-6)
+            x += 1e-3 * random.normal(size=n)
             core.close_near_singular(kept, x)
             assert closure.closing(kept, x, expected, plain) < 1e-10
-    assert arrived > 25
+    assert arrived > 9
+    assert len(signs) == 1  # its sign against the whole determinant is that of the group
 
 
 @pytest.mark.parametrize("name", ["crank-rocker", "class III", "cam_roller", "geneva", "belt", "friction_forced"])

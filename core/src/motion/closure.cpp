@@ -16,13 +16,30 @@ bool is_index(double number, double least, double most) {
     return number >= least && number <= most && number == std::floor(number);
 }
 
+// How the bodies are turned: each sine and cosine once, for the first bodies, which are nearly always all.
+class Turns {
+public:
+    Turns(const double* x, int bodies) : x_(x) {
+        for (int b = 0; b < bodies && b < kept; ++b) turns_[b] = unit_vector(x[3 * b + 2]);
+    }
+
+    Complex of(int body) const { return body < kept ? turns_[body] : unit_vector(x_[3 * body + 2]); }
+
+private:
+    static constexpr int kept = 16;
+
+    const double* x_;
+    Complex turns_[kept];
+};
+
 // An element seen from where the unknowns put its body.
 struct Side {
     Complex arm, point, line;
 
-    Side(const ElementJet& element, int body, const double* x) : arm{0, 0}, point(element.point[0]), line(element.line) {
+    Side(const ElementJet& element, int body, const double* x, const Turns& turns)
+        : arm{0, 0}, point(element.point[0]), line(element.line) {
         if (body < 0) return;
-        const Complex turn = unit_vector(x[3 * body + 2]);
+        const Complex turn = turns.of(body);
         arm = turn * point;
         line = turn * line;
         point = arm + Complex{x[3 * body], x[3 * body + 1]};
@@ -93,12 +110,13 @@ LawValue evaluate_law(const Laws& laws, const Law& law, double angle) {
 double closing(const Conditions& conditions, const double* x, int unknowns, double* residual, double* jacobian) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double size = conditions.size;
+    const Turns turns(x, unknowns / 3);
     int row = 0;
     for (int c = 0; c < conditions.count; ++c) {
         const Condition& condition = conditions.list[c];
         const Joint kind = condition.kind;
         const int a = condition.body_a, b = condition.body_b;
-        const Side one(conditions.sides[2 * c], a, x), two(conditions.sides[2 * c + 1], b, x);
+        const Side one(conditions.sides[2 * c], a, x, turns), two(conditions.sides[2 * c + 1], b, x, turns);
         const Complex gap = two.point - one.point;
         double* slopes = jacobian + row * unknowns;
         for (int m = 0; m < equations(kind) * unknowns; ++m) slopes[m] = 0;

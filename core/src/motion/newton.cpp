@@ -1,7 +1,6 @@
 #include "motion/newton.hpp"
 
 #include <cmath>
-#include <utility>
 
 namespace gruebler::motion {
 namespace {
@@ -20,52 +19,15 @@ double scale_of(int unknown, double size) { return unknown % 3 == 2 ? size : 1.0
 
 }  // namespace
 
-double factor(double* matrix, int n, int* pivots) {
-    double determinant = 1;
-    for (int k = 0; k < n; ++k) {
-        double* pivot_row = matrix + k * n;
-        int best = k;
-        for (int i = k + 1; i < n; ++i)
-            if (std::fabs(matrix[i * n + k]) > std::fabs(matrix[best * n + k])) best = i;
-        pivots[k] = best;
-        if (best != k) {
-            determinant = -determinant;
-            for (int m = 0; m < n; ++m) std::swap(pivot_row[m], matrix[best * n + m]);
-        }
-        const double pivot = pivot_row[k];
-        determinant *= pivot;
-        if (pivot == 0) return 0;
-        for (int i = k + 1; i < n; ++i) {
-            double* row = matrix + i * n;
-            if (row[k] == 0) continue;
-            const double share = row[k] / pivot;
-            row[k] = share;
-            for (int m = k + 1; m < n; ++m) row[m] -= share * pivot_row[m];
-        }
-    }
-    return determinant;
-}
-
-void solve_factored(const double* matrix, int n, const int* pivots, double* target) {
-    for (int k = 0; k < n; ++k)
-        if (pivots[k] != k) std::swap(target[k], target[pivots[k]]);
-    for (int k = 0; k < n; ++k)
-        for (int i = k + 1; i < n; ++i) target[i] -= matrix[i * n + k] * target[k];
-    for (int k = n - 1; k >= 0; --k) {
-        for (int m = k + 1; m < n; ++m) target[k] -= matrix[k * n + m] * target[m];
-        target[k] /= matrix[k * n + k];
-    }
-}
-
-NewtonEnd newton(const Conditions& conditions, double* x, int n, int steps, LinearRoom& room) {
+NewtonEnd newton(const Conditions& conditions, const Reduction& reduction, double* x, int n, int steps, LinearRoom& room) {
     double *residual = room.residual.data(), *jacobian = room.jacobian.data();
     const double size = conditions.size;
     for (int step = 0; step < steps; ++step) {
         const double miss = closing(conditions, x, n, residual, jacobian);
         if (!(miss < finite)) return {-1, 0};
-        const double determinant = factor(jacobian, n, room.pivots.data());
+        const double determinant = factor(reduction, n, room);
         if (determinant == 0) return {miss < closed * size ? step : -1, 0};
-        solve_factored(jacobian, n, room.pivots.data(), residual);
+        solve_factored(reduction, n, room, residual);
         double moved = 0;
         for (int k = 0; k < n; ++k) {
             const double way = std::fabs(residual[k]) * scale_of(k, size);
@@ -98,7 +60,7 @@ bool is_singular(const Conditions& conditions, const double* x, int n, bool has_
 }
 
 void close_near_singular(const Conditions& conditions, double* x, int n, LinearRoom& room) {
-    double *residual = room.residual.data(), *jacobian = room.jacobian.data(), *normal = room.normal.data();
+    double *residual = room.residual.data(), *jacobian = room.jacobian.data(), *normal = room.factors.data();
     const double size = conditions.size;
     for (int step = 0; step < damped_steps; ++step) {
         closing(conditions, x, n, residual, jacobian);

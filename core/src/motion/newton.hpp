@@ -1,38 +1,19 @@
-// Newton's method on closing conditions, and the linear equations that it needs.
+// Newton's method on closing conditions.
 #pragma once
 
-#include <vector>
-
+#include "motion/bars.hpp"
 #include "motion/closure.hpp"
 
 namespace gruebler::motion {
 
-// The linear equations of a step, for up to n unknowns.
-struct LinearRoom {
-    std::vector<double> residual;  // (n,)
-    std::vector<double> jacobian;  // (n, n)
-    std::vector<double> normal;    // (n, n) of the damped normal equations
-    std::vector<int> pivots;       // (n,) the row exchanges of `factor`
-
-    explicit LinearRoom(int n)
-        : residual(n), jacobian(static_cast<std::size_t>(n) * n), normal(static_cast<std::size_t>(n) * n), pivots(n) {}
-};
-
-// LU factors in place, with partial pivoting; returns the determinant.
-double factor(double* matrix, int n, int* pivots);
-
-// Solves in place with the factors of `factor`.
-void solve_factored(const double* matrix, int n, const int* pivots, double* target);
-
 struct NewtonEnd {
-    int steps;  // -1: no convergence
-    double determinant;
+    int steps;           // -1: no convergence
+    double determinant;  // before the last step, as `factor` has it
 };
 
 // Changes the n unknowns in place; there are as many equations. It stops when a step is so small that the next would be below
-// rounding (at a singular position, where steps only halve, the residual is). The Jacobian is left factored as it was before
-// the last step.
-NewtonEnd newton(const Conditions& conditions, double* x, int n, int steps, LinearRoom& room);
+// rounding (at a singular position, where steps only halve, the residual is).
+NewtonEnd newton(const Conditions& conditions, const Reduction& reduction, double* x, int n, int steps, LinearRoom& room);
 
 // Whether a position that Newton's method has left (arrived, or not, but with the conditions satisfied) is singular: of the
 // Jacobian, its rows and angles scaled, a pivot vanishes but for what a position is off there, the root of rounding.

@@ -55,6 +55,12 @@ Placing::Placing(const Plan& plan, int link_count)
     trial = {0, std::vector<double>(plan.dyad_count), std::vector<double>(plan.unknown_count),
              std::vector<double>(plan.group_count)};
     for (Remembered& one : last) one = trial;
+    reductions_.reserve(plan.group_count);
+    for (int g = 0; g < plan.group_count; ++g) {
+        const Group& group = plan.groups[g];
+        set_conditions(group);
+        reductions_.emplace_back(conditions_.data(), conditions_of(group), bodies_of(group));
+    }
     for (int o = 0; o < plan.operation_count; ++o) {
         const Operation& operation = plan.operations[o];
         if (operation.kind >= Kind::rrr && operation.kind < Kind::group) operation_of_[operation.number] = o;
@@ -267,14 +273,16 @@ bool Placing::wind(const Group& group) {
 }
 
 // In a singular place the rates of the bodies are not known.
-void Placing::set_group_rates(const Group& group, const Conditions& conditions, int order, bool known) {
+void Placing::set_group_rates(int number, const Conditions& conditions, int order, bool known) {
+    const Group& group = plan_.groups[number];
+    const Reduction& reduction = reductions_[number];
     const int bodies = bodies_of(group), n = 3 * bodies;
     double* target = room_.residual.data();
     closing(conditions, trial.unknowns.data() + 3 * group.first_body, n, target, room_.jacobian.data());
-    factor(room_.jacobian.data(), n, room_.pivots.data());
+    factor(reduction, n, room_);
     for (int k = 1; k <= order; ++k) {
         closing_rates(k, conditions, bodies_.data(), target);
-        solve_factored(room_.jacobian.data(), n, room_.pivots.data(), target);
+        solve_factored(reduction, n, room_, target);
         for (int b = 0; b < bodies; ++b) {
             bodies_[b].place[k] = {target[3 * b], target[3 * b + 1]};
             bodies_[b].rate[k - 1] = known ? target[3 * b + 2] : not_a_number;
@@ -302,7 +310,7 @@ bool Placing::place_group(int number, int order, double at) {
     if (in_it) {
         close_near_singular(conditions, x, n, room_);
     } else {
-        NewtonEnd end = newton(conditions, x, n, newton_steps, room_);
+        NewtonEnd end = newton(conditions, reductions_[number], x, n, newton_steps, room_);
         if (filled == 0 && is_singular(conditions, x, n, end.steps >= 0, room_)) end = {0, 0};
         trial.determinants[number] = end.determinant;
         if (end.steps < 0) return false;
@@ -310,7 +318,7 @@ bool Placing::place_group(int number, int order, double at) {
     }
     if (!wind(group)) return false;
     for (int b = 0; b < bodies; ++b) bodies_[b] = {{{x[3 * b], x[3 * b + 1]}}, unit_vector(x[3 * b + 2]), {}};
-    if (order > 0) set_group_rates(group, conditions, order, !in_it && trial.determinants[number] != 0);
+    if (order > 0) set_group_rates(number, conditions, order, !in_it && trial.determinants[number] != 0);
     for (int b = 0; b < bodies; ++b) {
         BodyJet& link = links[plan_.roots[group.first_body + b]];
         link.turn = bodies_[b].turn;
@@ -359,17 +367,15 @@ double Placing::stopped_square(int number) const {
 }
 
 void Placing::forget() {
-    copy(last[1], last[0]);
-    copy(last[2], last[1]);
+    for (int k = 1; k < filled; ++k) copy(last[k], last[k - 1]);
     --filled;
 }
 
 void Placing::accept(double at) {
     trial.at = at;
-    copy(last[1], last[2]);
-    copy(last[0], last[1]);
+    for (int k = 3; k > 0; --k) copy(last[k - 1], last[k]);
     copy(trial, last[0]);
-    filled = std::min(filled + 1, 3);
+    filled = std::min(filled + 1, 4);
     const double past = last[1].at;
     if ((last[0].at - past) * (past - last[2].at) <= 0) filled = std::min(filled, 2);  // turned back: two may be one
     for (std::size_t number = 0; number < dyads.size(); ++number) {

@@ -78,7 +78,7 @@ public:
     std::vector<std::int64_t> whole_turns;
     std::vector<double> signs;          // (dyads,) of the roots, from here on
     std::vector<DyadMemory> dyads;
-    Remembered last[3];  // newest first
+    Remembered last[4];  // newest first: three to go on from, and one more for when the newest is forgotten
     Remembered trial;
     int filled = 0;      // how many of the last poses there are
     int which = 0;       // the dyad or group that spoils the trial
@@ -97,6 +97,7 @@ private:
     std::vector<Condition> conditions_;
     std::vector<BodyJet> bodies_;
     std::vector<double> predicted_;
+    std::vector<Reduction> reductions_;  // (groups,)
     LinearRoom room_;
 
     void move_drive(const Operation& operation, int order);
@@ -109,7 +110,7 @@ private:
     bool is_within_reach(int number, double at) const;
     bool is_expected(const Group& group, int number) const;
     bool wind(const Group& group);
-    void set_group_rates(const Group& group, const Conditions& conditions, int order, bool known);
+    void set_group_rates(int number, const Conditions& conditions, int order, bool known);
 };
 
 }  // namespace gruebler::motion

@@ -201,12 +201,12 @@ Walk::Reached Walk::walk_to(std::int64_t row, Pace pace, Watch& watch) {
     const double target = static_cast<double>(row);
     placing_.unit = unit(row);
     const double longest = smaller(1, placing_.unit);
-    double at = placing_.last[0].at, fault = pace.fault;
     double step = smaller(pace.step, longest);  // measured in rows, and this row may be longer than the last one
     if (!remember(row)) {
         placing_.filled = 1;
         step = smaller(step, first_step * placing_.unit * least_root());
     }
+    double at = placing_.last[0].at, fault = pace.fault;
     const auto ended = [&](End end, int number) { return Reached{end, at, {step, fault}, number}; };
     const std::int64_t cost =
         operation_steps * placing_.plan().operation_count + unknown_steps * placing_.plan().unknown_count;

@@ -5,6 +5,7 @@ import pytest
 
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics import move
+from tests.samples import parallel_legs
 
 KITES = [(1.0, 2.0, 2.0, 1.0), (2.0, 1.0, 1.0, 2.0)]
 
@@ -95,3 +96,15 @@ def test_rows_beside_a_limit_have_the_rates_of_the_closed_form(which):
     assert motion.unbounded == ()
     rates = four_bar.motion(phi[: len(motion)], branch="+").output.velocity
     assert motion.angular("rocker") == pytest.approx(rates, rel=1e-8, abs=1e-9)
+
+
+@pytest.mark.parametrize("behind", [6e-7, 3e-6, 6.1e-6, 1e-5])
+@pytest.mark.parametrize("gap", [1e-4, 5e-4, 2e-3])
+@pytest.mark.parametrize("before", [0.01, 0.04, 0.07])
+def test_rows_close_behind_a_change_point_of_a_larger_group(behind, gap, before):
+    """All cranks are equal and parallel, so that the plate only shifts."""
+    row = np.pi + behind
+    path = [*np.linspace(0.93, np.pi - before, 40), row, row + gap, row + 3 * gap, 4.0]
+    motion = move(parallel_legs(), path, order=0)
+    assert motion.complete
+    assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-8
