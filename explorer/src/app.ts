@@ -3,6 +3,7 @@
 import { BuildView } from "./build";
 import { CatalogView } from "./catalog";
 import { h, renew } from "./dom";
+import type { Drawing } from "./drawing";
 import { ExercisesView } from "./exercises";
 import { saveDocument, showExport } from "./export";
 import { languageMenu, saving, sayIn, tabs, viewNames } from "./header";
@@ -210,6 +211,8 @@ export class App implements Page {
 
   /** The name of the mechanism in the language of the page. */
   get #name(): string {
+    const own = this.views[this.view]?.title;
+    if (own) return own;
     const name = this.motion.linkage?.title ?? "";
     return name && this.motion.changed ? t("{name}, changed", { name }) : name;
   }
@@ -238,7 +241,7 @@ export class App implements Page {
       tool("redo", t("Redo"), () => this.#undoing.redo?.(), !forth),
       file,
       tool("open", t("Open a file"), () => file.click()),
-      saving(() => showExport(this.root, this, this.motion), this.view !== "motion"),
+      saving(() => this.#save(() => showExport(this.root, this, this.motion))),
       tool("link", t("Copy the link"), () => void this.share()),
       tool("theme", t("Light or dark"), () => {
         this.setTheme(this.host.dataset.theme === "dark" ? "light" : "dark");
@@ -355,6 +358,11 @@ export class App implements Page {
 
   // --- files ---------------------------------------------------------------------------------------------------------
 
+  #draw(drawing: Drawing): void {
+    this.#turnTo("build");
+    (this.#viewOf("build") as BuildView).begin(drawing);
+  }
+
   async openFile(file: File | undefined): Promise<void> {
     if (!file) return;
     this.say(t("Opening {name} …", { name: file.name }), "done", h("progress", { "aria-hidden": "true" }));
@@ -363,6 +371,7 @@ export class App implements Page {
       this.say("");
       if (found.document) this.motion.openDocument(found.document);
       else if (found.model) this.open(found.model);
+      else if (found.drawing) this.#draw(found.drawing);
       else if (found.text) this.describe(found.text);
       else if (found.points) {
         (this.#viewOf("synthesis") as SynthesisView).take(found.points, found.closed ?? false, found.order);
@@ -374,12 +383,19 @@ export class App implements Page {
     }
   }
 
+  /** What the view shows is saved by itself, else the machine at hand. */
+  #save(machine: () => void): void {
+    const view = this.views[this.view];
+    if (view?.save) view.save();
+    else machine();
+  }
+
   // --- keys ----------------------------------------------------------------------------------------------------------
 
   #saveKey(event: KeyboardEvent): void {
-    if (!(event.ctrlKey || event.metaKey) || event.key !== "s" || this.view !== "motion") return;
+    if (!(event.ctrlKey || event.metaKey) || event.key !== "s") return;
     event.preventDefault();
-    saveDocument(this, this.motion);
+    this.#save(() => saveDocument(this, this.motion));
   }
 
   #key(event: KeyboardEvent): void {

@@ -20,7 +20,8 @@ import {
 import { Fingers, pixelIn, wheelZooms, whileDown } from "./fingers";
 import { stepOf } from "./grid";
 import { History } from "./history";
-import { keepDrawing, keptDrawing } from "./kept";
+import { away } from "./hull";
+import { keepDrawing, keptDrawing, saveDrawing } from "./kept";
 import { t } from "./language";
 import { type Drawn, MobilityPanel } from "./mobility";
 import type { Model } from "./model";
@@ -46,6 +47,8 @@ export class BuildView implements View, Plane, Drawn {
   cursor: Pair = [0, 0];
   aim: Aim = "here";
   #snapping = true;
+  /** Whether the spot that waits is the end of the last link. */
+  #goingOn = false;
   readonly #fingers = new Fingers();
   /** What was there when the first finger came. */
   #begun: [Drawing, Spot[]] = [EMPTY, []];
@@ -220,8 +223,12 @@ export class BuildView implements View, Plane, Drawn {
 
   /** What a click, a tap or Enter does at a place. */
   #put(spot: Spot): void {
-    const { drawing, spots } = this;
+    const { drawing } = this;
     const tool = this.#tool;
+    const [held] = this.spots;
+    if (this.#goingOn && held && joinsBoth(drawing, held, spot)) this.spots = []; // another link begins there
+    this.#goingOn = false;
+    const { spots } = this;
     spots.push(spot);
     if (this.aim === "aiming") this.aim = "here";
     if (spots.length < NEEDED[tool]) return this.#draw();
@@ -231,9 +238,43 @@ export class BuildView implements View, Plane, Drawn {
     else if (tool === "slider") this.change(withSlider(drawing, one));
     else if (tool === "gears") this.change(same(one, two) ? null : withGears(drawing, one, two, three.at));
     else if (tool === "cylinder") this.change(same(one, two) ? null : withCylinder(drawing, one, two));
-    else if (tool === "link") this.change(same(one, two) ? null : withLink(drawing, one, two));
-    else if (tool === "dyad")
+    else if (tool === "link") {
+      this.change(same(one, two) ? null : withLink(drawing, one, two));
+      if (two.knot === null && two.link === null) this.#goOn(two.at);
+    } else if (tool === "dyad")
       this.change(same(one, two) || same(two, three) ? null : withDyad(drawing, one, two, three));
+  }
+
+  /** The next link begins where the last one ends. */
+  #goOn(at: Pair): void {
+    const knot = this.drawing.knots.findIndex((one) => one.at === at);
+    if (knot < 0) return;
+    this.spots = [{ at, knot, link: null }];
+    this.#goingOn = true;
+    this.#draw();
+  }
+
+  /** A press puts a place; where the pointer is let go elsewhere the next one is put, too. */
+  #pull(spot: Spot, event: PointerEvent): void {
+    const at = pixelIn(this.root, event);
+    const again = this.spots.length === 1 && same(this.spots[0]!, spot);
+    if (!again) this.#put(spot);
+    if (this.spots.length !== 1 || (this.#goingOn && !again)) return;
+    const waiting = this.spots;
+    this.root.setPointerCapture(event.pointerId);
+    const stop = whileDown(
+      this.root,
+      () => {},
+      (next) => {
+        stop();
+        if (this.spots !== waiting || next.type !== "pointerup") return;
+        const end = pixelIn(this.root, next);
+        if (away(at, ...end) > GRIP) this.#put(this.#spot(end, next.shiftKey));
+        else if (this.#goingOn || !again) this.#goingOn = false;
+        else this.spots = [];
+        this.#draw();
+      },
+    );
   }
 
   // --- the pointer ---------------------------------------------------------------------------------------------------
@@ -264,7 +305,7 @@ export class BuildView implements View, Plane, Drawn {
     if (this.#fingers.count > 1) return this.#takeBack();
     this.#begun = [this.drawing, [...this.spots]];
     const spot = this.#spot(pixelIn(this.root, event), event.shiftKey);
-    if (this.#tool !== "move") return this.#put(spot);
+    if (this.#tool !== "move") return this.#pull(spot, event);
     const before = this.drawing;
     const { picture } = before;
     let last = pixelIn(this.root, event);
@@ -349,6 +390,14 @@ export class BuildView implements View, Plane, Drawn {
     renew(this.#choice, ...choiceOf(this));
   }
 
+  get title(): string {
+    return this.drawing.title ?? t("New drawing");
+  }
+
+  save(): void {
+    saveDrawing(this.page, this.drawing, this.title);
+  }
+
   async move(): Promise<void> {
     try {
       const { title } = this.drawing;
@@ -363,4 +412,10 @@ export class BuildView implements View, Plane, Drawn {
 
 function same(one: Spot, two: Spot): boolean {
   return one.at[0] === two.at[0] && one.at[1] === two.at[1];
+}
+
+/** Whether one link joins two spots. */
+function joinsBoth({ knots }: Drawing, one: Spot, two: Spot): boolean {
+  const linksAt = ({ knot }: Spot) => (knot === null ? [] : knots[knot]!.links);
+  return linksAt(one).some((link) => linksAt(two).includes(link));
 }

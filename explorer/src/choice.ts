@@ -27,7 +27,7 @@ export function choiceOf(view: Changing): HTMLElement[] {
     h("button.plain", { "data-act": key, onclick: act }, text);
   const removing = button("remove", t("Remove"), () => removeChosen(view));
   const note = (text: string) => h("p.note", {}, text);
-  if (!chosen) return [note(t("Nothing. Take Move and click on a joint or a link."))];
+  if (!chosen) return [note(t("Nothing yet: take Move and choose a joint or a link."))];
   if ("picture" in chosen) {
     const how = t("The picture: drag it; its corner sizes it, the grip on its side turns it.");
     return [note(how), h("div.form", {}, removing)];

@@ -37,7 +37,12 @@ export function tabs(keys: string[], chosen: string, turnTo: (key: string) => vo
   };
   const tab = (key: string) => {
     const here = key === chosen;
-    const state = { tabindex: here ? 0 : -1, "data-view": key, "aria-selected": String(here) };
+    const state = {
+      tabindex: here ? 0 : -1,
+      "data-view": key,
+      "data-text": names[key]!,
+      "aria-selected": String(here),
+    };
     return h("button", { role: "tab", ...state, onclick: () => turnTo(key) }, names[key]!);
   };
   const list = h("nav", { role: "tablist", onkeydown: step }, ...keys.map(tab));
@@ -74,8 +79,8 @@ export function sayIn(place: HTMLElement, text: string, kind: "error" | "done", 
 }
 
 /** The button of what can be taken away, on a wide page with its word. */
-export function saving(show: () => void, disabled: boolean): HTMLElement {
-  const button = tool("save", t("Save and export"), show, disabled);
+export function saving(show: () => void): HTMLElement {
+  const button = tool("save", t("Save and export"), show);
   button.append(h("span.letter", {}, t("Save")));
   return button;
 }

@@ -1,8 +1,11 @@
 /** What can be undone, and what was drawn, kept for the same page when it is loaded again. */
 
 import { type Drawing, EMPTY } from "./drawing";
+import { download } from "./export";
+import { t } from "./language";
 import { chainText, type Model } from "./model";
 import type { Snapshot } from "./snapshot";
+import type { Page } from "./view";
 
 const KEPT = "gruebler-undo";
 const MOST = 40; // changes
@@ -41,11 +44,27 @@ export function keepDrawing(drawing: Drawing): void {
   }
 }
 
+/** Save a drawing as it is opened again, and say under which name. */
+export function saveDrawing(page: Page, drawing: Drawing, title: string): void {
+  const name = `${title.replace(/[^\p{L}\d-]+/gu, "_")}.json`;
+  download(name, new Blob([JSON.stringify(drawing, null, 1)], { type: "application/json" }));
+  page.say(t("Saved: {name}. What moves is exported from Motion.", { name }), "done");
+}
+
+/** The drawing of a text, if it is one. */
+export function drawingFrom(text: string): Drawing | null {
+  try {
+    const found = JSON.parse(text) as Drawing | null;
+    return found && Array.isArray(found.knots) && Array.isArray(found.drives) ? found : null;
+  } catch {
+    return null;
+  }
+}
+
 /** The drawing that was kept when the page was left. */
 export function keptDrawing(): Drawing {
   try {
-    const found = JSON.parse(localStorage.getItem(DRAWING) ?? "null") as Drawing | null;
-    return found && Array.isArray(found.knots) && Array.isArray(found.drives) ? found : EMPTY;
+    return drawingFrom(localStorage.getItem(DRAWING) ?? "") ?? EMPTY;
   } catch {
     return EMPTY;
   }

@@ -1,5 +1,7 @@
 /** What a file holds: the library reads every format, a page alone its own mechanism in JSON. */
 
+import type { Drawing } from "./drawing";
+import { drawingFrom } from "./kept";
 import { t } from "./language";
 import type { LinkageDocument, Model } from "./model";
 import { isOf } from "./sharing";
@@ -11,6 +13,7 @@ interface Content {
   /** The mechanism that is shown, with other sizes. */
   document?: LinkageDocument;
   model?: Model;
+  drawing?: Drawing;
   text?: string;
   points?: [number, number][];
   closed?: boolean;
@@ -21,6 +24,8 @@ interface Content {
 
 export async function contentOf(file: File, page: Page): Promise<Content> {
   if (file.size > LARGEST) throw new Error(t("The file {name} is too large for the page.", { name: file.name }));
+  const drawing = /\.json$/i.test(file.name) && page.served ? drawingFrom(await file.text()) : null;
+  if (drawing) return { drawing };
   if (page.served) {
     const bytes = new Uint8Array(await file.arrayBuffer());
     const base64 = btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));

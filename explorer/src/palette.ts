@@ -1,6 +1,7 @@
 /** The tools with which is drawn: their names and keys, what each asks for. */
 
 import { h } from "./dom";
+import { type Icon, icon } from "./icons";
 import { t } from "./language";
 
 export type Tool = "move" | "ground" | "link" | "slider" | "dyad" | "cylinder" | "gears";
@@ -16,6 +17,16 @@ export const KEYS: Record<string, Tool> = {
   d: "dyad",
   c: "cylinder",
   w: "gears",
+};
+
+const ICONS: Record<Tool, Icon> = {
+  move: "arrow",
+  ground: "ground",
+  link: "bar",
+  slider: "slider",
+  dyad: "dyad",
+  cylinder: "cylinder",
+  gears: "gears",
 };
 
 function nameOf(tool: Tool): string {
@@ -42,6 +53,7 @@ export function palette(chosen: Tool, take: (tool: Tool) => void): HTMLElement[]
         "aria-pressed": String(key === chosen),
         onclick: () => take(key),
       },
+      icon(ICONS[key]),
       nameOf(key),
       h("span.letter.keys", {}, ` (${letter.toUpperCase()})`),
     ),
@@ -50,15 +62,15 @@ export function palette(chosen: Tool, take: (tool: Tool) => void): HTMLElement[]
 
 /** What is to be done with a tool. */
 export function hintOf(tool: Tool): (Node | string)[] {
-  const ends = t("Two clicks, from end to end.");
   const hints: Record<Tool, string> = {
-    move: t("Drag joints; click on a joint or a link to choose it."),
-    ground: t("A click puts it, on a joint too."),
-    slider: t("A click puts it, on a joint too."),
-    link: ends,
-    cylinder: ends,
-    dyad: t("Three clicks: end, middle, end."),
-    gears: t("Three clicks: both centres, then where they touch; beyond a centre the other wheel has internal teeth."),
+    move: t("Drag joints; choose a joint or a link to change it."),
+    ground: t("Place it, on a joint too."),
+    slider: t("Place it, on a joint too."),
+    link: t("Place joint after joint, or drag from end to end. A joint that is there already ends the row."),
+    cylinder: t("Place both ends, or drag from end to end."),
+    dyad: t("Place an end, the middle, the other end."),
+    gears: t("Place both centres, then where they touch; beyond a centre the other wheel has internal teeth."),
   };
-  return [h("b", {}, nameOf(tool)), " ", hints[tool]];
+  const ending = tool === "link" ? [h("span.keys", {}, " ", t("So does Esc."))] : [];
+  return [h("b", {}, nameOf(tool)), " ", hints[tool], ...ending];
 }

@@ -10,6 +10,9 @@ export interface View {
   arrange(): void;
   /** It has come to sight. */
   appeared?(): void;
+  /** What it shows in place of the machine at hand: its name, and how it is saved. */
+  readonly title?: string;
+  save?(): void;
   /** What it undoes by itself. */
   readonly undoable?: [boolean, boolean];
   undo?(): void;

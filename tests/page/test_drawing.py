@@ -1,5 +1,6 @@
 """A mechanism is drawn on an empty plane in a browser, and what is said of it while it grows."""
 
+import itertools
 import json
 import math
 
@@ -251,10 +252,50 @@ def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
     view.evaluate("localStorage.clear()")
 
 
+def test_links_are_drawn_in_a_row_or_by_dragging_and_the_drawing_is_saved(plane, tmp_path):
+    view = plane.page
+    view.click('[data-tool="link"]')
+    screen = "gruebler.views.build.viewport.screen"
+    corners = [(0, 0), (0, 20), (60, 40), (70, 0)]
+    box = view.locator(".drawing").bounding_box()
+    pixels = [(box["x"] + u, box["y"] + v) for u, v in (view.evaluate(f"{screen}({x}, {y})") for x, y in corners)]
+    for start, end in itertools.pairwise(pixels):  # as fast as it goes
+        view.mouse.move(*start)
+        view.mouse.down()
+        view.mouse.move(*end)
+        view.mouse.up()
+    drawn = "gruebler.views.build.drawing.knots.map((knot) => [knot.links.join('-'), knot.at])"
+    row = [["1", [0, 0]], ["1-2", [0, 20]], ["2-3", [60, 40]], ["3", [70, 0]]]
+    assert view.evaluate(drawn) == row
+    view.click('[data-act="empty"]')
+    view.click('[data-tool="link"]')
+    click(plane, *corners)
+    assert view.evaluate(drawn) == row
+    click(plane, (60, 40), (30, 60))  # not a second link between the joints of link 3, but another one away from it
+    assert view.evaluate(drawn) == [*row[:2], ["2-3-4", [60, 40]], row[3], ["4", [30, 60]]]
+    click(plane, (0, 0), (-30, 20))  # the row ends in a joint that was there
+    assert view.evaluate(drawn)[0] == ["1-5", [0, 0]]
+    assert view.evaluate(drawn)[4:] == [["4-5", [30, 60]]]
+    assert view.locator("h1 small").inner_text() == "New drawing"
+    kept = view.evaluate("JSON.stringify(gruebler.views.build.drawing)")
+    with view.expect_download() as saved:
+        view.click('[data-icon="save"]')
+    assert saved.value.suggested_filename == "New_drawing.json"
+    saved.value.save_as(tmp_path / "drawing.json")
+    view.click('[data-act="empty"]')
+    view.click('[data-view="motion"]')
+    view.locator("header input[type=file]").set_input_files(tmp_path / "drawing.json")
+    plane.until("gruebler.view === 'build' && gruebler.views.build.drawing.knots.length")
+    assert view.evaluate("JSON.stringify(gruebler.views.build.drawing)") == kept
+    view.evaluate("localStorage.clear()")
+
+
 def test_joints_are_joined_split_named_and_removed(plane):
     view = plane.page
     view.click('[data-tool="link"]')
-    click(plane, (0, 0), (40, 0), (60, 20), (100, 20))
+    click(plane, (0, 0), (40, 0))
+    view.keyboard.press("Escape")  # else the next link begins there
+    click(plane, (60, 20), (100, 20))
     view.keyboard.press("v")
     screen = "gruebler.views.build.viewport.screen"
     (x, y), (u, v) = view.evaluate(f"[{screen}(60, 20), {screen}(40, 0)]")

@@ -290,7 +290,7 @@ def test_tools_of_a_phone_stand_in_one_row(tab, server):
     assert palette.evaluate("(e) => e.scrollWidth > e.clientWidth")  # the last ones are reached by a swipe
     page.page.locator('[data-tool="gears"]').click()
     hint = page.page.locator("[data-page] .hint, .drawing + .hint").first
-    assert hint.inner_text().startswith("Zahnradpaar Drei Klicks")
+    assert hint.inner_text().startswith("Zahnradpaar Beide Mitten")
     last = page.page.locator('[data-tool="gears"]').bounding_box()
     assert last["x"] + last["width"] <= 390  # it stays in sight when it is chosen
 
@@ -309,7 +309,7 @@ def test_a_machine_that_moves_by_its_dimensions_says_so_beside_the_count(tab, se
     page.page.click('[data-view="catalog"]')
     card = page.page.locator('.card[data-id="sarrus"]')
     card.wait_for(timeout=60_000)
-    assert "6 links, F = 0 · F = 1 by special dimensions" in card.inner_text()
+    assert "6 links, F = 1, by the count 0" in card.inner_text()
     assert "special" not in page.page.locator('.card[data-id="crankrocker"]').inner_text()
 
 
