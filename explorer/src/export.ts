@@ -48,45 +48,48 @@ const kinds = new Map<string, Promise<{ name: string; title: string }[]>>();
 
 /** Show the sheet over the page until something of it is taken. */
 export function showExport(root: HTMLElement, page: Page, shown: Exported): void {
-  const dialog = showOver(root, t("Save and export"), ...groupsOf(page, shown));
+  const told = h("p.told", { role: "status" });
+  const say = (text: string) => told.replaceChildren(text);
+  const dialog = showOver(root, t("Save and export"), told, ...groupsOf(page, shown, say));
   dialog.dataset.panel = "export";
   dialog.addEventListener("click", ({ target }) => {
-    if (target === dialog || (target as Element).closest("button")) dialog.close();
+    if (target === dialog || (target as Element).matches('[data-act="share"]')) dialog.close();
   });
 }
 
+type Say = (text: string) => void;
+
 /** Save the linkage as it is opened again, and say under which name. */
-export function saveDocument(page: Page, shown: Exported): void {
-  save(page, "json", "application/json", JSON.stringify(shown.document(), null, 1));
-  page.say(t("Saved: {name}", { name: `${stemOf(page)}.json` }), "done");
+export function saveDocument(page: Page, shown: Exported, say: Say = (text) => page.say(text, "done")): void {
+  save(page, say, "json", "application/json", JSON.stringify(shown.document(), null, 1));
 }
 
 function stemOf({ shown }: Page): string {
   return (shown.source || shown.name || "linkage").replace(/[^\w-]+/g, "_");
 }
 
-function save(page: Page, suffix: string, type: string, content: string | Blob): void {
-  download(`${stemOf(page)}.${suffix}`, content instanceof Blob ? content : new Blob([content], { type }));
+function save(page: Page, say: Say, suffix: string, type: string, content: string | Blob, note = ""): void {
+  const name = `${stemOf(page)}.${suffix}`;
+  download(name, content instanceof Blob ? content : new Blob([content], { type }));
+  say(`${t("Saved: {name}", { name })}. ${note}`);
 }
 
-function groupsOf(page: Page, shown: Exported): (Node | null)[] {
+function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
   const button = (text: string, act: () => void) => h("button.plain", { onclick: act }, text);
-  const failed = (error: Error) => page.say(error.message);
+  const failed = (error: Error) => say(error.message);
   const ask = (kind: string, more: Record<string, unknown> = {}) => {
     page
       .ask<Saved>("export", { document: shown.document(), kind, name: page.shown.name, ...more })
       .then(({ base64, type, ending, note }) => {
         const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-        save(page, ending?.slice(1) ?? kind, type, new Blob([bytes], { type }));
-        if (note) page.say(note, "done");
+        save(page, say, ending?.slice(1) ?? kind, type, new Blob([bytes], { type }), note);
       }, failed);
   };
   const recorded = filmType();
   const record = async () => {
-    page.say(t("The film is being recorded …"), "done");
+    say(t("The film is being recorded …"));
     const blob = await film(shown.pictures(), choice.width, recorded!);
-    save(page, recorded!.startsWith("video/mp4") ? "mp4" : "webm", recorded!, blob);
-    page.say("");
+    save(page, say, recorded!.startsWith("video/mp4") ? "mp4" : "webm", recorded!, blob);
   };
   const gif = () => ask("gif", { zoom: Math.min(LARGEST_ZOOM, choice.width / GIF_WIDTH) });
   const width = h(
@@ -102,20 +105,20 @@ function groupsOf(page: Page, shown: Exported): (Node | null)[] {
     group(
       t("Continue here"),
       t("Opens here again; Ctrl S"),
-      button("JSON", () => saveDocument(page, shown)),
+      button("JSON", () => saveDocument(page, shown, say)),
       served("TOML"),
     ),
     group(
       t("For others"),
       "",
-      button(t("Copy the link"), () => void page.share()),
+      h("button.plain", { "data-act": "share", onclick: () => void page.share() }, t("Copy the link")),
       served("HTML"),
     ),
     group(
       t("Picture"),
       t("PNG: twice as large as on the screen"),
-      button("PNG", () => void png(shown.picture()).then((blob) => save(page, "png", "image/png", blob), failed)),
-      button("SVG", () => save(page, "svg", "image/svg+xml", shown.picture())),
+      button("PNG", () => void png(shown.picture()).then((blob) => save(page, say, "png", "image/png", blob), failed)),
+      button("SVG", () => save(page, say, "svg", "image/svg+xml", shown.picture())),
       served("PDF"),
     ),
     group(
@@ -134,7 +137,7 @@ function groupsOf(page: Page, shown: Exported): (Node | null)[] {
     group(
       t("Data"),
       t("CSV: the motion, a row for each position"),
-      button("CSV", () => save(page, "csv", "text/csv", shown.table())),
+      button("CSV", () => save(page, say, "csv", "text/csv", shown.table())),
     ),
     ...(page.served ? [group(t("Other programs"), "", ...programs(page, ask))] : []),
   ];
