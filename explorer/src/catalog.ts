@@ -34,6 +34,7 @@ export class CatalogView implements View {
   #joints = "";
   #features: Record<string, string> = {};
   #refining = false;
+  #byLinks = false;
   readonly #cards = h("div.cards", { "data-list": "catalog" });
   readonly #note = h("p.note", { role: "status" }, "\u00a0"); // as high as its text
   #typing = 0;
@@ -78,7 +79,7 @@ export class CatalogView implements View {
     const more = h(
       "details",
       { open: this.#refining, "data-panel": "features", ontoggle: () => (this.#refining = more.open) },
-      h("summary", {}, t("Access features")),
+      h("summary", {}, t("More features")),
       h(
         "div.form.numbers",
         {},
@@ -91,6 +92,19 @@ export class CatalogView implements View {
         feature("ternary", t("Ternary links")),
         feature("multiple_joints", t("Multiple joints")),
         field(t("Joints by type"), this.#joints, (text) => (this.#joints = text), t("R:4,P:0"), "joints"),
+      ),
+    );
+    const order = h(
+      "select",
+      {
+        "data-field": "order",
+        onchange: () => {
+          this.#byLinks = order.selectedIndex > 0;
+          void this.#search();
+        },
+      },
+      ...[t("by name"), t("by number of links")].map((text, k) =>
+        h("option", { selected: !!k === this.#byLinks }, text),
       ),
     );
     const kinds: [string, string][] = [
@@ -118,8 +132,9 @@ export class CatalogView implements View {
           "div.form",
           {},
           field(t("Words"), this.#words, (text) => (this.#words = text), t("crank, six-bar, …"), "words"),
-          field(t("Joint types"), this.#pairs, (text) => (this.#pairs = text), "P G", "pairs"),
+          field(t("Joint types"), this.#pairs, (text) => (this.#pairs = text), "R P G", "pairs"),
           feature("links", t("Links")),
+          h("label", {}, t("Order"), order),
         ),
         more,
         this.#note,
@@ -151,6 +166,8 @@ export class CatalogView implements View {
       this.#cards.removeAttribute("data-waiting");
       const none = t("No machine has all of this.");
       this.#note.textContent = found.length ? t("{count} machines", { count: found.length }) : none;
+      const byName = (a: Entry, b: Entry) => a.name.localeCompare(b.name, currentLanguage());
+      found.sort((a, b) => (this.#byLinks && a.links - b.links) || byName(a, b));
       renew(this.#cards, ...found.map((entry) => this.#card(entry)));
       for (const card of this.#cards.children) this.#watcher.observe(card);
     } catch (error) {
@@ -162,16 +179,17 @@ export class CatalogView implements View {
 
   #card(entry: Entry): HTMLElement {
     const { id, links, counted, moves, space, special } = entry;
-    const sizes = t("{links} links, F = {counted}", { links, counted });
-    const really =
-      special === null || special === counted ? [] : [t("F = {special} by special dimensions", { special })];
+    const sizes =
+      special === null || special === counted
+        ? t("{links} links, F = {counted}", { links, counted })
+        : t("{links} links, F = {special}, by the count {counted}", { links, special, counted });
     const kinds = space ? [t("in space")] : [t("structure only")].slice(Number(moves));
     const card = h(
       "button.card",
       { "data-id": id, onclick: () => void this.#choose(entry) },
       h("div", { "data-place": "" }),
       h("b", {}, entry.name),
-      h("span", {}, [sizes, ...really, ...kinds].join(" · ")),
+      h("span", {}, [sizes, ...kinds].join(" · ")),
     );
     if (moves) movesOnHover(card, id, () => this.#page.ask("moving", { id }));
     return card;

@@ -111,5 +111,5 @@ export function typesOf(joint: Structure["joints"][number] | undefined, choose: 
           ),
         ),
       )
-    : h("p.note", {}, t("Click on a joint to change its type."));
+    : h("p.note", {}, t("Choose a joint to change its type."));
 }

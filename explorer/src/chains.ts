@@ -2,15 +2,18 @@
 
 import type { Structure } from "./chain";
 import { h, renew, thumbnail } from "./dom";
-import { t } from "./language";
+import { currentLanguage, type Language, t } from "./language";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
 
 interface Chains {
   total: number;
   start: number;
-  items: { text: string; picture: string }[];
+  /** Each with its name in the literature, if it has one. */
+  items: { text: string; name: Record<Language, string>; picture: string }[];
 }
+
+const TYPED = 400; // milliseconds until a number is taken for whole
 
 export class ChainList {
   readonly element = h("div", {});
@@ -25,6 +28,7 @@ export class ChainList {
   readonly #count = h("span.note.count", {}, "\u00a0");
   readonly #status = h("div.form", {});
   #asked = 0;
+  #typing = 0;
 
   constructor(
     private readonly page: Page,
@@ -45,19 +49,24 @@ export class ChainList {
   }
 
   arrange(): void {
-    const links = h("input", {
+    const after = (time: number) => () => {
+      clearTimeout(this.#typing);
+      this.#typing = window.setTimeout(() => this.#typed(links, mobility), time);
+    };
+    const heard = { oninput: after(TYPED), onchange: after(0) };
+    const links: HTMLInputElement = h("input", {
       type: "number",
       ...this.page.limits.links,
       value: this.#links,
       "aria-label": t("Links"),
-      onchange: () => this.#typed(links, mobility),
+      ...heard,
     });
-    const mobility = h("input", {
+    const mobility: HTMLInputElement = h("input", {
       type: "number",
       ...this.page.limits.mobility,
       value: this.mobility,
       "aria-label": t("Mobility"),
-      onchange: () => this.#typed(links, mobility),
+      ...heard,
     });
 
     renew(
@@ -111,7 +120,10 @@ export class ChainList {
   #show(): void {
     const [found, own] = [this.#found, this.#own];
     if (!found) return renew(this.#list, moment());
-    this.#count.textContent = t("{shown} of {total} chains", { shown: found.items.length, total: found.total });
+    const { items, total } = found;
+    const one = total === 1 ? t("one chain") : t("{total} chains", { total });
+    const shown = items.length;
+    this.#count.textContent = shown < total ? t("{shown} of {total} chains", { shown, total }) : one;
     // without a list of names, if there is one
     const drawn = (own?.inversions.find(({ frame }) => frame === own.chosen) ?? own)?.picture ?? "";
     const mine = own ? [this.#card(own.text, drawn, t("Your machine"), "data-own")] : [];
@@ -132,7 +144,9 @@ export class ChainList {
         "div.cards.few",
         { "data-list": "chains" },
         ...mine,
-        ...found.items.map(({ text, picture }, k) => this.#card(text, picture, `${k + 1}`, "data-chain")),
+        ...items.map(({ name, text, picture }, k) =>
+          this.#card(text, picture, name[currentLanguage()] || `${k + 1}`, "data-chain"),
+        ),
       ),
       ...(more ? [more] : []),
     );

@@ -351,7 +351,10 @@ def test_the_catalog_is_searched_by_access_features(tab, server):
     assert len(wanted) > 1
     root = "document.querySelector('.gruebler-explorer').shadowRoot"
     page.until(f"{root}.querySelectorAll('[data-id]').length === {len(wanted)}")
-    assert page.page.locator("[data-id]").evaluate_all("all => all.map((e) => e.dataset.id)") == wanted
+    cards = page.page.locator("[data-id]")
+    assert sorted(cards.evaluate_all("all => all.map((e) => e.dataset.id)")) == sorted(wanted)
+    names = cards.locator("b").all_text_contents()
+    assert names == sorted(names)  # all begin with a capital letter without dots
     page.page.locator('[data-field="joints"]').fill("D7")
     page.until("document.querySelector('.gruebler-explorer').shadowRoot.textContent.includes('D7')")
 

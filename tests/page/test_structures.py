@@ -41,7 +41,7 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     cards = view.locator('[data-list="chains"] .card')
     assert cards.evaluate_all("all => all.map((e) => [e.querySelector('span').textContent, e.ariaPressed])") == [
         ["Your machine", "true"],
-        ["1", "false"],
+        ["four-bar chain", "false"],
     ]
     links.fill("40")
     links.press("Enter")

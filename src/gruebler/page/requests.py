@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import translate
+from gruebler.base.text import LANGUAGES, translate
 from gruebler.page.params import (
     CatalogId,
     DescribeDrawing,
@@ -165,12 +165,15 @@ def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:
 
 def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
     from gruebler.pictures.structure import draw_structure
+    from gruebler.pictures.structure.messages import chain_name
     from gruebler.structure.enumeration import chains, count_chains
 
     total = count_chains(asked.links, asked.mobility).chains
     items = []
     for chain in islice(chains(asked.links, asked.mobility), asked.start, asked.start + _PAGE):
-        items.append({"text": chain.text(), "picture": draw_structure(chain, lang=lang).svg(styled=False)})
+        picture = draw_structure(chain, lang=lang).svg(styled=False)
+        names = {language: chain_name(chain, language) for language in LANGUAGES}
+        items.append({"text": chain.text(), "name": names, "picture": picture})
         if len(items) % 10 == 0:
             progress(translate("{done} of {total} chains", lang, done=asked.start + len(items), total=total))
     return {"total": total, "start": asked.start, "items": items}

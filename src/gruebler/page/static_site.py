@@ -132,7 +132,7 @@ _Packs = Iterator[tuple[str, Any]]
 
 def _chain_packs(links: int, mobility: int) -> _Packs:
     asked = {"links": links, "mobility": mobility, "start": 0}
-    items: list[dict[str, str]] = []
+    items: list[dict[str, Any]] = []
     while len(items) < count_chains(links, mobility).chains:
         page = answer("chains", asked | {"start": len(items)}, LANGUAGES[0], _nothing)
         items += [item | {"picture": _bare(item["picture"])} for item in page["items"]]
