@@ -50,7 +50,7 @@ export class LoadForm {
     const factor = drive?.turning ? RPM : 1;
     const rows = this.#row(
       "speed",
-      t("Drive speed"),
+      drive?.turning ? t("Drive speed") : t("Speed of the driven slide"),
       drive?.turning ? "1/min" : `${lengthUnit(model)}/s`,
       speed / factor,
       (v) => {
@@ -96,7 +96,13 @@ export class LoadForm {
       this.changed();
     };
     const weight = h("input", { type: "checkbox", checked: this.#weight, onchange: weigh });
-    renew(this.element, h("div.rows", {}, ...rows), h("div.form", {}, h("label", {}, weight, t("Weight, downward"))));
+    const note = h("p.note", {}, t("Forces are those at this speed of the drive; the picture plays at its own."));
+    renew(
+      this.element,
+      h("div.rows", {}, ...rows),
+      note,
+      h("div.form", {}, h("label", {}, weight, t("Weight, downward"))),
+    );
   }
 
   /** For each spring its kind, its ends and its rates, and a row for another one. */

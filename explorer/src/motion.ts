@@ -102,6 +102,7 @@ export class MotionView implements View, Editor, Driven {
     this.transport.pause();
     if (this.linkage) this.#history.add(this.#state());
     this.take(model);
+    this.side.element.scrollTop = 0;
     if (view) this.#drawnIn.set(this.linkage, view);
     this.#renewed();
   }

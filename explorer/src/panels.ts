@@ -1,6 +1,7 @@
 /** The panels beside the stage: sizes, coupler points, assembly modes, options. */
 
 import type { Ruler } from "./beside";
+import { digits, showDigits } from "./digits";
 import { applyDocument, documentOf } from "./document";
 import { h, renew } from "./dom";
 import { type Dragging, type Length, LONGEST } from "./dragging";
@@ -83,7 +84,7 @@ export class SizeRows {
     if (anew) return;
     sizes.forEach(({ first, second, value }, k) => {
       for (const button of this.#locks[k]!.children) showLock(editor, button as HTMLElement, first, second);
-      this.#fields[k]!.value = number(value, 7);
+      showDigits(this.#fields[k]!, value);
       this.#fields[k]!.setAttribute("aria-invalid", "false");
     });
   }
@@ -100,7 +101,7 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
   const id = `size-${first}-${second}`;
   const input = h("input", {
     id,
-    value: number(value, 7),
+    ...digits(value),
     inputmode: "decimal",
     onchange: () => {
       const wanted = parsed(input.value);
@@ -202,11 +203,11 @@ function pointRow(editor: Editor, k: number): HTMLElement {
     const value = parsed(field.value);
     field.setAttribute("aria-invalid", String(!Number.isFinite(value)));
     if (Number.isFinite(value)) editor.edit(() => (point.at[axis] = value));
-    else editor.page.say(t("Expected a number, such as {value}.", { value: numberText(point.at[axis]) }));
+    else editor.page.say(t("Expected a number, such as {value}.", { value: number(point.at[axis]) }));
   };
-  const typed = (key: string, label: string, value: string, take: (field: HTMLInputElement) => void) => {
+  const typed = (key: string, label: string, value: string | number, take: (field: HTMLInputElement) => void) => {
     const field = h("input", {
-      value,
+      ...(typeof value === "number" ? digits(value) : { value }),
       "data-field": `${key}-${k}`,
       "aria-label": `${label} ${point.name}`,
       onchange: () => later(() => take(field)),
@@ -223,16 +224,12 @@ function pointRow(editor: Editor, k: number): HTMLElement {
     h("span.unit", {}, linkage.linkName(point.link)),
     h("button.quiet", { "aria-label": t("Remove {name}", { name: point.name }), onclick: remove }, "×"),
     h("span.unit", {}, "x"),
-    typed("point-x", "x", numberText(point.at[0]), coordinate(0)),
+    typed("point-x", "x", point.at[0], coordinate(0)),
     h("span.unit", {}, "y"),
-    typed("point-y", "y", numberText(point.at[1]), coordinate(1)),
+    typed("point-y", "y", point.at[1], coordinate(1)),
   );
   row.style.setProperty("--own", `var(${ownColour(k)})`);
   return row;
-}
-
-function numberText(value: number): string {
-  return number(value, 7);
 }
 
 /** After the browser has moved the focus: a field that was left must not be replaced before. */

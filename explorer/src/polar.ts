@@ -26,13 +26,23 @@ export class Polar {
     const { x, y, most } = vectors;
     const scale = RADIUS / most;
     const rings = roundValues(0, most, 2).filter((value) => value > 0);
+    const mean = [x, y].map((part) => part.reduce((sum, one) => sum + (one || 0), 0) / part.length) as Pair;
+    // the numbers stand where the curve is not
+    const away = mean.map((part) => part / (Math.hypot(...mean) || 1)) as Pair;
     const to = (factor: number) => (value: number) => factor * value;
     this.element.setAttribute("aria-label", t("Largest {value}", { value: `${number(most)} ${unit}` }));
     this.element.replaceChildren(
       svg("path.mesh", { d: "M-140 0H140M0 -96V96" }),
       ...rings.map((value) => svg("circle.mesh", { fill: "none", r: scale * value })),
       svg("path.curve.force", { d: lineThrough(x.map(to(scale)), y.map(to(-scale))) }),
-      ...rings.map((value) => svg("text", { x: 3, y: -scale * value - 2 }, `${number(value)} ${unit}`)),
+      ...rings.map((value) => {
+        const far = scale * value + 12;
+        return svg(
+          "text",
+          { x: -far * away[0], y: 4 + far * away[1], "text-anchor": "middle" },
+          `${number(value)} ${unit}`,
+        );
+      }),
       this.#here,
     );
   }

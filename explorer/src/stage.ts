@@ -70,7 +70,7 @@ export class Stage implements Board {
 
   /** Write the buttons on the picture, in the language of the page. */
   arrange(): void {
-    const adder = stageButton("point", t("Add a coupler point: click on a link"), () => this.setAdding(!this.adding));
+    const adder = stageButton("point", t("Add a coupler point"), () => this.setAdding(!this.adding));
     adder.setAttribute("aria-pressed", String(this.adding));
     this.element.querySelector(".tools")?.remove();
     this.element.append(h("div.tools", {}, ...zoomButtons(this), adder), this.#hint);
@@ -174,8 +174,8 @@ export class Stage implements Board {
     const name = chosen === null ? "" : linkage.linkName(chosen);
     if (this.adding)
       return name
-        ? t("A point of {name}: click where it is to be, on it or beside it; Escape ends.", { name })
-        : t("A coupler point: click on the link that carries it; Escape ends.");
+        ? t("A point of {name}: put it anywhere, on the link or beside it.", { name })
+        : t("A coupler point: choose the link that carries it.");
     const aside = this.#scene.poleAside ? ` ${t("The pole lies outside of the picture.")}` : "";
     if (!name) return t("Drag a joint to change sizes, a link to move it.") + aside;
     const mine = this.dragging!.lengths().filter(({ link }) => link === chosen);

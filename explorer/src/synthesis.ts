@@ -123,12 +123,12 @@ export class SynthesisView implements View {
     const clicks: [string, string][] =
       this.kind === "points"
         ? [
-            ["", t("A click puts a point")],
+            ["", t("Put points")],
             ["curve", t("A curve drawn by hand")],
           ]
         : [
-            ["", t("A click puts a position")],
-            ["pivot", t("A click puts a fixed pivot")],
+            ["", t("Put positions")],
+            ["pivot", t("Put fixed pivots")],
           ];
     this.#plane.setAttribute("aria-label", t("What is to be met"));
     const open = this.kind === "points";

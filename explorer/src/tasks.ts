@@ -22,7 +22,7 @@ export function wordsOf(kind: Kind, count = 0): TaskWords {
     points: {
       name: t("Points of a path"),
       hint: t(
-        "Click points in the order in which a coupler point is to pass them; drag them to move them. " +
+        "Put points in the order in which a coupler point is to pass them; drag them to move them. " +
           "Five to nine points are met exactly where that is possible, more as closely as possible.",
       ),
       row: t("Point"),
@@ -32,7 +32,7 @@ export function wordsOf(kind: Kind, count = 0): TaskWords {
     positions: {
       name: t("Positions of a link"),
       hint: t(
-        "Click three to five places through which the coupler is to be carried; " +
+        "Put three to five positions through which the coupler is to be carried; " +
           "its arrow turns when its end is dragged.",
       ),
       row: t("Position"),
