@@ -32,6 +32,7 @@ from gruebler.mechanics.fourbar.length_texts import is_lengths
 from gruebler.mechanics.linkages import Linkage, has_only_lower_pairs
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.structure.chain import Chain
+from gruebler.structure.mechanism.inversion import of_family
 from gruebler.structure.mobility import mobility_report
 from gruebler.structure.mobility.report import verdict_word
 from gruebler.teaching.catalog import CheckedEntry, check_all, check_entry, check_exercise, entries, entry, exercises
@@ -257,6 +258,8 @@ def _structures(word: str, space: str | None, lang: str) -> Iterator[Structure]:
         yield from read_structures(path, space)
     elif is_lengths(word):
         yield Structure(word, "", linkage_of_word(word, lang)[0])
+    elif (named := of_family(word)) is not None:
+        yield Structure(word, "", named.chain)
     else:
         yield Structure(word, "", entry(word).in_language(lang))
 

@@ -1,4 +1,4 @@
-"""What a word on the command line stands for: a text, a code, a graph6 code, or an entry of the catalog."""
+"""What a word on the command line stands for: a text, a code, a graph6 code, a family, or an entry of the catalog."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
+from gruebler.structure.mechanism.inversion import of_family
 from gruebler.teaching.catalog import entry
 
 
@@ -38,16 +39,20 @@ def _of_file(word: str, lang: str = "en") -> Linkage | SpatialLinkage | Chain | 
 
 
 def chain_from_word(word: str, space: str | None = None, lang: str = "en") -> Chain:
-    """The chain of a text, a code (its marks left out), a graph6 code, a linkage file, or a catalog entry."""
+    """The chain of a text, a code (its marks left out), a graph6 code, a linkage file, a family or a catalog entry."""
     if (value := _of_file(word, lang)) is not None:
         return value if isinstance(value, Chain) else value.mechanism.chain
+    if (named := of_family(word)) is not None:
+        return named.chain
     return chain_of_text(word, space) if is_structure_text(word) else entry(word).in_language(lang).chain()
 
 
 def mechanism_of(word: str, frame: str | None, drives: Sequence[str], lang: str = "en") -> Mechanism:
-    """The mechanism of a text or code with its marks, a linkage file, or an entry; frame and drives given here win."""
+    """The mechanism of a text or code with its marks, a file, a family or an entry; frame and drives given here win."""
     if (value := _of_file(word, lang)) is not None:
         mechanism = Mechanism(value, value.links[0]) if isinstance(value, Chain) else value.mechanism
+    elif (named := of_family(word)) is not None:
+        mechanism = named
     elif not is_structure_text(word):
         record = entry(word).in_language(lang)
         chain = record.chain()

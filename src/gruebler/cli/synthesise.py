@@ -223,7 +223,8 @@ def add(parser: Parser) -> None:
             --region X1 Y1 X2 Y2 float  region for the fixed pivots
             --length LINK L ...  a given distance of the pins of crank, coupler, rocker, frame (or another link);
                 repeatable
-            --structure MECHANISM ...  fit this mechanism instead: a text or a catalog entry; several are compared
+            --structure MECHANISM ...  fit this mechanism instead: a text, a family such as "Watt I", or a catalog
+                entry; several are compared
             --initial-designs N int  with --structure: improve N initial designs of each mechanism (default: 24 of an
                 atlas, else 4)
             --link LINK =  with --structure: the link that is guided, or the output

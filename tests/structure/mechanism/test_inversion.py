@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from gruebler import Chain, code
 from gruebler.base.errors import ChainError
 from gruebler.structure.mechanism import Mechanism, check_drives
-from gruebler.structure.mechanism.inversion import driven_mechanisms, family, inversions
+from gruebler.structure.mechanism.inversion import driven_mechanisms, family, inversions, of_family
 from tests.strategies import chains
 
 FOUR = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
@@ -111,6 +111,21 @@ def test_every_driven_mechanism_of_the_six_links_is_fixed_by_its_drive():
     for chain in (WATT, STEPHENSON):
         for driven in driven_mechanisms(chain, at_frame=False):
             assert check_drives(driven.mechanism).fixed
+
+
+@pytest.mark.parametrize(
+    ("word", "name"),
+    [
+        ("watt ii", "Watt II"),
+        ("Stephenson III", "Stephenson III"),
+        ("Kreuzschubkurbel", "Scotch yoke"),
+        ("Elliptic trammel", "elliptic trammel (double slider)"),
+        ("kurbelschleife", "inverted slider-crank (turning or swinging block)"),
+    ],
+)
+def test_mechanisms_by_the_name_of_their_family(word, name):
+    assert family(of_family(word)) == name
+    assert of_family(f"{word} I") is None
 
 
 def test_unknown_families_have_no_name():

@@ -15,7 +15,7 @@ from itertools import combinations
 
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import ChainError
-from gruebler.base.text import Message, message
+from gruebler.base.text import LANGUAGES, Message, message
 from gruebler.structure.chain import Chain
 from gruebler.structure.chain.notation import link_text
 from gruebler.structure.chain.pairs import Alphabet
@@ -191,6 +191,22 @@ def _families() -> dict[str, Message]:
         mechanism = Mechanism.parse(text)
         known[code(mechanism.chain, frame=mechanism.frame)] = name
     return known
+
+
+def of_family(name: str) -> Mechanism | None:
+    """The mechanism of a family by its name in any language, without drives; None if it is no such name.
+
+    What stands in brackets may be left out, and capital letters do not matter.
+
+    >>> of_family("watt II").frame, of_family("Kreuzschubkurbel") == of_family("scotch yoke")
+    ('2', True)
+    """
+    wanted = name.casefold()
+    for known, text in _FAMILIES:
+        whole = [known.in_language(lang).casefold() for lang in LANGUAGES]
+        if wanted in whole or wanted in [full.partition(" (")[0] for full in whole]:
+            return Mechanism.parse(text)
+    return None
 
 
 def family(mechanism: Mechanism, lang: str = "en") -> str | None:
