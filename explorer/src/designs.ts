@@ -11,6 +11,10 @@ export interface Design extends Moving {
   picture: string;
   form: string;
   transmission: number | null;
+  /** The same over all positions that it can take. */
+  range?: number | null;
+  /** Whether a better one is much like it. */
+  variant?: boolean;
   error: number | null;
   size: number;
   /** Of crank, coupler, rocker and frame; none of what has other joints. */
@@ -20,6 +24,8 @@ export interface Design extends Moving {
 export interface Found {
   total: number;
   refused: number;
+  /** Whether the transmission angle counts in all positions, not only on the way. */
+  whole?: boolean;
   items: Design[];
   /** How complete they are, where the page found them itself. */
   note?: string;
@@ -30,7 +36,7 @@ function exact(error: number | null): boolean {
   return Math.abs(error ?? 0) < 1e-9;
 }
 
-type Order = "error" | "size" | "transmission";
+type Order = "error" | "size" | "transmission" | "range";
 
 export class DesignCards {
   readonly element = h("div", {});
@@ -49,15 +55,22 @@ export class DesignCards {
     this.#found = found;
     this.#form = this.#forms()[0] ?? "";
     // exact ones do not differ in their deviation
-    this.#order = found?.items.some(({ error }) => !exact(error)) ? "error" : "transmission";
-    if (found) found.items = this.#sorted(); // by which they are numbered
+    const angles = found?.whole ? "range" : "transmission";
+    this.#order = found?.items.some(({ error }) => !exact(error)) ? "error" : angles;
+    // by which they are numbered, those that are much like others last
+    if (found) found.items = this.#sorted().sort((one, two) => +!!one.variant - +!!two.variant);
     this.arrange();
     return this.#shown[0] ?? null;
   }
 
   #sorted(): Design[] {
-    const worth = ({ error, size, transmission }: Design) =>
-      ({ error: exact(error) ? 0 : Math.abs(error!), size, transmission: -(transmission ?? 0) })[this.#order];
+    const worth = ({ error, range, size, transmission }: Design) =>
+      ({
+        error: exact(error) ? 0 : Math.abs(error!),
+        size,
+        transmission: -(transmission ?? 0),
+        range: -(range ?? 0),
+      })[this.#order];
     return [...(this.#found?.items ?? [])].sort((one, two) => worth(one) - worth(two) || 0);
   }
 
@@ -82,9 +95,14 @@ export class DesignCards {
     const orders: [Order, string][] = [
       ...(found.items.every(({ error }) => exact(error)) ? [] : [["error", t("by deviation")] as [Order, string]]),
       ["size", t("by size")],
-      ["transmission", t("by transmission angle")],
+      ["transmission", t("by transmission angle on the way")],
+      ["range", t("in all positions")],
     ];
     const shown = found.items.length;
+    const [mine, more] = [false, true].map((like) => this.#shown.filter(({ variant }) => !!variant === like)) as [
+      Design[],
+      Design[],
+    ];
     const kinds = this.#forms().map((form): [string, string] => [form, `${capital(form)} · ${this.#of(form).length}`]);
     renew(
       this.element,
@@ -106,12 +124,22 @@ export class DesignCards {
       found.items.some(({ lengths }) => lengths.length)
         ? h("p.note", {}, t("Lengths in mm: crank · coupler · rocker · frame"))
         : "",
-      h("div.cards.sorted", { "data-list": "designs" }, ...this.#shown.map((design) => this.#card(design))),
+      h("div.cards.sorted", { "data-list": "designs" }, ...mine.map((design) => this.#card(design))),
+      more.length
+        ? h(
+            "details.words",
+            {},
+            h("summary", {}, t("Much like these: {count}", { count: more.length })),
+            h("div.cards.sorted", { "data-list": "variants" }, ...more.map((design) => this.#card(design))),
+          )
+        : "",
     );
   }
 
   #card(design: Design): HTMLElement {
-    const { form, lengths, transmission, error, size } = design;
+    const { form, lengths, range, transmission, error, size } = design;
+    const degrees = (mu: number) => angle((mu * Math.PI) / 180, 3);
+    const all = typeof range !== "number" ? "" : `, ${t("≥ {angle} in all positions", { angle: degrees(range) })}`;
     const value = error === null || exact(error) ? 0 : 100 * error;
     const deviation = value ? t("deviation {value} %", { value: number(value, 2) }) : t("met exactly");
     const title = `${capital(form)} ${this.#of(form).indexOf(design) + 1}`;
@@ -123,11 +151,7 @@ export class DesignCards {
       h("b", {}, title),
       h("span", {}, lengths.map((one) => number(one, 3)).join(" · ")),
       h("span", {}, error === null ? "" : deviation),
-      h(
-        "span",
-        {},
-        transmission === null ? "" : t("on the way: μ ≥ {angle}", { angle: angle((transmission * Math.PI) / 180, 3) }),
-      ),
+      h("span", {}, transmission === null ? "" : t("μ ≥ {angle} on the way", { angle: degrees(transmission) }) + all),
       h("span", {}, t("size {value} mm", { value: number(size, 3) })),
     );
   }

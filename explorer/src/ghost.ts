@@ -10,6 +10,8 @@ export interface Moving {
   /** Which of them each moving link has. */
   members: number[][];
   joints: number;
+  /** The joint that is driven. */
+  drive?: number;
 }
 
 const spot = ([x, y]: [number, number]) => `${x},${-y}`;
@@ -21,7 +23,8 @@ export class Ghost {
   /** It stands still while it is not seen. */
   constructor(private readonly seen: () => boolean) {}
 
-  play(moving: Moving | null): void {
+  /** Pivots are drawn in units of the plane, which are so long. */
+  play(moving: Moving | null, unit = 1): void {
     cancelAnimationFrame(this.#frame);
     if (!moving) return renew(this.element);
     const { frames, members, joints } = moving;
@@ -30,7 +33,13 @@ export class Ghost {
       return svg("polyline.curve", { points });
     });
     const bars = members.map(() => svg("polygon"));
-    renew(this.element, ...curves, ...bars);
+    const pivots = frames[0]!.slice(0, joints).flatMap(([x, y], k) => {
+      const moves = frames.some((frame) => Math.hypot(frame[k]![0] - x, frame[k]![1] - y) > 1e-3 * unit);
+      const place = { transform: `translate(${x} ${-y}) scale(${unit})` };
+      const ring = k === moving.drive ? [svg("circle.ring", { r: 4.5, ...place })] : [];
+      return moves ? [] : [svg("path.pivot", { d: "M0 0l3 5h-6zM-5 5h10", ...place }), ...ring];
+    });
+    renew(this.element, ...curves, ...pivots, ...bars);
     const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
     const tick = (now: number) => {
       const places = frames[Math.floor((now / 1000) * PACE) % frames.length]!;

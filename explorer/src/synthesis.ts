@@ -19,6 +19,7 @@ const NINE = 9;
 
 const WIDE = 240; // of the plane, in millimetres; that of a phone is narrower
 const NEAR = 4; // units of marks that a pointer reaches; a finger needs more
+const TURN = 20; // degrees from a new position to the next
 const OF_STROKE = 20; // points of a curve that is drawn
 
 export class SynthesisView implements View {
@@ -165,7 +166,7 @@ export class SynthesisView implements View {
               open ? option(t("closed curve"), this.#closed, (on) => this.#close(on), "closed") : null,
               option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
               h("label", {}, t("transmission angle from"), least, "°"),
-              this.#planar && this.#page.served ? h("label", {}, t("order"), order) : null,
+              this.#planar && this.#page.served ? h("label", {}, t("order, if another"), order) : null,
             ),
             h(
               "div.form",
@@ -224,18 +225,24 @@ export class SynthesisView implements View {
       };
     };
     const turned = this.kind === "positions" && this.points.find((row) => near(tip(row, unit)));
-    const here = [...this.points, ...(this.kind === "positions" ? this.#pivots : [])].find(near);
-    if (turned) {
+    // an arrow points where its end is dragged to, that of a new position from its place on
+    const turn = (row: number[]) => {
       this.#held = ([u, v]) => {
-        turned[2] = Math.round((Math.atan2(v - turned[1]!, u - turned[0]!) * 180) / Math.PI);
+        if (near([u, v]) && row !== turned) return;
+        row[2] = Math.round((Math.atan2(v - row[1]!, u - row[0]!) * 180) / Math.PI);
         this.#draw();
       };
-    } else if (here) move(here);
+    };
+    const here = [...this.points, ...(this.kind === "positions" ? this.#pivots : [])].find(near);
+    if (turned) turn(turned);
+    else if (here) move(here);
     else {
       const pivot = this.#puts === "pivot";
-      const row = this.kind === "positions" && !pivot ? [x, y, 0] : [x, y];
+      const turns = this.kind === "positions" && !pivot;
+      const row = turns ? [x, y, this.points.length ? this.points.at(-1)![2]! + TURN : 0] : [x, y];
       (pivot ? this.#pivots : this.points).push(row);
-      move(row);
+      if (turns) turn(row);
+      else move(row);
       this.#draw();
     }
   }
@@ -354,14 +361,15 @@ export class SynthesisView implements View {
   #play(design: Design | null): void {
     this.#shownDesign = design;
     this.#paint();
-    this.#ghost.play(design);
+    this.#ghost.play(design, this.#area.unit);
   }
 
   async #open(design: Design): Promise<void> {
     const name = wordsOf(this.kind, this.points.length).design;
     try {
       const document = { ...design.document, page: { targets: this.targets } };
-      this.#page.open(await this.#page.ask<Model>("open_document", { document, name }));
+      const model = await this.#page.ask<Model>("open_document", { document, name });
+      this.#page.open({ ...model, plays: true });
     } catch (error) {
       this.#page.say((error as Error).message);
     }

@@ -97,6 +97,11 @@ export function targetMark(row: number[], k: number, unit: number): SVGElement {
       ? []
       : [svg("path.arm", { d: `M0 0L${u} ${-v!}` }), svg("circle.tip", { r: 1.8, cx: u!, cy: -v! })]),
     svg("circle", { r: 2.6 }),
-    svg("text", { x: 3.4, y: -3.4 }, String(k + 1)),
+    // beside a point, behind an arrow
+    svg(
+      "text",
+      turn === undefined ? { x: 3.4, y: -3.4 } : { x: -0.45 * u!, y: 0.45 * v! + 2, "text-anchor": "middle" },
+      String(k + 1),
+    ),
   );
 }

@@ -33,7 +33,7 @@ export function wordsOf(kind: Kind, count = 0): TaskWords {
       name: t("Positions of a link"),
       hint: t(
         "Put three to five positions through which the coupler is to be carried; " +
-          "its arrow turns when its end is dragged.",
+          "drag from the place, or the end of the arrow, to turn it.",
       ),
       row: t("Position"),
       heads: ["x", "y", "φ [°]"],

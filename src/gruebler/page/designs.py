@@ -35,6 +35,8 @@ _FOUR = 4
 _RING = 8.0  # pixels: the radius of the mark of a point
 _ARM = 34.0  # pixels: the arrow of a position
 _CIRCLE = np.exp(2j * np.pi * np.arange(17) / 16)
+_LIKE = 0.1
+"""Of the size: designs of one form whose pivots and lengths differ by less are variants of one another."""
 _FRAMES = 144  # of a motion, there and back if it does not turn fully
 
 
@@ -71,7 +73,10 @@ def task_of(
 def design_records(
     task: Task, crank: bool, transmission: float, lang: str, progress: Callable[[str], object]
 ) -> dict[str, Any]:
-    """The accepted designs for a task, the best of them with pictures; the transmission angle in degrees.
+    """The accepted designs for a task, the best of them with pictures; transmission angles in degrees.
+
+    For positions through which a crank that turns fully carries a body the angle over the whole turn decides. A design
+    that is much like a better one is marked as its variant.
 
     >>> found = design_records(task_of("dead-centres", [[60, 1.2]]), True, 30.0, "en", print)
     Looking for four-bars
@@ -80,13 +85,15 @@ def design_records(
     (True, 3, 4)
     """
     progress(translate("Looking for four-bars", lang))
-    result = synthesise(task, demands=Demands(crank=crank, transmission=radians(transmission)))
+    sort = ("range-transmission",) if crank and isinstance(task, PositionTask) else ()
+    result = synthesise(task, demands=Demands(crank=crank, transmission=radians(transmission)), sort=sort)
     designs = [design for design in result.designs if design.verdict.accepted]
     items = []
     for number, design in enumerate(designs[:_MOST_DESIGNS], 1):
         progress(translate("Drawing design {number} of {total}", lang, number=number, total=len(designs)))
         items.append(_record(design, task, lang))
-    return {"total": len(designs), "refused": len(result.designs) - len(designs), "items": items}
+    _mark_variants(items)
+    return {"total": len(designs), "refused": len(result.designs) - len(designs), "whole": bool(sort), "items": items}
 
 
 def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
@@ -99,10 +106,22 @@ def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
         "picture": draw_linkage(linkage, curves=list(linkage.points), lang=lang, outlines=marks).svg(styled=False),
         "form": replace(design, form=_NAMES.get(design.form, design.form)).form_in_language(lang),
         "transmission": angle if isfinite(angle) else None,
+        "range": degrees(over_range) if isfinite(over_range := design.transmission_over_range) else None,
         "error": verdict.error if isfinite(verdict.error) else None,
         "size": linkage.size,
         **_frames(linkage, posed),
     }
+
+
+def _mark_variants(items: list[dict[str, Any]]) -> None:
+    """Mark each design that is much like one before it of the same form."""
+    kept: list[tuple[str, np.ndarray]] = []
+    for item in items:
+        measures = np.array(item.pop("measures")) / item["size"]
+        like = [other for form, other in kept if form == item["form"] and other.shape == measures.shape]
+        item["variant"] = any(np.abs(measures - other).max() < _LIKE for other in like)
+        if not item["variant"]:
+            kept.append((item["form"], measures))
 
 
 def _target_marks(task: Task, frame: str, scale: float) -> list[CarriedLine]:
@@ -133,11 +152,15 @@ def _frames(linkage: Linkage, posed: PosedLinkage) -> dict[str, Any]:
     rows = np.round(rows, digits)
     joints = [[k for k, joint in enumerate(chain.joints) if link in joint.links] for link in chain.links]
     four_bar = chain.n == len(chain.joints) == _FOUR and all(joint.pair.is_turning for joint in chain.joints)
+    apart = [(k, m) for own in joints for k in own for m in own if k < m]
+    fixed = rows[0, joints[chain.links.index(frame)]]
     ends = sorted(zip(chain.links, joints, strict=True), key=lambda row: row[0] == frame)  # the frame comes last
     return {
         "frames": rows.tolist(),
         "members": members,
         "joints": len(chain.joints),
+        "drive": linkage.mechanism.drives[0].joint,
+        "measures": [*fixed.ravel(), *(float(np.hypot(*(rows[0, k] - rows[0, m]))) for k, m in apart)],
         "lengths": [float(np.hypot(*(rows[0, first] - rows[0, other]))) for _, (first, other) in ends]
         if four_bar
         else [],
