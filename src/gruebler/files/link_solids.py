@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals
+from gruebler.base.convex_hull import convex_hull
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.round_bodies import TurnedBody
 from gruebler.structure.chain.spaces import Space
@@ -130,6 +131,35 @@ def box_solid(middle: Reals, axes: Reals, halves: tuple[float, float, float]) ->
     return Solid(middle + (signs * np.array(halves)) @ axes.T, np.array(triangles, np.intp))
 
 
+def plate_solid(places: Reals, radius: float) -> Solid | None:
+    """A plate under places of a plane, as far beyond them and as thick as the radius; None if they lie in no plane.
+
+    Places on one line have no plate either.
+
+    >>> square = np.array([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0.0]])
+    >>> round(plate_solid(square, 1.0).volume, 3)  # 4 × 4, 1 at each side, an octagon's eighths at the corners
+    34.828
+    """
+    middle = places.mean(axis=0)
+    _, spread, axes = np.linalg.svd(places - middle)
+    if len(places) <= 2 or spread[1] < 2 * radius or spread[2] > radius / 4:
+        return None
+    rim = radius * np.exp(1j * pi * np.arange(8) / 4)
+    flat = ((places - middle) @ axes[:2].T) @ np.array([1, 1j])
+    hull = np.array(convex_hull(np.add.outer(flat, rim).ravel().tolist()))
+    count = len(hull)
+    low, high = (
+        middle + hull.real[:, None] * axes[0] + hull.imag[:, None] * axes[1] + h * axes[2] for h in (0, radius)
+    )
+    k = np.arange(count)
+    after = (k + 1) % count
+    fan = np.stack([0 * k[1:-1], k[1:-1], after[1:-1]], axis=1)
+    sides = [np.stack([k, after, count + after], axis=1), np.stack([k, count + after, count + k], axis=1)]
+    triangles = np.concatenate([fan[:, ::-1], count + fan, *sides])
+    solid = Solid(np.concatenate([low, high]) - radius / 2 * axes[2], triangles)
+    return solid if solid.volume > 0 else Solid(solid.vertices, triangles[:, ::-1])
+
+
 def link_solids(
     linkage: SpatialLinkage, travels: Mapping[int, tuple[float, float]] | None = None
 ) -> dict[str, tuple[Solid, ...]]:
@@ -145,6 +175,9 @@ def link_solids(
     solids: dict[str, list[Solid]] = {link: [] for link in chain.links}
     holds: dict[str, list[Reals]] = {link: [] for link in chain.links}
     bearings = _joint_places(linkage, radius)
+    middle = np.mean(bearings, axis=0)
+    at_frame = [at for at, joint in zip(bearings, chain.joints, strict=True) if frame in joint.links]
+    ground = _upright(np.mean(at_frame, axis=0) - middle, 1.5 * _POST * radius) if at_frame else np.zeros(3)
     for number, joint in enumerate(chain.joints):
         at = bearings[number]
         ends = (travels or {}).get(number, (0.0, 0.0))
@@ -157,17 +190,22 @@ def link_solids(
             else:
                 solids[link] += _symbol(linkage, number, at, radius, ends, outer=link == outer)
                 if link == frame and not spherical:
-                    solids[link] += _foot(linkage, number, at, radius, np.mean(bearings, axis=0))
+                    solids[link] += _foot(linkage, number, at, radius, (ground, at - middle))
             holds[link].append(hold)
     for link, point in linkage.points.values():
         holds[link].append(np.array(point))
-    for link, ends_of_bars in holds.items():
-        if link != frame:
-            solids[link] += [
-                cylinder_solid(a, b, radius, phase=0.05 * k)
-                for k, (a, b) in enumerate(bars_between(np.array(ends_of_bars)), 1)
-                if np.linalg.norm(b - a) > radius / 4
-            ]
+    for link, held in holds.items():
+        if link == frame:
+            continue
+        plate = plate_solid(np.array(held), radius) if len(held) > 2 and not spherical else None
+        if plate is not None:
+            solids[link].append(plate)
+            continue
+        solids[link] += [
+            cylinder_solid(a, b, radius, phase=0.05 * k)
+            for k, (a, b) in enumerate(bars_between(np.array(held)), 1)
+            if np.linalg.norm(b - a) > radius / 4
+        ]
     for body in linkage.round_bodies.values():
         solids[body.link].append(round_solid(body))
     return {link: _distinct(each) for link, each in solids.items()}
@@ -254,12 +292,28 @@ def _thread(start: Reals, end: Reals, r: float) -> Solid:
     return turned_solid(start, end, profile)
 
 
-def _foot(linkage: SpatialLinkage, number: int, at: Reals, r: float, middle: Reals) -> Iterator[Solid]:
-    """What a bearing of the frame stands on: a post away from the linkage, across the bearing's axis, and a plate."""
+def _upright(heading: Reals, least: float) -> Reals:
+    """The heading along the axis along which it is longest; nothing if that is less than so much.
+
+    >>> _upright(np.array([1.0, 0.0, -5.0]), 2.0).tolist()
+    [0.0, 0.0, -5.0]
+    """
+    upright = np.zeros(3)
+    most = int(np.argmax(np.round(abs(heading), 9)))
+    if abs(heading[most]) > least:
+        upright[most] = heading[most]
+    return upright
+
+
+def _foot(linkage: SpatialLinkage, number: int, at: Reals, r: float, headings: tuple[Reals, Reals]) -> Iterator[Solid]:
+    """What a bearing of the frame stands on: a post across the bearing's axis, and a plate.
+
+    The post goes where the frame lies as a whole, else away from the linkage.
+    """
     pair = linkage.mechanism.chain.joints[number].pair
     axis = linkage.frames[number, :3, 0 if pair.guides and not any(f.turns for f in pair.motion) else 2]
     free = pair.is_ball or pair.is_cross
-    tried = [at - middle, -r * np.eye(3)[2], r * linkage.frames[number, :3, 0], r * linkage.frames[number, :3, 2]]
+    tried = [*headings, -r * np.eye(3)[2], r * linkage.frames[number, :3, 0], r * linkage.frames[number, :3, 2]]
     across = [heading if free else heading - (heading @ axis) * axis for heading in tried]
     away = next(each for each in across if np.linalg.norm(each) > r / 2)
     away = away / np.linalg.norm(away)
