@@ -14,6 +14,8 @@ export interface Choice {
 
 export interface Structure {
   text: string;
+  /** That of the chain in the literature, if it has one and the library says it. */
+  name?: string;
   /** The frame that was chosen, or the one of the list that is like it; empty if none was. */
   chosen: string;
   picture: string;

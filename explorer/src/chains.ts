@@ -126,7 +126,9 @@ export class ChainList {
     this.#count.textContent = shown < total ? t("{shown} of {total} chains", { shown, total }) : one;
     // without a list of names, if there is one
     const drawn = (own?.inversions.find(({ frame }) => frame === own.chosen) ?? own)?.picture ?? "";
-    const mine = own ? [this.#card(own.text, drawn, t("Your machine"), "data-own")] : [];
+    const mine = own
+      ? [this.#card(own.text, drawn, [t("Your machine"), own.name].filter(Boolean).join(": "), "data-own")]
+      : [];
     if (!found.total) {
       const odd = (this.#links + this.mobility) % 2 === 0;
       const why = odd

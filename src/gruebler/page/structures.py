@@ -11,6 +11,7 @@ from gruebler.pictures.canvas.labels import labels_or_numbers
 from gruebler.pictures.canvas.shapes import Point, bounds
 from gruebler.pictures.linkage.element_pictures import contact_shapes
 from gruebler.pictures.structure import PlacedChain, draw_structure, paint, place_joints
+from gruebler.pictures.structure.messages import chain_name
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import PAIRS, Alphabet
 from gruebler.structure.chain.spaces import Space
@@ -68,6 +69,7 @@ def structure_record(
     corner, _ = bounds(shapes, 10.0)
     return {
         "text": mechanism.text() if ";" in text else chain.text(),
+        "name": chain_name(chain, lang),
         "picture": figure_of(shapes, chain.text(Alphabet.of_language(lang)), "").svg(styled=False),
         "joints": list(_joints(mechanism, shown, placed, corner, lang)),
         "links": list(_links(chain, placed, corner, report)),
