@@ -13,6 +13,8 @@ export interface Design extends Moving {
   transmission: number | null;
   /** The same over all positions that it can take. */
   range?: number | null;
+  /** How far targets move at most, as a part of the size of the task, if all lengths are wrong by 0.1 %. */
+  shift?: number | null;
   /** Whether a better one is much like it. */
   variant?: boolean;
   error: number | null;
@@ -36,7 +38,7 @@ function exact(error: number | null): boolean {
   return Math.abs(error ?? 0) < 1e-9;
 }
 
-type Order = "error" | "size" | "transmission" | "range";
+type Order = "error" | "size" | "transmission" | "range" | "shift";
 
 export class DesignCards {
   readonly element = h("div", {});
@@ -64,12 +66,13 @@ export class DesignCards {
   }
 
   #sorted(): Design[] {
-    const worth = ({ error, range, size, transmission }: Design) =>
+    const worth = ({ error, range, shift, size, transmission }: Design) =>
       ({
         error: exact(error) ? 0 : Math.abs(error!),
         size,
         transmission: -(transmission ?? 0),
         range: -(range ?? 0),
+        shift: shift ?? Infinity,
       })[this.#order];
     return [...(this.#found?.items ?? [])].sort((one, two) => worth(one) - worth(two) || 0);
   }
@@ -97,6 +100,7 @@ export class DesignCards {
       ["size", t("by size")],
       ["transmission", t("by transmission angle on the way")],
       ["range", t("in all positions")],
+      ["shift", t("by sensitivity")],
     ];
     const shown = found.items.length;
     const [mine, more] = [false, true].map((like) => this.#shown.filter(({ variant }) => !!variant === like)) as [
@@ -137,9 +141,9 @@ export class DesignCards {
   }
 
   #card(design: Design): HTMLElement {
-    const { form, lengths, range, transmission, error, size } = design;
+    const { form, lengths, range, shift, transmission, error, size } = design;
     const degrees = (mu: number) => angle((mu * Math.PI) / 180, 3);
-    const all = typeof range !== "number" ? "" : `, ${t("≥ {angle} in all positions", { angle: degrees(range) })}`;
+    const all = typeof range !== "number" ? "" : `, ${t("≥ {angle} in all positions", { angle: degrees(range) })}`;
     const value = error === null || exact(error) ? 0 : 100 * error;
     const deviation = value ? t("deviation {value} %", { value: number(value, 2) }) : t("met exactly");
     const title = `${capital(form)} ${this.#of(form).indexOf(design) + 1}`;
@@ -152,6 +156,7 @@ export class DesignCards {
       h("span", {}, lengths.map((one) => number(one, 3)).join(" · ")),
       h("span", {}, error === null ? "" : deviation),
       h("span", {}, transmission === null ? "" : t("μ ≥ {angle} on the way", { angle: degrees(transmission) }) + all),
+      h("span", {}, shift ? t("lengths 0.1 % wrong: off by {value} %", { value: number(100 * shift, 2) }) : ""),
       h("span", {}, t("size {value} mm", { value: number(size, 3) })),
     );
   }

@@ -107,6 +107,7 @@ def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
         "form": replace(design, form=_NAMES.get(design.form, design.form)).form_in_language(lang),
         "transmission": angle if isfinite(angle) else None,
         "range": degrees(over_range) if isfinite(over_range := design.transmission_over_range) else None,
+        "shift": shift if isfinite(shift := design.relative_sensitivity) else None,
         "error": verdict.error if isfinite(verdict.error) else None,
         "size": linkage.size,
         **_frames(linkage, posed),
