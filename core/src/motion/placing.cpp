@@ -366,16 +366,12 @@ double Placing::stopped_square(int number) const {
     return dyad_square(operation.kind, elements_, plan_.size, operation.driven);
 }
 
-void Placing::forget() {
-    for (int k = 1; k < filled; ++k) copy(last[k], last[k - 1]);
-    --filled;
-}
-
 void Placing::accept(double at) {
     trial.at = at;
-    for (int k = 3; k > 0; --k) copy(last[k - 1], last[k]);
+    copy(last[1], last[2]);
+    copy(last[0], last[1]);
     copy(trial, last[0]);
-    filled = std::min(filled + 1, 4);
+    filled = std::min(filled + 1, 3);
     const double past = last[1].at;
     if ((last[0].at - past) * (past - last[2].at) <= 0) filled = std::min(filled, 2);  // turned back: two may be one
     for (std::size_t number = 0; number < dyads.size(); ++number) {

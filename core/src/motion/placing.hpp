@@ -53,9 +53,8 @@ public:
     // Places everything where the drives stand, at that place on the path.
     Verdict try_pose(int order, double at);
 
-    // The trial becomes the last pose; or the last pose is taken back.
+    // The trial becomes the last pose.
     void accept(double at);
-    void forget();
 
     // How far ahead of the last pose the determinant of a larger group is zero if it falls on so, or infinity.
     double zero_ahead(int group) const;
@@ -78,7 +77,7 @@ public:
     std::vector<std::int64_t> whole_turns;
     std::vector<double> signs;          // (dyads,) of the roots, from here on
     std::vector<DyadMemory> dyads;
-    Remembered last[4];  // newest first: three to go on from, and one more for when the newest is forgotten
+    Remembered last[3];  // newest first
     Remembered trial;
     int filled = 0;      // how many of the last poses there are
     int which = 0;       // the dyad or group that spoils the trial

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace gruebler::motion {
 namespace {
@@ -35,7 +36,6 @@ constexpr double steady_rates = 0.1;    // of that fall: rates that change by le
 constexpr double around = 6;            // times the way to a change point: a row nearer is placed between both sides
 constexpr double both_sides = 3e-5;     // of the longest step: before a row is placed so, the near side is as near as that
 constexpr double far_side = 1e-2;       // of the longest step: the far side then, where rounding no longer matters
-constexpr double far_side_rows = 0.5;   // rows at most: not up to the next row
 constexpr double beyond_times = 8;  // the expected way to a change point, an r-th of it where r ranks are lost: twice for 4
 constexpr double searched = 4;      // times the way to the expected zero of a root: as far its least square is looked for
 constexpr double searched_least = 1e-13;  // of a place on the path: the least way to search, some hundred roundings
@@ -141,6 +141,15 @@ void Walk::recall(std::int64_t row) {
     }
 }
 
+// Goes back from a pose behind a change point to a row in it, of which the sides are not known.
+void Walk::return_to(std::int64_t row) {
+    Remembered& one = placing_.last[0];
+    one.at = static_cast<double>(row);
+    for (int m = 0; m < poses_.dyads; ++m) one.roots[m] = roots_of(poses_, m)[row];
+    for (int m = 0; m < poses_.unknown_count; ++m) one.unknowns[m] = poses_.unknowns[m * poses_.rows + row];
+    std::fill(one.determinants.begin(), one.determinants.end(), 0.0);
+}
+
 // The least of the roots, at most 1; 1 too if it is zero, since then nothing is lost.
 double Walk::least_root() const {
     double lowest = 1;
@@ -203,11 +212,18 @@ Walk::Reached Walk::walk_to(std::int64_t row, Pace pace, Watch& watch) {
     const double longest = smaller(1, placing_.unit);
     double step = smaller(pace.step, longest);  // measured in rows, and this row may be longer than the last one
     if (!remember(row)) {
+        if (placing_.last[0].at != target - 1) return_to(row - 1);
         placing_.filled = 1;
         step = smaller(step, first_step * placing_.unit * least_root());
     }
     double at = placing_.last[0].at, fault = pace.fault;
-    const auto ended = [&](End end, int number) { return Reached{end, at, {step, fault}, number}; };
+    if (at >= target) {
+        if (place_between(row)) return {End::done, target, {step, fault}, 0};
+        return {End::singular, target - 1, {step, fault}, -1 - placing_.singular_group};
+    }
+    const auto ended = [&](End end, int number) {
+        return Reached{end, larger(at, target - 1), {step, fault}, number};
+    };
     const std::int64_t cost =
         operation_steps * placing_.plan().operation_count + unknown_steps * placing_.plan().unknown_count;
     while (at < target) {
@@ -285,13 +301,13 @@ bool Walk::remember(std::int64_t row) {
     }
     for (int d = 0; d < path_.drives; ++d)
         off = larger(off, std::fabs(change(row, d) - ratio * change(row - 1, d)));
-    if (ratio == 0 || off > in_line * longest) return steady(path_, row);
-    const double before = static_cast<double>(row - 1), target = static_cast<double>(row);
+    if (ratio == 0 || off > in_line * longest * larger(1, std::fabs(ratio))) return steady(path_, row);
+    const double before = static_cast<double>(row - 1);
     for (int k = 0; k < placing_.filled; ++k)
         placing_.last[k].at = before + (placing_.last[k].at - before) / ratio;
-    const double last = placing_.last[0].at;
-    if (placing_.filled > 1 && (last > target || (last < before && ratio < 0)))
-        placing_.forget();  // a pose behind a change point, where this way does not come from or lead to
+    // Back into a change point: the pose on its other side lies ahead.
+    if (placing_.filled > 1 && placing_.last[0].at < before && placing_.last[1].at > before)
+        std::swap(placing_.last[0], placing_.last[1]);
     return true;
 }
 
@@ -354,8 +370,7 @@ bool Walk::cross_change(std::int64_t row, int number) {
     const double ahead = placing_.zero_ahead(number), left = target - at;
     const bool inside = left < around * ahead;
     if (inside && ahead > both_sides * unit) return false;
-    const double beyond = inside ? target + smaller(far_side * unit, far_side_rows)
-                                 : smaller(at + beyond_times * ahead, target);
+    const double beyond = inside ? target + far_side * unit : smaller(at + beyond_times * ahead, target);
     const bool full = beyond == target;
     placing_.singular = Singular::jumped;
     placing_.singular_group = number;
@@ -378,11 +393,20 @@ bool Walk::cross_change(std::int64_t row, int number) {
     } else if (!inside || row < path_.rows - 1) {
         return false;
     }
-    placing_.singular = Singular::in_it;
-    const Verdict between = try_at(poses_.order, target);
-    placing_.singular = Singular::none;
-    if (between != Verdict::good) return false;
+    if (!place_between(row)) return false;
     if (placing_.last[0].at < target) placing_.accept(target);
+    return true;
+}
+
+// Places a row between poses on both sides of a change point: as any other if it is far enough from it.
+bool Walk::place_between(std::int64_t row) {
+    const double target = static_cast<double>(row);
+    if (placing_.last[0].at < target || try_at(poses_.order, target) != Verdict::good) {
+        placing_.singular = Singular::in_it;
+        const Verdict between = try_at(poses_.order, target);
+        placing_.singular = Singular::none;
+        if (between != Verdict::good) return false;
+    }
     record(row);
     return true;
 }

@@ -77,6 +77,8 @@ private:
     void meet(double at);
     bool is_straight(int group) const;
     bool cross_change(std::int64_t row, int group);
+    bool place_between(std::int64_t row);
+    void return_to(std::int64_t row);
 };
 
 }  // namespace gruebler::motion

@@ -108,3 +108,18 @@ def test_rows_close_behind_a_change_point_of_a_larger_group(behind, gap, before)
     motion = move(parallel_legs(), path, order=0)
     assert motion.complete
     assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-8
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_crowded_rows_about_change_points_of_a_larger_group(seed):
+    """Forth, and back again; the plate only shifts, and no row is left out."""
+    random = np.random.default_rng(seed)
+    tilt = np.arctan2(3.0 - 0.8, 2.0)  # two of the plate's pins in line with a crank
+    rows = [0.93, 2.0, 5.0, *random.uniform(0.93, 7, 4)]
+    for change in (np.pi, np.pi + tilt, 2 * np.pi, 2 * np.pi + tilt):
+        rows += [change + sign * 10**power for sign, power in zip((-1, 1, 1), random.uniform(-9, -2, 3), strict=True)]
+    rows = np.unique([*rows, np.pi] if seed % 4 == 0 else rows)
+    path = np.concatenate([rows, rows[::-1][1:]]) if seed % 2 else rows
+    motion = move(parallel_legs(), path, order=0)
+    assert motion.complete
+    assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-7
