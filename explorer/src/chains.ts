@@ -127,7 +127,7 @@ export class ChainList {
     // without a list of names, if there is one
     const drawn = (own?.inversions.find(({ frame }) => frame === own.chosen) ?? own)?.picture ?? "";
     const mine = own
-      ? [this.#card(own.text, drawn, [t("Your machine"), own.name].filter(Boolean).join(": "), "data-own")]
+      ? [this.#card(own.text, drawn, own.name ? t("Yours: {name}", { name: own.name }) : t("Your machine"), "data-own")]
       : [];
     if (!found.total) {
       const odd = (this.#links + this.mobility) % 2 === 0;

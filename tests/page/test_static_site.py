@@ -214,7 +214,7 @@ def test_a_link_made_there_opens_there_for_everyone(tab, address):
     page.page.fill('[data-page="structure"] input[aria-label="Links"]', "4")
     page.page.press('[data-page="structure"] input[aria-label="Links"]', "Enter")
     page.page.click("[data-chain]")
-    page.until("gruebler.views.structure.structure.text.startsWith('R(0-1)')")
+    page.until("gruebler.views.structure.structure?.text.startsWith('R(0-1)')")
     page.page.click('[data-list="driven"] .card')
     page.page.click('[data-act="realise"]')
     page.until("gruebler.shown.name.startsWith('A mechanism with')")

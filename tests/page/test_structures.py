@@ -40,7 +40,7 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     assert links.input_value() == "4"
     cards = view.locator('[data-list="chains"] .card')
     assert cards.evaluate_all("all => all.map((e) => [e.querySelector('span').textContent, e.ariaPressed])") == [
-        ["Your machine: four-bar chain", "true"],
+        ["Yours: four-bar chain", "true"],
         ["four-bar chain", "false"],
     ]
     links.fill("40")
