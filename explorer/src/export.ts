@@ -49,7 +49,10 @@ const kinds = new Map<string, Promise<{ name: string; title: string }[]>>();
 /** Show the sheet over the page until something of it is taken. */
 export function showExport(root: HTMLElement, page: Page, shown: Exported): void {
   const told = h("p.told", { role: "status" });
-  const say = (text: string) => told.replaceChildren(text);
+  const say = (text: string, failed = false) => {
+    told.replaceChildren(text);
+    told.classList.toggle("error", failed);
+  };
   const dialog = showOver(root, t("Save and export"), told, ...groupsOf(page, shown, say));
   dialog.dataset.panel = "export";
   dialog.addEventListener("click", ({ target }) => {
@@ -57,7 +60,7 @@ export function showExport(root: HTMLElement, page: Page, shown: Exported): void
   });
 }
 
-type Say = (text: string) => void;
+type Say = (text: string, failed?: boolean) => void;
 
 /** Save the linkage as it is opened again, and say under which name. */
 export function saveDocument(page: Page, shown: Exported, say: Say = (text) => page.say(text, "done")): void {
@@ -76,7 +79,7 @@ function save(page: Page, say: Say, suffix: string, type: string, content: strin
 
 function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
   const button = (text: string, act: () => void) => h("button.plain", { onclick: act }, text);
-  const failed = (error: Error) => say(error.message);
+  const failed = (error: Error) => say(error.message, true);
   const ask = (kind: string, more: Record<string, unknown> = {}) => {
     page
       .ask<Saved>("export", { document: shown.document(), kind, name: page.shown.name, ...more })

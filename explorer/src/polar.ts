@@ -28,7 +28,8 @@ export class Polar {
     const rings = roundValues(0, most, 2).filter((value) => value > 0);
     const mean = [x, y].map((part) => part.reduce((sum, one) => sum + (one || 0), 0) / part.length) as Pair;
     // the numbers stand where the curve is not
-    const away = mean.map((part) => part / (Math.hypot(...mean) || 1)) as Pair;
+    const off = Math.hypot(...mean);
+    const away: Pair = off > 0.05 * most ? (mean.map((part) => part / off) as Pair) : [0, 1];
     const to = (factor: number) => (value: number) => factor * value;
     this.element.setAttribute("aria-label", t("Largest {value}", { value: `${number(most)} ${unit}` }));
     this.element.replaceChildren(

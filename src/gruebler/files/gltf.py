@@ -42,6 +42,7 @@ _COLOURS = (
     (0.33, 0.38, 0.64),
     (0.58, 0.42, 0.30),
     (0.24, 0.60, 0.62),
+    (0.70, 0.30, 0.55),
 )
 _UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # glTF has y upwards, the linkage z: a quarter turn about x
 
