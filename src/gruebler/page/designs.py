@@ -75,7 +75,8 @@ def design_records(
 ) -> dict[str, Any]:
     """The accepted designs for a task, the best of them with pictures; transmission angles in degrees.
 
-    For positions through which a crank that turns fully carries a body the angle over the whole turn decides. A design
+    For positions through which a crank that turns fully carries a body the angle over the whole turn decides, and is
+    what is asked for where a design has it. A design
     that is much like a better one is marked as its variant.
 
     >>> found = design_records(task_of("dead-centres", [[60, 1.2]]), True, 30.0, "en", print)
@@ -88,6 +89,9 @@ def design_records(
     sort = ("range-transmission",) if crank and isinstance(task, PositionTask) else ()
     result = synthesise(task, demands=Demands(crank=crank, transmission=radians(transmission)), sort=sort)
     designs = [design for design in result.designs if design.verdict.accepted]
+    if sort:  # those that have the angle in all positions, if there are any
+        whole = [each for each in designs if degrees(each.transmission_over_range) >= transmission]
+        designs = whole or designs
     items = []
     for number, design in enumerate(designs[:_MOST_DESIGNS], 1):
         progress(translate("Drawing design {number} of {total}", lang, number=number, total=len(designs)))
