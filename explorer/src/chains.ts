@@ -13,8 +13,6 @@ interface Chains {
   items: { text: string; name: Record<Language, string>; picture: string }[];
 }
 
-const TYPED = 400; // milliseconds until a number is taken for whole
-
 export class ChainList {
   readonly element = h("div", {});
   #links = 6;
@@ -28,7 +26,6 @@ export class ChainList {
   readonly #count = h("span.note.count", {}, "\u00a0");
   readonly #status = h("div.form", {});
   #asked = 0;
-  #typing = 0;
 
   constructor(
     private readonly page: Page,
@@ -49,24 +46,19 @@ export class ChainList {
   }
 
   arrange(): void {
-    const after = (time: number) => () => {
-      clearTimeout(this.#typing);
-      this.#typing = window.setTimeout(() => this.#typed(links, mobility), time);
-    };
-    const heard = { oninput: after(TYPED), onchange: after(0) };
-    const links: HTMLInputElement = h("input", {
+    const links = h("input", {
       type: "number",
       ...this.page.limits.links,
       value: this.#links,
       "aria-label": t("Links"),
-      ...heard,
+      onchange: () => this.#typed(links, mobility),
     });
-    const mobility: HTMLInputElement = h("input", {
+    const mobility = h("input", {
       type: "number",
       ...this.page.limits.mobility,
       value: this.mobility,
       "aria-label": t("Mobility"),
-      ...heard,
+      onchange: () => this.#typed(links, mobility),
     });
 
     renew(
