@@ -14,11 +14,11 @@ export interface Area extends Box {
   unit: number;
 }
 
-/** A square about the origin of that width, or less of its height where the window is low, and all of the places; it is
- * as wide as the element, not higher than that. */
-export function areaOf(wide: number, places: readonly (readonly number[])[], element: Element): Area {
+/** A square about the origin of that width, or less of its height where that part of the window is low, and all of the
+ * places; it is as wide as the element, and as high whatever the places are. */
+export function areaOf(wide: number, part: number, places: readonly (readonly number[])[], element: Element): Area {
   const pixels = element.clientWidth || 840;
-  const ratio = Math.min(1, Math.max(0.5, (0.6 * window.innerHeight) / pixels));
+  const ratio = Math.min(1, Math.max(0.5, (part * window.innerHeight) / pixels));
   const span = (axis: 0 | 1, half: number): [number, number] => {
     const values = places.map((place) => place[axis]!);
     const [low, most] = [Math.min(...values), Math.max(...values)];
@@ -27,10 +27,12 @@ export function areaOf(wide: number, places: readonly (readonly number[])[], ele
     return [Math.min(-half, low - room), Math.max(half, most + room)];
   };
   let [left, right] = span(0, wide / 2);
-  const [bottom, top] = span(1, (ratio * wide) / 2);
-  const more = Math.max(0, (top - bottom) / ratio - (right - left)) / 2;
-  left -= more;
-  right += more;
+  let [bottom, top] = span(1, (ratio * wide) / 2);
+  const more = ((top - bottom) / ratio - (right - left)) / 2;
+  left -= Math.max(0, more);
+  right += Math.max(0, more);
+  bottom += Math.min(0, more) * ratio;
+  top -= Math.min(0, more) * ratio;
   return { left, right, bottom, top, unit: (MARK * (right - left)) / pixels };
 }
 
@@ -53,7 +55,7 @@ export function gridOf({ left, right, bottom, top, unit }: Area): SVGElement[] {
   }
   for (let k = Math.ceil(bottom / step); k * step < top; k++) {
     lines.push(line(k, `M${left} ${-k * step}H${right}`));
-    if (k % 2 === 0) ticks.push(tick(left + unit, k * step + unit, number(k * step)));
+    if (k % 2 === 0 && k * step < top - 5 * unit) ticks.push(tick(left + unit, k * step + unit, number(k * step)));
   }
   return [...lines, ...ticks];
 }

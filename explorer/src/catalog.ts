@@ -1,6 +1,6 @@
 /** The catalog: every machine with its picture, found by words of either language and by its features. */
 
-import { choice, h, ownPage, renew, thumbnail } from "./dom";
+import { choice, h, menu, ownPage, renew, thumbnail } from "./dom";
 import { movesOnHover } from "./hover";
 import { currentLanguage, t } from "./language";
 import type { Model } from "./model";
@@ -94,19 +94,15 @@ export class CatalogView implements View {
         field(t("Joints by type"), this.#joints, (text) => (this.#joints = text), t("R:4,P:0"), "joints"),
       ),
     );
-    const order = h(
-      "select",
-      {
-        "data-field": "order",
-        onchange: () => {
-          this.#byLinks = order.selectedIndex > 0;
-          void this.#search();
-        },
-      },
-      ...[t("by name"), t("by number of links")].map((text, k) =>
-        h("option", { selected: !!k === this.#byLinks }, text),
-      ),
-    );
+    const orders: [string, string][] = [
+      ["", t("by name")],
+      ["links", t("by number of links")],
+    ];
+    const sort = (value: string) => {
+      this.#byLinks = !!value;
+      void this.#search();
+    };
+    const order = menu(t("Order"), orders, this.#byLinks ? "links" : "", sort, { "data-field": "order" });
     const kinds: [string, string][] = [
       ["", t("All")],
       ["crank", t("Cranks")],

@@ -1,6 +1,6 @@
 /** The designs that the library found, as cards in an order; each plays when it is pointed at. */
 
-import { choice, h, renew, thumbnail } from "./dom";
+import { h, menu, renew, thumbnail } from "./dom";
 import type { Moving } from "./ghost";
 import { angle, number, t } from "./language";
 import type { LinkageDocument } from "./model";
@@ -38,12 +38,16 @@ function exact(error: number | null): boolean {
   return Math.abs(error ?? 0) < 1e-9;
 }
 
-type Order = "error" | "size" | "transmission" | "range" | "shift";
+/** What a design is worth, the less the better; "balanced" is the sum of its places by those in LEVEL. */
+type Order = "error" | "balanced" | "size" | "transmission" | "range" | "shift";
+const LEVEL: Order[] = ["range", "size", "shift"];
 
 export class DesignCards {
-  readonly element = h("div", {});
+  readonly element = h("div.designs", {});
   #found: Found | null = null;
   #order: Order = "error";
+  /** Exact ones do not differ in their deviation. */
+  #exact = false;
   /** The form of those that are shown, at first the most frequent one; all if empty. */
   #form = "";
 
@@ -56,25 +60,27 @@ export class DesignCards {
   show(found: Found | null): Design | null {
     this.#found = found;
     this.#form = this.#forms()[0] ?? "";
-    // exact ones do not differ in their deviation
-    const angles = found?.whole ? "range" : "transmission";
-    this.#order = found?.items.some(({ error }) => !exact(error)) ? "error" : angles;
+    this.#exact = !!found?.items.every(({ error }) => exact(error));
+    this.#order = this.#exact ? "balanced" : "error";
     // by which they are numbered, those that are much like others last
     if (found) found.items = this.#sorted().sort((one, two) => +!!one.variant - +!!two.variant);
     this.arrange();
     return this.#shown[0] ?? null;
   }
 
-  #sorted(): Design[] {
-    const worth = ({ error, range, shift, size, transmission }: Design) =>
+  #sorted(order = this.#order): Design[] {
+    const items = this.#found?.items ?? [];
+    const places = order === "balanced" ? LEVEL.map((level) => this.#sorted(level)) : [];
+    const worth = (design: Design) =>
       ({
-        error: exact(error) ? 0 : Math.abs(error!),
-        size,
-        transmission: -(transmission ?? 0),
-        range: -(range ?? 0),
-        shift: shift ?? Infinity,
-      })[this.#order];
-    return [...(this.#found?.items ?? [])].sort((one, two) => worth(one) - worth(two) || 0);
+        error: exact(design.error) ? 0 : Math.abs(design.error!),
+        balanced: places.reduce((sum, sorted) => sum + sorted.indexOf(design), 0),
+        size: design.size,
+        transmission: -(design.transmission ?? 0),
+        range: -(design.range ?? design.transmission ?? 0),
+        shift: design.shift ?? Infinity,
+      })[order];
+    return [...items].sort((one, two) => worth(one) - worth(two) || 0);
   }
 
   get #shown(): Design[] {
@@ -95,39 +101,48 @@ export class DesignCards {
   arrange(): void {
     const found = this.#found;
     if (!found) return renew(this.element);
+    const shown = found.items.length;
     const orders: [Order, string][] = [
-      ...(found.items.every(({ error }) => exact(error)) ? [] : [["error", t("by deviation")] as [Order, string]]),
-      ["size", t("by size")],
+      ["error", t("by deviation")],
+      ["balanced", t("balanced: angle, size, sensitivity")],
       ["transmission", t("by transmission angle on the way")],
-      ["range", t("in all positions")],
+      ["range", t("by transmission angle in all positions")],
+      ["size", t("by size")],
       ["shift", t("by sensitivity")],
     ];
-    const shown = found.items.length;
+    if (this.#exact) orders.shift();
+    const words: [boolean, string][] = [
+      [this.#exact && shown > 0, t("All meet the targets exactly.")],
+      [found.items.some(({ lengths }) => lengths.length), t("Lengths in mm: crank · coupler · rocker · frame.")],
+      [
+        found.items.some(({ shift }) => shift),
+        t("Sensitivity: how far a target is off at most, if all lengths are 0.1 % wrong."),
+      ],
+    ];
     const [mine, more] = [false, true].map((like) => this.#shown.filter(({ variant }) => !!variant === like)) as [
       Design[],
       Design[],
     ];
-    const kinds = this.#forms().map((form): [string, string] => [form, `${capital(form)} · ${this.#of(form).length}`]);
+    const forms = this.#forms();
+    const kinds = forms.map((form): [string, string] => [form, `${capital(form)} · ${this.#of(form).length}`]);
+    if (forms.length > 1) kinds.unshift(["", `${t("All")} · ${shown}`]);
+    const chosen = { "data-field": "form" };
     renew(
       this.element,
       h("h2", {}, t("{shown} of {count} designs", { shown, count: found.total })),
       h("p.note", {}, found.note ?? ""),
       h("p.note", {}, found.refused ? t("{count} others do not meet what is asked.", { count: found.refused }) : ""),
-      kinds.length > 1
-        ? choice(t("Kinds of machines"), [["", `${t("All")} · ${shown}`], ...kinds], this.#form, (form) => {
-            this.#form = form;
-            this.arrange();
-          })
-        : "",
       shown > 1
-        ? choice(t("Order"), orders, this.#order, (order) => {
-            this.#order = order as Order;
-            this.arrange();
-          })
+        ? h(
+            "div.form",
+            {},
+            menu(t("Kinds of machines"), kinds, this.#form, (form) => this.#choose(() => (this.#form = form)), chosen),
+            menu(t("Order"), orders, this.#order, (order) => this.#choose(() => (this.#order = order as Order)), {
+              "data-field": "sorted",
+            }),
+          )
         : "",
-      found.items.some(({ lengths }) => lengths.length)
-        ? h("p.note", {}, t("Lengths in mm: crank · coupler · rocker · frame"))
-        : "",
+      h("p.note", {}, words.flatMap(([said, text]) => (said ? [text] : [])).join(" ")),
       h("div.cards.sorted", { "data-list": "designs" }, ...mine.map((design) => this.#card(design))),
       more.length
         ? h(
@@ -140,12 +155,18 @@ export class DesignCards {
     );
   }
 
+  #choose(change: () => void): void {
+    change();
+    this.arrange();
+  }
+
   #card(design: Design): HTMLElement {
     const { form, lengths, range, shift, transmission, error, size } = design;
     const degrees = (mu: number) => angle((mu * Math.PI) / 180, 3);
     const all = typeof range !== "number" ? "" : `, ${t("≥ {angle} in all positions", { angle: degrees(range) })}`;
     const value = error === null || exact(error) ? 0 : 100 * error;
     const deviation = value ? t("deviation {value} %", { value: number(value, 2) }) : t("met exactly");
+    const off = shift ? ` · ${t("sensitivity {value} %", { value: number(100 * shift, 2) })}` : "";
     const title = `${capital(form)} ${this.#of(form).indexOf(design) + 1}`;
     const play = () => this.play(design);
     return h(
@@ -154,10 +175,9 @@ export class DesignCards {
       thumbnail(design.picture, form),
       h("b", {}, title),
       h("span", {}, lengths.map((one) => number(one, 3)).join(" · ")),
-      h("span", {}, error === null ? "" : deviation),
+      h("span", {}, error === null || this.#exact ? "" : deviation),
       h("span", {}, transmission === null ? "" : t("μ ≥ {angle} on the way", { angle: degrees(transmission) }) + all),
-      h("span", {}, shift ? t("lengths 0.1 % wrong: off by {value} %", { value: number(100 * shift, 2) }) : ""),
-      h("span", {}, t("size {value} mm", { value: number(size, 3) })),
+      h("span", {}, t("size {value} mm", { value: number(size, 3) }) + off),
     );
   }
 }

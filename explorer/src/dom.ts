@@ -109,6 +109,22 @@ export function choice(
   return group;
 }
 
+/** A menu of which one entry is chosen: values with their texts. */
+export function menu(
+  label: string,
+  options: [string, string][],
+  chosen: string,
+  choose: (value: string) => void,
+  more: Attributes = {},
+): HTMLSelectElement {
+  const list = h(
+    "select",
+    { "aria-label": label, onchange: () => choose(list.value), ...more },
+    ...options.map(([value, text]) => h("option", { value, selected: value === chosen }, text)),
+  );
+  return list;
+}
+
 /** The picture in SVG that Python wrote, as an element: parsed, not trusted as markup of the page. */
 export function picture(text: string, label: string): Element {
   const parsed = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;

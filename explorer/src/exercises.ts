@@ -1,6 +1,6 @@
 /** Exercises: a fresh task with its figure, answers marked with hints, its linkage to try, the solution, the score. */
 
-import { choice, h, indexed, picture, renew } from "./dom";
+import { choice, h, indexed, menu, picture, renew } from "./dom";
 import { t } from "./language";
 import type { Model } from "./model";
 import type { Page, View } from "./view";
@@ -137,18 +137,12 @@ export class ExercisesView implements View {
   #showTasks(): void {
     const tasks = this.#numbered();
     if (tasks.length) {
-      const field = h(
-        "select",
-        {
-          "aria-label": t("Exercises"),
-          onchange: () => {
-            this.#chosen = field.value;
-            void this.fresh();
-          },
-        },
-        ...tasks.map(({ id, name }) => h("option", { value: id, selected: id === this.#chosen }, name)),
-      );
-      return renew(this.#tasks, field);
+      const options = tasks.map(({ id, name }): [string, string] => [id, name]);
+      const choose = (id: string) => {
+        this.#chosen = id;
+        void this.fresh();
+      };
+      return renew(this.#tasks, menu(t("Exercises"), options, this.#chosen, choose));
     }
     const levels = [1, 2, 3].map((k): [string, string] => [String(k), t("Level {level}", { level: k })]);
     const level = choice(t("Level"), levels, String(this.level), (value) => {

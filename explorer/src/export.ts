@@ -1,6 +1,6 @@
 /** The sheet of what can be taken away: files, the link, pictures, tables, the same on a command line and in Python. */
 
-import { h } from "./dom";
+import { h, menu } from "./dom";
 import { showOver } from "./help";
 import { currentLanguage, t } from "./language";
 import { chainText, type LinkageDocument } from "./model";
@@ -95,11 +95,8 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
     save(page, say, recorded!.startsWith("video/mp4") ? "mp4" : "webm", recorded!, blob);
   };
   const gif = () => ask("gif", { zoom: Math.min(LARGEST_ZOOM, choice.width / GIF_WIDTH) });
-  const width = h(
-    "select",
-    { "aria-label": t("Width of films"), onchange: () => (choice.width = Number(width.value)) },
-    ...WIDTHS.map(([text, value]) => h("option", { value, selected: value === choice.width }, text)),
-  );
+  const widths = WIDTHS.map(([text, value]): [string, string] => [String(value), text]);
+  const width = menu(t("Width of films"), widths, String(choice.width), (value) => (choice.width = Number(value)));
   const served = (name: string, kind = name.toLowerCase()) => (page.served ? button(name, () => ask(kind)) : null);
   const group = (title: string, note: string, ...ways: (Node | null)[]) =>
     h("div.form", { "data-group": "" }, h("p", {}, h("b", {}, title), h("small", {}, note)), ...ways);

@@ -1,6 +1,6 @@
 /** Parts of the header: the tabs of the views, the choice of the language, what is said under it. */
 
-import { h } from "./dom";
+import { h, menu } from "./dom";
 import { currentLanguage, type Language, setLanguage, t } from "./language";
 import { tool } from "./shell";
 
@@ -56,17 +56,11 @@ export function tabs(keys: string[], chosen: string, turnTo: (key: string) => vo
 
 /** The languages of the page; after a choice everything is laid out anew. */
 export function languageMenu(arrange: () => void): HTMLElement {
-  const choose = () => {
-    setLanguage(menu.value as Language);
-    arrange();
-  };
   const languages = Object.entries({ en: "English", de: "Deutsch" });
-  const menu = h(
-    "select",
-    { "aria-label": t("Language"), onchange: choose },
-    ...languages.map(([value, text]) => h("option", { value, selected: value === currentLanguage() }, text)),
-  );
-  return menu;
+  return menu(t("Language"), languages, currentLanguage(), (value) => {
+    setLanguage(value as Language);
+    arrange();
+  });
 }
 
 /** Say a sentence in its place under the header, an error or what is done; without a text the last one goes. */

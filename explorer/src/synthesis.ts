@@ -113,7 +113,6 @@ export class SynthesisView implements View {
     const order = h("input", {
       value: this.#order,
       placeholder: "1 2 3",
-      title: t("One number for each target: the same for those in any order, – for one at any time"),
       "data-field": "order",
       onchange: () => (this.#order = order.value),
     });
@@ -166,7 +165,16 @@ export class SynthesisView implements View {
               open ? option(t("closed curve"), this.#closed, (on) => this.#close(on), "closed") : null,
               option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
               h("label", {}, t("transmission angle from"), least, "°"),
-              this.#planar && this.#page.served ? h("label", {}, t("order, if another"), order) : null,
+              ...(this.#planar && this.#page.served
+                ? [
+                    h("label", {}, t("order, if another"), order),
+                    h(
+                      "p.note",
+                      {},
+                      t("One number for each target: the same for those in any order, – for one at any time"),
+                    ),
+                  ]
+                : []),
             ),
             h(
               "div.form",
@@ -178,9 +186,9 @@ export class SynthesisView implements View {
             ),
             h("div.told", {}, this.status, this.#told),
             this.#list, // grows, and moves nothing
+            this.designs.element,
           ),
         ),
-        this.designs.element,
       ),
     );
     this.#draw();
@@ -328,7 +336,7 @@ export class SynthesisView implements View {
     const found = await awaited(this.status, (progress) => this.#page.ask<Found>("synthesise", question, progress));
     if (!found) return;
     this.#play(this.designs.show(found));
-    this.designs.element.querySelector(".card")?.scrollIntoView({ block: "nearest" }); // of the plane little goes
+    this.designs.element.scrollIntoView(); // beside the plane, which stays in sight
   }
 
   // --- a design plays over its targets -------------------------------------------------------------------------------
@@ -340,8 +348,10 @@ export class SynthesisView implements View {
     const pivots = kind === "positions" ? this.#pivots : [];
     const places = [...(planar ? [...points, ...pivots] : []), ...(shownDesign?.frames.flat() ?? [])];
     if (!this.#held) {
-      const few = plane.clientWidth && plane.clientWidth < 500 ? 0.6 : 1;
-      this.#area = areaOf(planar || !places.length ? this.#home || few * WIDE : 0, places, plane);
+      const narrow = plane.clientWidth && plane.clientWidth < 500;
+      const wide = this.#home || (narrow ? 0.6 : 1) * WIDE;
+      const part = narrow && shownDesign ? 0.32 : 0.6; // room for the designs
+      this.#area = areaOf(planar || !places.length ? wide : 0, part, places, plane);
       plane.setAttribute("viewBox", viewBoxOf(this.#area));
     }
     const { unit } = this.#area;

@@ -53,8 +53,6 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
     view.click('[data-act="synthesise"]')
     view.locator('[data-list="designs"] .card').first.wait_for(timeout=60_000)
     cards = view.locator('[data-list="designs"] .card')
-    angles = cards.evaluate_all("all => all.map((e) => Number(/≥ ([0-9.]+)/.exec(e.textContent)[1]))")
-    assert angles == sorted(angles, reverse=True)  # all of them exact
     assert cards.first.locator("svg .gr-head").count() >= 3  # where the positions are
     # it plays over the targets: three moving links, one curve
     assert view.locator("[data-ghost] polygon").count() == 3
@@ -155,7 +153,11 @@ def test_dead_centres_are_those_that_were_asked_for(design):
     view.click('[data-act="synthesise"]')
     cards = view.locator('[data-list="designs"] .card')
     cards.nth(1).wait_for(timeout=60_000)
-    view.locator('[data-value="transmission"]').click()
+    cards.last.hover()  # the plane stays in sight beside all of them
+    plane = view.locator(".plane").bounding_box()
+    assert plane["y"] >= 0
+    assert plane["y"] + plane["height"] <= view.viewport_size["height"]
+    view.locator('[data-field="sorted"]').select_option("transmission")
     angles = [
         float(text.split("≥")[1].split("°")[0]) for text in cards.locator("span:text('on the way')").all_text_contents()
     ]

@@ -128,14 +128,13 @@ def test_three_positions_are_designed(reader):
     # on the way back all is as it was left: targets, list, the chosen type, the place on the page
     reader.page.go_back()
     reader.tab.until("gruebler.view === 'synthesis'")
-    kinds = reader.page.locator(".choice:has(~ [data-list=designs]) >> nth=0").locator("button")
-    names = [" ".join(name.split(" · ")) for name in kinds.all_inner_texts()]
-    counts = [int(name.split()[-1]) for name in names]
+    kinds = reader.page.locator('[data-field="form"]')
+    counts = [int(name.split()[-1]) for name in kinds.locator("option").all_inner_texts()]
     assert counts[1:] == sorted(counts[1:], reverse=True)
     assert counts[0] == sum(counts[1:]) > counts[1]
     cards = reader.page.locator('[data-list="designs"] .card')
     assert cards.count() == counts[1]  # at first those that are most
-    kinds.nth(2).click()
+    kinds.select_option(index=2)
     assert cards.count() == counts[2]
     cards.last.scroll_into_view_if_needed()
     place = "(view) => window.scrollY + view.scrollTop"
