@@ -30,10 +30,10 @@ export function factsOf(linkage: Linkage, { dead, least }: Found, inLap: (angle:
   const facts: Fact[] = [];
   const record = model.outputs[0];
   const turning = record?.joint === null;
-  const size = (value: number) => (turning ? angle(value, 4) : `${number(value, 4)} ${model.unit}`);
+  const size = (value: number) => (turning ? angle(value) : `${number(value, 4)} ${model.unit}`);
   if (record) {
     const value = output(linkage, pose, 0);
-    const text = turning ? angle(inLap(value), 5) : `${number(value, 5)} ${model.unit}`;
+    const text = size(turning ? inLap(value) : value);
     facts.push({ name: t("Output {name}", { name: linkage.linkName(record.link) }), text });
     facts.push({
       name: t("Velocity by the drive"),

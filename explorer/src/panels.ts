@@ -179,7 +179,9 @@ export function pointsPanel(editor: Editor): HTMLElement {
     h(
       "p.note",
       {},
-      t("A double-click puts a point: on a link, or beside all links on the one chosen here. Points are dragged."),
+      t(
+        "Click or tap twice to put a point: on a link, or beside all links on the one chosen here. Points are dragged.",
+      ),
     ),
   );
 }

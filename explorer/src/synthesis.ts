@@ -153,7 +153,9 @@ export class SynthesisView implements View {
           h(
             "div",
             {},
-            this.#planar ? choice(t("Click"), clicks, this.#puts, (value) => (this.#puts = value as Puts)) : null,
+            this.#planar
+              ? choice(t("What is to be met"), clicks, this.#puts, (value) => (this.#puts = value as Puts))
+              : null,
             h("div.chain-picture", {}, this.#plane),
           ),
           h(
