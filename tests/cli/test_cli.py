@@ -160,6 +160,10 @@ def test_the_language_of_the_environment(capsys, monkeypatch):
         (["check", "--explian", "vcomp"], "did you mean '--explain'?"),
         (["enumerate", "--likns", "4"], "unknown arguments: --likns (did you mean '--links'?)"),
         (["synthesise", "path", "--swing", "4"], "unknown arguments: --swing (see"),
+        (
+            ["synthesise", "positions", "a.csv", "--structure", "Watt I", "Watt II"],
+            "unknown arguments: Watt II (give --structure before each of its values) (see",
+        ),
         (["check", "foo"], "the catalog has no entry 'foo'; `gruebler catalog list` shows them all"),
         (
             ["exercise", "sheet", "--kind", "mobility", "-o", "x.pdf", "--solutions"],

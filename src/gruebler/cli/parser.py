@@ -6,6 +6,7 @@ import argparse
 import gettext
 import os
 import re
+import sys
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -190,11 +191,11 @@ class Parser(argparse.ArgumentParser):
         """All options of this parser."""
         return self._option_string_actions
 
-    def _complain_of_unknown(self, unknown: Sequence[str]) -> NoReturn:
+    def _complain_of_unknown(self, unknown: Sequence[str], words: Sequence[str] = ()) -> NoReturn:
         option = unknown[0].partition("=")[0]
         known = [option for parser in self._first._all() for option in parser._known()]
         guess = option.startswith("-") and option not in known  # one of another action is known
-        suggestion = nearest(option, self._known()) if guess else ""
+        suggestion = nearest(option, self._known()) if guess else self._how_repeated(unknown[0], words)
         self.error(
             translate(
                 "unknown arguments: {arguments}{suggestion}",
@@ -203,6 +204,15 @@ class Parser(argparse.ArgumentParser):
                 suggestion=suggestion,
             )
         )
+
+    def _how_repeated(self, unknown: str, words: Sequence[str]) -> str:
+        """What to do if the word that nobody takes stands behind the value of an option that may be repeated."""
+        before = words[: words.index(unknown)] if unknown in words else ()
+        actions = [action for parser in self._first._all() for action in parser._actions if action.default == []]
+        names = {name for action in actions for name in action.option_strings}
+        if len(before) < 2 or before[-2] not in names:
+            return ""
+        return translate(" (give {option} before each of its values)", self.lang, option=before[-2])
 
     def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
         """As argparse; numbers are called so, not int and float; choices may be spelt the American way."""
@@ -221,9 +231,10 @@ class Parser(argparse.ArgumentParser):
 
     def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
         """As argparse; an unknown option is answered by the nearest known one."""
-        arguments, unknown = self.parse_known_args(args, namespace)
+        words = sys.argv[1:] if args is None else list(args)
+        arguments, unknown = self.parse_known_args(words, namespace)
         if unknown:
-            self._complain_of_unknown(unknown)
+            self._complain_of_unknown(unknown, words)
         return arguments
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
