@@ -13,8 +13,12 @@ namespace {
 using namespace algebra;
 
 using Number = std::complex<double>;
-using Task = Array<Number, 4, 8>;
-using Unknowns = Array<Number, -1, 8>;
+template <int unknowns>
+using TaskOf = Array<Number, 4, unknowns>;
+template <int unknowns>
+using UnknownsOf = Array<Number, -1, unknowns>;
+using Task = TaskOf<8>;
+using Unknowns = UnknownsOf<8>;
 
 struct LevelOfTracking {
     Level level;
@@ -51,7 +55,13 @@ void check_shape(int positions, int points) {
            "positions give two equations, points one: 0 to 8 of them");
 }
 
-Family family_of(const std::string& name, int positions, int points) {
+Family family_of(const std::string& name, int unknowns, int positions, int points) {
+    if (unknowns == 10) {
+        expect(positions == 0 && points == 10, "ten unknowns have 10 points: pairs besides the first");
+        if (name == "Stephenson II") return Family::stephenson_2;
+        expect(name == "Stephenson III", "ten unknowns have Stephenson II or Stephenson III");
+        return Family::stephenson_3;
+    }
     if (name.empty()) {
         check_shape(positions, points);
         return Family::four_bars;
@@ -63,33 +73,35 @@ Family family_of(const std::string& name, int positions, int points) {
     return Family::stephenson_3;
 }
 
-nb::tuple track(const Unknowns& starts, const Task& begin, const Task& end, int positions, int points, double loose,
-                const std::string& family, const std::string& level) {
-    const Family own = family_of(family, positions, points);
+template <int unknowns>
+nb::tuple track(const UnknownsOf<unknowns>& starts, const TaskOf<unknowns>& begin, const TaskOf<unknowns>& end,
+                int positions, int points, double loose, const std::string& family, const std::string& level) {
+    const Family own = family_of(family, unknowns, positions, points);
     expect(loose > 0, "loose must be positive");
     Track* kernel = level_of(level).track;
     const std::size_t count = starts.shape(0);
-    std::vector<Number> ends(count * 8);
+    std::vector<Number> ends(count * unknowns);
     std::vector<std::int64_t> status(count), steps(count);
     const Paths paths{own, positions, points, static_cast<std::int64_t>(count), parts(starts.data()), parts(begin.data()),
                       parts(end.data()), loose, reinterpret_cast<double*>(ends.data()), status.data(), steps.data()};
     run([&](Watch& watch) { return kernel(paths, watch); });
-    return nb::make_tuple(hand_over<Number>(std::move(ends), {count, 8}),
+    return nb::make_tuple(hand_over<Number>(std::move(ends), {count, unknowns}),
                           hand_over<std::int64_t>(std::move(status), {count}),
                           hand_over<std::int64_t>(std::move(steps), {count}));
 }
 
-nb::tuple refine_solutions(const Unknowns& z, const Task& task, int positions, int points, const std::string& family,
-                           const std::string& level) {
-    const Family own = family_of(family, positions, points);
+template <int unknowns>
+nb::tuple refine_solutions(const UnknownsOf<unknowns>& z, const TaskOf<unknowns>& task, int positions, int points,
+                           const std::string& family, const std::string& level) {
+    const Family own = family_of(family, unknowns, positions, points);
     Refine* kernel = level_of(level).refine;
     const std::size_t count = z.shape(0);
-    std::vector<Number> refined(z.data(), z.data() + 8 * count);
+    std::vector<Number> refined(z.data(), z.data() + unknowns * count);
     std::vector<double> last_steps(count);
     const Solutions solutions{own, positions, points, static_cast<std::int64_t>(count), parts(task.data()),
                               reinterpret_cast<double*>(refined.data()), last_steps.data()};
     run([&](Watch& watch) { return kernel(solutions, watch); });
-    return nb::make_tuple(hand_over<Number>(std::move(refined), {count, 8}),
+    return nb::make_tuple(hand_over<Number>(std::move(refined), {count, unknowns}),
                           hand_over<double>(std::move(last_steps), {count}));
 }
 
@@ -191,6 +203,30 @@ NewArray<std::int64_t> reduce(const Table& matrix) {
     return hand_over<std::int64_t>(std::move(rows), {static_cast<std::size_t>(rank), width});
 }
 
+template <int unknowns>
+void add_tracking(nb::module_& module) {
+    module.def("track", track<unknowns>, nb::arg("starts").noconvert(), nb::arg("begin").noconvert(), nb::arg("end").noconvert(),
+               nb::arg("positions"), nb::arg("points"), nb::arg("loose"), nb::kw_only(), nb::arg("family") = "",
+               nb::arg("level") = "",
+               "Solutions of one task of four-bars followed to another, straight in the space of tasks: the ends "
+               "complex[paths, 8], how each ended int64[paths] (0 arrived, 1 failed, 2 infinite), steps int64[paths]."
+               "\n\n"
+               "starts: complex[paths, 8], moving pivots x, x*, y, y*, fixed pivots a, a*, b, b*; begin, end: "
+               "complex[4, 8], displacements t and their conjugates s of the positions, then of the points, turns g of "
+               "the positions, values of the unknowns that no equation is left for; loose: how far the corrector may "
+               "change a prediction; family: '' for four-bars, 'Watt II', 'Stephenson II' or 'Stephenson III' for six-bars "
+               "whose input and output turn through points + 1 pairs: starts are a, f, p, q or a, b, f, p or a, f, c, p "
+               "of docs/theory/synthesis-functions.md (of eleven pairs q, too, and all arrays have ten columns), each with its "
+               "conjugate, a task has the turns of input and output, then the coefficients of the last equation: of the unknowns, and its constant, that of p p*; "
+               "then of Stephenson's k, k*; level: compiled for this instruction set, the best "
+               "one by default.");
+    module.def("refine_solutions", refine_solutions<unknowns>, nb::arg("z").noconvert(), nb::arg("task").noconvert(),
+               nb::arg("positions"), nb::arg("points"), nb::kw_only(), nb::arg("family") = "", nb::arg("level") = "",
+               "Newton's method for solutions of one task, with residuals of twice the digits: the solutions "
+               "complex[n, 8] and the last relative step of each float64[n], infinite where the matrix is singular.\n\n"
+               "The arguments are those of `track`.");
+}
+
 }  // namespace
 
 void add_algebra(nb::module_& module) {
@@ -208,26 +244,8 @@ void add_algebra(nb::module_& module) {
                "pivot, start, column, value: the form as `eliminate` gives it; solutions: int64[columns, k].");
     module.def("reduce", reduce, nb::arg("matrix").noconvert(),
                "The reduced row echelon form modulo 2^31 - 1 of a dense matrix int64[m, n], without rows of zeros.");
-    module.def("track", track, nb::arg("starts").noconvert(), nb::arg("begin").noconvert(), nb::arg("end").noconvert(),
-               nb::arg("positions"), nb::arg("points"), nb::arg("loose"), nb::kw_only(), nb::arg("family") = "",
-               nb::arg("level") = "",
-               "Solutions of one task of four-bars followed to another, straight in the space of tasks: the ends "
-               "complex[paths, 8], how each ended int64[paths] (0 arrived, 1 failed, 2 infinite), steps int64[paths]."
-               "\n\n"
-               "starts: complex[paths, 8], moving pivots x, x*, y, y*, fixed pivots a, a*, b, b*; begin, end: "
-               "complex[4, 8], displacements t and their conjugates s of the positions, then of the points, turns g of "
-               "the positions, values of the unknowns that no equation is left for; loose: how far the corrector may "
-               "change a prediction; family: '' for four-bars, 'Watt II', 'Stephenson II' or 'Stephenson III' for six-bars "
-               "whose input and output turn through points + 1 pairs: starts are a, f, p, q or a, b, f, p or a, f, c, p "
-               "of docs/theory/synthesis-functions.md, each with its conjugate, a task has the turns of input and "
-               "output, then the coefficients of the last equation: of the unknowns, and its constant, that of p p*; "
-               "then of Stephenson's k, k*; level: compiled for this instruction set, the best "
-               "one by default.");
-    module.def("refine_solutions", refine_solutions, nb::arg("z").noconvert(), nb::arg("task").noconvert(),
-               nb::arg("positions"), nb::arg("points"), nb::kw_only(), nb::arg("family") = "", nb::arg("level") = "",
-               "Newton's method for solutions of one task, with residuals of twice the digits: the solutions "
-               "complex[n, 8] and the last relative step of each float64[n], infinite where the matrix is singular.\n\n"
-               "The arguments are those of `track`.");
+    add_tracking<8>(module);
+    add_tracking<10>(module);
     module.def("certify", certify, nb::arg("z").noconvert(), nb::arg("task").noconvert(), nb::arg("positions"),
                nb::arg("points"),
                "Which solutions of one task are proved, each different from all others, by an interval Newton step: "

@@ -305,12 +305,12 @@ def test_dead_centres_in_german(capsys):
         (["dead-centres"], "expected exactly one of --swing and --stroke, but found none"),
         (["dead-centres", "--swing", "60", "--crank-angle", "400"], "--crank-angle: expected an angle between 0 and"),
         (["dead-centres", "--stroke", "5", "--time-ratio", "0.5"], "--time-ratio: expected slow to quick"),
-        (["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--points", "0"], "expected 2 to 9"),
+        (["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--points", "0"], "expected 2 to 11"),
         (["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--six-bars", "--minimax"], "not with --six"),
         (["function", "x", "--interval", "1", "2", "--swings", "0", "60"], "--swings: expected a number that is not 0"),
         (
-            ["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--points", "10"],
-            "--points: expected 2 to 9",
+            ["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--points", "12"],
+            "--points: expected 2 to 11",
         ),
         (
             ["function", "x", "--interval", "1", "2", "--swings", "5", "6", "--minimax", "--structure", "quad"],

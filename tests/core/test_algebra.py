@@ -7,7 +7,7 @@ import pytest
 from scipy.interpolate import KroghInterpolator
 
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem, load_generic_solutions
-from gruebler.design.synthesis.six_bar_monodromy import known_solution, merged, random_numbers
+from gruebler.design.synthesis.six_bar_monodromy import known_solutions, merged, random_numbers
 from tests.core.four_bar_equations import evaluate
 from tests.design.synthesis.test_points import random_parameters
 
@@ -173,11 +173,11 @@ def test_a_signal_ends_a_long_call(core):
 
 def common_turns(family, z, task, pairs):
     """(pairs, 2) T and T* of the link that both loops have, from their two linear equations."""
-    rows, (k, kc) = [], task[3, 2:4]
+    rows, (k, kc), two_arms = [], task[3, 2:4], family == "Watt II" or pairs == 11
     for turn, out in task[:2, : pairs - 1].T:
 
         def vectors(own, x, y):  # of one of two conjugate worlds
-            first, second, third, _ = own
+            first, second, third, *_ = own
             return {
                 "Watt II": (1 - first * x, 1 - second * y),
                 "Stephenson II": (first * x - 1 - third * y, second * x - 1 - third * y),
@@ -186,7 +186,7 @@ def common_turns(family, z, task, pairs):
 
         now, nowc = vectors(z[::2], turn, out), vectors(z[1::2], 1 / turn, 1 / out)
         then, thenc = vectors(z[::2], 1, 1), vectors(z[1::2], 1, 1)
-        (p, pc), (q, qc) = (z[4:6], z[6:]) if family == "Watt II" else (z[6:], (k * z[6], kc * z[7]))
+        (p, pc), (q, qc) = (z[-4:-2], z[-2:]) if two_arms else (z[6:], (k * z[6], kc * z[7]))
         left = [[arm * wc, armc * w] for arm, armc, w, wc in zip((p, q), (pc, qc), now, nowc, strict=True)]
         right = [
             (w0 + arm) * (w0c + armc) - arm * armc - w * wc
@@ -196,17 +196,19 @@ def common_turns(family, z, task, pairs):
     return np.array(rows)
 
 
-def eight_or_nine(family, pairs):
+def of_pairs(family, pairs):
     return Problem(name="pairs", poses=0, points=pairs - 1, classes=0, members=1, family=family)
 
 
-@pytest.mark.parametrize("pairs", [8, 9])
-@pytest.mark.parametrize("family", ["Watt II", "Stephenson II", "Stephenson III"])
+SIX_BARS = [(family, pairs) for family in ("Watt II", "Stephenson II", "Stephenson III") for pairs in (8, 9)]
+
+
+@pytest.mark.parametrize(("family", "pairs"), [*SIX_BARS, ("Stephenson II", 11), ("Stephenson III", 11)])
 def test_six_bars_turn_through_pairs(core, family, pairs):
     """Paths from a known six-bar to another task, in which both loops have one link that turns; all levels alike."""
     rng = np.random.default_rng(5)
-    z, task = known_solution(eight_or_nine(family, pairs), rng)
-    other = np.where(np.abs(task) > 0, task + 0.3 * random_numbers(rng, 4, 8), 0)
+    z, (task,) = known_solutions(of_pairs(family, pairs), rng, 1)
+    other = np.where(np.abs(task) > 0, task + 0.3 * random_numbers(rng, *task.shape), 0)
     found = core.track(z, task, other, 0, pairs - 1, 1e-3, family=family)
     assert found[1].tolist() == [0]
     sharp, steps = core.refine_solutions(found[0], other, 0, pairs - 1, family=family)
@@ -232,8 +234,16 @@ def test_solutions_that_are_known_are_known_again():
 
 
 def test_families_that_are_none(core):
-    z, task = known_solution(eight_or_nine("Watt II", 8), np.random.default_rng(0))
+    z, (task,) = known_solutions(of_pairs("Watt II", 8), np.random.default_rng(0), 1)
     with pytest.raises(ValueError, match="no family Watt"):
         core.refine_solutions(z, task, 0, 7, family="Watt")
     with pytest.raises(ValueError, match="7 or 8 points"):
         core.refine_solutions(z, task, 0, 5, family="Watt II")
+    z, (task,) = known_solutions(of_pairs("Stephenson II", 11), np.random.default_rng(0), 1)
+    for family in ("", "Watt II"):
+        with pytest.raises(ValueError, match="Stephenson II or Stephenson III"):
+            core.track(z, task, task, 0, 10, 1e-3, family=family)
+    with pytest.raises(ValueError, match="10 points"):
+        core.refine_solutions(z, task, 0, 8, family="Stephenson II")
+    with pytest.raises(TypeError, match="incompatible function arguments"):
+        core.track(z, task[:, :8].copy(), task, 0, 10, 1e-3, family="Stephenson II")

@@ -1,13 +1,12 @@
-// Eight complex numbers at a time: one for each equation, so that a processor takes as many at once as it can.
+// Complex numbers side by side: one for each equation, so that a processor takes as many at once as it can.
 #pragma once
 
 #include "algebra/complex.hpp"
 
 namespace gruebler::algebra::inline GRUEBLER_LEVEL {
 
-inline constexpr int lanes = 8;
-
-struct alignas(64) Lanes {
+template <int lanes>
+struct alignas(64) LanesOf {
     double re[lanes], im[lanes];
 
     Complex at(int i) const { return {re[i], im[i]}; }
@@ -19,7 +18,7 @@ struct alignas(64) Lanes {
         for (int i = 0; i < lanes; ++i) re[i] = im[i] = 0;
     }
     // Takes a multiple of others away.
-    void subtract(Complex k, const Lanes& v) {
+    void subtract(Complex k, const LanesOf& v) {
         for (int i = 0; i < lanes; ++i) {
             const Complex less = k * v.at(i);
             re[i] -= less.re;
@@ -28,15 +27,17 @@ struct alignas(64) Lanes {
     }
 };
 
-// Eight equations, one a lane, by the columns of their unknowns.
-struct Matrix {
-    Lanes column[lanes];
+// Equations, one a lane, by the columns of their unknowns.
+template <int lanes>
+struct MatrixOf {
+    LanesOf<lanes> column[lanes];
 };
 
 // Gauss with row scaling and pivoting: the x with matrix x = right, for some right sides at once; false for a singular
 // matrix. Both are spent. Rows keep their lanes; those that have been pivots are taken no more.
-template <int sides>
-bool solve(Matrix& matrix, Lanes (&right)[sides], Complex (&x)[sides][lanes]) {
+template <int sides, int lanes>
+bool solve(MatrixOf<lanes>& matrix, LanesOf<lanes> (&right)[sides], Complex (&x)[sides][lanes]) {
+    using Lanes = LanesOf<lanes>;
     constexpr double too_large = 1e300;  // up to it the reciprocal has all digits
     alignas(64) double scale[lanes] = {};
     for (const Lanes& column : matrix.column)

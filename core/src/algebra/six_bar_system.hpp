@@ -8,10 +8,10 @@
 // T and 1/T are the minors of both, and their product is 1. Input and output turn by Q and U:
 //
 //     Watt II           w = 1 - a Q,        1 - f U         T is the ternary rocker, p and q its arms, f in units of its frame
-//     Stephenson II     w = a Q - 1 - f U,  b Q - 1 - f U   T is the ternary link that floats, p and k p its arms
-//     Stephenson III    w = a Q - 1,        a Q - c - f U   T is the coupler, p and k p its arms, c the pivot of the output
+//     Stephenson II     w = a Q - 1 - f U,  b Q - 1 - f U   T is the ternary link that floats, p and q its arms
+//     Stephenson III    w = a Q - 1,        a Q - c - f U   T is the coupler, p and q its arms, c the pivot of the output
 //
-// Theory: docs/theory/synthesis-functions.md.
+// Of Stephenson's ten numbers are unknown, or eight if k is given and q = k p. Theory: docs/theory/synthesis-functions.md.
 #pragma once
 
 #include "algebra/four_bar.hpp"
@@ -42,7 +42,7 @@ enum class With : int { nothing, input, output };  // what a vector turns with
 
 // The vectors of both loops: a constant, and with their signs the first unknowns. The others are the arms.
 struct Loops {
-    int vectors;  // unknown ones; with two of them the second loop has an arm of its own
+    int vectors;  // unknown ones
     With with[3];
     int sign[2][3];
     int constant[2];
@@ -54,8 +54,14 @@ inline constexpr Loops stephenson_3{3, {With::input, With::output, With::nothing
 
 // The rows of a task: turns of input and output; of the last equation, which is there if seven pairs leave one unknown
 // free, sum c_k z_k + product p p* = constant, the c_k; then constant, product, k and k*.
-template <const Loops& loops>
+template <const Loops& loops, int own_unknowns = 8>
 struct SixBarSystem {
+    static constexpr int unknowns = own_unknowns, arm = 2 * loops.vectors;  // the unknown of the first loop's arm
+    static constexpr bool other_arm = arm + 4 == unknowns;  // the second loop's arm is unknown, too, or k p
+    using Lanes = LanesOf<unknowns>;
+    using Matrix = MatrixOf<unknowns>;
+    using Task = TaskOf<unknowns>;
+
     int pairs;  // besides the first
 
     void evaluate(const Complex* z, const Task& p, Matrix& jacobian, Lanes& values) const {
@@ -84,7 +90,7 @@ struct SixBarSystem {
             const Complex by_p = l.wc * u.a - l.first_c * u.c, by_pc = l.w * u.b - l.first * u.c;
             const Complex by_q = m.wc * v.a - m.first_c * v.c, by_qc = m.w * v.b - m.first * v.c;
             Complex rate{0, 0};
-            if constexpr (loops.vectors == 2) {
+            if constexpr (other_arm) {
                 set(jacobian, j, arm, by_p, by_pc);
                 set(jacobian, j, arm + 2, by_q, by_qc);
             } else {
@@ -131,8 +137,6 @@ struct SixBarSystem {
     }
 
 private:
-    static constexpr int arm = 2 * loops.vectors;  // the unknown of the first loop's arm
-
     template <class Number>
     struct Arms {
         Number p, pc, q, qc, k, kc;
@@ -144,9 +148,9 @@ private:
 
     template <class Number>
     static Arms<Number> arms_of(const Number* z, const Task& p) {
-        const Number k(p.row[3].at(2)), kc(p.row[3].at(3));
-        if constexpr (loops.vectors == 2) return {z[4], z[5], z[6], z[7], k, kc};
-        return {z[6], z[7], k * z[6], kc * z[7], k, kc};
+        const Number &own = z[arm], &own_c = z[arm + 1], k(p.row[3].at(2)), kc(p.row[3].at(3));
+        if constexpr (other_arm) return {own, own_c, z[arm + 2], z[arm + 3], k, kc};
+        return {own, own_c, k * own, kc * own_c, k, kc};
     }
 
     template <class Number>

@@ -15,6 +15,10 @@ struct Shape {
     int equations() const { return 2 * positions + points; }
 };
 
+using Lanes = LanesOf<unknowns>;
+using Matrix = MatrixOf<unknowns>;
+using Task = TaskOf<unknowns>;
+
 inline constexpr Complex one{1, 0};
 
 // The turn of a position and its conjugate.
@@ -120,6 +124,7 @@ inline void evaluate_sharply(const Complex* z, const Task& p, Shape shape, Lanes
 
 // The same as a system that a tracker follows.
 struct FourBarSystem {
+    static constexpr int unknowns = algebra::unknowns;
     Shape shape;
 
     void evaluate(const Complex* z, const Task& p, Matrix& jacobian, Lanes& values) const {

@@ -5,20 +5,23 @@
 
 namespace gruebler::algebra::inline GRUEBLER_LEVEL {
 
-struct Task {
-    Lanes row[4];
+template <int lanes>
+struct TaskOf {
+    LanesOf<lanes> row[4];
 
-    // complex[4, 8], as pairs of doubles.
-    static Task read(const double* numbers) {
-        Task task;
-        for (Lanes& row : task.row)
+    // complex[4, lanes], as pairs of doubles.
+    static TaskOf read(const double* numbers) {
+        TaskOf task;
+        for (LanesOf<lanes>& row : task.row)
             for (int i = 0; i < lanes; ++i, numbers += 2) row.set(i, {numbers[0], numbers[1]});
         return task;
     }
 };
 
 // Where a straight way is at a time, and how fast it goes.
+template <int lanes>
 struct Way {
+    using Task = TaskOf<lanes>;
     Task begin, speed;
 
     static Way between(const Task& begin, const Task& end) {

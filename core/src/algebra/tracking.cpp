@@ -33,24 +33,28 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // prediction go with its sixth or eighth power, so that the others are soon there, too.
 double change_of_step(double part) { return part > 0.3 ? 0.7 : part > 0.1 ? 1 : part > 0.02 ? 1.3 : 1.6; }
 
+template <int unknowns>
 struct Point {
     Complex z[unknowns];
 };
 
-Point read(const double* numbers) {
-    Point point;
+template <int unknowns>
+Point<unknowns> read(const double* numbers) {
+    Point<unknowns> point;
     for (int i = 0; i < unknowns; ++i) point.z[i] = {numbers[2 * i], numbers[2 * i + 1]};
     return point;
 }
 
-void write(const Point& point, double* numbers) {
+template <int unknowns>
+void write(const Point<unknowns>& point, double* numbers) {
     for (int i = 0; i < unknowns; ++i) {
         numbers[2 * i] = point.z[i].re;
         numbers[2 * i + 1] = point.z[i].im;
     }
 }
 
-double norm(const Point& point) {
+template <int unknowns>
+double norm(const Point<unknowns>& point) {
     double largest = 0;
     for (const Complex& u : point.z) {
         const double each = modulus(u);
@@ -61,7 +65,8 @@ double norm(const Point& point) {
 }
 
 // The largest change of an unknown, relative to it; small ones count against the largest of all.
-double relative(const Point& change, const Point& point) {
+template <int unknowns>
+double relative(const Point<unknowns>& change, const Point<unknowns>& point) {
     constexpr double share = 1e-3;    // of the largest: what is smaller counts as large as that
     constexpr double least = 1e-300;  // so that no zero is divided by
     const double floor = share * norm(point) + least;
@@ -74,7 +79,8 @@ double relative(const Point& change, const Point& point) {
     return largest;
 }
 
-void subtract(Point& point, const Point& change) {
+template <int unknowns>
+void subtract(Point<unknowns>& point, const Point<unknowns>& change) {
     for (int i = 0; i < unknowns; ++i) point.z[i] = point.z[i] - change.z[i];
 }
 
@@ -82,8 +88,13 @@ void subtract(Point& point, const Point& change) {
 template <class System>
 class Tracker {
 public:
+    static constexpr int unknowns = System::unknowns;
+    using Point = algebra::Point<unknowns>;
+    using Lanes = LanesOf<unknowns>;
+    using Task = TaskOf<unknowns>;
+
     Tracker(const System& system, const double* begin, const double* end, double loose)
-        : system_(system), way_(Way::between(Task::read(begin), Task::read(end))), loose_(loose) {}
+        : system_(system), way_(Way<unknowns>::between(Task::read(begin), Task::read(end))), loose_(loose) {}
 
     std::int64_t steps = 0;
 
@@ -130,10 +141,10 @@ private:
     };
 
     System system_;
-    Way way_;
+    Way<unknowns> way_;
     double loose_;
     Task task_;  // of the moment
-    Matrix jacobian_;
+    MatrixOf<unknowns> jacobian_;
     Lanes right_[2];
     Complex solution_[2][unknowns];
     Known known_[most_known], next_;  // the last first
@@ -209,16 +220,17 @@ private:
 
 // Newton's method for one solution; returns the last relative step.
 template <class System>
-double sharpen(Point& point, const System& system, const Task& task) {
-    Matrix jacobian;
-    Lanes residuals[1];
+double sharpen(Point<System::unknowns>& point, const System& system, const TaskOf<System::unknowns>& task) {
+    constexpr int unknowns = System::unknowns;
+    MatrixOf<unknowns> jacobian;
+    LanesOf<unknowns> residuals[1];
     double last = infinity, step = infinity;
     for (int turn = 0; turn < newton_steps; ++turn) {
         system.evaluate(point.z, task, jacobian, residuals[0]);
         system.evaluate_sharply(point.z, task, residuals[0]);
         Complex solution[1][unknowns];
         if (!solve(jacobian, residuals, solution)) return infinity;
-        Point correction;
+        Point<unknowns> correction;
         for (int k = 0; k < unknowns; ++k) correction.z[k] = solution[0][k];
         subtract(point, correction);
         last = step;
@@ -230,9 +242,10 @@ double sharpen(Point& point, const System& system, const Task& task) {
 
 template <class System>
 bool track_all(const System& system, const Paths& paths, Watch& watch) {
+    constexpr int unknowns = System::unknowns;
     Tracker<System> tracker(system, paths.begin, paths.end, paths.loose);
     for (std::int64_t k = 0; k < paths.count; ++k) {
-        tracker.here() = read(paths.starts + 2 * unknowns * k);
+        tracker.here() = read<unknowns>(paths.starts + 2 * unknowns * k);
         PathEnd end;
         if (!tracker.follow(end, watch)) return false;
         write(tracker.here(), paths.ends + 2 * unknowns * k);
@@ -244,10 +257,11 @@ bool track_all(const System& system, const Paths& paths, Watch& watch) {
 
 template <class System>
 bool refine_all(const System& system, const Solutions& solutions, Watch& watch) {
-    const Task task = Task::read(solutions.task);
+    constexpr int unknowns = System::unknowns;
+    const auto task = TaskOf<unknowns>::read(solutions.task);
     for (std::int64_t k = 0; k < solutions.count; ++k) {
         if (!spend(watch, work_of_a_step)) return false;
-        Point point = read(solutions.z + 2 * unknowns * k);
+        Point<unknowns> point = read<unknowns>(solutions.z + 2 * unknowns * k);
         solutions.last_steps[k] = sharpen(point, system, task);
         write(point, solutions.z + 2 * unknowns * k);
     }
@@ -259,6 +273,9 @@ template <class Given, class Work>
 bool with_system(const Given& given, const Work& work) {
 #ifndef GRUEBLER_NO_SIX_BARS
     if (given.family == Family::watt_2) return work(SixBarSystem<watt_2>{given.points});
+    if (given.points > 8 && given.family == Family::stephenson_2)
+        return work(SixBarSystem<stephenson_2, 10>{given.points});
+    if (given.points > 8) return work(SixBarSystem<stephenson_3, 10>{given.points});
     if (given.family == Family::stephenson_2) return work(SixBarSystem<stephenson_2>{given.points});
     if (given.family == Family::stephenson_3) return work(SixBarSystem<stephenson_3>{given.points});
 #endif

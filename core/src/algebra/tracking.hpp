@@ -11,12 +11,13 @@
 
 namespace gruebler::algebra {
 
-// Arrays of complex numbers are pairs of doubles: a task [4, 8], solutions [count, 8]. A task has so many positions
+// Arrays of complex numbers are pairs of doubles: a task [4, 8], solutions [count, 8]; of six-bars through eleven pairs
+// ten instead of eight. A task has so many positions
 // besides the first, two equations each, and points, one equation each; the rest of the eight fix unknowns of those
 // numbers.
 
 // Whose equations they are: of four-bars through positions and points, or of six-bars whose input and output turn through
-// pairs of angles, each an equation (`points`); six_bar_system.hpp.
+// pairs of angles, each an equation (`points`: 7, 8 or 10); six_bar_system.hpp.
 enum class Family : int { four_bars, watt_2, stephenson_2, stephenson_3 };
 
 // How a path ended: at a finite solution; steps too small or too many; growing without bound.

@@ -76,7 +76,7 @@ _ALONE = ("--jobs", 1)
 """The default: this process does the work."""
 _STRUCTURE_OPTIONS = ("--link", "--initial-designs", "--jobs", "--scheduler")
 """The options that only --structure uses."""
-_SIX_BAR_OPTIONS = ("--six-bar-type", "--arm", "--shape")
+_SIX_BAR_OPTIONS = ("--six-bar-type", "--arm", "--shape", "--start-solutions")
 """The options that only --six-bars uses."""
 _LEAST = {PositionTask: 16, FunctionTask: 16, PathTask: 6, DeadCentreTask: 12, DwellTask: 1}
 """How many dyads or designs of an infinite family are taken at least, so that the best are among them."""
@@ -127,14 +127,19 @@ def add(parser: Parser) -> None:
         --interval FROM TO float  interval of x
         --swings INPUT OUTPUT float  ranges in degrees (or the unit of a slider)
         --starts INPUT OUTPUT float  fixed start values (default: free)
-        --points N int  number of precision points (default: 5, with fixed starts 3, of six-bars 9 or, of a type, 8)
+        --points N int  number of precision points (default: 5, with fixed starts 3, of six-bars 9 or, of a
+            type, 8; at most 11)
         --free-starts  count the pairs of a file from start values that are free
         --travel  the output is a slider
         --minimax  the linkages nearby with the least largest error over the interval
-        --six-bars  all six-bars that meet nine pairs exactly (Watt II), or eight, their starts free
-        --six-bar-type TYPE =  of eight pairs: Watt II (default), Stephenson II or Stephenson III
+        --six-bars  all six-bars that meet nine pairs exactly (Watt II), or eight, or some that meet eleven;
+            their starts are free
+        --six-bar-type TYPE =  of eight pairs: Watt II (default), Stephenson II or Stephenson III; of eleven one of
+            Stephenson's
         --arm LENGTH float  of eight pairs: an arm of the ternary link, by the frame (default: 0.8)
         --shape RATIO DEG float  of eight pairs by Stephenson's: the other arm, by this one (default: 1 60)
+        --start-solutions N int  of eleven pairs: how many of about a million generic solutions are followed (default:
+            20000)
         """
     )
     path = parser.add_command(
@@ -462,13 +467,15 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
 
 
 def _six_bar_type(arguments: argparse.Namespace) -> SixBarType | None:
-    """What the options say of a six-bar for eight pairs; None if they say nothing."""
+    """What the options say of a six-bar for eight or eleven pairs; None if they say nothing."""
     if not _given(arguments, _SIX_BAR_OPTIONS):
         return None
     usual = SixBarType()
     shape = usual.shape if arguments.shape is None else cmath.rect(arguments.shape[0], radians(arguments.shape[1]))
     arm = usual.arm if arguments.arm is None else arguments.arm
-    return SixBarType(family=arguments.six_bar_type or usual.family, arm=arm, shape=shape)
+    starts = usual.start_solutions if arguments.start_solutions is None else arguments.start_solutions
+    family = arguments.six_bar_type or usual.family
+    return SixBarType(family=family, arm=arm, shape=shape, start_solutions=starts)
 
 
 def _fitted(

@@ -74,9 +74,9 @@ def too_long():
             "nicht überall definiert",
         ),
         (
-            lambda: function_task(FunctionLaw("x", interval=(0, 1), input_swing=1, output_swing=1), 10),
-            "expected 2 to 9",
-            "2 bis 9 Genauigkeitspunkte",
+            lambda: function_task(FunctionLaw("x", interval=(0, 1), input_swing=1, output_swing=1), 12),
+            "expected 2 to 11",
+            "2 bis 11 Genauigkeitspunkte",
         ),
         (lambda: FunctionTask([0, 0.5, 0.5], outputs=[1, 2, 3]), "inputs 2 and 3 are equal", "sind gleich"),
         (

@@ -8,8 +8,9 @@ from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, FunctionTask, SixBarType, function_task, synthesise, synthesise_six_bars
 from gruebler.design.synthesis.alt_burmester import load_generic_solutions
 from gruebler.design.synthesis.formulas import FunctionLaw
+from gruebler.design.synthesis.six_bar_census import ELEVEN, Census
 from gruebler.design.synthesis.six_bar_functions import NINE_PAIRS, common_turns, drawn_six_bar, keeps_modes
-from gruebler.design.synthesis.six_bar_monodromy import Search, follow, known_solution, loop_vectors
+from gruebler.design.synthesis.six_bar_monodromy import Search, follow, known_solutions, loop_vectors
 from gruebler.design.synthesis.six_bar_starts import StartSet, eight_pairs, save_start_set, start_set
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.linkages import Linkage
@@ -91,6 +92,12 @@ CHOSEN = {  # the real vectors of a six-bar whose crank turns through 1.5 radian
 SHARED = {"Watt II": "ternary", "Stephenson II": "ternary", "Stephenson III": "coupler"}
 
 
+TURNING = {  # the same through 4.5 radians; solutions of eleven pairs that are close to each other are nearly singular
+    "Stephenson II": (1.3 + 0.39j, -1.11 + 0.43j, -0.93 + 0.29j, -0.92 - 0.92j, -0.1 - 0.34j),
+    "Stephenson III": (-0.24 - 0.16j, 0.63 + 0.54j, 1.04 - 0.37j, 1.03 - 1.42j, 1.82 - 0.7j),
+}
+
+
 def chosen(family):
     """A six-bar of the family, its vectors, and how input, output and the shared link turn through eight pairs."""
     *vectors, shape = CHOSEN[family]
@@ -121,12 +128,11 @@ def test_eight_pairs_of_a_six_bar_find_it_again(family, tmp_path, monkeypatch):
     task = np.zeros((4, 8), complex)
     task[0, :7], task[1, :7] = unit(phi[1:]), unit(output[1:])
     task[3, :4] = kind.arm**2, 1, kind.shape, np.conj(kind.shape)
-    _, generic = known_solution(problem, rng)
+    _, (generic,) = known_solutions(problem, rng, 1)
     generic[2] = 0
     known, given = [np.stack([vectors, np.conj(vectors)], axis=1).ravel()[None]], [task]
-    for _ in range(8):
-        z, other = known_solution(problem, rng)
-        known, given = [*known, z], [*given, other]
+    for z, other in zip(*known_solutions(problem, rng, 8), strict=True):
+        known, given = [*known, z[None]], [*given, other]
     followed = [follow(problem, z, begin, generic) for z, begin in zip(known, given, strict=True)]
     z = np.concatenate([ends[good] for ends, good in followed])
     assert followed[0][1][0]
@@ -141,6 +147,85 @@ def test_eight_pairs_of_a_six_bar_find_it_again(family, tmp_path, monkeypatch):
     for design in found.designs:
         motion = move(design.linkage, design.drives)
         assert motion.angle("rocker") - motion.angle("rocker")[0] == pytest.approx(output, abs=1e-8)
+
+
+@pytest.mark.parametrize("family", ELEVEN)
+def test_eleven_pairs_of_a_six_bar_find_it_again(family, tmp_path, monkeypatch):
+    """With a census of a few six-bars, it among them."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    (tmp_path / "gruebler").mkdir(mode=0o700)
+    vectors = np.array(TURNING[family])
+    mechanism, places = drawn_six_bar(SixBarType(family=family), vectors)
+    drawn = Linkage.from_drawing(mechanism, {k: (z.real, z.imag) for k, z in enumerate(places)}, outputs=["rocker"])
+    motion = move(drawn, drawn.required_pose["crank"].angle + np.linspace(0, 4.5, 11))
+    phi, output = (motion.angle(link) - motion.angle(link)[0] for link in ("crank", "rocker"))
+    task = np.zeros((4, 10), complex)
+    task[0], task[1] = unit(phi[1:]), unit(output[1:])
+    census = Census(ELEVEN[family], 1)
+    own, good = follow(census.problem, np.stack([vectors, np.conj(vectors)], axis=1).reshape(1, -1), task, census.task)
+    assert good.all()
+    others, tasks = known_solutions(census.problem, np.random.default_rng(4), 4)
+    ends = [follow(census.problem, z[None], begin, census.task)[0] for z, begin in zip(others, tasks, strict=True)]
+    census.z, census.met = np.concatenate([own, *ends]), np.array([1, 2, 1, 1, 1])
+    census.save(tmp_path / "gruebler" / f"six_bars_{family.replace(' ', '_')}_eleven.npz")
+    wanted = FunctionTask(phi, outputs=output, start_input=False, start_output=False)
+    found = synthesise(wanted, six_bars=SixBarType(family=family, start_solutions=5), demands=Demands(size_ratio=1e6))
+    assert "5 complex solutions are known" in found.explain()
+    assert (
+        "an estimated 15 (95 %: 3 to 592," in found.explain()
+    )  # 15 couples of six, one alike; 5.57 and 0.0253 by a table
+    lengths = [design.linkage.length("crank", 0, 1) for design in found.designs]
+    best = found.designs[np.argmin(np.abs(np.array(lengths) - abs(vectors[0])))]
+    assert best.linkage.length("crank", 0, 1) == pytest.approx(abs(vectors[0]), abs=1e-8)
+    motion = move(best.linkage, best.drives)
+    assert motion.angle("rocker") - motion.angle("rocker")[0] == pytest.approx(output, abs=1e-8)
+
+
+def census_of(numbers):
+    """A census in which these were met."""
+    census = Census(ELEVEN["Stephenson III"], 1)
+    census.met = np.unique(numbers, return_counts=True)[1]
+    return census.estimate()
+
+
+def test_as_many_are_estimated_as_there_are():
+    """Of 3,000 numbers 600 are drawn, two hundred times: 190 intervals hold the number, as 95 % says, up to 8."""
+    rng = np.random.default_rng(1)
+    worlds = [census_of(rng.integers(3000, size=600)) for _ in range(200)]
+    assert 182 <= sum(world.least <= 3000 <= world.most for world in worlds) <= 199
+    assert np.mean([3000 / world.number for world in worlds]) == pytest.approx(1, abs=0.03)
+    # Half of the numbers three times as likely: two alike 1.25 times as often, three alike 1.75 / 1.25 ** 2 - 1.
+    uneven = census_of(np.concatenate([rng.integers(3000, size=10_000), rng.integers(1500, size=10_000)]))
+    assert uneven.number == pytest.approx(3000 / 1.25, rel=0.02)
+    assert uneven.unlike == pytest.approx(0.12, abs=0.02)
+
+
+def test_a_census_goes_on_where_it_was_interrupted(tmp_path, monkeypatch):
+    monkeypatch.setattr("gruebler.design.synthesis.six_bar_census._PIECE", 6)
+    whole, part, rest = (Census(ELEVEN["Stephenson II"], 5) for _ in range(3))
+    whole.step()
+    whole.step()
+    part.step()
+    part.save(tmp_path / "census.npz")
+    rest.load(tmp_path / "census.npz")
+    rest.step()
+    assert rest.count == whole.count > 8
+    assert rest.z == pytest.approx(whole.z, rel=1e-12)
+    other = Census(ELEVEN["Stephenson III"], 5)
+    with pytest.raises(ValueError, match="no census"):
+        other.load(tmp_path / "census.npz")
+    assert other.count == 0
+
+
+@pytest.mark.slow
+def test_the_number_that_monodromy_lists_is_estimated():
+    """Of Watt's second kind through nine pairs: 26,370."""
+    census = Census(NINE_PAIRS, 2)
+    for _ in range(3):
+        census.step()
+    estimate = census.estimate()
+    assert estimate.least < NINE_PAIRS.classes < estimate.most
+    assert estimate.most - estimate.least < 0.2 * estimate.number
 
 
 def test_a_start_set_goes_on_where_it_was_interrupted(tmp_path, monkeypatch):
@@ -173,7 +258,7 @@ def test_a_start_set_goes_on_where_it_was_interrupted(tmp_path, monkeypatch):
         (FunctionTask(np.linspace(0, 1, 9), outputs=np.linspace(0, 2, 9)), "whose starts are free"),
         (
             FunctionTask([0, 0.1, 0.2], outputs=[0, 1, 2], start_input=False, start_output=False),
-            "eight or nine pairs",
+            "eight, nine or eleven pairs",
         ),
     ],
 )
@@ -196,8 +281,14 @@ def test_types_that_are_none_and_nine_pairs_of_a_type_are_refused():
         SixBarType(family="Watt I")
     with pytest.raises(SynthesisError, match="positive length"):
         SixBarType(arm=0)
+    with pytest.raises(SynthesisError, match="from 1 to 500,000, but found 0"):
+        SixBarType(start_solutions=0)
     with pytest.raises(SynthesisError, match="nine pairs leave nothing"):
         synthesise(task, six_bars=SixBarType())
+    eleven = FunctionTask(np.linspace(0, 1, 11), outputs=np.linspace(0, 2, 11), start_input=False, start_output=False)
+    for kind in (True, SixBarType(family="Stephenson II", arm=0.7)):
+        with pytest.raises(SynthesisError, match="need a type, Stephenson II or Stephenson III, and"):
+            synthesise(eleven, six_bars=kind)
 
 
 @pytest.mark.slow

@@ -123,8 +123,8 @@ def test_none_stands_for_what_is_not_given():
         (lambda: PathTask(None), "points: expected at least two, but found 0"),
         (lambda: FunctionTask([0, 0.5], outputs=1), "outputs: expected a list"),
         (
-            lambda: function_task(FunctionLaw("x", interval=(0, 1), input_swing=1, output_swing=1), 10),
-            "precision_points: expected 2 to 9",
+            lambda: function_task(FunctionLaw("x", interval=(0, 1), input_swing=1, output_swing=1), 12),
+            "precision_points: expected 2 to 11",
         ),
         (
             lambda: FunctionTask(

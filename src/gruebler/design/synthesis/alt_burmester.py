@@ -54,6 +54,11 @@ class Problem:
     """Of linkages, by the name that the core knows; four-bars without one."""
 
     @property
+    def unknowns(self) -> int:
+        """Eight, and two more of six-bars through eleven pairs."""
+        return max(8, self.points)
+
+    @property
     def given_pivots(self) -> bool:
         """Whether the fixed pivots are given."""
         return 2 * self.poses + self.points < 8

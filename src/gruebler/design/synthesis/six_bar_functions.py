@@ -1,7 +1,8 @@
-"""Function generation by six-bars: all that coordinate eight pairs of angles, or nine.
+"""Function generation by six-bars: all that coordinate eight pairs of angles, or nine; some that coordinate eleven.
 
 Generic solutions were listed by monodromy: those of nine pairs (Watt II) are data of the package, those of eight pairs
-are computed once (`six_bar_starts`). They are followed to a task. docs/theory/synthesis-functions.md.
+are computed once (`six_bar_starts`), of eleven pairs some (`six_bar_census`). They are followed to a task.
+docs/theory/synthesis-functions.md.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Flags, compared_by_value
 from gruebler.base.errors import SynthesisError
-from gruebler.base.text import Message, message
+from gruebler.base.text import Message, joined_by_or, message
 from gruebler.design.synthesis.alt_burmester import (
     ARRIVED,
     CAREFUL,
@@ -31,6 +32,7 @@ from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.judging import Demands, judge_design
 from gruebler.design.synthesis.positions import ranked
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.six_bar_census import ELEVEN, Census, kept_census
 from gruebler.design.synthesis.six_bar_monodromy import LOOPS, LoopVectors, loop_vectors
 from gruebler.design.synthesis.six_bar_starts import StartSet, eight_pairs, start_set
 from gruebler.design.synthesis.targets import Probe, Targets
@@ -42,6 +44,7 @@ from gruebler.structure.mechanism import Mechanism
 NINE_PAIRS = Problem(name="nine pairs", poses=0, points=8, classes=26370, members=1, family="Watt II")
 """At least so many complex six-bars turn through nine general pairs."""
 FORM = "six-bar"
+_MOST = 500_000  # start solutions; of more of them most would be found again
 _REAL = 1e-7  # relative: conjugate unknowns that differ by less are conjugate
 _PLACES = 400  # where the error of a function is looked at
 _SPECIAL = 0.05  # of the paths: where more are lost, the task is special, not the way to it
@@ -53,7 +56,8 @@ _BENT = 0.1  # how far a way leads aside for what was lost on the straight one, 
 class SixBarType:
     """A type of six-bar, and what of its ternary link is given besides eight pairs; the frame of its first loop is 1.
 
-    Raises `SynthesisError` for other types, an arm that is not positive, a shape that is zero.
+    Raises `SynthesisError` for other types, an arm that is not positive, a shape that is zero, start solutions that are
+    none or more than half a million.
 
     >>> SixBarType(arm=0.5).family
     'Watt II'
@@ -67,6 +71,8 @@ class SixBarType:
     long as the frame has less regular solutions, since four-bars that fold move without their coupler."""
     shape: complex = 0.5 + 0.75**0.5 * 1j
     """Of Stephenson's: the other arm from the same pin, by this one; by default all sides are equal."""
+    start_solutions: int = 20_000
+    """Of eleven pairs, which leave arm and shape no choice: how many of the generic solutions are followed."""
 
     def __post_init__(self) -> None:
         """Refuse what there is not."""
@@ -80,6 +86,12 @@ class SixBarType:
                 arm=self.arm,
                 shape=self.shape,
             )
+        if not 1 <= self.start_solutions <= _MOST:
+            raise SynthesisError(
+                "start solutions: expected a whole number from 1 to {most:,}, but found {found}",
+                most=_MOST,
+                found=self.start_solutions,
+            )
 
 
 def synthesise_six_bars(
@@ -90,40 +102,52 @@ def synthesise_six_bars(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> SynthesisResult:
-    """All six-bars that coordinate eight pairs of angles, or nine (Watt II), whose starts are free.
+    """All six-bars that coordinate eight pairs of angles, or nine (Watt II), some for eleven; their starts are free.
 
     Args:
         task: pairs of angles. Eight leave one length free, which is given.
         demands: what a design has to do besides.
-        kind: of eight pairs: the type, and the arm that is given; Watt II with an arm of 0.8 frames by default.
+        kind: of eight pairs: the type, and the arm that is given; Watt II with an arm of 0.8 frames by default. Of
+            eleven pairs: a type of Stephenson's, and how many solutions are followed.
         threads: that follow paths.
         progress: called with the paths followed and their number; of the first eight pairs of a type at first with the
-            ends of ways that are known and about how many there are.
+            ends of ways that are known and about how many there are; of eleven with the start solutions that are known.
 
     Returns:
         `SynthesisResult`: the designs that keep their assembly mode through all pairs, judged by their motion. The
         frame of the first loop is 1; the second four-bar of Watt II has any size and place, and gets the size of
         the first on the same line. Of a function the error is the largest over its interval, seen at 400 places. The
-        notes say how many there are besides, and whether the list is complete.
+        notes say how many there are besides, and whether the list is complete; of eleven pairs how many are estimated.
 
     Raises `SynthesisError` for other tasks. Cost: 25 to 55 s of processor time, of Stephenson's 60 to 100 s, and 10 to
-    30 ms for each verdict; the first time that a type meets eight pairs 150 to 600 s more.
-    docs/theory/synthesis-functions.md.
+    30 ms for each verdict; the first time that a type meets eight pairs 150 to 600 s more. Of eleven pairs 4 ms
+    for each start solution, at first 4 ms more. docs/theory/synthesis-functions.md.
     """
     wanted = demands or Demands()
     if task.output != "angle" or task.start_input or task.start_output:
         raise SynthesisError("six-bars coordinate angles whose starts are free: give only their differences")
-    if len(task) not in (8, 9):
-        raise SynthesisError("six-bars meet eight or nine pairs exactly, but the task has {count}", count=len(task))
+    if len(task) not in (8, 9, 11):
+        raise SynthesisError(
+            "six-bars meet eight, nine or eleven pairs exactly, but the task has {count}", count=len(task)
+        )
     if len(task) == 9 and kind is not None:
         raise SynthesisError("nine pairs leave nothing of a six-bar free; give its type and an arm with eight pairs")
     of = kind or SixBarType()
     phi, output = (values - values[0] for values in pair_arrays(task))
-    p = np.zeros((4, 8), np.complex128)
     pairs = len(task) - 1
+    p = np.zeros((4, max(8, pairs)), np.complex128)
     p[0, :pairs], p[1, :pairs] = np.exp(1j * phi[1:]), np.exp(1j * output[1:])
-    if kind is None and pairs == 8:
+    if pairs == 8:
         problem, base, known = NINE_PAIRS, load_generic_solutions(NINE_PAIRS), []
+    elif pairs == 10:
+        if of.family not in ELEVEN or (of.arm, of.shape) != (SixBarType.arm, SixBarType.shape):
+            raise SynthesisError(
+                "eleven pairs need a type, {types}, and leave no arm or shape to choose",
+                types=joined_by_or(list(ELEVEN)),
+            )
+        census = kept_census(of.family, of.start_solutions, threads=threads, progress=progress)
+        problem, base = census.problem, GenericSolutions(census.task, census.z[: of.start_solutions])
+        known = [_how_many(of.family, census)]
     else:
         problem, starts = eight_pairs(of.family), start_set(of.family, threads=threads, progress=progress)
         base, known = GenericSolutions(starts.parameters, starts.z), [_how_complete(of.family, starts)]
@@ -175,6 +199,22 @@ def _how_complete(family: str, starts: StartSet) -> Message:
     )
 
 
+def _how_many(family: str, census: Census) -> Message:
+    """What a census says of all solutions."""
+    estimate = census.estimate()
+    return message(
+        "{family}, eleven pairs: {known:,} complex solutions are known, of an estimated {number:,.0f} (95 %: "
+        "{least:,.0f} to {most:,.0f}, from how often {count:,} six-bars made at random led to the same one). The "
+        "others are not sought.",
+        family=family,
+        known=len(census.z),
+        count=census.count,
+        number=estimate.number,
+        least=estimate.least,
+        most=estimate.most,
+    )
+
+
 def six_bar_solutions(
     problem: Problem,
     base: GenericSolutions,
@@ -183,7 +223,7 @@ def six_bar_solutions(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Complexes:
-    """The regular complex solutions of a task, complex[4, 8] as `_core.track` takes it; (found, 8).
+    """The regular complex solutions of a task, complex[4, unknowns] as `_core.track` takes it; (found, unknowns).
 
     Paths that fail or end alike are followed again with fine steps, then along a way that is bent. Where many do, the
     task is a special one, and only the bent way is tried.
@@ -226,7 +266,7 @@ def common_turns(loops: Sequence[LoopVectors]) -> Complexes:
 
 
 def keeps_modes(kind: SixBarType, vectors: Complexes, turns: Complexes) -> Flags:
-    """Whether each six-bar (solutions, 4) has one assembly mode in all pairs (pairs, 2) of turns, the input driven.
+    """Whether each six-bar (solutions, vectors) has one assembly mode in all pairs of turns (pairs, 2), input driven.
 
     The determinant by which the shared link and the output follow the input keeps its sign; if the first loop does not
     see the output, both of its factors do.
@@ -250,7 +290,7 @@ _DRIVEN = "R(frame-rocker); frame=frame; drive=R(frame-crank)"
 
 
 def drawn_six_bar(kind: SixBarType, vectors: Complexes) -> tuple[Mechanism, Complexes]:
-    """The mechanism of a real six-bar (4,) and where its joints lie in the first pair."""
+    """The mechanism of a real six-bar (vectors,) and where its joints lie in the first pair."""
     if kind.family == "Watt II":
         a, f, p, q = vectors.tolist()
         own, other = ([1.0, abs(arm), abs(rocker), abs(1 - arm + rocker)] for arm, rocker in ((a, p), (f, q)))
@@ -259,11 +299,13 @@ def drawn_six_bar(kind: SixBarType, vectors: Complexes) -> tuple[Mechanism, Comp
         end = 1 + size
         text, places = _WATT, [0, a, 1 + p, 1, 1 - size * q, end - size * f, end]
     elif kind.family == "Stephenson III":
-        a, f, c, p = vectors.tolist()
-        text, places = _STEPHENSON_3, [0, a, a + p, 1, a + kind.shape * p, c + f, c]
+        a, f, c, p, *other = vectors.tolist()
+        q = other[0] if other else kind.shape * p
+        text, places = _STEPHENSON_3, [0, a, a + p, 1, a + q, c + f, c]
     else:
-        a, b, f, p = vectors.tolist()
-        text, places = _STEPHENSON_2, [0, a, 1 + f - p, b, 1 + f - kind.shape * p, 1 + f, 1]
+        a, b, f, p, *other = vectors.tolist()
+        q = other[0] if other else kind.shape * p
+        text, places = _STEPHENSON_2, [0, a, 1 + f - p, b, 1 + f - q, 1 + f, 1]
     return Mechanism.parse(f"{text} {_DRIVEN}"), np.array(places, np.complex128)
 
 

@@ -19,7 +19,7 @@ from gruebler.design.synthesis.alt_burmester import ARRIVED, CAREFUL, QUICK, Pro
 
 _TASKS, _PIECE = 4, 2048
 _SAME = 1e-6  # relative: solutions nearer to each other are one
-_MARK = np.exp(1.234j * np.arange(1, 9) ** 2)  # weights of the numbers of a solution
+_MARK = np.exp(1.234j * np.arange(1, 11) ** 2)  # weights of the numbers of a solution
 
 
 class Loops(NamedTuple):
@@ -32,7 +32,7 @@ class Loops(NamedTuple):
 
     @property
     def vectors(self) -> int:
-        """How many vectors are unknown besides the arms; with two of them the second loop has an arm of its own."""
+        """How many vectors are unknown besides the arms."""
         return len(self.turned)
 
 
@@ -58,13 +58,13 @@ class LoopVectors:
 def loop_vectors(
     family: str, vectors: Complexes, ratio: complex, inputs: Complexes, outputs: Complexes
 ) -> tuple[LoopVectors, LoopVectors]:
-    """Both loops of real six-bars (solutions, 4), in pairs (pairs,) of turns."""
+    """Both loops of real six-bars (solutions, vectors), in pairs (pairs,) of turns; the ratio for one arm alone."""
     constants, signs, turned = LOOPS[family]
     columns = vectors.T[:, :, None]
-    first = columns[len(turned)]
+    first, *other = columns[len(turned) :]
     turns = {"Q": inputs, "U": outputs, "1": np.ones_like(inputs)}
     loops = []
-    arms = first, columns[3] if len(turned) == 2 else ratio * first
+    arms = first, other[0] if other else ratio * first
     for constant, row, arm in zip(constants, signs, arms, strict=True):
         parts = [sign * each * turns[name] for sign, each, name in zip(row, columns, turned, strict=False)]
         of_output = [part for part, name in zip(parts, turned, strict=True) if name == "U"]
@@ -77,51 +77,60 @@ def random_numbers(rng: np.random.Generator, *shape: int) -> Complexes:
     return np.asarray(rng.normal(size=shape) + 1j * rng.normal(size=shape))
 
 
-def _lengths(family: str, z: Complexes, ratio: Complexes, turn: complex, output: complex, common: complex) -> Complexes:
-    """The squared lengths of the last links of both loops, in isotropic coordinates."""
-    constants, signs, turned = LOOPS[family]
-    arms = z[4:].reshape(2, 2) if family == "Watt II" else np.array([z[6:], ratio * z[6:]])
-    squares = []
-    for constant, sign, arm in zip(constants, signs, arms, strict=True):
-        w = np.array([constant, constant], complex) + arm * [common, 1 / common]
-        for k, (s, name) in enumerate(zip(sign, turned, strict=True)):
-            x = {"Q": turn, "U": output, "1": 1.0}[name]
-            w += s * z[2 * k : 2 * k + 2] * [x, 1 / x]
-        squares.append(w[0] * w[1])
-    return np.array(squares)
+def _lengths(family: str, z: Complexes, ratio: Complexes, turns: Complexes) -> Complexes:
+    """The squared lengths of the last links of both loops in a pair each, in isotropic coordinates; (pairs, 2).
 
-
-def known_solution(problem: Problem, rng: np.random.Generator) -> tuple[Complexes, Complexes]:
-    """A random complex task of one solution that is chosen, and how the output turns; the rest by Newton's method.
-
-    Returns (1, 8) and the task, complex[4, 8] as `_core.track` takes it.
+    z: (pairs, unknowns); ratio: (pairs, 2), of six-bars with one arm; turns: (pairs, 3) of input, output, shared link.
     """
-    z, ratio, task = random_numbers(rng, 8), random_numbers(rng, 2), np.zeros((4, 8), np.complex128)
-    if problem.family == "Watt II":
-        ratio[:] = 1
-    wanted = _lengths(problem.family, z, ratio, 1, 1, 1)
-    j = 0
-    while j < problem.points:
-        output, x = complex(random_numbers(rng)), random_numbers(rng, 2)
-        for _ in range(60):
-            value = _lengths(problem.family, z, ratio, x[0], output, x[1]) - wanted
-            h = 1e-7
-            near = [
-                _lengths(problem.family, z, ratio, x[0] + a, output, x[1] + b) - wanted for a, b in ((h, 0), (0, h))
-            ]
-            step = np.linalg.solve((np.array(near) - value).T / h, value)
-            x -= step
-            if np.abs(step).max() < 1e-15 * np.abs(x).max():
-                break
-        if np.abs(value).max() < 1e-12 and np.abs(x).min() > 0.05 and np.abs(x).max() < 20:
-            task[:2, j] = x[0], output
-            j += 1
-    task[3, 2:4] = ratio
+    constants, signs, turned = LOOPS[family]
+    first, *other = np.moveaxis(z[:, 2 * len(turned) :].reshape(len(z), -1, 2), 1, 0)
+    with_back = np.stack([turns, 1 / turns], axis=2)
+    squares = []
+    for constant, sign, arm in zip(constants, signs, (first, other[0] if other else ratio * first), strict=True):
+        w = constant + arm * with_back[:, 2]
+        for k, (s, name) in enumerate(zip(sign, turned, strict=True)):
+            if s:
+                w = w + s * z[:, 2 * k : 2 * k + 2] * (1 if name == "1" else with_back[:, "QU".index(name)])
+        squares.append(w.prod(axis=1))
+    return np.stack(squares, axis=1)
+
+
+def known_solutions(problem: Problem, rng: np.random.Generator, count: int) -> tuple[Complexes, Complexes]:
+    """Random complex tasks of one solution each that is chosen, and how outputs turn; the rest by Newton's method.
+
+    Returns (count, unknowns) and the tasks, complex[count, 4, unknowns] as `_core.track` takes them.
+    """
+    family, unknowns = problem.family, problem.unknowns
+    z, ratio = random_numbers(rng, count, unknowns), random_numbers(rng, count, 2)
+    tasks, filled = np.zeros((count, 4, unknowns), np.complex128), np.zeros(count, np.int64)
+    while (missing := problem.points - filled).any():
+        own = np.repeat(np.arange(count), missing)
+        parts = rng.normal(size=(len(own), 6))
+        turns = (parts[:, [0, 2, 3]] + 1j * parts[:, [1, 4, 5]])[:, [1, 0, 2]]
+        wanted = _lengths(family, z[own], ratio[own], np.ones_like(turns))
+        h = 1e-7
+        with np.errstate(all="ignore"):
+            for _ in range(60):
+                value = _lengths(family, z[own], ratio[own], turns) - wanted
+                by_turn, by_shared = (
+                    (_lengths(family, z[own], ratio[own], turns + h * np.eye(3)[k]) - wanted - value) / h
+                    for k in (0, 2)
+                )
+                scale = by_turn[:, 0] * by_shared[:, 1] - by_turn[:, 1] * by_shared[:, 0]
+                turns[:, 0] -= (value[:, 0] * by_shared[:, 1] - value[:, 1] * by_shared[:, 0]) / scale
+                turns[:, 2] -= (by_turn[:, 0] * value[:, 1] - by_turn[:, 1] * value[:, 0]) / scale
+            size = np.abs(turns[:, ::2])
+            met = (np.abs(value).max(axis=1) < 1e-12) & (size.min(axis=1) > 0.05) & (size.max(axis=1) < 20)
+        for k, turn in zip(own[met], turns[met], strict=True):
+            tasks[k, :2, filled[k]] = turn[:2]
+            filled[k] += 1
+    if family != "Watt II" and unknowns == 8:
+        tasks[:, 3, 2:4] = ratio
     if problem.points == 7:
         arm = arm_of(problem)
-        task[2, arm], task[3, 1] = random_numbers(rng, 2), 1
-        task[3, 0] = task[2, arm] @ z[arm] + np.prod(z[arm])
-    return z[None], task
+        tasks[:, 2, arm], tasks[:, 3, 1] = random_numbers(rng, count, 2), 1
+        tasks[:, 3, 0] = (tasks[:, 2, arm] * z[:, arm]).sum(axis=1) + z[:, arm].prod(axis=1)
+    return z, tasks
 
 
 def arm_of(problem: Problem) -> slice:
@@ -149,7 +158,7 @@ def merged(known: Complexes, more: Complexes) -> tuple[Complexes, Integers]:
     Sorted by a mark that few have in common.
     """
     both = np.concatenate([known, more])
-    mark = np.real(both / (1 + np.abs(both)) @ _MARK)
+    mark = np.real(both / (1 + np.abs(both)) @ _MARK[: both.shape[1]])
     order = np.argsort(mark, kind="stable")
     first = np.arange(len(both))  # the same solution's first place
     for _ in range(2):
@@ -176,11 +185,12 @@ class Search:
 
     def __init__(self, problem: Problem, seed: int, threads: int | None = None) -> None:
         rng = np.random.default_rng(seed)
-        z, task = known_solution(problem, rng)
+        z, (task,) = known_solutions(problem, rng, 1)
         self.problem, self.threads, self.lost, self.clashes, self.paths = problem, threads, 0, 0, 0
         used = np.abs(task) > 0
-        used[3, 2:4] = problem.family != "Watt II"
-        self.tasks = [task] + [np.where(used, random_numbers(rng, 4, 8), task) for _ in range(_TASKS - 1)]
+        self.tasks: list[Complexes] = [task] + [
+            np.where(used, random_numbers(rng, *task.shape), task) for _ in range(_TASKS - 1)
+        ]
         self.found: list[Complexes] = [z] + [z[:0]] * (_TASKS - 1)
         self.ways: list[tuple[int, int, complex]] = []
         self.matched: list[list[Flags]] = []

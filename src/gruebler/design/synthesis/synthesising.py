@@ -56,7 +56,7 @@ def synthesise(
         number: without structures: how many dyads or designs are taken from each infinite family.
         minimax: of a function: the linkages whose largest structural error is as small as possible.
         six_bars: of a function: all six-bars that meet nine pairs of angles with free starts, of Watt's second kind, or
-            eight; of eight pairs a `SixBarType` says which, and the length of one arm.
+            eight; of eight pairs a `SixBarType` says which, and the length of one arm. Some of those that meet eleven.
         starts: of structures: how many are improved of each mechanism.
         link: of structures: that is guided, or whose motion is the output.
         threads: of a path: how many follow it; as many as there are processors by default.
@@ -72,8 +72,8 @@ def synthesise(
 
     Cost:
         1 ms to 3 s (nine points), two and three positions 2 to 7 s, and 10 ms for each verdict; a rest 20 s; six-bars
-        20 to 100 s, at the first eight pairs of a type 150 to 600 s more; a structure 1 to 3 s a start, by its atlas
-        5 s.
+        20 to 100 s, at the first eight pairs of a type 150 to 600 s more, of eleven pairs 80 and at first
+        80 s more; a structure 1 to 3 s a start, by its atlas 5 s.
 
     Example:
         >>> from gruebler.design.synthesis import DeadCentreTask

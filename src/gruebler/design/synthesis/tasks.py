@@ -27,7 +27,7 @@ EQUAL_POINTS = message("points {first} and {second} are equal")
 SAME = 1e-9
 """Two points nearer than this part of the task's size are one: designs are held to the same bound."""
 LARGEST = 1e100
-MOST_PAIRS = 9
+MOST_PAIRS = 11
 """Precision pairs that a linkage coordinates exactly, with both starts free."""
 _LONGEST_DWELL = 5 * pi / 3  # an output that rests longer has no time to move
 MOST_POINTS = 9
