@@ -10,6 +10,7 @@ from scipy.optimize import minimize
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, PathTask, synthesise, synthesise_path
 from gruebler.design.synthesis import mixed_targets as mixed
+from gruebler.design.synthesis.curve_starts import transformed
 from gruebler.design.synthesis.curves import limits_of
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK
 from gruebler.design.synthesis.judging import judge_design
@@ -197,6 +198,97 @@ def cut(p, q, first, second, side):
     gap = q - p
     along = (first**2 - second**2 + np.abs(gap) ** 2) / (2 * np.abs(gap))
     return p + gap / np.abs(gap) * (along + side * 1j * np.sqrt(first**2 - along**2))
+
+
+def moved_by_hand(seed):
+    """A random four-bar, or a slider-crank, by cutting circles; where it is after steps of its crank, some very small.
+
+    Returns its kind, numbers, branch and crank angles, then its point, the directions of coupler, crank and output, and
+    that across the path of the point.
+    """
+    rng = np.random.default_rng(seed)
+    while True:
+        side, (a, b, c), (u, v, h) = rng.choice([-1, 1]), np.exp(rng.uniform(-0.9, 0.9, 3)), rng.normal(size=3)
+        a0, b0, slide = rng.normal() + 1j * rng.normal(), 2 * rng.normal() + 2j * rng.normal(), rng.uniform(0, 6)
+        steps = rng.choice([0.003, 0.05, 1], 5) * rng.uniform(0.3, 1.2, 5)
+        phi = rng.uniform(0, 7) + rng.choice([-1, 1]) * np.cumsum(np.append(0, steps))
+        dense = np.concatenate([phi, phi + 1e-5, np.linspace(phi[0] - 0.01, phi[-1] + 0.01, 2000)])
+        crank = np.exp(1j * dense)
+        pin = a0 + 0.6 * a * crank
+        with np.errstate(invalid="ignore"):
+            if seed % 3:
+                kind, far = FOUR_BAR, cut(pin, b0, b, c, side)
+                output, row = (far - b0) / c, [a0.real, a0.imag, b0.real, b0.imag, 0.6 * a, b, c, u, v]
+            else:
+                rise = h - np.imag(pin * np.exp(-1j * slide))
+                far = pin + np.exp(1j * slide) * (side * np.sqrt(b**2 - rise**2) + 1j * rise)
+                kind, output, row = SLIDER_CRANK, np.ones_like(far), [a0.real, a0.imag, slide, h, 0.6 * a, b, u, v]
+        if not np.isnan(far).any():
+            turned = (far - pin) / b
+            z = pin + (u + 1j * v) * turned
+            across = 1j * (z[6:12] - z[:6]) / np.abs(z[6:12] - z[:6])
+            return kind, np.array(row), side, phi, [each[:6] for each in (z, turned, crank, output, across)]
+
+
+def mix_of(seed):
+    """Targets that such a linkage meets, each exactly or within a band: places and angles; how a point may miss it."""
+    kind, row, side, phi, (z, *turned, across) = moved_by_hand(seed)
+    rng = np.random.default_rng([seed, 1])
+    placed, given = rng.random(6) < 0.8, rng.random((3, 6)) < 0.4
+    placed[rng.permutation(6)[:2]], given[2] = True, given[2] & (kind is FOUR_BAR)
+    given[0] |= ~placed
+    size = np.abs(z[placed] - z[placed][0]).max()
+    band = rng.choice([0, 1, 1], 6) * rng.uniform(0.002, 0.08, 6)
+    noise = rng.normal(size=(5, 6)) * np.array([placed, placed, *given])
+    noise *= 0.9 * band * rng.uniform(0, 1, 6) / np.maximum(np.linalg.norm(noise, axis=0), 1e-9)
+    constants = np.where(given.any(axis=1), rng.uniform(-3, 3, 3), 0)
+    angles = np.angle(turned)
+    angles[1] = phi
+    angles += constants[:, None] + noise[2:]
+    rows = [
+        [float(x) if own else None for x, own in zip(*pair, strict=True)] for pair in zip(angles, given, strict=True)
+    ]
+    shifted = z + size * (noise[0] + 1j * noise[1])
+    task = PathTask(
+        [(w.real, w.imag) if own else None for w, own in zip(shifted, placed, strict=True)],
+        **{
+            name: tuple(own)
+            for name, own in zip(("angles", "crank_angles", "output_angles"), rows, strict=True)
+            if own != [None] * 6
+        },
+        tolerances=(1.02 * size * band).tolist(),
+    )
+    return task, 1e-6 * size * across, (kind, row, side, phi, constants)
+
+
+def verdict_on(task, kind, row, side, phi, constants):
+    """What is said of a linkage that is known, by its numbers and the constants of its angles."""
+    middle = complex(np.nanmean(task.z))
+    row = transformed(kind, row, complex(1 / task.size), -middle / task.size)
+    state = mixed._State(kind, np.append(row, constants)[:, None], phi[None], np.array([side]))
+    wanted = mixed._wanted(task, task.size, middle)
+    (design,) = mixed._judged(task, Demands(size_ratio=1e9), wanted, state, (middle, task.size))
+    return design.verdict
+
+
+def test_a_linkage_that_meets_its_targets_is_never_rejected():
+    """Targets closer to each other than their bands, too; but a millionth of the size across the path is too far."""
+    accepted = rejected = 0
+    for seed in range(20):
+        try:
+            task, aside, known = mix_of(seed)
+        except SynthesisError:  # crank angles that noise turns back
+            continue
+        assert verdict_on(task, *known).accepted, seed
+        accepted += 1
+        exact = next((k for k in range(6) if task.tolerances[k] == 0 and task.points[k]), None)
+        if exact is not None and seed < 10:
+            z = task.z + aside * (np.arange(6) == exact)
+            other = replace(task, points=[None if np.isnan(w) else (w.real, w.imag) for w in z])
+            assert not verdict_on(other, *known).accepted, seed
+            rejected += 1
+    assert accepted > 15
+    assert rejected > 3
 
 
 def drawn(linkage):

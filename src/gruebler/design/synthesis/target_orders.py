@@ -49,6 +49,11 @@ class TargetOrder:
         return cls(groups, tuple(k for k, own in enumerate(given) if own is None))
 
     @property
+    def both_ways(self) -> tuple[Groups, Groups]:
+        """The groups, and in the other sense of the curve."""
+        return self.groups, self.groups[::-1]
+
+    @property
     def demands_nothing(self) -> bool:
         """Whether any order will do."""
         return len(self.groups) < 2

@@ -23,6 +23,7 @@ from gruebler.mechanics.kinematics import Circuit, Poses
 _REFINEMENTS = 8
 _ARRIVED = 1e-15  # of the length: steps as short as rounding
 _SHARPENINGS = 3
+_OF_CURVE = 1e-8  # of the size: how far a circuit lies from the polynomials between its samples
 _INSIDE = 1e-6  # of the length: `move` cannot be led to a limit of the drive itself
 
 Piece = tuple[float, float] | None
@@ -100,15 +101,24 @@ def places_met(course: Circuit, targets: Targets, limit: float) -> TargetPlaces:
 
 
 def places_approached(course: Circuit, targets: Targets, limit: float) -> TargetPlaces:
-    """Where the circuit comes near the targets; in order, so that the farthest of them is as near as possible."""
-    size = targets.size
+    """Where the circuit comes near the targets; in order, so that the farthest of them is as near as possible.
+
+    Where each can be met within its own tolerance, it is.
+    """
+    size, order = targets.size, targets.order
     arcs = np.insert(course.arcs, slice(1, None), (course.arcs[:-1] + course.arcs[1:]) / 2)
     poses = course.at(arcs)
     values, rates = (np.stack([probe.value(poses, n) for probe in targets.probes], axis=1) for n in (0, 1))
     distances = TargetDistances(SmoothCurve(arcs, values, rates, course.closed), targets.values, size)
 
-    def in_order(piece: Piece) -> OrderedMatch:
-        match = distances.best_in_order(piece, targets.order)
+    most = None if targets.allowed is None else size * np.minimum(np.maximum(targets.allowed, _OF_CURVE), limit)
+    if most is not None and not distances.within(None if course.closed else (0.0, course.length), order, most):
+        most = None
+
+    def in_order(piece: Piece) -> OrderedMatch | None:
+        if most is not None and not distances.within(piece, order, most):
+            return None
+        match = distances.best_in_order(piece, order, most)
         arcs = _sharpened(course, targets, distances, match.arcs, piece)
         return OrderedMatch(match.error / size, match.mean / size, arcs)
 
@@ -126,18 +136,29 @@ def _sharpened(course: Circuit, targets: Targets, distances: TargetDistances, ar
     inside = _INSIDE * course.length if course.drive_limits else 0.0
     arcs = np.clip(arcs, low + inside, high - inside)
     which = np.arange(len(arcs))
+    firm = np.flatnonzero(targets.allowed[rows] == 0) if targets.allowed is not None else rows[:0]
     for _ in range(_SHARPENINGS):
         gap, rate = targets.gaps(course.at(arcs), which)
         slope = np.sum(np.real(np.conj(gap) * rate), axis=1)
         bend = distances.bend(arcs)
         with np.errstate(invalid="ignore", divide="ignore"):
             step = np.where(bend > 0, -slope / bend, 0.0)
-        rising, lap = arcs[rows], course.length if piece is None else np.inf
-        before, after = np.append(rising[-1] - lap, rising[:-1]), np.append(rising[1:], rising[0] + lap)
-        rising = np.maximum.accumulate(np.clip(rising + np.nan_to_num(step)[rows], before, after))
-        rising = np.minimum(rising, rising[0] + lap)
+        rising, step, lap = arcs[rows], np.nan_to_num(step)[rows], course.length if piece is None else np.inf
+        if len(firm):  # what is met exactly goes first, the others leave it room
+            own = _between_neighbours(rising[firm], step[firm], lap)
+            behind = np.searchsorted(firm, np.arange(len(rows)))
+            rising = np.clip(rising, np.append(own[-1] - lap, own)[behind], np.append(own, own[0] + lap)[behind])
+            rising[firm], step[firm] = own, 0
+        rising = _between_neighbours(rising, step, lap)
         arcs[rows] = np.clip(rising, low + inside, high - inside)
     return arcs
+
+
+def _between_neighbours(rising: Reals, step: Reals, lap: float) -> Reals:
+    """Places after a step each, none beyond those beside it."""
+    before, after = np.append(rising[-1] - lap, rising[:-1]), np.append(rising[1:], rising[0] + lap)
+    rising = np.maximum.accumulate(np.clip(rising + step, before, after))
+    return np.asarray(np.minimum(rising, rising[0] + lap))
 
 
 def _against_all(samples: Poses, targets: Targets) -> tuple[Complexes, Complexes]:
