@@ -7,7 +7,7 @@ import type { Drawing } from "./drawing";
 import { ExercisesView } from "./exercises";
 import { saveDocument, showExport } from "./export";
 import { languageMenu, saving, sayIn, tabs, viewNames } from "./header";
-import { drivenBy, showKeys } from "./help";
+import { showKeys } from "./help";
 import { Backend, type HostModel } from "./host";
 import { missing } from "./kernel";
 import { currentLanguage, firstLanguage, type Language, setLanguage, t } from "./language";
@@ -184,6 +184,7 @@ export class App implements Page {
 
   /** Show another view, to which the browser's way back leads from the next one. */
   #turnTo(name: string): void {
+    if (name === "motion" && this.views[this.view]!.moves?.()) return;
     if (name !== this.view) this.#remember(name);
     this.show(name);
   }
@@ -403,7 +404,7 @@ export class App implements Page {
     const undo = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z";
     if (undo && this.motion.stage.cancelDrag()) return event.preventDefault();
     if (event.key === "Escape" && this.view === "motion" && this.motion.escape()) return event.preventDefault();
-    if (/^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) && (target as HTMLInputElement).type !== "range") return;
+    if (target.matches("input:not([type=range], [type=checkbox]), textarea, select, dialog *")) return;
     if (event.ctrlKey || event.metaKey) {
       if (event.key === "z" && !event.shiftKey) this.#undoing.undo?.();
       else if (event.key === "y" || (event.key.toLowerCase() === "z" && event.shiftKey)) this.#undoing.redo?.();
@@ -412,7 +413,7 @@ export class App implements Page {
       return;
     }
     if (event.key === "?") showKeys(this.root);
-    else if (this.view !== "motion" || !drivenBy(event, target, this.motion.transport, this.motion.stage)) return;
+    else if (!this.views[this.view]!.press?.(event, target)) return;
     event.preventDefault();
   }
 }

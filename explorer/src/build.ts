@@ -23,6 +23,7 @@ import { History } from "./history";
 import { away } from "./hull";
 import { keepDrawing, keptDrawing, saveDrawing } from "./kept";
 import { t } from "./language";
+import type { Linkage } from "./linkage";
 import { type Drawn, MobilityPanel } from "./mobility";
 import type { Model } from "./model";
 import { hintOf, KEYS, NEEDED, palette, type Tool } from "./palette";
@@ -41,6 +42,9 @@ export class BuildView implements View, Plane, Drawn {
   readonly element = h("div.view.motion", { "data-page": "build" });
   drawing: Drawing = keptDrawing();
   readonly viewport = new Viewport();
+  /** The drawing as it was found, which Motion need not show, or what Motion was last given, and made of it. */
+  #known = this.drawing;
+  #made: Linkage | null = null;
   #tool: Tool = this.drawing.knots.length ? "link" : "ground";
   spots: Spot[] = [];
   chosen: Chosen | null = null;
@@ -61,7 +65,6 @@ export class BuildView implements View, Plane, Drawn {
     onpointerleave: () => this.#aimAt("away"),
     onpointerup: (event: PointerEvent) => this.#fingers.lift(event.pointerId),
     onpointercancel: (event: PointerEvent) => this.#fingers.lift(event.pointerId),
-    onkeydown: (event: KeyboardEvent) => this.#key(event),
   });
   readonly #tools = h("div.transport.palette", {});
   readonly #hint = h("div.hint", {});
@@ -160,8 +163,9 @@ export class BuildView implements View, Plane, Drawn {
     renew(this.#taking, ...(empty ? [] : [takenOver(this)]));
   }
 
-  begin(drawing: Drawing): void {
+  begin(drawing: Drawing, known = false): void {
     this.change(drawing);
+    if (known) this.#known = drawing;
     this.#take("move");
     this.fit();
   }
@@ -360,14 +364,14 @@ export class BuildView implements View, Plane, Drawn {
     this.#showChoice();
   }
 
-  #key(event: KeyboardEvent): void {
-    if (event.ctrlKey || event.metaKey) return;
-    const way = WAYS[event.key];
+  press(event: KeyboardEvent, target: Element): boolean {
+    const here = target === this.root; // elsewhere these keys scroll and press buttons
+    const way = here && WAYS[event.key];
     const tool = KEYS[event.key.toLowerCase()];
     if (way) {
       const step = event.shiftKey ? this.step / 5 : this.step;
       this.#aimAt("aiming", [this.cursor[0] + step * way[0], this.cursor[1] + step * way[1]]);
-    } else if (event.key === "Enter" || event.key === " ") {
+    } else if (here && (event.key === "Enter" || event.key === " ")) {
       const spot = this.#spot(this.viewport.screen(...this.cursor), false);
       if (this.#tool === "move") this.#choose(spot);
       else this.#put(spot);
@@ -379,9 +383,8 @@ export class BuildView implements View, Plane, Drawn {
     else if (event.key === "+") this.zoom(1.25);
     else if (event.key === "-") this.zoom(0.8);
     else if (event.key === "0") this.fit();
-    else return;
-    event.preventDefault();
-    event.stopPropagation();
+    else return false;
+    return true;
   }
 
   // --- beside it -----------------------------------------------------------------------------------------------------
@@ -398,12 +401,22 @@ export class BuildView implements View, Plane, Drawn {
     saveDrawing(this.page, this.drawing, this.title);
   }
 
+  moves(): boolean {
+    const { drawing } = this;
+    const fresh = drawing !== this.#known || (this.#made && this.linkage !== this.#made);
+    if (!fresh || this.mobility.moving !== drawing) return false;
+    void this.move();
+    return true;
+  }
+
   async move(): Promise<void> {
+    this.#known = this.drawing;
     try {
       const { title } = this.drawing;
       const question = { document: documentOfDrawing(this.drawing), name: title ?? t("A drawn mechanism") };
       const model = await this.page.ask<Model>("open_document", question);
       this.page.open({ ...model, changed: title !== undefined, plays: true });
+      this.#made = this.linkage;
     } catch (error) {
       this.page.say((error as Error).message);
     }

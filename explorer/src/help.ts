@@ -2,6 +2,7 @@
 
 import { type Child, h } from "./dom";
 import { t } from "./language";
+import { KEYS, nameOf } from "./palette";
 import type { Transport } from "./transport";
 
 interface Picture {
@@ -22,6 +23,7 @@ export function showKeys(root: HTMLElement): void {
     [`${ctrl} Z, ${ctrl} Y`, t("undo, redo")],
     [`${ctrl} S`, t("save as JSON")],
     ["+ − 0", t("zoom, show everything")],
+    [Object.keys(KEYS).join(" ").toUpperCase(), `${t("Draw")}: ${Object.values(KEYS).map(nameOf).join(", ")}`],
     ["?", t("this list")],
   ];
   showRows(root, rows);
@@ -53,7 +55,7 @@ export function drivenBy(event: KeyboardEvent, target: Element, transport: Trans
     "-": () => picture.zoom(0.8),
     "0": () => picture.fit(),
   };
-  if (!/^(BUTTON|SUMMARY|A)$/.test(target.tagName)) acts[" "] = () => transport.toggle();
+  if (!target.matches("button, summary, a, [type=checkbox]")) acts[" "] = () => transport.toggle();
   acts[event.key]?.();
   return event.key in acts;
 }

@@ -44,6 +44,8 @@ export interface Drawn {
 export class MobilityPanel {
   readonly element = h("div", { role: "status", "data-place": "mobility" });
   #asked = 0;
+  /** The last drawing that was found to move. */
+  moving: Drawing | null = null;
 
   constructor(private readonly view: Drawn) {}
 
@@ -71,6 +73,7 @@ export class MobilityPanel {
       const good = told.generic > 0 && told.generic === drives.length;
       const text = t("Mobility {generic}, drives: {drives}", { generic: told.generic, drives: drives.length });
       const offers = told.offers.map((offer) => this.#offer(offer, numbers));
+      if (good) this.moving = drawing;
       const move = h("button.key", { "data-act": "move", onclick: () => this.view.move() }, t("Move it"));
       renew(
         this.element,

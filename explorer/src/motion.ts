@@ -6,6 +6,7 @@ import { h } from "./dom";
 import { Dragging } from "./dragging";
 import type { Found } from "./facts";
 import type { Arrow } from "./forces";
+import { drivenBy } from "./help";
 import { History } from "./history";
 import { keepSizes, keptSizes } from "./kept";
 import { t } from "./language";
@@ -306,6 +307,10 @@ export class MotionView implements View, Editor, Driven {
     Object.assign(this.shown, { chosen: link, ...(link !== null && { link }) });
     this.redraw();
     this.side.chosen();
+  }
+
+  press(event: KeyboardEvent, target: Element): boolean {
+    return drivenBy(event, target, this.transport, this.stage);
   }
 
   /** Give up what is going on, what is chosen; whether there was anything. */

@@ -29,7 +29,7 @@ const ICONS: Record<Tool, Icon> = {
   gears: "gears",
 };
 
-function nameOf(tool: Tool): string {
+export function nameOf(tool: Tool): string {
   const names: Record<Tool, string> = {
     move: t("Move"),
     ground: t("Ground"),

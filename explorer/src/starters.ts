@@ -15,7 +15,8 @@ const HIGH = 58;
 /** Where a drawing begins, and what takes it. */
 interface Beginning {
   readonly linkage: Linkage;
-  begin(drawing: Drawing): void;
+  /** Begin with a drawing, perhaps of what Motion shows. */
+  begin(drawing: Drawing, known?: boolean): void;
 }
 
 /** A drawing whose first knot is driven; its knots are written as x, y, the links ("f" is the frame), the slide. */
@@ -81,7 +82,7 @@ export function starters(view: Beginning): HTMLElement[] {
   ];
   return cards.flatMap(([key, text, drawing]) => {
     if (!drawing) return [];
-    const begin = () => view.begin(drawing);
+    const begin = () => view.begin(drawing, key === "hand");
     return [h("button.plain", { "data-begin": key, onclick: begin }, sketch(drawing), text)];
   });
 }
@@ -96,6 +97,6 @@ export function takenOver(view: Beginning): HTMLElement {
       {},
       t("{name} cannot be drawn: {joint} is neither pin, slide nor gear pair.", { name, joint: other[0]! }),
     );
-  const onclick = () => view.begin(drawing);
+  const onclick = () => view.begin(drawing, true);
   return h("button.plain", { "data-begin": "hand", onclick }, t("Edit {name}", { name }));
 }

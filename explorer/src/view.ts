@@ -13,10 +13,14 @@ export interface View {
   /** What it shows in place of the machine at hand: its name, and how it is saved. */
   readonly title?: string;
   save?(): void;
+  /** Whether Motion shows what is made here, which it then opens there. */
+  moves?(): boolean;
   /** What it undoes by itself. */
   readonly undoable?: [boolean, boolean];
   undo?(): void;
   redo?(): void;
+  /** Do what a key does wherever the focus is, but in a field; whether it does anything. */
+  press?(event: KeyboardEvent, target: Element): boolean;
 }
 
 /** The page as its views see it. */

@@ -56,8 +56,8 @@ def click(page, *places: tuple[float, float]) -> None:
 def test_a_four_bar_and_then_a_watt_six_bar_are_drawn_and_moved(plane):
     view = plane.page
     assert "ground" in view.locator('[data-place="mobility"]').inner_text()
-    view.keyboard.press("g")  # keys work where the plane has the focus
-    view.click('[data-tool="ground"]')
+    view.click('[data-tool="slider"]')
+    view.keyboard.press("g")  # keys work wherever the focus is
     click(plane, (0, 0))
     view.keyboard.press("l")
     click(plane, (0, 0), (0, 20))
@@ -70,8 +70,11 @@ def test_a_four_bar_and_then_a_watt_six_bar_are_drawn_and_moved(plane):
     view.locator('[data-offer="drive"]').first.wait_for()
     assert view.locator('[data-fact="drawn"]').inner_text() == "F = 1"
     view.locator('[data-offer="drive"]').first.click()
-    view.locator('[data-act="move"]').click()
-    plane.until("gruebler.motion.linkage.model.joints.length === 4 && gruebler.view === 'motion'")
+    view.locator('[data-act="move"]').wait_for()
+    view.keyboard.press("v")
+    assert view.locator('.palette [aria-pressed="true"]').get_attribute("data-tool") == "move"
+    view.click('[data-view="motion"]')  # it shows what is drawn, as "Move it" does
+    plane.until("gruebler.motion.linkage.model.links.includes('3') && gruebler.view === 'motion'")
     linkage = linkage_from_json(json.loads(view.evaluate("JSON.stringify(gruebler.motion.document())")))
     assert linkage.mechanism.chain.text() == "R(frame-1) R(1-2) R(2-3) R(frame-3)"
     assert linkage.length("1", 0, 1) == pytest.approx(20, abs=1e-9)
@@ -138,6 +141,14 @@ def test_an_empty_plane_begins_with_the_ground_and_ends_stay_on_axes(plane):
 
 def test_a_slider_crank_is_drawn_by_keys_alone(plane):
     view = plane.page
+    view.locator(".drawing").focus()
+    view.keyboard.press("?")
+    keys = view.locator("dialog")
+    assert "V G L S D C W" in keys.inner_text()
+    view.keyboard.press("v")  # behind a sheet it does nothing
+    view.keyboard.press("Escape")
+    keys.wait_for(state="detached")
+    assert view.locator('.palette [aria-pressed="true"]').get_attribute("data-tool") == "ground"
     view.locator(".drawing").focus()
     view.keyboard.press("g")
     view.keyboard.press("Enter")
