@@ -51,10 +51,12 @@ export function factsOf(linkage: Linkage, { dead, least }: Found, inLap: (angle:
   }
   const mu = transmission(linkage, pose, 0);
   if (Number.isFinite(mu)) {
-    facts.push({ name: t("Transmission angle"), text: angle(mu), style: mu < GOOD ? "bad" : "good" });
+    facts.push({ name: t("Transmission angle μ"), text: angle(mu), style: mu < GOOD ? "bad" : "good" });
     if (least) {
-      const note = t("at {place}", { place: driveText(linkage, placeOf(linkage, least.value), 4) });
-      facts.push({ name: t("smallest"), text: angle(least.mu), note, style: least.mu < GOOD ? "bad" : "good" });
+      const place = driveText(linkage, placeOf(linkage, least.value), 4);
+      const link = least.link !== null && linkage.linkName(least.link);
+      const note = link ? t("at {place} (leg {link})", { place, link }) : t("at {place}", { place });
+      facts.push({ name: t("Smallest μ"), text: angle(least.mu), note, style: least.mu < GOOD ? "bad" : "good" });
     }
   }
   if (dead.length) {

@@ -1,6 +1,6 @@
 /** What is measured of a linkage: its output, dead centres, transmission angle, poles. */
 
-import { TURN } from "./cycle";
+import { principal, TURN } from "./cycle";
 import type { Rows } from "./kernel";
 import type { Linkage } from "./linkage";
 import type { Leg, Model, Place } from "./model";
@@ -16,10 +16,15 @@ export interface DeadCentre {
   output: number;
 }
 
-/** The smallest transmission angle and the drive value there. */
-export interface Least {
+/** A transmission angle and the drive value there. */
+interface Low {
   value: number;
   mu: number;
+}
+
+/** The smallest one, with the link that pushes there if several push. */
+export interface Least extends Low {
+  link: number | null;
 }
 
 // --- the output ------------------------------------------------------------------------------------------------------
@@ -92,13 +97,18 @@ export function unwrapped(values: Float64Array, home: number): Float64Array {
 
 /** The transmission angle, at most pi/2; with several legs the smallest; NaN where there is none. */
 export function transmission(linkage: Linkage, rows: Rows, row: number): number {
-  const legs = linkage.model.outputs[0]?.legs ?? [];
-  let out = legs.length ? Infinity : NaN;
-  for (const leg of legs) {
-    const [real, imag] = forceAndWay(linkage, rows, row, leg);
-    out = Math.min(out, Math.atan2(Math.abs(real), Math.abs(imag)));
-  }
-  return out;
+  return leastOfLegs(linkage, (leg) => forceAndWay(linkage, rows, row, leg))[0];
+}
+
+/** The smallest of the angles of the legs, whose cosines and sines are given, and the leg's link if there are more. */
+function leastOfLegs({ model }: Linkage, cosineAndSine: (leg: Leg) => Pair): [number, number | null] {
+  const legs = model.outputs[0]?.legs ?? [];
+  const angles = legs.map((leg) => {
+    const [real, imag] = cosineAndSine(leg);
+    return Math.atan2(Math.abs(real), Math.abs(imag));
+  });
+  const mu = angles.length ? Math.min(...angles) : NaN;
+  return [mu, legs.length > 1 ? (legs[angles.indexOf(mu)]?.from[0] ?? null) : null];
 }
 
 /** Cosine and sine between the force of a leg and the way of the point on which it acts. */
@@ -161,20 +171,26 @@ function wayOf(linkage: Linkage, rows: Rows, row: number, link: number, point: P
 
 /** Where the output turns back: zeros of its velocity, to 1e-9 of a radian or size. */
 export function deadCentres(linkage: Linkage): DeadCentre[] {
-  const { values, rows } = linkage.cycle;
-  const speed = Array.from(values, (_, row) => output(linkage, rows, row, 1));
+  const { values } = linkage.cycle;
+  const every = [...values.keys()];
+  const speed = [...outputAlong(linkage, every, 1)];
   const usual = Math.max(0, ...speed.map((v) => (Number.isFinite(v) ? Math.abs(v) : 0)));
   const out: DeadCentre[] = [];
   const { drive, model, size } = linkage;
   const natural = (model.outputs[0]?.joint === null ? 1 : size) / (drive?.turning ? 1 : size);
   if (!(usual > STILL * natural)) return out;
   const still = 1e-9 * usual;
+  const outputs = outputAlong(linkage, every);
   let last = -1;
   for (let row = 0; row < values.length; row++) {
     if (!(Math.abs(speed[row]!) > still)) continue;
     if (last >= 0 && speed[last]! * speed[row]! < 0 && row - last <= 2) {
       const found = turningBack(linkage, values[last]!, values[row]!, last);
-      if (found !== null) out.push(found);
+      if (found !== null) {
+        // in the lap of the row beside it, so that the difference of two angles is how far the output goes
+        if (model.outputs[0]?.joint === null) found.output = outputs[last]! + principal(found.output - outputs[last]!);
+        out.push(found);
+      }
     }
     last = row;
   }
@@ -219,25 +235,27 @@ export function leastTransmission(linkage: Linkage): Least | null {
   if (!known.length) return null;
   const median = known[known.length >> 1]!;
   const spread = known.map((one) => Math.abs(one - median)).sort(ascending);
-  if (spread[Math.floor(0.9 * (spread.length - 1))]! <= 1e-8) return { value: values[0]!, mu: median };
+  if (spread[Math.floor(0.9 * (spread.length - 1))]! <= 1e-8) return { value: values[0]!, mu: median, link: null };
   let [best, mu] = [-1, Infinity];
   angles.forEach((now, row) => {
     if (now < mu) [best, mu] = [row, now];
   });
-  let found: Least = { value: values[best]!, mu };
+  let found: Low = { value: values[best]!, mu };
   const angleAt = (value: number) => {
     const pose = linkage.from(best, value);
     return pose.reached < 2 ? Infinity : transmission(linkage, pose, 1);
   };
   const next = [values[Math.max(0, best - 1)]!, values[Math.min(values.length - 1, best + 1)]!] as const;
   for (const one of smallest(angleAt, ...next)) if (one.mu < found.mu) found = one;
+  const pose = linkage.from(best, found.value);
+  let [, link] = leastOfLegs(linkage, (leg) => forceAndWay(linkage, pose, pose.reached - 1, leg));
   if (!full && values.length > 2) {
     for (const upper of [false, true]) {
-      const end = transmissionAtEnd(linkage, upper);
-      if (end < found.mu) found = { value: upper ? high : low, mu: end };
+      const [end, pushing] = transmissionAtEnd(linkage, upper);
+      if (end < found.mu) [found, link] = [{ value: upper ? high : low, mu: end }, pushing];
     }
   }
-  return found;
+  return { ...found, link };
 }
 
 function ascending(a: number, b: number): number {
@@ -245,7 +263,7 @@ function ascending(a: number, b: number): number {
 }
 
 /** The two places where a golden section search for the smallest value ends. */
-function smallest(f: (value: number) => number, from: number, to: number): [Least, Least] {
+function smallest(f: (value: number) => number, from: number, to: number): [Low, Low] {
   let [low, high] = [from, to];
   let a = high - GOLDEN * (high - low);
   let b = low + GOLDEN * (high - low);
@@ -269,29 +287,27 @@ function smallest(f: (value: number) => number, from: number, to: number): [Leas
 
 /** The transmission angle at an end of the range, where poses are ill-conditioned: in t, with the drive at
  * middle - cos t times half the width, it is analytic and extrapolated from t up to 0.3 by a polynomial. */
-function transmissionAtEnd(linkage: Linkage, upper: boolean): number {
+function transmissionAtEnd(linkage: Linkage, upper: boolean): [number, number | null] {
   const { values, low, high } = linkage.cycle;
   const half = (high - low) / 2;
   const nodes = 10;
   const row = upper ? values.length - 2 : 1;
-  let out = Infinity;
-  for (const leg of linkage.model.outputs[0]!.legs) {
+  return leastOfLegs(linkage, (leg) => {
     let [re, im, sum] = [0, 0, 0];
     for (let k = 0; k < nodes; k++) {
       const angle = ((2 * k + 1) * Math.PI) / (2 * nodes);
       const t = 0.15 * (1 - Math.cos(angle));
       const from = half * 2 * Math.sin(t / 2) ** 2;
       const rows = linkage.from(row, upper ? high - from : low + from);
-      if (rows.reached < 2) return Infinity;
+      if (rows.reached < 2) return [NaN, NaN];
       const weight = ((k % 2 ? -1 : 1) * Math.sin(angle)) / t;
       const [x, y] = forceAndWay(linkage, rows, 1, leg);
       re += weight * x;
       im += weight * y;
       sum += weight;
     }
-    out = Math.min(out, Math.atan2(Math.abs(re / sum), Math.abs(im / sum)));
-  }
-  return out;
+    return [re / sum, im / sum];
+  });
 }
 
 // --- a link in the plane ---------------------------------------------------------------------------------------------

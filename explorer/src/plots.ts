@@ -195,7 +195,7 @@ function outputSeries(linkage: Linkage, record: OutputRecord): Making[] {
     same,
   });
   const mu: Making = ({ rows }) => ({
-    title: `${t("Transmission angle")} [°]`,
+    title: `${t("Transmission angle μ")} [°]`,
     colour: "--accent",
     floor: SMALL,
     values: valuesOf(rows, (row) => degrees(transmission(linkage, linkage.cycle.rows, row))),

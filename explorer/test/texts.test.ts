@@ -15,7 +15,7 @@ import { chainText } from "../src/model";
 import { Status } from "../src/status";
 import { quoted, tableOf } from "../src/table";
 import { stopText } from "../src/wording";
-import { CRANK_ROCKER, fourBar } from "./fourbar";
+import { COUPLER, CRANK_ROCKER, fourBar } from "./fourbar";
 
 function inGerman(body: () => void): void {
   setLanguage("de");
@@ -113,7 +113,7 @@ test("what is read off a four-bar", () => {
     { value: 3.7, output: 2.5 },
     { value: 0.385, output: 1.1 },
   ];
-  const found = { dead, least: { value: 0, mu: 0.65 } };
+  const found = { dead, least: { value: 0, mu: 0.65, link: null as number | null } };
   const facts = () =>
     factsOf(linkage, found, (value) => value).map(({ name, text, style, note }) => [name, text, style ?? note ?? ""]);
   // psi: 180 degrees less the angle at D of the triangle 45, 40, 70
@@ -128,13 +128,15 @@ test("what is read off a four-bar", () => {
   assert.deepEqual(others, [
     ["Swing", "80.21°", ""],
     ["Time ratio", "1.117", ""],
-    ["Transmission angle", "36.96°", "bad"],
-    ["smallest", "37.24°", "bad"],
+    ["Transmission angle μ", "36.96°", "bad"],
+    ["Smallest μ", "37.24°", "bad"],
     ["Dead centres", "22.06°, 212°", ""],
     ["Range of the drive", "full turns", ""],
   ]);
-  const [least] = factsOf(linkage, found, (value) => value).filter(({ name }) => name === "smallest");
-  assert.equal(least!.note, "at 0°");
+  const where = () => factsOf(linkage, found, (value) => value).find(({ name }) => name === "Smallest μ")!.note;
+  assert.equal(where(), "at 0°");
+  found.least.link = COUPLER;
+  assert.equal(where(), "at 0° (leg coupler)");
   inGerman(() => assert.equal(facts()[0]![0], "Abtrieb Schwinge"));
 });
 

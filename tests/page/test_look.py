@@ -46,7 +46,7 @@ def test_swing_and_time_ratio_are_figures(tab, crank_rocker):
     )
     assert facts["Swing"] == f"{swing:.4g}°"
     assert facts["Time ratio"] == f"{ratio:.4g}"
-    assert facts["smallest"] == f"{angle(70, 40, 45):.4g}°"
+    assert facts["Smallest μ"] == f"{angle(70, 40, 45):.4g}°"
     assert len(facts) == 8
 
 

@@ -35,7 +35,7 @@ def measured(linkages: list[Linkage], tmp_path: Path) -> list[dict]:
 
 
 def check(name: str, found: dict, wanted: Measures, size: float) -> None:
-    span = wanted.span
+    span, links = wanted.span, wanted.linkage.mechanism.chain.links
     assert (found["full"], found["turns"]) == (span.full, span.turns), name
     if not span.full:
         assert found["low"] == pytest.approx(span.low, abs=1e-6 * max(1, size)), name
@@ -43,10 +43,15 @@ def check(name: str, found: dict, wanted: Measures, size: float) -> None:
     period = 2 * pi * max(1, found["turns"])
     values = [one["value"] % period if span.full else one["value"] for one in found["deadCentres"]]
     assert sorted(values) == pytest.approx(sorted(one.drive for one in wanted.dead_centres), abs=1e-7), name
+    ends = [one["output"] for one in found["deadCentres"]]
+    if wanted.travel is not None and len(ends) == 2:
+        assert abs(ends[1] - ends[0]) == pytest.approx(wanted.travel, abs=1e-7 * max(1, size)), name
     if wanted.transmission is None:
         assert found["least"] is None, name
     else:
         assert found["least"]["mu"] == pytest.approx(wanted.transmission.smallest.mu, abs=1e-7), name
+        if found["least"]["link"] is not None:
+            assert links[found["least"]["link"]] in wanted.transmission.smallest.links, name
 
 
 @NODE
