@@ -28,6 +28,7 @@ from gruebler.design.synthesis.coordination import (
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, GuidingDyad
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.design.synthesis.judging import Demands, judge_design
+from gruebler.design.synthesis.law_motion import over_interval
 from gruebler.design.synthesis.minimax_search import minimax as minimax_near
 from gruebler.design.synthesis.pair_search import PairFacts, best_dyads, facts_of_pins
 from gruebler.design.synthesis.positions import NEAR, guiding_dyads, near_in_plane, near_on_curve, ranked
@@ -89,7 +90,7 @@ def synthesise_function(
         if free == 2
         else _by_given_starts(task, wanted, free)
     )
-    designs, rejected = ranked(met.candidates)
+    designs, rejected = ranked(met.candidates if minimax else (over_interval(each, task) for each in met.candidates))
     notes = met.notes
     if not designs and task.law is None and free < 2:
         notes = (

@@ -8,7 +8,7 @@ docs/theory/synthesis-functions.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -28,8 +28,8 @@ from gruebler.design.synthesis.alt_burmester import (
     sharpened,
 )
 from gruebler.design.synthesis.coordination import pair_arrays
-from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.judging import Demands, judge_design
+from gruebler.design.synthesis.law_motion import over_interval
 from gruebler.design.synthesis.positions import ranked
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.six_bar_census import ELEVEN, Census, kept_census
@@ -37,7 +37,6 @@ from gruebler.design.synthesis.six_bar_monodromy import LOOPS, LoopVectors, loop
 from gruebler.design.synthesis.six_bar_starts import StartSet, eight_pairs, start_set
 from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import FunctionTask
-from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
 
@@ -46,7 +45,6 @@ NINE_PAIRS = Problem(name="nine pairs", poses=0, points=8, classes=26370, member
 FORM = "six-bar"
 _MOST = 500_000  # start solutions; of more of them most would be found again
 _REAL = 1e-7  # relative: conjugate unknowns that differ by less are conjugate
-_PLACES = 400  # where the error of a function is looked at
 _SPECIAL = 0.05  # of the paths: where more are lost, the task is special, not the way to it
 _BENT = 0.1  # how far a way leads aside for what was lost on the straight one, relative to the task
 
@@ -116,8 +114,9 @@ def synthesise_six_bars(
     Returns:
         `SynthesisResult`: the designs that keep their assembly mode through all pairs, judged by their motion. The
         frame of the first loop is 1; the second four-bar of Watt II has any size and place, and gets the size of
-        the first on the same line. Of a function the error is the largest over its interval, seen at 400 places. The
-        notes say how many there are besides, and whether the list is complete; of eleven pairs how many are estimated.
+        the first on the same line. Of a function the error is the largest over its interval, seen at 400 places;
+        one that cannot go through it is rejected. The notes say how many there are besides, and whether the list is
+        complete; of eleven pairs how many are estimated.
 
     Raises `SynthesisError` for other tasks. Cost: 25 to 55 s of processor time, of Stephenson's 60 to 100 s, and 10 to
     30 ms for each verdict; the first time that a type meets eight pairs 150 to 600 s more. Of eleven pairs 4 ms
@@ -157,9 +156,10 @@ def synthesise_six_bars(
     real = z[gaps <= _REAL * (1 + np.abs(z).max(axis=1, initial=0.0))][:, ::2]
     turns = np.exp(1j * np.stack([phi, output], axis=1))
     kept = keeps_modes(of, real, turns) if wanted.one_branch else np.ones(len(real), bool)
-    accepted, rejected = ranked([_judged(task, wanted, of, vectors, turns) for vectors in real[kept]])
+    judged = (_judged(task, wanted, of, vectors, turns) for vectors in real[kept])
+    accepted, rejected = ranked(over_interval(design, task, "rocker") for design in judged)
     if task.law is not None:
-        accepted = in_order_of((_with_error_between(design, task, task.law) for design in accepted), ["error"])
+        accepted = in_order_of(accepted, ["error"])
     notes = [
         *known,
         message(
@@ -316,15 +316,3 @@ def _judged(task: FunctionTask, demands: Demands, kind: SixBarType, vectors: Com
     starts = np.exp(1j * np.array([linkage.required_pose[link].angle for link in ("crank", "rocker")]))
     targets = Targets((Probe(link="crank"), Probe(link="rocker")), starts * turns, 1.0)
     return judge_design(linkage, targets, demands, FORM)
-
-
-def _with_error_between(design: Design, task: FunctionTask, law: FunctionLaw) -> Design:
-    """With the largest error over the interval of the function, by motion; inf if it is not followed there."""
-    x = np.linspace(*law.interval, _PLACES)
-    inputs, outputs = law.inputs(x) - task.inputs[0], law.outputs(x) - task.outputs[0]
-    motion = move_quietly(design.linkage, design.drives[0] + np.concatenate([[0.0], inputs]))
-    error = np.inf
-    if motion.complete:
-        turned = motion.angle("rocker")
-        error = float(np.abs(turned[1:] - turned[0] - outputs).max())
-    return replace(design, verdict=replace(design.verdict, error=error))

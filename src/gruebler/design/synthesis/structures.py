@@ -22,12 +22,13 @@ from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.first_states import first_state
 from gruebler.design.synthesis.fitting import FitState, FitTargets, fit_stages, fit_targets, improved, output_links
 from gruebler.design.synthesis.judging import EXACT_AT_MOST, Demands, judge_design, judge_with_drives
+from gruebler.design.synthesis.law_motion import over_interval
 from gruebler.design.synthesis.positions import ranked
 from gruebler.design.synthesis.results import FITTED, Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.structure_atlas import dyad_structure
 from gruebler.design.synthesis.structure_curves import fit_drawings
 from gruebler.design.synthesis.targets import Probe, Targets, point_targets
-from gruebler.design.synthesis.tasks import PathTask, Task
+from gruebler.design.synthesis.tasks import FunctionTask, PathTask, Task
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.enumeration.worker_pool import run_work
 from gruebler.structure.mechanism import Mechanism, check_drives
@@ -78,6 +79,8 @@ def synthesise_structures(
         candidates += designs
         if progress is not None:
             progress(done, len(jobs))
+    if isinstance(task, FunctionTask):
+        candidates = [over_interval(design, task) for design in candidates]
     accepted, rejected = ranked(candidates)
     accepted = in_order_of(accepted, ["error"])
     own = isinstance(task, PathTask) and bool(task.tolerances)
