@@ -1,6 +1,7 @@
 """Any structure for any task: exact derivatives, tasks taken from mechanisms, several drives, executors."""
 
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -22,6 +23,8 @@ from gruebler.design.synthesis import (
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.first_states import first_state
 from gruebler.design.synthesis.fitting import compared, fit_stages, fit_targets, improved
+from gruebler.design.synthesis.proposals import propose
+from gruebler.design.synthesis.specification import Specification
 from gruebler.files.designs import design_to_json, result_to_json
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.kinematics import circuit, move
@@ -264,6 +267,17 @@ def test_an_output_that_does_not_touch_the_frame():
 def test_what_a_structure_cannot_do_is_refused(kind, text, link, sentence):
     with pytest.raises(SynthesisError, match=sentence):
         synthesise(TASKS[kind], structures=[Mechanism.parse(text)], link=link)
+
+
+def test_pivots_that_no_fit_would_hold_are_refused_and_leave_types_out():
+    """They were given up without a word: six-bars had their pivots anywhere."""
+    task = replace(TASKS["positions"], fixed_pivots=((0, 3), (2, 3)), moving_pivots=((1, 1),))
+    with pytest.raises(SynthesisError, match="moving_pivots and fixed_pivots: only four-bars"):
+        synthesise(task, structures=[Mechanism.parse(FOUR)])
+    four_bars, *others = propose(Specification(replace(task, moving_pivots=()))).tried
+    assert four_bars.result.count.found
+    assert others
+    assert {str(each.reason)[:18] for each in others} == {"fixed_pivots: only"}
 
 
 def test_a_fit_does_not_depend_on_the_unit():

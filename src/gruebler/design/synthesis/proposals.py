@@ -16,7 +16,7 @@ from gruebler.design.synthesis.clearances import stays_clear
 from gruebler.design.synthesis.fitting import output_links
 from gruebler.design.synthesis.results import Design, ParetoRow, Progress, SolutionCount, SynthesisResult, pareto
 from gruebler.design.synthesis.specification import Specification
-from gruebler.design.synthesis.structures import synthesise_structures
+from gruebler.design.synthesis.structures import synthesise_structures, unheld_pivots
 from gruebler.design.synthesis.synthesising import synthesise
 from gruebler.design.synthesis.tasks import DwellTask, PathTask, output_travels
 from gruebler.structure.mechanism import Mechanism
@@ -166,8 +166,15 @@ def _made(
 ) -> Iterator[tuple[Mechanism | None, SynthesisResult]]:
     task, demands = specification.task, specification.demands
     yield None, _with_so_many_slides(synthesise(task, demands=demands), specification)
+    unheld = unheld_pivots(task)
+    none = SolutionCount(what=message("linkages"), theorem=0, found=0, real=0)
     for mechanism in types:
-        yield mechanism, synthesise_structures(task, [mechanism], demands, starts=starts, executor=executor)
+        yield (
+            mechanism,
+            synthesise_structures(task, [mechanism], demands, starts=starts, executor=executor)
+            if unheld is None
+            else SynthesisResult(task=task, designs=(), rejected=(), count=none, notes=(unheld,)),
+        )
 
 
 def _with_so_many_slides(result: SynthesisResult, specification: Specification) -> SynthesisResult:

@@ -16,7 +16,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes
 from gruebler.base.errors import LinkageError, SynthesisError
-from gruebler.base.text import message
+from gruebler.base.text import Message, joined_by_and, message
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.first_states import first_state
@@ -51,8 +51,8 @@ def synthesise_structures(
     """Every mechanism fitted to a task: positions or points of one of its links, a function, dead centres.
 
     Args:
-        task: what is wanted. Of functions and dead centres only differences count, since a structure has no line from
-            which angles are measured.
+        task: what is wanted, without given pivots. Of functions and dead centres only differences count, since a
+            structure has no line from which angles are measured.
         structures: driven mechanisms of turning and sliding joints; with several drives for positions and points.
         demands: what a design has to do besides.
         starts: how many are improved to the end of each mechanism: by default the best 24 of 1,920 neighbours from the
@@ -69,6 +69,8 @@ def synthesise_structures(
         raise SynthesisError("structures: expected at least one mechanism")
     if starts is not None and starts < 1:
         raise SynthesisError("starts: expected at least 1, but found {count}", count=starts)
+    if (unheld := unheld_pivots(task)) is not None:
+        raise SynthesisError(unheld)
     targets = fit_targets(task)
     for mechanism in mechanisms:
         _check(mechanism, targets, link)
@@ -93,6 +95,17 @@ def synthesise_structures(
     )
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(candidates), real=len(candidates))
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
+
+
+def unheld_pivots(task: Task) -> Message | None:
+    """Which pivots of a task no fit holds, in a sentence; None if it gives none.
+
+    >>> print(unheld_pivots(PathTask([(0, 0), (1, 2), (3, 3)], fixed_pivots=[(0, 3)])))
+    fixed_pivots: only four-bars and slider-cranks made without a structure take given pivots
+    """
+    given = [key for key in ("moving_pivots", "fixed_pivots", "curve_parameters") if getattr(task, key, ())]
+    text = message("{keys}: only four-bars and slider-cranks made without a structure take given pivots")
+    return text.filled(keys=joined_by_and(given)) if given else None
 
 
 def _check(mechanism: Mechanism, targets: FitTargets, link: str) -> None:
