@@ -269,6 +269,19 @@ def test_what_a_structure_cannot_do_is_refused(kind, text, link, sentence):
         synthesise(TASKS[kind], structures=[Mechanism.parse(text)], link=link)
 
 
+@pytest.mark.parametrize("kind", ["positions", "points", "function", "dead centres"])
+def test_lengths_of_links_that_there_are_not_are_refused_with_those_that_there_are(kind):
+    """A demand that no design can meet was laid to their size."""
+    wanted = Demands(lengths={"foo": 2})
+    with pytest.raises(SynthesisError, match="'foo' is given, but the links are crank, coupler, rocker and frame"):
+        synthesise(TASKS[kind], demands=wanted)
+    with pytest.raises(SynthesisError, match="'foo' is given, but the links are 0, 1, 2 and 3"):
+        synthesise(TASKS[kind], demands=wanted, structures=[Mechanism.parse(FOUR)])
+    free = FunctionTask(np.linspace(0, 1, 9), outputs=np.linspace(0, 2, 9), start_input=False, start_output=False)
+    with pytest.raises(SynthesisError, match="the links are frame, crank, coupler, ternary, link and rocker"):
+        synthesise(free, demands=wanted, six_bars=True)
+
+
 def test_pivots_that_no_fit_would_hold_are_refused_and_leave_types_out():
     """They were given up without a word: six-bars had their pivots anywhere."""
     task = replace(TASKS["positions"], fixed_pivots=((0, 3), (2, 3)), moving_pivots=((1, 1),))

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.immutable import settle
-from gruebler.base.text import Message, joined, message
+from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.design.synthesis.results import EXACT, PASSED, TOO_SLENDER, Design, DesignVerdict
 from gruebler.design.synthesis.target_paths import TargetPath, limit_before, path_through
 from gruebler.design.synthesis.target_places import places_approached, places_met
@@ -104,6 +104,23 @@ class Demands:
     def limits_of_size(self) -> bool:
         """Whether lengths, the place of the pivots or the transmission angle are limited."""
         return bool(self.lengths) or self.region is not None or self.transmission > 0
+
+    def with_links(self, known: Iterable[str] = ("crank", "coupler", "rocker", "frame")) -> Demands:
+        """These demands; raises `SynthesisError` for lengths of other links, by default than those of four-bars.
+
+        >>> Demands(lengths={"foo": 2}).with_links()
+        Traceback (most recent call last):
+        gruebler.base.errors.SynthesisError: the length of a link 'foo' is given, but the links are crank, coupler, ...
+        """
+        links = tuple(dict.fromkeys(known))
+        for link, _ in self.lengths:
+            if link not in links:
+                raise SynthesisError(
+                    "the length of a link {link!r} is given, but the links are {known}",
+                    link=link,
+                    known=joined_by_and(links),
+                )
+        return self
 
 
 def _given_lengths(value: object) -> tuple[tuple[str, float], ...]:

@@ -61,7 +61,9 @@ def synthesise_path(
     >>> str(count.what), count.theorem, count.found, count.real
     ('four-bars', 36, 36, 14)
     """
-    run = _Run(task=task, demands=demands or Demands(), number=number, threads=threads, progress=progress)
+    run = _Run(
+        task=task, demands=(demands or Demands()).with_links(), number=number, threads=threads, progress=progress
+    )
     return next((method.solve for method in _METHODS if method.suits(run)), _finite)(run)
 
 

@@ -204,7 +204,7 @@ def synthesise_positions(
     >>> found.count.found, found.count.real, len(found.designs) + len(found.rejected)
     (4, 4, 6)
     """
-    wanted = demands or Demands()
+    wanted = (demands or Demands()).with_links()
     searched = len(task) < 5 and not (task.moving_pivots or task.fixed_pivots or task.curve_parameters)
     dyads = guiding_dyads(task, _SAMPLE[len(task)] if searched else number, wanted.region)
     if len(task) > 5:

@@ -132,6 +132,7 @@ def synthesise_six_bars(
     if len(task) == 9 and kind is not None:
         raise SynthesisError("nine pairs leave nothing of a six-bar free; give its type and an arm with eight pairs")
     of = kind or SixBarType()
+    wanted = wanted.with_links(_six_bar(of.family).chain.links)
     phi, output = (values - values[0] for values in pair_arrays(task))
     pairs = len(task) - 1
     p = np.zeros((4, max(8, pairs)), np.complex128)
@@ -283,10 +284,17 @@ def keeps_modes(kind: SixBarType, vectors: Complexes, turns: Complexes) -> Flags
     return np.asarray(np.all([(sign == sign[:, :1]).all(axis=1) for sign in signs], axis=0))
 
 
-_WATT = "R(frame-crank) R(crank-coupler) R(coupler-ternary) R(frame-ternary) R(ternary-link) R(link-rocker)"
-_STEPHENSON_3 = "R(frame-crank) R(crank-coupler) R(coupler-rocker1) R(frame-rocker1) R(coupler-link) R(link-rocker)"
-_STEPHENSON_2 = "R(frame-crank) R(crank-coupler) R(coupler-ternary) R(crank-link) R(link-ternary) R(ternary-rocker)"
-_DRIVEN = "R(frame-rocker); frame=frame; drive=R(frame-crank)"
+_JOINTS = {
+    "Watt II": "R(coupler-ternary) R(frame-ternary) R(ternary-link) R(link-rocker)",
+    "Stephenson III": "R(coupler-rocker1) R(frame-rocker1) R(coupler-link) R(link-rocker)",
+    "Stephenson II": "R(coupler-ternary) R(crank-link) R(link-ternary) R(ternary-rocker)",
+}
+
+
+def _six_bar(family: str) -> Mechanism:
+    """The mechanism of a type, its links with names."""
+    joints = f"R(frame-crank) R(crank-coupler) {_JOINTS[family]} R(frame-rocker)"
+    return Mechanism.parse(f"{joints}; frame=frame; drive=R(frame-crank)")
 
 
 def drawn_six_bar(kind: SixBarType, vectors: Complexes) -> tuple[Mechanism, Complexes]:
@@ -297,16 +305,16 @@ def drawn_six_bar(kind: SixBarType, vectors: Complexes) -> tuple[Mechanism, Comp
         # The second four-bar is drawn from its own frame, output to ternary rocker, which lies on the first one's line.
         size = float(np.exp(np.mean(np.log(own)) - np.mean(np.log(other))))
         end = 1 + size
-        text, places = _WATT, [0, a, 1 + p, 1, 1 - size * q, end - size * f, end]
+        places = [0, a, 1 + p, 1, 1 - size * q, end - size * f, end]
     elif kind.family == "Stephenson III":
         a, f, c, p, *other = vectors.tolist()
         q = other[0] if other else kind.shape * p
-        text, places = _STEPHENSON_3, [0, a, a + p, 1, a + q, c + f, c]
+        places = [0, a, a + p, 1, a + q, c + f, c]
     else:
         a, b, f, p, *other = vectors.tolist()
         q = other[0] if other else kind.shape * p
-        text, places = _STEPHENSON_2, [0, a, 1 + f - p, b, 1 + f - q, 1 + f, 1]
-    return Mechanism.parse(f"{text} {_DRIVEN}"), np.array(places, np.complex128)
+        places = [0, a, 1 + f - p, b, 1 + f - q, 1 + f, 1]
+    return _six_bar(kind.family), np.array(places, np.complex128)
 
 
 def _judged(task: FunctionTask, demands: Demands, kind: SixBarType, vectors: Complexes, turns: Complexes) -> Design:

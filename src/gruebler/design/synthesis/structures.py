@@ -63,8 +63,8 @@ def synthesise_structures(
 
     Cost: a six-bar with an atlas 1 s for the atlas and 5 s for its neighbours; others 1 to 3 s a start.
     """
-    wanted = demands or Demands()
     mechanisms = tuple(structures)
+    wanted = (demands or Demands()).with_links(link for mechanism in mechanisms for link in mechanism.chain.links)
     if not mechanisms:
         raise SynthesisError("structures: expected at least one mechanism")
     if starts is not None and starts < 1:
