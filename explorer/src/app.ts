@@ -282,7 +282,7 @@ export class App implements Page {
   open(model: Model, drive?: number): void {
     this.say("");
     if (this.motion.linkage) this.#remember("motion");
-    this.motion.open(model, this.views[this.view]?.undoable && this.view !== "motion" ? this.view : undefined);
+    this.motion.open(model, this.views[this.view]?.title && this.view);
     this.show("motion");
     this.motion.run();
     if (drive !== undefined) this.motion.transport.pick(drive);

@@ -7,6 +7,7 @@ import type { Box } from "./viewport";
 
 const MARK = 3.2; // pixels that a mark has for each of its units
 const AROUND = 45; // pixels around a mark
+const NUMBER = 28; // pixels of a mark's number, on its right
 const LINES = 36; // pixels between lines of the grid, at least
 
 export interface Area extends Box {
@@ -23,7 +24,7 @@ export function areaOf(wide: number, part: number, places: readonly (readonly nu
     const values = places.map((place) => place[axis]!);
     const [low, most] = [Math.min(...values), Math.max(...values)];
     // for marks and their numbers
-    const room = values.length ? Math.max(0.06 * (most - low), (AROUND * wide) / pixels) : 0;
+    const room = values.length ? Math.max(Math.max(0.06, NUMBER / pixels) * (most - low), (AROUND * wide) / pixels) : 0;
     return [Math.min(-half, low - room), Math.max(half, most + room)];
   };
   let [left, right] = span(0, wide / 2);
@@ -41,14 +42,15 @@ export function viewBoxOf({ left, right, bottom, top }: Area): string {
   return [left, -top, right - left, top - bottom].map((value) => value.toPrecision(6)).join(" ");
 }
 
-/** Lines with their numbers, and the unit of length. */
-export function gridOf({ left, right, bottom, top, unit }: Area): SVGElement[] {
+/** Lines with their numbers, and the unit of length or else the names of both axes. */
+export function gridOf({ left, right, bottom, top, unit }: Area, [across = "", up = "mm"]: string[]): SVGElement[] {
   const step = gridStep((LINES / MARK) * unit);
   const line = (k: number, d: string) => svg("path", { class: k ? "mesh" : "axis", d });
   const tick = (x: number, y: number, text: string) =>
     svg("text.tick", { transform: `translate(${x} ${-y}) scale(${unit})` }, text);
   const lines: SVGElement[] = [];
-  const ticks = [tick(right - 9 * unit, top - 6 * unit, "mm")];
+  const ticks = [tick(up === "mm" ? right - 9 * unit : unit, top - 6 * unit, up)];
+  ticks.push(tick(right - 2.2 * across.length * unit, unit, across));
   for (let k = Math.ceil(left / step); k * step < right; k++) {
     lines.push(line(k, `M${k * step} ${-top}V${-bottom}`));
     if (k % 2 === 0) ticks.push(tick(k * step + unit, bottom + 2 * unit, number(k * step)));

@@ -4,15 +4,19 @@ import { type Area, areaOf, gridOf, viewBoxOf } from "./area";
 import { type Design, DesignCards, type Found } from "./designs";
 import { choice, h, renew, svg } from "./dom";
 import { Ghost } from "./ghost";
+import { History } from "./history";
 import { t } from "./language";
 import type { Model, Target } from "./model";
-import { evenly, rowsTable, targetMark, tip } from "./targets";
+import { evenly, rowsTable, swingMark, swingOf, targetMark, tip } from "./targets";
 import { FEWEST, type Kind, wordsOf } from "./tasks";
 import type { Page, View } from "./view";
 import { awaited } from "./waiting";
 
 /** What a click or a stroke puts. */
 type Puts = "" | "pivot" | "curve";
+
+/** What is undone: the kind that is shown, and whether the curve is closed, rows and pivots as a text. */
+type State = [Kind, string];
 
 /** Points of a page without the library. */
 const NINE = 9;
@@ -25,7 +29,7 @@ const OF_STROKE = 20; // points of a curve that is drawn
 export class SynthesisView implements View {
   readonly element = h("div.view", { "data-page": "synthesis" });
   private kind: Kind = "points";
-  private readonly rows: Record<Kind, number[][]> = {
+  private rows: Record<Kind, number[][]> = {
     positions: [],
     points: [],
     function: [
@@ -46,6 +50,9 @@ export class SynthesisView implements View {
   /** How wide the plane is before there is anything in it; that of points out of a file is as wide as they need. */
   #home = 0;
   #area!: Area;
+  readonly #history = new History<State>();
+  /** The targets before the change that is going on. */
+  #before = this.#state;
   /** What the pointer takes along. */
   #held: ((at: [number, number]) => void) | null = null;
   private readonly marks = svg("g");
@@ -68,8 +75,9 @@ export class SynthesisView implements View {
     for (const event of ["pointerup", "pointercancel"])
       this.#plane.addEventListener(event, () => {
         this.#held = null;
-        this.#paint();
-        if (this.#puts === "curve") this.arrange(); // whether it is closed
+        if (this.#puts === "curve")
+          this.arrange(); // whether it is closed
+        else this.#draw();
       });
   }
 
@@ -95,6 +103,11 @@ export class SynthesisView implements View {
 
   get #planar(): boolean {
     return this.kind === "points" || this.kind === "positions";
+  }
+
+  /** Whether the rows lie in the plane: that of angles is free while no design plays in it. */
+  get #plotted(): boolean {
+    return this.#planar || (this.kind === "function" && !this.#shownDesign);
   }
 
   arrange(): void {
@@ -131,6 +144,7 @@ export class SynthesisView implements View {
             ["pivot", t("Put fixed pivots")],
           ];
     this.#plane.setAttribute("aria-label", t("What is to be met"));
+    this.#list.classList.toggle("first", !this.#planar);
     const open = this.kind === "points";
     renew(
       this.element,
@@ -221,7 +235,7 @@ export class SynthesisView implements View {
   }
 
   #down(event: PointerEvent): void {
-    if (!this.#planar) return;
+    if (!this.#plotted) return;
     const [x, y] = this.#at(event);
     this.#plane.setPointerCapture(event.pointerId);
     if (this.#puts === "curve") return this.#stroke(x, y);
@@ -285,6 +299,45 @@ export class SynthesisView implements View {
   #draw(): void {
     this.#paint();
     this.#drawList();
+    if (!this.#held) this.#keep();
+  }
+
+  // --- what is undone ------------------------------------------------------------------------------------------------
+
+  get #state(): State {
+    return [this.kind, JSON.stringify([this.#closed, this.rows, this.#pivots])];
+  }
+
+  #keep(): void {
+    const before = this.#before;
+    this.#before = this.#state;
+    if (before[1] === this.#before[1]) return;
+    this.#history.add(before);
+    if (!this.#planar) this.#play(null);
+    this.#page.changed();
+  }
+
+  get undoable(): [boolean, boolean] {
+    return this.#history.possible;
+  }
+
+  undo(): void {
+    this.#step("undo");
+  }
+
+  redo(): void {
+    this.#step("redo");
+  }
+
+  #step(way: "undo" | "redo"): void {
+    const state = this.#held ? undefined : this.#history[way](this.#before);
+    if (!state) return;
+    this.#before = state;
+    this.kind = state[0];
+    [this.#closed, this.rows, this.#pivots] = JSON.parse(state[1]);
+    this.#play(null);
+    this.arrange();
+    this.#page.changed();
   }
 
   #drawList(): void {
@@ -346,28 +399,31 @@ export class SynthesisView implements View {
   /** The plane with what is put into it, and where the design that plays comes to; while a mark is held it stays. */
   #paint(): void {
     const { kind, points } = this;
-    const [planar, plane, shownDesign] = [this.#planar, this.#plane, this.#shownDesign];
+    const [plotted, plane, shownDesign] = [this.#plotted, this.#plane, this.#shownDesign];
+    const angles = kind === "function";
+    const swung = plotted || shownDesign ? [] : swingOf(points[0]![0]!);
     const pivots = kind === "positions" ? this.#pivots : [];
-    const places = [...(planar ? [...points, ...pivots] : []), ...(shownDesign?.frames.flat() ?? [])];
+    const places = [...(plotted ? [...points, ...pivots] : swung), ...(shownDesign?.frames.flat() ?? [])];
     if (!this.#held) {
       const narrow = plane.clientWidth && plane.clientWidth < 500;
       const wide = this.#home || (narrow ? 0.6 : 1) * WIDE;
       const part = narrow && shownDesign ? 0.32 : 0.6; // room for the designs
-      this.#area = areaOf(planar || !places.length ? wide : 0, part, places, plane);
+      this.#area = areaOf(this.#planar ? wide : 0, part, places, plane);
       plane.setAttribute("viewBox", viewBoxOf(this.#area));
     }
     const { unit } = this.#area;
-    const line = kind === "points" ? points.map(([x, y]) => `${x} ${-y!}`).join("L") : "";
-    const d = line && `M${line}${this.#closed && points.length > 2 ? "Z" : ""}`;
+    const way = angles ? [...points].sort(([one], [two]) => one! - two!) : points;
+    const line = kind === "positions" ? "" : way.map(([x, y]) => `${x} ${-y!}`).join("L");
+    const d = line && `M${line}${this.#closed && !angles && points.length > 2 ? "Z" : ""}`;
     const marks = [
-      ...gridOf(this.#area),
+      ...gridOf(this.#area, angles ? wordsOf(kind).heads : []),
       svg("path.polygon", { d }),
       ...points.map((row, k) => targetMark(row, k, unit)),
       ...pivots.map(([x, y]) =>
         svg("path.pivot", { d: "M0 0l4 6h-8z", transform: `translate(${x} ${-y!}) scale(${unit})`, "data-pivot": "" }),
       ),
     ];
-    renew(this.marks, ...(planar ? marks : []));
+    renew(this.marks, ...(plotted ? marks : swingMark(swung, points[0]![0]!, unit)));
   }
 
   #play(design: Design | null): void {

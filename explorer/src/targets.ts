@@ -1,7 +1,7 @@
 /** What a linkage is to meet: marks in the plane, and a table in which they are typed. */
 
 import { h, svg } from "./dom";
-import { number, parsed, t } from "./language";
+import { angle, number, parsed, t } from "./language";
 import { valueAt } from "./plot";
 import type { Pair } from "./rows";
 
@@ -84,6 +84,30 @@ export function evenly(line: number[][], count: number): { places: number[][]; c
 export function tip([x, y, turn]: number[], unit: number): number[] {
   const phi = ((turn ?? 0) * Math.PI) / 180;
   return [x! + ARM * unit * Math.cos(phi), y! + ARM * unit * Math.sin(phi)];
+}
+
+const ROCKER = 100;
+
+/** A rocker at both ends of its swing, in degrees, and where it stands between them; the first place is its pivot. */
+export function swingOf(swing: number): Pair[] {
+  const at = (part: number): Pair => {
+    const phi = (part * swing * Math.PI) / 180;
+    return [ROCKER * Math.sin(phi), ROCKER * Math.cos(phi)];
+  };
+  return [[0, 0], at(-0.5), at(0.5), [0, 1.05 * ROCKER]];
+}
+
+/** The same as a picture with its angle, in units that are so long; nothing of no places. */
+export function swingMark([, one, two, top]: readonly Pair[], swing: number, unit: number): SVGElement[] {
+  if (!one || !two) return [];
+  const [from, to] = [one, two].map(([x, y]) => `${x} ${-y}`);
+  const text = { "text-anchor": "middle", transform: `translate(0 ${-top![1]}) scale(${unit})` };
+  return [
+    svg("path.polygon", { d: `M${from}A${ROCKER} ${ROCKER} 0 ${+(swing > 180)} 1 ${to}` }),
+    svg("path.arm", { d: `M${from}L0 0L${to}` }),
+    svg("path.pivot", { d: "M0 0l4 6h-8z", transform: `scale(${unit})` }),
+    svg("text", text, angle((swing * Math.PI) / 180, 4)),
+  ];
 }
 
 /** A point with its number, and the arrow of a position; all of it in units that are so long. */

@@ -27,6 +27,23 @@ def opened(page):
     return linkage_from_json(json.loads(page.page.evaluate("JSON.stringify(gruebler.motion.document())")))
 
 
+def undo_and_redo(design):
+    """Three positions are removed; that is undone, and what was typed before."""
+    view = design.page
+    rows = view.evaluate(f"{VIEW}.rows.positions")
+    for number in (3, 2, 1):  # the cross of the last row first
+        view.locator(".points button").nth(number - 1).click()
+    back, forth = (view.locator(f'header [data-icon="{icon}"]') for icon in ("undo", "redo"))
+    for _ in range(2):
+        view.keyboard.press("Control+z")
+    back.click()
+    assert view.evaluate(f"{VIEW}.rows.positions") == rows
+    back.click()  # the angle of the third
+    assert view.evaluate(f"{VIEW}.rows.positions[2][2]") == -25
+    forth.click()
+    assert view.evaluate(f"{VIEW}.rows.positions") == rows
+
+
 def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(design):
     view = design.page
     view.click('[data-value="positions"]')
@@ -44,6 +61,7 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
         field = view.locator(f'[aria-label="Position {number} φ [°]"]')
         field.fill(str(angle))
         field.press("Enter")
+    undo_and_redo(design)
     view.click('[data-value="pivot"]')
     for pivot in ((-30, -40), (30, -40)):
         view.mouse.click(*design.target(*pivot))
@@ -145,11 +163,21 @@ def test_a_finger_takes_a_point_of_the_plane(tab, server):
 
 def test_dead_centres_are_those_that_were_asked_for(design):
     view = design.page
+    view.click('[data-value="function"]')
+    design.drag(design.middle('[data-point="1"] circle'), (0, -40))
+    x, y = zip(*(design.middle(f'[data-point="{k}"] circle') for k in range(3)), strict=True)
+    pairs = view.evaluate(f"{VIEW}.rows.function")
+    degree = (x[2] - x[0]) / 90  # across as upward
+    assert pairs[1] == pytest.approx([45, 25 + 40 / degree], abs=0.2)
+    assert y[0] - y[1] == pytest.approx(pairs[1][1] * degree, abs=1)
     view.click('[data-value="dead-centres"]')
     for name, value in (("Swing [°]", "48"), ("Time ratio", "1.25")):
         field = view.locator(f'[aria-label="Dead centres 1 {name}"]')
         field.fill(value)
         field.press("Enter")
+    arm = view.locator(".plane .arm").get_attribute("d")
+    (a, b), (c, d) = (map(float, end.split()) for end in arm.removeprefix("M").split("L0 0L"))
+    assert np.degrees(np.arccos((a * c + b * d) / np.hypot(a, b) / np.hypot(c, d))) == pytest.approx(48)
     view.click('[data-act="synthesise"]')
     cards = view.locator('[data-list="designs"] .card')
     cards.nth(1).wait_for(timeout=60_000)
