@@ -104,14 +104,15 @@ export class DesignCards {
     const shown = found.items.length;
     const orders: [Order, string][] = [
       ["error", t("by deviation")],
-      ["balanced", t("balanced: angle, size, sensitivity")],
-      ["transmission", t("by transmission angle on the way")],
-      ["range", t("by transmission angle in all positions")],
+      ["balanced", t("balanced")],
+      ["transmission", t("by μ on the way")],
+      ["range", t("by μ in all positions")],
       ["size", t("by size")],
       ["shift", t("by sensitivity")],
     ];
     if (this.#exact) orders.shift();
     const words: [boolean, string][] = [
+      [this.#order === "balanced", t("Balanced: transmission angle, size and sensitivity count alike.")],
       [this.#exact && shown > 0, t("All meet the targets exactly.")],
       [found.items.some(({ lengths }) => lengths.length), t("Lengths in mm: crank · coupler · rocker · frame.")],
       [

@@ -159,6 +159,18 @@ def test_a_finger_takes_a_point_of_the_plane(tab, server):
     ticks = page.page.locator(".plane .tick").all_text_contents()
     assert ticks[0] == "mm"
     assert ticks.count("0") == 2  # both axes have numbers
+    # while it looks for linkages, what gives that up stands over the button that began it
+    for x, y in ((20, -20), (0, -30), (-20, -20), (-20, 10)):
+        page.page.touchscreen.tap(*page.target(x, y))
+    assert page.page.evaluate("""() => {
+        const { root } = gruebler;
+        root.querySelector('[data-act="synthesise"]').click();
+        const cancel = root.querySelector('[data-act="cancel"]');
+        const { x, y, width, height } = cancel.getBoundingClientRect();
+        const seen = root.getRootNode().elementFromPoint(x + width / 2, y + height / 2) === cancel && x + width <= innerWidth;
+        cancel.click();
+        return seen;
+    }""")
 
 
 def test_dead_centres_are_those_that_were_asked_for(design):
