@@ -7,7 +7,6 @@ import type { Box } from "./viewport";
 
 const MARK = 3.2; // pixels that a mark has for each of its units
 const AROUND = 45; // pixels around a mark
-const NUMBER = 28; // pixels of a mark's number, on its right
 const LINES = 36; // pixels between lines of the grid, at least
 
 export interface Area extends Box {
@@ -16,19 +15,20 @@ export interface Area extends Box {
 }
 
 /** A square about the origin of that width, or less of its height where that part of the window is low, and all of the
- * places; it is as wide as the element, and as high whatever the places are. */
+ * places; only these if the width is -Infinity. It is as wide as the element, and as high whatever the places are. */
 export function areaOf(wide: number, part: number, places: readonly (readonly number[])[], element: Element): Area {
   const pixels = element.clientWidth || 840;
   const ratio = Math.min(1, Math.max(0.5, (part * window.innerHeight) / pixels));
-  const span = (axis: 0 | 1, half: number): [number, number] => {
+  const ends = ([0, 1] as const).map((axis) => {
     const values = places.map((place) => place[axis]!);
-    const [low, most] = [Math.min(...values), Math.max(...values)];
-    // for marks and their numbers
-    const room = values.length ? Math.max(Math.max(0.06, NUMBER / pixels) * (most - low), (AROUND * wide) / pixels) : 0;
+    return [Math.min(...values), Math.max(...values)] as const;
+  });
+  const widest = Math.max(wide, ...ends.map(([low, most], axis) => (most - low) / (axis ? ratio : 1)));
+  const room = (AROUND * widest) / (pixels - 2 * AROUND); // for marks and their numbers
+  let [[left, right], [bottom, top]] = ends.map(([low, most], axis) => {
+    const half = (axis ? ratio * wide : wide) / 2;
     return [Math.min(-half, low - room), Math.max(half, most + room)];
-  };
-  let [left, right] = span(0, wide / 2);
-  let [bottom, top] = span(1, (ratio * wide) / 2);
+  });
   const more = ((top - bottom) / ratio - (right - left)) / 2;
   left -= Math.max(0, more);
   right += Math.max(0, more);

@@ -7,7 +7,7 @@ import { Ghost } from "./ghost";
 import { History } from "./history";
 import { t } from "./language";
 import type { Model, Target } from "./model";
-import { evenly, rowsTable, swingMark, swingOf, targetMark, tip } from "./targets";
+import { evenly, numberPlaces, rowsTable, swingMark, swingOf, targetMark, tip } from "./targets";
 import { FEWEST, type Kind, wordsOf } from "./tasks";
 import type { Page, View } from "./view";
 import { awaited } from "./waiting";
@@ -57,7 +57,7 @@ export class SynthesisView implements View {
   #held: ((at: [number, number]) => void) | null = null;
   private readonly marks = svg("g");
   readonly #ghost = new Ghost(() => this.element.classList.contains("shown"));
-  readonly #plane = svg("svg.plane", { role: "application", tabindex: 0 }, this.marks, this.#ghost.element);
+  readonly #plane = svg("svg.plane", { role: "application", tabindex: 0 }, this.marks);
   readonly #list = h("div", {});
   /** How many are set; while linkages are looked for, how far that is stands in its place. */
   readonly #told = h("span.note", { "data-fact": "set" });
@@ -406,24 +406,26 @@ export class SynthesisView implements View {
     const places = [...(plotted ? [...points, ...pivots] : swung), ...(shownDesign?.frames.flat() ?? [])];
     if (!this.#held) {
       const narrow = plane.clientWidth && plane.clientWidth < 500;
-      const wide = this.#home || (narrow ? 0.6 : 1) * WIDE;
+      const wide = this.#planar ? this.#home || (narrow ? 0.6 : 1) * WIDE : 0;
       const part = narrow && shownDesign ? 0.32 : 0.6; // room for the designs
-      this.#area = areaOf(this.#planar ? wide : 0, part, places, plane);
+      this.#area = areaOf(shownDesign ? -Infinity : wide, part, places, plane);
       plane.setAttribute("viewBox", viewBoxOf(this.#area));
     }
     const { unit } = this.#area;
     const way = angles ? [...points].sort(([one], [two]) => one! - two!) : points;
     const line = kind === "positions" ? "" : way.map(([x, y]) => `${x} ${-y!}`).join("L");
     const d = line && `M${line}${this.#closed && !angles && points.length > 2 ? "Z" : ""}`;
+    const at = numberPlaces(points, this.#closed && !angles, unit);
     const marks = [
       ...gridOf(this.#area, angles ? wordsOf(kind).heads : []),
       svg("path.polygon", { d }),
-      ...points.map((row, k) => targetMark(row, k, unit)),
+      this.#ghost.element,
+      ...points.map((row, k) => targetMark(row, k, at[k]!, unit)),
       ...pivots.map(([x, y]) =>
         svg("path.pivot", { d: "M0 0l4 6h-8z", transform: `translate(${x} ${-y!}) scale(${unit})`, "data-pivot": "" }),
       ),
     ];
-    renew(this.marks, ...(plotted ? marks : swingMark(swung, points[0]![0]!, unit)));
+    renew(this.marks, ...(plotted ? marks : [this.#ghost.element, ...swingMark(swung, points[0]![0]!, unit)]));
   }
 
   #play(design: Design | null): void {

@@ -1,11 +1,13 @@
 /** What a linkage is to meet: marks in the plane, and a table in which they are typed. */
 
 import { h, svg } from "./dom";
+import { toHull } from "./hull";
 import { angle, number, parsed, t } from "./language";
 import { valueAt } from "./plot";
 import type { Pair } from "./rows";
 
 const ARM = 14; // of the arrow that shows the angle of a position
+const AWAY = 6; // from a point to the middle of its number
 
 /** A table whose cells change the rows; each row may be removed. */
 export function rowsTable(
@@ -110,9 +112,25 @@ export function swingMark([, one, two, top]: readonly Pair[], swing: number, uni
   ];
 }
 
+/** Where the number of each target has its middle: near its point, as clear as possible of all arrows, else of the way
+ * from point to point. */
+export function numberPlaces(rows: readonly number[][], closed: boolean, unit: number): Pair[] {
+  const lines = rows.map((row, k) => {
+    const next = rows[k + 1] ?? (closed ? rows[0]! : row);
+    return [row, row.length > 2 ? tip(row, unit) : next].map(([x, y]): Pair => [x!, y!]);
+  });
+  return rows.map(([x, y]) => {
+    const around = Array.from({ length: 16 }, (_, k): Pair => {
+      const phi = ((3 - k) * Math.PI) / 8; // from the right above on
+      return [x! + AWAY * unit * Math.cos(phi), y! + AWAY * unit * Math.sin(phi)];
+    });
+    const clear = around.map(([u, v]) => Math.min(AWAY * unit, ...lines.map((line) => toHull(line, u, v))));
+    return around[clear.indexOf(Math.max(...clear))]!;
+  });
+}
+
 /** A point with its number, and the arrow of a position; all of it in units that are so long. */
-export function targetMark(row: number[], k: number, unit: number): SVGElement {
-  const [x, y, turn] = row;
+export function targetMark([x, y, turn]: number[], k: number, [at, up]: Pair, unit: number): SVGElement {
   const [u, v] = tip([0, 0, turn ?? 0], 1);
   return svg(
     "g",
@@ -121,11 +139,6 @@ export function targetMark(row: number[], k: number, unit: number): SVGElement {
       ? []
       : [svg("path.arm", { d: `M0 0L${u} ${-v!}` }), svg("circle.tip", { r: 1.8, cx: u!, cy: -v! })]),
     svg("circle", { r: 2.6 }),
-    // beside a point, behind an arrow
-    svg(
-      "text",
-      turn === undefined ? { x: 3.4, y: -3.4 } : { x: -0.45 * u!, y: 0.45 * v! + 2, "text-anchor": "middle" },
-      String(k + 1),
-    ),
+    svg("text", { x: (at - x!) / unit, y: (y! - up) / unit + 2, "text-anchor": "middle" }, String(k + 1)),
   );
 }

@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { areaOf } from "../src/area";
 import { TURN } from "../src/cycle";
 import { gridStep } from "../src/grid";
 import { convexHull, toHull } from "../src/hull";
@@ -12,7 +13,7 @@ import { lapOf } from "../src/plots";
 import { linesOf } from "../src/shapes";
 import { Sizes } from "../src/sizes";
 import { Span } from "../src/span";
-import { evenly } from "../src/targets";
+import { evenly, numberPlaces, tip } from "../src/targets";
 import { limitsOf, shownRange } from "../src/track";
 import { Viewport } from "../src/viewport";
 import { CRANK_ROCKER, fourBar } from "./fourbar";
@@ -210,4 +211,37 @@ test("a curve that is drawn gives points evenly along it", () => {
     [10, 5],
     [10, 10],
   ]);
+});
+
+test("the number of a target stands beside its point, clear of the arrows of others", () => {
+  const unit = 0.5;
+  // behind the second the first one points at it, and the third one points at the first
+  const rows = [
+    [0, 0, 0],
+    [14 * unit + 3, 0, 0],
+    [-14 * unit - 3, 2, 0],
+  ];
+  const places = numberPlaces(rows, false, unit);
+  places.forEach(([x, y], k) => {
+    close(Math.hypot(x - rows[k]![0]!, y - rows[k]![1]!), 6 * unit);
+    for (const row of rows) {
+      const [u, v] = tip(row, unit) as [number, number];
+      assert.ok(Math.hypot(x - u, y - v) > 5 * unit);
+      const along = Math.min(Math.max(x, row[0]!), u);
+      assert.ok(Math.hypot(x - along, y - v) > 5 * unit);
+    }
+  });
+});
+
+test("a plane without a width of its own is as large as its places and their numbers", () => {
+  Object.assign(globalThis, { window: { innerHeight: 1000 } });
+  const places = [
+    [1000, 0],
+    [1200, 50],
+  ];
+  const { left, right, bottom, top, unit } = areaOf(-Infinity, 0.6, places, { clientWidth: 890 } as Element);
+  // 45 pixels at each side of 800 for 200 mm; as high as 600 pixels are
+  near([left, right], [1000 - 11.25, 1200 + 11.25]);
+  near([(bottom + top) / 2, (top - bottom) / (right - left)], [25, 600 / 890]);
+  close(unit, 3.2 / 4);
 });
