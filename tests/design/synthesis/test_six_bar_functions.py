@@ -10,7 +10,7 @@ from gruebler.design.synthesis.alt_burmester import load_generic_solutions
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.six_bar_census import ELEVEN, Census
 from gruebler.design.synthesis.six_bar_functions import NINE_PAIRS, common_turns, drawn_six_bar, keeps_modes
-from gruebler.design.synthesis.six_bar_monodromy import Search, follow, known_solutions, loop_vectors
+from gruebler.design.synthesis.six_bar_monodromy import Search, Trace, follow, known_solutions, loop_vectors
 from gruebler.design.synthesis.six_bar_starts import StartSet, eight_pairs, save_start_set, start_set
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.linkages import Linkage
@@ -250,6 +250,33 @@ def test_a_start_set_goes_on_where_it_was_interrupted(tmp_path, monkeypatch):
     assert followed[1] > followed[0] > 5
     _, steps = _core.refine_solutions(search.found[1], search.tasks[1], 0, 7, family="Watt II")
     assert steps.max() < 1e-8
+
+
+@pytest.mark.parametrize("whole", [True, False])
+def test_a_search_whose_file_is_damaged_begins_anew_and_says_so(whole, tmp_path, monkeypatch):
+    """Bytes that are no file, or a whole file with solutions of other tasks: as of another generator of numbers."""
+    problem = eight_pairs("Watt II")
+    file = tmp_path / "gruebler" / "six_bars_Watt_II_search.npz"
+    file.parent.mkdir(mode=0o700)
+    Search(problem, 4).save(file)
+    if not whole:
+        file.write_bytes(file.read_bytes()[:1000] + b"x")
+    begun = []
+
+    def nothing_left(search):
+        begun.append([len(z) for z in search.found])
+        return False
+
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    starts = "gruebler.design.synthesis.six_bar_starts"
+    monkeypatch.setattr(Search, "step", nothing_left)
+    monkeypatch.setattr(f"{starts}.FEW", 1)
+    monkeypatch.setattr(f"{starts}._MOST_WAYS", 6)
+    monkeypatch.setattr(f"{starts}.trace", lambda _: Trace(residual=1.0, without_one=1.0, lost=0))
+    monkeypatch.setattr(f"{starts}.with_arm_given", lambda search: (search.tasks[0], search.found[0]))
+    assert start_set("Watt II").damaged == file
+    assert begun == [[1, 0, 0, 0]]
+    assert not file.exists()
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 from os import cpu_count
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 
@@ -20,7 +19,7 @@ from gruebler.base.atomic_files import atomic_file
 from gruebler.base.private_folder import private_folder
 from gruebler.design.synthesis.alt_burmester import Problem, sharpened
 from gruebler.design.synthesis.results import Progress
-from gruebler.design.synthesis.six_bar_monodromy import follow, known_solutions, merged, random_numbers
+from gruebler.design.synthesis.six_bar_monodromy import UNUSABLE, follow, known_solutions, merged, random_numbers
 
 ELEVEN = {
     family: Problem(name="eleven pairs", poses=0, points=10, classes=0, members=1, family=family)
@@ -113,7 +112,7 @@ def kept_census(family: str, solutions: int, *, threads: int | None = None, prog
     census, folder = Census(ELEVEN[family], _SEED, threads), private_folder()
     file = None if folder is None else folder / f"six_bars_{family.replace(' ', '_')}_eleven.npz"
     if file is not None:
-        with suppress(OSError, ValueError, KeyError, EOFError, BadZipFile):  # nothing of use: it begins anew
+        with suppress(*UNUSABLE):  # nothing of use: it begins anew
             census.load(file)
     while len(census.z) < solutions or census.met.max() < 2:
         census.step()

@@ -151,6 +151,8 @@ def synthesise_six_bars(
     else:
         problem, starts = eight_pairs(of.family), start_set(of.family, threads=threads, progress=progress)
         base, known = GenericSolutions(starts.parameters, starts.z), [_how_complete(of.family, starts)]
+        if starts.damaged is not None:
+            known.append(message("{file} was damaged: the search for start solutions began anew.", file=starts.damaged))
         p[3] = of.arm**2, 1, of.shape, np.conj(of.shape), 0, 0, 0, 0
     z = six_bar_solutions(problem, base, p, threads=threads, progress=progress)
     gaps = np.abs(z[:, 1::2] - np.conj(z[:, ::2])).max(axis=1, initial=0.0)

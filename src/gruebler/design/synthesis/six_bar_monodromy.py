@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
 from typing import Any, NamedTuple
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -17,6 +18,8 @@ from gruebler.base.arrays import Complexes, Flags, Integers
 from gruebler.base.atomic_files import atomic_file
 from gruebler.design.synthesis.alt_burmester import ARRIVED, CAREFUL, QUICK, Problem, follow_from_generic, sharpened
 
+UNUSABLE = (OSError, ValueError, KeyError, EOFError, RuntimeError, BadZipFile)
+"""What is raised where a file of the cache is damaged, or has something else."""
 _TASKS, _PIECE = 4, 2048
 _SAME = 1e-6  # relative: solutions nearer to each other are one
 _MARK = np.exp(1.234j * np.arange(1, 11) ** 2)  # weights of the numbers of a solution
@@ -256,12 +259,22 @@ class Search:
             np.savez(stream, **rows)
 
     def load(self, file: Path) -> None:
-        """What an earlier search with the same seed saved."""
-        with np.load(file) as stored:
-            self.found = [stored[f"z{k}"] for k in range(_TASKS)]
-            self.ways = [(int(u.real), int(v.real), factor) for u, v, factor in stored["ways"].tolist()]
-            self.matched = [[stored[f"m{k}_{s}"] for s in (0, 1)] for k in range(len(self.ways))]
-            self.lost, self.clashes, self.paths = stored["counts"].tolist()
+        """What an earlier search with the same seed saved; one of `UNUSABLE` is raised where the file has none."""
+        with file.open("rb") as stream, np.load(stream) as stored:
+            listed = [stored[f"z{k}"] for k in range(_TASKS)]
+            ways = [(int(u.real), int(v.real), factor) for u, v, factor in stored["ways"].tolist()]
+            matched = [[stored[f"m{k}_{s}"] for s in (0, 1)] for k in range(len(ways))]
+            lost, clashes, paths = stored["counts"].tolist()
+        known = all(sharpened(self.problem, z, task).all() for z, task in zip(listed, self.tasks, strict=True))
+        ends = [
+            (row, listed[k])
+            for (u, v, _), two in zip(ways, matched, strict=True)
+            for row, k in zip(two, (u, v), strict=True)
+        ]
+        if not known or any(len(row) != len(z) for row, z in ends):
+            raise ValueError("no search of these tasks")
+        self.found, self.ways, self.matched = listed, ways, matched
+        self.lost, self.clashes, self.paths = lost, clashes, paths
 
     @property
     def alike(self) -> bool:

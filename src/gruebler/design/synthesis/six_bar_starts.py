@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 
@@ -18,7 +17,7 @@ from gruebler.base.atomic_files import atomic_file
 from gruebler.base.private_folder import private_folder
 from gruebler.design.synthesis.alt_burmester import Problem, sharpened
 from gruebler.design.synthesis.results import Progress
-from gruebler.design.synthesis.six_bar_monodromy import Search, trace, with_arm_given
+from gruebler.design.synthesis.six_bar_monodromy import UNUSABLE, Search, trace, with_arm_given
 
 LISTED = {"Watt II": 19_414, "Stephenson III": 53_980, "Stephenson II": 72_430}
 """How many six-bars through eight pairs there are in a plane: progress is counted by it."""
@@ -47,6 +46,8 @@ class StartSet:
 
     alike: bool
     """Whether all tasks of the search have as many: a sum hardly tells of a solution that moves almost along a line."""
+    damaged: Path | None = None
+    """A file of an interrupted search that was of no use, so that the search began anew."""
 
     @property
     def complete(self) -> bool:
@@ -98,14 +99,17 @@ def _stored(problem: Problem, file: Path) -> StartSet | None:
                 return None
             listed, residual, alike = int(kept["listed"]), float(kept["residual"]), bool(kept["alike"])
             return StartSet(parameters=parameters, z=z, listed=listed, residual=residual, alike=alike)
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+    except UNUSABLE:
         return None
 
 
 def _listed(problem: Problem, file: Path | None, threads: int | None, progress: Progress | None) -> StartSet:
-    search = Search(problem, _SEED, threads)
+    search, damaged = Search(problem, _SEED, threads), None
     if file is not None and file.exists():
-        search.load(file)
+        try:
+            search.load(file)
+        except UNUSABLE:
+            damaged = file
     saved = monotonic()
     while True:
         while search.step():
@@ -127,4 +131,11 @@ def _listed(problem: Problem, file: Path | None, threads: int | None, progress: 
     parameters, z = with_arm_given(search)
     if progress is not None:
         progress(search.followed, search.followed)
-    return StartSet(parameters=parameters, z=z, listed=len(search.found[0]), residual=residual, alike=search.alike)
+    return StartSet(
+        parameters=parameters,
+        z=z,
+        listed=len(search.found[0]),
+        residual=residual,
+        alike=search.alike,
+        damaged=damaged,
+    )
