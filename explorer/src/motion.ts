@@ -80,7 +80,7 @@ export class MotionView implements View, Editor, Driven {
         movePointBy: (point, dx, dy) => this.#movePointBy(point, dx, dy),
         pull: (link, u, v, x, y) => this.transport.pull(link, u, v, x, y),
         addPoint: (link, x, y) => this.addPoint(link ?? this.shown.link, x, y),
-        choose: (link) => this.#choose(link),
+        choose: (link) => (this.stage.adding ? this.#carry(link) : this.#choose(link)),
         holdJoint: (joint) => {
           this.attempt(() => this.dragging.locks.hold(joint));
           this.show();
@@ -311,6 +311,13 @@ export class MotionView implements View, Editor, Driven {
 
   press(event: KeyboardEvent, target: Element): boolean {
     return drivenBy(event, target, this.transport, this.stage);
+  }
+
+  /** The link that is to carry a coupler point; it stands still then. */
+  #carry(link: number | null): void {
+    this.transport.pause();
+    this.page.say(link === null ? t("No link is near: click on the one that is to carry the coupler point.") : "");
+    this.#choose(link);
   }
 
   /** Give up what is going on, what is chosen; whether there was anything. */

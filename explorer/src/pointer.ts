@@ -85,7 +85,7 @@ export class Pointer {
     root.addEventListener("pointermove", (event) => {
       const at = pixelIn(root, event);
       if (this.#fingers.move(event.pointerId, at, viewport)) board.zoom(1, 0, 0);
-      else if (board.adding && board.linkage) board.hover(board.chosen ?? this.#linkNear(...at, GRIP));
+      else if (board.adding && board.linkage) board.hover(board.chosen ?? this.#linkNear(...at, 2 * GRIP));
     });
     for (const name of ["pointerup", "pointercancel"] as const)
       root.addEventListener(name, (event) => this.#fingers.lift(event.pointerId));
@@ -132,7 +132,7 @@ export class Pointer {
     const reach = event.pointerType === "touch" ? 1.6 * GRIP : GRIP;
     const link = this.#linkNear(x, y, reach / 1.4);
     if (adding && chosen !== null) return this.#events.addPoint(chosen, ...viewport.world(x, y));
-    if (adding) return this.#events.choose(link);
+    if (adding) return this.#events.choose(this.#linkNear(x, y, 2 * reach)); // it may be moving
     root.setPointerCapture(event.pointerId);
     if (this.#following && event.pointerType === "touch") {
       this.#fingers.clear();

@@ -565,8 +565,20 @@ def test_a_joint_snaps_while_it_is_dragged(tab, crank_rocker):
 def test_a_measurement_line_follows_the_motion(tab, crank_rocker):
     """From the crank's bearing, (0, 0), to the point K1, which gets another name: the law is that of two places."""
     page = tab().open(crank_rocker)
+    page.page.get_by_label("Add a coupler point").click()
+    box = page.page.locator(".stage").first.bounding_box()
+    taken = (
+        "[gruebler.motion.transport.player.playing, gruebler.motion.linkage.model.links[gruebler.motion.shown.chosen]]"
+    )
+    for beside, link in ((None, None), (30, "coupler")):
+        page.page.evaluate("gruebler.motion.transport.toggle()")
+        x, y = page.middle('[data-link="coupler"] .bar')
+        page.page.mouse.click(*((x, y - beside) if beside else (box["x"] + 9, box["y"] + 9)))
+        assert page.page.evaluate(taken) == [False, link]
+        assert ("No link is near" in page.page.locator(".message").inner_text()) is (link is None)
     x, y = page.middle('[data-link="coupler"] .bar')
-    page.page.mouse.dblclick(x, y - 70)
+    page.page.mouse.click(x, y - 70)
+    page.page.keyboard.press("Escape")
     facts = page.page.locator(".facts")
     page.page.get_by_text("Measurement lines").click()
     page.page.get_by_label("to", exact=True).select_option(label="K1")
