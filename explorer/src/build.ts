@@ -8,6 +8,7 @@ import {
   documentOfDrawing,
   EMPTY,
   joined,
+  linksOf,
   moved,
   type Spot,
   withCylinder,
@@ -72,7 +73,7 @@ export class BuildView implements View, Plane, Drawn {
   readonly #starters = h("div.starters", {});
   readonly #side = h("div.side", {});
   private readonly mobility = new MobilityPanel(this);
-  readonly #choice = h("div", {});
+  readonly #choice = h("div.choosing", {});
   readonly #taking = h("div.options", {});
   readonly #places = h("section.panel.options", {});
 
@@ -103,7 +104,7 @@ export class BuildView implements View, Plane, Drawn {
   fit(): void {
     const box = extentOf(this.drawing);
     const seen = box.right > box.left || box.top > box.bottom;
-    this.viewport.fit(seen ? box : FIRST, 1e-9);
+    this.viewport.fit(seen ? box : FIRST, 1e-9, this.#hint.offsetHeight + 12);
     this.#draw();
   }
 
@@ -187,9 +188,12 @@ export class BuildView implements View, Plane, Drawn {
 
   change(next: Drawing | null, text = t("A link cannot meet itself.")): void {
     if (!next) return this.page.say(text);
-    this.#history.add(this.drawing);
+    const { chosen, drawing } = this;
+    const all = next.knots.length === drawing.knots.length;
+    const stays = chosen && ("knot" in chosen ? all : "link" in chosen && linksOf(next).includes(chosen.link));
+    if (!stays) this.chosen = null;
+    this.#history.add(drawing);
     this.drawing = next;
-    this.chosen = null;
     this.page.say("");
     this.#changed();
     this.page.changed();

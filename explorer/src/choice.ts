@@ -1,9 +1,11 @@
 /** What is chosen in the drawing, and what can be done with it. */
 
+import { digits } from "./digits";
 import { h } from "./dom";
-import { type Drawing, driven, isPin, renamed, split, without, withoutLink } from "./drawing";
-import { t } from "./language";
+import { type Drawing, driven, isPin, type Knot, moved, renamed, split, unitOf, without, withoutLink } from "./drawing";
+import { parsed, t } from "./language";
 import type { Plane } from "./plane";
+import type { Pair } from "./rows";
 
 /** The view of a drawing, as far as it is changed here. */
 interface Changing extends Plane {
@@ -21,6 +23,40 @@ export function removeChosen(view: Changing): void {
   else view.change("knot" in chosen ? without(drawing, chosen.knot) : withoutLink(drawing, chosen.link));
 }
 
+/** A number in a field that changes the drawing. */
+function field(view: Changing, text: string, key: string, value: number, set: (value: number) => Drawing | null) {
+  const input: HTMLInputElement = h("input", {
+    ...digits(value),
+    inputmode: "decimal",
+    "data-field": key,
+    onchange: () => {
+      const next = set(parsed(input.value));
+      input.setAttribute("aria-invalid", String(!next));
+      if (next) view.change(next);
+    },
+  });
+  return h("label", {}, text, input);
+}
+
+/** The length of a link with two joints: the second one moves along it, unless it alone stands on the ground. */
+function lengthField(view: Changing, link: string): HTMLElement[] {
+  const { drawing } = view;
+  const [first, second, more] = [...drawing.knots.entries()].filter(
+    ([, one]) => one.links.includes(link) && isPin(one),
+  );
+  if (!first || !second || more) return [];
+  const grounded = ([, { links }]: [number, Knot]) => links.includes(drawing.frame!);
+  const swap = grounded(second) && !grounded(first);
+  const [[, { at }], [k, end]] = swap ? [second, first] : [first, second];
+  const [dx, dy] = [end.at[0] - at[0], end.at[1] - at[1]];
+  const long = Math.hypot(dx, dy);
+  const set = (value: number) => {
+    const part = value / long;
+    return part > 0 && part < Infinity ? moved(drawing, k, [at[0] + part * dx, at[1] + part * dy]) : null;
+  };
+  return [field(view, `${t("Length")} [${unitOf(drawing)}]`, "length", long, set)];
+}
+
 export function choiceOf(view: Changing): HTMLElement[] {
   const { chosen, drawing } = view;
   const button = (key: string, text: string, act: () => void) =>
@@ -36,7 +72,6 @@ export function choiceOf(view: Changing): HTMLElement[] {
     const { link } = chosen;
     const name = h("input", {
       value: link,
-      "aria-label": t("Name"),
       "data-field": "link-name",
       onchange: () =>
         view.change(
@@ -45,9 +80,12 @@ export function choiceOf(view: Changing): HTMLElement[] {
         ),
     });
     const frame = button("frame", t("Hold as frame"), () => view.change({ ...drawing, frame: link, drives: [] }));
-    return [h("div.form", {}, name, frame, removing)];
+    return [
+      h("div.form", {}, h("label", {}, t("Name"), name), ...lengthField(view, link)),
+      h("div.form", {}, frame, removing),
+    ];
   }
-  const { links } = drawing.knots[chosen.knot]!;
+  const { at, between, links } = drawing.knots[chosen.knot]!;
   const parts: HTMLElement[] = [removing];
   if (links.length > 1) {
     const is = drawing.drives.includes(chosen.knot);
@@ -55,5 +93,11 @@ export function choiceOf(view: Changing): HTMLElement[] {
     if (isPin(drawing.knots[chosen.knot]!))
       parts.push(button("split", t("Split"), () => view.change(split(drawing, chosen.knot, view.step / 2))));
   }
-  return [note(links.join(" – ")), h("div.form", {}, ...parts)];
+  const places = (["x", "y"] as const).map((key, axis) =>
+    field(view, key, key, at[axis]!, (value) => {
+      const place: Pair = axis ? [at[0], value] : [value, at[1]];
+      return Number.isFinite(value) ? moved(drawing, chosen.knot, place) : null;
+    }),
+  );
+  return [note(links.join(" – ")), h("div.form", {}, ...(between ? [] : places)), h("div.form", {}, ...parts)];
 }

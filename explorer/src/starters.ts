@@ -62,7 +62,7 @@ function sketch(drawing: Drawing): SVGElement {
   const hulls = links.map((link) => outlineOf({ drawing, viewport }, link));
   return svg(
     "svg",
-    { width: WIDE, height: HIGH, "aria-hidden": "true" },
+    { viewBox: `0 0 ${WIDE} ${HIGH}`, width: WIDE, height: HIGH, "aria-hidden": "true" },
     ...hulls.map((hull) => svg("path", { d: `M${hull.join("L")}Z` })),
     ...drawing.knots.filter(isPin).map(({ at }) => {
       const [cx, cy] = viewport.screen(...at);

@@ -31,16 +31,16 @@ export class Viewport {
     return [(x - this.#ox) / this.scale, (this.#oy - y) / this.scale];
   }
 
-  /** Show a rectangle, or at least a square of that width. */
-  fit({ left, right, bottom, top }: Box, least: number): void {
+  /** Show a rectangle, or at least a square of that width; what lies at the foot, so many pixels high, is left out. */
+  fit({ left, right, bottom, top }: Box, least: number, foot = 0): void {
     const narrow = this.width < 500;
     const margin = narrow ? 34 : 60;
     const keys = narrow ? 56 : 0; // the buttons on the right
     const wide = Math.max(right - left, least);
     const high = Math.max(top - bottom, least);
-    this.scale = Math.min((this.width - 2 * margin - keys) / wide, (this.height - 2 * margin) / high);
+    this.scale = Math.min((this.width - 2 * margin - keys) / wide, (this.height - 2 * margin - foot) / high);
     this.#ox = (this.width - keys) / 2 - (this.scale * (left + right)) / 2;
-    this.#oy = this.height / 2 + (this.scale * (bottom + top)) / 2;
+    this.#oy = (this.height - foot) / 2 + (this.scale * (bottom + top)) / 2;
     this.fitted = true;
   }
 

@@ -320,10 +320,22 @@ def test_joints_are_joined_split_named_and_removed(plane):
     view.keyboard.press("Control+z")
     assert view.evaluate(knots) == ["1", "1-2", "2"]
     click(plane, (20, 0))
+    typed = {"length": (50, [50, 0]), "x": (30, [30, 0]), "y": (40, [30, 40])}  # of link 1, then of its joint
+    for field, (value, place) in typed.items():
+        if field == "x":
+            click(plane, (50, 0))
+        view.locator(f'.choosing [data-field="{field}"]').fill(str(value))
+        view.locator(f'.choosing [data-field="{field}"]').press("Enter")
+        joint = "gruebler.views.build.drawing.knots.find((knot) => knot.links.length === 2).at"
+        assert view.evaluate(joint) == pytest.approx(place)
+    click(plane, (15, 20))
+    view.locator('.choosing [data-field="length"]').fill("0")
+    view.locator('.choosing [data-field="length"]').press("Enter")
+    assert view.locator('.choosing [aria-invalid="true"]').count() == 1
     view.locator('[data-field="link-name"]').fill("crank")
     view.locator('[data-field="link-name"]').press("Enter")
     assert view.evaluate(knots) == ["2", "crank", "crank-2"]
-    click(plane, (20, 0))
+    click(plane, (15, 20))
     view.click('[data-act="remove"]')
     assert view.evaluate(knots) == ["2", "2"]
 
