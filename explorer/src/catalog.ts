@@ -160,8 +160,8 @@ export class CatalogView implements View {
       if (number !== this.#asked) return;
       this.#filled = true;
       this.#cards.removeAttribute("data-waiting");
-      const none = t("No machine has all of this.");
-      this.#note.textContent = found.length ? t("{count} machines", { count: found.length }) : none;
+      const few = [t("No machine has all of this."), t("One machine")];
+      this.#note.textContent = few[found.length] ?? t("{count} machines", { count: found.length });
       const byName = (a: Entry, b: Entry) => a.name.localeCompare(b.name, currentLanguage());
       found.sort((a, b) => (this.#byLinks && a.links - b.links) || byName(a, b));
       renew(this.#cards, ...found.map((entry) => this.#card(entry)));

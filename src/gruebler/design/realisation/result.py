@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from math import degrees
@@ -81,9 +82,21 @@ class Realisation:
                 lang,
                 seed=self.seed,
             )
-        sentences = []
+        sentences = [sentence for told in self._ranges_told(lang) for sentence in told]
+        text = message("Smallest measure of conditioning {quality:.2f} (1 is best, 0 singular).")
+        sentences.append(text.filled(quality=self.quality))
+        tried = plural("Tried: {count} layout.", "Tried: {count} layouts.", self.tries, lang)
+        return f"{joined(sentences, ' ').in_language(lang)} {tried}"
+
+    def ranges_text(self, lang: str = "en") -> str:
+        """How far each drive goes, as text in English (``en``) or German (``de``); empty if nothing was found."""
+        return joined([whole for whole, *_ in self._ranges_told(lang)], " ").in_language(lang)
+
+    def _ranges_told(self, lang: str) -> Iterator[list[Message]]:
+        """How far each drive goes, and, where that is not the same, how far it is well conditioned."""
         names = self.mechanism.drive_names(Alphabet.of_language(lang))
-        for name, drive, well_conditioned in zip(names, self.mechanism.drives, self.ranges, strict=True):
+        unit = "" if self.linkage is None else self.linkage.unit
+        for name, drive, well_conditioned in zip(names, self.mechanism.drives, self.ranges, strict=False):
             texts = _TURNING if drive.turning else _SLIDING
             if self.full:
                 ranges = [(_FULL, well_conditioned)]
@@ -92,10 +105,8 @@ class Realisation:
             else:
                 whole = _FULL if self.span.full else texts["range"]
                 ranges = [(whole, (self.span.low, self.span.high)), (texts["well conditioned"], well_conditioned)]
+            told = []
             for text, ends in ranges:
                 low, high = (degrees(value) if drive.turning else value for value in ends)
-                sentences.append(text.filled(drive=name, low=low, high=high, unit=self.linkage.unit))
-        text = message("Smallest measure of conditioning {quality:.2f} (1 is best, 0 singular).")
-        sentences.append(text.filled(quality=self.quality))
-        tried = plural("Tried: {count} layout.", "Tried: {count} layouts.", self.tries, lang)
-        return f"{joined(sentences, ' ').in_language(lang)} {tried}"
+                told.append(text.filled(drive=name, low=low, high=high, unit=unit))
+            yield told
