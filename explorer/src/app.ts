@@ -248,7 +248,7 @@ export class App implements Page {
         this.setTheme(this.host.dataset.theme === "dark" ? "light" : "dark");
         this.motion.stage.recoloured();
       }),
-      tool("keys", t("Keys"), () => showKeys(this.root)),
+      tool("keys", t("Keys"), () => showKeys(this.root, this.served)),
       languageMenu(() => this.arrange()),
     );
   }
@@ -412,7 +412,7 @@ export class App implements Page {
       event.preventDefault();
       return;
     }
-    if (event.key === "?") showKeys(this.root);
+    if (event.key === "?") showKeys(this.root, this.served);
     else if (!this.views[this.view]!.press?.(event, target)) return;
     event.preventDefault();
   }

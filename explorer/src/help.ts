@@ -10,8 +10,8 @@ interface Picture {
   fit(): void;
 }
 
-/** Show the keys of the page over it, until they are read. */
-export function showKeys(root: HTMLElement): void {
+/** Show the keys of the page over it, those for drawing where one draws, until they are read. */
+export function showKeys(root: HTMLElement, draws: boolean): void {
   const ctrl = t("Ctrl");
   const rows: [string, string][] = [
     [t("Space"), t("play and pause")],
@@ -23,9 +23,10 @@ export function showKeys(root: HTMLElement): void {
     [`${ctrl} Z, ${ctrl} Y`, t("undo, redo")],
     [`${ctrl} S`, t("save as JSON")],
     ["+ − 0", t("zoom, show everything")],
-    [Object.keys(KEYS).join(" ").toUpperCase(), `${t("Draw")}: ${Object.values(KEYS).map(nameOf).join(", ")}`],
     ["?", t("this list")],
   ];
+  const tools = `${t("Draw")}: ${Object.values(KEYS).map(nameOf).join(", ")}`;
+  if (draws) rows.push([Object.keys(KEYS).join(" ").toUpperCase(), tools]);
   showRows(root, rows);
 }
 

@@ -8,6 +8,7 @@ import { away, convexHull, nearest, toHull } from "./hull";
 import { angle, number } from "./language";
 import { clearSpot, namePlace, nameSpots } from "./names";
 import type { Pair } from "./rows";
+import { SUPPORT } from "./scene";
 import { guidelines, snapped } from "./snapping";
 import type { Viewport } from "./viewport";
 
@@ -164,7 +165,7 @@ function knotElement({ chosen, drawing, viewport }: Plane, k: number, at: Pair):
     turned.append(svg("path.rail", { d: "M-46 10H46" }), svg("path.rail-hatch", { d: "M-46 15H46" }));
     turned.append(svg("rect.block", { x: -15, y: -9, width: 30, height: 18, rx: 3 }));
     element.append(turned);
-  } else if (ground) element.append(svg("path.support", { d: "M0 0 L-11 17 H11 Z M-17 17 H17" }));
+  } else if (ground) element.append(svg("path.support", { d: SUPPORT }));
   if (slide === undefined && !between) element.append(svg("circle.joint", { r: links.length > 1 || ground ? 5 : 3.2 }));
   if (drawing.drives.includes(k)) element.append(svg("circle.driven", { r: 12 }));
   return element;

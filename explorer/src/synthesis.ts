@@ -125,6 +125,7 @@ export class SynthesisView implements View {
     });
     const order = h("input", {
       value: this.#order,
+      "aria-label": t("order, if another"),
       placeholder: "1 2 3",
       "data-field": "order",
       onchange: () => (this.#order = order.value),
@@ -183,11 +184,16 @@ export class SynthesisView implements View {
               h("label", {}, t("transmission angle from"), least, "°"),
               ...(this.#planar && this.#page.served
                 ? [
-                    h("label", {}, t("order, if another"), order),
                     h(
-                      "p.note",
-                      {},
-                      t("One number for each target: the same for those in any order, – for one at any time"),
+                      "details.words",
+                      { open: this.#order !== "" },
+                      h("summary", {}, t("order, if another")),
+                      order,
+                      h(
+                        "p.note",
+                        {},
+                        t("One number for each target: the same for those in any order, – for one at any time"),
+                      ),
                     ),
                   ]
                 : []),
