@@ -23,6 +23,7 @@ constexpr double known = 1e-3;      // of the way: the least step on where nothi
 constexpr double falling = 0.9;     // of the way on which a square falls to its end: nothing is decided, no step leads farther
 constexpr double first_step = 0.01;   // of the longest step, where no poses let expect the next one
 constexpr double reached = 1e-9;      // of what is left of the way: a step that misses the row by less goes to it
+constexpr double same_place = 1e-9;   // of the longest step: a pose so near a row stands in it, and no step leads there
 constexpr double behind_change = 1.0 / 64;  // of the longest step: the step behind a change point
 constexpr double in_line = 1e-9;      // of the longest drive: directions of two rows that differ by less are one line
 constexpr double longest_step = 1e6;  // rows, where the drives rest
@@ -208,14 +209,17 @@ Outcome Walk::follow(const double* signs, const double* start, Watch& watch) {
 // From the last pose to a row, in as many steps as are needed.
 Walk::Reached Walk::walk_to(std::int64_t row, Pace pace, Watch& watch) {
     const double target = static_cast<double>(row);
+    const double past = placing_.unit;
     placing_.unit = unit(row);
     const double longest = smaller(1, placing_.unit);
-    double step = smaller(pace.step, longest);  // measured in rows, and this row may be longer than the last one
+    // Measured in rows: where they get shorter, so that it stays as long for the drives.
+    double step = smaller(pace.step * larger(1, placing_.unit / past), longest);
     if (!remember(row)) {
         if (placing_.last[0].at != target - 1) return_to(row - 1);
         placing_.filled = 1;
         step = smaller(step, first_step * placing_.unit * least_root());
     }
+    if (std::fabs(placing_.last[0].at - target) < same_place * placing_.unit) placing_.last[0].at = target;
     double at = placing_.last[0].at, fault = pace.fault;
     if (at >= target) {
         if (place_between(row)) return {End::done, target, {step, fault}, 0};
@@ -305,10 +309,24 @@ bool Walk::remember(std::int64_t row) {
     const double before = static_cast<double>(row - 1);
     for (int k = 0; k < placing_.filled; ++k)
         placing_.last[k].at = before + (placing_.last[k].at - before) / ratio;
-    // Back into a change point: the pose on its other side lies ahead.
-    if (placing_.filled > 1 && placing_.last[0].at < before && placing_.last[1].at > before)
-        std::swap(placing_.last[0], placing_.last[1]);
+    // Back over a change point: the pose on its other side lies ahead.
+    for (int k = 1; k < placing_.filled; ++k) {
+        if (placing_.last[k].at > before && (placing_.last[0].at < before || is_other_side(placing_.last[k]))) {
+            std::swap(placing_.last[0], placing_.last[k]);
+            break;
+        }
+    }
     return true;
+}
+
+// Whether a change point of a larger group, and none of a dyad, lies between a pose and the last one.
+bool Walk::is_other_side(const Remembered& pose) const {
+    const Remembered& last = placing_.last[0];
+    for (int m = 0; m < poses_.dyads; ++m)
+        if (pose.roots[m] * last.roots[m] < 0) return false;
+    for (std::size_t g = 0; g < pose.determinants.size(); ++g)
+        if (pose.determinants[g] * last.determinants[g] < 0) return true;
+    return false;
 }
 
 // The longest step of the drives, in rows, on the way to a row.

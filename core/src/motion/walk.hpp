@@ -73,6 +73,7 @@ private:
     Pace approach(double step, int number);
     int reversed() const;
     bool remember(std::int64_t row);
+    bool is_other_side(const Remembered& pose) const;
     double unit(std::int64_t row) const;
     void meet(double at);
     bool is_straight(int group) const;

@@ -123,3 +123,23 @@ def test_crowded_rows_about_change_points_of_a_larger_group(seed):
     motion = move(parallel_legs(), path, order=0)
     assert motion.complete
     assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-7
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        # very short steps before a change point, whose differences were rounding
+        [(0, -2e-9), (0, 0.012), (1, -6.6e-5), (1, 1.5e-6), (1, 1e-4), (2, -0.018), (2, -1.3e-6), (2, 5.6e-7)],
+        # back beside one and forth over it, from a pose that is not the last one
+        [(1, 1e-6), (2, -3.7e-5), (1, 2.5e-8), (1, 2.1e-6), (1, -1.3e-6)],
+        # back over the first one and forth: went on in the other mode
+        [(1, 6.4e-8), (0, 0.017), (0, -1.2e-5), (2, -3.2e-4)],
+    ],
+)
+def test_short_rows_after_long_ones_and_turns_about_change_points(rows):
+    """The plate only shifts; all rows were found by trying many paths."""
+    tilt = np.arctan2(3.0 - 0.8, 2.0)
+    changes = (np.pi, np.pi + tilt, 2 * np.pi)
+    motion = move(parallel_legs(), [0.93, *(changes[number] + behind for number, behind in rows)], order=0)
+    assert motion.complete
+    assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-7
