@@ -22,6 +22,7 @@ constexpr double risen = 1.5;       // times the least square: an end above it l
 constexpr double known = 1e-3;      // of the way: the least step on where nothing farther is known
 constexpr double falling = 0.9;     // of the way on which a square falls to its end: nothing is decided, no step leads farther
 constexpr double first_step = 0.01;   // of the longest step, where no poses let expect the next one
+constexpr double most_tries = 1000;   // that fail, for each longest step of the way: ten times what any known motion takes
 constexpr double reached = 1e-9;      // of what is left of the way: a step that misses the row by less goes to it
 constexpr double same_place = 1e-9;   // of the longest step: a pose so near a row stands in it, and no step leads there
 constexpr double behind_change = 1.0 / 64;  // of the longest step: the step behind a change point
@@ -230,6 +231,7 @@ Walk::Reached Walk::walk_to(std::int64_t row, Pace pace, Watch& watch) {
     };
     const std::int64_t cost =
         operation_steps * placing_.plan().operation_count + unknown_steps * placing_.plan().unknown_count;
+    double tries_left = most_tries * (1 + 1 / longest);  // good ones double the step: at most 50 between
     while (at < target) {
         const std::int64_t before = placing_.tried;
         const double left = target - at;
@@ -238,6 +240,9 @@ Walk::Reached Walk::walk_to(std::int64_t row, Pace pace, Watch& watch) {
         const int order = full ? poses_.order : 0;
         const Verdict verdict = try_at(order, place);
         const int number = placing_.which;
+        const auto given_up = [&] {
+            return verdict == Verdict::lost ? ended(End::singular, -1 - number) : ended(End::limit, number);
+        };
         if (verdict == Verdict::good) {
             const int turned = reversed();
             if (turned >= 0) {
@@ -268,9 +273,10 @@ Walk::Reached Walk::walk_to(std::int64_t row, Pace pace, Watch& watch) {
                 step = larger(here - at, longest * behind_change);
                 at = here;
             } else if (step < path_.least * (1 + std::fabs(at))) {
-                return verdict == Verdict::lost ? ended(End::singular, -1 - number) : ended(End::limit, number);
+                return given_up();
             }
         }
+        if (verdict != Verdict::good && --tries_left < 0) return given_up();
         if (!spend(watch, cost * (placing_.tried - before))) return ended(End::interrupted, 0);
     }
     return ended(End::done, 0);
