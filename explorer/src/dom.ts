@@ -145,3 +145,15 @@ export function thumbnail(drawn: string, label: string): Element {
   made.removeAttribute("width");
   return made;
 }
+
+/** On a phone a stage is the lower the farther its view has gone up. Returns what ends that. */
+export function lowered(stage: HTMLElement): () => void {
+  const scrolled = () => {
+    const gone = Math.max(0, -(stage.parentElement?.getBoundingClientRect().top ?? 0));
+    stage.style.setProperty("--scrolled", `${gone}px`);
+    stage.classList.toggle("low", gone > 99);
+  };
+  const how = { capture: true, passive: true };
+  addEventListener("scroll", scrolled, how);
+  return () => removeEventListener("scroll", scrolled, how);
+}

@@ -1,7 +1,7 @@
 /** The picture: bodies in SVG, over them curves on one canvas, over these joints, points and names in SVG again. */
 
 import { Painter } from "./canvas";
-import { h, renew, svg } from "./dom";
+import { h, lowered, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import { gridOf } from "./grid";
 import { currentLanguage, number, t } from "./language";
@@ -37,6 +37,7 @@ export class Stage implements Board {
   readonly #pointer: Pointer;
   readonly #modes = new OtherModes();
   readonly #observer: ResizeObserver;
+  readonly #lowered: () => void;
   /** Values of variables of the style sheet. To ask for one makes the browser apply all of it. */
   readonly #colours = new Map<string, string>();
   readonly #colour = (name: string): string => {
@@ -62,10 +63,12 @@ export class Stage implements Board {
     });
     this.#observer = new ResizeObserver(() => this.#resize());
     this.#observer.observe(this.element);
+    this.#lowered = lowered(this.element);
   }
 
   destroy(): void {
     this.#observer.disconnect();
+    this.#lowered();
   }
 
   /** Write the buttons on the picture, in the language of the page. */

@@ -249,6 +249,20 @@ def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_field
         page.evaluate(f"gruebler.motion.transport.pick({drive})")
         read, curve = (panel.locator(f".plot {part}").first.bounding_box() for part in (".read", ".curve"))
         assert read["y"] + read["height"] <= curve["y"] + 1
+    # a low picture and the bar stay in sight, and at the top of the page nothing is covered by them
+    for gone in (0, 1e5):
+        page.evaluate(f"scrollTo(0, {gone})")
+        page.wait_for_function(
+            f"() => gruebler.root.querySelector('.stage').matches('.low') === {str(gone > 0).lower()}"
+        )
+        stage, bar, side = (
+            page.locator(f".motion > {part}").bounding_box() for part in (".stage", ".transport", ".side")
+        )
+        assert bar["y"] == pytest.approx(stage["y"] + stage["height"], abs=1)
+        if not gone:
+            assert side["y"] == pytest.approx(bar["y"] + bar["height"], abs=1)
+    assert stage["y"] == pytest.approx(0, abs=1)
+    assert stage["height"] == pytest.approx(0.25 * 844, abs=1)
 
 
 def test_without_the_library_it_says_so(tab, tmp_path):

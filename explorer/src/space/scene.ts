@@ -1,6 +1,6 @@
 /** The picture of a machine in space: bodies on a canvas, names of points over them, what a pointer does to it. */
 
-import { h, svg } from "../dom";
+import { h, lowered, svg } from "../dom";
 import { gridStep } from "../grid";
 import { number } from "../language";
 import { zoomButtons } from "../shell";
@@ -71,6 +71,7 @@ export class Scene {
     );
     root.addEventListener("keydown", (event) => this.#key(event));
     new ResizeObserver(() => (this.#whole ? this.fit() : this.draw())).observe(this.element);
+    lowered(this.element);
   }
 
   /** Lay it out anew, in the language of the page. */
