@@ -101,6 +101,9 @@ def test_two_positions_with_crank_angles_have_many_four_bars():
     found = synthesise_path(task, number=4)
     assert len(found.designs) == 4
     assert max(misses(design, task).max() for design in found.designs) < 1e-8
+    alone = synthesise_path(task, number=2, sliders=False)
+    assert {design.form for design in alone.designs} == {"four-bar"}
+    assert "slider-crank" not in alone.explain()
 
 
 def test_a_given_frame_is_kept():

@@ -13,11 +13,14 @@ from gruebler.base.errors import SynthesisError
 from gruebler.cli.design import _type_row
 from gruebler.design.synthesis import DeadCentreTask, Demands, PathTask, PositionTask, pareto, synthesise_positions
 from gruebler.design.synthesis.clearances import guided_link, stays_clear
+from gruebler.design.synthesis.judging import size_ratio
 from gruebler.design.synthesis.proposals import TriedType, candidate_types, propose
 from gruebler.design.synthesis.specification import Clearance, Specification
-from gruebler.design.synthesis.structures import synthesise_structures
+from gruebler.design.synthesis.structure_atlas import dyad_structure, link_motions
+from gruebler.design.synthesis.structures import _size_ratios, fit_structure, synthesise_structures
 from gruebler.files.specifications import read_specification, specification_from_json
 from gruebler.mechanics.kinematics.solve import move_quietly
+from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.designs.picture import design_figure
 
 SWING = DeadCentreTask(swing=math.radians(60), time_ratio=1.2)
@@ -51,6 +54,43 @@ def test_types_are_those_of_watt_and_stephenson():
         assert {len(each.chain.links) for each in types} == {6}
         assert all(each.drives[0].turning and each.frame in each.drives[0].between for each in types)
     assert candidate_types(Specification(SWING, links=4)) == ()
+
+
+def test_links_that_fewer_links_move_carry_no_point():
+    """A dyad is idle if the link moves as before wherever the joint in the middle of the dyad lies."""
+    rng, moved = np.random.default_rng(2), []
+    for mechanism in candidate_types(Specification(SWING)):
+        structure = dyad_structure(mechanism)
+        if structure is None:
+            continue
+        drawn, turn = rng.normal(size=(7, 1)) + 1j * rng.normal(size=(7, 1)), np.array([1e-3])
+        for link in structure.coupler_links:
+            idle = []
+            for dyad in structure.dyads:
+                other = drawn.copy()
+                other[dyad.inner] += 0.01
+                turns = [link_motions(structure, each, turn)[link][0] for each in (drawn, other)]
+                idle.append(turns[0] == pytest.approx(turns[1], abs=1e-12))
+            moved.append(structure.needs_all_links(link))
+            assert moved[-1] == (not any(idle)), (mechanism, link)
+    assert sorted(moved) == [False] * 7 + [True] * 8
+
+
+def test_what_has_no_transmission_angle_is_not_fitted():
+    """All links but crank and frame of Stephenson's second kind, driven beside its frame, make one group."""
+    (mechanism,) = (each for each in candidate_types(Specification(SWING)) if each.text().endswith("drive=R(4-5)"))
+    path = PathTask([(0, 0), (1, 1), (2, 0), (1, -1), (0.5, -1)], closed=True)
+    design = fit_structure(path, mechanism, Demands(transmission=0.3))
+    assert not design.verdict.accepted
+    assert "there is no transmission angle" in str(design.verdict.reasons[0])
+
+
+def test_drawings_have_the_size_ratio_of_their_linkages():
+    mechanism, rng = candidate_types(Specification(SWING))[0], np.random.default_rng(3)
+    places = rng.normal(size=(3, 8)) + 1j * rng.normal(size=(3, 8))
+    for drawn, ratio in zip(places, _size_ratios(mechanism, places), strict=True):
+        named = dict(zip(mechanism.chain.joint_names(), ((z.real, z.imag) for z in drawn), strict=False))
+        assert size_ratio(Linkage.from_drawing(mechanism, named)) == pytest.approx(ratio, rel=1e-9)
 
 
 def test_a_travel_has_a_slide():

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import permutations
+from typing import Any
 
 import numpy as np
 
@@ -278,7 +279,9 @@ def _cost(kind: FourBarKind, rows: Reals, phi: Reals, side: Reals, z: Complexes,
     return np.where(bad, np.inf, cost)
 
 
-def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Progress | None = None) -> SynthesisResult:
+def fit_path(
+    task: PathTask, demands: Demands, *, number: int = 6, sliders: bool = True, progress: Progress | None = None
+) -> SynthesisResult:
     """The linkages nearest to many points or a closed curve, judged by how near they really come.
 
     Raises `SynthesisError` for fewer than five points.
@@ -286,7 +289,7 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
     if len(task) < 5:
         raise SynthesisError("a whole curve needs at least five points, not {count}", count=len(task))
     timing = np.array(task.crank_angles) if task.crank_angles else None
-    fits = _fits(task, demands, timing, 4 * number, power=_POWER)
+    fits = _fits(task, demands, timing, 4 * number, kinds=_kinds(sliders=sliders), power=_POWER)
     limit = demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED
     accepted, rejected = _judged_fits(task, replace(demands, tolerance=limit), fits, number, progress)
     accepted = in_order_of(accepted, ["error"])
@@ -298,15 +301,23 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
 
 
-def _fits(task: PathTask, demands: Demands, timing: Reals | None, number: int, *, power: int = 2) -> list[Fit]:
+def _kinds(*, sliders: bool) -> tuple[FourBarKind, ...]:
+    return (FOUR_BAR, SLIDER_CRANK) if sliders else (FOUR_BAR,)
+
+
+def _fits(task: PathTask, demands: Demands, timing: Reals | None, number: int, **more: Any) -> list[Fit]:
     pivots = tuple(complex(*p) for p in task.fixed_pivots)
-    return fit_curve(
-        task.z, closed=task.closed, timing=timing, number=number, demands=demands, pivots=pivots, power=power
-    )
+    return fit_curve(task.z, closed=task.closed, timing=timing, number=number, demands=demands, pivots=pivots, **more)
 
 
 def fit_open_points(
-    task: PathTask, demands: Demands, parameters: int, *, number: int = 6, progress: Progress | None = None
+    task: PathTask,
+    demands: Demands,
+    parameters: int,
+    *,
+    number: int = 6,
+    sliders: bool = True,
+    progress: Progress | None = None,
 ) -> SynthesisResult:
     """Up to eight points of an open curve: some of the infinitely many linkages that meet them exactly.
 
@@ -315,7 +326,7 @@ def fit_open_points(
     Curves of the atlas, or pieces of them, pass similar points in their order; least squares makes many of them meet
     the points. If none does, the nearest are rejected designs.
     """
-    fits = _fits(task, demands, None, 4 * number)
+    fits = _fits(task, demands, None, 4 * number, kinds=_kinds(sliders=sliders))
     exact = [fit for fit in fits if fit.error < _MET]
     accepted, rejected = _judged_fits(task, demands, exact or fits[:number], len(fits), progress)
     note = message(

@@ -76,16 +76,18 @@ class _State(NamedTuple):
 
 
 def synthesise_mixed(
-    task: PathTask, demands: Demands, *, number: int = 6, progress: Progress | None = None
+    task: PathTask, demands: Demands, *, number: int = 6, sliders: bool = True, progress: Progress | None = None
 ) -> SynthesisResult:
     """Four-bars and slider-cranks that meet targets of several kinds: exactly, within a tolerance, or nearly.
 
     A slider has no output angle: where one is given, and where only a four-bar has numbers enough, there are four-bars
-    alone. Raises `SynthesisError` for more exact conditions than a four-bar can meet. Cost: 2 s for each kind.
+    alone, as without ``sliders``. Raises `SynthesisError` for more exact conditions than a four-bar can meet. Cost: 2 s
+    for each kind.
     """
     size, middle = task.size, complex(np.nanmean(task.z.real), np.nanmean(task.z.imag))
     wanted = _wanted(task, size, middle)
     kinds = _kinds(wanted, 2 * len(task.fixed_pivots) + len(demands.lengths))
+    kinds = kinds if sliders else (FOUR_BAR,)
     every: list[Design] = []
     pivots = tuple(complex(*p) for p in task.fixed_pivots)
     for limits in limits_of(demands, pivots, kinds, task.closed, (middle, size)):

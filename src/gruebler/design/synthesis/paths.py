@@ -33,6 +33,7 @@ def synthesise_path(
     demands: Demands | None = None,
     *,
     number: int = 6,
+    sliders: bool = True,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> SynthesisResult:
@@ -50,6 +51,7 @@ def synthesise_path(
         task: points, perhaps with coupler angles, crank angles or fixed pivots.
         demands: what a design has to do besides.
         number: of dyads taken from an infinite family (crank angles), or of designs for a whole curve.
+        sliders: whether slider-cranks are looked for, too, where least squares find the designs.
         threads: how many follow paths; as many as there are processors if None.
         progress: called with the paths done and their number, then with the verdicts.
 
@@ -61,9 +63,8 @@ def synthesise_path(
     >>> str(count.what), count.theorem, count.found, count.real
     ('four-bars', 36, 36, 14)
     """
-    run = _Run(
-        task=task, demands=(demands or Demands()).with_links(), number=number, threads=threads, progress=progress
-    )
+    wanted = (demands or Demands()).with_links()
+    run = _Run(task=task, demands=wanted, number=number, sliders=sliders, threads=threads, progress=progress)
     return next((method.solve for method in _METHODS if method.suits(run)), _finite)(run)
 
 
@@ -74,6 +75,7 @@ class _Run:
     task: PathTask
     demands: Demands
     number: int
+    sliders: bool
     threads: int | None
     progress: Progress | None
 
@@ -117,9 +119,8 @@ def _open_points(run: _Run) -> SynthesisResult:
     from gruebler.design.synthesis.curves import fit_open_points
 
     check_general(run.task)
-    return fit_open_points(
-        run.task, run.demands, free_parameters(run.task, run.demands), number=run.number, progress=run.progress
-    )
+    free = free_parameters(run.task, run.demands)
+    return fit_open_points(run.task, run.demands, free, number=run.number, sliders=run.sliders, progress=run.progress)
 
 
 def free_parameters(task: PathTask, demands: Demands) -> int:
@@ -137,7 +138,9 @@ def _nearest(run: _Run) -> SynthesisResult:
     through: tuple[Design, ...] = ()
     if len(task) == MOST_POINTS and not task.fixed_pivots and not crowded(task):
         through = _all_four_bars(replace(run, task=replace(task, closed=False)), PROBLEMS[0]).designs
-    return _with_exact(fit_path(task, run.demands, number=run.number, progress=run.progress), through, run.number)
+    return _with_exact(
+        fit_path(task, run.demands, number=run.number, sliders=run.sliders, progress=run.progress), through, run.number
+    )
 
 
 def _finite(run: _Run) -> SynthesisResult:
@@ -222,7 +225,7 @@ class _Method(NamedTuple):
 def _mixed(run: _Run) -> SynthesisResult:
     from gruebler.design.synthesis.mixed_targets import synthesise_mixed
 
-    return synthesise_mixed(run.task, run.demands, number=run.number, progress=run.progress)
+    return synthesise_mixed(run.task, run.demands, number=run.number, sliders=run.sliders, progress=run.progress)
 
 
 def _needs_least_squares(run: _Run) -> bool:

@@ -14,6 +14,7 @@ from gruebler.base.notebook import brief
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.clearances import stays_clear
 from gruebler.design.synthesis.fitting import output_links
+from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.results import Design, ParetoRow, Progress, SolutionCount, SynthesisResult, pareto
 from gruebler.design.synthesis.specification import Specification
 from gruebler.design.synthesis.structures import synthesise_structures, unheld_pivots
@@ -165,13 +166,17 @@ def _made(
     executor: Executor | Callable[[], Executor] | None,
 ) -> Iterator[tuple[Mechanism | None, SynthesisResult]]:
     task, demands = specification.task, specification.demands
-    yield None, _with_so_many_slides(synthesise(task, demands=demands), specification)
+    if isinstance(task, PathTask):
+        four_links = synthesise_path(task, demands, sliders=specification.slides > 0)
+    else:
+        four_links = synthesise(task, demands=demands)
+    yield None, _with_so_many_slides(four_links, specification)
     unheld = unheld_pivots(task)
     none = SolutionCount(what=message("linkages"), theorem=0, found=0, real=0)
     for mechanism in types:
         yield (
             mechanism,
-            synthesise_structures(task, [mechanism], demands, starts=starts, executor=executor)
+            synthesise_structures(task, [mechanism], demands, starts=starts, idle=False, executor=executor)
             if unheld is None
             else SynthesisResult(task=task, designs=(), rejected=(), count=none, notes=(unheld,)),
         )

@@ -10,25 +10,43 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import Executor
 from dataclasses import replace
 from functools import partial
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Complexes
+from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, joined_by_and, message
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.first_states import first_state
 from gruebler.design.synthesis.fitting import FitState, FitTargets, fit_stages, fit_targets, improved, output_links
-from gruebler.design.synthesis.judging import EXACT_AT_MOST, Demands, judge_design, judge_with_drives
+from gruebler.design.synthesis.judging import (
+    EXACT_AT_MOST,
+    Demands,
+    judge_design,
+    judge_with_drives,
+    transmission_fault,
+)
 from gruebler.design.synthesis.law_motion import over_interval
 from gruebler.design.synthesis.positions import ranked
-from gruebler.design.synthesis.results import FITTED, Design, Progress, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.results import (
+    FITTED,
+    Design,
+    DesignVerdict,
+    Progress,
+    SolutionCount,
+    SynthesisResult,
+    in_order_of,
+)
 from gruebler.design.synthesis.structure_atlas import dyad_structure
 from gruebler.design.synthesis.structure_curves import fit_drawings
 from gruebler.design.synthesis.targets import Probe, Targets, point_targets
 from gruebler.design.synthesis.tasks import FunctionTask, PathTask, Task
+from gruebler.mechanics.analysis.outputs import find_output
+from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
+from gruebler.mechanics.kinematics.solve import cached_plan
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.enumeration.worker_pool import run_work
 from gruebler.structure.mechanism import Mechanism, check_drives
@@ -45,6 +63,7 @@ def synthesise_structures(
     *,
     starts: int | None = None,
     link: str = "",
+    idle: bool = True,
     executor: Executor | Callable[[], Executor] | None = None,
     progress: Progress | None = None,
 ) -> SynthesisResult:
@@ -58,6 +77,7 @@ def synthesise_structures(
         starts: how many are improved to the end of each mechanism: by default the best 24 of 1,920 neighbours from the
             atlas of its structure (a crank and dyads of turning joints, for a path), or 4 realisations of any other.
         link: that is guided, or whose motion is the output; for each start the one that is most alike without it.
+        idle: whether links carry the point, too, that fewer links move in the same way.
         executor: see `enumeration.worker_pool.run_work`; the answer is the same with any.
         progress: called with the starts done and their number.
 
@@ -74,7 +94,7 @@ def synthesise_structures(
     targets = fit_targets(task)
     for mechanism in mechanisms:
         _check(mechanism, targets, link)
-    jobs = [job for mechanism in mechanisms for job in _jobs(task, targets, mechanism, starts, link)]
+    jobs = [job for mechanism in mechanisms for job in _jobs(task, targets, mechanism, starts, link, idle=idle)]
     work = partial(_fitted, task, wanted, link)
     candidates: list[Design] = []
     for done, designs in enumerate(run_work(work, jobs, executor), 1):
@@ -93,6 +113,8 @@ def synthesise_structures(
         count=len(jobs),
         limit=_limit(wanted),
     )
+    if not jobs:
+        note = message("fewer links move each link that could carry the point in the same way")
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(candidates), real=len(candidates))
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
 
@@ -167,15 +189,18 @@ class _Job(NamedTuple):
     """How many designs are judged."""
 
 
-def _jobs(task: Task, targets: FitTargets, mechanism: Mechanism, starts: int | None, link: str) -> list[_Job]:
+def _jobs(
+    task: Task, targets: FitTargets, mechanism: Mechanism, starts: int | None, link: str, *, idle: bool
+) -> list[_Job]:
     """The starts of one mechanism: from the atlas of its structure if it has one, else so many realisations."""
     points_alone = targets.angles is None and targets.inputs is None and not targets.ranks
     if isinstance(task, PathTask) and not task.mixed and points_alone:
         structure = dyad_structure(mechanism)
         links = () if structure is None else structure.coupler_links
         if links and (not link or link in links):
-            fitted = (link,) if link else links
-            kept = -(-(starts or _KEPT) // len(fitted))
+            named = (link,) if link else links
+            fitted = named if idle or structure is None else tuple(filter(structure.needs_all_links, named))
+            kept = -(-(starts or _KEPT) // len(named))
             return [_Job(mechanism, 0, each, kept) for each in fitted]
     return [_Job(mechanism, seed) for seed in range(starts or _REALISATIONS)]
 
@@ -192,7 +217,8 @@ def _fitted(task: Task, demands: Demands, link: str, job: _Job) -> list[Design]:
     fitted = fit_targets(task)
     targets = replace(point_targets("P", task.z, fitted.size), curve=fitted.curve, ranks=task.order)
     designs = []
-    for *joints, point in fits.places[: job.kept]:
+    slender = _size_ratios(job.mechanism, fits.places) > demands.size_ratio
+    for *joints, point in fits.places[np.argsort(slender, kind="stable")[: job.kept]]:
         drawing: dict[str | int, object] = {name: (z.real, z.imag) for name, z in zip(names, joints, strict=True)}
         points = {"P": (job.drawn_link, point.real, point.imag)}
         linkage = Linkage.from_drawing(job.mechanism, drawing, points=points)
@@ -200,10 +226,21 @@ def _fitted(task: Task, demands: Demands, link: str, job: _Job) -> list[Design]:
     return designs
 
 
+def _size_ratios(mechanism: Mechanism, places: Complexes) -> Reals:
+    """(drawings,) the longest distance of two pins of a link by the shortest; places (drawings, joints, ...)."""
+    joints = mechanism.chain.joints
+    pins = [[n for n, joint in enumerate(joints) if link in joint.links] for link in mechanism.chain.links]
+    pairs = np.array([pair for own in pins for pair in combinations(own, 2)])
+    lengths = np.abs(places[:, pairs[:, 0]] - places[:, pairs[:, 1]])
+    return np.asarray(lengths.max(axis=1) / lengths.min(axis=1))
+
+
 def fit_structure(
     task: Task, mechanism: Mechanism, demands: Demands | None = None, *, seed: int = 0, link: str = ""
 ) -> Design | None:
     """One mechanism fitted to a task from one realisation; None if it cannot be realised or started.
+
+    Without a transmission angle, though one is demanded, its dimensions are those of the realisation.
 
     Args:
         task: positions, points, a function or dead centres.
@@ -216,6 +253,12 @@ def fit_structure(
     if first.linkage is None:
         return None
     stages = fit_stages(task)
+    if demands is not None and demands.transmission > 0 and len(first.linkage.mechanism.drives) < 2:
+        try:
+            pushing_links(cached_plan(first.linkage), find_output(first.linkage))
+        except NoTransmissionAngleError:
+            verdict = DesignVerdict(reasons=(transmission_fault(np.nan),))
+            return Design(linkage=first.linkage, verdict=verdict, form=FITTED)
     closure = DesignClosure(first.linkage)
     state = first_state(closure, stages[0], np.random.default_rng(seed), link)
     if state is None:
