@@ -88,6 +88,7 @@ export class SynthesisView implements View {
   /** Other points, out of a file. */
   take(points: [number, number][], closed: boolean, order: (number | null)[] = []): void {
     this.kind = "points";
+    this.#puts = "";
     this.rows.points = points;
     this.#closed = closed;
     this.#order = order.map((rank) => rank ?? "–").join(" ");
@@ -338,7 +339,9 @@ export class SynthesisView implements View {
   #step(way: "undo" | "redo"): void {
     const state = this.#held ? undefined : this.#history[way](this.#before);
     if (!state) return;
+    this.#before[0] = state[0]; // where the change was made, which may be done again
     this.#before = state;
+    if (this.kind !== state[0]) this.#puts = ""; // the other kind has no such tool
     this.kind = state[0];
     [this.#closed, this.rows, this.#pivots] = JSON.parse(state[1]);
     this.#play(null);

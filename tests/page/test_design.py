@@ -40,8 +40,11 @@ def undo_and_redo(design):
     assert view.evaluate(f"{VIEW}.rows.positions") == rows
     back.click()  # the angle of the third
     assert view.evaluate(f"{VIEW}.rows.positions[2][2]") == -25
-    forth.click()
-    assert view.evaluate(f"{VIEW}.rows.positions") == rows
+    view.click('[data-value="points"]')
+    view.click('[data-value="curve"]')
+    forth.click()  # where the change was made
+    assert view.evaluate(f"[{VIEW}.kind, {VIEW}.rows.positions]") == ["positions", rows]
+    assert view.locator('[data-value=""]').get_attribute("aria-pressed") == "true"
 
 
 def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(design):
@@ -136,8 +139,11 @@ def test_points_of_a_file_are_seen_whatever_their_size(design, tmp_path):
     for far in (0.4, 900):
         path = tmp_path / "points.csv"
         path.write_text("x,y\n" + "".join(f"{x * far},{y * far}\n" for x, y in ((-1, 0), (0, 1), (1, 0.2), (0.3, -1))))
+        view.click('[data-value="positions"]')
+        view.click('[data-value="pivot"]')
         view.locator('header input[type="file"]').set_input_files(path)
         design.until(f"Math.abs({VIEW}.points[0]?.[0] + {far}) < 1e-9")
+        assert view.locator('[data-value=""]').get_attribute("aria-pressed") == "true"  # pivots are of positions
         box = view.locator(".plane").bounding_box()
         spots = [design.middle(f'[data-point="{k}"] circle') for k in range(4)]
         assert all(0 < x - box["x"] < box["width"] and 0 < y - box["y"] < box["height"] for x, y in spots)
