@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -122,6 +123,8 @@ def marked_task(id: str, answers: dict[str, str], lang: str) -> dict[str, Any]:
 
     >>> marked_task("dead-centre-1-7", {"H": "30", "l_a": "12"}, "en")["marks"][1]["hint"]
     'The formula is l_a = a + b.'
+    >>> marked_task("mobility-1-3", {"F": "7"}, "en")["marks"][0]["hint"]
+    'The formula is F = 3(n - 1) - 2 g_1 - g_2.'
     """
     task = exercise(id)
     solution = solve(task)
@@ -176,7 +179,8 @@ def way(solution: Solution, result: Result) -> Message:
     steps = (part for part in solution.parts if isinstance(part, SolutionStep))
     formula = next((step.formula for step in steps if step.formula.startswith(beginning) and step.numbers), "")
     if formula:
-        return message("The formula is {formula}.", formula=formula)
+        indexed = re.sub(r"\b([^\W\d_])(\d+)\b", r"\1_\2", formula)
+        return message("The formula is {formula}.", formula=indexed)
     return _COUNTED.get(result.key, _OTHERWISE)
 
 

@@ -412,7 +412,7 @@ def test_solutions_are_set_as_in_print():
     assert blocks_of(document, Heading)[0].text == "Zwei-Zylinder-V-Kompressor (000/003, Aufgabe 6)"
     text = document_bytes(document, "md").decode("utf-8")
     words = re.sub(r"!\[[^\]]*\]\([^)]*\)", "", text)
-    assert "F = 3(n − 1) − 2 g₁ = 3(6 − 1) − 2·7 = 1" in words
+    assert "F = 3(n − 1) − 2 g₁ − g₂ = 3(6 − 1) − 2·7 − 0 = 1" in words
     assert "φ<sub>iH2</sub> = 180° − φ<sub>H2</sub>" in words
     assert "α<sub>max1</sub>" in words
     assert "λ₁" in words

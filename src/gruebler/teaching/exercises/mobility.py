@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 from gruebler.base.text import Message, Text, in_every_language, joined, message, plural, translate
@@ -77,7 +78,8 @@ def _add_count(builder: SolutionBuilder, structure: Chain, mark: _Mark, german: 
     )
     builder.keep(f"n{mark}", mark.named(_LINKS), structure.n, symbol="n")
     _add_joints(builder, structure, mark, german)
-    formula = count_freedoms(structure)
+    count = count_freedoms(structure)
+    formula = replace(count, by_freedom=tuple(_by_freedom(structure).items()))
     parts = formula.formula().removeprefix("F = ").split(" = ")
     builder.parts.append(SolutionStep(text=_FREEDOM, formula=f"F = {parts[0]}", numbers=parts[1], value=formula.value))
     builder.keep(f"F{mark}", mark.named(_FREEDOM), formula.value, symbol="F")
@@ -100,10 +102,14 @@ def _add_count(builder: SolutionBuilder, structure: Chain, mark: _Mark, german: 
     _add_mistakes(builder, structure, mark)
 
 
+def _by_freedom(structure: Chain) -> dict[int, int]:
+    """The numbers of joints that are asked for, those with f = 2 though there are none."""
+    return {1: 0, 2: 0} | structure.joints_by_freedom
+
+
 def _add_joints(builder: SolutionBuilder, structure: Chain, mark: _Mark, german: Mapping[str, str]) -> None:
     short = structure.renamed(_short(structure, german)) if german else structure
-    by_freedom = {1: 0, 2: 0} | structure.joints_by_freedom
-    for f, number in by_freedom.items():
+    for f, number in _by_freedom(structure).items():
         which = [k for k, joint in enumerate(structure.joints) if joint.pair.f(structure.space) == f]
         names = Text(
             ", ".join(structure.joint_names(Alphabet.INTERNATIONAL)[k] for k in which),
