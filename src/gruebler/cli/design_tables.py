@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from math import degrees, isnan
 
@@ -17,6 +16,7 @@ from gruebler.design.synthesis.coordination import Minimax
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.minimax_search import digits_for_error
 from gruebler.design.synthesis.results import EXACT, FITTED, SolutionCount
+from gruebler.design.synthesis.sensitivity import slide_offsets
 from gruebler.design.synthesis.tasks import gives_lengths
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain.pairs import Alphabet
@@ -201,22 +201,23 @@ def _named(linkage: Linkage, lang: str) -> Linkage:
 
 
 def _lengths(linkage: Linkage, lang: str) -> str:
-    """The distances of the pins of each link, and of its pin from its slide, which is its offset e."""
+    """The distances of the pins of each link, and the offset e of each slide."""
     lengths = list[str]()
     named = _named(linkage, lang).mechanism.chain.links
     for link, name in sorted(zip(linkage.mechanism.chain.links, named, strict=True), key=_by_letter):
         own = [element for (_, owner), element in linkage.elements.items() if owner == link]
         pins = [complex(e.x, e.y) for e in own if e.is_pin]
-        lines = [e for e in own if e.is_line]
         between = [abs(p - q) for k, p in enumerate(pins) for q in pins[:k]]
         if between:
             values = " ".join(number(length, lang, "n") for length in between)
             lengths.append(f"{_LETTERS.get(link, name)} = {values}")
-        for line in lines if len(pins) == 1 else ():
-            across = (complex(line.x, line.y) - pins[0]) * complex(math.cos(line.direction), -math.sin(line.direction))
-            offset = _without_rounding(across.imag, linkage)
-            if offset or link == linkage.mechanism.frame:
-                lengths.append(f"e = {number(offset, lang, 'n')}")
+    slides = slide_offsets(linkage)
+    joints = linkage.mechanism.chain.joint_names(Alphabet.of_language(lang))
+    for slide in slides:
+        offset = _without_rounding(slide.offset, linkage)
+        if offset or slide.link == linkage.mechanism.frame:
+            name = "e" if len(slides) == 1 else f"e {joints[slide.joint]}"
+            lengths.append(f"{name} = {number(offset, lang, 'n')}")
     return number_separator(lang).join(lengths)
 
 

@@ -9,9 +9,12 @@ from hypothesis import strategies as st
 
 from gruebler.design.synthesis import DeadCentreTask, PositionTask, synthesise
 from gruebler.design.synthesis.sensitivity import length_sensitivity
+from gruebler.design.synthesis.structures import same_machine
 from gruebler.design.synthesis.targets import Probe
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import move
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.mechanism import Mechanism
 
 PROBES = (Probe("P"), Probe(link="coupler", length=2.0), Probe(link="rocker"))
 STEP = 1e-6
@@ -72,6 +75,56 @@ def test_slider_crank_by_hand():
     assert np.abs(np.abs(found.moves[:, 0]) - 1e-3 * np.abs(expected)).max() <= 1e-12
     assert found.worst[:, 0] == pytest.approx(1e-3 * np.abs(expected).sum(axis=1), rel=1e-9)
     assert found.statistical[:, 0] == pytest.approx(1e-3 * np.sqrt((expected**2).sum(axis=1)), rel=1e-9)
+
+
+def rewritten(linkage, rng):
+    """The same machine: every link in other coordinates, and the line of every slide beside itself on both links."""
+    chain = linkage.mechanism.chain
+    pose = {link: np.array(place) for link, place in linkage.required_pose.items()}
+    beside = rng.uniform(-2, 2, len(chain.joints))
+    elements, moved = {link: {} for link in chain.links}, {}
+    for link in chain.links:
+        moves = link != linkage.mechanism.frame
+        shift, turn = moves * complex(*rng.uniform(-2, 2, 2)), moves * rng.uniform(-3, 3)
+        for (joint, owner), e in linkage.elements.items():
+            if owner == link:
+                z = complex(e.x, e.y) + (1j * np.exp(1j * e.angle) * beside[joint] if e.is_line else 0)
+                z = (z + shift) * np.exp(1j * turn)
+                elements[link][joint] = (z.real, z.imag, *([e.angle + turn] if e.is_line else []))
+        x, y, angle = pose[link]
+        origin = complex(x, y) - shift * np.exp(1j * angle)
+        moved[link] = (origin.real, origin.imag, angle - turn)
+    return Linkage(linkage.mechanism, elements, reference_pose=moved)
+
+
+@pytest.mark.parametrize(
+    ("text", "drawing", "lengths_of_links"),
+    [
+        ("R(0-1) R(1-2) R(2-3) P(3-0)", [(0, 0), (1, 1), (4, 0.5), (4, 0.5, 0.2)], 3),
+        ("R(0-1) R(1-2) P(2-3) R(3-0)", [(0, 0), (1, 1), (2, 1.2, 0.3), (4, 0.5)], 3),
+        ("R(0-1) R(1-2) P(2-3) P(3-0)", [(0, 0), (1, 1), (1, 1.5, 1.5), (3, 0.5, 0.2)], 1),
+    ],
+)
+def test_the_coordinates_in_which_links_are_written_do_not_count(text, drawing, lengths_of_links):
+    """The offset of a slide was two lengths, each wrong by a thousandth, by how the coordinates divide it."""
+    mechanism = Mechanism.parse(f"{text}; frame=0; drive=R(0-1)")
+    first = linkage = Linkage.from_drawing(mechanism, dict(enumerate(drawing)))
+    rng = np.random.default_rng(3)
+    found = []
+    for _ in range(3):
+        phi = linkage.required_pose["1"].angle
+        probes = (Probe(link="2", length=2.0), Probe(link="1"))
+        sensitivity = length_sensitivity(linkage, probes, np.array([[phi], [phi + 0.2], [phi + 0.3]]))
+        found.append((sensitivity.worst, sorted(row.length for row in sensitivity.lengths)))
+        linkage = rewritten(linkage, rng)
+    assert len(found[0][1]) == lengths_of_links
+    similar = linkage.scaled(3.0)
+    other = Linkage.from_drawing(mechanism, {**dict(enumerate(drawing)), 1: (1, 1.0001)})
+    seen = [same_machine(first, each, placed=placed) for placed in (True, False) for each in (linkage, similar, other)]
+    assert seen == [True, False, False, True, True, False]
+    for worst, lengths in found[1:]:
+        assert worst == pytest.approx(found[0][0], abs=1e-12)
+        assert lengths == pytest.approx(found[0][1], abs=1e-9)
 
 
 def test_worst_case_is_that_of_all_signs():

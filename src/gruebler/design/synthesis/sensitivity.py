@@ -33,6 +33,64 @@ class LinkLength:
     length: float
 
 
+@dataclass(frozen=True, kw_only=True)
+class SlideOffset:
+    """How far the first pins of the two links of a slide lie apart across it.
+
+    Both links have a line there, which may lie anywhere beside their pins, as long as it does so on both.
+    """
+
+    joint: int
+    link: str
+    """To which the offset is ascribed: the frame, if the slide is there, else the first of the two."""
+    pin: int
+    """The joint of its first pin."""
+    offset: float
+    """From this pin to the left of the line of the link."""
+    moved: str
+    """One of the two links, the line of which is that of no third link."""
+    arm: complex
+    """By so much its line is moved where the offset grows by itself."""
+
+
+def slide_offsets(linkage: Linkage) -> tuple[SlideOffset, ...]:
+    """The offset of each slide between two links that have pins; a link without any is guided by its lines alone.
+
+    >>> from gruebler.mechanics.fourbar import SliderCrank
+    >>> [(each.link, each.offset) for each in slide_offsets(SliderCrank(3, 5, 1).linkage())]
+    [('frame', 1.0)]
+    """
+    mechanism, posed = linkage.mechanism, linkage.reference_pose
+    pins: dict[str, int] = {}
+    for number, owner in sorted(linkage.elements):
+        if linkage.elements[number, owner].is_pin:
+            pins.setdefault(owner, number)
+    offsets = []
+    for number, joint in enumerate(mechanism.chain.joints):
+        for moved in joint.links[1:] if joint.pair.is_sliding else ():
+            ends = (joint.links[0], moved)
+            if not pins.keys() >= {*ends}:
+                continue
+            lines = [linkage.elements[number, link].place for link in ends]
+            origins = [linkage.elements[pins[link], link].place for link in ends]
+            turns = [
+                line[2] + (0.0 if posed is None else posed[link][2]) for link, line in zip(ends, lines, strict=True)
+            ]
+            along = [complex(np.exp(1j * line[2])) for line in lines]
+            own = [
+                ((complex(*line[:2]) - complex(*pin[:2])) * direction.conjugate()).imag
+                for line, pin, direction in zip(lines, origins, along, strict=True)
+            ]
+            k = int(moved == mechanism.frame)
+            alike = 1.0 if np.cos(turns[0] - turns[1]) > 0 else -1.0
+            offset = own[k] - alike * own[1 - k]
+            arm = 1j * along[1] * (offset if k else -alike * offset)
+            offsets.append(
+                SlideOffset(joint=number, link=ends[k], pin=pins[ends[k]], offset=offset, moved=moved, arm=arm)
+            )
+    return tuple(offsets)
+
+
 @compared_by_value
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Sensitivity:
@@ -189,11 +247,6 @@ def _lengths(
         ends: list[tuple[int | str, str, complex, bool]] = [
             (closure.start[number, link], str(number), z - origin, k > 0) for k, (number, z) in enumerate(pins[1:])
         ]
-        for number, line in own:
-            if line.is_line:
-                direction = np.exp(1j * line.place[2])
-                offset = (complex(line.x, line.y) - origin) * np.conj(direction)
-                ends.append((closure.start[number, link], str(number), 1j * offset.imag * direction, False))
         for name in sorted(points):
             point = linkage.points[name]
             if point.link == link:
@@ -202,6 +255,11 @@ def _lengths(
             for across in (False, True)[: 1 + both] if abs(arm) > least else ():
                 rows.append(LinkLength(link=link, first=str(first), other=other, across=across, length=float(abs(arm))))
                 columns.append((at, complex(1j * arm if across else arm)))
+    for slide in slide_offsets(linkage):
+        if abs(slide.offset) > least:
+            pin, slot, length = str(slide.pin), str(slide.joint), abs(slide.offset)
+            rows.append(LinkLength(link=slide.link, first=pin, other=slot, across=False, length=length))
+            columns.append((closure.start[slide.joint, slide.moved], slide.arm))
     changes = np.zeros((len(closure.sizes), len(rows)))
     shifts = {name: np.zeros(len(rows), np.complex128) for name in points}
     for k, (at, arm) in enumerate(columns):

@@ -43,7 +43,7 @@ from gruebler.design.synthesis.results import (
 from gruebler.design.synthesis.structure_atlas import dyad_structure
 from gruebler.design.synthesis.structure_curves import fit_drawings
 from gruebler.design.synthesis.targets import Probe, Targets, point_targets
-from gruebler.design.synthesis.tasks import FunctionTask, PathTask, Task
+from gruebler.design.synthesis.tasks import FunctionTask, PathTask, PositionTask, Task
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
 from gruebler.mechanics.kinematics.solve import cached_plan
@@ -52,6 +52,7 @@ from gruebler.structure.enumeration.worker_pool import run_work
 from gruebler.structure.mechanism import Mechanism, check_drives
 
 _KEPT, _REALISATIONS = 24, 4  # designs of one mechanism
+_SAME = 1e-6  # of the size of a linkage: two that are drawn nearer to each other are one
 _NEIGHBOURS = 80  # from the atlas for each design that is kept
 ACCEPTED = 0.05
 
@@ -97,8 +98,11 @@ def synthesise_structures(
     jobs = [job for mechanism in mechanisms for job in _jobs(task, targets, mechanism, starts, link, idle=idle)]
     work = partial(_fitted, task, wanted, link)
     candidates: list[Design] = []
+    placed = isinstance(task, PositionTask | PathTask)
     for done, designs in enumerate(run_work(work, jobs, executor), 1):
-        candidates += designs
+        for design in designs:
+            if not any(same_machine(design.linkage, known.linkage, placed=placed) for known in candidates):
+                candidates.append(design)
         if progress is not None:
             progress(done, len(jobs))
     if isinstance(task, FunctionTask):
@@ -117,6 +121,41 @@ def synthesise_structures(
         note = message("fewer links move each link that could carry the point in the same way")
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(candidates), real=len(candidates))
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
+
+
+def same_machine(first: Linkage, other: Linkage, *, placed: bool) -> bool:
+    """Whether two linkages for a task are one machine, however their links are written: drawn alike in their poses.
+
+    Of a slide only the direction counts, since its line may lie anywhere beside the pins.
+
+    Args:
+        first: with a reference pose, as the other one.
+        other: to be compared.
+        placed: whether the plane of the frame is that of the task; else place, turn and size do not count.
+    """
+    carriers = [[point.link for point in linkage.points.values()] for linkage in (first, other)]
+    if (first.mechanism, first.outputs, carriers[0]) != (other.mechanism, other.outputs, carriers[1]):
+        return False
+    drawings = [_drawn(first, placed=placed), _drawn(other, placed=placed)]
+    size = float(np.abs(drawings).max(initial=1.0))
+    return bool(np.abs(drawings[0] - drawings[1]).max(initial=0.0) <= _SAME * size)
+
+
+def _drawn(linkage: Linkage, *, placed: bool) -> Complexes:
+    """(joints,) where the pins lie, and the squares of the directions of the slides."""
+    pose, joints = linkage.required_pose, range(len(linkage.mechanism.chain.joints))
+    own = {joint: linkage.mechanism.chain.joints[joint].links[0] for joint in joints}
+    turns = np.exp(1j * np.array([pose[own[joint]][2] for joint in joints]))
+    elements = [linkage.elements[joint, own[joint]] for joint in joints]
+    pins = np.array([element.is_pin for element in elements], bool)
+    places = np.array([complex(*pose[own[joint]][:2]) for joint in joints])
+    places += turns * np.array([complex(element.x, element.y) for element in elements])
+    if not placed:
+        places = places - places[pins][0] if pins.any() else places
+        scale = places[np.argmax(np.where(pins, np.abs(places), 0))] or 1.0
+        places, turns = places / scale, turns / (scale / abs(scale))
+    angles = np.array([0.0 if pin else element.place[2] for pin, element in zip(pins, elements, strict=True)])
+    return np.where(pins, places, (turns * np.exp(1j * angles)) ** 2)
 
 
 def unheld_pivots(task: Task) -> Message | None:
