@@ -382,7 +382,7 @@ def test_the_miss_in_order_is_told():
     verdict = verdict_of(z, 0.005)
     expected = least_in_order(np.abs(path - z[:, None]), closed=True) / 3
     assert expected == pytest.approx(abs(z[2] - z[3]) / 2 / 3, rel=1e-2)
-    reason = str(verdict.reasons[0])
+    (reason,) = map(str, verdict.reasons)
     assert (
         reason
         == f"the targets are met in another order; in that of the task one is missed by {verdict.error:.3g} of the size"

@@ -1,5 +1,7 @@
 """The order of targets, one by one: against the exact angles at which they are passed, and against all sequences."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 
@@ -131,6 +133,22 @@ def test_orders_that_say_nothing_are_refused_in_one_sentence(given, message):
     with pytest.raises(SynthesisError) as caught:
         PathTask([(0, 0), (1, 1), (2, 0)], **given)
     assert str(caught.value) == message
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_crank_angles_of_some_points_refuse_the_orders_in_which_no_lap_passes_them(sense):
+    """All ranks of five points, four with crank angles, against all laps; three can always be passed in one."""
+    points, angles = [(0, 0), (1, 1), (2, 0), (3, 1), (4, 5)], sense * np.array([0.1, 0.4, 2.0, 3.5])
+    count = 0
+    for ranks in product((1, 2, 3, 4, None), repeat=4):
+        task = {"crank_angles": [*angles, None], "order": [*ranks, 1]}
+        if kept_by_angles(ranks, angles, turns=True):
+            assert PathTask(points, **task).order == (*ranks, 1)
+            continue
+        count += 1
+        with pytest.raises(SynthesisError, match="order: the crank angles of some points give"):
+            PathTask(points, **task)
+    assert count > 10
 
 
 @pytest.mark.parametrize("ending", ["toml", "json", "csv"])

@@ -235,10 +235,11 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         missed_by = max(missed_by, path.error)
     if not path.one_branch and demands.one_branch:
         reasons.append(message("the drive has to turn back between the targets (two branches)"))
-    if path.one_branch and not np.isfinite(missed_by):
+    carried = float(misses.max())
+    if path.one_branch and not np.isfinite(carried):
         reasons.append(message("`move` does not lead through all targets"))
-    elif path.one_branch and not missed_by <= limit:
-        reasons.append(message("a target is missed by {error:.3g} of the size", error=missed_by))
+    elif path.one_branch and not carried <= limit:
+        reasons.append(message("a target is missed by {error:.3g} of the size", error=carried))
     elif path.one_branch and targets.allowed is not None:
         reasons += _beyond_tolerance(misses, targets.allowed, limit - demands.tolerance)
     piece = _way_between(course, path, targets)

@@ -281,6 +281,11 @@ class PathTask:
             raise SynthesisError("crank_angles: the timing is contradictory, all points lie within one turn of 2 pi")
         if self.order and len(timing) == len(self.points):
             raise SynthesisError("order: the crank angles of all points give it already")
+        pairs = zip(self.order, self.crank_angles, strict=False)
+        ranks = [rank for rank, angle in pairs if rank is not None and angle is not None]
+        turned = np.diff([*ranks, *ranks[:1]])  # a lap may begin with any of them, and lead either way
+        if min((turned > 0).sum(), (turned < 0).sum()) > 1:
+            raise SynthesisError("order: the crank angles of some points give them another one")
 
     def __len__(self) -> int:
         return len(self.points)
