@@ -57,6 +57,10 @@ _PLACEHOLDERS = {
         message("DIR"),
         message("ADDRESS"),
         message("KIND"),
+        message("TYPE"),
+        message("RATIO"),
+        message("PART"),
+        message("HEIGHT"),
     )
 }
 """What stands for a value in the list of options."""

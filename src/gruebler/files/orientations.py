@@ -15,6 +15,7 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import SynthesisError, naming
+from gruebler.files.tasks import counting_from_one
 
 
 class _Orientations(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -41,7 +42,7 @@ def read_orientations(path: Path | str) -> Reals:
     if path.suffix.lower() not in (".toml", ".json"):
         raise SynthesisError("{path}: orientations are in a .toml or .json file", path=path)
     with naming(path, SynthesisError):
-        record = convert_document(load_document(path, SynthesisError), _Orientations, SynthesisError)
+        record = convert_document(load_document(path, SynthesisError), _Orientations, counting_from_one)
         turns = [_checked(row, k) for k, row in enumerate(record.orientations, 1)]
         if not 3 <= len(turns) <= 5:
             raise SynthesisError("expected three to five orientations, but found {count}", count=len(turns))

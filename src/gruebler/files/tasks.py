@@ -8,6 +8,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 import warnings
 from collections.abc import Iterable, Mapping
 from itertools import compress
@@ -19,6 +20,7 @@ import msgspec
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import SynthesisError, UnitWarning, naming
+from gruebler.base.text import Message
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.tasks import (
     DeadCentreTask,
@@ -28,6 +30,7 @@ from gruebler.design.synthesis.tasks import (
     PositionTask,
     Task,
     function_task,
+    numbered_entry,
 )
 from gruebler.files.angles import in_degrees, in_radians
 from gruebler.files.text_files import read_text
@@ -101,13 +104,20 @@ _KINDS: dict[str, type[_Record]] = {
 """The key that every task of a kind has."""
 
 
-def _radians(value: Any, where: str) -> float:
+def _radians(value: Any, where: Message | str) -> float:
     try:
         return in_radians(value)
     except ValueError:
         raise SynthesisError(
             "{where}: expected an angle in degrees, but found {value!r}", where=where, value=str(value)[:40]
         ) from None
+
+
+def counting_from_one(problem: Message) -> SynthesisError:
+    """The error of a key such as ``points[2][1]``, which is told as that of the third point."""
+    if parts := re.match(r"(\w+)\[(\d+)\]", str(problem.values.get("key", ""))):
+        problem = problem.filled(key=numbered_entry(parts[1], int(parts[2])))
+    return SynthesisError(problem)
 
 
 def task_from_json(document: Mapping[str, Any]) -> Task:
@@ -130,7 +140,7 @@ def task_from_json(document: Mapping[str, Any]) -> Task:
     for key in ("points", *_TURNED, "tolerances", "order"):  # null stands for what is free in JSON, "" in TOML
         if isinstance(given.get(key), list):
             given[key] = [None if value == "" else value for value in given[key]]
-    record = convert_document(given, kind, SynthesisError)
+    record = convert_document(given, kind, counting_from_one)
     with warnings.catch_warnings(action="ignore", category=UnitWarning):  # these are degrees
         return _task(record)
 
@@ -143,20 +153,27 @@ def _task(record: Any) -> Task:
             for k, row in enumerate(record.positions):
                 if len(row) != 3:
                     raise SynthesisError(
-                        "positions {number}: expected [x, y, degrees], but found {count} values",
-                        number=k + 1,
+                        "{where}: expected [x, y, degrees], but found {count} values",
+                        where=numbered_entry("positions", k),
                         count=len(row),
                     )
-            rows = [(row[0], row[1], _radians(row[2], f"positions {k + 1}")) for k, row in enumerate(record.positions)]
+            rows = [
+                (row[0], row[1], _radians(row[2], numbered_entry("positions", k)))
+                for k, row in enumerate(record.positions)
+            ]
             return PositionTask(**{**data, "positions": rows})
         case _Path():
             for key in _TURNED:
-                data[key] = [None if a is None else _radians(a, f"{key} {k + 1}") for k, a in enumerate(data[key])]
+                data[key] = [
+                    None if a is None else _radians(a, numbered_entry(key, k)) for k, a in enumerate(data[key])
+                ]
             return PathTask(**data)
         case _Function():
-            inputs = [_radians(a, f"inputs {k + 1}") for k, a in enumerate(record.inputs)]
+            inputs = [_radians(a, numbered_entry("inputs", k)) for k, a in enumerate(record.inputs)]
             turning = record.output == "angle"
-            outputs = [_radians(a, f"outputs {k + 1}") if turning else a for k, a in enumerate(record.outputs)]
+            outputs = [
+                _radians(a, numbered_entry("outputs", k)) if turning else a for k, a in enumerate(record.outputs)
+            ]
             return FunctionTask(**{**data, "inputs": tuple(inputs), "outputs": tuple(outputs)})
         case _Law():
             return _function_task(record)

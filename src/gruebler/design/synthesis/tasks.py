@@ -54,8 +54,12 @@ def _row(row: object, where: Message, count: int) -> tuple[float, ...]:
 _ENTRIES = {"points": message("point {number}"), "positions": message("position {number}")}
 
 
-def _numbered(key: str, k: int) -> Message:
-    """An entry of a key of a task file."""
+def numbered_entry(key: str, k: int) -> Message:
+    """An entry of a key of a task file, by its number from 0, as messages name it: they count from 1.
+
+    >>> print(numbered_entry("points", 0), numbered_entry("tolerances", 1), sep=", ")
+    point 1, tolerances 2
+    """
     return _ENTRIES.get(key, message("{key} {number}", key=key)).filled(number=k + 1)
 
 
@@ -70,12 +74,12 @@ def _entries(task: object, key: str) -> tuple[object, ...]:
 
 
 def _numbers(task: object, key: str) -> tuple[float, ...]:
-    return tuple(_number(value, _numbered(key, k)) for k, value in enumerate(_entries(task, key)))
+    return tuple(_number(value, numbered_entry(key, k)) for k, value in enumerate(_entries(task, key)))
 
 
 def number_rows(task: object, key: str, count: int) -> tuple[tuple[float, ...], ...]:
     """The entries of a field that is a list of so many numbers each."""
-    return tuple(_row(row, _numbered(key, k), count) for k, row in enumerate(_entries(task, key)))
+    return tuple(_row(row, numbered_entry(key, k), count) for k, row in enumerate(_entries(task, key)))
 
 
 def _check_order(task: PositionTask | PathTask, curve: bool) -> None:
@@ -94,7 +98,7 @@ def _check_order(task: PositionTask | PathTask, curve: bool) -> None:
         if rank is not None and (isinstance(rank, bool) or not isinstance(rank, int | np.integer)):
             raise SynthesisError(
                 "{where}: expected a whole number, or nothing, but found {found!r}",
-                where=_numbered("order", k),
+                where=numbered_entry("order", k),
                 found=str(rank)[:40],
             )
     settle(task, order=tuple(None if rank is None else int(rank) for rank in ranks))
@@ -149,7 +153,7 @@ class PositionTask:
             if not 0 <= place <= 1:
                 raise SynthesisError(
                     "{where}: expected 0 to 1, but found {value:g}",
-                    where=_numbered("curve_parameters", k),
+                    where=numbered_entry("curve_parameters", k),
                     value=place,
                 )
         _check_order(self, curve=False)
@@ -219,13 +223,13 @@ class PathTask:
 
     def __post_init__(self) -> None:
         given = enumerate(_entries(self, "points"))
-        rows = tuple(None if row is None else _row(row, _numbered("points", k), 2) for k, row in given)
+        rows = tuple(None if row is None else _row(row, numbered_entry("points", k), 2) for k, row in given)
         settle(self, points=rows)
         pivots = number_rows(self, "fixed_pivots", 2)
         settle(self, fixed_pivots=pivots)
         for name in _FREE_FOR_SOME:
             free = enumerate(_entries(self, name))
-            settle(self, **{name: tuple(None if a is None else _number(a, _numbered(name, k)) for k, a in free)})
+            settle(self, **{name: tuple(None if a is None else _number(a, numbered_entry(name, k)) for k, a in free)})
         settle(self, weights=_numbers(self, "weights"))
         placed = sum(row is not None for row in rows)
         if placed < 2:
@@ -247,7 +251,7 @@ class PathTask:
             for k, value in enumerate(getattr(self, name)):
                 if value is not None and value < 0:
                     raise SynthesisError(
-                        "{where}: expected at least 0, but found {value:g}", where=_numbered(name, k), value=value
+                        "{where}: expected at least 0, but found {value:g}", where=numbered_entry(name, k), value=value
                     )
         _check_order(self, curve=self.closed or len(rows) > MOST_POINTS)
         self._check_distinct()
