@@ -317,8 +317,9 @@ bool Walk::remember(std::int64_t row) {
         placing_.last[k].at = before + (placing_.last[k].at - before) / ratio;
     // Back over a change point: the pose on its other side lies ahead.
     for (int k = 1; k < placing_.filled; ++k) {
-        if (placing_.last[k].at > before && (placing_.last[0].at < before || is_other_side(placing_.last[k]))) {
-            std::swap(placing_.last[0], placing_.last[k]);
+        Remembered &last = placing_.last[0], &pose = placing_.last[k];
+        if (pose.at > larger(before, last.at) && (last.at < before || is_other_side(pose))) {
+            std::swap(last, pose);
             break;
         }
     }

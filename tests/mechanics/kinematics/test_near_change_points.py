@@ -125,21 +125,32 @@ def test_crowded_rows_about_change_points_of_a_larger_group(seed):
     assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-7
 
 
+# A pose that is one of the last three stands on the way, but not as far as another one on the other side.
+TURNS = [-7.501e-9, 9.099e-9, -4.988e-5, -2.12e-8, 1.395e-10, 1.715e-9, -2.745e-9, 0.01977, -2.605e-4, -6.058e-12]
+TURNS += [-8.247e-5, -5.104e-5, -6.728e-13, -2.681e-7, -0.007544, -2.296e-4, 1.096e-10]
+
+
 @pytest.mark.parametrize(
-    "rows",
+    ("high", "start", "rows"),
     [
         # very short steps before a change point, whose differences were rounding
-        [(0, -2e-9), (0, 0.012), (1, -6.6e-5), (1, 1.5e-6), (1, 1e-4), (2, -0.018), (2, -1.3e-6), (2, 5.6e-7)],
+        (
+            3,
+            0.93,
+            [(0, -2e-9), (0, 0.012), (1, -6.6e-5), (1, 1.5e-6), (1, 1e-4), (2, -0.018), (2, -1.3e-6), (2, 5.6e-7)],
+        ),
         # back beside one and forth over it, from a pose that is not the last one
-        [(1, 1e-6), (2, -3.7e-5), (1, 2.5e-8), (1, 2.1e-6), (1, -1.3e-6)],
+        (3, 0.93, [(1, 1e-6), (2, -3.7e-5), (1, 2.5e-8), (1, 2.1e-6), (1, -1.3e-6)]),
         # back over the first one and forth: went on in the other mode
-        [(1, 6.4e-8), (0, 0.017), (0, -1.2e-5), (2, -3.2e-4)],
+        (3, 0.93, [(1, 6.4e-8), (0, 0.017), (0, -1.2e-5), (2, -3.2e-4)]),
+        (1.2, np.pi - 2.212, [(1, behind) for behind in TURNS]),
     ],
 )
-def test_short_rows_after_long_ones_and_turns_about_change_points(rows):
+def test_short_rows_after_long_ones_and_turns_about_change_points(high, start, rows):
     """The plate only shifts; all rows were found by trying many paths."""
-    tilt = np.arctan2(3.0 - 0.8, 2.0)
+    tilt = np.arctan2(high - 0.8, 2.0)
     changes = (np.pi, np.pi + tilt, 2 * np.pi)
-    motion = move(parallel_legs(), [0.93, *(changes[number] + behind for number, behind in rows)], order=0)
+    path = [start, *(changes[number] + behind for number, behind in rows)]
+    motion = move(parallel_legs(high), path, order=0)
     assert motion.complete
     assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-7
