@@ -13,16 +13,20 @@ from gruebler.base.errors import SynthesisError
 from gruebler.cli.design import _type_row
 from gruebler.design.synthesis import DeadCentreTask, Demands, PathTask, PositionTask, pareto, synthesise_positions
 from gruebler.design.synthesis.clearances import guided_link, stays_clear
+from gruebler.design.synthesis.fitting import links_moved_by_all
 from gruebler.design.synthesis.judging import size_ratio
 from gruebler.design.synthesis.proposals import TriedType, candidate_types, propose
 from gruebler.design.synthesis.specification import Clearance, Specification
 from gruebler.design.synthesis.structure_atlas import dyad_structure, link_motions
 from gruebler.design.synthesis.structures import _size_ratios, fit_structure, synthesise_structures
 from gruebler.files.specifications import read_specification, specification_from_json
+from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.designs.picture import design_figure
+from gruebler.structure.mechanism import Mechanism
 
+SIDE_BY_SIDE = "R(0-1) R(0-2) R(2-3) R(3-1) R(0-4) R(4-5) R(5-1); frame=0; drive=R(0-1)"
 SWING = DeadCentreTask(swing=math.radians(60), time_ratio=1.2)
 HOOD = PositionTask([(0, 0, 0), (-1, 2, math.radians(25)), (-1, 3, math.radians(50))], unit="cm")
 DEMANDS = Demands(transmission=math.radians(30), region=(-20, -25, 40, -2), size_ratio=5)
@@ -46,20 +50,33 @@ def test_types_are_those_of_watt_and_stephenson():
 
     Watt's chain has two ternary links, side by side: as frame it has drives at its two kinds of joint, as has a binary
     frame: 4. Stephenson's chain has two ternary links apart: three kinds of frame, with 2, 1 and 2 kinds of drive: 5.
+    Watt II whose ternary link is driven is two four-bars side by side: whatever link does the task, two are idle. Where
+    only a link at the frame may be the output, so they are in Watt I (2) and Stephenson I (1), behind the four-bar.
     """
-    for task in (SWING, HOOD, PathTask([(0, 0), (1, 1), (2, 0)])):
+    for task, count in ((SWING, 9 - 1 - 2 - 1), (HOOD, 9 - 1), (PathTask([(0, 0), (1, 1), (2, 0)]), 9 - 1)):
         types = candidate_types(Specification(task))
-        assert len(types) == 9
-        assert len(set(types)) == 9
+        assert len(types) == count
+        assert len(set(types)) == count
         assert {len(each.chain.links) for each in types} == {6}
         assert all(each.drives[0].turning and each.frame in each.drives[0].between for each in types)
     assert candidate_types(Specification(SWING, links=4)) == ()
 
 
+def test_two_four_bars_side_by_side_are_no_six_bar():
+    """Both dyads hang on crank and frame: the motion of each link needs one of them."""
+    pair = Mechanism.parse(SIDE_BY_SIDE)
+    assert links_moved_by_all(pair) == ()
+    for task in (SWING, PathTask([(0, 0), (1, 1), (2, 0), (1, -1)], closed=True)):
+        with pytest.raises(SynthesisError, match="a smaller mechanism does the same"):
+            synthesise_structures(task, [pair])
+    found = synthesise_structures(PathTask([(0, 0), (1, 1), (2, 0), (1, -1)], closed=True), [pair], starts=1, link="3")
+    assert {design.linkage.points["P"].link for design in (*found.designs, *found.rejected)} == {"3"}
+
+
 def test_links_that_fewer_links_move_carry_no_point():
     """A dyad is idle if the link moves as before wherever the joint in the middle of the dyad lies."""
     rng, moved = np.random.default_rng(2), []
-    for mechanism in candidate_types(Specification(SWING)):
+    for mechanism in (*candidate_types(Specification(HOOD)), Mechanism.parse(SIDE_BY_SIDE)):
         structure = dyad_structure(mechanism)
         if structure is None:
             continue
@@ -71,7 +88,7 @@ def test_links_that_fewer_links_move_carry_no_point():
                 other[dyad.inner] += 0.01
                 turns = [link_motions(structure, each, turn)[link][0] for each in (drawn, other)]
                 idle.append(turns[0] == pytest.approx(turns[1], abs=1e-12))
-            moved.append(structure.needs_all_links(link))
+            moved.append(link in links_moved_by_all(mechanism))
             assert moved[-1] == (not any(idle)), (mechanism, link)
     assert sorted(moved) == [False] * 7 + [True] * 8
 
@@ -105,13 +122,15 @@ def test_a_travel_has_a_slide():
 def test_a_six_bar_is_judged_as_a_four_bar_is():
     """Watt's six-bar with a chain of two four-bars reaches angles that no crank-rocker has: here above 45 degrees."""
     watt = candidate_types(Specification(SWING))[0]
-    found = synthesise_structures(SWING, [watt], Demands(crank=True, transmission=math.radians(45)), starts=1)
-    (design,) = found.designs
+    found = synthesise_structures(SWING, [watt], Demands(crank=True, transmission=math.radians(45)), starts=2)
+    design = found.designs[0]
     turn = np.linspace(0, 2 * math.pi, 2001) + design.drives[0] if design.drives else None
-    motion = move_quietly(design.linkage, turn)
+    motion = move_quietly(design.linkage, turn, order=2)
     swing = motion.angle(design.linkage.outputs[0])
     assert motion.complete
     assert np.degrees(np.ptp(np.unwrap(swing))) == pytest.approx(60, abs=0.01)
+    # there and back, as that of a four-bar
+    assert transmission_angle(motion).min() == pytest.approx(design.verdict.transmission, abs=1e-3)
 
 
 def test_sizes_do_not_count_where_the_task_has_angles_alone():

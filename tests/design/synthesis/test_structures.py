@@ -62,7 +62,7 @@ CASES = (
     ("timed", INVERTED),
     ("function", TRIAD),
     ("travel", SLIDING_SIX),
-    ("dead centres", WATT),
+    ("dead centres", STEPHENSON),
     ("stroke", SLIDER),
     ("positions", FIVE_BAR),
     ("points", SLIDING_FIVE_BAR),

@@ -19,7 +19,7 @@ from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.curve_matching import resampled
-from gruebler.design.synthesis.fitting import FitState, FitTargets, output_links
+from gruebler.design.synthesis.fitting import FitState, FitTargets, links_moved_by_all, output_links
 from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.mechanics.kinematics import circuit
 
@@ -77,12 +77,13 @@ def first_state(
     if targets.z is None:
         return _of_function(closure, course, targets, link)
     best: _Proposal | None = None
+    carriers = links_moved_by_all(closure.linkage.mechanism)
     for mirrored in (False, True):
         shown = targets.mirrored() if mirrored else targets
         rows = np.unique(np.array([*_proposed(course, shown, rng)], np.int64), axis=0)
         if not len(rows):
             continue
-        for carrier in (link,) if link else closure.links:
+        for carrier in (link,) if link else carriers:
             proposal = _best(closure, course.q, shown, rows, carrier, mirrored=mirrored)
             if proposal is not None and (best is None or proposal.cost < best.cost):
                 best = proposal
@@ -322,6 +323,8 @@ def _of_function(closure: DesignClosure, course: _Course, targets: FitTargets, l
     assert targets.inputs is not None
     assert targets.outputs is not None
     mechanism = closure.linkage.mechanism
+    whole = links_moved_by_all(mechanism)
+    outputs = (link,) if link else [each for each in output_links(mechanism, targets.travel) if each in whole]
     best: tuple[float, Integers, bool, str, float] | None = None
     for mirrored in (False, True):
         shown = targets.mirrored() if mirrored else targets
@@ -330,7 +333,7 @@ def _of_function(closure: DesignClosure, course: _Course, targets: FitTargets, l
         rows = np.array([*_at_inputs(course, shown.inputs)], np.int64)
         if not len(rows):
             continue
-        for output in (link,) if link else output_links(mechanism, targets.travel):
+        for output in outputs:
             values = _outputs(closure, course, output, travel=targets.travel)[rows]
             values = values if targets.travel else np.unwrap(values, axis=1)
             own = values - values.mean(axis=1, keepdims=True)

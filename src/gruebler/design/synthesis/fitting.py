@@ -18,6 +18,7 @@ from gruebler.design.synthesis.target_bands import STAGES, TargetBands, numbers_
 from gruebler.design.synthesis.target_orders import Ranks
 from gruebler.design.synthesis.targets import GuidedCurve
 from gruebler.design.synthesis.tasks import DeadCentreTask, DwellTask, FunctionTask, PathTask, PositionTask, Task
+from gruebler.structure.assur import AssurError, decompose
 from gruebler.structure.mechanism import Mechanism
 
 _STEPS = 150
@@ -146,12 +147,38 @@ def output_links(mechanism: Mechanism, travel: bool, named: str | None = "") -> 
     frame, driven = mechanism.frame, {link for drive in mechanism.drives for link in drive.between}
     if named and not travel:
         return tuple(link for link in mechanism.chain.links if link != frame and link not in driven)
-    held = [
-        [link for link in joint.links if link != frame]
+    held = {
+        link
         for joint in mechanism.chain.joints
         if frame in joint.links and (joint.pair.is_sliding if travel else joint.pair.is_turning)
-    ]
-    return tuple(dict.fromkeys(link for links in held for link in links if travel or link not in driven))
+        for link in joint.links
+        if travel or link not in driven
+    }
+    return tuple(link for link in mechanism.chain.links if link in held)
+
+
+def links_moved_by_all(mechanism: Mechanism) -> tuple[str, ...]:
+    """The moving links whose motion needs every link; those of others need a smaller mechanism, and the rest is idle.
+
+    >>> watt = Mechanism.parse("R(0-1) R(0-2) R(2-3) R(3-1) R(0-4) R(4-5) R(5-1); frame=0; drive=R(0-2)")
+    >>> links_moved_by_all(watt)
+    ('4', '5')
+    """
+    frame = mechanism.frame
+    moving = tuple(link for link in mechanism.chain.links if link != frame)
+    try:
+        found = decompose(mechanism)
+    except AssurError:
+        return moving
+    if not found.complete or not found.groups:
+        return moving
+    needed: list[set[int]] = []
+    for k, group in enumerate(found.groups):
+        needed.append({k}.union(*(needed[before] for before in group.after)))
+    last = {
+        link for group, own in zip(found.groups, needed, strict=True) if len(own) == len(needed) for link in group.links
+    }
+    return tuple(link for link in moving if link in last)
 
 
 @dataclass

@@ -466,7 +466,8 @@ def _carried(
     low, high = path.arcs[order[0]], path.arcs[order[-1]]
     laps = (-1, 0, 1) if course.closed else (0,)
     between = np.concatenate([course.arcs + k * course.length for k in laps])
-    between = between[(between > low) & (between < high)]
+    end = low + course.length if targets.all_round and course.closed else high
+    between = between[(between > low) & (between < end)]
     arcs = np.concatenate([path.arcs, between])
     ranks = np.argsort(arcs, kind="stable")
     drive = course.at(arcs[ranks]).drive()

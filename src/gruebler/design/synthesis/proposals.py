@@ -13,7 +13,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.base.notebook import brief
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.clearances import stays_clear
-from gruebler.design.synthesis.fitting import output_links
+from gruebler.design.synthesis.fitting import links_moved_by_all, output_links
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.results import Design, ParetoRow, Progress, SolutionCount, SynthesisResult, pareto
 from gruebler.design.synthesis.specification import Specification
@@ -85,11 +85,11 @@ def candidate_types(specification: Specification) -> tuple[Mechanism, ...]:
     """The mechanisms of more than four links that can do it: driven at the frame, with an output of the right kind.
 
     A guided body has no joint at the frame; an output turns or slides at it. Each mechanism once, those with fewer
-    sliding joints first. A rest has six-bars of its own.
+    sliding joints first; none of which no such link needs all others. A rest has six-bars of its own.
 
     >>> from gruebler.design.synthesis import DeadCentreTask
     >>> len(candidate_types(Specification(DeadCentreTask(swing=1.0, time_ratio=1.2))))
-    9
+    5
     """
     task = specification.task
     if isinstance(task, DwellTask):
@@ -109,7 +109,16 @@ def candidate_types(specification: Specification) -> tuple[Mechanism, ...]:
             types.update(dict.fromkeys(each.mechanism for each in driven))
     if isinstance(task, PathTask) and task.output_angles:
         return tuple(mechanism for mechanism in types if output_links(mechanism, travel=False))
-    return tuple(types)
+    return tuple(mechanism for mechanism in types if _works_whole(mechanism, specification))
+
+
+def _works_whole(mechanism: Mechanism, specification: Specification) -> bool:
+    """Whether a link that may do the task needs all others: else a smaller mechanism does it, and the rest is idle."""
+    whole = links_moved_by_all(mechanism)
+    if not specification.guides:
+        return any(link in whole for link in output_links(mechanism, output_travels(specification.task)))
+    held = {link for joint in mechanism.chain.joints if mechanism.frame in joint.links for link in joint.links}
+    return any(link not in held for link in whole)
 
 
 def propose(
@@ -176,7 +185,7 @@ def _made(
     for mechanism in types:
         yield (
             mechanism,
-            synthesise_structures(task, [mechanism], demands, starts=starts, idle=False, executor=executor)
+            synthesise_structures(task, [mechanism], demands, starts=starts, executor=executor)
             if unheld is None
             else SynthesisResult(task=task, designs=(), rejected=(), count=none, notes=(unheld,)),
         )

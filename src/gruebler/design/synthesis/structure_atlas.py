@@ -55,15 +55,6 @@ class DyadStructure:
         held = {link for joint in chain.joints if frame in joint.links for link in joint.links}
         return tuple(link for link in chain.links if link not in held)
 
-    def needs_all_links(self, link: str) -> bool:
-        """Whether no dyad is idle while a link moves: else fewer links move it in the same way."""
-        needed = {link}
-        for dyad in reversed(self.dyads):
-            if needed.isdisjoint(dyad.links):
-                return False
-            needed |= {*dyad.links, *dyad.base}
-        return True
-
 
 def dyad_structure(mechanism: Mechanism) -> DyadStructure | None:
     """The solving order, if the mechanism is a crank at the frame and dyads of simple turning joints; None else."""

@@ -5,7 +5,7 @@ A linkage is its drawing in one position, with the point that traces the curve; 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +20,15 @@ from gruebler.design.synthesis.structure_atlas import (
     structure_atlas,
 )
 
-_STAGES = ((1, 10), (5, 30), (16, 300))
-"""Of the neighbours each so many-th is kept, and improved by so many steps."""
+_FIRST, _SECOND, _LAST = (1, 10), (3, 30), (16, 300)
+"""Of the neighbours each so many-th is improved, by so many steps; the first two at some points of the target."""
+_BRED = 4  # times: new linkages from those that there are
+_POOL = 4  # of the neighbours each so many-th has descendants
+_APART = 0.03  # of the size: those of the pool differ by more
+_FAVOUR = 1.5  # the better half of the pool has 63 % of the descendants
+_SHARES, _STEPS = (0.3, 0.5, 0.7), (0.5, 0.8)  # of places from another one; of a difference of two
+_SCATTER = 0.02  # of the size
+_ROUND = np.linspace(0, 2 * np.pi, 64, endpoint=False)  # of the crank
 _THIN = 40  # points of the target that the first stages look at
 _BLOCK = 8_000  # points of curves that are computed at once: their derivatives stay near the processor
 _FARTHEST = 0.2  # radians: how far a crank moves at once
@@ -59,24 +66,44 @@ def fit_drawings(structure: DyadStructure, link: str, z: Complexes, *, closed: b
 
     Each stands at the first target. Cost: 2 ms a neighbour.
     """
-    fit = _CurveFit(structure, link, z)
-    curves = _neighbours(structure, link, z, closed=closed, number=number)
     thin = np.unique(np.linspace(0, len(z) - 1, min(_THIN, len(z))).round().astype(np.int64))
-    sides = assembled_sides(structure, curves.places[:, :-1].T)
-    for share, steps in _STAGES:
-        last = share == _STAGES[-1][0]
-        own = np.argsort(curves.cost, kind="stable")[: max(1, number // share)]
-        curves, sides = curves[own], sides[:, own]
-        turned = curves.turned if last else curves.turned[:, thin]
-        rows = max(1, _BLOCK // turned.shape[1])
-        parts = [slice(k, k + rows) for k in range(0, len(own), rows)]
-        looked = fit if last else _CurveFit(structure, link, z[thin])
-        done = [looked.improved(curves.places[part], turned[part], sides[:, part], steps) for part in parts]
-        places, turned, cost = (np.concatenate(columns) for columns in zip(*done, strict=True))
-        if not last:
-            turned = _spread(turned, thin, curves.turned)
-        curves = DrawnCurves(places=places, turned=turned, cost=cost)
-    return _each_once(_at_first_target(structure, link, curves), fit.size)
+    fit = _CurveFit(structure, link, z)
+    rough = _CurveFit(structure, link, z[thin])
+
+    def improved(curves: DrawnCurves) -> DrawnCurves:
+        """The best of them by the first two stages, each once, drawn where they meet the first target."""
+        sides = assembled_sides(structure, curves.places[:, :-1].T)
+        for share, steps in (_FIRST, _SECOND):
+            own = np.argsort(curves.cost, kind="stable")[: max(1, number // share)]
+            sides, before = sides[:, own], curves.turned[own]
+            curves = rough.improved_in_parts(curves.places[own], before[:, thin], sides, steps)
+            curves = replace(curves, turned=_spread(curves.turned, thin, before))
+        return _each_once(_at_first_target(structure, link, curves), _APART * fit.size)
+
+    first = pool = improved(_neighbours(structure, link, z, closed=closed, number=number))
+    chance = np.random.default_rng(1)
+    for _ in range(_BRED if len(pool.cost) else 0):
+        pool = _chosen(structure, pool, max(1, number // _POOL), closed=closed)
+        both = [pool, improved(_bred(pool, number, fit.size, chance))]
+        pool = _each_once(_together(both), _APART * fit.size)
+    chosen = [_chosen(structure, each, max(1, number // _LAST[0]), closed=closed) for each in (first, pool)]
+    best = _each_once(_together(chosen), _APART * fit.size)
+    sides = assembled_sides(structure, best.places[:, :-1].T)
+    best = fit.improved_in_parts(best.places, best.turned, sides, _LAST[1])
+    return _each_once(_at_first_target(structure, link, best), _SAME * fit.size)
+
+
+def _bred(pool: DrawnCurves, count: int, size: float, chance: np.random.Generator) -> DrawnCurves:
+    """Linkages with some places of another one, or moved by a part of the difference of two, as much each time."""
+    rows, joints = pool.places.shape
+    own, other, third = (rows * chance.random((3, count)) ** _FAVOUR).astype(np.int64)
+    a, b, c = (pool.places[which] for which in (own, other, third))
+    share, step = chance.choice(_SHARES, (count, 1)), chance.choice(_STEPS, (count, 1))
+    taken = chance.random((count, joints)) < share
+    given = np.where(chance.random((count, 1)) < 1 / 2, b, a + step * (b - c))
+    scatter = chance.normal(size=(2, count, joints))
+    places = np.where(taken, given, a) + _SCATTER * size * (scatter[0] + 1j * scatter[1])
+    return DrawnCurves(places=places, turned=pool.turned[own], cost=np.zeros(count))
 
 
 def _neighbours(structure: DyadStructure, link: str, z: Complexes, *, closed: bool, number: int) -> DrawnCurves:
@@ -117,13 +144,37 @@ def _at_first_target(structure: DyadStructure, link: str, curves: DrawnCurves) -
     return DrawnCurves(places=np.stack(places, axis=1), turned=curves.turned - curves.turned[:, :1], cost=curves.cost)
 
 
-def _each_once(curves: DrawnCurves, size: float) -> DrawnCurves:
-    """The best first, without those that cannot be assembled, and without any that is a better one again."""
+def _together(parts: list[DrawnCurves]) -> DrawnCurves:
+    """All linkages of the parts."""
+    columns = zip(*((part.places, part.turned, part.cost) for part in parts), strict=True)
+    places, turned, cost = map(np.concatenate, columns)
+    return DrawnCurves(places=places, turned=turned, cost=cost)
+
+
+def _led_through(structure: DyadStructure, curves: DrawnCurves, *, closed: bool) -> NDArray[np.bool_]:
+    """Whether the crank turns one way from target to target, of a closed curve once round without stopping."""
+    turned = np.where(curves.turned[:, -1:] < curves.turned[:, :1], -curves.turned, curves.turned)
+    if not closed:
+        return np.asarray((np.diff(turned) > 0).all(axis=1))
+    turned = np.append(turned, turned[:, :1] + 2 * np.pi, axis=1)
+    motions = link_motions(structure, curves.places[:, :-1].T, _ROUND[None])
+    assembled = np.isfinite(sum(rotation for rotation, _ in motions.values())).all(axis=1)
+    return np.asarray((np.diff(turned) > 0).all(axis=1) & assembled)
+
+
+def _chosen(structure: DyadStructure, curves: DrawnCurves, count: int, *, closed: bool) -> DrawnCurves:
+    """The first ones, half of them such as are led through all targets, if there are so many."""
+    led = np.flatnonzero(_led_through(structure, curves, closed=closed))[: count // 2]
+    return curves[np.array([*dict.fromkeys([*led, *range(len(curves.cost))])][:count], np.int64)]
+
+
+def _each_once(curves: DrawnCurves, apart: float) -> DrawnCurves:
+    """The best first, without those that cannot be assembled, and without any that is no further from a better one."""
     kept: list[int] = []
     for n in np.argsort(curves.cost, kind="stable"):
         if not np.isfinite(curves.cost[n]):
             break
-        if all(np.abs(curves.places[n] - curves.places[k]).max() > _SAME * size for k in kept):
+        if not kept or np.abs(curves.places[kept] - curves.places[n]).max(axis=1).min() > apart:
             kept.append(int(n))
     return curves[np.array(kept, np.int64)]
 
@@ -207,6 +258,13 @@ class _CurveFit:
         # Links that do not carry the point have to be assembled, too.
         assembled = np.isfinite(sum(rotation for rotation, _ in motions.values())).all(axis=1)
         return turned, np.where(assembled & np.isfinite(cost), cost, np.inf)
+
+    def improved_in_parts(self, places: Complexes, turned: Reals, sides: Reals, steps: int) -> DrawnCurves:
+        """The same for many linkages, some at once, so that their numbers stay near the processor."""
+        rows = max(1, _BLOCK // turned.shape[1])
+        parts = [slice(k, k + rows) for k in range(0, len(places), rows)]
+        done = [self.improved(places[part], turned[part], sides[:, part], steps) for part in parts]
+        return _together([DrawnCurves(places=p, turned=t, cost=c) for p, t, c in done])
 
     def improved(self, places: Complexes, turned: Reals, sides: Reals, steps: int) -> tuple[Complexes, Reals, Reals]:
         """Places, crank angles and costs after so many steps, fewer where nothing is gained any more."""

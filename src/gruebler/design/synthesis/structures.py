@@ -21,7 +21,15 @@ from gruebler.base.text import Message, joined_by_and, message
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.first_states import first_state
-from gruebler.design.synthesis.fitting import FitState, FitTargets, fit_stages, fit_targets, improved, output_links
+from gruebler.design.synthesis.fitting import (
+    FitState,
+    FitTargets,
+    fit_stages,
+    fit_targets,
+    improved,
+    links_moved_by_all,
+    output_links,
+)
 from gruebler.design.synthesis.judging import (
     EXACT_AT_MOST,
     Demands,
@@ -43,7 +51,7 @@ from gruebler.design.synthesis.results import (
 from gruebler.design.synthesis.structure_atlas import dyad_structure
 from gruebler.design.synthesis.structure_curves import fit_drawings
 from gruebler.design.synthesis.targets import Probe, Targets, point_targets
-from gruebler.design.synthesis.tasks import FunctionTask, PathTask, PositionTask, Task
+from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
 from gruebler.mechanics.kinematics.solve import cached_plan
@@ -64,7 +72,6 @@ def synthesise_structures(
     *,
     starts: int | None = None,
     link: str = "",
-    idle: bool = True,
     executor: Executor | Callable[[], Executor] | None = None,
     progress: Progress | None = None,
 ) -> SynthesisResult:
@@ -78,7 +85,6 @@ def synthesise_structures(
         starts: how many are improved to the end of each mechanism: by default the best 24 of 1,920 neighbours from the
             atlas of its structure (a crank and dyads of turning joints, for a path), or 4 realisations of any other.
         link: that is guided, or whose motion is the output; for each start the one that is most alike without it.
-        idle: whether links carry the point, too, that fewer links move in the same way.
         executor: see `enumeration.worker_pool.run_work`; the answer is the same with any.
         progress: called with the starts done and their number.
 
@@ -95,7 +101,7 @@ def synthesise_structures(
     targets = fit_targets(task)
     for mechanism in mechanisms:
         _check(mechanism, targets, link)
-    jobs = [job for mechanism in mechanisms for job in _jobs(task, targets, mechanism, starts, link, idle=idle)]
+    jobs = [job for mechanism in mechanisms for job in _jobs(task, targets, mechanism, starts, link)]
     work = partial(_fitted, task, wanted, link)
     candidates: list[Design] = []
     placed = isinstance(task, PositionTask | PathTask)
@@ -117,8 +123,6 @@ def synthesise_structures(
         count=len(jobs),
         limit=_limit(wanted),
     )
-    if not jobs:
-        note = message("fewer links move each link that could carry the point in the same way")
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(candidates), real=len(candidates))
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
 
@@ -206,6 +210,14 @@ def _check(mechanism: Mechanism, targets: FitTargets, link: str) -> None:
             links=", ".join(other for other in chain.links if other != frame),
             link=link,
         )
+    whole = links_moved_by_all(mechanism)
+    if targets.z is None:
+        whole = tuple(each for each in output_links(mechanism, targets.travel) if each in whole)
+    if not link and not whole:
+        raise SynthesisError(
+            "no link of {mechanism!r} needs all others to move it: a smaller mechanism does the same",
+            mechanism=mechanism.text(),
+        )
     report = check_drives(mechanism)
     if report.mobility < 1:
         raise SynthesisError("{mechanism!r} has no mobility: there is nothing to drive", mechanism=mechanism.text())
@@ -228,18 +240,16 @@ class _Job(NamedTuple):
     """How many designs are judged."""
 
 
-def _jobs(
-    task: Task, targets: FitTargets, mechanism: Mechanism, starts: int | None, link: str, *, idle: bool
-) -> list[_Job]:
+def _jobs(task: Task, targets: FitTargets, mechanism: Mechanism, starts: int | None, link: str) -> list[_Job]:
     """The starts of one mechanism: from the atlas of its structure if it has one, else so many realisations."""
     points_alone = targets.angles is None and targets.inputs is None and not targets.ranks
     if isinstance(task, PathTask) and not task.mixed and points_alone:
         structure = dyad_structure(mechanism)
-        links = () if structure is None else structure.coupler_links
+        whole = set(links_moved_by_all(mechanism)) | {link}
+        links = () if structure is None else tuple(each for each in structure.coupler_links if each in whole)
         if links and (not link or link in links):
-            named = (link,) if link else links
-            fitted = named if idle or structure is None else tuple(filter(structure.needs_all_links, named))
-            kept = -(-(starts or _KEPT) // len(named))
+            fitted = (link,) if link else links
+            kept = -(-(starts or _KEPT) // len(fitted))
             return [_Job(mechanism, 0, each, kept) for each in fitted]
     return [_Job(mechanism, seed) for seed in range(starts or _REALISATIONS)]
 
@@ -305,10 +315,11 @@ def fit_structure(
     for targets in stages:
         state = improved(closure, state, targets)
     outputs = (state.output,) if state.output else first.linkage.outputs
-    return _judged(stages[-1], demands or Demands(), closure, state, outputs)
+    return _judged(task, stages[-1], demands or Demands(), closure, state, outputs)
 
 
 def _judged(
+    task: Task,
     targets: FitTargets,
     demands: Demands,
     closure: DesignClosure,
@@ -321,7 +332,7 @@ def _judged(
         linkage = closure.with_sizes(state.p, points, state.q[0]).with_outputs(outputs)
     except LinkageError:
         return None
-    wanted = _wanted(closure, targets, state)
+    wanted = replace(_wanted(closure, targets, state), there_and_back=isinstance(task, DeadCentreTask))
     limit = _limit(demands)
     if targets.bands is not None:
         wanted = replace(wanted, allowed=targets.bands.band / targets.size)

@@ -77,6 +77,13 @@ class Targets:
     """(targets,) how far each may be missed, an unlimited one as the demands say; None if this holds for all."""
     ranks: Ranks = ()
     """The order in which they are to be passed, as of a task."""
+    there_and_back: bool = False
+    """Whether the way back to the first target belongs to the task, as of dead centres."""
+
+    @property
+    def all_round(self) -> bool:
+        """Whether the way goes on from the last target to the first one."""
+        return self.there_and_back or self.curve is GuidedCurve.CLOSED
 
     @property
     def in_any_order(self) -> bool:
