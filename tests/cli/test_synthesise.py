@@ -11,10 +11,13 @@ from scipy.spatial.transform import Rotation
 
 import gruebler as gr
 from gruebler.cli import main
+from gruebler.cli.design_tables import _lengths
 from gruebler.design.synthesis.positions import guiding_dyads
 from gruebler.files import linkage_from_json, read_linkage
 from gruebler.files.tasks import task_from_json
 from gruebler.mechanics.kinematics import move
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.mechanism import Mechanism
 
 FIVE = """x,y,angle
 1.167361074190,1.604268422500,49.038042711511
@@ -255,6 +258,20 @@ def test_lengths_have_their_letters_and_german_names_their_language(capsys):
     out = capsys.readouterr().out
     assert "D(Gestell-Kurbel)" in out
     assert "a = 23,52; b = 63,96; e = -19,93" in out
+
+
+def test_offsets_of_several_slides_have_the_names_of_their_joints():
+    """Pins at (0, 0) and (4, 1): the second lies 1 to the left of a level way and 4 to the right of an upright one."""
+    mechanism = Mechanism.parse("R(frame-crank) P(crank-coupler) R(coupler-slider) P(frame-slider); frame=frame")
+    places = {
+        "R(frame-crank)": (0, 0),
+        "P(crank-coupler)": (4, 2, 0),
+        "R(coupler-slider)": (4, 1),
+        3: (3, 9, np.pi / 2),
+    }
+    linkage = Linkage.from_drawing(mechanism, places)
+    assert _lengths(linkage, "en") == "e P(crank-coupler) = 1, e P(frame-slider) = -4"
+    assert _lengths(linkage, "de") == "e S(Kurbel-Koppel) = 1; e S(Gestell-Schieber) = -4"
 
 
 def test_the_two_sides_of_a_design_have_the_symbols_of_the_language(five, capsys):

@@ -203,8 +203,8 @@ def _named(linkage: Linkage, lang: str) -> Linkage:
 def _lengths(linkage: Linkage, lang: str) -> str:
     """The distances of the pins of each link, and the offset e of each slide."""
     lengths = list[str]()
-    named = _named(linkage, lang).mechanism.chain.links
-    for link, name in sorted(zip(linkage.mechanism.chain.links, named, strict=True), key=_by_letter):
+    named = _named(linkage, lang).mechanism.chain
+    for link, name in sorted(zip(linkage.mechanism.chain.links, named.links, strict=True), key=_by_letter):
         own = [element for (_, owner), element in linkage.elements.items() if owner == link]
         pins = [complex(e.x, e.y) for e in own if e.is_pin]
         between = [abs(p - q) for k, p in enumerate(pins) for q in pins[:k]]
@@ -212,7 +212,7 @@ def _lengths(linkage: Linkage, lang: str) -> str:
             values = " ".join(number(length, lang, "n") for length in between)
             lengths.append(f"{_LETTERS.get(link, name)} = {values}")
     slides = slide_offsets(linkage)
-    joints = linkage.mechanism.chain.joint_names(Alphabet.of_language(lang))
+    joints = named.joint_names(Alphabet.of_language(lang))
     for slide in slides:
         offset = _without_rounding(slide.offset, linkage)
         if offset or slide.link == linkage.mechanism.frame:
