@@ -16,7 +16,7 @@ from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import SynthesisError, naming
 from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.specification import Clearance, Specification
-from gruebler.files.tasks import read_task, task_from_json
+from gruebler.files.tasks import counting_from_one, read_task, task_from_json
 
 
 class _Demands(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -53,7 +53,7 @@ def specification_from_json(document: Mapping[str, Any]) -> Specification:
     0.6981
     """
     own = {name: document[name] for name in _Specification.__struct_fields__ if name in document}
-    record = convert_document(own, _Specification, SynthesisError)
+    record = convert_document(own, _Specification, counting_from_one)
     task = task_from_json({name: value for name, value in document.items() if name not in own})
     values = msgspec.structs.asdict(record.demands)
     return Specification(

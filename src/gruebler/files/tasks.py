@@ -20,7 +20,7 @@ import msgspec
 from gruebler.base.atomic_files import atomic_file
 from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import SynthesisError, UnitWarning, naming
-from gruebler.base.text import Message
+from gruebler.base.text import Message, joined
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.tasks import (
     DeadCentreTask,
@@ -114,10 +114,17 @@ def _radians(value: Any, where: Message | str) -> float:
 
 
 def counting_from_one(problem: Message) -> SynthesisError:
-    """The error of a key such as ``points[2][1]``, which is told as that of the third point."""
-    if parts := re.match(r"(\w+)\[(\d+)\]", str(problem.values.get("key", ""))):
-        problem = problem.filled(key=numbered_entry(parts[1], int(parts[2])))
-    return SynthesisError(problem)
+    """The error of a key such as ``points[2][1]``, which is told as that of point 3.
+
+    >>> print(counting_from_one(Message("{key}: expected a number", {"key": "clear[0].body[2][1]"})))
+    clear 1, body 3: expected a number
+    """
+    key = str(problem.values.get("key", ""))
+    if "[" not in key:
+        return SynthesisError(problem)
+    entries = [(part, re.match(r"(\w+)\[(\d+)\]", part)) for part in key.split(".")]
+    names = [part if entry is None else numbered_entry(entry[1], int(entry[2])) for part, entry in entries]
+    return SynthesisError(problem.filled(key=joined(names)))
 
 
 def task_from_json(document: Mapping[str, Any]) -> Task:

@@ -232,6 +232,10 @@ def test_files_have_all_keys(tmp_path):
             },
             "distance: expected a length, at least 0, but found -1",
         ),
+        (
+            {"points": [[0, 0], [1, 1]], "clear": [{"body": [[0, 0], [1, "x"]], "obstacle": [[0, 2], [1, 2]]}]},
+            "clear 1, body 2: expected a number, but found 'x'",
+        ),
     ],
 )
 def test_mistakes_name_their_key(document, words):
