@@ -46,9 +46,13 @@ export function tabs(keys: string[], chosen: string, turnTo: (key: string) => vo
     return h("button", { role: "tab", ...state, onclick: () => turnTo(key) }, names[key]!);
   };
   const list = h("nav", { role: "tablist", onkeydown: step }, ...keys.map(tab));
-  // on a phone they are wider than the screen: the chosen one stands in the middle, the page where it is
+  return centred(list);
+}
+
+/** On a phone tabs are wider than the screen: the chosen one stands in the middle, the page where it is. */
+export function centred(list: HTMLElement): HTMLElement {
   requestAnimationFrame(() => {
-    const here = list.querySelector<HTMLElement>('[aria-selected="true"]')!;
+    const here = list.querySelector<HTMLElement>('[aria-selected="true"], [aria-current]')!;
     list.scrollLeft = here.offsetLeft - list.offsetLeft - (list.clientWidth - here.offsetWidth) / 2;
   });
   return list;

@@ -385,9 +385,17 @@ def test_several_drives_have_short_names_and_the_bar_one_row(tmp_path, chromium)
 
 def test_the_way_back_leads_to_the_other_views(server, chromium):
     browser, page, errors = browsed_at(chromium, server.address + "space/universal_joint.html#de")
+    page.set_viewport_size({"width": 1280, "height": 720})
+    tabs = "() => [...gruebler.root.querySelectorAll('nav > *')].map((tab) => tab.getBoundingClientRect().x)"
+    places = page.locator("nav > a").evaluate_all("(all) => all.map((tab) => tab.getBoundingClientRect().x)")
     page.get_by_role("link", name="Katalog").click()
     page.locator(".view.shown h2", has_text="Katalog").wait_for()
+    assert page.evaluate(tabs) == pytest.approx(places, abs=0.5)  # they stay where they are
     page.locator('[data-id="gough"]').click()
+    page.locator("header small", has_text="Gough-Plattform").wait_for()
+    page.get_by_role("button", name="Datei öffnen").click()  # on the page above
+    page.locator('.motion.shown [data-panel="sizes"]').wait_for()
+    page.go_back()
     page.locator("header small", has_text="Gough-Plattform").wait_for()
     page.go_back()
     page.locator(".view.shown h2", has_text="Katalog").wait_for()

@@ -78,22 +78,30 @@ export function seen(matrix: Float32Array, p: Vector): [number, number] {
   return [row(0) / row(3), row(1) / row(3)];
 }
 
-/** A camera from the same side that sees all places, in a picture so many times as wide as high. */
+/** A camera from the same side that has all places in the middle of a picture so many times as wide as high. */
 export function fitted(camera: Camera, wide: number, places: Vector[]): Camera {
   const { right, up, near } = axes(camera);
-  const ends = [right, up, near].map((axis) => {
-    const along = places.map((place) => dot(axis, place));
-    const [low, high] = [along.reduce((a, b) => Math.min(a, b)), along.reduce((a, b) => Math.max(a, b))];
-    return (low + high) / 2;
-  });
-  const [h, v, n] = ends as Vector;
+  const all = places.map((place) => [right, up, near].map((axis) => dot(axis, place)) as Vector);
+  const between = (value: (place: Vector) => number): number => {
+    const [low, high] = [Math.min, Math.max].map((most) => all.map(value).reduce((one, other) => most(one, other)));
+    return (low! + high!) / 2;
+  };
+  let [h, v, n] = [0, 1, 2].map((k) => between((place) => place[k]!)) as Vector;
+  const needed = ([x, y, z]: Vector) => {
+    const part = Math.max(Math.abs(x - h) / Math.max(wide, 1), Math.abs(y - v) * Math.min(wide, 1));
+    return z - n + (OPENING * part) / FILLED;
+  };
+  let distance = 0;
+  for (let k = 0; k < 4; k++) {
+    if (k) {
+      // what is near is seen larger: the middle of the picture is not that of the places
+      const [x, y] = [0, 1].map((axis) => between((at) => (at[axis]! - [h, v][axis]!) / (distance - at[2] + n)));
+      [h, v] = [h + distance * x!, v + distance * y!];
+    }
+    distance = all.reduce((most, place) => Math.max(most, needed(place)), 1e-9);
+  }
   const middle = right.map((r, k) => h * r + v * up[k]! + n * near[k]!) as Vector;
-  const needed = places.map((place) => {
-    const d = minus(place, middle);
-    const [x, y] = [Math.abs(dot(d, right)) / Math.max(wide, 1), Math.abs(dot(d, up)) * Math.min(wide, 1)];
-    return dot(d, near) + (OPENING * Math.max(x, y)) / FILLED;
-  });
-  return { ...camera, middle, distance: needed.reduce((a, b) => Math.max(a, b), 1e-9) };
+  return { ...camera, middle, distance };
 }
 
 /** The ray through a place of the picture. */

@@ -32,7 +32,8 @@ export class Scene {
   readonly #painter: Painter | null = null;
   #camera: Camera;
   #whole = true;
-  #level = 0;
+  /** The lowest and the highest coordinates of what stands on the floor. */
+  readonly #extent: [Vector, Vector];
   #step = 1;
   readonly #colours = new Map<string, Vector>();
   readonly #fingers = new Map<number, PointerEvent>();
@@ -49,9 +50,11 @@ export class Scene {
     } catch {
       // it is said when the page is arranged
     }
-    const corners = this.#corners();
-    this.#level = corners.reduce((low, [, , z]) => Math.min(low, z), Infinity) - 0.01 * size;
     this.#step = gridStep(size / 6);
+    const corners = this.#corners();
+    const ends = (least: typeof Math.min) =>
+      [0, 1, 2].map((k) => corners.reduce((a, at) => least(a, at[k]!), corners[0]![k]!));
+    this.#extent = [ends(Math.min) as Vector, ends(Math.max) as Vector];
     const { root } = this;
     root.addEventListener("pointerdown", (event) => this.#down(event));
     root.addEventListener("pointermove", (event) => this.#move(event));
@@ -86,11 +89,11 @@ export class Scene {
 
   // --- where from ----------------------------------------------------------------------------------------------------
 
-  /** The corners of all bodies in the poses that are reached. */
-  #corners(): Vector[] {
+  /** The corners of all bodies in poses, those that are reached at first. */
+  #corners(reached = this.machine.reached()): Vector[] {
     const { bodies, glass } = this.machine.data;
     const all = [...bodies.map((body, link) => ({ ...body, link })), ...glass];
-    return this.machine.reached().flatMap((poses) =>
+    return reached.flatMap((poses) =>
       all.flatMap(({ vertices, link }) => {
         const places: Vector[] = [];
         for (let k = 0; k < vertices.length; k += 3)
@@ -141,6 +144,7 @@ export class Scene {
     const { eye, right, up, near } = axes(this.#camera);
     const lamp = near.map((n, k) => 0.62 * n + 0.66 * up[k]! - 0.42 * right[k]!) as Vector;
     const { poses } = machine;
+    if (machine.data.live) this.#sink(poses);
     const lines: Drawn[] = this.shown.floor
       ? [{ colour: this.#colour("--grid"), pairs: true, places: this.#floor() }]
       : [];
@@ -173,16 +177,22 @@ export class Scene {
 
   /** The lines of the floor. */
   #floor(): Vector[] {
-    const [level, step] = [this.#level, this.#step];
-    const { middle, size } = this.machine.data;
-    const half = step * Math.ceil((0.75 * size) / step);
-    const [x, y] = [step * Math.round(middle[0] / step), step * Math.round(middle[1] / step)];
+    const step = this.#step;
+    const [low, high] = this.#extent;
+    const level = low[2] - 0.01 * this.machine.data.size;
+    const ends = [low, high].map((end, k) => end.map((v) => Math.round(v / step) + 2 * k - 1));
+    const [[left, front], [right, back]] = ends as [Vector, Vector];
     const places: Vector[] = [];
-    for (let k = -half; k <= half + step / 2; k += step) {
-      places.push([x + k, y - half, level], [x + k, y + half, level]);
-      places.push([x - half, y + k, level], [x + half, y + k, level]);
-    }
+    for (let k = left; k <= right; k++) places.push([k * step, front * step, level], [k * step, back * step, level]);
+    for (let k = front; k <= back; k++) places.push([left * step, k * step, level], [right * step, k * step, level]);
     return places;
+  }
+
+  /** Where several drives may go is not known before: the floor goes down by whole steps. */
+  #sink(poses: ArrayLike<number>[]): void {
+    const [low] = this.#extent;
+    const deep = this.#corners([poses]).reduce((z, at) => Math.min(z, at[2]), low[2]);
+    low[2] -= this.#step * Math.ceil((low[2] - deep) / this.#step);
   }
 
   /** A colour of the style sheet; to ask for one makes the browser apply all of it. */

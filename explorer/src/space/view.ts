@@ -5,7 +5,7 @@ import { choice, h, renew } from "../dom";
 import { download } from "../export";
 import { FactList } from "../factlist";
 import type { Fact } from "../facts";
-import { languageMenu, sayIn, viewNames } from "../header";
+import { centred, languageMenu, saving, sayIn, viewNames } from "../header";
 import { drivenBy, showRows } from "../help";
 import { angle, currentLanguage, number, t } from "../language";
 import { firstTheme, panelOf, setTheme, shell, tool } from "../shell";
@@ -80,7 +80,7 @@ export class SpaceView implements Driven {
       h("h1", {}, "gruebler ", h("small", {}, title)),
       ...(this.data.home ? [this.#ways()] : []),
       h("span.spring", {}),
-      ...(this.data.home ? [tool("link", t("Copy the link"), () => void this.#share())] : []),
+      ...(this.data.home ? this.#tools() : []),
       tool("theme", t("Light or dark"), () => {
         setTheme(this.#host, this.#host.dataset.theme === "dark" ? "light" : "dark", true);
         this.scene.recoloured();
@@ -100,12 +100,24 @@ export class SpaceView implements Driven {
 
   /** The ways to the other views, which are on the page above. */
   #ways(): HTMLElement {
-    const above = location.protocol === "file:" ? "../index.html" : "../";
-    const way = ([key, name]: [string, string]) =>
-      key === "motion"
-        ? h("a", { "aria-current": "page" }, name)
-        : h("a", { href: `${above}#${currentLanguage()}/${key}` }, name);
-    return h("nav", {}, ...Object.entries(viewNames()).map(way));
+    const way = ([key, name]: [string, string]) => {
+      const to: Record<string, string> = key === "motion" ? { "aria-current": "page" } : { href: this.#above(key) };
+      return h("a", { ...to, "data-text": name }, name);
+    };
+    return centred(h("nav", {}, ...Object.entries(viewNames()).map(way)));
+  }
+
+  #above(view: string): string {
+    return `${location.protocol === "file:" ? "../index.html" : "../"}#${currentLanguage()}/${view}`;
+  }
+
+  /** As in the other views: files are opened on the page above, and what this one lacks keeps its room. */
+  #tools(): HTMLElement[] {
+    const away = [tool("undo", "", () => {}), tool("redo", "", () => {}), saving(() => {})];
+    for (const one of away) one.classList.add("away");
+    const open = tool("open", t("Open a file"), () => location.assign(this.#above("motion")));
+    away.splice(2, 0, open);
+    return [...away, tool("link", t("Copy the link"), () => void this.#share())];
   }
 
   #panels(): HTMLElement[] {
