@@ -54,7 +54,8 @@ export function factsOf(linkage: Linkage, { dead, least }: Found, inLap: (angle:
     facts.push({ name: t("Transmission angle μ"), text: angle(mu), style: mu < GOOD ? "bad" : "good" });
     if (least) {
       const place = driveText(linkage, placeOf(linkage, least.value), 4);
-      const link = least.link !== null && linkage.linkName(least.link);
+      // of four links it is no question which one pushes
+      const link = least.link !== null && model.own > 4 && linkage.linkName(least.link);
       const note = link ? t("at {place} (leg {link})", { place, link }) : t("at {place}", { place });
       facts.push({ name: t("Smallest μ"), text: angle(least.mu), note, style: least.mu < GOOD ? "bad" : "good" });
     }

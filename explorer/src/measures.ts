@@ -22,7 +22,7 @@ interface Low {
   mu: number;
 }
 
-/** The smallest one, with the link that pushes there if several push. */
+/** The smallest one, with the link that pushes there; null if it is the same throughout. */
 export interface Least extends Low {
   link: number | null;
 }
@@ -100,7 +100,7 @@ export function transmission(linkage: Linkage, rows: Rows, row: number): number 
   return leastOfLegs(linkage, (leg) => forceAndWay(linkage, rows, row, leg))[0];
 }
 
-/** The smallest of the angles of the legs, whose cosines and sines are given, and the leg's link if there are more. */
+/** The smallest of the angles of the legs, whose cosines and sines are given, and the link of that leg. */
 function leastOfLegs({ model }: Linkage, cosineAndSine: (leg: Leg) => Pair): [number, number | null] {
   const legs = model.outputs[0]?.legs ?? [];
   const angles = legs.map((leg) => {
@@ -108,7 +108,7 @@ function leastOfLegs({ model }: Linkage, cosineAndSine: (leg: Leg) => Pair): [nu
     return Math.atan2(Math.abs(real), Math.abs(imag));
   });
   const mu = angles.length ? Math.min(...angles) : NaN;
-  return [mu, legs.length > 1 ? (legs[angles.indexOf(mu)]?.from[0] ?? null) : null];
+  return [mu, legs[angles.indexOf(mu)]?.from[0] ?? null];
 }
 
 /** Cosine and sine between the force of a leg and the way of the point on which it acts. */

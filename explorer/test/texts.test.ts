@@ -136,6 +136,8 @@ test("what is read off a four-bar", () => {
   const where = () => factsOf(linkage, found, (value) => value).find(({ name }) => name === "Smallest μ")!.note;
   assert.equal(where(), "at 0°");
   found.least.link = COUPLER;
+  assert.equal(where(), "at 0°");
+  linkage.model.own = 6;
   assert.equal(where(), "at 0° (leg coupler)");
   inGerman(() => assert.equal(facts()[0]![0], "Abtrieb Schwinge"));
 });
