@@ -168,6 +168,7 @@ def test_a_finger_takes_a_point_of_the_plane(tab, server):
     # while it looks for linkages, what gives that up stands over the button that began it
     for x, y in ((20, -20), (0, -30), (-20, -20), (-20, 10)):
         page.page.touchscreen.tap(*page.target(x, y))
+    page.page.set_viewport_size({"width": 390, "height": 700})  # the plane goes farther down
     assert page.page.evaluate("""() => {
         const { root } = gruebler;
         root.querySelector('[data-act="synthesise"]').click();
