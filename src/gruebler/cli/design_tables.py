@@ -20,6 +20,7 @@ from gruebler.design.synthesis.sensitivity import slide_offsets
 from gruebler.design.synthesis.tasks import gives_lengths
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain.pairs import Alphabet
+from gruebler.structure.mechanism.inversion import family
 
 _REJECTED = 5  # rejected designs that are listed without --rejected, if no other is there
 _COLUMNS = (
@@ -133,7 +134,7 @@ def print_pareto(result: SynthesisResult, lang: str) -> None:
             number(row.size, lang, "n"),
             str(row.links),
             _shift(row.design, lang),
-            _named(row.design.linkage, lang).mechanism.text(Alphabet.of_language(lang)),
+            _structure(row.design.linkage, lang),
         ]
         for row in pareto(result)
     ]
@@ -142,6 +143,13 @@ def print_pareto(result: SynthesisResult, lang: str) -> None:
     print(translate("Not beaten in error, transmission angle, size and number of links at once:", lang))
     headers = (*_PARETO, size, message("links"), message("shift"), message("structure"))
     print_table(headers, rows, numbers=[0, 1, 2, 3, 4, 5], lang=lang)
+
+
+def _structure(linkage: Linkage, lang: str) -> str:
+    """The family of a mechanism and its drives; of one without a name all its joints."""
+    mechanism, alphabet = _named(linkage, lang).mechanism, Alphabet.of_language(lang)
+    known = family(linkage.mechanism, lang)
+    return f"{known}: {', '.join(mechanism.drive_names(alphabet))}" if known else mechanism.text(alphabet)
 
 
 def _row(position: int, design: Design, lang: str) -> list[Cell]:
