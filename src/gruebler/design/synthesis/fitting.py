@@ -167,16 +167,16 @@ def links_moved_by_all(mechanism: Mechanism) -> tuple[str, ...]:
     frame = mechanism.frame
     moving = tuple(link for link in mechanism.chain.links if link != frame)
     try:
-        found = decompose(mechanism)
+        order = decompose(mechanism)
     except AssurError:
         return moving
-    if not found.complete or not found.groups:
+    if not order.complete or not order.groups:
         return moving
     needed: list[set[int]] = []
-    for k, group in enumerate(found.groups):
+    for k, group in enumerate(order.groups):
         needed.append({k}.union(*(needed[before] for before in group.after)))
     last = {
-        link for group, own in zip(found.groups, needed, strict=True) if len(own) == len(needed) for link in group.links
+        link for group, own in zip(order.groups, needed, strict=True) if len(own) == len(needed) for link in group.links
     }
     return tuple(link for link in moving if link in last)
 
