@@ -57,7 +57,8 @@ export function gridOf({ left, right, bottom, top, unit }: Area, [across = "", u
   }
   for (let k = Math.ceil(bottom / step); k * step < top; k++) {
     lines.push(line(k, `M${left} ${-k * step}H${right}`));
-    if (k % 2 === 0 && k * step < top - 5 * unit) ticks.push(tick(left + unit, k * step + unit, number(k * step)));
+    if (k % 2 === 0 && k * step < top - 5 * unit && k * step > bottom + 6 * unit)
+      ticks.push(tick(left + unit, k * step + unit, number(k * step)));
   }
   return [...lines, ...ticks];
 }

@@ -26,6 +26,8 @@ export interface Design extends Moving {
 export interface Found {
   total: number;
   refused: number;
+  /** Whether linkages of any size do it. */
+  relative?: boolean;
   /** Whether the transmission angle counts in all positions, not only on the way. */
   whole?: boolean;
   items: Design[];
@@ -111,14 +113,19 @@ export class DesignCards {
       ["shift", t("by sensitivity")],
     ];
     if (this.#exact) orders.shift();
-    const words: [boolean, string][] = [
-      [this.#order === "balanced", t("Balanced: transmission angle, size and sensitivity count alike.")],
-      [this.#exact && shown > 0, t("All meet the targets exactly.")],
-      [found.items.some(({ lengths }) => lengths.length), t("Lengths in mm: crank · coupler · rocker · frame.")],
-      [
-        found.items.some(({ shift }) => shift),
+    const lengths = t("Lengths: crank · coupler · rocker · frame");
+    const words = [
+      this.#order === "balanced" && t("Balanced: transmission angle, size and sensitivity count alike."),
+      found.items.some((each) => each.lengths.length) &&
+        `${lengths}${found.relative ? `; ${t("only their ratios count")}` : ", mm"}.`,
+      found.items.some(({ shift }) => shift) &&
         t("Sensitivity: how far a target is off at most, if all lengths are 0.1 % wrong."),
-      ],
+    ];
+    const refused = found.refused > 1 && t("{count} others do not meet what is asked.", { count: found.refused });
+    const told = [
+      found.note,
+      this.#exact && shown > 0 && t("All meet the targets exactly."),
+      refused || (found.refused && t("One other does not meet what is asked.")),
     ];
     const [mine, more] = [false, true].map((like) => this.#shown.filter(({ variant }) => !!variant === like)) as [
       Design[],
@@ -131,8 +138,7 @@ export class DesignCards {
     renew(
       this.element,
       h("h2", {}, t("{shown} of {count} designs", { shown, count: found.total })),
-      h("p.note", {}, found.note ?? ""),
-      h("p.note", {}, found.refused ? t("{count} others do not meet what is asked.", { count: found.refused }) : ""),
+      h("p.note", {}, told.filter((text) => text).join(" ")),
       shown > 1
         ? h(
             "div.form",
@@ -143,7 +149,7 @@ export class DesignCards {
             }),
           )
         : "",
-      h("p.note", {}, words.flatMap(([said, text]) => (said ? [text] : [])).join(" ")),
+      h("details.words", {}, h("summary", {}, t("In words")), h("p.note", {}, words.filter((text) => text).join(" "))),
       h("div.cards.sorted", { "data-list": "designs" }, ...mine.map((design) => this.#card(design))),
       more.length
         ? h(
@@ -178,7 +184,7 @@ export class DesignCards {
       h("span", {}, lengths.map((one) => number(one, 3)).join(" · ")),
       h("span", {}, error === null || this.#exact ? "" : deviation),
       h("span", {}, transmission === null ? "" : t("μ ≥ {angle} on the way", { angle: degrees(transmission) }) + all),
-      h("span", {}, t("size {value} mm", { value: number(size, 3) }) + off),
+      h("span", {}, t("size {value}", { value: number(size, 3) }) + (this.#found?.relative ? "" : " mm") + off),
     );
   }
 }

@@ -1,6 +1,6 @@
 /** A design that plays over its targets: bars of its links, and the curves of its points. */
 
-import { renew, svg } from "./dom";
+import { put, renew, svg } from "./dom";
 
 const PACE = 48; // frames of a motion in a second
 
@@ -32,19 +32,25 @@ export class Ghost {
       const points = [...frames, frames[0]!].map((frame) => spot(frame[joints + k]!)).join(" ");
       return svg("polyline.curve", { points });
     });
-    const bars = members.map(() => svg("polygon"));
+    // an edge under each link, and pins over all of them, as of machines that are open
+    const [edges, bars] = ["path.edge", "polygon"].map((tag) => members.map(() => svg(tag as "path")));
+    const pins = frames[0]!.slice(0, joints).map(() => svg("circle.pin", { r: 1.2 * unit }));
     const pivots = frames[0]!.slice(0, joints).flatMap(([x, y], k) => {
       const moves = frames.some((frame) => Math.hypot(frame[k]![0] - x, frame[k]![1] - y) > 1e-3 * unit);
       const place = { transform: `translate(${x} ${-y}) scale(${unit})` };
       const ring = k === moving.drive ? [svg("circle.ring", { r: 4.5, ...place })] : [];
       return moves ? [] : [svg("path.pivot", { d: "M0 0l3 5h-6zM-5 5h10", ...place }), ...ring];
     });
-    renew(this.element, ...curves, ...pivots, ...bars);
+    renew(this.element, ...curves, ...pivots, ...edges!, ...bars!, ...pins);
     const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
     const tick = (now: number) => {
       const places = frames[Math.floor((now / 1000) * PACE) % frames.length]!;
-      for (const [k, bar] of bars.entries())
-        bar.setAttribute("points", members[k]!.map((one) => spot(places[one]!)).join(" "));
+      for (const [k, bar] of bars!.entries()) {
+        const points = members[k]!.map((one) => spot(places[one]!)).join(" ");
+        bar.setAttribute("points", points);
+        edges![k]!.setAttribute("d", `M${points}Z`);
+      }
+      for (const [k, pin] of pins.entries()) put(pin, { cx: places[k]![0], cy: -places[k]![1] });
       if (!still && this.seen()) this.#frame = requestAnimationFrame(tick);
     };
     tick(performance.now());

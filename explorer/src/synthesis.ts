@@ -434,7 +434,8 @@ export class SynthesisView implements View {
         svg("path.pivot", { d: "M0 0l4 6h-8z", transform: `translate(${x} ${-y!}) scale(${unit})`, "data-pivot": "" }),
       ),
     ];
-    renew(this.marks, ...(plotted ? marks : [this.#ghost.element, ...swingMark(swung, points[0]![0]!, unit)]));
+    const grid = shownDesign ? gridOf(this.#area, ["", ""]) : []; // of lengths whose ratios count
+    renew(this.marks, ...(plotted ? marks : [...grid, this.#ghost.element, ...swingMark(swung, points[0]![0]!, unit)]));
   }
 
   #play(design: Design | null): void {

@@ -21,6 +21,7 @@ from gruebler.design.synthesis import (
     Task,
     synthesise,
 )
+from gruebler.design.synthesis.tasks import gives_lengths
 from gruebler.files import linkage_to_json
 from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.linkage.bodies import CarriedLine
@@ -97,7 +98,9 @@ def design_records(
         progress(translate("Drawing design {number} of {total}", lang, number=number, total=len(designs)))
         items.append(_record(design, task, lang))
     _mark_variants(items)
-    return {"total": len(designs), "refused": len(result.designs) - len(designs), "whole": bool(sort), "items": items}
+    refused = len(result.designs) - len(designs)
+    relative = not gives_lengths(task)
+    return {"total": len(designs), "refused": refused, "whole": bool(sort), "relative": relative, "items": items}
 
 
 def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:

@@ -23,7 +23,7 @@ from gruebler.design.synthesis.structure_atlas import (
 _FIRST, _SECOND, _LAST = (1, 10), (3, 30), (16, 300)
 """Of the neighbours each so many-th is improved, by so many steps; the first two at some points of the target."""
 _BRED = 4  # times: new linkages from those that there are
-_POOL = 4  # of the neighbours each so many-th has descendants
+_CHILDREN, _POOL = 400, 100  # at most, and no more than there are neighbours; those that have descendants
 _APART = 0.03  # of the size: those of the pool differ by more
 _FAVOUR = 1.5  # the better half of the pool has 63 % of the descendants
 _SHARES, _STEPS = (0.3, 0.5, 0.7), (0.5, 0.8)  # of places from another one; of a difference of two
@@ -64,7 +64,7 @@ def fit_drawings(structure: DyadStructure, link: str, z: Complexes, *, closed: b
         closed: whether the last is followed by the first.
         number: how many neighbours from the atlas are improved.
 
-    Each stands at the first target. Cost: 2 ms a neighbour.
+    Each stands at the first target. Cost: 2 to 3 ms a neighbour, and 2 s for what descends from them.
     """
     thin = np.unique(np.linspace(0, len(z) - 1, min(_THIN, len(z))).round().astype(np.int64))
     fit = _CurveFit(structure, link, z)
@@ -72,19 +72,21 @@ def fit_drawings(structure: DyadStructure, link: str, z: Complexes, *, closed: b
 
     def improved(curves: DrawnCurves) -> DrawnCurves:
         """The best of them by the first two stages, each once, drawn where they meet the first target."""
-        sides = assembled_sides(structure, curves.places[:, :-1].T)
+        sides, count = assembled_sides(structure, curves.places[:, :-1].T), len(curves.cost)
         for share, steps in (_FIRST, _SECOND):
-            own = np.argsort(curves.cost, kind="stable")[: max(1, number // share)]
+            own = np.argsort(curves.cost, kind="stable")[: max(1, count // share)]
             sides, before = sides[:, own], curves.turned[own]
             curves = rough.improved_in_parts(curves.places[own], before[:, thin], sides, steps)
             curves = replace(curves, turned=_spread(curves.turned, thin, before))
         return _each_once(_at_first_target(structure, link, curves), _APART * fit.size)
 
     first = pool = improved(_neighbours(structure, link, z, closed=closed, number=number))
+    if not len(first.cost):
+        return first
     chance = np.random.default_rng(1)
-    for _ in range(_BRED if len(pool.cost) else 0):
-        pool = _chosen(structure, pool, max(1, number // _POOL), closed=closed)
-        both = [pool, improved(_bred(pool, number, fit.size, chance))]
+    for _ in range(_BRED):
+        pool = _chosen(structure, pool, _POOL, closed=closed)
+        both = [pool, improved(_bred(pool, min(number, _CHILDREN), fit.size, chance))]
         pool = _each_once(_together(both), _APART * fit.size)
     chosen = [_chosen(structure, each, max(1, number // _LAST[0]), closed=closed) for each in (first, pool)]
     best = _each_once(_together(chosen), _APART * fit.size)
