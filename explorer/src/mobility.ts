@@ -26,6 +26,9 @@ interface Offer {
 interface Told {
   counted: number;
   generic: number;
+  /** Whether the drives fix the motion; and if as many as are needed do not, why. */
+  fixed: boolean;
+  reason: string;
   lines: string[];
   offers: Offer[];
 }
@@ -70,8 +73,10 @@ export class MobilityPanel {
     try {
       const told = await page.ask<Told>("drawing", { joints, frame, drives });
       if (asked !== this.#asked) return;
-      const good = told.generic > 0 && told.generic === drives.length;
-      const text = t("Mobility {generic}, drives: {drives}", { generic: told.generic, drives: drives.length });
+      const { fixed: good, generic } = told;
+      const text = told.reason || t("Mobility {generic}, drives: {drives}", { generic, drives: drives.length });
+      if (generic !== told.counted)
+        renew(count, `F = ${generic} `, h("small", {}, t("counted {count}", { count: told.counted })));
       const offers = told.offers.map((offer) => this.#offer(offer, numbers));
       if (good) this.moving = drawing;
       const move = h("button.key", { "data-act": "move", onclick: () => this.view.move() }, t("Move it"));
@@ -80,7 +85,7 @@ export class MobilityPanel {
         count,
         h("p", { class: good ? "good" : "bad", "data-fact": "freedoms" }, text),
         h("div.form", {}, ...offers, ...(good ? [move] : [])),
-        h("details", {}, h("summary", {}, t("Why")), h("p.note", {}, told.lines.join(" "))),
+        h("details", {}, h("summary", {}, t("Why")), ...told.lines.map((line) => h("p.note", {}, line))),
       );
     } catch (error) {
       if (asked === this.#asked) renew(this.element, count, h("p.note", {}, (error as Error).message));

@@ -24,6 +24,14 @@ def test_what_is_offered_mends_it():
     assert [offer["joint"] for offer in drawing_record(FOUR_BAR, "0", [], "en")["offers"]] == [0, 3]
     assert drawing_record(FOUR_BAR, "0", [0], "en")["offers"] == []
     assert [offer["kind"] for offer in drawing_record(FOUR_BAR, "0", [0, 3], "en")["offers"]] == ["undrive", "undrive"]
+    # a link on two grounds does not move: its joints are no drives, neither offered nor taken
+    held = "R(0-1) R(0-1) R(0-2)"
+    assert [offer["joint"] for offer in drawing_record(held, "0", [], "en")["offers"]] == [2]
+    stuck = drawing_record(held, "0", [0], "en")
+    assert not stuck["fixed"]
+    assert "still moving: 2" in stuck["reason"]
+    assert [(offer["kind"], offer["joint"]) for offer in stuck["offers"]] == [("undrive", 0)]
+    assert drawing_record(held, "0", [2], "en")["fixed"]
     five = drawing_record("R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)", "0", [0], "en")
     assert five["generic"] == 2
     bar = next(offer for offer in five["offers"] if offer["kind"] == "bar")

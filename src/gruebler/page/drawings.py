@@ -7,7 +7,8 @@ from typing import Any
 
 from gruebler.base.errors import ChainError
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.mobility import mobility_report
+from gruebler.structure.mechanism import Mechanism, check_drives
+from gruebler.structure.mobility import MobilityReport, mobility_report
 
 _MOST_OFFERS = 4
 _MOST_BARS = 2
@@ -27,21 +28,28 @@ def drawing_record(joints: str, frame: str, drives: list[int], lang: str) -> dic
     """
     chain = Chain.parse(joints)
     report = mobility_report(chain, frame=frame)
+    names = chain.joint_names()
+    parts = [joints, f"frame={frame}", *(f"drive={names[number]}" for number in drives)]
+    driven = check_drives(Mechanism.parse("; ".join(parts)))
     return {
         "counted": report.counted,
         "generic": report.generic,
         "lines": report.explain(lang).splitlines()[1:],
         "immobile": list(report.immobile_joints),
-        "offers": list(_offers(chain, frame, drives, report.generic))[:_MOST_OFFERS],
+        "fixed": driven.fixed and report.generic > 0,
+        "reason": "" if driven.fixed or len(drives) < report.generic else driven.message.in_language(lang),
+        "offers": list(_offers(chain, frame, drives, report))[:_MOST_OFFERS],
     }
 
 
-def _offers(chain: Chain, frame: str, drives: list[int], generic: int) -> Iterator[dict[str, Any]]:
+def _offers(chain: Chain, frame: str, drives: list[int], report: MobilityReport) -> Iterator[dict[str, Any]]:
+    generic = report.generic
     if generic < 1:
         yield from _removals(chain, frame)
         return
-    if len(drives) > generic:
-        for number in drives:
+    stuck = [number for number in drives if number in report.immobile_joints]
+    if stuck or len(drives) > generic:
+        for number in stuck or drives:
             yield {"kind": "undrive", "joint": number, "generic": generic}
         return
     if len(drives) == generic:
@@ -49,7 +57,8 @@ def _offers(chain: Chain, frame: str, drives: list[int], generic: int) -> Iterat
     if generic > 1:
         yield from _bars(chain, frame, generic)
     for number, joint in enumerate(chain.joints):
-        if number not in drives and frame in joint.links and len(joint.links) == 2:
+        movable = number not in drives and number not in report.immobile_joints
+        if movable and frame in joint.links and len(joint.links) == 2:
             yield {"kind": "drive", "joint": number, "generic": generic}
 
 
