@@ -66,19 +66,25 @@ const own = `
   dragEnd dragPoint dragStart element elementAt elementsOf elementsOn falling holdJoint
   jointName leftOf lineFirst linkList linkName moveJointBy movePointBy openDocument openFile
   paused picked plottedAngle pointed pointName poleAside possible present recoloured runAlong
-  served setAdding setLength setTheme shiftLine shownDesign showRange showValue sized snapping
-  switchMode toLocal turnTo writeSizes
+  served setAdding setLength setTheme shiftLine shownDesign showPose showRange showValue
+  sized snapping switchMode toLocal turnTo writeSizes
 `.match(/\w+/g);
 
 /** Long names that others call, too, above all the browser's own, and that stand in a module again and again. */
 const often = `
-  addEventListener append appendChild beside change changed chosen classList clientWidth describe
-  documentElement dragging drawing drives elements filter flatMap forEach getAttribute
-  getBoundingClientRect getPropertyValue hasAttribute includes isConnected joints linkage links message
-  mobility model motion overconstrained pointerId pointerType points preventDefault querySelector
-  querySelectorAll reached reference_pose removeAttribute replace replaceChildren replaceWith screen
-  scrollIntoView setAttribute setPointerCapture stopPropagation structure textContent toFixed
-  toLowerCase transport turning unknowns viewport
+  active addEventListener angles append appendChild beginPath beside button change changed children
+  chosen circle classList clientWidth clientX ctrlKey cursor cycle dataset delete describe document
+  documentElement domain dragging drawing drive drives elements entries every filter find findIndex
+  firstChild flatMap forces forEach frame full getAttribute getBoundingClientRect getContext
+  getPropertyValue hasAttribute height includes indexOf isConnected join joint jointAt joints keys knot
+  knots lastChild length lines link linkage links listeners locks matches message mobility model motion
+  moveTo name operations outputs overconstrained page parts picture places playing plots pointerId
+  pointerType points preventDefault program progress push querySelector querySelectorAll reached redraw
+  reduce reference_pose remove removeAttribute replace replaceAll replaceChildren replaceWith root
+  roots scale screen scrollIntoView selectedIndex setAttribute setPointerCapture setProperty shiftKey
+  show shown signs sizes slice snapshot some source sources speed split spots state status
+  stopPropagation structure textContent title toFixed together toggle toLowerCase transport turning
+  turns unit unknowns value values view viewport width windings world zoom
 `.match(/\w+/g);
 
 /** These names, and texts that stand there as often, as constants: keys and operands, told by the signs beside them. */

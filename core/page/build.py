@@ -80,7 +80,7 @@ QUICK = (
     "-unroll-runtime=false",
     "-Werror=pass-failed",  # a hot loop that is not vectorised
 )
-SMALL = ("-Os",)
+SMALL = ("-Os", "-mllvm", "-inline-threshold=0")  # 2 % smaller than as clang weighs it
 LINKING = ("-mexec-model=reactor", "-Wl,--strip-all", "-Wl,--gc-sections")
 
 

@@ -133,10 +133,7 @@ export class BuildView implements View, Plane, Drawn {
         h(
           "p.note",
           {},
-          t(
-            "Ends meet what is near them, and stop in line with others, at round angles and " +
-              "at lengths of other links.",
-          ),
+          t("Ends snap to what is near, in line with others, to round angles and equal lengths."),
           h("span.keys", {}, " ", t("With Shift links are level or upright. Keys: arrows and Enter.")),
         ),
         h("button.plain", { "data-act": "empty", onclick: () => this.#empty() }, t("Empty plane")),

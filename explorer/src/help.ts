@@ -16,7 +16,7 @@ export function showKeys(root: HTMLElement, draws: boolean): void {
   const rows: [string, string][] = [
     [t("Space"), t("play and pause")],
     ["Esc", t("give up a drag")],
-    [t("Shift"), t("while dragging: in line with others, on the grid, at round angles and lengths of other links")],
+    [t("Shift"), t("while dragging: snap to others, to the grid, to round angles and equal lengths")],
     ["← →", t("move the drive by 1°, with Shift by 10°")],
     ["Tab, ← → ↑ ↓", t("choose a joint and move it, with Shift in small steps")],
     [t("Enter, double-click"), t("let a joint stay where it is while others are dragged")],

@@ -15,7 +15,7 @@ export class LibraryView implements View {
         "div.page",
         {},
         h("h2", {}, t("Draw")),
-        h("p", {}, t("Draw a mechanism of your own: its mobility is told while you draw, then it moves.")),
+        h("p", {}, t("Draw a mechanism: its mobility is told while you draw, then it moves.")),
         h("p", {}, t("This part asks the library at every step. On your computer, with Python, two commands open it:")),
         h("pre", {}, steps.join("\n")),
       ),

@@ -316,7 +316,7 @@ export class MotionView implements View, Editor, Driven {
   /** The link that is to carry a coupler point; it stands still then. */
   #carry(link: number | null): void {
     this.transport.pause();
-    this.page.say(link === null ? t("No link is near: click on the one that is to carry the coupler point.") : "");
+    this.page.say(link === null ? t("No link is near: click on the one that is to carry the point.") : "");
     this.#choose(link);
   }
 

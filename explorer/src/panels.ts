@@ -176,13 +176,7 @@ export function pointsPanel(editor: Editor): HTMLElement {
     {},
     h("div.point-rows", {}, ...rows),
     h("div.form", {}, link, h("button.plain", { "data-act": "add-point", onclick: add }, t("Add a point"))),
-    h(
-      "p.note",
-      {},
-      t(
-        "Click or tap twice to put a point: on a link, or beside all links on the one chosen here. Points are dragged.",
-      ),
-    ),
+    h("p.note", {}, t("Click or tap twice to put a point: on a link, or beside all of them on the one chosen here.")),
   );
 }
 

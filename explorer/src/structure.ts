@@ -175,7 +175,7 @@ export class StructureView implements View {
     renew(
       this.#detail,
       step(2, t("Frame")),
-      h("p.note", {}, t("Links that a symmetry exchanges give the same mechanism: each kind stands here once.")),
+      h("p.note", {}, t("Links that a symmetry exchanges stand here once.")),
       this.#cards("inversions", found.inversions, framed, (choice) => choice.frame === found.chosen),
       step(3, t("Drive")),
       this.#cards(

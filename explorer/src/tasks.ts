@@ -22,8 +22,8 @@ export function wordsOf(kind: Kind, count = 0): TaskWords {
     points: {
       name: t("Points of a path"),
       hint: t(
-        "Put points in the order in which a coupler point is to pass them; drag them to move them. " +
-          "Five to nine points are met exactly where that is possible, more as closely as possible.",
+        "Put points in the order in which a coupler point passes them. " +
+          "Five to nine are met exactly if possible, more as closely as possible.",
       ),
       row: t("Point"),
       heads: ["x", "y"],
@@ -31,24 +31,21 @@ export function wordsOf(kind: Kind, count = 0): TaskWords {
     },
     positions: {
       name: t("Positions of a link"),
-      hint: t(
-        "Put three to five positions through which the coupler is to be carried; " +
-          "drag from the place, or the end of the arrow, to turn it.",
-      ),
+      hint: t("Put three to five positions of the coupler; drag the end of an arrow to turn one."),
       row: t("Position"),
       heads: ["x", "y", "φ [°]"],
       design: t("A design for {count} positions", { count }),
     },
     function: {
       name: t("Angles of crank and rocker"),
-      hint: t("While the crank turns by the first angle, the rocker turns by the second: three to five pairs."),
+      hint: t("Three to five pairs of angles that crank and rocker turn through together."),
       row: t("Pair"),
       heads: [t("Crank [°]"), t("Rocker [°]")],
       design: t("A design for {count} pairs of angles", { count }),
     },
     "dead-centres": {
       name: t("Dead centres"),
-      hint: t("A crank that drives a rocker to and fro: its swing, and the slow time to the quick one."),
+      hint: t("A crank drives a rocker to and fro: its swing, and the slow time by the quick one."),
       row: t("Dead centres"),
       heads: [t("Swing [°]"), t("Time ratio")],
       design: t("A design for dead centres"),
