@@ -8,7 +8,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, FunctionTask, SixBarType, function_task, synthesise, synthesise_six_bars
 from gruebler.design.synthesis.alt_burmester import load_generic_solutions
 from gruebler.design.synthesis.formulas import FunctionLaw
-from gruebler.design.synthesis.six_bar_census import ELEVEN, Census
+from gruebler.design.synthesis.six_bar_census import ELEVEN, Census, kept_census
 from gruebler.design.synthesis.six_bar_functions import NINE_PAIRS, common_turns, drawn_six_bar, keeps_modes
 from gruebler.design.synthesis.six_bar_monodromy import Search, Trace, follow, known_solutions, loop_vectors
 from gruebler.design.synthesis.six_bar_starts import StartSet, eight_pairs, save_start_set, start_set
@@ -215,6 +215,18 @@ def test_a_census_goes_on_where_it_was_interrupted(tmp_path, monkeypatch):
     with pytest.raises(ValueError, match="no census"):
         other.load(tmp_path / "census.npz")
     assert other.count == 0
+
+
+def test_a_damaged_census_begins_anew_and_says_so(tmp_path, monkeypatch):
+    def step(census):
+        census.z, census.met = np.ones((2, census.problem.unknowns), complex), np.array([2, 1])
+
+    monkeypatch.setattr("gruebler.design.synthesis.six_bar_census.private_folder", lambda: tmp_path)
+    monkeypatch.setattr(Census, "step", step)
+    assert kept_census("Stephenson III", 2).damaged is None
+    (file,) = tmp_path.iterdir()
+    file.write_bytes(b"no census")
+    assert kept_census("Stephenson III", 2).damaged == file
 
 
 @pytest.mark.slow

@@ -7,7 +7,6 @@ has, the more often two of them end alike. docs/theory/synthesis-functions.md.
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
 from dataclasses import dataclass
 from os import cpu_count
 from pathlib import Path
@@ -45,6 +44,9 @@ class CountEstimate:
 
 class Census:
     """Solutions of a random task where random six-bars arrive, and how often each was met."""
+
+    damaged: Path | None = None
+    """A file of an earlier one that was of no use, so that this one began anew."""
 
     def __init__(self, problem: Problem, seed: int, threads: int | None = None) -> None:
         self.problem, self.seed, self.threads = problem, seed, threads
@@ -111,9 +113,11 @@ def kept_census(family: str, solutions: int, *, threads: int | None = None, prog
     """
     census, folder = Census(ELEVEN[family], _SEED, threads), private_folder()
     file = None if folder is None else folder / f"six_bars_{family.replace(' ', '_')}_eleven.npz"
-    if file is not None:
-        with suppress(*UNUSABLE):  # nothing of use: it begins anew
+    if file is not None and file.exists():
+        try:
             census.load(file)
+        except UNUSABLE:
+            census.damaged = file
     while len(census.z) < solutions or census.met.max() < 2:
         census.step()
         if file is not None:

@@ -138,7 +138,7 @@ def synthesise_six_bars(
     p = np.zeros((4, max(8, pairs)), np.complex128)
     p[0, :pairs], p[1, :pairs] = np.exp(1j * phi[1:]), np.exp(1j * output[1:])
     if pairs == 8:
-        problem, base, known = NINE_PAIRS, load_generic_solutions(NINE_PAIRS), []
+        problem, base, known, damaged = NINE_PAIRS, load_generic_solutions(NINE_PAIRS), [], None
     elif pairs == 10:
         if of.family not in ELEVEN or (of.arm, of.shape) != (SixBarType.arm, SixBarType.shape):
             raise SynthesisError(
@@ -147,13 +147,14 @@ def synthesise_six_bars(
             )
         census = kept_census(of.family, of.start_solutions, threads=threads, progress=progress)
         problem, base = census.problem, GenericSolutions(census.task, census.z[: of.start_solutions])
-        known = [_how_many(of.family, census)]
+        known, damaged = [_how_many(of.family, census)], census.damaged
     else:
         problem, starts = eight_pairs(of.family), start_set(of.family, threads=threads, progress=progress)
         base, known = GenericSolutions(starts.parameters, starts.z), [_how_complete(of.family, starts)]
-        if starts.damaged is not None:
-            known.append(message("{file} was damaged: the search for start solutions began anew.", file=starts.damaged))
+        damaged = starts.damaged
         p[3] = of.arm**2, 1, of.shape, np.conj(of.shape), 0, 0, 0, 0
+    if damaged is not None:
+        known.append(message("{file} was damaged: the search for start solutions began anew.", file=damaged))
     z = six_bar_solutions(problem, base, p, threads=threads, progress=progress)
     gaps = np.abs(z[:, 1::2] - np.conj(z[:, ::2])).max(axis=1, initial=0.0)
     real = z[gaps <= _REAL * (1 + np.abs(z).max(axis=1, initial=0.0))][:, ::2]
