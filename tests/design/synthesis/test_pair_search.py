@@ -123,8 +123,11 @@ def test_where_there_is_none_the_tightest_demand_is_named():
 def test_positions_in_any_order_lie_on_one_branch():
     """The fourth position lies between the second and the third: in order there is none. By `move` along the drive."""
     task = PositionTask([(0, 0, 0), (-1, 2, np.radians(25)), (-1, 3, np.radians(50)), (-2, 3, np.radians(40))])
-    assert not synthesise_positions(task, number=4).designs
+    listed = synthesise_positions(task, number=4)
+    assert not listed.designs
     found = synthesise_positions(task, Demands(in_order=False), number=16)
+    meet = next(note.values["count"] for note in found.notes if "meet all demands" in note.text)
+    assert f"Without the demand of the order of the targets there are {meet:,}." in map(str, listed.notes)
     assert len(found.designs) > 2
     for design in found.designs:
         drives = np.array(design.drives)

@@ -22,7 +22,7 @@ from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.fit_limits import FitLimits
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK, FourBarKind
-from gruebler.design.synthesis.judging import Demands, best_of
+from gruebler.design.synthesis.judging import Demands, best_of, order_notes
 from gruebler.design.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets
@@ -298,7 +298,7 @@ def fit_path(
         limit=limit,
     )
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(fits), real=len(fits))
-    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note, *order_notes((*accepted, *rejected), demands)))
 
 
 def _kinds(*, sliders: bool) -> tuple[FourBarKind, ...]:
@@ -336,7 +336,7 @@ def fit_open_points(
         count=len(exact),
     )
     count = SolutionCount(what=message("linkages"), theorem=None, found=len(exact), real=len(exact))
-    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note, *order_notes((*accepted, *rejected), demands)))
 
 
 def _judged_fits(

@@ -18,9 +18,9 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.alt_burmester import Problem, Solutions, parameters, solutions
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
-from gruebler.design.synthesis.judging import Demands, best_of, decided_by_path, rejected_alike
+from gruebler.design.synthesis.judging import Demands, best_of, decided_by_path, order_notes, rejected_alike
 from gruebler.design.synthesis.positions import four_bar_linkages, ranked
-from gruebler.design.synthesis.results import Design, DesignVerdict, Progress, SolutionCount, SynthesisResult
+from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult
 from gruebler.design.synthesis.targets import Targets, point_targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PathTask
 from gruebler.mechanics.linkages import Linkage
@@ -81,7 +81,7 @@ def all_four_bars(
         designs=accepted,
         rejected=rejected,
         count=count,
-        notes=tuple(_notes(problem, complete, reduced.added)),
+        notes=(*_notes(problem, complete, reduced.added), *order_notes(designs, demands)),
     )
 
 
@@ -214,18 +214,18 @@ def _classes(problem: Problem, complete: Solutions) -> Iterator[list[tuple[Guidi
 
 def _judged(task: PathTask, demands: Demands, pairs: Iterable[Sequence[GuidingDyad]], first: int) -> Iterator[Design]:
     """The designs of a class: cognates have the same path, so that where it decides for one, it does for the others."""
-    decided: DesignVerdict | None = None
+    decided: Design | None = None
     for own, other in pairs:
         linkages = four_bar_linkages(own, other, complex(task.z[first]), unit=task.unit)
         try:
             if decided is not None:
-                design = rejected_alike(next(linkages), decided, demands, "RR-RR")
+                design = rejected_alike(next(linkages), decided, demands)
             else:
                 design = best_of(linkages, partial(_targets, task, first), demands, "RR-RR")
         except LinkageError:
             continue
         if decided_by_path(design.verdict, demands):
-            decided = design.verdict
+            decided = design
         yield design
 
 

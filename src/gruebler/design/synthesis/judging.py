@@ -179,13 +179,27 @@ def decided_by_path(verdict: DesignVerdict, demands: Demands) -> bool:
     return verdict.assembles and not (verdict.one_circuit and (verdict.in_order or not demands.in_order))
 
 
-def rejected_alike(linkage: Linkage, verdict: DesignVerdict, demands: Demands, form: str) -> Design:
+def rejected_alike(linkage: Linkage, other: Design, demands: Demands) -> Design:
     """The design of a linkage whose point has the path of another one, a cognate of it, that its path decided."""
     ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
-    reasons = (*faults_of_size(linkage, ratio, inside, demands), verdict.reasons[-1])
-    return Design(
-        linkage=linkage, verdict=replace(verdict, size_ratio=ratio, inside=inside, reasons=reasons), form=form
-    )
+    reasons = (*faults_of_size(linkage, ratio, inside, demands), other.verdict.reasons[-1])
+    verdict = replace(other.verdict, size_ratio=ratio, inside=inside, reasons=reasons)
+    return replace(other, linkage=linkage, verdict=verdict)
+
+
+def order_notes(designs: Iterable[Design], demands: Demands) -> tuple[Message, ...]:
+    """How many designs are rejected only for the order of the targets, where none is accepted.
+
+    Cost: up to 30 ms for each one that meets the targets in another order, only where none is accepted.
+    """
+    designs = [*designs]
+    if not demands.in_order or any(design.verdict.accepted for design in designs):
+        return ()
+    free, count = replace(demands, in_order=False), 0
+    for each in designs:
+        if each.targets is not None and each.verdict.one_circuit and not each.verdict.in_order:
+            count += judge_design(each.linkage, each.targets, free, each.form).verdict.accepted
+    return (message("Designs rejected only for the order of the targets: {count}.", count=count),) if count else ()
 
 
 def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> Design:
@@ -216,7 +230,7 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         if demands.in_order and not met.ordered:
             reasons.append(_in_another_order(np.nan))
             verdict = replace(known, assembles=True, one_circuit=True, error=met.error, reasons=tuple(reasons))
-            return Design(linkage=linkage, verdict=verdict, form=form)
+            return Design(linkage=linkage, verdict=verdict, form=form, targets=targets)
         path = path_through(course, met, limit, in_order=demands.in_order)
         full = _turns_fully(course)
         drives: tuple[float, ...] = ()

@@ -19,7 +19,7 @@ from gruebler.design.synthesis.curves import ACCEPTED, limits_of
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.fit_limits import FitLimits
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK, FourBarKind
-from gruebler.design.synthesis.judging import EXACT_AT_MOST, Demands, judge_design
+from gruebler.design.synthesis.judging import EXACT_AT_MOST, Demands, judge_design, order_notes
 from gruebler.design.synthesis.positions import linkage_of_dyads, ranked
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.target_bands import STAGES, TargetBands, numbers_or
@@ -115,7 +115,7 @@ def synthesise_mixed(
         kinds=joined(message(kind.name) for kind in kinds),
     )
     count = SolutionCount(what=message("linkages"), theorem=0 if nearly else None, found=len(every), real=len(every))
-    return SynthesisResult(task=task, designs=accepted[:number], rejected=rejected, count=count, notes=(note,))
+    return SynthesisResult(task=task, designs=accepted[:number], rejected=rejected, count=count, notes=(note, *order_notes(every, demands)))
 
 
 def _wanted(task: PathTask, size: float, middle: complex) -> _Wanted:

@@ -67,8 +67,9 @@ class PairFacts:
 
     def met(self, demands: Demands) -> list[tuple[Message, Flags]]:
         """The demands by their names, each with the pairs that meet it."""
-        path = self.moves if demands.in_order else self.branch
-        met = [(message("one branch and order"), path if demands.one_branch else np.ones_like(path))]
+        met = [(message("one branch"), self.branch if demands.one_branch else np.ones_like(self.branch))]
+        if demands.one_branch and demands.in_order:
+            met.append((message("the order of the targets"), self.moves))
         if demands.crank:
             met.append((message("a drive that turns fully"), self.turns))
         if demands.transmission > 0:
@@ -443,7 +444,7 @@ def _gap(first: tuple[GuidingDyad, GuidingDyad], second: tuple[GuidingDyad, Guid
 
 
 def tightest(met: Sequence[tuple[Message, Flags]]) -> list[Message]:
-    """The demand without which the most remain; the first, such as branch and order, is the task itself and stays."""
+    """The demand without which the most remain; the first, such as one branch, is the task itself and stays."""
     counts = [
         int(np.count_nonzero(np.logical_and.reduce([flags for k, (_, flags) in enumerate(met) if k != left])))
         for left in range(1, len(met))

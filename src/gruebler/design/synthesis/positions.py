@@ -33,7 +33,7 @@ from gruebler.design.synthesis.dyads import (
     sliding_dyads,
 )
 from gruebler.design.synthesis.family_bounds import bound_notes
-from gruebler.design.synthesis.judging import Demands, best_of, judge_design
+from gruebler.design.synthesis.judging import Demands, best_of, judge_design, order_notes
 from gruebler.design.synthesis.pair_search import FoundPairs, Nearby, best_pairs
 from gruebler.design.synthesis.partner_bounds import improved_pair, slide_notes
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
@@ -226,6 +226,8 @@ def synthesise_positions(
     if len(dyads) < 2:
         notes.append(message("A linkage needs two dyads."))
     designs, rejected = ranked(candidates)
+    if not searched:
+        notes += order_notes(candidates, wanted)
     if searched and len(task) == 4 and sum(not dyad.slides for dyad in dyads) > 1:
         angles = [design.verdict.transmission for design in designs if design.form == _FOUR_BAR]
         notes += bound_notes(task, wanted, max(angles, default=None))
@@ -502,5 +504,5 @@ def _approximate(
         designs=accepted,
         rejected=rejected,
         count=SolutionCount(what=DYADS, theorem=0, found=len(dyads), real=len(dyads)),
-        notes=(note,),
+        notes=(note, *order_notes(designs, demands)),
     )

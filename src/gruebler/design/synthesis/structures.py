@@ -35,6 +35,7 @@ from gruebler.design.synthesis.judging import (
     Demands,
     judge_design,
     judge_with_drives,
+    order_notes,
     transmission_fault,
 )
 from gruebler.design.synthesis.law_motion import over_interval
@@ -124,7 +125,7 @@ def synthesise_structures(
         limit=_limit(wanted),
     )
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(candidates), real=len(candidates))
-    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note, *order_notes(candidates, wanted)))
 
 
 def same_machine(first: Linkage, other: Linkage, *, placed: bool) -> bool:
