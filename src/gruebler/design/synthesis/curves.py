@@ -298,7 +298,8 @@ def fit_path(
         limit=limit,
     )
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(fits), real=len(fits))
-    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note, *order_notes((*accepted, *rejected), demands)))
+    notes = (note, *order_notes((*accepted, *rejected), demands))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=notes)
 
 
 def _kinds(*, sliders: bool) -> tuple[FourBarKind, ...]:
@@ -336,7 +337,8 @@ def fit_open_points(
         count=len(exact),
     )
     count = SolutionCount(what=message("linkages"), theorem=None, found=len(exact), real=len(exact))
-    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note, *order_notes((*accepted, *rejected), demands)))
+    notes = (note, *order_notes((*accepted, *rejected), demands))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=notes)
 
 
 def _judged_fits(

@@ -115,7 +115,13 @@ def synthesise_mixed(
         kinds=joined(message(kind.name) for kind in kinds),
     )
     count = SolutionCount(what=message("linkages"), theorem=0 if nearly else None, found=len(every), real=len(every))
-    return SynthesisResult(task=task, designs=accepted[:number], rejected=rejected, count=count, notes=(note, *order_notes(every, demands)))
+    return SynthesisResult(
+        task=task,
+        designs=accepted[:number],
+        rejected=rejected,
+        count=count,
+        notes=(note, *order_notes(every, demands)),
+    )
 
 
 def _wanted(task: PathTask, size: float, middle: complex) -> _Wanted:

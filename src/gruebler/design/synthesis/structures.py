@@ -125,7 +125,8 @@ def synthesise_structures(
         limit=_limit(wanted),
     )
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(candidates), real=len(candidates))
-    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note, *order_notes(candidates, wanted)))
+    notes = (note, *order_notes(candidates, wanted))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=notes)
 
 
 def same_machine(first: Linkage, other: Linkage, *, placed: bool) -> bool:
