@@ -39,12 +39,17 @@ function bare(source) {
   return source.replace(/\b(h|svg)\((\s*"[\w.-]+"),\s*\{\},/g, "$1($2,");
 }
 
+/** `void this.save()` without its first word, which is for those who read: nobody takes what comes of it. */
+function given(source) {
+  return source.replace(/\bvoid (?=\w+\.)/g, "");
+}
+
 /** The kernel and tables of texts stand packed in the module; the packer does the same everywhere. */
 const packed = {
   name: "packed",
   setup: ({ onLoad }) => {
     onLoad({ filter: /src.[\w-]+\.ts$/ }, async ({ path: file }) => {
-      return { contents: bare(numbered(await readFile(file, "utf8"))), loader: "ts" };
+      return { contents: given(bare(numbered(await readFile(file, "utf8")))), loader: "ts" };
     });
     onLoad({ filter: /\.gz$/ }, async ({ path: file }) => {
       const contents = `import { bytesOf } from "./packed";\nexport default bytesOf(${written(await readFile(file))});`;
@@ -76,29 +81,35 @@ const often = `
   chosen circle classList clientWidth clientX ctrlKey cursor cycle dataset delete describe document
   documentElement domain dragging drawing drive drives elements entries every filter find findIndex
   firstChild flatMap forces forEach frame full getAttribute getBoundingClientRect getContext
-  getPropertyValue hasAttribute height includes indexOf isConnected join joint jointAt joints keys knot
-  knots lastChild length lines link linkage links listeners locks matches message mobility model motion
-  moveTo name operations outputs overconstrained page parts picture places playing plots pointerId
-  pointerType points preventDefault program progress push querySelector querySelectorAll reached redraw
-  reduce reference_pose remove removeAttribute replace replaceAll replaceChildren replaceWith root
-  roots scale screen scrollIntoView selectedIndex setAttribute setPointerCapture setProperty shiftKey
-  show shown signs sizes slice snapshot some source sources speed split spots state status
-  stopPropagation structure textContent title toFixed together toggle toLowerCase transport turning
-  turns unit unknowns value values view viewport width windings world zoom
+  getPropertyValue hasAttribute height includes indexOf isConnected join joint jointAt joints keys
+  knot knots lastChild length lines link linkage links listeners locks matches message mobility
+  model motion moveTo name onchange onclick onkeydown operations outputs overconstrained page parts
+  picture places playing plots pointerId pointerType points preventDefault program progress push
+  querySelector querySelectorAll reached redraw reduce reference_pose remove removeAttribute replace
+  replaceAll replaceChildren replaceWith root roots scale screen scrollIntoView selectedIndex
+  setAttribute setPointerCapture setProperty shiftKey show shown signs sizes slice snapshot some
+  source sources speed split spots state status stopPropagation structure textContent title toFixed
+  together toggle toLowerCase transform transport turning turns unit unknowns value values view
+  viewport width windings world zoom
 `.match(/\w+/g);
 
-/** These names, and texts that stand there as often, as constants: keys and operands, told by the signs beside them. */
+/** These names, as members and as keys, and what else stands there as often, as constants: texts that are keys or
+ * operands, told by the signs beside them, and `void 0`. */
 function shared(code) {
   const taken = new Set(code.match(/[\w$]+/g));
   const letters = [..."abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"];
   const pairs = letters.flatMap((one) => letters.map((other) => one + other));
   const unused = pairs.filter((pair) => !taken.has(pair) && !/^(do|if|in|of)$/.test(pair));
   const repeated = /(?<=[([{,=?:&|+>])"([\w .#-]{6,60})"(?=[)\]},?:;&|+])/g;
-  const member = new RegExp(`"(?:[^"\\\\]|\\\\.)*"|(\\?\\.|\\.)(${often.join("|")})\\b`, "g"); // texts are passed over
+  const names = `(${often.join("|")})`;
+  // texts are passed over
+  const member = new RegExp(`"(?:[^"\\\\]|\\\\.)*"|(\\?\\.|\\.)${names}\\b|([{,])${names}(?=:)|\\bvoid 0`, "g");
   const counts = new Map();
   const count = (text) => counts.set(text, (counts.get(text) ?? 0) + 1);
+  const wanted = (text, named) => (text === "void 0" ? text : named && `"${named}"`);
   for (const [text] of code.matchAll(repeated)) count(text);
-  for (const [, , called] of code.matchAll(member)) if (called) count(`"${called}"`);
+  for (const [text, , called, , key] of code.matchAll(member)) count(wanted(text, called ?? key));
+  counts.delete(undefined); // of texts
   const long = [...counts].filter(([text, times]) => (times - 1) * (text.length - 5) > 9).map(([text]) => text);
   const name = (text) => unused[long.indexOf(text)];
   const made = code
@@ -106,9 +117,10 @@ function shared(code) {
       if (!long.includes(text)) return text;
       return "{,".includes(code[at - 1]) && code[at + text.length] === ":" ? `[${name(text)}]` : name(text);
     })
-    .replace(member, (text, dot, called) => {
-      if (!called || !long.includes(`"${called}"`)) return text;
-      return `${dot === "." ? "" : dot}[${name(`"${called}"`)}]`;
+    .replace(member, (text, dot, called, before, key) => {
+      const short = name(wanted(text, called ?? key));
+      if (!short || text === "void 0") return short ?? text;
+      return `${before ?? (dot === "." ? "" : dot)}[${short}]`;
     });
   return long.length ? `const ${long.map((text) => `${name(text)}=${text}`).join()};${made}` : code;
 }
