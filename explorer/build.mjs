@@ -71,6 +71,7 @@ const own = `
   dragEnd dragPoint dragStart element elementAt elementsOf elementsOn falling holdJoint
   jointName leftOf lineFirst linkList linkName moveJointBy movePointBy openDocument openFile
   paused picked plottedAngle pointed pointName poleAside possible present recoloured runAlong
+  fitted nudge recall spots
   served setAdding setLength setTheme shiftLine shownDesign showPose showRange showValue
   sized snapping switchMode toLocal turnTo writeSizes
 `.match(/\w+/g);

@@ -161,7 +161,7 @@ export class App implements Page {
     const turned = this.view !== name;
     if (turned) {
       this.say("");
-      this.#scrolled[this.view] = window.scrollY;
+      this.#scrolled[this.view] = scrollY;
     }
     this.view = name;
     const view = this.#viewOf(name);
@@ -171,7 +171,7 @@ export class App implements Page {
     if (!this.#laid.has(name)) view.arrange();
     this.#laid.add(name);
     view.appeared?.();
-    if (turned && this.#linkable) window.scrollTo(0, name === "motion" ? 0 : (this.#scrolled[name] ?? 0));
+    if (turned && this.#linkable) scrollTo(0, name === "motion" ? 0 : (this.#scrolled[name] ?? 0));
   }
 
   /** A view, which is made when it is first wanted. */
@@ -300,7 +300,7 @@ export class App implements Page {
     if (this.#unread && !this.motion.undoable[0]) return;
     this.#unread = false;
     clearTimeout(this.#writing);
-    this.#writing = window.setTimeout(() => void this.write(), 150);
+    this.#writing = setTimeout(() => void this.write(), 150);
   }
 
   /** Copy the address with the linkage in it. */

@@ -69,7 +69,7 @@ export class CatalogView implements View {
         oninput: () => {
           set(input.value);
           clearTimeout(this.#typing);
-          this.#typing = window.setTimeout(() => void this.#search(), 250);
+          this.#typing = setTimeout(() => void this.#search(), 250);
         },
       });
       return h("label", {}, label, input);

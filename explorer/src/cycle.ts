@@ -50,7 +50,7 @@ export interface Moved {
   readonly state: State;
   readonly pose: Rows;
   readonly wheels: boolean;
-  /** Whether half as many rows will do. */
+  /** Whether fewer rows will do. */
   readonly quick?: boolean;
   /** That of the sizes before, if there were any. */
   readonly cycle?: Cycle;
@@ -91,7 +91,7 @@ export function findCycle(moved: Moved): Cycle {
   }
   const stops: [Stop | null, Stop | null] = [below, above];
   if (high - low < 2e-6 * (drive.turning ? 1 : sizes.unit)) return { ...still, low, high, stops };
-  const least = moved.quick ? 91 : 181;
+  const least = moved.quick ? 61 : 181;
   const count = drive.turning ? Math.max(least, Math.ceil((high - low) / (TURN / 60))) : least;
   const all = denseAtEnds(low, high, count);
   const up = all.filter((value) => value > start);

@@ -157,3 +157,8 @@ export function lowered(stage: HTMLElement): () => void {
   addEventListener("scroll", scrolled, how);
   return () => removeEventListener("scroll", scrolled, how);
 }
+
+/** Whether the reader wants nothing to move by itself. */
+export function wantsStill(): boolean {
+  return matchMedia("(prefers-reduced-motion: reduce)").matches;
+}

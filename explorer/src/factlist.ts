@@ -63,7 +63,7 @@ export class InWords {
       this.#said.classList.remove("waiting");
       this.#said.textContent = text;
     };
-    this.#timer = window.setTimeout(() => {
+    this.#timer = setTimeout(() => {
       const question = { document: documentOf(), source: linkage.model.source };
       this.page.ask<{ lines: string[] }>("measures", question).then(
         ({ lines }) => tell(lines.join(" ")),

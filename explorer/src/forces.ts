@@ -84,7 +84,7 @@ export class Forces {
     this.#result.classList.add("waiting");
     if (!this.#opened()) return;
     if (!this.#result.firstChild) renew(this.#result, moment());
-    this.#timer = window.setTimeout(() => void this.#ask(), ASKED_AFTER);
+    this.#timer = setTimeout(() => void this.#ask(), ASKED_AFTER);
   }
 
   get #question(): Record<string, unknown> {

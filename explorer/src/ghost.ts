@@ -1,6 +1,6 @@
 /** A design that plays over its targets: bars of its links, and the curves of its points. */
 
-import { put, renew, svg } from "./dom";
+import { put, renew, svg, wantsStill } from "./dom";
 
 const PACE = 48; // frames of a motion in a second
 
@@ -42,7 +42,7 @@ export class Ghost {
       return moves ? [] : [svg("path.pivot", { d: "M0 0l3 5h-6zM-5 5h10", ...place }), ...ring];
     });
     renew(this.element, ...curves, ...pivots, ...edges!, ...bars!, ...pins);
-    const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+    const still = wantsStill();
     const tick = (now: number) => {
       const places = frames[Math.floor((now / 1000) * PACE) % frames.length]!;
       for (const [k, bar] of bars!.entries()) {

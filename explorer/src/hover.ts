@@ -1,6 +1,6 @@
 /** Cards whose pictures move while the pointer or the focus is on them. */
 
-import { thumbnail } from "./dom";
+import { thumbnail, wantsStill } from "./dom";
 
 const PATIENCE = 150; // ms: who passes by a card does not ask
 
@@ -10,7 +10,7 @@ export function movesOnHover(card: HTMLElement, label: string, ask: () => Promis
   let still: Element | null = null;
   let wanted = false;
   const begin = async () => {
-    wanted = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+    wanted = !wantsStill();
     await new Promise((resolve) => setTimeout(resolve, PATIENCE));
     if (!wanted) return;
     try {

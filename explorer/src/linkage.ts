@@ -46,6 +46,8 @@ export class Linkage {
   dragged = false;
   /** Whether the drag moves: then ends of larger groups are found less exactly, and half as many rows of the cycle. */
   quick = false;
+  /** Whether the cycle is still that of the step before, as in every second step of a drag where it takes long. */
+  late = false;
   readonly #kernel: Kernel;
   /** Of each element of the plan: its direction against that of its element in the linkage. */
   readonly #offsets: Float64Array;
@@ -324,8 +326,9 @@ export class Linkage {
       this.#put(old);
       throw error;
     }
+    this.late = this.quick && this.program.roots.length > 0 && !this.late;
     this.quick = this.dragged;
-    this.cycle = findCycle(this);
+    if (!this.late) this.cycle = findCycle(this);
   }
 
   /** Change the sizes at the drive value nearest to the present one at which that is possible. */

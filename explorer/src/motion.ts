@@ -2,7 +2,7 @@
 
 import type { Stop } from "./cycle";
 import { applyDocument, savedDocument } from "./document";
-import { h } from "./dom";
+import { h, wantsStill } from "./dom";
 import { Dragging } from "./dragging";
 import type { Found } from "./facts";
 import type { Arrow } from "./forces";
@@ -118,8 +118,7 @@ export class MotionView implements View, Editor, Driven {
 
   /** Let what was opened move, if it is to, unless the reader wants no motion. */
   run(): void {
-    const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
-    if (this.linkage.model.plays && !still) this.transport.toggle();
+    if (this.linkage.model.plays && !wantsStill()) this.transport.toggle();
   }
 
   /** Other sizes of the same structure, as a link holds them. */

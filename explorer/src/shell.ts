@@ -25,7 +25,7 @@ export function shell(parent: HTMLElement, height: string, styles = ""): { host:
 
 /** What the reader's system asks for. */
 export function firstTheme(): Theme {
-  return window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
 }
 
 export function setTheme(host: HTMLElement, theme: Theme, alone: boolean): void {

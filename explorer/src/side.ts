@@ -104,17 +104,21 @@ export class Side {
     this.#words.ask(linkage, () => documentOf(linkage, linkage.cycle.rows, linkage.cycle.home));
   }
 
-  /** After each step of a drag: what follows at once. Plots and texts take turns; all of them follow where it rests. */
+  /** After each step of a drag: what follows at once. Plots and texts take turns, in steps without a cycle where that
+   * takes long; all of them follow where it rests. */
   follow(): void {
     const { linkage, transport } = this.view;
-    this.#plotting = !this.#plotting && this.#opened.has("plots");
-    if (this.#plotting) this.plots.follow(linkage);
-    else {
-      transport.showRange(this.found);
-      this.#showFacts();
+    const alone = linkage.program.roots.length && !linkage.late;
+    if (!alone) {
+      this.#plotting = !this.#plotting && this.#opened.has("plots");
+      if (this.#plotting) this.plots.follow(linkage);
+      else {
+        transport.showRange(this.found);
+        this.#showFacts();
+      }
     }
     clearTimeout(this.#resting);
-    this.#resting = window.setTimeout(() => this.#rest(), RESTING);
+    this.#resting = setTimeout(() => this.#rest(), RESTING);
   }
 
   #rest(): void {

@@ -116,7 +116,7 @@ export class Stage implements Board {
     if (!clientWidth || !clientHeight) return;
     this.viewport.width = clientWidth;
     this.viewport.height = clientHeight;
-    const ratio = Math.min(window.devicePixelRatio || 1, 3);
+    const ratio = Math.min(devicePixelRatio || 1, 3);
     this.canvas.width = Math.round(clientWidth * ratio);
     this.canvas.height = Math.round(clientHeight * ratio);
     this.root.setAttribute("viewBox", `0 0 ${clientWidth} ${clientHeight}`);

@@ -430,7 +430,7 @@ def test_a_linkage_with_a_larger_group_is_exact_again_when_it_is_let_go(tab, tmp
     page.page.mouse.move(*page.middle('.stage [data-joint="R(3-4)"] .joint'))
     page.page.mouse.down()
     x, y = page.middle('.stage [data-joint="R(3-4)"] .joint')
-    page.page.mouse.move(x + 6, y - 5, steps=4)
+    page.page.mouse.move(x + 6, y - 5, steps=5)  # every second step keeps the limits of the one before
     page.until("pictures.length && !gruebler.motion.linkage.quick && gruebler.motion.linkage.dragged")
     *quick, few = [seen for moves, seen in page.page.evaluate("pictures") if moves][-1]
     *exact, many = page.page.evaluate(cycle)
@@ -446,7 +446,8 @@ def test_a_linkage_with_a_larger_group_is_exact_again_when_it_is_let_go(tab, tmp
 
 # What is to be seen in each picture, and whether a drag moves then.
 PICTURES = """() => {{ const {{ stage, linkage }} = gruebler.motion, {{ draw }} = stage; window.pictures = [];
-  stage.draw = () => {{ window.strokes = []; draw.call(stage); pictures.push([linkage.quick, {seen}]); }}; }}"""
+  stage.draw = () => {{ window.strokes = []; draw.call(stage);
+    pictures.push([linkage.quick && !linkage.late, {seen}]); }}; }}"""
 STROKES = """() => {
   const { lineTo, stroke } = CanvasRenderingContext2D.prototype;
   let path = [];
@@ -529,7 +530,9 @@ def test_plots_and_measures_follow_where_a_drag_rests(tab, crank_rocker):
     page.page.mouse.move(x, y)
     page.page.mouse.down()
     page.page.mouse.move(x + 12, y - 9, steps=3)
-    page.until(f"gruebler.motion.linkage.dragged && ({said})().every((now, k) => now !== before[k])")
+    page.page.evaluate("new Promise((seen) => requestAnimationFrame(() => requestAnimationFrame(seen)))")
+    resting = "(({ dragged, quick }) => dragged && !quick)(gruebler.motion.linkage)"
+    page.until(f"{resting} && ({said})().every((now, k) => now !== before[k])")
     rested = page.page.evaluate(said)
     page.page.mouse.up()
     page.until("!gruebler.motion.linkage.dragged")

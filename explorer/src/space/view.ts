@@ -1,7 +1,7 @@
 /** The page of a machine in space: header, picture, drive, and beside them measures, drives, links, options. */
 
 import { wrapped } from "../cycle";
-import { choice, h, renew } from "../dom";
+import { choice, h, renew, wantsStill } from "../dom";
 import { download } from "../export";
 import { FactList } from "../factlist";
 import type { Fact } from "../facts";
@@ -56,7 +56,7 @@ export class SpaceView implements Driven {
     setTheme(host, firstTheme(), true);
     document.addEventListener("keydown", (event) => this.#key(event));
     this.#arrange();
-    if (!window.matchMedia("(prefers-reduced-motion: reduce)").matches && this.linkage.drive) this.transport.toggle();
+    if (!wantsStill() && this.linkage.drive) this.transport.toggle();
   }
 
   get #words(): Record<string, string> {
