@@ -5,7 +5,6 @@ import { movesOnHover } from "./hover";
 import { currentLanguage, t } from "./language";
 import type { Model } from "./model";
 import type { Page, View } from "./view";
-import { moment } from "./waiting";
 
 interface Entry {
   id: string;
@@ -36,7 +35,7 @@ export class CatalogView implements View {
   #refining = false;
   #byLinks = false;
   readonly #cards = h("div.cards", { "data-list": "catalog" });
-  readonly #note = h("p.note", { role: "status" }, "\u00a0"); // as high as its text
+  readonly #note = h("span.note", { role: "status" }, "\u00a0"); // as high as its text
   #typing = 0;
   #asked = 0;
   #filled = false;
@@ -83,6 +82,14 @@ export class CatalogView implements View {
       h(
         "div.form.numbers",
         {},
+        field(
+          t("Joint types: R turning, P sliding, G gears"),
+          this.#pairs,
+          (text) => (this.#pairs = text),
+          "",
+          "pairs",
+        ),
+        feature("links", t("Links")),
         feature("mobility", t("Mobility by the count")),
         feature("drive_joints", t("Drive joints")),
         feature("drive_joints_at_frame", t("of them at the frame")),
@@ -122,18 +129,15 @@ export class CatalogView implements View {
       h(
         "div.page",
         {},
-        h("h2", {}, t("Catalog")),
+        h("div.form", {}, h("h2", {}, t("Catalog")), this.#note),
         choice(t("Kinds of machines"), kinds, this.#words, choose, { class: "choice palette" }),
         h(
-          "div.form",
+          "div.form.search",
           {},
           field(t("Words"), this.#words, (text) => (this.#words = text), t("crank, six-bar, …"), "words"),
-          field(t("Joint types"), this.#pairs, (text) => (this.#pairs = text), "R P G", "pairs"),
-          feature("links", t("Links")),
-          h("label", {}, t("Order"), order),
+          order,
         ),
         more,
-        this.#note,
         this.#cards,
       ),
     );
@@ -147,7 +151,7 @@ export class CatalogView implements View {
     );
     this.#cards.toggleAttribute("data-waiting", !this.#filled);
     if (!this.#filled) {
-      renew(this.#note, ...moment().childNodes);
+      this.#note.textContent = t("One moment …");
       renew(this.#cards, ...Array.from({ length: EMPTY }, emptyCard));
     }
     try {

@@ -16,8 +16,10 @@ export interface Structure {
   text: string;
   /** That of the chain in the literature, if it has one and the library says it. */
   name?: string;
-  /** The frame that was chosen, or the one of the list that is like it; empty if none was. */
+  /** The frame of the list that is like the one of the text, or like the one it is given. */
   chosen: string;
+  /** The text of the driven mechanism of the list that is; empty if none is. */
+  driver: string;
   picture: string;
   joints: {
     name: string;
@@ -26,7 +28,6 @@ export interface Structure {
   }[];
   links: {
     name: string;
-    at: [number, number];
     outline: [number, number][];
     overconstrained: boolean;
     rigid: boolean;
@@ -73,7 +74,6 @@ export function chainPicture(found: Structure, joint: number, pick: (joint: numb
         role: "button",
         "aria-label": one.name,
         "data-joint": one.name,
-        style: null,
         cursor: "pointer",
         onclick: () => pick(k),
         onkeydown: (event: KeyboardEvent) => {
@@ -97,7 +97,7 @@ export function typesOf(joint: Structure["joints"][number] | undefined, choose: 
         {},
         h("p.note", {}, t("Type of {joint}", { joint: joint.name })),
         h(
-          "div.joint-types",
+          "div.chips",
           {},
           ...joint.types.map((type) =>
             h(

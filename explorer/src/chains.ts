@@ -15,8 +15,8 @@ interface Chains {
 
 export class ChainList {
   readonly element = h("div", {});
-  #links = 6;
-  private mobility = 1;
+  #links: number;
+  private mobility: number;
   /** The structure of the machine at hand, with which the list begins. */
   #own: Structure | null = null;
   #found: Chains | null = null;
@@ -30,7 +30,11 @@ export class ChainList {
   constructor(
     private readonly page: Page,
     private readonly take: (text: string) => void,
-  ) {}
+  ) {
+    const { limits, shown } = page; // as the machine at hand, whose structure is said a moment later
+    this.#links = Math.min(shown.links.length, limits.links?.max ?? 6);
+    this.mobility = Math.min(shown.drives.length, limits.mobility?.max ?? 1) || 1;
+  }
 
   /** A structure is described, that of the machine at hand or another; or there is none. */
   follow(found: Structure | null, own: boolean): void {
@@ -46,21 +50,16 @@ export class ChainList {
   }
 
   arrange(): void {
-    const links = h("input", {
-      type: "number",
-      ...this.page.limits.links,
-      value: this.#links,
-      "aria-label": t("Links"),
-      onchange: () => this.#typed(links, mobility),
-    });
-    const mobility = h("input", {
-      type: "number",
-      ...this.page.limits.mobility,
-      value: this.mobility,
-      "aria-label": t("Mobility"),
-      onchange: () => this.#typed(links, mobility),
-    });
-
+    const field = (key: "links" | "mobility", label: string, value: number) =>
+      h("input", {
+        type: "number",
+        ...this.page.limits[key],
+        value,
+        "aria-label": label,
+        onchange: () => this.#typed(links, mobility),
+      });
+    const links = field("links", t("Links"), this.#links);
+    const mobility = field("mobility", t("Mobility"), this.mobility);
     renew(
       this.element,
       h(
@@ -121,17 +120,14 @@ export class ChainList {
     const mine = own
       ? [this.#card(own.text, drawn, own.name ? t("Yours: {name}", { name: own.name }) : t("Your machine"), "data-own")]
       : [];
-    if (!found.total) {
+    if (!total) {
       const odd = (this.#links + this.mobility) % 2 === 0;
       const why = odd
         ? t("There is none: F = 3(n − 1) − 2g, so that of links and mobility one is even and one is odd.")
         : t("There is none with so few links.");
       return renew(this.#list, h("p.note", {}, why), h("div.cards.few", {}, ...mine));
     }
-    const more =
-      found.items.length < found.total
-        ? h("button.plain", { onclick: () => void this.#ask(found.items.length) }, t("More"))
-        : null;
+    const more = shown < total ? [h("button.plain", { onclick: () => void this.#ask(shown) }, t("More"))] : [];
     renew(
       this.#list,
       h(
@@ -142,7 +138,7 @@ export class ChainList {
           this.#card(text, picture, name[currentLanguage()] || `${k + 1}`, "data-chain"),
         ),
       ),
-      ...(more ? [more] : []),
+      ...more,
     );
   }
 

@@ -14,9 +14,9 @@ function namesOf({ links, linkNames }: Model): Record<string, string> {
   return Object.fromEntries(names.map((name, link) => [links[link]!, name]));
 }
 
-/** The heading of a step. */
-function step(number: number, title: string): HTMLElement {
-  return h("h2", { class: "step" }, h("i", {}, String(number)), title);
+/** A step with its heading. */
+function step(number: number, title: string, ...content: HTMLElement[]): HTMLElement {
+  return h("div.step", {}, h("h2", {}, h("i", {}, String(number)), title), ...content);
 }
 
 interface Realised {
@@ -35,6 +35,7 @@ export class StructureView implements View {
   private readonly chains: ChainList;
   readonly #shown = h("div.described", {});
   readonly #detail = h("div.contents", {});
+  readonly #go = h("div.form.go", {});
   readonly #error = h("p.error", { role: "alert" });
   readonly #words = h("details.words", { hidden: true }); // until there is one
   readonly #field = h("textarea", { spellcheck: false, "data-field": "chain" });
@@ -62,7 +63,20 @@ export class StructureView implements View {
     renew(this.#words, h("summary", {}, t("The chain as text")), this.#field);
     renew(
       this.element,
-      h("div.page", {}, step(1, t("Chain")), this.chains.element, this.#shown, this.#words, this.#error, this.#detail),
+      h(
+        "div.page",
+        {},
+        h(
+          "div.steps",
+          {},
+          step(1, t("Chain"), this.chains.element),
+          this.#shown,
+          this.#words,
+          this.#error,
+          this.#detail,
+        ),
+        this.#go,
+      ),
     );
     this.chains.arrange();
     if (this.text) void this.describe(this.text);
@@ -124,6 +138,8 @@ export class StructureView implements View {
     const drawn = chainPicture(found, this.#joint, (joint) => this.#pick(joint));
     const strained = found.links.some((link) => link.overconstrained);
     const lines = [...found.lines.slice(1), ...found.drives.split("\n")].filter((line) => line.trim());
+    const fact = (key: "counted" | "generic", name: string, mark?: string) =>
+      h("div", {}, h("dt", {}, name), h("dd", { "data-fact": key, class: mark }, `F = ${found[key]}`));
     renew(
       this.#shown,
       h(
@@ -141,17 +157,8 @@ export class StructureView implements View {
           h(
             "dl.facts",
             {},
-            h("div", {}, h("dt", {}, t("Counted")), h("dd", { "data-fact": "counted" }, `F = ${found.counted}`)),
-            h(
-              "div",
-              {},
-              h("dt", {}, t("Generic")),
-              h(
-                "dd",
-                { "data-fact": "generic", class: found.generic === found.counted ? "good" : "bad" },
-                `F = ${found.generic}`,
-              ),
-            ),
+            fact("counted", t("Counted")),
+            fact("generic", t("Generic"), found.generic === found.counted ? "good" : "bad"),
           ),
           ...lines.map((line) => h("p.said", {}, line.trim())),
           strained ? h("p.note", {}, t("Orange: overconstrained links.")) : null,
@@ -170,54 +177,46 @@ export class StructureView implements View {
         void this.describe(this.text);
       },
     });
-    const driven = found.driven.filter(({ frame }) => !found.chosen || frame === found.chosen);
-    const framed = (choice: Choice) => t("frame: {frame}", { frame: choice.frame });
     renew(
       this.#detail,
-      step(2, t("Frame")),
-      h("p.note", {}, t("Links that a symmetry exchanges stand here once.")),
-      this.#cards("inversions", found.inversions, framed, (choice) => choice.frame === found.chosen),
-      step(3, t("Drive")),
-      this.#cards(
-        "driven",
-        driven,
-        (choice) => (found.chosen ? "" : `${framed(choice)}, `) + choice.drives.join(", "),
-        (choice) => choice.text === found.text,
+      step(
+        2,
+        t("Frame"),
+        h("p.note.form", {}, t("Links that a symmetry exchanges stand here once.")),
+        this.#cards("inversions", found.inversions, ({ frame }) => [frame, frame === found.chosen]),
       ),
-      h("div.form", {}, h("label", {}, elsewhere, t("also drives that are not at the frame"))),
-      h(
-        "div.form.go",
-        {},
-        h(
-          "button.key",
-          { "data-act": "realise", onclick: () => void this.#realise() },
-          t("Find dimensions and move it"),
+      step(
+        3,
+        t("Drive"),
+        h("div.form", {}, h("label", {}, elsewhere, t("also drives that are not at the frame"))),
+        this.#cards(
+          "driven",
+          found.driven.filter(({ frame }) => frame === found.chosen),
+          ({ drives, text }) => [drives.join(", "), text === found.driver],
         ),
-        found.drives ? "" : h("span.note", {}, t("Frame and drive are chosen for you unless you choose them.")),
       ),
+    );
+    renew(
+      this.#go,
+      h("button.key", { "data-act": "realise", onclick: () => void this.#realise() }, t("Find dimensions and move it")),
+      found.drives ? "" : h("span.note", {}, t("Frame and drive are chosen for you unless you choose them.")),
     );
     if (before !== false) for (const scrolled of [this.element, window]) scrolled.scrollBy(0, top() - before);
   }
 
-  /** Mechanisms of which one is chosen. */
-  #cards(
-    key: string,
-    list: Choice[],
-    label: (choice: Choice) => string,
-    chosen: (choice: Choice) => boolean,
-  ): HTMLElement {
-    const card = (choice: Choice) =>
-      h(
+  /** Mechanisms of which one is chosen, each with its name and whether it is. */
+  #cards(key: string, list: Choice[], about: (choice: Choice) => [string, boolean]): HTMLElement {
+    const card = (choice: Choice) => {
+      const { family, picture, text } = choice;
+      const [name, pressed] = about(choice);
+      return h(
         "button.card",
-        {
-          "data-text": choice.text,
-          "aria-pressed": String(chosen(choice)),
-          onclick: () => void this.describe(choice.text),
-        },
-        thumbnail(choice.picture, choice.text),
-        h("b", {}, label(choice)),
-        choice.family ? h("span", {}, choice.family) : null,
+        { "data-text": text, "aria-pressed": String(pressed), onclick: () => void this.describe(text) },
+        thumbnail(picture, text),
+        h("b", {}, name),
+        family ? h("span", {}, family) : null,
       );
+    };
     return h("div.cards.few", { "data-list": key }, ...list.map(card));
   }
 
@@ -229,7 +228,7 @@ export class StructureView implements View {
   async #realise(): Promise<void> {
     const text = this.#field.value; // as it stands, described or not yet
     const place = h("span.form", {});
-    this.#detail.querySelector('[data-act="realise"]')!.parentElement!.append(place);
+    this.#go.append(place);
     const found = await awaited(place, (progress) => this.#page.ask<Realised>("realise", { text }, progress));
     if (!found) return;
     place.remove();

@@ -89,7 +89,7 @@ def test_the_site_answers_as_the_library_does(tab, folder, address):
         for text in ("R(0-1) R(1-2) R(2-3) R(3-0)", "R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)"):
             of_site = asked(page, "structure", {"text": text}, lang)
             of_library = answer("structure", {"text": text}, lang, nothing)
-            for key in ("text", "chosen", "frame", "counted", "generic", "verdict", "lines", "drives"):
+            for key in ("text", "chosen", "driver", "frame", "counted", "generic", "verdict", "lines", "drives"):
                 assert of_site[key] == of_library[key], (key, lang)
             for key in ("inversions", "driven"):
                 for one, other in zip(of_site[key], of_library[key], strict=True):

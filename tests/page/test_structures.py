@@ -1,5 +1,7 @@
 """The structure view tells higher pairs apart: gears, belts, cams, Geneva drives have pictures of their own."""
 
+import re
+
 from gruebler.files import linkage_to_json
 from gruebler.page.requests import answer
 from gruebler.page.structures import structure_record
@@ -22,6 +24,25 @@ def test_pictures_of_higher_pairs_differ():
             for each in found["inversions"]
         )
     assert len(pictures) == len(MACHINES) + 1
+
+
+def test_drives_are_arrows_over_the_picture_of_their_frame():
+    """Six links of Watt's chain: a picture that takes account of the drive may be the mirrored one."""
+    record = structure_record("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)", "en")
+    frames = {each["frame"]: each["picture"] for each in record["inversions"]}
+    assert len(record["driven"]) == 4
+    for each in record["driven"]:
+        assert re.sub(r"<g transform.*?</g>", "", each["picture"], flags=re.DOTALL) == frames[each["frame"]]
+        assert each["picture"] != frames[each["frame"]]
+
+
+def test_the_frame_and_drive_that_are_chosen_are_those_of_the_list_that_are_like_them():
+    """A four-bar has one frame and one drive but for symmetry: whatever is chosen, or nothing, is marked on them."""
+    chain = "R(0-1) R(1-2) R(2-3) R(3-0)"
+    for rest in ("", "; frame=2", "; frame=3; drive=R(2-3)"):
+        record = structure_record(chain + rest, "en")
+        assert (record["chosen"], record["driver"]) == ("0", f"{chain}; frame=0; drive=R(0-1)")
+    assert structure_record(f"{chain}; frame=0; drive=R(1-2)", "en")["driver"] == ""  # not at the frame
 
 
 def test_a_linkage_of_another_chain_says_nothing():

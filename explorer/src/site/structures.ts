@@ -10,16 +10,20 @@ interface Frame {
   /** The frame of the list that is like it. */
   like: string;
   listed: boolean;
+  /** The text of the drive of the list that is like the one it is given. */
+  driver: string;
   family: Said;
   picture: string;
   /** The picture without names, where those are long. */
   card?: string;
+  /** How far it lies from the picture. */
+  shift?: [number, number];
   at: [number, number][];
   outlines: Record<string, [number, number][]>;
 }
 
-/** Text, number of the frame, arrow, names of the drives with family and what they fix, whether it is listed. */
-type Driven = [string, number, string, Record<Language, [string, string, string]>, boolean];
+/** Text, number of the frame, arrow, names of the drives with family and what they fix, the one of the list like it. */
+type Driven = [string, number, string, Record<Language, [string, string, string]>, string];
 
 export interface StructurePack {
   text: string;
@@ -59,6 +63,7 @@ export function structureOf(pack: StructurePack, text: string, lang: Language, p
         )
     ]!;
   if (!chosen && text !== pack.text && text !== frame.text) return null;
+  const given = pack.driven.find(([own, number]) => own === frame.driver && pack.frames[number] === frame);
   const over = (drawn: string, arrow: string) => drawn.replace("</svg>", `${arrow}</svg>`);
   const joints = pack.text.match(/\w+\([^)]*\)/g) ?? [];
   const types = (joint: number) => {
@@ -72,18 +77,19 @@ export function structureOf(pack: StructurePack, text: string, lang: Language, p
         chosen: pair.text === now,
       }));
   };
-  const picture = (one: Frame) => one.card ?? one.picture;
+  const card = ({ card: small, picture, shift = [0, 0] }: Frame, arrow = "") =>
+    over(small ?? picture, `<g transform="translate(${shift})">${arrow}</g>`);
   const marks = Object.entries(frame.outlines).map(([name, outline]) => ({
     name,
-    at: outline[0]!,
     outline,
     overconstrained: pack.overconstrained.includes(name),
     rigid: pack.rigid.includes(name),
   }));
   return {
     text,
-    chosen: text === pack.text ? "" : frame.like,
-    picture: over(frame.picture, chosen?.[2] ?? ""),
+    chosen: frame.like,
+    driver: chosen?.[4] ?? frame.driver,
+    picture: over(frame.picture, (chosen ?? given)?.[2] ?? ""),
     joints: pack.names[lang].map((name, k) => ({ name, at: frame.at[k]!, types: types(k) })),
     links: marks,
     frame: frame.frame,
@@ -99,16 +105,16 @@ export function structureOf(pack: StructurePack, text: string, lang: Language, p
         frame: one.frame,
         drives: [],
         family: one.family[lang],
-        picture: picture(one),
+        picture: card(one),
       })),
     driven: pack.driven
-      .filter((row) => row[4])
+      .filter((row) => row[4] === row[0])
       .map(([own, number, arrow, said]) => ({
         text: own,
         frame: pack.frames[number]!.frame,
         drives: [said[lang][0]],
         family: said[lang][1],
-        picture: over(picture(pack.frames[number]!), arrow),
+        picture: card(pack.frames[number]!, arrow),
       })),
   };
 }

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Any
 
+from gruebler.design.realisation.realising import with_drives
 from gruebler.mechanics.linkages import Linkage
-from gruebler.pictures.canvas.figure import figure_of
+from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.labels import labels_or_numbers
-from gruebler.pictures.canvas.shapes import Point, bounds
+from gruebler.pictures.canvas.shapes import Point, Shape, bounds, moved_shape
+from gruebler.pictures.canvas.svg import svg_element
 from gruebler.pictures.linkage.element_pictures import contact_shapes
-from gruebler.pictures.structure import PlacedChain, draw_structure, paint, place_joints
+from gruebler.pictures.structure import paint, place_joints
 from gruebler.pictures.structure.messages import chain_name
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import PAIRS, Alphabet
@@ -58,76 +62,166 @@ def structure_record(
     mechanism = mechanism_of_text(text)
     chain = mechanism.chain
     contacts = contact_shapes(linkage) if linkage is not None and linkage.mechanism.chain == chain else {}
-    placed = place_joints(mechanism, contacts)
     report = mobility_report(chain, frame=mechanism.frame)
     few = chain.n <= _MOST_LINKS
     called = {link: names[link] for link in chain.links} if names and set(chain.links) <= set(names) else {}
     shown = mechanism.renamed(called)
-    shapes = labels_or_numbers(
-        {link: placed.outlines[link] for link in chain.links}, placed.closed, paint(placed, lang), called
-    )
-    corner, _ = bounds(shapes, 10.0)
+    driven = listed_drives(chain, at_frame) if few else []
+    frames = {bare.frame: bare for bare in inversions(chain)} if few else {}
+    cards = {frame: drawn_frame(bare, driven, contacts, called, lang) for frame, bare in frames.items()}
+    like = like_driven(mechanism, {each.code(): each for each in driven}, report.generic)
+    moved = mechanism if mechanism.drives or like is None or like.frame != mechanism.frame else like
+    drawn = drawn_frame(Mechanism(chain, mechanism.frame), [moved], contacts, called, lang)
     return {
         "text": mechanism.text() if ";" in text else chain.text(),
         "name": chain_name(chain, lang),
-        "picture": figure_of(shapes, chain.text(Alphabet.of_language(lang)), "").svg(styled=False),
-        "joints": list(_joints(mechanism, shown, placed, corner, lang)),
-        "links": list(_links(chain, placed, corner, report)),
+        "picture": drawn.with_drives(moved),
+        "joints": list(_joints(mechanism, shown, drawn, lang)),
+        "links": list(_links(chain, drawn, report)),
         "frame": mechanism.frame,
-        "chosen": next(orbit[0] for orbit in symmetry(shown.chain).link_orbits if shown.frame in orbit)
-        if ";" in text
-        else "",
+        "chosen": next(orbit[0] for orbit in symmetry(shown.chain).link_orbits if shown.frame in orbit),
+        "driver": "" if like is None else like.text(),
         "counted": report.counted,
         "generic": report.generic,
         "verdict": str(report.verdict),
         "lines": mobility_report(shown.chain, frame=shown.frame).explain(lang).splitlines(),
         "drives": check_drives(shown).explain(lang) if mechanism.drives else "",
-        "inversions": [_choice(inversion, lang, contacts, called) for inversion in inversions(chain)] if few else [],
-        "driven": [_choice(driven.mechanism, lang, contacts, called) for driven in _driven(chain, at_frame)]
-        if few and chain.space is Space.PLANAR
-        else [],
+        "inversions": [_choice(bare, cards[frame], lang, called) for frame, bare in frames.items()],
+        "driven": [_choice(each, cards[each.frame], lang, called) for each in driven],
     }
 
 
-def _driven(chain: Chain, at_frame: bool) -> list[Any]:
+def listed_drives(chain: Chain, at_frame: bool = True) -> list[Mechanism]:
     """The mechanisms with one drive, as far as a page can show them."""
-    rows = []
-    for driven in driven_mechanisms(chain, drives=1, at_frame=at_frame):
-        rows.append(driven)
-        if len(rows) == _MOST_DRIVEN:
-            break
-    return rows
+    if chain.space is not Space.PLANAR:
+        return []
+    return [each.mechanism for each in islice(driven_mechanisms(chain, drives=1, at_frame=at_frame), _MOST_DRIVEN)]
 
 
-def _choice(
-    mechanism: Mechanism, lang: str, contacts: Mapping[tuple[int, str], str], called: Mapping[str, str]
-) -> dict[str, Any]:
+def like_driven(mechanism: Mechanism, listed: Mapping[str, Mechanism], generic: int) -> Mechanism | None:
+    """The mechanism of a list, by its codes, that is like this one with its drive, or with the one it is given.
+
+    None if there is none: of several drives there are too many choices.
+
+    >>> chain = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0)").chain
+    >>> found = like_driven(Mechanism(chain, "2"), {each.code(): each for each in listed_drives(chain)}, 1)
+    >>> found.text()
+    'R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)'
+    """
+    if not mechanism.drives and listed and generic == 1:
+        mechanism = with_drives(mechanism)
+    return listed.get(mechanism.code()) if mechanism.drives else None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrawnFrame:
+    """A mechanism without drives as a picture, and drives as arrows to lay over it."""
+
+    picture: str
+    """With the names of the links, or numbers."""
+    card: str
+    """Without names that are too long for a small picture, and as much smaller."""
+    shift: list[float]
+    """How far the card lies from the picture."""
+    at: list[list[float]]
+    """The places of the joints of the chain, in its order."""
+    outlines: dict[str, list[list[float]]]
+    """The corners of each link."""
+    arrows: dict[Mechanism, str]
+    """The drives of each mechanism, as parts of an SVG."""
+
+    def with_drives(self, mechanism: Mechanism) -> str:
+        """The picture with the drives of a mechanism."""
+        return self.picture.replace("</svg>", f"{self.arrows.get(mechanism, '')}</svg>")
+
+    def card_with_drives(self, mechanism: Mechanism) -> str:
+        """The card with them."""
+        x, y = self.shift
+        arrow = f'<g transform="translate({x},{y})">{self.arrows[mechanism]}</g>' if mechanism in self.arrows else ""
+        return self.card.replace("</svg>", f"{arrow}</svg>")
+
+
+def drawn_frame(
+    bare: Mechanism,
+    driven: Iterable[Mechanism],
+    contacts: Mapping[tuple[int, str], str],
+    called: Mapping[str, str],
+    lang: str = "en",
+) -> DrawnFrame:
+    """The picture of a mechanism without drives, with those of other drives at the same frame.
+
+    So all of them stand the same way up: a layout that takes account of a drive may be the mirrored one.
+
+    >>> bare = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
+    >>> drawn = drawn_frame(bare, listed_drives(bare.chain), {}, {})
+    >>> len(drawn.at), len(drawn.arrows), drawn.picture == drawn.card
+    (4, 1, True)
+    """
+    chain = bare.chain
+    placed = place_joints(bare, contacts)
+    bodies = paint(placed, lang)
+    places = _places(chain, placed.chain)
+    heads = {
+        each: paint(
+            replace(placed, drives=tuple((places[drive.joint], drive.direction) for drive in each.drives)), lang
+        )[len(bodies) :]
+        for each in driven
+        if each.frame == bare.frame
+    }
+    outlines = {link: placed.outlines[link] for link in chain.links}
+    labelled = labels_or_numbers(outlines, placed.closed, bodies, called)
+    corner, picture = _picture(labelled, heads.values())
+    small, card = (
+        (corner, picture) if max(map(len, chain.links)) <= _LONGEST_LABEL else _picture(bodies, heads.values())
+    )
+    back = Point(-corner.x, -corner.y)
+
+    def spots(points: Iterable[Point]) -> list[list[float]]:
+        return [[round(point.x - corner.x, 1), round(point.y - corner.y, 1)] for point in points]
+
+    return DrawnFrame(
+        picture=picture,
+        card=card,
+        shift=[round(corner.x - small.x, 1), round(corner.y - small.y, 1)],
+        at=spots(placed.joints[places[number]] for number in range(len(chain.joints))),
+        outlines={link: spots(outline) for link, outline in outlines.items()},
+        arrows={each: "".join(svg_element(moved_shape(shape, back)) for shape in head) for each, head in heads.items()},
+    )
+
+
+def _picture(shapes: Sequence[Shape], heads: Iterable[Sequence[Shape]]) -> tuple[Point, str]:
+    """The corner of a picture with room for arrows, and the picture without them."""
+    corner, size = bounds([*shapes, *(shape for head in heads for shape in head)], 10.0)
+    moved = tuple(moved_shape(shape, Point(-corner.x, -corner.y)) for shape in shapes)
+    return corner, Figure(moved, width=size.x, height=size.y, title="", description="").svg(styled=False)
+
+
+def _places(chain: Chain, placed: Chain) -> list[int]:
+    """The number in a placed chain of each joint; of joints of the same links in turn."""
+    waiting = list(enumerate(joint.key for joint in placed.joints))
+    places = []
+    for joint in chain.joints:
+        k = next(k for k, (_, key) in enumerate(waiting) if key == joint.key)
+        places.append(waiting.pop(k)[0])
+    return places
+
+
+def _choice(mechanism: Mechanism, drawn: DrawnFrame, lang: str, called: Mapping[str, str]) -> dict[str, Any]:
     shown = mechanism.renamed(called)
-    few = max(map(len, mechanism.chain.links)) <= _LONGEST_LABEL
     return {
         "text": mechanism.text(),
         "frame": shown.frame,
         "drives": list(shown.drive_names(Alphabet.of_language(lang))),
         "family": family(mechanism, lang) or "",
-        "picture": draw_structure(mechanism, labels=few, lang=lang, contacts=contacts).svg(styled=False),
+        "picture": drawn.card_with_drives(mechanism),
     }
 
 
-def _joints(
-    mechanism: Mechanism, shown: Mechanism, placed: PlacedChain, corner: Point, lang: str
-) -> Iterator[dict[str, Any]]:
+def _joints(mechanism: Mechanism, shown: Mechanism, drawn: DrawnFrame, lang: str) -> Iterator[dict[str, Any]]:
     """Each joint with its place in the picture and the types that it may have instead."""
-    chain = mechanism.chain
     names = shown.chain.joint_names(Alphabet.of_language(lang))
-    waiting = [(joint.key, at) for joint, at in zip(placed.chain.joints, placed.joints, strict=True)]
-    for number, joint in enumerate(chain.joints):
-        k = next(k for k, (key, _) in enumerate(waiting) if key == joint.key)
-        at = waiting.pop(k)[1]
-        yield {
-            "name": names[number],
-            "at": [at.x - corner.x, at.y - corner.y],
-            "types": list(_types(mechanism, number, lang)),
-        }
+    for number, (name, at) in enumerate(zip(names, drawn.at, strict=True)):
+        yield {"name": name, "at": at, "types": list(_types(mechanism, number, lang))}
 
 
 def _types(mechanism: Mechanism, number: int, lang: str) -> Iterator[dict[str, Any]]:
@@ -156,17 +250,14 @@ def _drivable(chain: Chain, drives: list[int]) -> bool:
     return bool(drives) and all(len(chain.joints[k].pair.freedoms[chain.space]) == 1 for k in drives)
 
 
-def _links(chain: Chain, placed: PlacedChain, corner: Point, report: MobilityReport) -> Iterator[dict[str, Any]]:
-    """Each link with the middle of its outline, and whether it is overconstrained or part of a rigid cluster."""
+def _links(chain: Chain, drawn: DrawnFrame, report: MobilityReport) -> Iterator[dict[str, Any]]:
+    """Each link with its outline, and whether it is overconstrained or part of a rigid cluster."""
     strained = {link for part in report.overconstrained for link in part.links}
     rigid = {link for cluster in report.rigid_clusters for link in cluster}
     for link in chain.links:
-        outline = placed.outlines[link] or (corner,)
-        x, y = sum(p.x for p in outline) / len(outline), sum(p.y for p in outline) / len(outline)
         yield {
             "name": link,
-            "at": [x - corner.x, y - corner.y],
-            "outline": [[p.x - corner.x, p.y - corner.y] for p in outline],
+            "outline": drawn.outlines[link],
             "overconstrained": link in strained,
             "rigid": link in rigid,
         }
