@@ -121,6 +121,36 @@ def test_points_and_mixed_targets_keep_an_order():
         assert np.abs(motion.complex_point("P") - task.z[along]).max() < 1e-7
 
 
+@pytest.mark.parametrize("angles", [[20, 75, 140, 210, 300], [20, 75, 140, 190, 250, 310]], ids=["5", "6"])
+def test_points_are_sought_in_an_order_of_their_own(angles):
+    """Places of a four-bar, listed at random: by the drives alone, each in turn of another sequence of the ranks."""
+    motion = move(FOUR_BARS[True].linkage({"P": (1.2, 0.8)}), np.radians(angles))
+    rows = np.random.default_rng(5).permutation(len(angles))
+    points = [(w.real, w.imag) for w in motion.complex_point("P")[rows]]
+    order = tuple(None if rank == 2 else int(rank) for rank in rows)
+    found = synthesise_path(PathTask(points, order=order), number=2, sliders=False)
+    assert found.designs
+    for design in found.designs:
+        assert kept_by_angles(order, np.array(design.drives), turns=design.verdict.turns_fully)
+        along = np.argsort(design.drives)
+        motion = move(design.linkage, np.array(design.drives)[along])
+        assert np.abs(motion.complex_point("P") - found.task.z[along]).max() < 1e-7
+
+
+@pytest.mark.parametrize("lap", [1.0, np.inf])
+def test_places_along_a_curve_against_all_sequences(lap):
+    """Sorted by their places, begun anywhere if the curve is closed, in either sense."""
+    rng, kept = np.random.default_rng(2), 0
+    for _ in range(60):
+        order, places = TargetOrder.of(random_ranks(rng, 5), 5), rng.permutation(5) / 5
+        begins = range(5) if np.isfinite(lap) else [0]
+        laps = [np.roll(np.argsort(places), k)[::sense] for k in begins for sense in (1, -1)]
+        expected = any(order.keeps(sequence) for sequence in laps)
+        assert order.kept_along(places[None], lap)[0] == expected
+        kept += expected
+    assert 3 < kept < 57
+
+
 @pytest.mark.parametrize(
     ("given", "message"),
     [

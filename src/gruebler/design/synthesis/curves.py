@@ -19,18 +19,20 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import message
 from gruebler.design.synthesis.curve_starts import CurveStart, neighbours, timed_neighbours, transformed
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
-from gruebler.design.synthesis.fit_limits import FitLimits
+from gruebler.design.synthesis.fit_limits import FitLimits, crank_turns
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK, FourBarKind
-from gruebler.design.synthesis.judging import Demands, best_of, order_notes
+from gruebler.design.synthesis.judging import Demands, best_of, order_notes, sought_order
 from gruebler.design.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask
 from gruebler.mechanics.linkages import Linkage
 
 _STARTS = (40, 240)  # neighbours that are made better; a triangle needs the more
 _NEAR = 1e-3  # of the size: if the best of the first come nearer, more are not tried
+_SEQUENCES = 3  # of points with an order of their own, in which curves of the atlas are put onto them
 _STEPS = 300
 _GAIN = 1e-9  # of the sum of squares: a smaller gain ends the search
 _POWER = 8  # of distances: designs are judged by the largest one
@@ -65,6 +67,7 @@ def fit_curve(
     demands: Demands | None = None,
     pivots: tuple[complex, ...] = (),
     power: int = 2,
+    order: TargetOrder | None = None,
 ) -> list[Fit]:
     """The linkages whose coupler curves come nearest to points in the mean, the best first.
 
@@ -79,12 +82,14 @@ def fit_curve(
         demands: limits that no linkage passes: region, size ratio, transmission angle, lengths, a crank that turns.
         pivots: one or both of the fixed pivots, in the plane of the points.
         power: of the distances whose sum is made as small as possible at the end; a high one lowers the largest.
+        order: of the points, if it is not that of the list: starts pass them in likely sequences, and fits that
+            keep it are the first.
 
     Cost: 1 s for the atlas at the first call, then about 0.5 s, 2 s for curves that no linkage comes near.
     """
     if starts is None:
         fitted = partial(fit_curve, z, closed=closed, timing=timing, kinds=kinds, number=number)
-        fitted = partial(fitted, demands=demands, pivots=pivots, power=power)
+        fitted = partial(fitted, demands=demands, pivots=pivots, power=power, order=order)
         first, more = _STARTS
         fits = fitted(starts=first)
         enough, near = (number, _MET) if not closed and len(z) < MOST_POINTS else (1, _NEAR)
@@ -94,23 +99,32 @@ def fit_curve(
     size = _extent(z)
     middle = z.mean()
     reduced = (z - middle) / size
+    sequences = order.likely(reduced, _SEQUENCES) if order else [np.arange(len(z))]
     placed: list[tuple[Fit, FitLimits]] = []
     for limits in limits_of(demands, pivots, kinds, closed, (complex(middle), size)):
         begins = (
-            neighbours(reduced, limits, closed=closed, number=starts)
+            [
+                start._replace(phi=start.phi[np.argsort(sequence)])
+                for sequence in sequences
+                for start in neighbours(reduced[sequence], limits, closed=closed, number=-(-starts // len(sequences)))
+            ]
             if timing is None
             else timed_neighbours(limits.kind, reduced, timing, starts)
         )
         placed += [(fit, limits) for fit in _improved(reduced, begins, timing, limits)]
-    chosen = _different(placed, number)
+    chosen = _different(placed, number, order)
     if power > 2:
         chosen = _different(_evened(reduced, timing, power, chosen), number)  # some of them end at the same linkage
     return [replace(fit, row=transformed(fit.kind, fit.row, complex(size), complex(middle))) for fit, _ in chosen]
 
 
-def _different(fits: list[tuple[Fit, FitLimits]], number: int) -> list[tuple[Fit, FitLimits]]:
-    """The best fits of different shapes, so many; the best of each kind are the first."""
+def _different(
+    fits: list[tuple[Fit, FitLimits]], number: int, order: TargetOrder | None = None
+) -> list[tuple[Fit, FitLimits]]:
+    """The best fits of different shapes, so many, those that meet points in order first; then the best of each kind."""
     fits.sort(key=lambda each: max(each[0].error, _MET))
+    if order is not None:
+        fits = [fits[k] for k in np.argsort([not _meets_in_order(fit, order) for fit, _ in fits], kind="stable")]
     firsts = {fit.kind.name: k for k, (fit, _) in reversed([*enumerate(fits)])}.values()
     chosen: list[tuple[Fit, FitLimits]] = []
     for k in sorted(range(len(fits)), key=lambda k: (k not in firsts, k)):
@@ -120,6 +134,12 @@ def _different(fits: list[tuple[Fit, FitLimits]], number: int) -> list[tuple[Fit
         if len(chosen) == number:
             break
     return chosen
+
+
+def _meets_in_order(fit: Fit, order: TargetOrder) -> bool:
+    """Whether a fit passes exactly through points and keeps their order."""
+    lap = 2 * np.pi if crank_turns(fit.kind, fit.row[:, None])[0] else np.inf
+    return fit.error < _MET and bool(order.kept_along(fit.phi[None], lap)[0])
 
 
 def _evened(
@@ -327,7 +347,8 @@ def fit_open_points(
     Curves of the atlas, or pieces of them, pass similar points in their order; least squares makes many of them meet
     the points. If none does, the nearest are rejected designs.
     """
-    fits = _fits(task, demands, None, 4 * number, kinds=_kinds(sliders=sliders))
+    order = sought_order(task, demands)
+    fits = _fits(task, demands, None, 4 * number, kinds=_kinds(sliders=sliders), order=order)
     exact = [fit for fit in fits if fit.error < _MET]
     accepted, rejected = _judged_fits(task, demands, exact or fits[:number], len(fits), progress)
     note = message(

@@ -84,7 +84,7 @@ def first_state(
         if not len(rows):
             continue
         for carrier in (link,) if link else carriers:
-            proposal = _best(closure, course.q, shown, rows, carrier, mirrored=mirrored)
+            proposal = _best(closure, course, shown, rows, carrier, mirrored=mirrored)
             if proposal is not None and (best is None or proposal.cost < best.cost):
                 best = proposal
     return None if best is None else _placed(closure, course, targets, best)
@@ -187,9 +187,10 @@ class _Placements(NamedTuple):
 
 
 def _best(
-    closure: DesignClosure, q: Reals, targets: FitTargets, rows: Integers, link: str, *, mirrored: bool
+    closure: DesignClosure, course: _Course, targets: FitTargets, rows: Integers, link: str, *, mirrored: bool
 ) -> _Proposal | None:
-    """The best of proposals for a link; of few targets with each pose in turn exchanged for a better one."""
+    """The best of proposals for a link; of few targets with each pose in turn exchanged for a better one in order."""
+    q, order = course.q, TargetOrder.of(targets.ranks, len(targets))
     tried = _placements(closure, q, targets, rows, link)
     chosen = rows[int(np.argmin(tried.cost))]
     if len(targets) <= _FEW and targets.inputs is None:
@@ -198,6 +199,8 @@ def _best(
             for k in range(len(targets)):
                 others = np.repeat(chosen[None], len(q), axis=0)
                 others[:, k] = np.arange(len(q))
+                if course.ordered:
+                    others = others[order.kept_along(others, len(q) if course.closed else np.inf)]
                 chosen = others[int(np.argmin(_placements(closure, q, targets, others, link).cost))]
             if (chosen == before).all():
                 break

@@ -19,9 +19,11 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.immutable import settle
 from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.design.synthesis.results import EXACT, PASSED, TOO_SLENDER, Design, DesignVerdict
+from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.target_paths import TargetPath, limit_before, path_through
 from gruebler.design.synthesis.target_places import places_approached, places_met
 from gruebler.design.synthesis.targets import GuidedCurve, Targets
+from gruebler.design.synthesis.tasks import PathTask, PositionTask
 from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.kinematics import Circuit, circuit
 from gruebler.mechanics.kinematics.motion import Motion
@@ -185,6 +187,14 @@ def rejected_alike(linkage: Linkage, other: Design, demands: Demands) -> Design:
     reasons = (*faults_of_size(linkage, ratio, inside, demands), other.verdict.reasons[-1])
     verdict = replace(other.verdict, size_ratio=ratio, inside=inside, reasons=reasons)
     return replace(other, linkage=linkage, verdict=verdict)
+
+
+def sought_order(task: PositionTask | PathTask, demands: Demands) -> TargetOrder | None:
+    """The order in which targets are sought; None if it is that of the list, as of a whole curve."""
+    curve = isinstance(task, PathTask) and GuidedCurve.of(task) is not GuidedCurve.NONE
+    if not demands.in_order and not curve:
+        return TargetOrder((tuple(range(len(task))),))
+    return TargetOrder.of(task.order, len(task)) if task.order else None
 
 
 def order_notes(designs: Iterable[Design], demands: Demands) -> tuple[Message, ...]:

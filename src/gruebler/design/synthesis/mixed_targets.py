@@ -5,8 +5,9 @@ docs/theory/synthesis-points.md, "Targets of several kinds".
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import zip_longest
 from typing import NamedTuple
 
 import numpy as np
@@ -17,18 +18,20 @@ from gruebler.base.text import joined, message
 from gruebler.design.synthesis.curve_starts import atlas, neighbours, transformed
 from gruebler.design.synthesis.curves import ACCEPTED, limits_of
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
-from gruebler.design.synthesis.fit_limits import FitLimits
+from gruebler.design.synthesis.fit_limits import FitLimits, crank_turns
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK, FourBarKind
-from gruebler.design.synthesis.judging import EXACT_AT_MOST, Demands, judge_design, order_notes
+from gruebler.design.synthesis.judging import EXACT_AT_MOST, Demands, judge_design, order_notes, sought_order
 from gruebler.design.synthesis.positions import linkage_of_dyads, ranked
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.target_bands import STAGES, TargetBands, numbers_or
+from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import PathTask
 
 _PLACED = 80  # curves of the atlas that are put onto the points
 _SCATTERED = 4000  # linkages of the atlas that are put near the targets, of which the nearest are taken
 _NEAREST = 160
+_LOOKED_AT, _SEQUENCES = 400, 3  # of targets with an order of their own: sequences, and those that crank angles allow
 _STEPS = 120
 _KEPT = 80  # linkages that go on after the first stage
 _STUCK = 1e7  # where so much damping does not help, nothing does
@@ -90,14 +93,15 @@ def synthesise_mixed(
     kinds = kinds if sliders else (FOUR_BAR,)
     every: list[Design] = []
     pivots = tuple(complex(*p) for p in task.fixed_pivots)
+    order = sought_order(task, demands)
     for limits in limits_of(demands, pivots, kinds, task.closed, (middle, size)):
         designs: list[Design] = []
-        state = _starts(wanted, limits)
+        state = _starts(wanted, limits, order)
         for hard in STAGES:
             state, costs = _improved(replace(wanted, bands=replace(wanted.bands, hard=hard)), limits, state)
-            best = np.argsort(costs, kind="stable")[:_KEPT]
+            best = _in_turn(np.argsort(costs, kind="stable"), state, order)[:_KEPT]
             state, costs = state.at(best), costs[best]
-        for n in _different(state, costs)[: 4 * number]:
+        for n in _in_turn(_different(state, costs), state, order)[: 4 * number]:
             designs += _judged(task, demands, wanted, state.at([n]), (middle, size))
             if progress is not None:
                 progress(len(designs), 4 * number)
@@ -281,34 +285,65 @@ def _stepped(wanted: _Wanted, limits: FitLimits, state: _State, damping: Reals) 
     return state._replace(rows=state.rows + step.T, phi=state.phi + turn)
 
 
-def _starts(wanted: _Wanted, limits: FitLimits) -> _State:
+def _in_turn(ranked: Sequence[int] | Integers, state: _State, order: TargetOrder | None) -> list[int]:
+    """Linkages, by their costs, so that those in order and all take turns."""
+    every = list(map(int, ranked))
+    if order is None:
+        return every
+    turns = crank_turns(state.kind, state.own)
+    kept = np.where(turns, order.kept_along(state.phi, 2 * np.pi), order.kept_along(state.phi))
+    in_order = [n for n in every if kept[n]]
+    return list(dict.fromkeys(n for pair in zip_longest(in_order, every) for n in pair if n is not None))
+
+
+def _starts(wanted: _Wanted, limits: FitLimits, order: TargetOrder | None = None) -> _State:
     """Curves of the atlas on the points, and linkages of it turned and shifted so that they come near."""
     kind = limits.kind
-    near = _scattered(wanted, kind)
-    placed = np.flatnonzero(~np.isnan(wanted.z))
-    if len(placed) > 2:
-        alike = neighbours(wanted.z[placed], limits, closed=False, number=_PLACED)
+    timings = _timings(wanted, order)
+    near = _scattered(wanted, kind, timings)
+    placed = ~np.isnan(wanted.z)
+    if np.count_nonzero(placed) > 2:
+        phi, alike = [], []
+        for after, _ in timings:
+            rising = np.argsort(after)
+            own = rising[placed[rising]]
+            for start in neighbours(wanted.z[own], limits, closed=False, number=-(-_PLACED // len(timings))):
+                phi.append(np.interp(after, after[own], np.unwrap(start.phi)))
+                alike.append(start)
         rows, side = np.array([start.row for start in alike]).T, np.array([start.side for start in alike])
-        targets = np.arange(len(wanted.z))
-        phi = np.array([np.interp(targets, placed, np.unwrap(start.phi)) for start in alike])
         rows = np.concatenate([np.concatenate([rows, np.zeros((3, len(side)))]), near.rows], axis=1)
-        near = _State(kind, rows, np.concatenate([phi, near.phi]), np.concatenate([side, near.side]))
+        near = _State(kind, rows, np.concatenate([np.array(phi), near.phi]), np.concatenate([side, near.side]))
     for name, value in limits.held.items():
         near.rows[kind.unknowns.index(name)] = value
     return _with_constants(wanted, near)
 
 
-def _scattered(wanted: _Wanted, kind: FourBarKind) -> _State:
+def _timings(wanted: _Wanted, order: TargetOrder | None) -> list[tuple[Integers, Reals | None]]:
+    """In likely sequences how many targets lie before each, and crank angles as given, evenly between; None if free."""
+    sequences = [np.arange(len(wanted.z))] if order is None else order.likely(wanted.z, _LOOKED_AT)
+    timings: list[tuple[Integers, Reals | None]] = []
+    for sequence in sequences:
+        after, own = np.argsort(sequence), sequence[~np.isnan(wanted.angles[1, sequence])]
+        if len(own) < 2:  # one alone says nothing, its constant is free
+            timings.append((after, None))
+            continue
+        steps = np.diff(wanted.angles[1, own])
+        for turned in (steps, steps % (2 * np.pi), -(-steps % (2 * np.pi))):
+            if (np.sign(turned) == np.sign(turned[0])).all() and abs(turned.sum()) < 2 * np.pi:
+                timings.append((after, np.interp(after, after[own], np.append(0, np.cumsum(turned)))))
+                break
+    return timings[:_SEQUENCES] or [(np.arange(len(wanted.z)), None)]
+
+
+def _scattered(wanted: _Wanted, kind: FourBarKind, timings: list[tuple[Integers, Reals | None]]) -> _State:
     """The nearest of many linkages, with crank angles as given or evenly along a part of a turn."""
     book, rng = atlas(kind), np.random.default_rng(0)
     chosen = rng.integers(0, len(book.side), _SCATTERED)
-    targets = np.arange(len(wanted.z))
-    given = ~np.isnan(wanted.angles[1])
     turned = rng.uniform(0.5, 5, _SCATTERED) * rng.choice([-1.0, 1.0], _SCATTERED)
-    phi = turned[:, None] * targets / targets[-1]
-    if np.count_nonzero(given) > 1:  # one alone says nothing, its constant is free
-        timing = np.interp(targets, targets[given], wanted.angles[1, given])
-        phi = np.broadcast_to(timing - timing[0], phi.shape)
+    phi = np.empty((_SCATTERED, len(wanted.z)))
+    for k, (after, timing) in enumerate(timings):
+        own = slice(k, None, len(timings))
+        phi[own] = turned[own, None] * after / (len(after) - 1) if timing is None else timing
     phi = phi + rng.uniform(0, 2 * np.pi, (_SCATTERED, 1))
     state = _State(kind, np.concatenate([book.rows[:, chosen], np.zeros((3, _SCATTERED))]), phi, book.side[chosen])
     # The best similarity to the points, by least squares.

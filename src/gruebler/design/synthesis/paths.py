@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -16,14 +17,22 @@ from gruebler.base.errors import SynthesisError
 from gruebler.base.text import message
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem
 from gruebler.design.synthesis.finite_points import all_four_bars, check_general, crowded, points_between
-from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.judging import Demands, order_notes, sought_order
 from gruebler.design.synthesis.positions import ranked, synthesise_positions
 from gruebler.design.synthesis.results import EXACT, Design, Progress, SolutionCount, SynthesisResult
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask, PositionTask
-from gruebler.design.synthesis.timed_points import MOST_TIMED, TIMED_POSITIONS, timed_points, timed_positions
+from gruebler.design.synthesis.timed_points import (
+    MOST_TIMED,
+    TIMED_POSITIONS,
+    timed_designs,
+    timed_points,
+    timed_positions,
+)
 
 _TURNS = (90, 150, 210, 270)
 """Degrees by which the crank turns from the first point to the last, in one sense and the other, where it is free."""
+_SEQUENCES = 6
+"""In which points with an order of their own are tried."""
 _SHARES = {5: 2, 4: 3}
 """By the number of points: how many dyads are taken, in halves of the number asked for; of four few are accepted."""
 
@@ -184,36 +193,40 @@ def _as_positions(run: _Run) -> SynthesisResult:
 def _sampled(run: _Run) -> SynthesisResult:
     """At most five points: with every choice of crank angles there are solutions, some of which are taken.
 
-    The crank turns evenly with the way between the points, so that their order and its sense come by themselves.
+    The crank turns evenly with the way between the points, so that their order and its sense come by themselves. Where
+    they are not passed as they are listed, likely sequences are tried until designs enough are found.
     """
     task, progress = run.task, run.progress
-    z = task.z if len(task) > 2 else np.insert(task.z, 1, points_between(task.z, 1))
-    points = tuple((float(w.real), float(w.imag)) for w in z)
-    lengths = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(z)))])
+    if len(task) < 3:
+        z = np.insert(task.z, 1, points_between(task.z, 1))
+        task = PathTask(tuple((float(w.real), float(w.imag)) for w in z), unit=task.unit)
+    order = sought_order(task, run.demands)
+    sequences = order.likely(task.z, _SEQUENCES) if order else [np.arange(len(task))]
     turns = [sign * np.radians(turn) for turn in _TURNS for sign in (1, -1)]
+    few = max(2, run.number * _SHARES.get(len(run.task), 1) // 2)
     designs: list[Design] = []
-    real = 0
-    for done, turn in enumerate(turns, 1):
-        timing = tuple(float(angle) for angle in turn * lengths / lengths[-1])
-        few = max(2, run.number * _SHARES.get(len(task), 1) // 2)
-        result = timed_points(PathTask(points, crank_angles=timing, unit=task.unit), run.demands, few)
-        designs += [*result.designs, *result.rejected]
-        real += result.count.real
+    for done, (sequence, turn) in enumerate(choices := list(product(sequences, turns))):
+        if done % len(turns) == 0 and sum(design.verdict.accepted for design in designs) >= run.number:
+            choices = choices[:done]
+            break
+        lengths = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(task.z[sequence])))])
+        timing = (turn * lengths / lengths[-1])[np.argsort(sequence)]
+        designs += timed_designs(task, timing, run.demands, few)
         if progress is not None:
-            progress(done, len(turns))
+            progress(done + 1, len(choices))
     note = message(
         "There are infinitely many solutions, a family of {parameters} parameters: for all crank angles at the points "
         "there are linkages. Those for {count} choices were taken; fixed_pivots or crank_angles choose others.",
-        parameters=MOST_POINTS - len(task),
-        count=len(turns),
+        parameters=MOST_POINTS - len(run.task),
+        count=len(choices),
     )
     accepted, rejected = ranked(designs)
     return SynthesisResult(
-        task=task,
+        task=run.task,
         designs=accepted,
         rejected=rejected,
-        count=SolutionCount(what=message("linkages"), theorem=None, found=real, real=real),
-        notes=(note,),
+        count=SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs)),
+        notes=(note, *order_notes(designs, run.demands)),
     )
 
 

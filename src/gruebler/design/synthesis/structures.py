@@ -51,7 +51,7 @@ from gruebler.design.synthesis.results import (
 )
 from gruebler.design.synthesis.structure_atlas import dyad_structure
 from gruebler.design.synthesis.structure_curves import fit_drawings
-from gruebler.design.synthesis.targets import Probe, Targets, point_targets
+from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets, point_targets
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
@@ -304,6 +304,8 @@ def fit_structure(
     if first.linkage is None:
         return None
     stages = fit_stages(task)
+    if demands is not None and not demands.in_order and stages[0].z is not None and stages[0].curve is GuidedCurve.NONE:
+        stages = tuple(replace(targets, ranks=(0,) * len(targets)) for targets in stages)
     if demands is not None and demands.transmission > 0 and len(first.linkage.mechanism.drives) < 2:
         try:
             pushing_links(cached_plan(first.linkage), find_output(first.linkage))

@@ -8,15 +8,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import permutations
+from itertools import pairwise, permutations
 
 import numpy as np
 
-from gruebler.base.arrays import Integers
+from gruebler.base.arrays import Complexes, Flags, Integers, Reals
 from gruebler.base.text import Message, joined, joined_by_and, message
 
 Ranks = tuple[int | None, ...]
 """Of each target its place in the order, the same for a group; None at any time. Empty: as they are listed."""
+
+_ENUMERATED = 8  # targets: of more some sequences are drawn
+_DRAWN = 4000
 
 Groups = tuple[tuple[int, ...], ...]
 """Targets, by their numbers from 0, that are passed one after the other; those of a group in any order."""
@@ -96,6 +99,63 @@ class TargetOrder:
         for sequence in permutations(range(len(self.ranks))):
             if self.keeps(sequence) and (sequence[0] <= sequence[-1] or not self.keeps(sequence[::-1])):
                 yield sequence
+
+    def kept_along(self, places: Reals | Integers, lap: float = np.inf) -> Flags:
+        """(rows,) whether places along a curve, (rows, targets), are in order, in one sense or the other.
+
+        Args:
+            places: of the targets, arcs or angles of a crank.
+            lap: the length of a closed curve, on which a lap may begin at any target.
+
+        >>> order = TargetOrder.of((1, 2, 2, None), 4)
+        >>> order.kept_along(np.array([[0.1, 0.3, 0.2, 0.9], [0.2, 0.1, 0.3, 0.4]])).tolist()
+        [True, False]
+        >>> order.kept_along(np.array([[0.2, 0.1, 0.3, 0.4]]), lap=1.0).tolist()
+        [True]
+        """
+        laps = places[:, None, :].astype(np.float64)
+        if np.isfinite(lap):
+            laps = (laps - places[:, :, None]) % lap
+        kept = np.zeros(len(places), bool)
+        for groups in self.both_ways:
+            own = [laps[:, :, list(group)] for group in groups]
+            rising = [first.max(axis=2) <= second.min(axis=2) for first, second in pairwise(own)]
+            kept |= np.all(rising, axis=0).any(axis=1) if rising else True
+        return kept
+
+    def likely(self, z: Complexes, number: int) -> list[Integers]:
+        """Sequences that keep the order in a lap begun anywhere, those with the shortest ways through places first.
+
+        One of each and its reverse.
+
+        Args:
+            z: (targets,) the places, NaN where a target has none.
+            number: at most.
+
+        Cost: 20 ms for eight targets; of more of them 4,000 sequences are drawn.
+
+        >>> [each.tolist() for each in TargetOrder.of((1, 1, 2, 3), 4).likely(np.array([0, 2, 1, 3 + 0j]), 2)]
+        [[0, 2, 3, 1], [2, 0, 1, 3]]
+        """
+        count, ranks = len(z), self.ranks.copy()
+        ranks[list(self.free)] = -1
+        if count <= _ENUMERATED:
+            every = np.array([*permutations(range(count))])
+        else:
+            rng = np.random.default_rng(0)
+            every = np.unique([self.drawn(rng) for _ in range(_DRAWN)], axis=0)
+        along = ranks[every]
+        every = every[((along < 0) | (along >= np.maximum.accumulate(along, axis=1))).all(axis=1)]
+        if not self.demands_nothing:
+            every = np.concatenate([np.roll(every, k, axis=1) for k in range(count)])
+            every = np.unique(np.where(every[:, :1] < every[:, -1:], every, every[:, ::-1]), axis=0)
+        every = every[every[:, 0] < every[:, -1]]
+        places = np.where(np.isnan(z), np.nan, z)[every]
+        there = ~np.isnan(places)
+        last = np.maximum.accumulate(np.where(there, np.arange(count), 0), axis=1)
+        filled = np.take_along_axis(np.nan_to_num(places), last, axis=1)
+        ways = np.abs(np.diff(filled, axis=1)) * np.maximum.accumulate(there, axis=1)[:, :-1]
+        return [*every[np.argsort(np.round(ways.sum(axis=1), 9), kind="stable")[:number]]]
 
     def drawn(self, rng: np.random.Generator) -> Integers:
         """A sequence that keeps the order, at random."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import message
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
@@ -60,7 +61,7 @@ def timed_positions(task: PathTask, demands: Demands, number: int) -> SynthesisR
         design
         for search in searches
         for _, other in search.pairs
-        for design in _judged_timed(task, demands, own, other)
+        for design in _judged_timed(task, np.array(task.crank_angles), demands, own, other)
     ]
     accepted, rejected = ranked(designs)
     notes = [note for search in searches for note in search.notes]
@@ -77,13 +78,23 @@ def timed_points(task: PathTask, demands: Demands, number: int) -> SynthesisResu
         return fit_path(task, demands, number=number)
     if len(task) < 3:
         raise SynthesisError("crank angles need at least three points: two are met by any crank")
-    timing = np.array(task.crank_angles)
+    designs = timed_designs(task, np.array(task.crank_angles), demands, number)
+    accepted, rejected = ranked(designs)
+    theorem = 12 if len(task) == MOST_TIMED else None
+    family = message("There are infinitely many solutions; some dyads of each family were taken.")
+    count = SolutionCount(what=message("linkages"), theorem=theorem, found=theorem or len(designs), real=len(designs))
+    return SynthesisResult(
+        task=task, designs=accepted, rejected=rejected, count=count, notes=() if theorem else (family,)
+    )
+
+
+def timed_designs(task: PathTask, timing: Reals, demands: Demands, number: int) -> list[Design]:
+    """The designs whose crank has angles, (points,), at the points of a task."""
     # The body of the crank seen with the coupler point at rest: its point A - A0 goes to exp(i angle) (A - A0) - P.
     within = np.angle(np.exp(1j * timing))  # a body looks the same after a whole turn
     seen = PositionTask(tuple((-z.real, -z.imag, a) for z, a in zip(task.z, within, strict=True)))
     designs: list[Design] = []
     cranks = [d for d in guiding_dyads(seen, number) if not d.slides]
-    real = 0
     for crank in cranks:
         # Placed in the first position: fixed = -A0, moving = (A - A0) - P1 as the place of the body's point.
         pivot, pin = -crank.fixed, crank.moving + task.z[0] - crank.fixed
@@ -96,23 +107,17 @@ def timed_points(task: PathTask, demands: Demands, number: int) -> SynthesisResu
             same = abs(other.moving - own.moving) + abs(other.fixed - own.fixed)
             if not other.slides and same < 1e-6 * (task.size + abs(own.moving) + abs(own.fixed)):
                 continue
-            real += 1
-            designs += _judged_timed(task, demands, own, other)
-    accepted, rejected = ranked(designs)
-    theorem = 12 if len(task) == MOST_TIMED else None
-    family = message("There are infinitely many solutions; some dyads of each family were taken.")
-    count = SolutionCount(what=message("linkages"), theorem=theorem, found=theorem or real, real=real)
-    return SynthesisResult(
-        task=task, designs=accepted, rejected=rejected, count=count, notes=() if theorem else (family,)
-    )
+            designs += _judged_timed(task, timing, demands, own, other)
+    return designs
 
 
-def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: GuidingDyad) -> list[Design]:
+def _judged_timed(
+    task: PathTask, timing: Reals, demands: Demands, own: GuidingDyad, other: GuidingDyad
+) -> list[Design]:
     try:
         linkage = linkage_of_dyads(own, other, complex(task.z[0]), task.unit)
     except LinkageError:
         return []
-    timing = np.array(task.crank_angles)
     crank = task.size * np.exp(1j * (linkage.required_pose["crank"].angle + timing - timing[0]))
     first = linkage.required_pose["coupler"].angle
     angles: list[float | None] = [None] * len(task)
