@@ -219,7 +219,7 @@ def test_a_pole_outside_of_the_picture_is_told(tab, crank_rocker):
 def test_the_header_has_room_for_its_name_and_its_language_in_german(tab, server):
     page = tab(width=1024, height=768, locale="de-DE").open(server.address)
     name, language = (page.page.locator(f"header {tag}").bounding_box() for tag in ("h1", "select"))
-    assert name["width"] > 60
+    assert name["width"] > 111
     assert language["x"] + language["width"] <= 1024
     assert abs(name["y"] + name["height"] / 2 - language["y"] - language["height"] / 2) < 6  # one row
 
