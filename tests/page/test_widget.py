@@ -67,7 +67,7 @@ def test_requests_are_answered_or_refused_in_one_sentence(widget):
     )
     assert [one["id"] for one in said] == [1, 2, 3]
     assert any("Übertragungswinkel" in line for line in said[0]["result"]["lines"])
-    assert "there is no request 'nothing'" in said[1]["error"]
+    assert "There is no request 'nothing'" in said[1]["error"]
     assert "error" in said[2]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from collections.abc import Callable, Mapping
 from itertools import islice
 from typing import Any
@@ -10,7 +11,7 @@ from typing import Any
 import msgspec
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import LANGUAGES, translate
+from gruebler.base.text import LANGUAGES, error_in_language, translate
 from gruebler.page.params import (
     CatalogId,
     DescribeDrawing,
@@ -57,6 +58,18 @@ def answer(method: str, params: Mapping[str, Any], lang: str, progress: Progress
     except msgspec.ValidationError as error:
         raise GrueblerError("{method}: {problem}", method=method, problem=str(error)) from None
     return work(typed, lang, progress)
+
+
+def error_on_page(error: GrueblerError, lang: str) -> str:
+    """What an error says to a reader of the page: a sentence, without commands that nobody can give there.
+
+    >>> error_on_page(GrueblerError("the loops are open; `gruebler check --explain` shows what they allow."), "en")
+    'The loops are open.'
+    """
+    parts = re.split(r"(?<=[.;]) ", error_in_language(error, lang))
+    text = re.sub(";$", ".", " ".join(part for part in parts if "`gruebler " not in part))
+    word = re.match(r"[^\W\d_]+(?= )", text)
+    return text[:1].upper() + text[1:] if word else text
 
 
 def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, Any]]:
@@ -146,7 +159,7 @@ def _structure(asked: DescribeStructure, lang: str, _: Progress) -> dict[str, An
 def _drawing(asked: DescribeDrawing, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.page.drawings import drawing_record
 
-    return drawing_record(asked.joints, asked.frame, asked.drives, lang)
+    return drawing_record(asked.joints, asked.frame, asked.drives, lang, asked.names)
 
 
 def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:

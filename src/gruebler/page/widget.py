@@ -8,12 +8,12 @@ import anywidget
 import traitlets
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import LANGUAGES, Message, error_in_language, message, translate
+from gruebler.base.text import LANGUAGES, Message, message, translate
 from gruebler.files import linkage_from_json
 from gruebler.mechanics.linkages import Linkage
 from gruebler.page.model import model_of
 from gruebler.page.page import LISTED_CHAINS, module_text, page_styles
-from gruebler.page.requests import answer
+from gruebler.page.requests import answer, error_on_page
 from gruebler.pictures.linkage.picture import draw_linkage
 
 _UNREADABLE: Message = message("this is not a request of the page")
@@ -72,6 +72,6 @@ class Explorer(anywidget.AnyWidget):
         try:
             result = answer(method, params, lang, lambda text: self.send({"id": number, "progress": text}))
         except GrueblerError as error:
-            self.send({"id": number, "error": error_in_language(error, lang)})
+            self.send({"id": number, "error": error_on_page(error, lang)})
             return
         self.send({"id": number, "result": result})

@@ -9,8 +9,8 @@ from typing import Any
 import msgspec
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import error_in_language, translate
-from gruebler.page.requests import answer
+from gruebler.base.text import translate
+from gruebler.page.requests import answer, error_on_page
 
 
 def main() -> None:
@@ -28,7 +28,7 @@ def main() -> None:
         try:
             result = answer(method, params, lang, lambda text: say("progress", text))
         except GrueblerError as error:
-            say("error", error_in_language(error, lang))
+            say("error", error_on_page(error, lang))
         except RecursionError:
             say("error", translate("the request is nested too deeply", lang))
         else:
