@@ -4,7 +4,7 @@ const { abs, atan2, ceil, cos, floor, hypot, max, min, PI, round, sin } = Math;
 const { isFinite: finite } = Number;
 const { from, isArray } = Array;
 const { assign, entries, fromEntries } = Object;
-const { clearTimeout: stop, document: page, requestAnimationFrame: next } = globalThis;
+const { clearTimeout: stop, document: page, requestAnimationFrame: next, setTimeout: wait } = globalThis;
 const { parse, stringify } = JSON;
 const [Amount, Numbers, Text] = [Number, Float64Array, String];
 
@@ -34,4 +34,5 @@ export {
   stop as clearTimeout,
   stringify as "JSON.stringify",
   Text as String,
+  wait as setTimeout,
 };

@@ -112,7 +112,7 @@ export class App implements Page {
       if (location.hash.length > 1) this.motion.recall();
       this.#arrangeHeader();
       history.scrollRestoration = "manual"; // each view knows where it was
-      window.addEventListener("popstate", (event) => void this.#goneBack(event));
+      addEventListener("popstate", (event) => void this.#goneBack(event));
     }
   }
 

@@ -3,23 +3,10 @@
 import { gripAt, gripped } from "./backdrop";
 import { choiceOf, removeChosen } from "./choice";
 import { h, renew, svg } from "./dom";
-import {
-  type Drawing,
-  documentOfDrawing,
-  EMPTY,
-  joined,
-  linksOf,
-  moved,
-  type Spot,
-  withCylinder,
-  withDyad,
-  withGears,
-  withGround,
-  withLink,
-  withSlider,
-} from "./drawing";
+import { type Drawing, documentOfDrawing, EMPTY, joined, joinsBoth, linksOf, moved, type Spot, same } from "./drawing";
 import { Fingers, pixelIn, wheelZooms, whileDown } from "./fingers";
 import { stepOf } from "./grid";
+import { zoomedBy } from "./help";
 import { History } from "./history";
 import { away } from "./hull";
 import { keepDrawing, keptDrawing, saveDrawing } from "./kept";
@@ -27,13 +14,13 @@ import { t } from "./language";
 import type { Linkage } from "./linkage";
 import { type Drawn, MobilityPanel } from "./mobility";
 import type { Model } from "./model";
-import { hintOf, KEYS, NEEDED, palette, type Tool } from "./palette";
+import { hintOf, KEYS, NEEDED, palette, type Tool, withTool } from "./palette";
 import { placesPanel } from "./places";
 import { type Aim, type Chosen, GRIP, type Plane, planePicture, spotAt } from "./plane";
 import { WAYS } from "./pointer";
 import type { Pair } from "./rows";
 import { zoomButtons } from "./shell";
-import { extentOf, starters, takenOver } from "./starters";
+import { extentOf, starters } from "./starters";
 import type { Page, View } from "./view";
 import { type Box, Viewport } from "./viewport";
 
@@ -74,12 +61,11 @@ export class BuildView implements View, Plane, Drawn {
   readonly #side = h("div.side", {});
   private readonly mobility = new MobilityPanel(this);
   readonly #choice = h("div.choosing", {});
-  readonly #taking = h("div.options", {});
   readonly #places = h("section.panel.options", {});
 
   constructor(readonly page: Page) {
     this.viewport.scale = 4;
-    const stage = h("div.stage", {}, this.root, this.#hint, this.#buttons, this.#starters);
+    const stage = h("div.stage", {}, this.root, this.#hint, this.#starters, this.#buttons);
     this.element.append(stage, this.#tools, this.#side);
     wheelZooms(this.root, (...about) => this.zoom(...about));
     new ResizeObserver(() => this.#resize()).observe(stage);
@@ -133,11 +119,10 @@ export class BuildView implements View, Plane, Drawn {
         h(
           "p.note",
           {},
-          t("Ends snap to what is near, in line with others, to round angles and equal lengths."),
-          h("span.keys", {}, " ", t("With Shift links are level or upright. Keys: arrows and Enter.")),
+          t("Ends snap to joints, the grid, round angles and equal lengths."),
+          h("span.keys", {}, " ", t("With Shift links are level or upright.")),
         ),
         h("button.plain", { "data-act": "empty", onclick: () => this.#empty() }, t("Empty plane")),
-        this.#taking,
       ),
       this.#places,
     );
@@ -154,11 +139,9 @@ export class BuildView implements View, Plane, Drawn {
     return this.page.linkage;
   }
 
-  /** What can be begun with: over the plane while it is empty, then beside it. */
+  /** What can be begun with, while the plane is empty. */
   #offer(): void {
-    const empty = !this.drawing.knots.length;
-    renew(this.#starters, ...(empty ? starters(this) : []));
-    renew(this.#taking, ...(empty ? [] : [takenOver(this)]));
+    renew(this.#starters, ...(this.drawing.knots.length ? [] : starters(this)));
   }
 
   begin(drawing: Drawing, known = false): void {
@@ -238,16 +221,8 @@ export class BuildView implements View, Plane, Drawn {
     if (this.aim === "aiming") this.aim = "here";
     if (spots.length < NEEDED[tool]) return this.#draw();
     this.spots = [];
-    const [one, two, three] = spots as [Spot, Spot, Spot];
-    if (tool === "ground") this.change(withGround(drawing, one));
-    else if (tool === "slider") this.change(withSlider(drawing, one));
-    else if (tool === "gears") this.change(same(one, two) ? null : withGears(drawing, one, two, three.at));
-    else if (tool === "cylinder") this.change(same(one, two) ? null : withCylinder(drawing, one, two));
-    else if (tool === "link") {
-      this.change(same(one, two) ? null : withLink(drawing, one, two));
-      if (two.knot === null && two.link === null) this.#goOn(two.at);
-    } else if (tool === "dyad")
-      this.change(same(one, two) || same(two, three) ? null : withDyad(drawing, one, two, three));
+    this.change(withTool(tool, drawing, spots));
+    if (tool === "link" && spot.knot === null && spot.link === null) this.#goOn(spot.at);
   }
 
   /** The next link begins where the last one ends. */
@@ -381,10 +356,7 @@ export class BuildView implements View, Plane, Drawn {
       this.spots = [];
       this.#draw();
     } else if (tool) this.#take(tool);
-    else if (event.key === "+") this.zoom(1.25);
-    else if (event.key === "-") this.zoom(0.8);
-    else if (event.key === "0") this.fit();
-    else return false;
+    else return zoomedBy(event, this);
     return true;
   }
 
@@ -422,14 +394,4 @@ export class BuildView implements View, Plane, Drawn {
       this.page.say((error as Error).message);
     }
   }
-}
-
-function same(one: Spot, two: Spot): boolean {
-  return one.at[0] === two.at[0] && one.at[1] === two.at[1];
-}
-
-/** Whether one link joins two spots. */
-function joinsBoth({ knots }: Drawing, one: Spot, two: Spot): boolean {
-  const linksAt = ({ knot }: Spot) => (knot === null ? [] : knots[knot]!.links);
-  return linksAt(one).some((link) => linksAt(two).includes(link));
 }

@@ -2,8 +2,20 @@
 
 import { digits } from "./digits";
 import { h } from "./dom";
-import { type Drawing, driven, isPin, type Knot, moved, renamed, split, unitOf, without, withoutLink } from "./drawing";
-import { parsed, t } from "./language";
+import {
+  type Drawing,
+  driven,
+  isPin,
+  type Knot,
+  knotName,
+  moved,
+  renamed,
+  split,
+  unitOf,
+  without,
+  withoutLink,
+} from "./drawing";
+import { parsed, spaced, t } from "./language";
 import type { Plane } from "./plane";
 import type { Pair } from "./rows";
 
@@ -27,6 +39,7 @@ export function removeChosen(view: Changing): void {
 function field(view: Changing, text: string, key: string, value: number, set: (value: number) => Drawing | null) {
   const input: HTMLInputElement = h("input", {
     ...digits(value),
+    size: 7,
     inputmode: "decimal",
     "data-field": key,
     onchange: () => {
@@ -71,11 +84,12 @@ export function choiceOf(view: Changing): HTMLElement[] {
   if ("link" in chosen) {
     const { link } = chosen;
     const name = h("input", {
-      value: link,
+      value: spaced(link),
+      size: 7,
       "data-field": "link-name",
       onchange: () =>
         view.change(
-          renamed(drawing, link, name.value.trim()),
+          renamed(drawing, link, name.value.trim().replaceAll(" ", "_")),
           t("Expected a name that nothing else has, without spaces and brackets."),
         ),
     });
@@ -99,5 +113,6 @@ export function choiceOf(view: Changing): HTMLElement[] {
       return Number.isFinite(value) ? moved(drawing, chosen.knot, place) : null;
     }),
   );
-  return [note(links.join(" – ")), h("div.form", {}, ...(between ? [] : places)), h("div.form", {}, ...parts)];
+  const name = `${knotName(drawing, chosen.knot)}: ${links.map(spaced).join(" – ")}`;
+  return [note(name), h("div.form", {}, ...(between ? [] : places)), h("div.form", {}, ...parts)];
 }

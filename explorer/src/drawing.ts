@@ -60,6 +60,23 @@ export function jointsOf({ knots }: Drawing): number[] {
   return [...knots.keys()].filter((k) => knots[k]!.links.length > 1);
 }
 
+/** What a knot is called, so that its name is not taken for that of a link: A to Z, then A1. */
+export function knotName({ knots }: Drawing, number: number): string {
+  const round = Math.floor(number / 26);
+  return knots[number]!.name ?? String.fromCharCode(65 + (number % 26)) + (round || "");
+}
+
+/** Whether two spots or knots are at the same place. */
+export function same(one: Pick<Spot, "at">, two: Pick<Spot, "at">): boolean {
+  return one.at[0] === two.at[0] && one.at[1] === two.at[1];
+}
+
+/** Whether one link joins two spots. */
+export function joinsBoth({ knots }: Drawing, one: Spot, two: Spot): boolean {
+  const linksAt = ({ knot }: Spot) => (knot === null ? [] : knots[knot]!.links);
+  return linksAt(one).some((link) => linksAt(two).includes(link));
+}
+
 /** Whether links turn about a knot. */
 export function isPin({ between, slide }: Knot): boolean {
   return slide === undefined && !between;

@@ -49,14 +49,18 @@ export function showOver(root: HTMLElement, title: string, ...content: Child[]):
 /** Do what a key does with the drive and the picture; whether it does anything. */
 export function drivenBy(event: KeyboardEvent, target: Element, transport: Transport, picture: Picture): boolean {
   const far = event.shiftKey ? 10 : 1;
-  const acts: Record<string, () => void> = {
-    ArrowRight: () => transport.nudge(far),
-    ArrowLeft: () => transport.nudge(-far),
-    "+": () => picture.zoom(1.25),
-    "-": () => picture.zoom(0.8),
-    "0": () => picture.fit(),
-  };
-  if (!target.matches("button, summary, a, [type=checkbox]")) acts[" "] = () => transport.toggle();
-  acts[event.key]?.();
-  return event.key in acts;
+  const ways: Record<string, number> = { ArrowRight: far, ArrowLeft: -far };
+  const way = ways[event.key];
+  const plays = event.key === " " && !target.matches("button, summary, a, [type=checkbox]");
+  if (way) transport.nudge(way);
+  else if (plays) transport.toggle();
+  return !!way || plays || zoomedBy(event, picture);
+}
+
+/** Do what a key does with a picture; whether it does anything. */
+export function zoomedBy({ key }: KeyboardEvent, picture: Picture): boolean {
+  if (key === "0") picture.fit();
+  else if (key === "+" || key === "-") picture.zoom(key === "+" ? 1.25 : 0.8);
+  else return false;
+  return true;
 }

@@ -49,6 +49,21 @@ function toSegment(x: number, y: number, [ax, ay]: Pair, [bx, by]: Pair): number
   return Math.hypot(x - ax - part * dx, y - ay - part * dy);
 }
 
+/** Of places so far from another, or twice as far, the one that is clearest of hulls, with some room at its sides. The
+ * first of equals lies to the right and, where y grows upward, above; with a negative distance on the other side. */
+export function clearAbout([x, y]: Pair, far: number, hulls: readonly (readonly Pair[])[], room = 0): Pair {
+  const around = Array.from({ length: 32 }, (_, k): Pair => {
+    const phi = ((3 - k) * Math.PI) / 8;
+    const off = far * (1 + (k >> 4));
+    return [x + (off + Math.sign(far) * room) * Math.cos(phi), y + off * Math.sin(phi)];
+  });
+  const clear = around.map(([u, v], k) => {
+    const gaps = [-room, 0, room].flatMap((d) => hulls.map((hull) => toHull(hull, u + d, v)));
+    return Math.min(Math.abs(far), ...gaps) / (1 + (k >> 4));
+  });
+  return around[clear.indexOf(Math.max(...clear))]!;
+}
+
 /** How far a place is from another. */
 export function away([px, py]: Pair, x: number, y: number): number {
   return Math.hypot(px - x, py - y);

@@ -41,6 +41,11 @@ export function number(value: number, digits = 4): string {
   return language === "de" ? text.replace(".", ",") : text;
 }
 
+/** A name as it is read: in documents it has no spaces. */
+export function spaced(name: string): string {
+  return name.replaceAll("_", " ");
+}
+
 /** The letters of joints, as of the group 3-RR, as the reader writes them: in German D turns and S slides. */
 export function inLetters(letters: string): string {
   const known = language === "de" && /^[\d-]*[RPG]+$/.test(letters);

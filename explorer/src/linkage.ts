@@ -3,7 +3,7 @@
 import { type Beside, besideOf } from "./beside";
 import { type Cycle, findCycle, type Stop, stopOf, TURN } from "./cycle";
 import { Kernel, type Rows, type State } from "./kernel";
-import { currentLanguage, inLetters } from "./language";
+import { currentLanguage, inLetters, spaced } from "./language";
 import type { DriveRecord, Model } from "./model";
 import { Code, type Program, programOf } from "./program";
 import { leastRoot, oneRow, origin, type Pair, picked, place, stateAt, turn } from "./rows";
@@ -91,7 +91,7 @@ export class Linkage {
 
   /** What a link is called in the reader's language. */
   linkName(link: number): string {
-    return this.model.linkNames[currentLanguage()]?.[link] ?? this.model.links[link]!;
+    return spaced(this.model.linkNames[currentLanguage()]?.[link] ?? this.model.links[link]!);
   }
 
   /** What the joint of this name is called in the reader's language. */

@@ -7,12 +7,13 @@ import {
   driven,
   jointName,
   jointsOf,
+  knotName,
   linksOf,
   type Spot,
   withLink,
   withoutLink,
 } from "./drawing";
-import { inLetters, t } from "./language";
+import { spaced, t } from "./language";
 import type { Page } from "./view";
 import { moment } from "./waiting";
 
@@ -69,9 +70,10 @@ export class MobilityPanel {
     this.element.classList.add("asking"); // what was offered before does not hold any more
     const numbers = jointsOf(drawing);
     const joints = numbers.map((k) => jointName(drawing, k)).join(" ");
+    const names = numbers.map((k) => knotName(drawing, k));
     const drives = drawing.drives.map((k) => numbers.indexOf(k));
     try {
-      const told = await page.ask<Told>("drawing", { joints, frame, drives });
+      const told = await page.ask<Told>("drawing", { joints, names, frame, drives });
       if (asked !== this.#asked) return;
       const { fixed: good, generic } = told;
       const text = told.reason || t("Mobility {generic}, drives: {drives}", { generic, drives: drives.length });
@@ -98,16 +100,13 @@ export class MobilityPanel {
     const { drawing } = this.view;
     const knot = joint === undefined ? -1 : numbers[joint]!;
     const [one, two] = (links ?? []) as [string, string];
-    const name = knot < 0 ? "" : jointName(drawing, knot);
-    const called = { joint: inLetters(name.slice(0, 1)) + name.slice(1) };
+    const [from, to] = [one, two].map((link) => spaced(link ?? ""));
+    const called = { joint: knot < 0 ? "" : knotName(drawing, knot), one: from!, two: to!, generic };
     const [text, act] = {
       drive: [t("Drive {joint}", called), () => driven(drawing, knot)],
       undrive: [t("Let {joint} free", called), () => driven(drawing, knot)],
-      bar: [
-        t("A link between {one} and {two}: F = {generic}", { one, two, generic }),
-        () => barred(this.view, one, two),
-      ],
-      remove: [t("Without {one}: F = {generic}", { one, generic }), () => withoutLink(drawing, one)],
+      bar: [t("A link between {one} and {two}: F = {generic}", called), () => barred(this.view, one, two)],
+      remove: [t("Without {one}: F = {generic}", called), () => withoutLink(drawing, one)],
     }[kind] as [string, () => Drawing];
     return h("button.plain", { "data-offer": kind, onclick: () => this.view.change(act()) }, text);
   }

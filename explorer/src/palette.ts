@@ -1,6 +1,17 @@
 /** The tools with which is drawn: their names and keys, what each asks for. */
 
 import { h } from "./dom";
+import {
+  type Drawing,
+  type Spot,
+  same,
+  withCylinder,
+  withDyad,
+  withGears,
+  withGround,
+  withLink,
+  withSlider,
+} from "./drawing";
 import { type Icon, icon } from "./icons";
 import { t } from "./language";
 
@@ -8,6 +19,18 @@ export type Tool = "move" | "ground" | "link" | "slider" | "dyad" | "cylinder" |
 
 /** How many places a tool needs. */
 export const NEEDED: Record<Tool, number> = { move: 0, ground: 1, link: 2, slider: 1, dyad: 3, cylinder: 2, gears: 3 };
+
+/** The drawing with what a tool makes at its places; null where two of them are one. */
+export function withTool(tool: Tool, drawing: Drawing, spots: readonly Spot[]): Drawing | null {
+  const [one, two, three] = spots as [Spot, Spot, Spot];
+  if (tool === "ground") return withGround(drawing, one);
+  if (tool === "slider") return withSlider(drawing, one);
+  if (same(one, two)) return null;
+  if (tool === "gears") return withGears(drawing, one, two, three.at);
+  if (tool === "cylinder") return withCylinder(drawing, one, two);
+  if (tool === "link") return withLink(drawing, one, two);
+  return same(two, three) ? null : withDyad(drawing, one, two, three);
+}
 
 export const KEYS: Record<string, Tool> = {
   v: "move",
@@ -71,6 +94,5 @@ export function hintOf(tool: Tool): (Node | string)[] {
     dyad: t("Place an end, the middle, the other end."),
     gears: t("Place both centres, then where they touch; beyond a centre the other wheel has internal teeth."),
   };
-  const ending = tool === "link" ? [h("span.keys", {}, " ", t("So does Esc."))] : [];
-  return [h("b", {}, nameOf(tool)), " ", hints[tool], ...ending];
+  return [h("b", {}, nameOf(tool)), " ", hints[tool]];
 }

@@ -2,7 +2,7 @@
 
 import { backdropOf } from "./backdrop";
 import { h } from "./dom";
-import { isPin, moved } from "./drawing";
+import { isPin, knotName, moved } from "./drawing";
 import { t } from "./language";
 import type { Drawn } from "./mobility";
 import type { Pair } from "./rows";
@@ -31,7 +31,9 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport }): HTML
   const onchange = () => view.change({ ...drawing, keeps: box.checked });
   const box = h("input", { type: "checkbox", checked: keeps, "data-field": "keeps", onchange });
   return [
-    ...(rows.length ? [rowsTable(rows, t("Joint"), ["x", "y"], false, typed)] : []),
+    ...(rows.length
+      ? [rowsTable(rows, t("Joint"), ["x", "y"], false, typed, (k) => knotName(drawing, numbers[k]!))]
+      : []),
     ...(picture
       ? [
           rowsTable(frame, t("Picture"), ["x", "y", t("Width"), "φ [°]"], true, framed),

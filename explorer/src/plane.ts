@@ -2,11 +2,11 @@
 
 import { type Backdrop, backdropElement, cornersOf, gripsOf, putBackdrop } from "./backdrop";
 import { svg } from "./dom";
-import { type Drawing, isPin, type Knot, lengthsOf, linksOf, type Spot, unitOf } from "./drawing";
+import { type Drawing, isPin, type Knot, knotName, lengthsOf, linksOf, type Spot, same, unitOf } from "./drawing";
 import { gridOf, stepOf } from "./grid";
-import { away, convexHull, nearest, toHull } from "./hull";
-import { angle, number } from "./language";
-import { clearSpot, namePlace, nameSpots } from "./names";
+import { away, clearAbout, convexHull, nearest, toHull } from "./hull";
+import { angle, number, spaced } from "./language";
+import { clearSpot, halfOf, namePlace, nameSpots } from "./names";
 import type { Pair } from "./rows";
 import { SUPPORT } from "./scene";
 import { guidelines, snapped } from "./snapping";
@@ -80,19 +80,18 @@ export function planePicture(plane: Plane): SVGElement[] {
   const path = (corners: readonly Pair[]) =>
     corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
   const hulls = bodies.map((link) => outlineOf(plane, link));
+  const letters = lettersOf(plane, hulls);
   const links = bodies.flatMap((link, k) => {
     const hull = hulls[k]!;
     const mark = chosen && "link" in chosen && chosen.link === link ? " chosen" : "";
     const d = path(hull) + (hull.length > 2 ? "Z" : "");
     const joints = drawing.knots.filter((knot) => knot.links.includes(link)).map(({ at }) => at);
-    const places = nameSpots(viewport, namePlace(joints, [], link, viewport.scale), link);
+    const name = spaced(link);
+    const places = nameSpots(viewport, namePlace(joints, [], name, viewport.scale), name);
     const others = hulls.filter((one) => one !== hull && one.length);
-    const [x, y] = places[clearSpot(places, link, [hull, others], () => true)]!;
-    return [
-      svg("path", { class: `outline${mark}`, d, "data-link": link }),
-      svg("path.bar", { d }),
-      svg("text.name", { x, y, "text-anchor": "middle" }, link),
-    ];
+    const free = (spot: Pair) => letters.every(({ at }) => away(at, ...spot) > 14 + halfOf(name));
+    const [x, y] = places[clearSpot(places, name, [hull, others], free)]!;
+    return [svg("path", { class: `outline${mark}`, d, "data-link": link }), svg("path.bar", { d }), text(name, [x, y])];
   });
   const knots = drawing.knots.map((knot, k) => knotElement(plane, k, knot.at));
   const waiting = [...spots.map(({ at }) => at), ...(aim === "away" ? [] : [cursor])].map((at) =>
@@ -114,11 +113,51 @@ export function planePicture(plane: Plane): SVGElement[] {
     ...knots.filter((_, k) => !isPin(drawing.knots[k]!)),
     ...links,
     ...knots.filter((_, k) => isPin(drawing.knots[k]!)),
+    ...letters.map(({ at, name }) => text(name, at)),
     ...(waiting.length > 1 ? [svg("path.pending", { d: path(waiting) })] : []),
     svg("text.tick", { x: cx + 12, y: cy + 18 }, read),
     ...(picture && chosen && "picture" in chosen ? grips(plane, picture) : []),
     ...(aim === "away" ? [] : [svg("path.crosshair", { d: `M${cx - 7} ${cy}h14M${cx} ${cy - 7}v14` })]),
   ];
+}
+
+function text(name: string, [x, y]: Pair): SVGElement {
+  return svg("text.name", { x, y, "text-anchor": "middle" }, name);
+}
+
+/** What the knots are called, beside them; of those at one place, such as a block and its slide, all of them. */
+function lettersOf({ drawing, viewport }: Plane, hulls: readonly Pair[][]): { at: Pair; name: string }[] {
+  const { frame, knots } = drawing;
+  const ends = knots.flatMap(({ between }) => (between ? [between.map((at) => viewport.screen(...at))] : []));
+  // the name of a link of one joint stands above it
+  const drawn = [
+    ...ends,
+    ...hulls.map((hull) =>
+      hull[1]
+        ? hull
+        : hull.flatMap(([x, y]): Pair[] => [
+            [x, y],
+            [x, y - 15],
+          ]),
+    ),
+  ];
+  return knots.flatMap((knot, k) => {
+    const here = [...knots.keys()].filter((one) => same(knots[one]!, knot));
+    if (here[0]! < k) return [];
+    const has = (what: (one: Knot) => unknown) => here.some((one) => what(knots[one]!));
+    const [x, y] = viewport.screen(...knot.at);
+    const [above, top, below, foot] = has(({ slide }) => slide !== undefined) ? [15, -9, 46, 14] : [17, 8, 4, 26];
+    const under = convexHull(
+      [-1, 1].flatMap((side): Pair[] => [
+        [x + side * above, y + top],
+        [x + side * below, y + foot],
+      ]),
+    );
+    const name = here.map((one) => knotName(drawing, one)).join(", ");
+    const around = has(({ links }) => links.includes(frame!)) ? [...drawn, under] : drawn;
+    const [u, v] = clearAbout([x, y], -20, around, halfOf(name) - 2);
+    return [{ at: [u, v + 4], name }];
+  });
 }
 
 /** The edge of a chosen picture, and what is dragged to size and to turn it. */
@@ -179,7 +218,6 @@ function grid({ drawing, viewport }: Plane): SVGElement[] {
   const step = stepOf(viewport);
   const long = step * viewport.scale;
   const d = `M${right - long} 24v6h${long}v-6`;
-  const text = svg("text.tick", { x: right - long / 2, y: 22, "text-anchor": "middle" });
-  text.append(`${number(step)} ${unit}`);
-  return [...gridOf(viewport, unit, height - 8), svg("path.scale", { d }), text];
+  const told = svg("text.tick", { x: right - long / 2, y: 22, "text-anchor": "middle" }, `${number(step)} ${unit}`);
+  return [...gridOf(viewport, unit, height - 8), svg("path.scale", { d }), told];
 }

@@ -71,7 +71,7 @@ function sketch(drawing: Drawing): SVGElement {
   );
 }
 
-/** Cards over an empty plane. */
+/** Cards along the upper edge of an empty plane. */
 export function starters(view: Beginning): HTMLElement[] {
   const found = drawingOf(view.linkage).drawing;
   const cards: [string, string, Drawing | undefined][] = [
@@ -80,23 +80,10 @@ export function starters(view: Beginning): HTMLElement[] {
     ["slider-crank", t("Slider-crank"), drawn(SLIDER_CRANK)],
     ["six-bar", t("Six-bar (Watt II)"), drawn(SIX_BAR)],
   ];
-  return cards.flatMap(([key, text, drawing]) => {
+  const buttons = cards.flatMap(([key, text, drawing]) => {
     if (!drawing) return [];
     const begin = () => view.begin(drawing, key === "hand");
     return [h("button.plain", { "data-begin": key, onclick: begin }, sketch(drawing), text)];
   });
-}
-
-/** The linkage at hand beside a drawing that has begun, or why it cannot be drawn. */
-export function takenOver(view: Beginning): HTMLElement {
-  const { drawing, other } = drawingOf(view.linkage);
-  const name = view.linkage.title;
-  if (!drawing)
-    return h(
-      "p.note",
-      {},
-      t("{name} cannot be drawn: {joint} is neither pin, slide nor gear pair.", { name, joint: other[0]! }),
-    );
-  const onclick = () => view.begin(drawing, true);
-  return h("button.plain", { "data-begin": "hand", onclick }, t("Edit {name}", { name }));
+  return [h("h2", {}, t("Begin with")), ...buttons];
 }

@@ -8,7 +8,7 @@ import { direction, type Pair, place } from "./rows";
 /** The drawing of a linkage in the pose that is shown; without one the joints that cannot be drawn. */
 export function drawingOf(linkage: Linkage): { drawing?: Drawing; other: string[] } {
   const { beside, model, pose, sizes } = linkage;
-  const shown = model.links.map((_, link) => linkage.linkName(link));
+  const shown = model.links.map((_, link) => linkage.linkName(link).replaceAll(" ", "_"));
   const named = new Set(shown).size === shown.length && shown.every(isName);
   const names = named ? shown : model.links;
   const joints = model.joints.map((_, joint) => knotOf(linkage, joint, names));

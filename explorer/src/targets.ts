@@ -1,8 +1,9 @@
 /** What a linkage is to meet: marks in the plane, and a table in which they are typed. */
 
+import { digits } from "./digits";
 import { h, svg } from "./dom";
-import { toHull } from "./hull";
-import { angle, number, parsed, t } from "./language";
+import { clearAbout } from "./hull";
+import { angle, parsed, t } from "./language";
 import { valueAt } from "./plot";
 import type { Pair } from "./rows";
 
@@ -16,11 +17,12 @@ export function rowsTable(
   head: string[],
   removable: boolean,
   changed: () => void,
+  numbered = (k: number) => String(k + 1),
 ): HTMLElement {
-  const called = (k: number) => t("{title} {number}", { title, number: k + 1 });
+  const called = (k: number) => t("{title} {number}", { title, number: numbered(k) });
   const cell = (row: number[], k: number, axis: number) => {
     const input = h("input", {
-      value: number(row[axis]!, 6),
+      ...digits(row[axis]!),
       inputmode: "decimal",
       "aria-label": `${called(k)} ${head[axis]}`,
       onchange: () => {
@@ -38,8 +40,7 @@ export function rowsTable(
       rows.splice(k, 1);
       changed();
     };
-    const name = t("Remove {name}", { name: called(k) });
-    return h("button.quiet", { "aria-label": name, onclick: remove }, "×");
+    return h("button.quiet", { "aria-label": t("Remove {name}", { name: called(k) }), onclick: remove }, "×");
   };
   return h(
     "table",
@@ -49,7 +50,7 @@ export function rowsTable(
       h(
         "tr",
         {},
-        h("td", {}, String(k + 1)),
+        h("td", {}, numbered(k)),
         ...head.map((_, axis) => cell(row, k, axis)),
         h("td", {}, removable ? cross(k) : null),
       ),
@@ -119,14 +120,7 @@ export function numberPlaces(rows: readonly number[][], closed: boolean, unit: n
     const next = rows[k + 1] ?? (closed ? rows[0]! : row);
     return [row, row.length > 2 ? tip(row, unit) : next].map(([x, y]): Pair => [x!, y!]);
   });
-  return rows.map(([x, y]) => {
-    const around = Array.from({ length: 16 }, (_, k): Pair => {
-      const phi = ((3 - k) * Math.PI) / 8; // from the right above on
-      return [x! + AWAY * unit * Math.cos(phi), y! + AWAY * unit * Math.sin(phi)];
-    });
-    const clear = around.map(([u, v]) => Math.min(AWAY * unit, ...lines.map((line) => toHull(line, u, v))));
-    return around[clear.indexOf(Math.max(...clear))]!;
-  });
+  return rows.map(([x, y]) => clearAbout([x!, y!], AWAY * unit, lines));
 }
 
 /** A point with its number, and the arrow of a position; all of it in units that are so long. */

@@ -12,6 +12,7 @@ import {
   joined,
   jointName,
   jointsOf,
+  knotName,
   linksOf,
   moved,
   renamed,
@@ -54,6 +55,16 @@ test("a four-bar has F = 1, its dyad changes nothing", () => {
   assert.equal(linksOf(six).length, 6);
   const held = withDyad(drawing, on("2", 30, 60), on("3", 65, 20), on("frame", 120, 0));
   assert.equal(counted(held), -1); // 3(6 - 1) - 2·8: its middle is pinned to the link that it lies on, too
+});
+
+test("joints are called by letters, ends by their own names", () => {
+  const drawing = {
+    ...EMPTY,
+    knots: Array.from({ length: 60 }, (_, k) => ({ at: [k, 0] as [number, number], links: ["1"] })),
+  };
+  const named = { ...drawing, knots: [{ ...drawing.knots[0]!, name: "tip" }, ...drawing.knots.slice(1)] };
+  const names = [0, 1, 25, 26, 53].map((k) => knotName(named, k));
+  assert.deepEqual(names, ["tip", "B", "Z", "A1", "B2"]);
 });
 
 test("a slider-crank", () => {

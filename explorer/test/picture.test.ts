@@ -5,11 +5,12 @@ import { test } from "node:test";
 import { areaOf } from "../src/area";
 import { TURN } from "../src/cycle";
 import { gridStep } from "../src/grid";
-import { convexHull, toHull } from "../src/hull";
+import { clearAbout, convexHull, toHull } from "../src/hull";
 import { Linkage } from "../src/linkage";
 import { later } from "../src/player";
 import { lineThrough, plotRange, roundValues, valueAt } from "../src/plot";
 import { lapOf } from "../src/plots";
+import type { Pair } from "../src/rows";
 import { linesOf } from "../src/shapes";
 import { Sizes } from "../src/sizes";
 import { Span } from "../src/span";
@@ -231,6 +232,27 @@ test("the number of a target stands beside its point, clear of the arrows of oth
       assert.ok(Math.hypot(x - along, y - v) > 5 * unit);
     }
   });
+});
+
+test("beside a joint of a bar and a plate its letter keeps clear of both, further away if it has to", () => {
+  const bar: Pair[] = [
+    [0, 0],
+    [0, -80],
+  ];
+  const plate = convexHull([
+    [0, 0],
+    [90, 0],
+    [90, 90],
+  ]);
+  const [x, y] = clearAbout([0, 0], -20, [bar, plate]);
+  close(Math.hypot(x, y), 20);
+  assert.ok(toHull(bar, x, y) > 18 && toHull(plate, x, y) > 18);
+  // eight bars leave no room near their joint: 20 sin 22.5° = 7.7
+  const star = Array.from({ length: 8 }, (_, k): Pair[] => [
+    [0, 0],
+    [80 * Math.cos((k * Math.PI) / 4), 80 * Math.sin((k * Math.PI) / 4)],
+  ]);
+  close(Math.hypot(...clearAbout([0, 0], -20, star, 4)), 44, 4);
 });
 
 test("a plane without a width of its own is as large as its places and their numbers", () => {

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from gruebler.base.errors import ChainError
@@ -14,11 +15,12 @@ _MOST_OFFERS = 4
 _MOST_BARS = 2
 
 
-def drawing_record(joints: str, frame: str, drives: list[int], lang: str) -> dict[str, Any]:
+def drawing_record(joints: str, frame: str, drives: list[int], lang: str, names: Sequence[str] = ()) -> dict[str, Any]:
     """Mobility, reason and offers of a chain that is drawn, as plain data.
 
-    Joints are given by their numbers in the text. An offer is a change after which as many drives as there are give a
-    definite motion, or a step towards it. Each that changes the chain was tried: its generic mobility stands beside it.
+    Joints are given by their numbers in the text, and called by the names given. An offer is a change after which as
+    many drives as there are give a definite motion, or a step towards it. Each that changes the chain was tried: its
+    generic mobility stands beside it.
 
     Raises `GrueblerError` for a text that is no chain.
 
@@ -28,16 +30,23 @@ def drawing_record(joints: str, frame: str, drives: list[int], lang: str) -> dic
     """
     chain = Chain.parse(joints)
     report = mobility_report(chain, frame=frame)
-    names = chain.joint_names()
-    parts = [joints, f"frame={frame}", *(f"drive={names[number]}" for number in drives)]
+    parts = [joints, f"frame={frame}", *(f"drive={chain.joint_names()[number]}" for number in drives)]
+    titles = {
+        chain.joint_title(number).in_language(lang): name for number, name in enumerate(names[: len(chain.joints)])
+    }
+    title = re.compile("|".join(map(re.escape, sorted(titles, key=len, reverse=True))) or "(?!)")
+
+    def named(text: str) -> str:
+        return title.sub(lambda match: titles[match[0]], text)
+
     driven = check_drives(Mechanism.parse("; ".join(parts)))
     return {
         "counted": report.counted,
         "generic": report.generic,
-        "lines": report.explain(lang).splitlines()[1:],
+        "lines": named(report.explain(lang)).splitlines()[1:],
         "immobile": list(report.immobile_joints),
         "fixed": driven.fixed and report.generic > 0,
-        "reason": "" if driven.fixed or len(drives) < report.generic else driven.message.in_language(lang),
+        "reason": "" if driven.fixed or len(drives) < report.generic else named(driven.message.in_language(lang)),
         "offers": list(_offers(chain, frame, drives, report))[:_MOST_OFFERS],
     }
 

@@ -76,11 +76,12 @@ class DescribeStructure(Params):
 
 
 class DescribeDrawing(Params):
-    """A chain that is drawn: its joints as text, its frame, the numbers of the joints that are driven."""
+    """A chain that is drawn: its joints as text and what they are called, its frame, the numbers of driven joints."""
 
     joints: ChainText
     frame: Word
     drives: Annotated[list[Number], msgspec.Meta(max_length=20)] = []
+    names: Annotated[list[Word], msgspec.Meta(max_length=200)] = []
 
 
 class ListModes(Params):
