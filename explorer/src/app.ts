@@ -3,13 +3,13 @@
 import { BuildView } from "./build";
 import { CatalogView } from "./catalog";
 import { h, renew } from "./dom";
-import type { Drawing } from "./drawing";
 import { ExercisesView } from "./exercises";
 import { saveDocument, showExport } from "./export";
 import { languageMenu, saving, sayIn, tabs, viewNames } from "./header";
 import { showKeys } from "./help";
 import { Backend, type HostModel } from "./host";
 import { missing } from "./kernel";
+import { type Keyed, listenToKeys } from "./keys";
 import { currentLanguage, firstLanguage, type Language, setLanguage, t } from "./language";
 import { LibraryView } from "./library";
 import { BadLink, packed } from "./link";
@@ -73,10 +73,7 @@ export class App implements Page {
     // a notebook has its own main part
     this.#place = h(this.#linkable ? "main" : "div", { class: "views" }, this.motion.element);
     this.root = h("div.app", {}, this.#header, this.lost, this.message, this.#place);
-    // a page of its own listens everywhere, a cell of a notebook to itself
-    (this.#linkable ? document : this.root).addEventListener("keydown", (event) => this.#key(event as KeyboardEvent));
-    // before a field that keeps its keys for itself
-    if (this.#linkable) document.addEventListener("keydown", (event) => this.#saveKey(event), true);
+    listenToKeys(() => this.#keyed, this.#linkable ? null : this.root);
     this.host.addEventListener("dragover", (event) => event.preventDefault());
     this.host.addEventListener("drop", (event) => {
       event.preventDefault();
@@ -248,7 +245,7 @@ export class App implements Page {
         this.setTheme(this.host.dataset.theme === "dark" ? "light" : "dark");
         this.motion.stage.recoloured();
       }),
-      tool("keys", t("Keys"), () => showKeys(this.root, this.served)),
+      tool("keys", t("Keys"), () => this.#keyed.showKeys()),
       languageMenu(() => this.arrange()),
     );
   }
@@ -359,11 +356,6 @@ export class App implements Page {
 
   // --- files ---------------------------------------------------------------------------------------------------------
 
-  #draw(drawing: Drawing): void {
-    this.#turnTo("build");
-    (this.#viewOf("build") as BuildView).begin(drawing);
-  }
-
   async openFile(file: File | undefined): Promise<void> {
     if (!file) return;
     this.say(t("Opening {name} …", { name: file.name }), "done", h("progress", { "aria-hidden": "true" }));
@@ -372,8 +364,10 @@ export class App implements Page {
       this.say("");
       if (found.document) this.motion.openDocument(found.document);
       else if (found.model) this.open(found.model);
-      else if (found.drawing) this.#draw(found.drawing);
-      else if (found.text) this.describe(found.text);
+      else if (found.drawing) {
+        this.#turnTo("build");
+        (this.#viewOf("build") as BuildView).begin(found.drawing);
+      } else if (found.text) this.describe(found.text);
       else if (found.points) {
         (this.#viewOf("synthesis") as SynthesisView).take(found.points, found.closed ?? false, found.order);
         this.#turnTo("synthesis");
@@ -391,29 +385,14 @@ export class App implements Page {
     else machine();
   }
 
-  // --- keys ----------------------------------------------------------------------------------------------------------
-
-  #saveKey(event: KeyboardEvent): void {
-    if (!(event.ctrlKey || event.metaKey) || event.key !== "s") return;
-    event.preventDefault();
-    this.#save(() => saveDocument(this, this.motion));
-  }
-
-  #key(event: KeyboardEvent): void {
-    const target = event.composedPath()[0] as HTMLElement;
-    const undo = (event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z";
-    if (undo && this.motion.stage.cancelDrag()) return event.preventDefault();
-    if (event.key === "Escape" && this.view === "motion" && this.motion.escape()) return event.preventDefault();
-    if (target.matches("input:not([type=range], [type=checkbox]), textarea, select, dialog *")) return;
-    if (event.ctrlKey || event.metaKey) {
-      if (event.key === "z" && !event.shiftKey) this.#undoing.undo?.();
-      else if (event.key === "y" || (event.key.toLowerCase() === "z" && event.shiftKey)) this.#undoing.redo?.();
-      else return;
-      event.preventDefault();
-      return;
-    }
-    if (event.key === "?") showKeys(this.root, this.served);
-    else if (!this.views[this.view]!.press?.(event, target)) return;
-    event.preventDefault();
+  /** What its keys need. */
+  get #keyed(): Keyed {
+    return {
+      here: this.views[this.view]!,
+      motion: this.motion,
+      save: () => this.#save(() => saveDocument(this, this.motion)),
+      showKeys: () => showKeys(this.root, this.served),
+      undoing: this.#undoing,
+    };
   }
 }
