@@ -6,6 +6,8 @@ import sys
 
 import pytest
 
+from gruebler.cli import main
+
 PROGRAM = """
 import os, signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)  # also below a job in the background
@@ -40,6 +42,17 @@ MODULES = ["gruebler", "lazy_loader", "gruebler.base.errors", "gruebler.cli.comm
 @pytest.mark.parametrize("module", [*MODULES, "gruebler.structure.mobility", "gruebler.structure.mobility.placement"])
 def test_an_interrupt_while_a_module_is_loaded(module):
     assert interrupted(module, "check", "R(0-1) R(1-2) R(2-0)") == (130, "", "\ngruebler: stopped\n")
+
+
+def test_an_interrupt_of_a_search_that_is_kept_says_where_it_goes_on(monkeypatch, capsys, tmp_path):
+    def stopped(*_, **__):
+        raise KeyboardInterrupt(tmp_path / "search.npz")
+
+    monkeypatch.setattr("gruebler.cli.synthesise.synthesise_six_bars", stopped)
+    words = ["synthesise", "function", "log10(x)", "--interval", "1", "2", "--swings", "60", "60", "--six-bars"]
+    assert main(words) == 130
+    said = f"stopped; run the same command again to continue from {tmp_path / 'search.npz'}"
+    assert capsys.readouterr().err == f"\ngruebler: {said}\n"
 
 
 def test_an_interrupt_in_german():

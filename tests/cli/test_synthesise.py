@@ -105,6 +105,11 @@ def test_an_expression_and_its_minimax_optimum(capsys):
     assert "0.00367°" in out.partition("\nMinimax")[0]  # the table, too, has the optimum
     assert "35.9° !" in out
     assert "over the whole range of the drive as `analyse` gives it. !: below 40°." in out
+    assert "error at pairs" not in out
+    assert main(words[:-1]) == 0  # five pairs exactly; of the largest error between them the optimum began
+    heads, first = capsys.readouterr().out.partition("design  ")[2].splitlines()[:2]
+    assert re.search(r"error at pairs  over interval", heads)
+    assert re.search(r"< 1e-9 +0\.012° ", first)
 
 
 def test_the_printed_dimensions_of_an_optimum_have_the_error_that_is_stated(capsys):
@@ -312,7 +317,12 @@ def test_the_best_dead_centres_are_the_same_however_many_are_listed(capsys):
 
 def test_dead_centres_in_german(capsys):
     assert main(["synthesise", "dead-centres", "--swing", "60", "--crank-angle", "200", "--lang", "de"]) == 0
-    assert "unendlich viele" in capsys.readouterr().out
+    out = capsys.readouterr().out
+    assert "unendlich viele" in out
+    assert "Verschiebung" not in out  # the drive value of a dead centre holds nothing: no column
+
+
+SIX_BARS = ["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--six-bars"]
 
 
 @pytest.mark.parametrize(
@@ -323,7 +333,8 @@ def test_dead_centres_in_german(capsys):
         (["dead-centres", "--swing", "60", "--crank-angle", "400"], "--crank-angle: expected an angle between 0 and"),
         (["dead-centres", "--stroke", "5", "--time-ratio", "0.5"], "--time-ratio: expected slow to quick"),
         (["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--points", "0"], "expected 2 to 11"),
-        (["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--six-bars", "--minimax"], "not with --six"),
+        ([*SIX_BARS, "--minimax"], "not with --six"),
+        ([*SIX_BARS, "--six-bar-type", "watt ii", "--shape", "1", "30"], "--shape: only with a type of Stephenson's"),
         (["function", "x", "--interval", "1", "2", "--swings", "0", "60"], "--swings: expected a number that is not 0"),
         (
             ["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--points", "12"],

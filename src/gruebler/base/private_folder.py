@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 
@@ -29,6 +31,17 @@ def private_folder() -> Path | None:
         return folder if _only_mine(folder) and os.access(folder, os.W_OK) else None
     except OSError:
         return None
+
+
+@contextmanager
+def goes_on_from(file: Path | None) -> Iterator[None]:
+    """An interrupt within has the file as its argument if what was done so far is kept there."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        if file is not None and file.exists():
+            raise KeyboardInterrupt(file) from None
+        raise
 
 
 def _only_mine(folder: Path) -> bool:

@@ -80,8 +80,8 @@ def _run(words: list[str], lang: str) -> int:
         with _interrupts_raised(), printed_to_file(arguments), cut_tables(arguments):
             status = int(chosen.module().run(arguments))
             sys.stdout.flush()
-    except KeyboardInterrupt:
-        folder = getattr(arguments, "checkpoint", None)
+    except KeyboardInterrupt as stop:
+        folder = getattr(arguments, "checkpoint", None) or next(iter(stop.args), None)
         stopped = translate("stopped; run the same command again to continue from {folder}", lang, folder=folder)
         print(f"\ngruebler: {stopped if folder else translate('stopped', lang)}", file=sys.stderr)
         return 130

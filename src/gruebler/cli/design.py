@@ -64,7 +64,7 @@ def run(arguments: argparse.Namespace) -> int:
         specification,
         starts=arguments.initial_designs,
         executor=executor_of(arguments),
-        progress=count_line(arguments.lang),
+        progress=count_line(message("types tried: {done:,} of {count:,}"), arguments.lang),
     )
     best = proposals.result
     if (written := design_to_write(arguments, best)) is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from math import degrees, isnan
 
 import numpy as np
@@ -17,7 +17,7 @@ from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.minimax_search import digits_for_error
 from gruebler.design.synthesis.results import EXACT, FITTED, SolutionCount
 from gruebler.design.synthesis.sensitivity import slide_offsets
-from gruebler.design.synthesis.tasks import gives_lengths
+from gruebler.design.synthesis.tasks import gives_lengths, output_travels
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.mechanism.inversion import family
@@ -26,9 +26,9 @@ _REJECTED = 5  # rejected designs that are listed without --rejected, if no othe
 _COLUMNS = (
     *(message("design"), message("drive"), message("full turn"), message("µ at targets"), message("µ of range")),
     message("lengths"),
-    message("error"),
-    message("shift"),
 )
+_ERROR, _SHIFTED = message("error"), message("shift")
+_OF_FUNCTION = message("error at pairs"), message("over interval")
 _SHIFT = message(
     "Shift: how far the most sensitive target moves if all lengths are wrong by 0.1 %, in the worst case; each drive "
     "keeps its value."
@@ -42,7 +42,7 @@ _ANGLES = message(
     "`analyse` gives it."
 )
 _LOW = message("!: below 40°.")
-_PARETO = (message("design"), message("error"), message("µ at targets"), message("µ of range"))
+_PARETO = (message("µ at targets"), message("µ of range"))
 _LETTERS = {"crank": "a", "coupler": "b", "rocker": "c", "frame": "d"}
 """Lengths as the closed forms name them; those of other links have the names of their links."""
 
@@ -54,11 +54,12 @@ def print_designs(result: SynthesisResult, shown: SynthesisResult, rejected: boo
     """
     print_solutions(result.count, result.remarks, (len(result.designs), len(result.rejected)), lang)
     if result.designs:
-        headers, rows = [*_COLUMNS], [_row(k, design, lang) for k, design in enumerate(shown.designs, 1)]
+        headers = [*_COLUMNS, *_error_headers(shown), _SHIFTED]
+        rows = [_row(k, design, shown, lang) for k, design in enumerate(shown.designs, 1)]
         if isinstance(result.task, PositionTask | PathTask):  # they stand in the plane of the task
             headers.append(message("fixed pivots"))
             rows = [[*row, _pivots(design, lang)] for row, design in zip(rows, shown.designs, strict=True)]
-        print_table(headers, rows, lang=lang)
+        print_table(*_without_empty(headers, rows), lang=lang)
         more = len(result.designs) - len(shown.designs)
         if more:
             print(plural("and {count} more", "and {count} more", more, lang))
@@ -128,7 +129,7 @@ def print_pareto(result: SynthesisResult, lang: str) -> None:
     rows: list[list[Cell]] = [
         [
             str(numbers_of[id(row.design)]),
-            number(row.error, lang, ".1e"),
+            *_errors(row.design, result, lang),
             transmission_text(row.transmission, lang),
             transmission_text(row.design.transmission_over_range, lang),
             number(row.size, lang, "n"),
@@ -141,8 +142,22 @@ def print_pareto(result: SynthesisResult, lang: str) -> None:
     size = message("size") if gives_lengths(result.task) else message("size ratio")
     print()
     print(translate("Not beaten in error, transmission angle, size and number of links at once:", lang))
-    headers = (*_PARETO, size, message("links"), message("shift"), message("structure"))
-    print_table(headers, rows, numbers=[0, 1, 2, 3, 4, 5], lang=lang)
+    errors = _error_headers(result)
+    headers = [message("design"), *errors, *_PARETO, size, message("links"), _SHIFTED, message("structure")]
+    print_table(*_without_empty(headers, rows), numbers=range(5 + len(errors)), lang=lang)
+
+
+def _without_empty(headers: list[Message], rows: list[list[Cell]]) -> tuple[list[Message], list[list[Cell]]]:
+    """A table without the column of shifts where no row has one, as of dead centres."""
+    kept = [k for k in range(len(headers)) if headers[k] is not _SHIFTED or any(row[k] for row in rows)]
+    return [headers[k] for k in kept], [[row[k] for k in kept] for row in rows]
+
+
+def _error_headers(result: SynthesisResult) -> tuple[Message, ...]:
+    """Of a function that is an expression there are two errors, of its minimax optima only that over the interval."""
+    if any(design.optimum is not None for design in result.designs):
+        return _OF_FUNCTION[1:]
+    return _OF_FUNCTION if any(not isnan(each.verdict.over_interval) for each in result.designs) else (_ERROR,)
 
 
 def _structure(linkage: Linkage, lang: str) -> str:
@@ -152,7 +167,7 @@ def _structure(linkage: Linkage, lang: str) -> str:
     return f"{known}: {', '.join(mechanism.drive_names(alphabet))}" if known else mechanism.text(alphabet)
 
 
-def _row(position: int, design: Design, lang: str) -> list[Cell]:
+def _row(position: int, design: Design, shown: SynthesisResult, lang: str) -> list[Cell]:
     verdict = design.verdict
     return [
         f"{position} {design.form_in_language(lang)}",
@@ -160,7 +175,7 @@ def _row(position: int, design: Design, lang: str) -> list[Cell]:
         message("yes") if verdict.turns_fully else message("no"),
         *(transmission_text(mu, lang) for mu in (verdict.transmission, design.transmission_over_range)),
         _lengths(design.linkage, lang),
-        _error(design, lang),
+        *_errors(design, shown, lang),
         _shift(design, lang),
     ]
 
@@ -247,18 +262,23 @@ def _by_letter(names: tuple[str, str]) -> str:
     return _LETTERS.get(names[0], "")
 
 
-def _error(design: Design, lang: str) -> str:
-    """The largest structural error of a minimax optimum with its unit, else what is missed relative to the task."""
-    if design.optimum is not None:
-        star = "" if design.optimum.certificate.optimum else " *"
-        return _output(design.optimum, design.optimum.error, lang) + star
-    error = design.verdict.error
-    return "< 1e-9" if error < EXACT else number(error, lang, ".1e")
+def _errors(design: Design, result: SynthesisResult, lang: str) -> Iterator[str]:
+    """What is missed at the targets, relative to the task, and of a function at most over its interval."""
+    verdict, optimum = design.verdict, design.optimum
+    if optimum is not None:
+        yield _output(optimum, optimum.error, lang) + ("" if optimum.certificate.optimum else " *")
+        return
+    yield "< 1e-9" if verdict.error < EXACT else number(verdict.error, lang, ".1e")
+    if len(_error_headers(result)) > 1:
+        yield _of_output(verdict.over_interval, lang, ".2g", turns=not output_travels(result.task))
 
 
 def _output(optimum: Minimax, value: float, lang: str, form: str = "n") -> str:
     """An output angle in degrees, or a travel."""
-    turns = optimum.solution.row.output == "angle"
+    return _of_output(value, lang, form, turns=optimum.solution.row.output == "angle")
+
+
+def _of_output(value: float, lang: str, form: str, *, turns: bool) -> str:
     return number(degrees(value), lang, form) + "°" if turns else number(value, lang, form)
 
 

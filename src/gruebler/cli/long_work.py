@@ -95,13 +95,13 @@ def run_progress(lang: str) -> Iterator[Callable[[Progress], None] | None]:
         yield draw
 
 
-def count_line(lang: str) -> Callable[[int, int], None] | None:
-    """A line on a terminal that counts paths, verdicts or starts; None elsewhere."""
+def count_line(words: Message, lang: str) -> Callable[[int, int], None] | None:
+    """A line on a terminal that counts what the words say, by ``done`` and ``count``; None elsewhere."""
     if not sys.stderr.isatty():
         return None
 
     def show(done: int, count: int) -> None:
-        line = translate("{done:,} of {count:,}", lang, done=done, count=count)
-        print(f"\r{line}", end="\n" if done >= count else "", file=sys.stderr, flush=True)
+        line = words.filled(done=done, count=count).in_language(lang)
+        print(f"\r\033[K{line}", end="\n" if done >= count else "", file=sys.stderr, flush=True)
 
     return show

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from gruebler.base.errors import SynthesisError
-from gruebler.base.text import Message, joined_by_and, translate
+from gruebler.base.text import Message, joined_by_and, message, translate
 from gruebler.cli import synthesise_sphere
 from gruebler.cli.design_files import check_demands, check_picture, design_to_write, draw_designs
 from gruebler.cli.design_tables import print_clearance, print_designs, print_optimum
@@ -41,6 +41,7 @@ from gruebler.design.synthesis import (
     synthesise_structures,
 )
 from gruebler.design.synthesis.results import in_order_of
+from gruebler.design.synthesis.six_bar_monodromy import LOOPS
 from gruebler.files.designs import result_to_json
 from gruebler.files.linkages import write_linkage
 from gruebler.files.tasks import read_task
@@ -80,6 +81,13 @@ _SIX_BAR_OPTIONS = ("--six-bar-type", "--arm", "--shape", "--start-solutions")
 """The options that only --six-bars uses."""
 _LEAST = {PositionTask: 16, FunctionTask: 16, PathTask: 6, DeadCentreTask: 12, DwellTask: 1}
 """How many dyads or designs of an infinite family are taken at least, so that the best are among them."""
+_IMPROVED = message("initial designs improved: {done:,} of {count:,}")
+_COUNTED = {
+    "positions": message("designs judged: {done:,} of {count:,}"),
+    "path": message("paths or designs: {done:,} of {count:,}"),
+    "function": message("paths or start solutions: {done:,} of {count:,}"),
+}
+"""What is counted meanwhile; of the others initial designs."""
 _TASKS: dict[str, type[Task]] = {
     "positions": PositionTask,
     "function": FunctionTask,
@@ -106,7 +114,7 @@ def add(parser: Parser) -> None:
     )
     positions.take(
         """
-        task TASK  a .toml, .json or .csv file; CSV columns x,y,angle
+        task TASK  a .toml, .json or .csv file; CSV columns x,y,angle and order where wanted
         --moving-pivot X Y float ...  choose a pivot on the body in its first position, for two to four positions; with
             four the nearest point of Burmester's curve; repeatable
         --fixed-pivot X Y float ...  choose a pivot on the frame, likewise; repeatable
@@ -151,7 +159,8 @@ def add(parser: Parser) -> None:
     )
     path.take(
         """
-        task TASK  a .toml, .json or .csv file; CSV columns x,y and angle, crank, output, tolerance, weight where wanted
+        task TASK  a .toml, .json or .csv file; CSV columns x,y and angle, crank, output, tolerance, weight,
+            order where wanted
         --closed  the points are a closed curve
         --fixed-pivot X Y float ...  a given pivot on the frame; give it twice for both
         """
@@ -449,7 +458,7 @@ def _law(arguments: argparse.Namespace) -> FunctionLaw:
 
 
 def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> SynthesisResult:
-    progress = count_line(arguments.lang)
+    progress = count_line(_COUNTED.get("" if arguments.structure else arguments.action, _IMPROVED), arguments.lang)
     if arguments.structure:
         return _fitted(arguments, task, demands, progress)
     more = {} if arguments.number is None else {"number": max(arguments.number, _LEAST[type(task)])}
@@ -474,7 +483,10 @@ def _six_bar_type(arguments: argparse.Namespace) -> SixBarType | None:
     shape = usual.shape if arguments.shape is None else cmath.rect(arguments.shape[0], radians(arguments.shape[1]))
     arm = usual.arm if arguments.arm is None else arguments.arm
     starts = usual.start_solutions if arguments.start_solutions is None else arguments.start_solutions
-    family = arguments.six_bar_type or usual.family
+    wanted = arguments.six_bar_type or usual.family
+    family = next((known for known in LOOPS if known.lower() == wanted.lower()), wanted)
+    if arguments.shape is not None and family == usual.family:
+        raise SynthesisError("{options}: only with a type of Stephenson's", options="--shape")
     return SixBarType(family=family, arm=arm, shape=shape, start_solutions=starts)
 
 

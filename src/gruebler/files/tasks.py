@@ -266,6 +266,8 @@ def task_to_json(task: Task) -> dict[str, Any]:
 
 
 _OF_OUTPUTS = {"swing", "crank_angle", "dwell"}
+_OF_ONE_ROW = ("swing", "stroke", "crank_angle", "time_ratio", "dwell")
+"""The columns of a CSV file that has dead centres or a rest."""
 _PIVOTS = ("moving_pivots", "fixed_pivots")
 _TURNED = ("angles", "crank_angles", "output_angles")
 """The angles that a path gives for its targets."""
@@ -360,13 +362,15 @@ def _from_csv(text: str) -> Task:
             return task_from_json({"inputs": angles("input"), "outputs": angles("output")})
         case names if names == {"input", "travel"}:
             return task_from_json({"inputs": angles("input"), "outputs": numbers("travel"), "output": "travel"})
-        case names if names and names <= {"swing", "stroke", "crank_angle", "time_ratio", "dwell"} and len(lines) == 2:
+        case names if names and names <= {*_OF_ONE_ROW} and len(lines) == 2:
             return task_from_json(
                 {name: angles(name)[0] if name in _OF_OUTPUTS else numbers(name)[0] for name in header}
             )
     raise SynthesisError(
-        "line 1: expected the columns x,y,angle or x,y or x,y,crank or input,output or input,travel, but "
-        "found {header}",
+        "line 1: expected the columns x,y with any of {more}, or input,output, or input,travel, or one row with some "
+        "of {single}, but found {header}",
+        more=",".join(_COLUMNS_OF.values()),
+        single=",".join(_OF_ONE_ROW),
         header=",".join(header)[:60],
     )
 

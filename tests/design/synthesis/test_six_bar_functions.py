@@ -229,6 +229,22 @@ def test_a_damaged_census_begins_anew_and_says_so(tmp_path, monkeypatch):
     assert kept_census("Stephenson III", 2).damaged == file
 
 
+@pytest.mark.parametrize("usable", [True, False])
+def test_an_interrupt_says_where_a_census_goes_on_only_if_something_is_kept(usable, tmp_path, monkeypatch):
+    def step(census):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("gruebler.design.synthesis.six_bar_census.private_folder", lambda: tmp_path)
+    monkeypatch.setattr(Census, "step", step)
+    file = tmp_path / "six_bars_Stephenson_III_eleven.npz"
+    Census(ELEVEN["Stephenson III"], 1).save(file)
+    if not usable:
+        file.write_bytes(b"no census")
+    with pytest.raises(KeyboardInterrupt) as stop:
+        kept_census("Stephenson III", 2)
+    assert stop.value.args == ((file,) if usable else ())
+
+
 @pytest.mark.slow
 def test_the_number_that_monodromy_lists_is_estimated():
     """Of Watt's second kind through nine pairs: 26,370."""

@@ -145,7 +145,7 @@ def test_bad_tasks_are_refused_in_one_sentence(make, sentence):
     [
         ("a.csv", "x,y,angle\n0,0,0\n1,two,3\n", "line 3, y: expected a number, but found 'two'"),
         ("a.csv", "x,y,angle\n0,0\n", "line 2: expected 3 columns, but found 2"),
-        ("a.csv", "p,q\n1,2\n", "line 1: expected the columns"),
+        ("a.csv", "x,y,rank\n1,2,3\n", "x,y with any of angle,crank,output,tolerance,weight,order, or input,output"),
         ("a.csv", "0,0,0,0\n1,2,3,4\n", "line 1: expected the names of the columns"),
         ("a.csv", "7\n8\n", "(positions) without them, but found 1 numbers"),
         ("a.csv", "0,0,0\n1,2\n", "line 2: expected 3 columns, but found 2"),

@@ -251,7 +251,7 @@ def _judged_optimum(task: FunctionTask, law: FunctionLaw, demands: Demands, opti
     met = replace(demands, tolerance=max(demands.tolerance, 1.1 * optimum.error / size))  # 1.1: the error is rounded
     targets = Targets(probes, np.stack(values, axis=1), size)
     design = judge_design(linkage, targets, met, solution.kind)
-    verdict = replace(design.verdict, error=optimum.error / size)
+    verdict = replace(design.verdict, error=optimum.error / size, over_interval=optimum.error)
     pairs = replace(targets, values=targets.values[1:-1])
     return replace(design, verdict=verdict, drives=tuple(map(float, phi[1:-1])), optimum=optimum, targets=pairs)
 

@@ -49,6 +49,8 @@ class DesignVerdict:
     """Whether the fixed pivots lie in the region."""
     error: float = float("nan")
     """The largest deviation from a target, relative to the size of the task."""
+    over_interval: float = float("nan")
+    """Of a function: the largest deviation over its whole interval, in radians or the unit of length."""
     between: float = float("nan")
     """Of a curve: how far its point lies from the line between two targets on the way, relative to the size."""
     reasons: tuple[Message, ...] = ()
@@ -57,6 +59,11 @@ class DesignVerdict:
     def accepted(self) -> bool:
         """Whether nothing speaks against it."""
         return not self.reasons
+
+    @property
+    def largest_error(self) -> float:
+        """Over the interval of a function, else at the targets."""
+        return self.error if isnan(self.over_interval) else self.over_interval
 
     def explain(self, lang: str = "en") -> str:
         """What it comes to, in English or German (``de``).
@@ -194,7 +201,7 @@ EXACT = 1e-9
 
 def _error(design: Design) -> float:
     """Errors of exact designs are rounding, which orders nothing."""
-    error = design.verdict.error
+    error = design.verdict.largest_error
     return 0.0 if error < EXACT else error
 
 
@@ -337,6 +344,7 @@ class ParetoRow:
 
     structure: str
     error: float
+    """Over the interval of a function, else at the targets."""
     transmission: float
     size: float
     """Its own; of a task of angles alone, which linkages of any size meet, the longest length by the shortest."""
@@ -360,7 +368,7 @@ def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
     rows = [
         ParetoRow(
             structure=design.linkage.mechanism.text(),
-            error=design.verdict.error,
+            error=design.verdict.largest_error,
             transmission=design.verdict.transmission,
             size=design.linkage.size if gives_lengths(found.task) else design.verdict.size_ratio,
             links=design.links,

@@ -15,7 +15,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Integers
 from gruebler.base.atomic_files import atomic_file
-from gruebler.base.private_folder import private_folder
+from gruebler.base.private_folder import goes_on_from, private_folder
 from gruebler.design.synthesis.alt_burmester import Problem, sharpened
 from gruebler.design.synthesis.results import Progress
 from gruebler.design.synthesis.six_bar_monodromy import UNUSABLE, follow, known_solutions, merged, random_numbers
@@ -118,10 +118,12 @@ def kept_census(family: str, solutions: int, *, threads: int | None = None, prog
             census.load(file)
         except UNUSABLE:
             census.damaged = file
-    while len(census.z) < solutions or census.met.max() < 2:
-        census.step()
-        if file is not None:
-            census.save(file)
-        if progress is not None:
-            progress(min(len(census.z), solutions), solutions)
+            file.unlink()
+    with goes_on_from(file):
+        while len(census.z) < solutions or census.met.max() < 2:
+            census.step()
+            if file is not None:
+                census.save(file)
+            if progress is not None:
+                progress(min(len(census.z), solutions), solutions)
     return census

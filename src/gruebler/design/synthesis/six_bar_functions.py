@@ -78,12 +78,9 @@ class SixBarType:
             raise SynthesisError(
                 "six-bars coordinate angles as {known}, not as {found!r}", known=", ".join(LOOPS), found=self.family
             )
-        if not 0 < self.arm < np.inf or not 0 < abs(self.shape) < np.inf:
-            raise SynthesisError(
-                "the arm of a six-bar has a positive length, and a shape that is not zero: {arm:g}, {shape:g}",
-                arm=self.arm,
-                shape=self.shape,
-            )
+        for name, length in (("arm", self.arm), ("shape", abs(self.shape))):
+            if not 0 < length < np.inf:
+                raise SynthesisError("{key}: expected a positive length, but found {value:g}", key=name, value=length)
         if not 1 <= self.start_solutions <= _MOST:
             raise SynthesisError(
                 "start solutions: expected a whole number from 1 to {most:,}, but found {found}",
@@ -114,9 +111,8 @@ def synthesise_six_bars(
     Returns:
         `SynthesisResult`: the designs that keep their assembly mode through all pairs, judged by their motion. The
         frame of the first loop is 1; the second four-bar of Watt II has any size and place, and gets the size of
-        the first on the same line. Of a function the error is the largest over its interval, seen at 400 places;
-        one that cannot go through it is rejected. The notes say how many there are besides, and whether the list is
-        complete; of eleven pairs how many are estimated.
+        the first on the same line. Of a function, one that cannot go through its interval is rejected. The notes say
+        how many there are besides, and whether the list is complete; of eleven pairs how many are estimated.
 
     Raises `SynthesisError` for other tasks. Cost: 25 to 55 s of processor time, of Stephenson's 60 to 100 s, and 10 to
     30 ms for each verdict; the first time that a type meets eight pairs 150 to 600 s more. Of eleven pairs 4 ms
@@ -161,7 +157,7 @@ def synthesise_six_bars(
     turns = np.exp(1j * np.stack([phi, output], axis=1))
     kept = keeps_modes(of, real, turns) if wanted.one_branch else np.ones(len(real), bool)
     judged = (_judged(task, wanted, of, vectors, turns) for vectors in real[kept])
-    accepted, rejected = ranked(over_interval(design, task, "rocker") for design in judged)
+    accepted, rejected = ranked(over_interval(design, task) for design in judged)
     if task.law is not None:
         accepted = in_order_of(accepted, ["error"])
     notes = [

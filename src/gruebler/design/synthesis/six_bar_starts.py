@@ -14,7 +14,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, compared_by_value
 from gruebler.base.atomic_files import atomic_file
-from gruebler.base.private_folder import private_folder
+from gruebler.base.private_folder import goes_on_from, private_folder
 from gruebler.design.synthesis.alt_burmester import Problem, sharpened
 from gruebler.design.synthesis.results import Progress
 from gruebler.design.synthesis.six_bar_monodromy import UNUSABLE, Search, trace, with_arm_given
@@ -76,7 +76,8 @@ def start_set(family: str, *, threads: int | None = None, progress: Progress | N
     if kept is not None and (stored := _stored(problem, kept)) is not None:
         return stored
     unfinished = None if folder is None else folder / f"{name}_search.npz"
-    starts = _listed(problem, unfinished, threads, progress)
+    with goes_on_from(unfinished):
+        starts = _listed(problem, unfinished, threads, progress)
     if kept is not None and unfinished is not None:
         save_start_set(starts, kept)
         unfinished.unlink(missing_ok=True)
@@ -110,6 +111,7 @@ def _listed(problem: Problem, file: Path | None, threads: int | None, progress: 
             search.load(file)
         except UNUSABLE:
             damaged = file
+            file.unlink()
     saved = monotonic()
     while True:
         while search.step():
