@@ -6,7 +6,7 @@ import { FactList } from "./factlist";
 import type { Fall } from "./falling";
 import { number, t } from "./language";
 import type { Linkage } from "./linkage";
-import { LoadForm } from "./loads";
+import { LoadForm, RPM } from "./loads";
 import type { Model } from "./model";
 import type { PlaneTransport } from "./planetransport";
 import { Plot } from "./plot";
@@ -15,7 +15,7 @@ import type { Spring } from "./springs";
 import { driveText } from "./track";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
-import { momentUnit } from "./wording";
+import { lengthUnit, momentUnit } from "./wording";
 
 const ASKED_AFTER = 350; // milliseconds
 
@@ -48,7 +48,10 @@ export interface Loaded {
 
 export class Forces {
   readonly element = h("div", { "data-part": "forces" });
-  readonly #form = new LoadForm(() => this.changed());
+  readonly #form = new LoadForm(
+    () => this.changed(),
+    (speed) => this.#view.transport.playAt(speed),
+  );
   readonly #result = h("div", {});
   readonly #facts = new FactList();
   readonly #polar = new Polar();
@@ -148,7 +151,9 @@ export class Forces {
       const how = t("Weight and springs alone move the linkage, in real time");
       const most = effort.reduce<number>((best, one, k) => (size(one) > size(effort[best]!) ? k : best), 0);
       const largest = `${number(effort[most] ?? 0, 4)} ${turning ? momentUnit(model) : "N"}`;
-      const note = t("at {place}", { place: driveText(linkage, drives[most]!, 4) });
+      const place = driveText(linkage, drives[most]!, 4);
+      const rate = turning ? `${number((speed ?? 0) / RPM)}/min` : `${number(speed ?? 0)} ${lengthUnit(model)}/s`;
+      const note = `${t("at {place}", { place })}, ${rate}`;
       const strong = this.#forces.reduce((best, { most: own }, k) => (own > this.#forces[best]!.most ? k : best), 0);
       const strongest = `${number(this.#forces[strong]!.most, 4)} N`;
       this.#joint.selectedIndex = chosen < 0 ? strong : chosen;
@@ -164,7 +169,7 @@ export class Forces {
         h("div.form", {}, h("label", {}, t("Force"), this.#joint)),
         this.#polar.element,
         h("details.words", {}, h("summary", {}, t("In words")), ...lines.map((line) => h("p.note", {}, line))),
-        h("div.form", {}, h("button.plain", { "data-act": "fall", onclick }, release), h("small", {}, how)),
+        h("div.form", {}, h("button.plain", { "data-act": "fall", onclick }, release), h("p.note", {}, how)),
         fallen,
       );
       this.#showJoint();

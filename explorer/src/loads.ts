@@ -6,7 +6,8 @@ import type { Linkage } from "./linkage";
 import { type End, endsOf, type Spring } from "./springs";
 import { lengthUnit, momentUnit } from "./wording";
 
-const RPM = Math.PI / 30;
+/** A turn a minute, in rad/s. */
+export const RPM = Math.PI / 30;
 const MOST = 1e9;
 
 /** A force on a joint or a point, or a moment, as x, on a link. */
@@ -29,7 +30,11 @@ export class LoadForm {
   #weight = true;
   #loads: Load[] = [];
 
-  constructor(private readonly changed: () => void) {}
+  constructor(
+    private readonly changed: () => void,
+    /** Let the picture move at a speed of the drive. */
+    private readonly play: (speed: number) => void,
+  ) {}
 
   /** Nothing is typed yet. */
   clear(): void {
@@ -57,6 +62,8 @@ export class LoadForm {
         this.speed = v > 0 ? v * factor : null;
       },
     );
+    const play = h("button.plain", { "data-act": "play", onclick: () => this.play(speed) }, t("Play at this speed"));
+    const first = [h("div.rows", {}, ...rows.splice(0)), h("div.form", {}, play)];
     for (const link of links)
       rows.push(
         ...this.#row(`mass-${link}`, t("Mass {link}", { link: linkage.linkName(link) }), "kg", masses[link]!, (v) => {
@@ -96,11 +103,10 @@ export class LoadForm {
       this.changed();
     };
     const weight = h("input", { type: "checkbox", checked: this.#weight, onchange: weigh });
-    const note = h("p.note", {}, t("Forces are those at this speed of the drive; the picture plays at its own."));
     renew(
       this.element,
+      ...first,
       h("div.rows", {}, ...rows),
-      note,
       h("div.form", {}, h("label", {}, weight, t("Weight, downward"))),
     );
   }

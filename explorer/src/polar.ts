@@ -25,25 +25,22 @@ export class Polar {
     this.#vectors = vectors;
     const { x, y, most } = vectors;
     const scale = RADIUS / most;
-    const rings = roundValues(0, most, 2).filter((value) => value > 0);
-    const mean = [x, y].map((part) => part.reduce((sum, one) => sum + (one || 0), 0) / part.length) as Pair;
+    const rings = roundValues(0, most, 6).slice(1); // three to seven
     // the numbers stand where the curve is not
-    const off = Math.hypot(...mean);
-    const away: Pair = off > 0.05 * most ? (mean.map((part) => part / off) as Pair) : [0, 1];
+    const below = y.reduce((sum, one) => sum + (one || 0), 0) < 0 ? -1 : 1;
     const to = (factor: number) => (value: number) => factor * value;
     this.element.setAttribute("aria-label", t("Largest {value}", { value: `${number(most)} ${unit}` }));
     this.element.replaceChildren(
       svg("path.mesh", { d: "M-140 0H140M0 -96V96" }),
       ...rings.map((value) => svg("circle.mesh", { fill: "none", r: scale * value })),
       svg("path.curve.force", { d: lineThrough(x.map(to(scale)), y.map(to(-scale))) }),
-      ...rings.map((value) => {
-        const far = scale * value + 12;
-        return svg(
+      ...rings.map((value, k) =>
+        svg(
           "text",
-          { x: -far * away[0], y: 4 + far * away[1], "text-anchor": "middle" },
-          `${number(value)} ${unit}`,
-        );
-      }),
+          { y: 4 + below * scale * value, "text-anchor": "middle" },
+          number(value) + (rings[k + 1] ? "" : ` ${unit}`),
+        ),
+      ),
       this.#here,
     );
   }

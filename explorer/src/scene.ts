@@ -4,7 +4,7 @@ import { backdropElement, putBackdrop } from "./backdrop";
 import { Bodies } from "./bodies";
 import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
-import { convexHull } from "./hull";
+import { clearAbout, convexHull, toHull } from "./hull";
 import { number as numberText } from "./language";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
@@ -21,6 +21,7 @@ export const SUPPORT = "M0 0 L-11 17 H11 Z M-17 17 H17 M-14 23 l5 -6 M-5 23 l5 -
 const DRIVEN = "M9.5 -9.5 A13.4 13.4 0 0 0 -12.5 -5 M-12.5 -5 l6 -1.5 M-12.5 -5 l-0.6 -6";
 const LONGEST_ARROW = 90; // pixels
 const LINE = 15; // pixels that names are apart
+const INK = 8; // from a name to an arrow
 const MOST_CLEAR = 40; // names that look for a place of their own in every picture
 
 export class Scene {
@@ -31,11 +32,9 @@ export class Scene {
   #backdrop: SVGElement | null = null;
   /** Whether the pole is to be shown but lies outside of the picture. */
   poleAside = false;
-  readonly #arrows = svg("path.velocity", {});
-  readonly #changes = svg("path.acceleration", {});
-  readonly #forces = svg("path.force", {});
+  readonly #arrows = ["force", "velocity", "acceleration"].map((kind) => svg(`path.${kind}`, {}));
   /** Beside the longest arrow of each kind, how much it is. */
-  readonly #values = [0, 1, 2].map(() => svg("text.tick", { "data-arrow": "" }));
+  readonly #values = [0, 1, 2].map(() => svg("text.tick", { "data-arrow": "", "text-anchor": "middle" }));
   readonly #springs = svg("path.spring-path", {});
   readonly #rulers = svg("path.ruler", {});
   readonly #circle = svg("circle.inflection", { r: 0 });
@@ -101,9 +100,7 @@ export class Scene {
     this.#labels = shown.labels ? labelsOf(linkage) : [];
     front.append(
       ...this.#labels.map(({ element }) => element),
-      this.#arrows,
-      this.#changes,
-      this.#forces,
+      ...this.#arrows,
       ...this.#values,
       this.#springs,
       this.#rulers,
@@ -174,6 +171,20 @@ export class Scene {
     }
     const taken: { x: number; y: number; half: number }[] = [];
     const hulls = this.#labels.map(({ hull }) => (hull && this.#labels.length < MOST_CLEAR ? hull(viewport) : []));
+    const kinds: [Vector[], string][] = [
+      [this.#forceArrows(linkage, shown), "N"],
+      ...([1, 2] as const).map((k): [Vector[], string] => {
+        const wanted = k === 1 ? shown.velocities : shown.accelerations;
+        return [this.#vectors(linkage, k, wanted), rateUnit(linkage, k, false).replace(/[[\]]/g, "")];
+      }),
+    ];
+    const arrows = kinds.flatMap(([all]) =>
+      all.map(([x, y, dx, dy]): Pair[] => [
+        [x, y],
+        [x + dx, y + dy],
+      ]),
+    );
+    const drawn = [...hulls.filter((hull) => hull.length), ...arrows];
     for (const [k, label] of this.#labels.entries()) {
       const { element, half, begins, name, spots } = label;
       const places = spots(viewport);
@@ -181,7 +192,8 @@ export class Scene {
         taken.find((other) => half + other.half > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01);
       if (hulls[k]!.length) {
         const others = hulls.filter((one, other) => other !== k && one.length);
-        label.taken = clearSpot(places, name, [hulls[k]!, others], (at) => !touching(at), label.taken);
+        const free = (at: Pair) => !touching(at) && arrows.every((one) => clearOf(one, half, at));
+        label.taken = clearSpot(places, name, [hulls[k]!, others], free, label.taken);
       }
       const [left, top] = places[label.taken]!;
       const x = left + (begins ? half : 0);
@@ -189,11 +201,16 @@ export class Scene {
       const way = y < (touching([x, y])?.y ?? 0) ? -1 : 1;
       for (let other = touching([x, y]); other; other = touching([x, y])) y = other.y + way * LINE;
       taken.push({ x, y, half });
+      drawn.push([
+        [x - half, y - 4],
+        [x + half, y - 4],
+      ]);
       move(element, [left, y]);
     }
-    put(this.#arrows, { d: this.#vectors(linkage, 1, shown.velocities) });
-    put(this.#changes, { d: this.#vectors(linkage, 2, shown.accelerations) });
-    put(this.#forces, { d: this.#forceArrows(linkage, shown) });
+    kinds.forEach(([all, unit], k) => {
+      put(this.#arrows[k]!, { d: all.map((vector) => arrow(...vector)).join("") });
+      this.#putValue(k, all, unit, drawn);
+    });
     const springs = shown.springs().map((spring) => springPath(linkage, viewport, spring));
     put(this.#springs, { d: springs.join("") });
     const lines = readingsOf(linkage).map(({ ends }) => `M${ends.map((at) => viewport.screen(...at)).join("L")}`);
@@ -201,16 +218,15 @@ export class Scene {
     this.#drawPole(linkage, shown);
   }
 
-  #forceArrows(linkage: Linkage, shown: Shown): string {
-    const drawn = shown.forces().map(([joint, x, y, force]): Vector => {
+  #forceArrows(linkage: Linkage, shown: Shown): Vector[] {
+    return shown.forces().map(([joint, x, y, force]): Vector => {
       const [u, v] = this.viewport.screen(...linkage.jointAt(joint));
       return [u, v, LONGEST_ARROW * x, -LONGEST_ARROW * y, force];
     });
-    return this.#arrowPath(drawn, 0, "N");
   }
 
-  /** Velocities (1) or accelerations (2) of all joints and points that move, as a path. */
-  #vectors(linkage: Linkage, k: 1 | 2, wanted: boolean): string {
+  /** Velocities (1) or accelerations (2) of all joints and points that move. */
+  #vectors(linkage: Linkage, k: 1 | 2, wanted: boolean): Vector[] {
     const { model, pose, sizes } = linkage;
     const places: Vector[] = [];
     const add = (link: number, u: number, v: number) => {
@@ -227,19 +243,17 @@ export class Scene {
     if (wanted) for (const point of sizes.points) add(point.link, ...point.at);
     const most = Math.max(...places.map((one) => one[4]).filter(Number.isFinite), 1e-12);
     const shortened = (value: number) => (LONGEST_ARROW * value) / most;
-    const drawn = places.map(([x, y, dx, dy, size]): Vector => [x, y, shortened(dx), shortened(dy), size]);
-    return this.#arrowPath(drawn, k, rateUnit(linkage, k, false).replace(/[[\]]/g, ""));
+    return places.map(([x, y, dx, dy, size]): Vector => [x, y, shortened(dx), shortened(dy), size]);
   }
 
-  /** The arrows as a path; the longest of them says how much it is. */
-  #arrowPath(arrows: readonly Vector[], k: 0 | 1 | 2, unit: string): string {
+  /** Beside the longest arrow of a kind, clear of all else, how much it is. */
+  #putValue(k: number, arrows: readonly Vector[], unit: string, drawn: readonly (readonly Pair[])[]): void {
     const text = this.#values[k]!;
     const [x, y, dx, dy, most] = arrows.reduce((a, b) => (b[4] > a[4] ? b : a), [0, 0, 0, 0, 0]);
     text.textContent = most > 0 ? `${numberText(most, 3)} ${unit.trim()}` : "";
-    const part = 1 + 12 / (Math.hypot(dx, dy) || 1);
-    put(text, { "text-anchor": dx < 0 ? "end" : "start" });
-    move(text, [x + part * dx, y + part * dy + 4]);
-    return arrows.map((vector) => arrow(...vector)).join("");
+    if (!(most > 0)) return;
+    const [left, top] = clearAbout([x + dx, y + dy], 18, drawn, halfOf(text.textContent));
+    move(text, [left, top + 4]);
   }
 
   #drawPole(linkage: Linkage, shown: Shown): void {
@@ -315,6 +329,11 @@ function labelsOf(linkage: Linkage): Label[] {
     }),
   );
   return [...names, ...marks];
+}
+
+/** Whether a name keeps clear of an arrow. */
+function clearOf(one: readonly Pair[], half: number, [x, y]: Pair): boolean {
+  return [-half, 0, half].every((d) => !(toHull(one, x + d, y - 4) < INK));
 }
 
 function move(element: SVGElement, [x, y]: Pair): void {

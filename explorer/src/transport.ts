@@ -2,7 +2,7 @@
 
 import { type Reach, type Stop, TURN, wrapped } from "./cycle";
 import { h, renew } from "./dom";
-import { parsed, t } from "./language";
+import { number, parsed, t } from "./language";
 import { later, Player } from "./player";
 import { driveText, Track } from "./track";
 
@@ -70,7 +70,7 @@ export class Transport<View extends Driven = Driven> {
         rate.textContent = `${this.speed}/min`;
       },
     });
-    const rate = h("span", {}, `${this.speed}/min`);
+    const rate = h("span", {}, `${number(this.speed, 3)}/min`);
     const onchange = (event: Event) => {
       this.view.linkage.choose(Number((event.target as HTMLSelectElement).value));
       this.view.chosen();
@@ -153,6 +153,14 @@ export class Transport<View extends Driven = Driven> {
 
   toggle(): void {
     this.player.toggle();
+  }
+
+  /** Play at a speed of the drive, in rad/s or lengths a second. */
+  playAt(speed: number): void {
+    const [low, high] = this.range;
+    this.speed = (60 * speed) / (this.view.linkage.cycle.full ? TURN : 2 * (high - low));
+    this.arrange();
+    if (!this.player.playing) this.toggle();
   }
 
   pause(): void {

@@ -191,6 +191,10 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     page.until(f"gruebler.motion.transport.player.playing && {POSE} !== '{before}'", 90)
     page.page.locator("button.play").click()
     assert page.page.evaluate(POSE) == before
+    assert "12/min" in page.page.locator(".transport .speed").inner_text()
+    page.page.locator('[data-act="play"]').click()
+    assert "60/min" in page.page.locator(".transport .speed").inner_text()
+    assert page.page.evaluate("gruebler.motion.transport.player.playing")
 
 
 def test_springs_are_chosen_drawn_and_turn_the_drive(tab, server):
@@ -239,9 +243,14 @@ def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_field
     largest = max(told["effort"], key=abs)
     assert torque.startswith(f"\N{MINUS SIGN}{-largest:.4g} N·mm at ")
     places = [drive for drive, effort in zip(told["drives"], told["effort"], strict=True) if effort == largest]
-    assert torque.endswith(f" at {math.degrees(places[0]):.4g}°")
+    assert torque.endswith(f" at {math.degrees(places[0]):.4g}°, 60/min")
+
     strongest = max((math.hypot(x, y) for one in told["forces"] for x, y in zip(*one["force"], strict=True)))
     assert force == f"{strongest:.4g} N frame on rocker"
+    rings = [float(text.split()[0]) for text in panel.locator(".polar text").all_text_contents()]
+    assert len(rings) >= 3
+    assert rings == pytest.approx([rings[0] * (k + 1) for k in range(len(rings))])
+    assert rings[-1] <= strongest < rings[-1] + rings[0]
     size = "parseFloat(getComputedStyle(gruebler.root.querySelector('.stage text[data-arrow]:not(:empty)')).fontSize)"
     assert page.evaluate(size) >= 12
     assert panel.locator('label:has([type="checkbox"])').bounding_box()["height"] >= 44
