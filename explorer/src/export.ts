@@ -27,6 +27,11 @@ export function download(name: string, content: Blob): void {
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
 
+/** A row of the sheet: what it is for, and the ways to take it. */
+export function group(title: string, note: string, ...ways: (Node | null)[]): HTMLElement {
+  return h("div.form", { "data-group": "" }, h("p", {}, h("b", {}, title), h("small", {}, note)), ...ways);
+}
+
 interface Saved {
   base64: string;
   type: string;
@@ -98,8 +103,6 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
   const widths = WIDTHS.map(([text, value]): [string, string] => [String(value), text]);
   const width = menu(t("Width of films"), widths, String(choice.width), (value) => (choice.width = Number(value)));
   const served = (name: string, kind = name.toLowerCase()) => (page.served ? button(name, () => ask(kind)) : null);
-  const group = (title: string, note: string, ...ways: (Node | null)[]) =>
-    h("div.form", { "data-group": "" }, h("p", {}, h("b", {}, title), h("small", {}, note)), ...ways);
   const { unit } = page.shown;
   const groups = [
     group(

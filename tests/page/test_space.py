@@ -1,5 +1,6 @@
 """The page of a linkage in space: it moves, is gone round and pulled, without a server and without the network."""
 
+import json
 from urllib.error import HTTPError
 from urllib.request import Request, urlopen
 
@@ -9,6 +10,7 @@ import pytest
 import gruebler as gr
 from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
+from gruebler.files.screws import spatial_from_json
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space import RSSR, Bennett, drive_range, move
 from gruebler.page.requests import answer
@@ -230,6 +232,35 @@ def drive_to(page, text):
     return field
 
 
+def check_sizes_plots_and_files(page):
+    """Of the wiper with a crank and a rocker in space."""
+    # the axes of the body: z through the origin, and (0, -4, 6) through (300, 40, 80); they are crossed by arctan 4/6
+    sizes = page.locator('[data-panel="sizes"]').inner_text().split("\n")
+    assert "300 mm · 33.69°" in sizes
+    assert "45 mm" in sizes  # the crank
+    drive_to(page, "90")
+    turned = page.locator('[data-panel="measures"] dd').first.inner_text()
+    assert page.locator(".plot .read").text_content().lstrip("−") == turned
+    page.locator('[data-icon="save"]').click()
+    saved = {}
+    for kind in ("STL", "JSON"):
+        with page.expect_download() as taken:
+            page.get_by_role("button", name=kind, exact=True).click()
+        saved[kind] = taken.value.path().read_bytes()
+    linkage = entry("wiper_rssr").placed()
+    assert spatial_from_json(json.loads(saved["JSON"])) == linkage
+    # the crank, the second link, turns about z by 90°
+    bodies = space_model(linkage)["bodies"]
+    faces = np.frombuffer(saved["STL"][84:], np.dtype([("corners", "<f4", (4, 3)), ("end", "<u2")]))["corners"][:, 1:]
+    frame, crank = (len(body["triangles"]) // 3 for body in bodies[:2])
+    assert len(faces) == sum(len(body["triangles"]) for body in bodies) // 3
+    there = np.reshape(bodies[1]["vertices"], (-1, 3))[bodies[1]["triangles"]].reshape(-1, 3, 3)
+    turn = 1j
+    assert (there[..., 0] + 1j * there[..., 1]) * turn == pytest.approx(
+        faces[frame : frame + crank, :, 0] + 1j * faces[frame : frame + crank, :, 1], abs=1e-3
+    )
+
+
 def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):
     path = tmp_path / "wiper.html"
     assert main(["explore", "wiper_rssr", "-o", str(path)]) == 0
@@ -287,6 +318,7 @@ def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):
         page.mouse.move(box["x"] + spot[0] + 4 * step, box["y"] + spot[1] - 5 * step)
     page.mouse.up()
     assert field.input_value() != "180°"
+    check_sizes_plots_and_files(page)
     assert errors == []
     browser.close()
 

@@ -158,8 +158,12 @@ export class Machine implements Drivable {
 
 /** By what angle a link is turned: its cosine alone would not tell small ones. */
 export function turnOf(pose: ArrayLike<number>): number {
-  const [x, y, z] = [pose[9]! - pose[6]!, pose[2]! - pose[8]!, pose[4]! - pose[1]!];
-  return Math.atan2(Math.hypot(x, y, z), pose[0]! + pose[5]! + pose[10]! - 1);
+  return Math.atan2(Math.hypot(...axisOf(pose)), pose[0]! + pose[5]! + pose[10]! - 1);
+}
+
+/** About which axis a link is turned: a vector of twice the sine of the angle. */
+export function axisOf(pose: ArrayLike<number>): Vector {
+  return [pose[9]! - pose[6]!, pose[2]! - pose[8]!, pose[4]! - pose[1]!];
 }
 
 /** The first and the last value of a motion's drive, in radians or as lengths. */

@@ -48,6 +48,10 @@ export interface Model {
   /** What is seen through, on its link. */
   glass: (Body & { link: number })[];
   points: Spot[];
+  /** The linkage as the library reads it. */
+  document: object;
+  /** Of links with two joints: how far these are apart, and the angle of their axes in degrees. */
+  sizes: { link: number; distance: number | null; angle: number | null }[];
   /** The links whose motion is wanted. */
   outputs: number[];
   motions: Motion[];

@@ -2,11 +2,11 @@
 
 import { wrapped } from "../cycle";
 import { choice, h, renew, wantsStill } from "../dom";
-import { download } from "../export";
+import { download, group } from "../export";
 import { FactList } from "../factlist";
 import type { Fact } from "../facts";
 import { centred, languageMenu, saving, sayIn, viewNames } from "../header";
-import { drivenBy, showRows } from "../help";
+import { drivenBy, showOver, showRows } from "../help";
 import { angle, currentLanguage, number, t } from "../language";
 import { firstTheme, panelOf, setTheme, shell, tool } from "../shell";
 import { driveText } from "../track";
@@ -14,7 +14,9 @@ import { type Driven, Transport } from "../transport";
 import { moved } from "./algebra";
 import { endsOf, Machine, TURNED, turnOf } from "./machine";
 import type { Model } from "./model";
+import { OutputPlots } from "./outputs";
 import { Scene } from "./scene";
+import { stlOf } from "./solids";
 
 /** Angles of the views that have names, in radians: from where, from how high. */
 const VIEWS: Record<string, [number, number]> = {
@@ -35,6 +37,8 @@ export class SpaceView implements Driven {
   readonly #message = h("div.message", { role: "status", hidden: true });
   readonly #side = h("div.side", {});
   readonly #facts = new FactList();
+  readonly #sizes = new FactList();
+  #plots: OutputPlots | null = null;
   #sliders: { input: HTMLInputElement; output: HTMLElement }[] = [];
   #view = "oblique";
 
@@ -80,7 +84,7 @@ export class SpaceView implements Driven {
       h("h1", {}, "gruebler ", h("small", {}, title)),
       ...(this.data.home ? [this.#ways()] : []),
       h("span.spring", {}),
-      ...(this.data.home ? this.#tools() : []),
+      ...this.#tools(),
       tool("theme", t("Light or dark"), () => {
         setTheme(this.#host, this.#host.dataset.theme === "dark" ? "light" : "dark", true);
         this.scene.recoloured();
@@ -113,11 +117,55 @@ export class SpaceView implements Driven {
 
   /** As in the other views: files are opened on the page above, and what this one lacks keeps its room. */
   #tools(): HTMLElement[] {
-    const away = [tool("undo", "", () => {}), tool("redo", "", () => {}), saving(() => {})];
+    const save = saving(() => this.#showExport());
+    if (!this.data.home) return [save];
+    const away = [tool("undo", "", () => {}), tool("redo", "", () => {})];
     for (const one of away) one.classList.add("away");
     const open = tool("open", t("Open a file"), () => location.assign(this.#above("motion")));
-    away.splice(2, 0, open);
-    return [...away, tool("link", t("Copy the link"), () => void this.#share())];
+    return [...away, open, save, tool("link", t("Copy the link"), () => void this.#share())];
+  }
+
+  /** What can be taken away: the picture, bodies, the linkage as the library reads it. */
+  #showExport(): void {
+    const { data, linkage, scene } = this;
+    const told = h("p.told", { role: "status" });
+    const save = (ending: string, content: Blob | null) => {
+      if (content) told.replaceChildren(this.#download(ending, content));
+    };
+    const button = (ending: string, make: (done: (content: Blob | null) => void) => void) =>
+      h("button.plain", { onclick: () => make((content) => save(ending, content)) }, ending.toUpperCase());
+    const { convert, stl } = this.#words;
+    showOver(
+      this.#root,
+      t("Save and export"),
+      told,
+      group(
+        t("Picture"),
+        "",
+        button("png", (done) => scene.canvas.toBlob(done)),
+      ),
+      group(
+        t("Drawing for CAD"),
+        stl!,
+        button("stl", (done) => done(new Blob([stlOf(data.bodies, linkage.poses)], { type: "model/stl" }))),
+      ),
+      group(
+        t("Other programs"),
+        convert!,
+        button("json", (done) => done(this.#document())),
+      ),
+    );
+  }
+
+  #document(): Blob {
+    return new Blob([JSON.stringify(this.data.document, null, 1)], { type: "application/json" });
+  }
+
+  /** Save a file, and say so. */
+  #download(ending: string, content: Blob): string {
+    const name = `${this.#texts.title}.${ending}`;
+    download(name, content);
+    return t("Saved: {name}", { name });
   }
 
   #panels(): HTMLElement[] {
@@ -134,6 +182,18 @@ export class SpaceView implements Driven {
     ]);
     if (rows.length + alone.length)
       panels.push(panelOf("drives", words.drives!, true, h("div.rows", {}, ...rows), ...alone));
+    if (data.sizes.length) {
+      const size = (distance: number | null) => distance !== null && `${number(distance, DIGITS)} ${data.unit}`;
+      const sizes = data.sizes.map(({ link, distance, angle: crossed }) => ({
+        name: texts.links[link]!,
+        text: [size(distance), crossed !== null && `${number(crossed, DIGITS)}°`].filter(Boolean).join(" · "),
+      }));
+      this.#sizes.show(sizes);
+      panels.push(panelOf("sizes", t("Sizes"), true, this.#sizes.element, h("p.note", {}, words.axes)));
+    }
+    this.#plots = new OutputPlots(linkage, texts.links, (value) => this.transport.pick(value));
+    const { elements } = this.#plots;
+    if (elements.length) panels.push(panelOf("plots", t("Plots"), true, ...elements));
     const chips = texts.links.map((name, link) => {
       const chip = h("span.chip", {}, h("i", {}), name);
       const colour = data.bodies[link]!.colour.map((part) => Math.round(255 * part)).join(" ");
@@ -170,8 +230,6 @@ export class SpaceView implements Driven {
       option("names", t("Names")),
     );
     panels.push(panelOf("show", t("Show"), true, views, options));
-    const save = () => scene.canvas.toBlob((blob) => blob && download(`${this.#texts.title}.png`, blob));
-    panels.push(panelOf("export", t("Export"), true, h("div.chips", {}, h("button.plain", { onclick: save }, "PNG"))));
     return panels;
   }
 
@@ -228,6 +286,7 @@ export class SpaceView implements Driven {
     this.scene.draw();
     this.transport.showValue();
     this.#facts.show(this.#measures());
+    this.#plots?.follow();
     this.#sliders.forEach(({ input, output }, k) => {
       const { full } = linkage.cycleOf(k);
       const value = wrapped(linkage.cycleOf(k), linkage.drives[k]!);
@@ -292,8 +351,10 @@ export class SpaceView implements Driven {
 
   #key(event: KeyboardEvent): void {
     const target = event.composedPath()[0] as HTMLElement;
-    if (/^(INPUT|SELECT)$/.test(target.tagName) || event.ctrlKey || event.metaKey) return;
-    if (event.key === "?") this.#help();
+    const ctrl = event.ctrlKey || event.metaKey;
+    if (ctrl ? event.key !== "s" : /^(INPUT|SELECT)$/.test(target.tagName)) return;
+    if (ctrl) this.#download("json", this.#document());
+    else if (event.key === "?") this.#help();
     else if (!drivenBy(event, target, this.transport, this.scene)) return;
     event.preventDefault();
   }

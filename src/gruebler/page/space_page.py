@@ -16,7 +16,9 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import LANGUAGES, message
 from gruebler.files.gltf import MovingSolids, link_colour, moving_solids, united
 from gruebler.files.link_solids import Solid, round_solid
+from gruebler.files.screws import screws_to_json
 from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.mechanics.screws.link_sizes import link_sizes
 from gruebler.mechanics.screws.wheels import gear_rows
 from gruebler.mechanics.space.outputs import against_frame
 from gruebler.page.page import WHOLE_WINDOW, data_page, module_text, page_styles, shadow_tree
@@ -48,6 +50,9 @@ _WORDS = {
     "top": message("Top"),
     "none": message("No drive moves this linkage."),
     "end": message("{drive} goes no farther while the other drives stand here."),
+    "axes": message("Between two axes their distance and angle; to a ball the distance alone."),
+    "stl": message("STL: bodies in the position that is shown"),
+    "convert": message("With its motion, as glTF, and for other programs: gruebler convert FILE OUT"),
     "flat": message("This browser cannot draw in space: it has no WebGL 2."),
 }
 _ALONE = message("The drives move one at a time here, since the page does not solve {joint}.")
@@ -126,6 +131,15 @@ def space_model(
         },
         "home": home,
         "unit": "" if spherical else linkage.unit,
+        "document": screws_to_json(linkage),
+        "sizes": [
+            {
+                "link": chain.index(size.link),
+                "distance": None if spherical else _rounded(size.distance),
+                "angle": None if size.angle is None else _rounded(size.angle),
+            }
+            for size in link_sizes(linkage)
+        ],
         "outputs": [chain.index(link) for link in linkage.outputs],
         "middle": [0.0, 0.0, 0.0] if spherical else linkage.centre.tolist(),
         "size": 1.0 if spherical else linkage.size,
@@ -236,7 +250,11 @@ def machine_model(id: str, *, home: bool = False) -> dict[str, Any]:
 
 def _numbers(values: Any) -> list[float]:
     """With six digits."""
-    return [float(f"{value:.6g}") for value in np.asarray(values).ravel().tolist()]
+    return [_rounded(value) for value in np.asarray(values).ravel().tolist()]
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.6g}")
 
 
 def space_file(model: dict[str, Any], lang: str = "en") -> str:

@@ -1,0 +1,57 @@
+"""What is measured on the links of a linkage in space: how far apart two joints are, and how their axes are crossed."""
+
+from __future__ import annotations
+
+from math import atan2, degrees
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.mechanics.screws.model import SpatialLinkage
+
+_ON_AXES = ("revolute", "helical", "cylindrical")
+_AT_POINTS = ("spherical", "universal")
+_PARALLEL = 1e-9  # the sine of the angle between axes that are taken as parallel
+
+
+class LinkSize(NamedTuple):
+    """Of a link with two joints: how far these are apart, and the angle of their axes in degrees if both have one."""
+
+    link: str
+    distance: float
+    angle: float | None
+
+
+def link_sizes(linkage: SpatialLinkage) -> list[LinkSize]:
+    """The sizes of the links with two joints that stand on an axis or at a point, in the order of the links.
+
+    Between two axes the distance is that of their common normal, the angle the one of Denavit and Hartenberg between 0
+    and 180 degrees.
+
+    >>> from gruebler.teaching.catalog import entry
+    >>> bennett = entry("bennett").placed()  # lengths of 120 and 60 with twists of 90 and 30 degrees
+    >>> [(size.link, round(size.distance), round(size.angle)) for size in link_sizes(bennett)[:2]]
+    [('frame', 120, 90), ('driver', 60, 30)]
+    """
+    chain = linkage.mechanism.chain
+    sizes = []
+    for link in chain.links:
+        joints = [k for k, joint in enumerate(chain.joints) if link in joint.links]
+        if len(joints) == 2 and all(chain.joints[k].pair.name in (*_ON_AXES, *_AT_POINTS) for k in joints):
+            sizes.append(LinkSize(link, *_between(linkage, *joints)))
+    return sizes
+
+
+def _between(linkage: SpatialLinkage, first: int, second: int) -> tuple[float, float | None]:
+    gap = linkage.frames[second, :3, 3] - linkage.frames[first, :3, 3]
+    has_axis = [linkage.mechanism.chain.joints[k].pair.name in _ON_AXES for k in (first, second)]
+    axes = [linkage.frames[k, :3, 2] for k, has in zip((first, second), has_axis, strict=True) if has]
+    if not axes:
+        return float(np.linalg.norm(gap)), None
+    off = float(np.linalg.norm(gap - (gap @ axes[0]) * axes[0]))
+    if len(axes) == 1:
+        return off, None
+    normal = np.cross(axes[0], axes[1])
+    sine = float(np.linalg.norm(normal))
+    angle = degrees(atan2(sine, float(axes[0] @ axes[1])))
+    return (off if sine < _PARALLEL else abs(float(gap @ normal)) / sine), angle
