@@ -56,6 +56,12 @@ void check_shape(int positions, int points) {
 }
 
 Family family_of(const std::string& name, int unknowns, int positions, int points) {
+    if (name == "Watt I") {
+        expect(points == 0 && positions > 0 && 2 * positions <= unknowns && unknowns >= 10,
+               "six-bars that guide a body have up to 5 positions besides the first for 10 unknowns, 7 for 14");
+        return unknowns == 10 ? Family::watt_1 : Family::watt_1_free;
+    }
+    expect(unknowns < 14, "fourteen unknowns have Watt I");
     if (unknowns == 10) {
         expect(positions == 0 && points == 10, "ten unknowns have 10 points: pairs besides the first");
         if (name == "Stephenson II") return Family::stephenson_2;
@@ -218,8 +224,10 @@ void add_tracking(nb::module_& module) {
                "whose input and output turn through points + 1 pairs: starts are a, f, p, q or a, b, f, p or a, f, c, p "
                "of docs/theory/synthesis-functions.md (of eleven pairs q, too, and all arrays have ten columns), each with its "
                "conjugate, a task has the turns of input and output, then the coefficients of the last equation: of the unknowns, and its constant, that of p p*; "
-               "then of Stephenson's k, k*; level: compiled for this instruction set, the best "
-               "one by default.");
+               "then of Stephenson's k, k*; or 'Watt I' for those that carry a body through positions + 1 positions: starts "
+               "are c, d, f, G, H (of fourteen unknowns B - A, B, too) of docs/theory/synthesis-positions.md, a task has T, "
+               "P, P*, then what is given, of ten unknowns B - A and B first; level: compiled for this instruction set, the "
+               "best one by default.");
     module.def("refine_solutions", refine_solutions<unknowns>, nb::arg("z").noconvert(), nb::arg("task").noconvert(),
                nb::arg("positions"), nb::arg("points"), nb::kw_only(), nb::arg("family") = "", nb::arg("level") = "",
                "Newton's method for solutions of one task, with residuals of twice the digits: the solutions "
@@ -246,6 +254,7 @@ void add_algebra(nb::module_& module) {
                "The reduced row echelon form modulo 2^31 - 1 of a dense matrix int64[m, n], without rows of zeros.");
     add_tracking<8>(module);
     add_tracking<10>(module);
+    add_tracking<14>(module);
     module.def("certify", certify, nb::arg("z").noconvert(), nb::arg("task").noconvert(), nb::arg("positions"),
                nb::arg("points"),
                "Which solutions of one task are proved, each different from all others, by an interval Newton step: "

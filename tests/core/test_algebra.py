@@ -7,6 +7,7 @@ import pytest
 from scipy.interpolate import KroghInterpolator
 
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem, load_generic_solutions
+from gruebler.design.synthesis.six_bar_guidance import random_guides
 from gruebler.design.synthesis.six_bar_monodromy import known_solutions, merged, random_numbers
 from tests.core.four_bar_equations import evaluate
 from tests.design.synthesis.test_points import random_parameters
@@ -224,6 +225,38 @@ def test_six_bars_turn_through_pairs(core, family, pairs):
         assert [row.tobytes() for row in same] == [row.tobytes() for row in found]
 
 
+@pytest.mark.parametrize("poses", [4, 5, 6, 7])
+@pytest.mark.parametrize("general", [False, True], ids=["given", "general"])
+def test_six_bars_guide_a_body(core, poses, general):
+    """Paths from a known six-bar to another task, in which three lengths stay as the rocker turns; all levels alike."""
+    rng = np.random.default_rng(5)
+    z, (task,) = random_guides(rng, 1, poses, tilted=general)
+    other = np.where(np.abs(task) > 0, task + 0.3 * random_numbers(rng, *task.shape), 0)
+    found = core.track(z, task, other, poses, 0, 1e-3, family="Watt I")
+    assert found[1].tolist() == [0]
+    sharp, steps = core.refine_solutions(found[0], other, poses, 0, family="Watt I")
+    assert steps.max() < 1e-12
+    for end, given in ((z[0], task), (sharp[0], other)):
+        numbers = np.concatenate([end, given[3, :4]]) if len(end) == 10 else end
+        assert end[2 * poses :] == pytest.approx(given[3, 2 * poses : len(end)])
+        ratio, d, f, g, h, base, pivot = numbers.reshape(7, 2)
+        for j in range(poses):
+            turn, shift = np.array([given[0, j], 1 / given[0, j]]), given[1:3, j].copy()
+            if j == poses - 1:
+                shift[1] -= given[0, 9] * ratio[0]
+            pin, link = shift + turn * h - pivot, shift + turn * g - pivot  # from the rocker's pivot
+            ways = [(pin, -d), (link, -f), (base + ratio * pin, (1 - ratio) * d)]
+            first = [h - pivot - d, g - pivot - f, base + ratio * (h - pivot) + (1 - ratio) * d]
+            rows = [[p[0] * w[1], p[1] * w[0]] for w, p in ways]
+            right = [then.prod() - w.prod() - p.prod() for (w, p), then in zip(ways, first, strict=True)]
+            rocker = np.linalg.lstsq(np.array(rows), np.array(right), rcond=None)[0]
+            assert np.array(rows) @ rocker == pytest.approx(np.array(right), abs=1e-8)
+            assert rocker.prod() == pytest.approx(1, abs=1e-8)
+    for level in core.level_names():
+        same = core.track(z, task, other, poses, 0, 1e-3, family="Watt I", level=level)
+        assert [row.tobytes() for row in same] == [row.tobytes() for row in found]
+
+
 def test_solutions_that_are_known_are_known_again():
     known, new = random_numbers(np.random.default_rng(1), 5, 8), random_numbers(np.random.default_rng(2), 8)
     both, where = merged(
@@ -245,5 +278,9 @@ def test_families_that_are_none(core):
             core.track(z, task, task, 0, 10, 1e-3, family=family)
     with pytest.raises(ValueError, match="10 points"):
         core.refine_solutions(z, task, 0, 8, family="Stephenson II")
+    with pytest.raises(ValueError, match="up to 5 positions"):
+        core.refine_solutions(z, task, 6, 0, family="Watt I")
+    with pytest.raises(ValueError, match="fourteen unknowns have Watt I"):
+        core.refine_solutions(np.zeros((1, 14), complex), np.zeros((4, 14), complex), 7, 0, family="Stephenson II")
     with pytest.raises(TypeError, match="incompatible function arguments"):
         core.track(z, task[:, :8].copy(), task, 0, 10, 1e-3, family="Stephenson II")

@@ -38,6 +38,31 @@ Number of_turn(const Minors<Number>& m) {
     return m.bc * m.ca - m.ab * m.ab;
 }
 
+// How that changes with the coefficients of the first loop, of which the minors are determinants, and of the second.
+inline Coefficients<Complex> by_first_of_turn(const Minors<Complex>& m, const Coefficients<Complex>& n) {
+    const Complex by_bc = m.ca, by_ca = m.bc, by_ab = -2.0 * m.ab;
+    return {by_ab * n.b - by_ca * n.c, by_bc * n.c - by_ab * n.a, by_ca * n.a - by_bc * n.b};
+}
+
+inline Coefficients<Complex> by_second_of_turn(const Minors<Complex>& m, const Coefficients<Complex>& k) {
+    const Complex by_bc = m.ca, by_ca = m.bc, by_ab = -2.0 * m.ab;
+    return {by_ca * k.c - by_ab * k.b, by_ab * k.a - by_bc * k.c, by_bc * k.b - by_ca * k.a};
+}
+
+// How coefficients with these weights change with the vectors of a loop, with its arm and its conjugate.
+inline LoopVectors<Complex> by_vectors(Complex p, Complex pc, const LoopVectors<Complex>& l,
+                                       const Coefficients<Complex>& by) {
+    return {pc * by.b + l.wc * by.c, p * by.a + l.w * by.c, -((l.first_c + pc) * by.c), -((l.first + p) * by.c)};
+}
+
+inline Complex by_arm(const LoopVectors<Complex>& l, const Coefficients<Complex>& by) {
+    return l.wc * by.a - l.first_c * by.c;
+}
+
+inline Complex by_conjugate_arm(const LoopVectors<Complex>& l, const Coefficients<Complex>& by) {
+    return l.w * by.b - l.first * by.c;
+}
+
 enum class With : int { nothing, input, output };  // what a vector turns with
 
 // The vectors of both loops: a constant, and with their signs the first unknowns. The others are the arms.
@@ -81,14 +106,10 @@ struct SixBarSystem {
             const Coefficients<Complex> k = coefficients(arms.p, arms.pc, l), n = coefficients(arms.q, arms.qc, m);
             const Minors<Complex> minor = minors(k, n);
             values.set(j, of_turn(minor));
-            const Complex by_bc = minor.ca, by_ca = minor.bc, by_ab = -2.0 * minor.ab;
-            const Coefficients<Complex> u{by_ab * n.b - by_ca * n.c, by_bc * n.c - by_ab * n.a,
-                                          by_ca * n.a - by_bc * n.b};
-            const Coefficients<Complex> v{by_ca * k.c - by_ab * k.b, by_ab * k.a - by_bc * k.c,
-                                          by_bc * k.b - by_ca * k.a};
+            const Coefficients<Complex> u = by_first_of_turn(minor, n), v = by_second_of_turn(minor, k);
             const LoopVectors<Complex> by[2] = {by_vectors(arms.p, arms.pc, l, u), by_vectors(arms.q, arms.qc, m, v)};
-            const Complex by_p = l.wc * u.a - l.first_c * u.c, by_pc = l.w * u.b - l.first * u.c;
-            const Complex by_q = m.wc * v.a - m.first_c * v.c, by_qc = m.w * v.b - m.first * v.c;
+            const Complex by_p = by_arm(l, u), by_pc = by_conjugate_arm(l, u);
+            const Complex by_q = by_arm(m, v), by_qc = by_conjugate_arm(m, v);
             Complex rate{0, 0};
             if constexpr (other_arm) {
                 set(jacobian, j, arm, by_p, by_pc);
@@ -181,11 +202,6 @@ private:
     static void set(Matrix& jacobian, int row, int column, Complex by, Complex by_conjugate) {
         jacobian.column[column].set(row, by);
         jacobian.column[column + 1].set(row, by_conjugate);
-    }
-
-    static LoopVectors<Complex> by_vectors(Complex p, Complex pc, const LoopVectors<Complex>& l,
-                                           const Coefficients<Complex>& by) {
-        return {pc * by.b + l.wc * by.c, p * by.a + l.w * by.c, -((l.first_c + pc) * by.c), -((l.first + p) * by.c)};
     }
 
     template <class Number>

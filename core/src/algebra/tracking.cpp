@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "algebra/six_bar_guidance.hpp"
 #include "algebra/six_bar_system.hpp"
 #include "algebra/system.hpp"
 
@@ -272,6 +273,8 @@ bool refine_all(const System& system, const Solutions& solutions, Watch& watch) 
 template <class Given, class Work>
 bool with_system(const Given& given, const Work& work) {
 #ifndef GRUEBLER_NO_SIX_BARS
+    if (given.family == Family::watt_1) return work(GuidanceSystem<10>{given.positions});
+    if (given.family == Family::watt_1_free) return work(GuidanceSystem<14>{given.positions});
     if (given.family == Family::watt_2) return work(SixBarSystem<watt_2>{given.points});
     if (given.points > 8 && given.family == Family::stephenson_2)
         return work(SixBarSystem<stephenson_2, 10>{given.points});

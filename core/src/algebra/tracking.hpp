@@ -11,14 +11,15 @@
 
 namespace gruebler::algebra {
 
-// Arrays of complex numbers are pairs of doubles: a task [4, 8], solutions [count, 8]; of six-bars through eleven pairs
-// ten instead of eight. A task has so many positions
+// Arrays of complex numbers are pairs of doubles: a task [4, 8], solutions [count, 8]; ten instead of eight of six-bars
+// through eleven pairs and of those that guide a body, of these fourteen if no pivot is given. A task has so many positions
 // besides the first, two equations each, and points, one equation each; the rest of the eight fix unknowns of those
 // numbers.
 
 // Whose equations they are: of four-bars through positions and points, or of six-bars whose input and output turn through
-// pairs of angles, each an equation (`points`: 7, 8 or 10); six_bar_system.hpp.
-enum class Family : int { four_bars, watt_2, stephenson_2, stephenson_3 };
+// pairs of angles, each an equation (`points`: 7, 8 or 10); six_bar_system.hpp; or of six-bars that carry a body through
+// `positions` besides the first; six_bar_guidance.hpp.
+enum class Family : int { four_bars, watt_2, stephenson_2, stephenson_3, watt_1, watt_1_free };
 
 // How a path ended: at a finite solution; steps too small or too many; growing without bound.
 enum class PathEnd : std::int64_t { arrived, failed, infinite };

@@ -23,6 +23,7 @@ from gruebler.base.arrays import Complexes, Integers
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis.endgame import path_ends
 from gruebler.design.synthesis.results import Progress
+from gruebler.design.synthesis.six_bar_guidance import unknowns_of_guides
 
 ARRIVED = 0
 """The status of a path that ended at a finite solution."""
@@ -55,8 +56,13 @@ class Problem:
 
     @property
     def unknowns(self) -> int:
-        """Eight, and two more of six-bars through eleven pairs."""
-        return max(8, self.points)
+        """Eight, two more of six-bars through eleven pairs; 10 or 14 of those that guide a body."""
+        return unknowns_of_guides(self.poses) if self.guides else max(8, self.points)
+
+    @property
+    def guides(self) -> bool:
+        """Whether six-bars guide a body through the positions."""
+        return self.family == "Watt I"
 
     @property
     def given_pivots(self) -> bool:
