@@ -1,6 +1,7 @@
 """How many six-bars turn through pairs of angles: by monodromy, with a trace test; docs/theory/synthesis-functions.md.
 
-Through eleven pairs: estimated from how often random ones are the same, until the 95 % are within 2 %.
+Of Watt I: how many carry a body through 6 positions. Through eleven pairs, or eight positions: estimated from how often
+random ones are the same, until the 95 % are within 2 %.
 
 `python -m benchmarks.six_bars FAMILY PAIRS FOLDER SEED` keeps what is found in a folder and goes on from there.
 """
@@ -12,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from gruebler.design.synthesis.alt_burmester import Problem
-from gruebler.design.synthesis.six_bar_census import ELEVEN, Census
-from gruebler.design.synthesis.six_bar_monodromy import Search, follow, known_solutions, merged, trace, with_arm_given
+from gruebler.design.synthesis.six_bar_census import EIGHT_POSITIONS, ELEVEN, Census
+from gruebler.design.synthesis.six_bar_monodromy import Search, follow, known_solutions, merged, on_special_plane, trace
 from gruebler.design.synthesis.six_bar_starts import FEW, LINEAR
 
 
@@ -28,9 +29,13 @@ def recapture(search: Search, count: int) -> tuple[int, int]:
     return len(new), int((where < len(search.found[0])).sum())
 
 
-def estimate(family: str, folder: str, seed: int) -> None:
-    """How many six-bars turn through eleven pairs."""
-    census, file = Census(ELEVEN[family], seed), Path(folder or ".") / f"{family.replace(' ', '_')}_11_{seed}.npz"
+def estimate(problem: Problem, folder: str, seed: int) -> None:
+    """How many six-bars turn through eleven pairs, or carry a body through eight positions."""
+    targets = problem.points + problem.poses + 1
+    census, file = (
+        Census(problem, seed),
+        Path(folder or ".") / f"{problem.family.replace(' ', '_')}_{targets}_{seed}.npz",
+    )
     file.parent.mkdir(parents=True, exist_ok=True)
     if folder and file.exists():
         census.load(file)
@@ -39,9 +44,8 @@ def estimate(family: str, folder: str, seed: int) -> None:
         if folder:
             census.save(file)
         now = census.estimate()
-        print(
-            f"{family}, 11 pairs: {census.count:,} arrived, {census.lost} lost, {len(census.z):,} different", end="; "
-        )
+        arrived = f"{census.count:,} arrived, {census.lost} lost, {len(census.z):,} different"
+        print(f"{problem.family}, {problem.name}: {arrived}", end="; ")
         told = f"about {now.number:,.0f}, with 95 % {now.least:,.0f} to {now.most:,.0f}; thrice {now.unlike:+.3f}"
         print(told, f"{time.process_time():.0f} s of processor", sep="; ", flush=True)
         if now.most - now.least < 0.04 * now.number:
@@ -49,7 +53,8 @@ def estimate(family: str, folder: str, seed: int) -> None:
 
 
 def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 1) -> None:
-    problem = Problem(name=f"{pairs} pairs", poses=0, points=pairs - 1, classes=0, members=1, family=family)
+    more = {"poses": pairs - 1, "points": 0} if family == "Watt I" else {"poses": 0, "points": pairs - 1}
+    problem = Problem(name=f"{pairs} targets", **more, classes=0, members=1, family=family)
     search = Search(problem, seed)
     file = Path(folder or ".") / f"{family.replace(' ', '_')}_{pairs}_{seed}.npz"
     file.parent.mkdir(parents=True, exist_ok=True)
@@ -74,7 +79,7 @@ def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 
             told = f"trace test: {tested.residual:.1e}, without one solution {tested.without_one:.1e}"
             print(f"{told}; {tested.lost} paths lost", flush=True)
             if tested.residual < LINEAR and search.alike:
-                print(f"with the arm alone given: {len(with_arm_given(search)[1]):,} finite", flush=True)
+                print(f"with the arm, or the positions, given: {len(on_special_plane(search)[1]):,} finite", flush=True)
                 break
             search.add_way(*search.ways[len(search.ways) % 6][:2])
     print(search, f"{time.process_time():.0f} s of processor", sep="; ")
@@ -82,7 +87,7 @@ def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 
 
 if __name__ == "__main__":
     family, pairs, folder, seed = [*sys.argv[1:], *["Watt II", "8", "", "1"][len(sys.argv) - 1 :]]
-    if pairs == "11":
-        estimate(family, folder, int(seed))
+    if pairs == "11" or (family, pairs) == ("Watt I", "8"):
+        estimate(EIGHT_POSITIONS if family == "Watt I" else ELEVEN[family], folder, int(seed))
     else:
         main(family, int(pairs), folder, int(seed))

@@ -48,6 +48,17 @@ def test_positions_give_a_linkage_that_the_other_commands_take(five, tmp_path, c
     assert main(["analyse", str(best)]) == 0
 
 
+def test_six_bars_carry_a_body_through_five_positions(tmp_path, capsys):
+    task, best = tmp_path / "task.csv", tmp_path / "best.json"
+    rows = ("0.5,0.25,0", "-0.18,1.22,34.4", "-0.87,1.43,44.7", "-1.48,1.26,53.3", "-1.86,0.85,64.7")
+    task.write_text("\n".join(("x,y,angle", *rows)), encoding="utf-8")
+    pivots = "--fixed-pivot -1.5 0 --fixed-pivot 0 0 --moving-pivot -0.46 -0.77"
+    words = ["synthesise", "positions", str(task), "--six-bars", *pivots.split(), "--size-ratio", "99", "-o", str(best)]
+    assert main(words) == 0
+    assert "5 general positions with these pivots: 108 complex solutions" in capsys.readouterr().out
+    assert read_linkage(best).length("frame", 0, 3) == pytest.approx(1.5)
+
+
 def test_json_has_counts_verdicts_and_linkages(five, capsys):
     assert main(["synthesise", "positions", str(five), "--json"]) == 0
     document = json.loads(capsys.readouterr().out)
@@ -371,6 +382,9 @@ def test_wrong_input_is_one_sentence(words, sentence, capsys):
         ("positions", FIVE, "--scheduler tcp://host:8786", "--scheduler: only with --structure"),
         ("positions", FIVE, "--structure quad --jobs 0", "at least one process, not 0"),
         ("positions", FIVE, "--number 0", "--number: expected at least 1"),
+        ("positions", FIVE, "--start-solutions 9", "--start-solutions: only with --six-bars"),
+        ("positions", FIVE, "--six-bars --structure quad", "--structure: not with --six-bars"),
+        ("positions", FIVE, "--six-bars", "the task has 5 positions, 0 fixed pivots and 0 moving ones"),
     ],
 )
 def test_options_that_would_do_nothing_are_refused(kind, content, options, sentence, tmp_path, capsys):

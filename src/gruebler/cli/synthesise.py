@@ -35,12 +35,13 @@ from gruebler.design.synthesis import (
     synthesise_dead_centres,
     synthesise_dwells,
     synthesise_function,
+    synthesise_guiding_six_bars,
     synthesise_path,
     synthesise_positions,
     synthesise_six_bars,
     synthesise_structures,
 )
-from gruebler.design.synthesis.results import in_order_of
+from gruebler.design.synthesis.results import Progress, in_order_of
 from gruebler.design.synthesis.six_bar_monodromy import LOOPS
 from gruebler.files.designs import result_to_json
 from gruebler.files.linkages import write_linkage
@@ -77,7 +78,15 @@ _ALONE = ("--jobs", 1)
 """The default: this process does the work."""
 _STRUCTURE_OPTIONS = ("--link", "--initial-designs", "--jobs", "--scheduler")
 """The options that only --structure uses."""
-_SIX_BAR_OPTIONS = ("--six-bar-type", "--arm", "--shape", "--start-solutions")
+_SIX_BARS_BESIDE = {
+    "function": ("--minimax", "--travel", "--structure"),
+    "positions": ("--curve-parameter", "--structure"),
+}
+"""The options that --six-bars does not take."""
+_SIX_BAR_OPTIONS = {
+    "function": ("--six-bar-type", "--arm", "--shape", "--start-solutions"),
+    "positions": ("--start-solutions",),
+}
 """The options that only --six-bars uses."""
 _LEAST = {PositionTask: 16, FunctionTask: 16, PathTask: 6, DeadCentreTask: 12, DwellTask: 1}
 """How many dyads or designs of an infinite family are taken at least, so that the best are among them."""
@@ -110,7 +119,7 @@ def add(parser: Parser) -> None:
         "positions",
         help="guide a body through positions",
         description="Four-bars, slider-cranks and inverted slider-cranks that guide a body through positions x, y, "
-        "angle: up to five exactly, more by least squares.",
+        "angle: up to five exactly, more by least squares; six-bars through five to eight exactly.",
     )
     positions.take(
         """
@@ -118,6 +127,11 @@ def add(parser: Parser) -> None:
         --moving-pivot X Y float ...  choose a pivot on the body in its first position, for two to four positions; with
             four the nearest point of Burmester's curve; repeatable
         --fixed-pivot X Y float ...  choose a pivot on the frame, likewise; repeatable
+        --six-bars  six-bars of Watt's first kind: all through six positions with two fixed pivots, first that of the
+            crank, then that of the ternary rocker; all through five with the pin of the body on the coupler as a
+            moving pivot besides; some through seven with the rocker's pivot, or through eight with none
+        --start-solutions N int  with --six-bars, of seven and eight positions: how many of the generic solutions are
+            followed (default: 20000)
         --curve-parameter T float ...  choose a pivot of four positions by its place along the circle-point curve, 0 to
             1 as in the picture; repeatable
         """
@@ -318,11 +332,12 @@ def _demands(arguments: argparse.Namespace) -> Demands:
         x1, y1, x2, y2 = arguments.region
         region = (min(x1, x2), min(y1, y2), max(x1, x2), max(y1, y2))
     check_demands(arguments)
-    if arguments.action == "function" and arguments.six_bars:
-        other = [*_given(arguments, ("--minimax", "--travel")), *(["--structure"] if arguments.structure else [])]
+    if arguments.action in _SIX_BARS_BESIDE and arguments.six_bars:
+        other = _given(arguments, _SIX_BARS_BESIDE[arguments.action])
         if other:
             raise SynthesisError("{options}: not with --six-bars", options=joined_by_and(other))
-    if arguments.action == "function" and not arguments.six_bars and (idle := _given(arguments, _SIX_BAR_OPTIONS)):
+    alone = _SIX_BAR_OPTIONS.get(arguments.action, ())
+    if alone and not arguments.six_bars and (idle := _given(arguments, alone)):
         raise SynthesisError("{options}: only with --six-bars", options=joined_by_and(idle))
     if not arguments.structure and (idle := _given(arguments, _STRUCTURE_OPTIONS)):
         raise SynthesisError("{options}: only with --structure", options=joined_by_and(idle))
@@ -419,7 +434,8 @@ def _with_option_names(value: Any) -> Any:
 def _given(arguments: argparse.Namespace, options: Sequence[str]) -> list[str]:
     """Which of these options were given."""
     values = {option: getattr(arguments, option.removeprefix("--").replace("-", "_")) for option in options}
-    return [option for option, value in values.items() if value not in (None, False, "") and (option, value) != _ALONE]
+    idle: tuple[object, ...] = (None, False, "", [])
+    return [option for option, value in values.items() if value not in idle and (option, value) != _ALONE]
 
 
 def _radians(value: float | None) -> float | None:
@@ -431,7 +447,7 @@ def _function_task(arguments: argparse.Namespace) -> FunctionTask:
 
     on_sphere = arguments.action == "spherical-function"
     fixed = 4 if on_sphere and arguments.frame is None else 3
-    six = 8 if not on_sphere and _given(arguments, _SIX_BAR_OPTIONS) else 9
+    six = 8 if not on_sphere and _given(arguments, _SIX_BAR_OPTIONS["function"]) else 9
     usual = six if arguments.six_bars else 5 if arguments.starts is None else fixed
     points = usual if arguments.points is None else arguments.points
     return function_task(_law(arguments), points, output="travel" if arguments.travel else "angle")
@@ -462,11 +478,11 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
     if arguments.structure:
         return _fitted(arguments, task, demands, progress)
     more = {} if arguments.number is None else {"number": max(arguments.number, _LEAST[type(task)])}
+    if isinstance(task, PositionTask | FunctionTask) and arguments.six_bars:
+        return _six_bars(arguments, task, demands, progress)
     if isinstance(task, PositionTask):
         return synthesise_positions(task, demands, sort=_orders(arguments), progress=progress, **more)
     if isinstance(task, FunctionTask):
-        if arguments.six_bars:
-            return synthesise_six_bars(task, demands, kind=_six_bar_type(arguments), progress=progress)
         return synthesise_function(task, demands, minimax=arguments.minimax, sort=_orders(arguments), **more)
     if isinstance(task, DeadCentreTask):
         return synthesise_dead_centres(task, demands, sort=_orders(arguments), **more)
@@ -475,9 +491,18 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
         return method(task, demands, progress=progress, **more)
 
 
+def _six_bars(
+    arguments: argparse.Namespace, task: PositionTask | FunctionTask, demands: Demands, progress: Progress | None
+) -> SynthesisResult:
+    """Six-bars that meet the task exactly."""
+    if isinstance(task, PositionTask):
+        return synthesise_guiding_six_bars(task, demands, starts=arguments.start_solutions, progress=progress)
+    return synthesise_six_bars(task, demands, kind=_six_bar_type(arguments), progress=progress)
+
+
 def _six_bar_type(arguments: argparse.Namespace) -> SixBarType | None:
     """What the options say of a six-bar for eight or eleven pairs; None if they say nothing."""
-    if not _given(arguments, _SIX_BAR_OPTIONS):
+    if not _given(arguments, _SIX_BAR_OPTIONS["function"]):
         return None
     usual = SixBarType()
     shape = usual.shape if arguments.shape is None else cmath.rect(arguments.shape[0], radians(arguments.shape[1]))

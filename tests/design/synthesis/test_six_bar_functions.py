@@ -223,10 +223,10 @@ def test_a_damaged_census_begins_anew_and_says_so(tmp_path, monkeypatch):
 
     monkeypatch.setattr("gruebler.design.synthesis.six_bar_census.private_folder", lambda: tmp_path)
     monkeypatch.setattr(Census, "step", step)
-    assert kept_census("Stephenson III", 2).damaged is None
+    assert kept_census(ELEVEN["Stephenson III"], 2).damaged is None
     (file,) = tmp_path.iterdir()
     file.write_bytes(b"no census")
-    assert kept_census("Stephenson III", 2).damaged == file
+    assert kept_census(ELEVEN["Stephenson III"], 2).damaged == file
 
 
 @pytest.mark.parametrize("usable", [True, False])
@@ -241,7 +241,7 @@ def test_an_interrupt_says_where_a_census_goes_on_only_if_something_is_kept(usab
     if not usable:
         file.write_bytes(b"no census")
     with pytest.raises(KeyboardInterrupt) as stop:
-        kept_census("Stephenson III", 2)
+        kept_census(ELEVEN["Stephenson III"], 2)
     assert stop.value.args == ((file,) if usable else ())
 
 
@@ -301,7 +301,7 @@ def test_a_search_whose_file_is_damaged_begins_anew_and_says_so(whole, tmp_path,
     monkeypatch.setattr(f"{starts}.FEW", 1)
     monkeypatch.setattr(f"{starts}._MOST_WAYS", 6)
     monkeypatch.setattr(f"{starts}.trace", lambda _: Trace(residual=1.0, without_one=1.0, lost=0))
-    monkeypatch.setattr(f"{starts}.with_arm_given", lambda search: (search.tasks[0], search.found[0]))
+    monkeypatch.setattr(f"{starts}.on_special_plane", lambda search: (search.tasks[0], search.found[0]))
     assert start_set("Watt II").damaged == file
     assert begun == [[1, 0, 0, 0]]
     assert not file.exists()

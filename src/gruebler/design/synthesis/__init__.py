@@ -15,6 +15,7 @@ from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions
 from gruebler.design.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult, pareto
 from gruebler.design.synthesis.six_bar_functions import SixBarType, synthesise_six_bars
+from gruebler.design.synthesis.six_bar_positions import synthesise_guiding_six_bars
 from gruebler.design.synthesis.spherical import synthesise_orientations
 from gruebler.design.synthesis.spherical_functions import synthesise_spherical_function
 from gruebler.design.synthesis.structural_errors import structural_error
@@ -52,6 +53,7 @@ __all__ = [
     "synthesise_dead_centres",
     "synthesise_dwells",
     "synthesise_function",
+    "synthesise_guiding_six_bars",
     "synthesise_orientations",
     "synthesise_path",
     "synthesise_positions",

@@ -205,6 +205,8 @@ def synthesise_positions(
     (4, 4, 6)
     """
     wanted = (demands or Demands()).with_links()
+    if len(task) > 4 and task.fixed_pivots:
+        raise SynthesisError("four-bars have no pivots to choose for more than four positions; six-bars have some")
     searched = len(task) < 5 and not (task.moving_pivots or task.fixed_pivots or task.curve_parameters)
     dyads = guiding_dyads(task, _SAMPLE[len(task)] if searched else number, wanted.region)
     if len(task) > 5:
@@ -266,7 +268,7 @@ def _judged_pairs(
         form = f"{guiding_dyad.kind.form}-{two.kind.form}"
         linkages = four_bar_linkages(guiding_dyad, two, complex(task.origins[0]), unit=task.unit)
         try:
-            designs.append(best_of(linkages, partial(_targets, task), demands, form))
+            designs.append(best_of(linkages, partial(body_targets, task), demands, form))
         except LinkageError:
             continue  # two dyads with a common pivot are no linkage
     return designs
@@ -310,7 +312,7 @@ def _judged_best(
         with suppress(LinkageError):  # two dyads with a common pivot are no linkage
             linkage = linkage_of_dyads(first, second_dyad, complex(task.origins[0]), task.unit)
             form = f"{first.kind.form}-{second_dyad.kind.form}"
-            designs.append(judge_design(linkage, _targets(task, linkage), demands, form))
+            designs.append(judge_design(linkage, body_targets(task, linkage), demands, form))
         if progress is not None:
             progress(done, len(pairs))
     return designs + _judged_pairs(task, demands, list(combinations(sliding, 2)), None)
@@ -371,9 +373,10 @@ def near_in_plane(task: PositionTask, dyad: GuidingDyad, width: float) -> list[G
     return [other for other in others if not other.slides]
 
 
-def _targets(task: PositionTask, linkage: Linkage) -> Targets:
-    first = linkage.required_pose["coupler"].angle
-    targets = position_targets("P", "coupler", task.origins, first + task.angles - task.angles[0], task.size)
+def body_targets(task: PositionTask, linkage: Linkage, link: str = "coupler") -> Targets:
+    """The positions of the link that is the body, with its point P at the origin."""
+    first = linkage.required_pose[link].angle
+    targets = position_targets("P", link, task.origins, first + task.angles - task.angles[0], task.size)
     return replace(targets, ranks=task.order)
 
 

@@ -1,7 +1,7 @@
-"""How many six-bars turn through eleven pairs of angles: estimated, where listing all would take days.
+"""How many six-bars turn through eleven pairs of angles, or carry a body through seven or eight positions.
 
-Six-bars are made at random, each with its own pairs, and followed to the pairs of one task. The fewer solutions this
-has, the more often two of them end alike. docs/theory/synthesis-functions.md.
+Listing all would take days. Six-bars are made at random, each with its own pairs, and followed to the pairs of one
+task. The fewer solutions this has, the more often two of them end alike. docs/theory/synthesis-functions.md.
 """
 
 from __future__ import annotations
@@ -25,6 +25,11 @@ ELEVEN = {
     for family in ("Stephenson II", "Stephenson III")
 }
 """Six-bars through eleven pairs, by their type; how many there are is estimated only."""
+SEVEN_POSITIONS, EIGHT_POSITIONS = (
+    Problem(name=name, poses=poses, points=0, classes=0, members=1, family="Watt I")
+    for name, poses in (("seven positions", 6), ("eight positions", 7))
+)
+"""Six-bars that carry a body through positions, of seven with the rocker's pivot given; their number is estimated."""
 _PIECE = 2048  # six-bars at a time
 _SEED = 1
 
@@ -52,7 +57,10 @@ class Census:
         self.problem, self.seed, self.threads = problem, seed, threads
         rng = np.random.default_rng([seed, 0])
         self.task = np.zeros((4, problem.unknowns), np.complex128)
-        self.task[:2, : problem.points] = random_numbers(rng, 2, problem.points)
+        rows, targets = (3, problem.poses) if problem.guides else (2, problem.points)
+        self.task[:rows, :targets] = random_numbers(rng, rows, targets)
+        free = slice(2 * problem.poses, problem.unknowns if problem.guides else 0)
+        self.task[3, free] = random_numbers(rng, *self.task[3, free].shape)
         self.z: Complexes = np.zeros((0, problem.unknowns), np.complex128)
         self.met: Integers = np.zeros(0, np.int64)
         self.pieces = 0
@@ -106,13 +114,16 @@ class Census:
         self.z, self.met, self.pieces, self.lost = z, met, pieces, lost
 
 
-def kept_census(family: str, solutions: int, *, threads: int | None = None, progress: Progress | None = None) -> Census:
+def kept_census(
+    problem: Problem, solutions: int, *, threads: int | None = None, progress: Progress | None = None
+) -> Census:
     """A census with so many solutions or more, of which one at least was met twice; kept in the user's cache folder.
 
     It goes on from what is kept there. Cost: 4 ms of processor time for each solution that is new.
     """
-    census, folder = Census(ELEVEN[family], _SEED, threads), private_folder()
-    file = None if folder is None else folder / f"six_bars_{family.replace(' ', '_')}_eleven.npz"
+    census, folder = Census(problem, _SEED, threads), private_folder()
+    name = f"six_bars_{problem.family} {problem.name.split()[0]}.npz".replace(" ", "_")
+    file = None if folder is None else folder / name
     if file is not None and file.exists():
         try:
             census.load(file)

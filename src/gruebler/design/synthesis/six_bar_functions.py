@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -141,45 +142,49 @@ def synthesise_six_bars(
                 "eleven pairs need a type, {types}, and leave no arm or shape to choose",
                 types=joined_by_or(list(ELEVEN)),
             )
-        census = kept_census(of.family, of.start_solutions, threads=threads, progress=progress)
+        census = kept_census(ELEVEN[of.family], of.start_solutions, threads=threads, progress=progress)
         problem, base = census.problem, GenericSolutions(census.task, census.z[: of.start_solutions])
-        known, damaged = [_how_many(of.family, census)], census.damaged
+        known, damaged = [how_many(message("eleven pairs"), census)], census.damaged
     else:
         problem, starts = eight_pairs(of.family), start_set(of.family, threads=threads, progress=progress)
         base, known = GenericSolutions(starts.parameters, starts.z), [_how_complete(of.family, starts)]
         damaged = starts.damaged
         p[3] = of.arm**2, 1, of.shape, np.conj(of.shape), 0, 0, 0, 0
-    if damaged is not None:
-        known.append(message("{file} was damaged: the search for start solutions began anew.", file=damaged))
     z = six_bar_solutions(problem, base, p, threads=threads, progress=progress)
-    gaps = np.abs(z[:, 1::2] - np.conj(z[:, ::2])).max(axis=1, initial=0.0)
-    real = z[gaps <= _REAL * (1 + np.abs(z).max(axis=1, initial=0.0))][:, ::2]
+    real = real_solutions(z)
     turns = np.exp(1j * np.stack([phi, output], axis=1))
     kept = keeps_modes(of, real, turns) if wanted.one_branch else np.ones(len(real), bool)
     judged = (_judged(task, wanted, of, vectors, turns) for vectors in real[kept])
     accepted, rejected = ranked(over_interval(design, task) for design in judged)
     if task.law is not None:
         accepted = in_order_of(accepted, ["error"])
+    notes = [*known, *how_followed(len(base.z), len(z), kept, damaged)]
+    count = SolutionCount(what=message("linkages"), theorem=0, found=len(z), real=len(real))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
+
+
+def how_followed(starts: int, arrived: int, kept: Flags, damaged: Path | None) -> list[Message]:
+    """What became of start solutions: so many were followed to the task; which of the real ones keep their modes."""
     notes = [
-        *known,
         message(
-            "Of {classes:,} start solutions {found:,} were followed to the pairs, {real:,} of them real six-bars. The "
+            "Of {classes:,} start solutions {found:,} were followed to the task, {real:,} of them real six-bars. The "
             "others lie at infinity or were lost.",
-            classes=len(base.z),
-            found=len(z),
-            real=len(real),
-        ),
+            classes=starts,
+            found=arrived,
+            real=len(kept),
+        )
     ]
+    if damaged is not None:
+        notes.insert(0, message("{file} was damaged: the search for start solutions began anew.", file=damaged))
     if not kept.all():
         notes.append(
             message(
-                "Real ones that are not listed, since one of their four-bars changes its assembly mode between the "
-                "pairs: {count:,}.",
+                "Real ones that are not listed, since a part of them changes its assembly mode between the targets: "
+                "{count:,}.",
                 count=int(np.count_nonzero(~kept)),
             )
         )
-    count = SolutionCount(what=message("linkages"), theorem=0, found=len(z), real=len(real))
-    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
+    return notes
 
 
 def _how_complete(family: str, starts: StartSet) -> Message:
@@ -199,14 +204,15 @@ def _how_complete(family: str, starts: StartSet) -> Message:
     )
 
 
-def _how_many(family: str, census: Census) -> Message:
+def how_many(targets: Message, census: Census) -> Message:
     """What a census says of all solutions."""
     estimate = census.estimate()
     return message(
-        "{family}, eleven pairs: {known:,} complex solutions are known, of an estimated {number:,.0f} (95 %: "
+        "{family}, {targets}: {known:,} complex solutions are known, of an estimated {number:,.0f} (95 %: "
         "{least:,.0f} to {most:,.0f}, from how often {count:,} six-bars made at random led to the same one). The "
         "others are not sought.",
-        family=family,
+        family=census.problem.family,
+        targets=targets,
         known=len(census.z),
         count=census.count,
         number=estimate.number,
@@ -249,6 +255,12 @@ def six_bar_solutions(
     more, arrived = follow_from_generic(problem, halfway[there == ARRIVED], middle, p, loose, threads=threads)
     z = np.concatenate([ends[~again], more[arrived == ARRIVED]])
     return distinct(problem, z[sharpened(problem, z, p)])
+
+
+def real_solutions(z: Complexes) -> Complexes:
+    """Those whose unknowns are conjugate by twos, without the conjugates; (real, unknowns / 2)."""
+    gaps = np.abs(z[:, 1::2] - np.conj(z[:, ::2])).max(axis=1, initial=0.0)
+    return np.asarray(z[gaps <= _REAL * (1 + np.abs(z).max(axis=1, initial=0.0))][:, ::2])
 
 
 def common_turns(loops: Sequence[LoopVectors]) -> Complexes:

@@ -17,12 +17,13 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Flags, Integers
 from gruebler.base.atomic_files import atomic_file
 from gruebler.design.synthesis.alt_burmester import ARRIVED, CAREFUL, QUICK, Problem, follow_from_generic, sharpened
+from gruebler.design.synthesis.six_bar_guidance import TILT, random_guides
 
 UNUSABLE = (OSError, ValueError, KeyError, EOFError, RuntimeError, BadZipFile)
 """What is raised where a file of the cache is damaged, or has something else."""
 _TASKS, _PIECE = 4, 2048
 _SAME = 1e-6  # relative: solutions nearer to each other are one
-_MARK = np.exp(1.234j * np.arange(1, 11) ** 2)  # weights of the numbers of a solution
+_MARK = np.exp(1.234j * np.arange(1, 15) ** 2)  # weights of the numbers of a solution
 
 
 class Loops(NamedTuple):
@@ -98,11 +99,16 @@ def _lengths(family: str, z: Complexes, ratio: Complexes, turns: Complexes) -> C
     return np.stack(squares, axis=1)
 
 
-def known_solutions(problem: Problem, rng: np.random.Generator, count: int) -> tuple[Complexes, Complexes]:
+def known_solutions(
+    problem: Problem, rng: np.random.Generator, count: int, *, general: bool = False
+) -> tuple[Complexes, Complexes]:
     """Random complex tasks of one solution each that is chosen, and how outputs turn; the rest by Newton's method.
 
+    Of positions in a general plane, if that is wanted: the last displacement depends on the solution.
     Returns (count, unknowns) and the tasks, complex[count, 4, unknowns] as `_core.track` takes them.
     """
+    if problem.guides:
+        return random_guides(rng, count, problem.poses, tilted=general)
     family, unknowns = problem.family, problem.unknowns
     z, ratio = random_numbers(rng, count, unknowns), random_numbers(rng, count, 2)
     tasks, filled = np.zeros((count, 4, unknowns), np.complex128), np.zeros(count, np.int64)
@@ -188,7 +194,7 @@ class Search:
 
     def __init__(self, problem: Problem, seed: int, threads: int | None = None) -> None:
         rng = np.random.default_rng(seed)
-        z, (task,) = known_solutions(problem, rng, 1)
+        z, (task,) = known_solutions(problem, rng, 1, general=problem.guides)
         self.problem, self.threads, self.lost, self.clashes, self.paths = problem, threads, 0, 0, 0
         used = np.abs(task) > 0
         self.tasks: list[Complexes] = [task] + [
@@ -283,7 +289,9 @@ class Search:
 
     def __str__(self) -> str:
         counts = ", ".join(f"{len(z):,}" for z in self.found)
-        text = f"{self.problem.family}, {self.problem.points + 1} pairs: {counts} solutions; {self.paths:,} paths on "
+        problem = self.problem
+        targets = f"{problem.poses + 1} positions" if problem.guides else f"{problem.points + 1} pairs"
+        text = f"{problem.family}, {targets}: {counts} solutions; {self.paths:,} paths on "
         return f"{text}{len(self.ways)} ways, {self.lost} lost, {self.clashes} to one end"
 
 
@@ -300,15 +308,17 @@ class Trace(NamedTuple):
 
 def trace(search: Search, node: int = 0) -> Trace:
     """The trace test of the list for one of the tasks: a list that lacks some has a sum that is not linear."""
-    task, z, arm = search.tasks[node], search.found[node], arm_of(search.problem)
-    step, sets, kept = 0.3j * abs(task[3, 0]), [], np.ones(len(z), bool)
+    task, z, problem = search.tasks[node], search.found[node], search.problem
+    # The number by which the plane moves, and the unknowns that are summed.
+    plane, arm = ((2, problem.poses - 1), slice(0, 1)) if problem.guides else ((3, 0), arm_of(problem))
+    step, sets, kept = 0.3j * abs(task[plane]), [], np.ones(len(z), bool)
     for sign in (-1, 1):
         moved = task.copy()
-        moved[3, 0] += sign * step
+        moved[plane] += sign * step
         ends, good = follow(search.problem, z, task, moved, search.threads)
         sets.append(ends)
         kept &= good
-    before, now, after = (row[kept][:, arm] @ _MARK[:2] for row in (sets[0], z, sets[1]))
+    before, now, after = (row[kept][:, arm] @ _MARK[: arm.stop - arm.start] for row in (sets[0], z, sets[1]))
     bends, ways = before + after - 2 * now, after - before
 
     def of(part: slice) -> float:
@@ -317,9 +327,12 @@ def trace(search: Search, node: int = 0) -> Trace:
     return Trace(of(slice(None)), of(slice(1, None)), int((~kept).sum()))
 
 
-def with_arm_given(search: Search) -> tuple[Complexes, Complexes]:
-    """The first task as its plane becomes p p* = r, and its solutions: those that stay finite."""
-    task = search.tasks[0].copy()
-    task[2], task[3, 0] = 0, complex(random_numbers(search.rng))
+def on_special_plane(search: Search) -> tuple[Complexes, Complexes]:
+    """The first task as its plane becomes p p* = r, or that of a given position, and its solutions that stay finite."""
+    task, number = search.tasks[0].copy(), complex(random_numbers(search.rng))
+    if search.problem.guides:
+        task[0, TILT], task[2, search.problem.poses - 1] = 0, number
+    else:
+        task[2], task[3, 0] = 0, number
     ends, good = follow(search.problem, search.found[0], search.tasks[0], task, search.threads)
     return task, merged(ends[:0], ends[good])[0]

@@ -17,7 +17,7 @@ from gruebler.base.atomic_files import atomic_file
 from gruebler.base.private_folder import goes_on_from, private_folder
 from gruebler.design.synthesis.alt_burmester import Problem, sharpened
 from gruebler.design.synthesis.results import Progress
-from gruebler.design.synthesis.six_bar_monodromy import UNUSABLE, Search, trace, with_arm_given
+from gruebler.design.synthesis.six_bar_monodromy import UNUSABLE, Search, on_special_plane, trace
 
 LISTED = {"Watt II": 19_414, "Stephenson III": 53_980, "Stephenson II": 72_430}
 """How many six-bars through eight pairs there are in a plane: progress is counted by it."""
@@ -130,7 +130,7 @@ def _listed(problem: Problem, file: Path | None, threads: int | None, progress: 
         search.add_way(*search.ways[len(search.ways) % 6][:2])
     if file is not None:
         search.save(file)
-    parameters, z = with_arm_given(search)
+    parameters, z = on_special_plane(search)
     if progress is not None:
         progress(search.followed, search.followed)
     return StartSet(

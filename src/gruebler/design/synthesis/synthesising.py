@@ -19,6 +19,7 @@ from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions
 from gruebler.design.synthesis.results import Progress, SynthesisResult, in_order_of
 from gruebler.design.synthesis.six_bar_functions import SixBarType, synthesise_six_bars
+from gruebler.design.synthesis.six_bar_positions import synthesise_guiding_six_bars
 from gruebler.design.synthesis.structures import synthesise_structures
 from gruebler.design.synthesis.tasks import DeadCentreTask, DwellTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.structure.mechanism import Mechanism
@@ -57,7 +58,9 @@ def synthesise(
         minimax: of a function: the linkages whose largest structural error is as small as possible.
         six_bars: of a function: all six-bars that meet nine pairs of angles with free starts, of Watt's second kind, or
             eight; of eight pairs a `SixBarType` says which, and the length of one arm. Some of those that meet eleven.
-        starts: of structures: how many are improved of each mechanism.
+            Of positions those of Watt's first kind: all of five and six, some of seven and eight.
+        starts: of structures: how many are improved of each mechanism; of six-bars through seven and eight positions:
+            how many generic solutions are followed.
         link: of structures: that is guided, or whose motion is the output.
         threads: of a path: how many follow it; as many as there are processors by default.
         executor: of structures: what runs the work; the answer is the same with any.
@@ -72,7 +75,7 @@ def synthesise(
 
     Cost:
         1 ms to 3 s (nine points), two and three positions 2 to 7 s, and 10 ms for each verdict; a rest 20 s; six-bars
-        20 to 100 s, at the first eight pairs of a type 150 to 600 s more, of eleven pairs 80 and at first
+        10 to 100 s, at the first eight pairs of a type 150 to 600 s more, of eleven pairs 80 and at first
         80 s more; a structure 1 to 3 s a start, by its atlas 5 s.
 
     Example:
@@ -103,12 +106,13 @@ def synthesise(
         "progress": progress,
     }
     given: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
-    if six_bars and (structures is not None or not isinstance(task, FunctionTask)):
-        raise SynthesisError("six_bars: only of functions, and without structures")
+    if six_bars and (structures is not None or not isinstance(task, FunctionTask | PositionTask)):
+        raise SynthesisError("six_bars: only of functions and positions, and without structures")
     if six_bars:
         if isinstance(six_bars, SixBarType):
             given["kind"] = six_bars
-        return _sorted(_called(synthesise_six_bars, task, message("with six_bars"), demands, given), orders)
+        method = synthesise_six_bars if isinstance(task, FunctionTask) else synthesise_guiding_six_bars
+        return _sorted(_called(method, task, message("with six_bars"), demands, given), orders)
     if orders and structures is None and not isinstance(task, PathTask):
         given["sort"] = orders
     result = _solved(task, structures, demands, given)

@@ -27,6 +27,8 @@ EQUAL_POINTS = message("points {first} and {second} are equal")
 SAME = 1e-9
 """Two points nearer than this part of the task's size are one: designs are held to the same bound."""
 LARGEST = 1e100
+PIVOTS_OF_SIX_BARS = {5: (2, 1), 6: (2, 0), 7: (1, 0), 8: (0, 0)}
+"""So many fixed and moving pivots are given where six-bars carry a body through positions exactly."""
 MOST_PAIRS = 11
 """Precision pairs that a linkage coordinates exactly, with both starts free."""
 _LONGEST_DWELL = 5 * pi / 3  # an output that rests longer has no time to move
@@ -115,8 +117,10 @@ class PositionTask:
 
     With two to four positions pivots may be chosen: ``moving_pivots`` where they lie on the body in its first position,
     ``fixed_pivots`` on the frame. With four the nearest points of Burmester's curves are taken; ``curve_parameters``
-    are places along the circle-point curve, from 0 to 1. ``order`` gives each position its place in the order in which
-    they are passed, the same to those that may follow in any order, None at any time; by default that of the list.
+    are places along the circle-point curve, from 0 to 1. Of six-bars of Watt's first kind both fixed pivots are given
+    with five or six positions, first that of the crank, with seven that of the ternary rocker, and with five the pin
+    of the body on the coupler. ``order`` gives each position its place in the order in which they are passed, the
+    same to those that may follow in any order, None at any time; by default that of the list.
 
     Raises `SynthesisError` for fewer than two positions and for two equal ones, naming them.
 
@@ -139,8 +143,17 @@ class PositionTask:
         settle(self, **{name: number_rows(self, name, 2) for name in ("moving_pivots", "fixed_pivots")})
         if len(rows) < 2:
             raise SynthesisError("positions: expected at least two, but found {count}", count=len(rows))
-        if (self.moving_pivots or self.fixed_pivots) and len(rows) > 4:
-            raise SynthesisError("pivots can be chosen for two to four positions, not for {count}", count=len(rows))
+        pivots = len(self.fixed_pivots), len(self.moving_pivots)
+        if any(pivots) and len(rows) > 4 and pivots != PIVOTS_OF_SIX_BARS.get(len(rows)):
+            raise SynthesisError(
+                "pivots can be chosen for two to four positions, and those of six-bars for five to seven, but not "
+                "these for {count}",
+                count=len(rows),
+            )
+        if len(rows) > 4 and len(self.fixed_pivots) == 2:
+            crank, rocker = (complex(*pivot) for pivot in self.fixed_pivots)
+            if abs(crank - rocker) <= SAME * self.size:
+                raise SynthesisError("fixed_pivots: the two pivots coincide")
         places = _numbers(self, "curve_parameters")
         settle(self, curve_parameters=places)
         if places and len(rows) != 4:

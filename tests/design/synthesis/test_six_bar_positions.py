@@ -1,0 +1,178 @@
+"""Six-bars that carry a body through six positions: against six-bars chosen first, and by a motion of its own."""
+
+import numpy as np
+import pytest
+
+from gruebler.base.errors import SynthesisError
+from gruebler.design.synthesis import Demands, PositionTask, SixBarType, synthesise
+from gruebler.design.synthesis.alt_burmester import (
+    PROBLEMS,
+    GenericSolutions,
+    load_generic_solutions,
+    parameters,
+    solutions,
+)
+from gruebler.design.synthesis.dyads import Displacements, all_dyads
+from gruebler.design.synthesis.six_bar_guidance import random_guides
+from gruebler.design.synthesis.six_bar_monodromy import Search, follow, on_special_plane, trace
+from gruebler.design.synthesis.six_bar_positions import FIVE_POSITIONS, SIX_POSITIONS, keeps_sides
+from gruebler.mechanics.kinematics import move
+
+PINS = np.array([-1.5, -0.64 + 0.48j, 1.16 - 0.45j, 0, -0.46 - 0.77j, 1.2 - 0.94j, -0.32 - 1.45j])  # A C D B H G F
+
+
+def crossing(first, r, second, s, near):
+    """Where circles meet, the point next to another one. By hand."""
+    gap = second - first
+    along = (abs(gap) ** 2 + r**2 - s**2) / (2 * abs(gap))
+    across = np.sqrt(r**2 - along**2)
+    return min((first + gap / abs(gap) * (along + side * across * 1j) for side in (1, -1)), key=lambda z: abs(z - near))
+
+
+def moved(pins, crank, steps=200):
+    """(A, C, D, B, H, G, F) after the crank has turned by an angle, in small steps from circle to circle."""
+    a, c0, d0, b, h0, g0, f0 = pins
+    c, d, g = c0, d0, g0
+    for turn in np.exp(1j * np.linspace(0, crank, steps + 1)):
+        c = a + (c0 - a) * turn
+        d = crossing(c, abs(d0 - c0), b, abs(d0 - b), d)
+        h, f = c + (h0 - c0) * (d - c) / (d0 - c0), b + (f0 - b) * (d - b) / (d0 - b)
+        g = crossing(h, abs(g0 - h0), f, abs(g0 - f0), g)
+    return np.array([a, c, d, b, h, g, f])
+
+
+def positions_of(pins, angles):
+    """The positions of the body at crank angles, its origin at 0.5 + 0.25i."""
+    rows = []
+    for angle in angles:
+        *_, h, g, _ = moved(pins, angle)
+        turn = (g - h) / (pins[5] - pins[4])
+        origin = h + turn * (0.5 + 0.25j - pins[4])
+        rows.append((origin.real, origin.imag, float(np.angle(turn))))
+    return rows
+
+
+def task_of(pins=PINS):
+    return PositionTask(positions_of(pins, np.linspace(0, 2.5, 6)), fixed_pivots=((-1.5, 0), (0, 0)))
+
+
+def solution_of(pins):
+    """c, d, f, G, H with their conjugates, in the size of the task."""
+    a, c, d, _, h, g, f = pins
+    turns, origins = task_of().turns, task_of().origins
+    size = max(abs(a), np.abs(origins - turns * origins[0]).max())
+    numbers = np.array([(c - d) / (h - d), d / size, f / size, g / size, h / size])
+    task = np.zeros((4, 10), complex)
+    task[0, :5], task[1, :5] = turns[1:], (origins - turns * origins[0])[1:] / size
+    task[2, :5], task[3, :2] = np.conj(task[1, :5]), -a / size
+    return np.stack([numbers, np.conj(numbers)], axis=1).reshape(1, 10), task
+
+
+def test_every_six_bar_is_among_the_generic_solutions():
+    """Carried to the generic task each of sixty ends at a stored one: if a tenth were missing, 1 in 500 would pass."""
+    base = load_generic_solutions(SIX_POSITIONS)
+    assert len(base.z) == SIX_POSITIONS.classes
+    arrived = 0
+    for z, task in zip(*random_guides(np.random.default_rng(3), 60, 5, tilted=False), strict=True):
+        end, good = follow(SIX_POSITIONS, z[None], task, base.parameters)
+        if good[0]:
+            arrived += 1
+            assert np.abs(base.z - end).max(axis=1).min() < 1e-6 * (1 + np.abs(end).max())
+    assert arrived > 55
+
+
+def test_six_positions_of_a_six_bar_find_it_again(monkeypatch):
+    """Beside a few others that start from the same task; what is found is moved once more, from circle to circle."""
+    base = load_generic_solutions(SIX_POSITIONS)
+    z, task = solution_of(PINS)
+    own, good = follow(SIX_POSITIONS, z, task, base.parameters)
+    assert good.all()
+    few = GenericSolutions(base.parameters, np.concatenate([base.z[:40], own]))
+    monkeypatch.setattr("gruebler.design.synthesis.six_bar_positions.load_generic_solutions", lambda _: few)
+    wanted = task_of()
+    found = synthesise(wanted, six_bars=True, demands=Demands(size_ratio=1e6))
+    lengths = [design.linkage.length("crank", 0, 1) for design in found.designs]
+    assert min(abs(length - abs(PINS[1] - PINS[0])) for length in lengths) < 1e-8
+    for design in found.designs:
+        if design.linkage.mechanism.drives[0].between == ("frame", "crank"):
+            motion = move(design.linkage, design.drives[:1])
+            pins = np.concatenate(
+                [motion.complex_point(joint) for joint in design.linkage.mechanism.chain.joint_names()]
+            )
+            turned = np.array(design.drives) - design.drives[0]
+            assert np.array(positions_of(pins, turned)) == pytest.approx(np.array(wanted.positions), abs=1e-7)
+
+
+def test_five_positions_have_as_many_as_two_theorems_say():
+    """36 four-bars lead the pin through five points; each rocker carries four dyads of Burmester's, one the pin's own.
+
+    The four-bars from the solved problem of five points and two pivots, the dyads in closed form.
+    """
+    positions = positions_of(PINS, np.linspace(0, 2.5, 5))
+    pin = PINS[4].real, PINS[4].imag
+    wanted = PositionTask(positions, fixed_pivots=((-1.5, 0), (0, 0)), moving_pivots=(pin,))
+    found = synthesise(wanted, six_bars=True, demands=Demands(size_ratio=1e6))
+    assert found.count.found == FIVE_POSITIONS.classes == 36 * 3
+    turns, shifts = wanted.turns[1:], (wanted.origins - wanted.turns * wanted.origins[0])[1:]
+    places = turns * PINS[4] + shifts
+    number = 0
+    for z in solutions(PROBLEMS[-1], parameters(places - PINS[4], turns[:0], (-1.5 - PINS[4], -PINS[4]))).real:
+        c, d = z[[0, 2]] + PINS[4]
+        # From the crank's and the coupler's length, both linear in the rocker's turn and its conjugate.
+        ratio, rows = (c - d) / (PINS[4] - d), []
+        for w, arm, first in ((places, -d, PINS[4] - d), (1.5 + ratio * places, (1 - ratio) * d, c + 1.5)):
+            rows.append((arm * np.conj(w), abs(first) ** 2 - abs(arm) ** 2 - np.abs(w) ** 2))
+        (p, k), (q, m) = rows
+        rocker = (k * np.conj(q) - m * np.conj(p)) / (p * np.conj(q) - np.conj(p) * q)
+        assert np.abs(rocker) == pytest.approx(1, abs=1e-6)
+        dyads = all_dyads(Displacements(turns / rocker, shifts / rocker)).real
+        own = [abs(dyad.moving - PINS[4]) + abs(dyad.fixed - d) for dyad in dyads]
+        assert min(own) < 1e-6
+        number += len(dyads) - 1
+    assert found.count.real == number > 3
+
+
+def test_one_assembly_mode_is_told_from_two():
+    wanted = task_of()
+    shifts = wanted.origins - wanted.turns * wanted.origins[0]
+    assert keeps_sides(PINS[None], wanted.turns, shifts).tolist() == [[True, True]]
+    # The body's dyad folded over in the last position alone: its turn is another one, and so is its place.
+    *_, h, g, f = moved(PINS, 2.5)
+    folded = h + (f - h) * np.conj((g - h) / (f - h))
+    turn = (folded - h) / (PINS[5] - PINS[4])
+    turns, shifts = np.append(wanted.turns[:5], turn), np.append(shifts[:5], h - turn * PINS[4])
+    assert keeps_sides(PINS[None], turns, shifts).tolist() == [[False, False]]
+
+
+def test_a_part_of_a_list_has_a_sum_that_is_not_linear():
+    """And solutions of a general plane are led to given positions, where they are six-bars again."""
+    search = Search(SIX_POSITIONS, 3)
+    while len(search.found[0]) < 12:
+        search.step()
+    assert trace(search).residual > 1e-3
+    task, z = on_special_plane(search)
+    assert len(z) > 1
+    assert task[0, 9] == 0
+    ends, good = follow(SIX_POSITIONS, z, task, load_generic_solutions(SIX_POSITIONS).parameters)
+    assert good.all()
+    gaps = np.abs(load_generic_solutions(SIX_POSITIONS).z[:, None] - ends).max(axis=2).min(axis=0)
+    assert (gaps < 1e-6 * (1 + np.abs(ends).max(axis=1))).all()
+
+
+@pytest.mark.parametrize(
+    ("pivots", "count", "options", "sentence"),
+    [
+        ((), 6, {}, "the task has 6 positions, 0 fixed pivots and 0 moving ones"),
+        (((0, 0), (0, 0)), 6, {}, "the two pivots coincide"),
+        (((0, 0), (1, 0)), 6, {"six_bars": SixBarType()}, "has no option 'kind'"),
+        (((0, 0), (1, 0)), 6, {"six_bars": False}, "six-bars have some"),
+        (((0, 0), (1, 0)), 6, {"starts": 5}, "only of seven and eight"),
+        (((0, 0), (1, 0)), 5, {}, "not these for 5"),
+        (((0, 0),), 7, {"starts": 0}, "a whole number from 1 to 500,000"),
+        ((), 9, {}, "the task has 9 positions"),
+    ],
+)
+def test_other_tasks_are_refused(pivots, count, options, sentence):
+    positions = positions_of(PINS, np.linspace(0, 2.5, count))
+    with pytest.raises(SynthesisError, match=sentence):
+        synthesise(PositionTask(positions, fixed_pivots=pivots), **({"six_bars": True} | options))
