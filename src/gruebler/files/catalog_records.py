@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
@@ -213,8 +214,7 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
 
     def chain(self) -> Chain:
         """The chain of the entry, its links in the order of the file."""
-        written = Chain.parse(self.joints, space=self.space)
-        return Chain(written.joints, links=self.links, space=self.space)
+        return _chain(self.joints, tuple(self.links), self.space)
 
     def linkage(self) -> Linkage:
         """The machine with its dimensions; `CatalogError` if the entry has none."""
@@ -398,6 +398,11 @@ class Exercise(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
     """The given quantities, as the method names them; angles in degrees."""
     asked: tuple[Question, ...] = ()
     remark: Text | None = None
+
+
+@lru_cache(maxsize=1024)  # each entry of the catalog asks some eight times
+def _chain(joints: str, links: tuple[str, ...], space: str) -> Chain:
+    return Chain(Chain.parse(joints, space=space).joints, links=links, space=space)
 
 
 Record = TypeVar("Record", Entry, Exercise)
