@@ -78,22 +78,23 @@ const own = `
 
 /** Long names that others call, too, above all the browser's own, and that stand in a module again and again. */
 const often = `
-  active addEventListener angles append appendChild arrayBuffer attempt backend beginPath beside button
-  chains change changed checked children chosen circle classList clientWidth clientX counted ctrlKey
-  cursor cycle dataset delete describe designs document documentElement domain dragging drawing drive
-  drives elements entries every filter find findIndex firstChild flatMap focus forEach forces frame
-  from fromCharCode full getAttribute getBoundingClientRect getContext getPropertyValue hasAttribute
-  height hidden includes indexOf isConnected items join joint jointAt joints keys kind knot knots
-  lastChild length lines link linkage links listeners locks matches measured message mobility model
-  motion moveTo name onchange onclick onkeydown open operations outputs overconstrained page
-  parentElement parts pause pending picture pieces places playing plots pointerId pointerType points
-  pose preventDefault program progress push querySelector querySelectorAll reached redraw reduce
-  reference_pose remove removeAttribute replace replaceAll replaceChildren replaceWith root roots rows
-  scale screen scrollIntoView scrollTop selectedIndex setAttribute setPointerCapture setProperty
-  shiftKey show shown side signs size sizes slice snapshot some source sources speed split spots stage
-  start startsWith state status stopPropagation structure style text textContent title toFixed
-  toLowerCase toUpperCase together toggle transform transport turning turns unit unknowns value values
-  view viewport views width windings world zoom
+  active addEventListener angles append appendChild arrayBuffer attempt backend beginPath beside
+  between bottom button chains change changed checked children chosen circle class classList
+  clientWidth clientX colour conditions counted ctrlKey cursor cycle cylinder dataset delete
+  describe designs document documentElement domain dragging drawing drive drives elements entries
+  every filter find findIndex firstChild flatMap focus forces forEach frame from fromCharCode full
+  getAttribute getBoundingClientRect getContext getPropertyValue hasAttribute height hidden includes
+  indexOf isConnected items join joint jointAt joints keys kind knot knots lastChild length lengths
+  lines link linkage links listeners locks matches measured message mobility model motion moveTo
+  name onchange onclick onkeydown open operations output outputs overconstrained page parentElement
+  parts pause pending picture pieces places playing plots pointerId pointerType points pose
+  preventDefault program progress push querySelector querySelectorAll range reached redraw reduce
+  reference_pose remove removeAttribute replace replaceAll replaceChildren replaceWith right root
+  roots rows scale screen scrollIntoView scrollTop selected selectedIndex setAttribute
+  setPointerCapture setProperty shiftKey show shown side signs size sizes slice snapshot some source
+  sources speed split spots stage start startsWith state status stopPropagation structure style text
+  textContent title toFixed together toggle toLowerCase toUpperCase transform transmission transport
+  turning turns unit unknowns value values view viewBox viewport views width windings world zoom
 `.match(/\w+/g);
 
 /** These names, as members and as keys, and what else stands there as often, as constants: texts that are keys or

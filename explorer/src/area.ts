@@ -3,6 +3,7 @@
 import { svg } from "./dom";
 import { gridStep } from "./grid";
 import { number } from "./language";
+import { SUPPORT } from "./scene";
 import type { Box } from "./viewport";
 
 const MARK = 3.2; // pixels that a mark has for each of its units
@@ -53,7 +54,8 @@ export function gridOf({ left, right, bottom, top, unit }: Area, [across = "", u
   ticks.push(tick(right - 2.2 * across.length * unit, unit, across));
   for (let k = Math.ceil(left / step); k * step < right; k++) {
     lines.push(line(k, `M${k * step} ${-top}V${-bottom}`));
-    if (k % 2 === 0) ticks.push(tick(k * step + unit, bottom + 2 * unit, number(k * step)));
+    if (k % 2 === 0 && k * step < right - 8 * unit)
+      ticks.push(tick(k * step + unit, bottom + 2 * unit, number(k * step)));
   }
   for (let k = Math.ceil(bottom / step); k * step < top; k++) {
     lines.push(line(k, `M${left} ${-k * step}H${right}`));
@@ -61,4 +63,14 @@ export function gridOf({ left, right, bottom, top, unit }: Area, [across = "", u
       ticks.push(tick(left + unit, k * step + unit, number(k * step)));
   }
   return [...lines, ...ticks];
+}
+
+/** A mark of the stage in pixels, at a place of the plane in which units of marks are so long. */
+export function mark(name: string, d: string, [x, y]: readonly number[], unit: number): SVGPathElement {
+  return svg("path", { class: name, d, transform: `translate(${x} ${-y!}) scale(${unit / MARK})` });
+}
+
+/** A joint of the frame. */
+export function groundMark(place: readonly number[], unit: number): SVGPathElement {
+  return mark("support", SUPPORT, place, unit);
 }

@@ -4,6 +4,7 @@ import { h, menu, renew, thumbnail } from "./dom";
 import type { Moving } from "./ghost";
 import { angle, number, t } from "./language";
 import type { LinkageDocument } from "./model";
+import type { Pair } from "./rows";
 
 /** A linkage that does what is asked. */
 export interface Design extends Moving {
@@ -19,6 +20,10 @@ export interface Design extends Moving {
   variant?: boolean;
   error: number | null;
   size: number;
+  /** Of a function crank and output in each frame, in degrees as its pairs count them. */
+  angles?: Pair[];
+  /** Of dead centres the places of the joints at both. */
+  ends?: [Pair[], Pair[]];
   /** Of crank, coupler, rocker and frame; none of what has other joints. */
   lengths: number[];
 }

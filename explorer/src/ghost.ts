@@ -1,12 +1,15 @@
-/** A design that plays over its targets: bars of its links, and the curves of its points. */
+/** A design that plays over its targets: bodies of its links, and the curves of its points. */
 
+import { groundMark, mark } from "./area";
 import { put, renew, svg, wantsStill } from "./dom";
+import type { Pair } from "./rows";
+import { DRIVEN } from "./scene";
 
 const PACE = 48; // frames of a motion in a second
 
 export interface Moving {
   /** Places of the joints, then of the points, evenly in time. */
-  frames: [number, number][][];
+  frames: Pair[][];
   /** Which of them each moving link has. */
   members: number[][];
   joints: number;
@@ -14,44 +17,55 @@ export interface Moving {
   drive?: number;
 }
 
-const spot = ([x, y]: [number, number]) => `${x},${-y}`;
+/** A line through places, of which y goes upward. */
+export function pathOf(places: readonly (readonly number[])[]): string {
+  return places.map(([x, y], k) => `${k ? "L" : "M"}${x} ${-y!}`).join("");
+}
+
+/** The bodies of links. */
+export function bodiesOf(members: readonly number[][]): SVGPathElement[][] {
+  return members.map((own) =>
+    ["outline", "bar"].map((name) => svg("path", { class: own[2] ? `${name} plate` : name })),
+  );
+}
+
+/** Put them where their joints and points are. */
+export function putBodies(bodies: readonly SVGPathElement[][], members: readonly number[][], places: Pair[]): void {
+  for (const [k, own] of members.entries())
+    for (const part of bodies[k]!) put(part, { d: `${pathOf(own.map((one) => places[one]!))}Z` });
+}
 
 export class Ghost {
-  readonly element = svg("g.ghost", { "data-ghost": "" });
+  readonly element = svg("g", { "data-ghost": "" });
   #frame = 0;
 
   /** It stands still while it is not seen. */
   constructor(private readonly seen: () => boolean) {}
 
-  /** Pivots are drawn in units of the plane, which are so long. */
-  play(moving: Moving | null, unit = 1): void {
+  /** Pins are drawn in units of marks, which are so long; says which frame is shown. */
+  play(moving: Moving | null, unit: number, shown: (frame: number) => void): void {
     cancelAnimationFrame(this.#frame);
     if (!moving) return renew(this.element);
-    const { frames, members, joints } = moving;
-    const curves = frames[0]!.slice(joints).map((_, k) => {
-      const points = [...frames, frames[0]!].map((frame) => spot(frame[joints + k]!)).join(" ");
-      return svg("polyline.curve", { points });
-    });
-    // an edge under each link, and pins over all of them, as of machines that are open
-    const [edges, bars] = ["path.edge", "polygon"].map((tag) => members.map(() => svg(tag as "path")));
-    const pins = frames[0]!.slice(0, joints).map(() => svg("circle.pin", { r: 1.2 * unit }));
-    const pivots = frames[0]!.slice(0, joints).flatMap(([x, y], k) => {
-      const moves = frames.some((frame) => Math.hypot(frame[k]![0] - x, frame[k]![1] - y) > 1e-3 * unit);
-      const place = { transform: `translate(${x} ${-y}) scale(${unit})` };
-      const ring = k === moving.drive ? [svg("circle.ring", { r: 4.5, ...place })] : [];
-      return moves ? [] : [svg("path.pivot", { d: "M0 0l3 5h-6zM-5 5h10", ...place }), ...ring];
-    });
-    renew(this.element, ...curves, ...pivots, ...edges!, ...bars!, ...pins);
-    const still = wantsStill();
+    const { drive, frames, joints, members } = moving;
+    const [first] = frames as [Pair[]];
+    const curves = first
+      .slice(joints)
+      .map((_, k) => svg("path.curve", { d: `${pathOf(frames.map((frame) => frame[joints + k]!))}Z` }));
+    const pins = first.slice(0, joints).map(() => svg("circle.joint", { r: 1.5 * unit }));
+    const still = (k: number) =>
+      frames.every((frame) => Math.hypot(frame[k]![0] - first[k]![0], frame[k]![1] - first[k]![1]) < 1e-3 * unit);
+    const grounds = pins.flatMap((_, k) => (still(k) ? [groundMark(first[k]!, unit)] : []));
+    const bodies = bodiesOf(members);
+    const driven = drive === undefined ? [] : [mark("driven", DRIVEN, first[drive]!, unit)];
+    renew(this.element, ...curves, ...grounds, ...bodies.flat(), ...pins, ...driven);
+    const calm = wantsStill();
     const tick = (now: number) => {
-      const places = frames[Math.floor((now / 1000) * PACE) % frames.length]!;
-      for (const [k, bar] of bars!.entries()) {
-        const points = members[k]!.map((one) => spot(places[one]!)).join(" ");
-        bar.setAttribute("points", points);
-        edges![k]!.setAttribute("d", `M${points}Z`);
-      }
+      const frame = Math.floor((now / 1000) * PACE) % frames.length;
+      const places = frames[frame]!;
+      putBodies(bodies, members, places);
       for (const [k, pin] of pins.entries()) put(pin, { cx: places[k]![0], cy: -places[k]![1] });
-      if (!still && this.seen()) this.#frame = requestAnimationFrame(tick);
+      shown(frame);
+      if (!calm && this.seen()) this.#frame = requestAnimationFrame(tick);
     };
     tick(performance.now());
   }

@@ -18,7 +18,7 @@ import { rateUnit } from "./wording";
 
 export const SUPPORT = "M0 0 L-11 17 H11 Z M-17 17 H17 M-14 23 l5 -6 M-5 23 l5 -6 M4 23 l5 -6 M13 23 l4 -5";
 // Counter-clockwise, as a drive grows.
-const DRIVEN = "M9.5 -9.5 A13.4 13.4 0 0 0 -12.5 -5 M-12.5 -5 l6 -1.5 M-12.5 -5 l-0.6 -6";
+export const DRIVEN = "M9.5 -9.5 A13.4 13.4 0 0 0 -12.5 -5 M-12.5 -5 l6 -1.5 M-12.5 -5 l-0.6 -6";
 const LONGEST_ARROW = 90; // pixels
 const LINE = 15; // pixels that names are apart
 const INK = 8; // from a name to an arrow

@@ -1,13 +1,13 @@
 /** The view of the synthesis: what a linkage is to do, put into a plane or a table; designs that do it play over it. */
 
-import { type Area, areaOf, gridOf, viewBoxOf } from "./area";
+import { Demands, option } from "./demands";
 import { type Design, DesignCards, type Found } from "./designs";
-import { choice, h, renew, svg } from "./dom";
-import { Ghost } from "./ghost";
+import { choice, h, renew } from "./dom";
 import { History } from "./history";
 import { t } from "./language";
 import type { Model, Target } from "./model";
-import { evenly, numberPlaces, rowsTable, swingMark, swingOf, targetMark, tip } from "./targets";
+import { evenly, rowsTable, tip } from "./targets";
+import { TaskPicture } from "./taskpicture";
 import { FEWEST, type Kind, wordsOf } from "./tasks";
 import type { Page, View } from "./view";
 import { awaited } from "./waiting";
@@ -21,7 +21,7 @@ type State = [Kind, string];
 /** Points of a page without the library. */
 const NINE = 9;
 
-const WIDE = 240; // of the plane, in millimetres; that of a phone is narrower
+const WIDE = 240; // of the plane in which points of files are seen, in millimetres
 const NEAR = 4; // units of marks that a pointer reaches; a finger needs more
 const TURN = 20; // degrees from a new position to the next
 const OF_STROKE = 20; // points of a curve that is drawn
@@ -42,38 +42,36 @@ export class SynthesisView implements View {
   #pivots: number[][] = [];
   #puts: Puts = "";
   #closed = false;
-  #crank = true;
-  /** Places of the targets in the order, as they are typed. */
-  #order = "";
-  #least = 20; // degrees
+  readonly #demands = new Demands();
   #shownDesign: Design | null = null;
   /** How wide the plane is before there is anything in it; that of points out of a file is as wide as they need. */
   #home = 0;
-  #area!: Area;
   readonly #history = new History<State>();
   /** The targets before the change that is going on. */
   #before = this.#state;
   /** What the pointer takes along. */
   #held: ((at: [number, number]) => void) | null = null;
-  private readonly marks = svg("g");
-  readonly #ghost = new Ghost(() => this.element.classList.contains("shown"));
-  readonly #plane = svg("svg.plane", { role: "application", tabindex: 0 }, this.marks);
-  readonly #list = h("div", {});
+  readonly #picture = new TaskPicture(() => this.element.classList.contains("shown"));
+  readonly #key = h("button.key", { "data-act": "synthesise", onclick: () => void this.#search() });
+  readonly #list = h("div.targets", {});
   /** How many are set; while linkages are looked for, how far that is stands in its place. */
   readonly #told = h("span.note", { "data-fact": "set" });
   private readonly designs = new DesignCards(
     (design) => this.#play(design),
     (design) => void this.#open(design),
   );
-  private readonly status = h("div.form", {});
+  private readonly status = h("div.told", {});
+  /** What stays in sight beside the designs. */
+  readonly #doing = h("div.doing", {});
   readonly #page: Page;
 
   constructor(page: Page) {
     this.#page = page;
-    this.#plane.addEventListener("pointerdown", (event) => this.#down(event));
-    this.#plane.addEventListener("pointermove", (event) => this.#held?.(this.#at(event)));
+    const { plane } = this.#picture;
+    plane.addEventListener("pointerdown", (event) => this.#down(event));
+    plane.addEventListener("pointermove", (event) => this.#held?.(this.#picture.at(event)));
     for (const event of ["pointerup", "pointercancel"])
-      this.#plane.addEventListener(event, () => {
+      plane.addEventListener(event, () => {
         this.#held = null;
         if (this.#puts === "curve")
           this.arrange(); // whether it is closed
@@ -91,7 +89,7 @@ export class SynthesisView implements View {
     this.#puts = "";
     this.rows.points = points;
     this.#closed = closed;
-    this.#order = order.map((rank) => rank ?? "–").join(" ");
+    this.#demands.order = order.map((rank) => rank ?? "–").join(" ");
     const far = Math.max(...points.flat().map(Math.abs));
     this.#home = far > WIDE / 2 || far < WIDE / 12 ? 2.4 * far : 0;
     this.designs.show(null);
@@ -106,31 +104,7 @@ export class SynthesisView implements View {
     return this.kind === "points" || this.kind === "positions";
   }
 
-  /** Whether the rows lie in the plane: that of angles is free while no design plays in it. */
-  get #plotted(): boolean {
-    return this.#planar || (this.kind === "function" && !this.#shownDesign);
-  }
-
   arrange(): void {
-    const option = (text: string, checked: boolean, set: (on: boolean) => void, key: string) => {
-      const box = h("input", { type: "checkbox", checked, "data-field": key, onchange: () => set(box.checked) });
-      return h("label", {}, box, text);
-    };
-    const least = h("input", {
-      type: "number",
-      min: 0,
-      max: 90,
-      value: this.#least,
-      "data-field": "least",
-      onchange: () => (this.#least = Number(least.value)),
-    });
-    const order = h("input", {
-      value: this.#order,
-      "aria-label": t("order, if another"),
-      placeholder: "1 2 3",
-      "data-field": "order",
-      onchange: () => (this.#order = order.value),
-    });
     const kinds = (["points", "positions", "function", "dead-centres"] as const).map((kind): [Kind, string] => [
       kind,
       wordsOf(kind).name,
@@ -139,15 +113,29 @@ export class SynthesisView implements View {
       this.kind === "points"
         ? [
             ["", t("Put points")],
-            ["curve", t("A curve drawn by hand")],
+            ["curve", t("Draw a curve")],
           ]
         : [
             ["", t("Put positions")],
             ["pivot", t("Put fixed pivots")],
           ];
-    this.#plane.setAttribute("aria-label", t("What is to be met"));
-    this.#list.classList.toggle("first", !this.#planar);
-    const open = this.kind === "points";
+    this.#picture.plane.setAttribute("aria-label", t("What is to be met"));
+    this.element.classList.toggle("typed", !this.#planar);
+    renew(this.#key, t("Find linkages"));
+    const back = () => this.element.scrollIntoView();
+    renew(
+      this.#doing,
+      this.#picture.element,
+      h(
+        "div.form",
+        {},
+        this.#key,
+        ...(this.#planar ? [h("button.plain", { "data-act": "clear", onclick: () => this.#clear() }, t("Clear"))] : []),
+        h("button.plain", { "data-act": "back", title: t("To the targets"), onclick: back }, "↑"),
+        this.status,
+        this.#told,
+      ),
+    );
     renew(
       this.element,
       h(
@@ -155,7 +143,6 @@ export class SynthesisView implements View {
         {},
         h("h2", {}, t("Synthesis")),
         choice(t("What a linkage is to do"), kinds, this.kind, (kind) => this.#turnTo(kind as Kind)),
-        h("p.note", {}, wordsOf(this.kind).hint),
         this.#page.served
           ? null
           : h(
@@ -169,46 +156,20 @@ export class SynthesisView implements View {
           h(
             "div",
             {},
+            h("p.note", {}, wordsOf(this.kind).hint),
             this.#planar
               ? choice(t("What is to be met"), clicks, this.#puts, (value) => (this.#puts = value as Puts))
               : null,
-            h("div.chain-picture", {}, this.#plane),
+            this.#doing,
           ),
           h(
             "div",
             {},
-            h(
-              "div.form",
-              {},
-              open ? option(t("closed curve"), this.#closed, (on) => this.#close(on), "closed") : null,
-              option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
-              h("label", {}, t("transmission angle from"), least, "°"),
-              ...(this.#planar && this.#page.served
-                ? [
-                    h(
-                      "details.words",
-                      { open: this.#order !== "" },
-                      h("summary", {}, t("order, if another")),
-                      order,
-                      h(
-                        "p.note",
-                        {},
-                        t("One number for each target: the same for those in any order, – for one at any time"),
-                      ),
-                    ),
-                  ]
-                : []),
+            this.#demands.form(
+              this.kind === "points" && option(t("closed curve"), this.#closed, (on) => this.#close(on), "closed"),
+              this.#planar && this.#page.served,
             ),
-            h(
-              "div.form",
-              {},
-              h("button.key", { "data-act": "synthesise", onclick: () => void this.#search() }, t("Find linkages")),
-              this.#planar
-                ? h("button.plain", { "data-act": "clear", onclick: () => this.#clear() }, t("Remove all points"))
-                : null,
-            ),
-            h("div.told", {}, this.status, this.#told),
-            this.#list, // grows, and moves nothing
+            this.#list,
             this.designs.element,
           ),
         ),
@@ -232,21 +193,12 @@ export class SynthesisView implements View {
     this.#draw();
   }
 
-  #at(event: PointerEvent): [number, number] {
-    const box = this.marks.getScreenCTM()!.inverse();
-    const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(box);
-    const { left, right } = this.#area;
-    const fine = 10 ** Math.ceil(Math.log10(1000 / (right - left)));
-    const round = (value: number) => Math.round(value * fine) / fine;
-    return [round(point.x), round(-point.y)];
-  }
-
   #down(event: PointerEvent): void {
-    if (!this.#plotted) return;
-    const [x, y] = this.#at(event);
-    this.#plane.setPointerCapture(event.pointerId);
+    if (this.kind === "dead-centres") return;
+    const [x, y] = this.#picture.at(event);
+    this.#picture.plane.setPointerCapture(event.pointerId);
     if (this.#puts === "curve") return this.#stroke(x, y);
-    const { unit } = this.#area;
+    const { unit } = this.#picture;
     const reach = (event.pointerType === "touch" ? 2 : 1) * NEAR * unit;
     const near = ([u, v]: number[]) => Math.hypot(u! - x, v! - y) < reach;
     const move = (row: number[]) => {
@@ -354,19 +306,18 @@ export class SynthesisView implements View {
     const single = this.kind === "dead-centres";
     const last = this.points.at(-1) ?? [];
     const table = (rows: number[][], name: string, head: string[]) =>
-      rowsTable(rows, name, head, !single, () => this.#draw());
+      rowsTable(rows, name, head, !single, () => this.#draw(), single ? () => "" : undefined);
     const add = () => {
       this.points.push(last.map((value) => value + 30));
       this.#draw();
     };
     const count = this.points.length;
     const wanted = this.#page.served || this.kind !== "points" ? FEWEST[this.kind] : NINE;
-    const missing = wanted - count;
-    const told =
-      missing > 0
-        ? t("{count} of {wanted} set, {missing} missing", { count, wanted, missing })
-        : t("{count} set: enough to find linkages", { count });
-    this.#told.textContent = this.#planar ? told : "";
+    const lacks = count < wanted ? t("{count} of {wanted} set", { count, wanted }) : "";
+    this.#key.disabled = !!lacks;
+    this.#key.title = lacks;
+    const enough = this.#planar && !this.#shownDesign ? t("{count} set: enough", { count }) : "";
+    this.#told.textContent = lacks || enough;
     renew(
       this.#list,
       this.points.length
@@ -385,63 +336,36 @@ export class SynthesisView implements View {
   }
 
   async #search(): Promise<void> {
-    const count = FEWEST[this.kind];
-    if (this.points.length < count)
-      return renew(this.status, h("span.error", { role: "alert" }, t("Give at least {count} points.", { count })));
     const question = {
       kind: this.kind,
       rows: this.points,
       pivots: this.kind === "positions" ? this.#pivots : [],
       closed: this.kind === "points" && this.#closed,
-      order: this.#planar ? (this.#order.match(/[^\s,;]+/g) ?? []).map((rank) => (/\d/.test(rank) ? +rank : null)) : [],
-      crank: this.#crank,
-      transmission: this.#least,
+      ...this.#demands.asked(this.#planar),
     };
+    this.#told.textContent = "";
     const found = await awaited(this.status, (progress) => this.#page.ask<Found>("synthesise", question, progress));
     if (!found) return;
     this.#play(this.designs.show(found));
-    this.designs.element.scrollIntoView(); // beside the plane, which stays in sight
+    this.#drawList();
+    // on a phone below the plane, which stays in sight
+    const { element } = this.designs;
+    element.style.scrollMarginTop = `${this.#doing.offsetHeight}px`;
+    if (element.offsetLeft < this.#doing.offsetWidth) element.scrollIntoView();
   }
 
   // --- a design plays over its targets -------------------------------------------------------------------------------
 
-  /** The plane with what is put into it, and where the design that plays comes to; while a mark is held it stays. */
   #paint(): void {
     const { kind, points } = this;
-    const [plotted, plane, shownDesign] = [this.#plotted, this.#plane, this.#shownDesign];
-    const angles = kind === "function";
-    const swung = plotted || shownDesign ? [] : swingOf(points[0]![0]!);
     const pivots = kind === "positions" ? this.#pivots : [];
-    const places = [...(plotted ? [...points, ...pivots] : swung), ...(shownDesign?.frames.flat() ?? [])];
-    if (!this.#held) {
-      const narrow = plane.clientWidth && plane.clientWidth < 500;
-      const wide = this.#planar ? this.#home || (narrow ? 0.6 : 1) * WIDE : 0;
-      const part = narrow && shownDesign ? 0.32 : 0.6; // room for the designs
-      this.#area = areaOf(shownDesign ? -Infinity : wide, part, places, plane);
-      plane.setAttribute("viewBox", viewBoxOf(this.#area));
-    }
-    const { unit } = this.#area;
-    const way = angles ? [...points].sort(([one], [two]) => one! - two!) : points;
-    const line = kind === "positions" ? "" : way.map(([x, y]) => `${x} ${-y!}`).join("L");
-    const d = line && `M${line}${this.#closed && !angles && points.length > 2 ? "Z" : ""}`;
-    const at = numberPlaces(points, this.#closed && !angles, unit);
-    const marks = [
-      ...gridOf(this.#area, angles ? wordsOf(kind).heads : []),
-      svg("path.polygon", { d }),
-      this.#ghost.element,
-      ...points.map((row, k) => targetMark(row, k, at[k]!, unit)),
-      ...pivots.map(([x, y]) =>
-        svg("path.pivot", { d: "M0 0l4 6h-8z", transform: `translate(${x} ${-y!}) scale(${unit})`, "data-pivot": "" }),
-      ),
-    ];
-    const grid = shownDesign ? gridOf(this.#area, ["", ""]) : []; // of lengths whose ratios count
-    renew(this.marks, ...(plotted ? marks : [...grid, this.#ghost.element, ...swingMark(swung, points[0]![0]!, unit)]));
+    const closed = kind === "points" && this.#closed;
+    this.#picture.paint({ kind, points, pivots, closed, design: this.#shownDesign, home: this.#home }, !!this.#held);
   }
 
   #play(design: Design | null): void {
     this.#shownDesign = design;
     this.#paint();
-    this.#ghost.play(design, this.#area.unit);
   }
 
   async #open(design: Design): Promise<void> {

@@ -1,9 +1,12 @@
 /** What a linkage is to meet: marks in the plane, and a table in which they are typed. */
 
+import { groundMark } from "./area";
+import type { Design } from "./designs";
 import { digits } from "./digits";
 import { h, svg } from "./dom";
+import { bodiesOf, pathOf, putBodies } from "./ghost";
 import { clearAbout } from "./hull";
-import { angle, parsed, t } from "./language";
+import { angle, number, parsed, t } from "./language";
 import { valueAt } from "./plot";
 import type { Pair } from "./rows";
 
@@ -19,7 +22,7 @@ export function rowsTable(
   changed: () => void,
   numbered = (k: number) => String(k + 1),
 ): HTMLElement {
-  const called = (k: number) => t("{title} {number}", { title, number: numbered(k) });
+  const called = (k: number) => t("{title} {number}", { title, number: numbered(k) }).trim();
   const cell = (row: number[], k: number, axis: number) => {
     const input = h("input", {
       ...digits(row[axis]!),
@@ -42,15 +45,16 @@ export function rowsTable(
     };
     return h("button.quiet", { "aria-label": t("Remove {name}", { name: called(k) }), onclick: remove }, "×");
   };
+  const first = (tag: "td" | "th", text: string) => (numbered(0) ? [h(tag, {}, text)] : []);
   return h(
     "table",
     {},
-    h("tr", {}, h("th", {}, title), ...head.map((name) => h("th", {}, name)), h("th", {}, "")),
+    h("tr", {}, ...first("th", title), ...head.map((name) => h("th", {}, name)), h("th", {}, "")),
     ...rows.map((row, k) =>
       h(
         "tr",
         {},
-        h("td", {}, numbered(k)),
+        ...first("td", numbered(k)),
         ...head.map((_, axis) => cell(row, k, axis)),
         h("td", {}, removable ? cross(k) : null),
       ),
@@ -89,27 +93,49 @@ export function tip([x, y, turn]: number[], unit: number): number[] {
   return [x! + ARM * unit * Math.cos(phi), y! + ARM * unit * Math.sin(phi)];
 }
 
-const ROCKER = 100;
-
-/** A rocker at both ends of its swing, in degrees, and where it stands between them; the first place is its pivot. */
-export function swingOf(swing: number): Pair[] {
-  const at = (part: number): Pair => {
-    const phi = (part * swing * Math.PI) / 180;
-    return [ROCKER * Math.sin(phi), ROCKER * Math.cos(phi)];
-  };
-  return [[0, 0], at(-0.5), at(0.5), [0, 1.05 * ROCKER]];
+/** The pivot of a rocker, its end at both ends of its swing in degrees, and that between them: of a design, else of a
+ * length of 1. */
+export function swingOf(swing: number, design: Design | null): Pair[] {
+  const [one, two] = design?.ends ?? [];
+  const half = (swing * Math.PI) / 360;
+  if (!one || !two) return [[0, 0], ...[-half, half, 0].map((phi): Pair => [Math.sin(phi), Math.cos(phi)])];
+  const pivot = one.findIndex((at, k) => k !== design!.drive && `${at}` === `${two[k]}`);
+  const end = design!.members.find((own) => own.includes(pivot))!.find((k) => k !== pivot)!;
+  const [x, y] = one[pivot]!;
+  const [[a, b], [c, d]] = [one[end]!, two[end]!];
+  const part = Math.hypot(a - x, b - y) / Math.hypot(a + c - 2 * x, b + d - 2 * y);
+  return [one[pivot]!, one[end]!, two[end]!, [x + part * (a + c - 2 * x), y + part * (b + d - 2 * y)]];
 }
 
-/** The same as a picture with its angle, in units that are so long; nothing of no places. */
-export function swingMark([, one, two, top]: readonly Pair[], swing: number, unit: number): SVGElement[] {
-  if (!one || !two) return [];
-  const [from, to] = [one, two].map(([x, y]) => `${x} ${-y}`);
-  const text = { "text-anchor": "middle", transform: `translate(0 ${-top![1]}) scale(${unit})` };
+/** The same as a picture with its angle and its time ratio, in units that are so long. */
+export function swingMark(
+  [pivot, one, two, top]: readonly Pair[],
+  [swing, ratio]: readonly number[],
+  unit: number,
+  design: Design | null,
+): SVGElement[] {
+  const [[x, y], [a, b], [c, d], [u, v]] = [pivot!, one!, two!, top!];
+  const long = Math.hypot(a - x, b - y);
+  const clockwise = (a - x) * (v - y) < (b - y) * (u - x);
+  const texts = [`${t("Time ratio")} ${number(ratio!, 4)}`, angle((swing! * Math.PI) / 180, 4)];
+  const away = (u - x) / long; // of the middle to the left or right
+  const anchor = ["end", "middle", "start"][1 + Math.round(1.4 * away)]!;
+  const bodies = design?.ends?.flatMap((ends) => {
+    const made = bodiesOf(design.members);
+    putBodies(made, design.members, ends);
+    return made.flat();
+  });
   return [
-    svg("path.polygon", { d: `M${from}A${ROCKER} ${ROCKER} 0 ${+(swing > 180)} 1 ${to}` }),
-    svg("path.arm", { d: `M${from}L0 0L${to}` }),
-    svg("path.pivot", { d: "M0 0l4 6h-8z", transform: `scale(${unit})` }),
-    svg("text", text, angle((swing * Math.PI) / 180, 4)),
+    ...(bodies ? [svg("g.faded", {}, ...bodies)] : [svg("path.arm", { d: pathOf([one!, pivot!, two!]) })]),
+    groundMark(pivot!, unit),
+    svg("path.polygon", { d: `M${a} ${-b}A${long} ${long} 0 ${+(swing! > 180)} ${+clockwise} ${c} ${-d}` }),
+    ...texts.map((text, k) =>
+      svg(
+        k ? "text" : "text.tick",
+        { "text-anchor": anchor, transform: `translate(${u} ${-v}) scale(${unit})`, x: 4 * away, y: -3 - 5 * k },
+        text,
+      ),
+    ),
   ];
 }
 

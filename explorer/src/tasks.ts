@@ -20,7 +20,7 @@ interface TaskWords {
 export function wordsOf(kind: Kind, count = 0): TaskWords {
   const words: Record<Kind, TaskWords> = {
     points: {
-      name: t("Points of a path"),
+      name: t("Points"),
       hint: t(
         "Put points in the order in which a coupler point passes them. " +
           "Five to nine are met exactly if possible, more as closely as possible.",
@@ -30,14 +30,14 @@ export function wordsOf(kind: Kind, count = 0): TaskWords {
       design: t("A design for {count} points", { count }),
     },
     positions: {
-      name: t("Positions of a link"),
+      name: t("Positions"),
       hint: t("Put three to five positions of the coupler; drag the end of an arrow to turn one."),
       row: t("Position"),
       heads: ["x", "y", "φ [°]"],
       design: t("A design for {count} positions", { count }),
     },
     function: {
-      name: t("Angles of crank and rocker"),
+      name: t("Angles"),
       hint: t("Three to five pairs of angles that crank and rocker turn through together."),
       row: t("Pair"),
       heads: [t("Crank [°]"), t("Rocker [°]")],

@@ -124,7 +124,7 @@ class Tab:
 
     def target(self, x: float, y: float) -> tuple[float, float]:
         """Where a place of the plane of the synthesis is seen."""
-        matrix = "(({ a, d, e, f }) => [a, d, e, f])(gruebler.views.synthesis.marks.getScreenCTM())"
+        matrix = "(({ a, d, e, f }) => [a, d, e, f])(gruebler.root.querySelector('.plane > g').getScreenCTM())"
         a, d, e, f = self.page.evaluate(matrix)
         return e + a * x, f - d * y
 

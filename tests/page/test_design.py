@@ -1,6 +1,7 @@
 """Design on the page: positions with pivots, dead centres; designs play over their targets, which stay in Motion."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -76,11 +77,12 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
     cards = view.locator('[data-list="designs"] .card')
     assert cards.first.locator("svg .gr-head").count() >= 3  # where the positions are
     # it plays over the targets: three moving links, one curve
-    assert view.locator("[data-ghost] polygon").count() == 3
-    crank = view.locator("[data-ghost] polygon").first
-    before = crank.get_attribute("points")
+    assert view.locator("[data-ghost] .bar").count() == 3
+    assert view.locator("[data-ghost] .support").count() == 2
+    crank = view.locator("[data-ghost] .bar").first
+    before = crank.get_attribute("d")
     view.wait_for_timeout(300)
-    assert crank.get_attribute("points") != before
+    assert crank.get_attribute("d") != before
     targets = view.evaluate(f"{VIEW}.targets")
     linkage = opened(design)
     assert view.evaluate("gruebler.motion.linkage.beside.targets") == targets
@@ -158,6 +160,10 @@ def test_a_finger_takes_a_point_of_the_plane(tab, server):
     page.page.tap('[data-view="synthesis"]')
     box = page.page.locator(".plane").bounding_box()
     assert box["height"] > 300  # nearly a square
+    assert box["y"] < 215  # header and two rows of buttons
+    key = page.page.locator('[data-act="synthesise"]')
+    assert (key.is_disabled(), key.get_attribute("title")) == (True, "0 of 5 set")
+    assert key.bounding_box()["y"] > box["y"] + box["height"]  # not over the plane, nor under it
     page.page.touchscreen.tap(*page.target(10, 20))
     x, y = page.target(10, 20)
     page.page.touchscreen.tap(x + 18, y)  # the same point: it is not put twice
@@ -183,23 +189,41 @@ def test_a_finger_takes_a_point_of_the_plane(tab, server):
 def test_dead_centres_are_those_that_were_asked_for(design):
     view = design.page
     view.click('[data-value="function"]')
-    design.drag(design.middle('[data-point="1"] circle'), (0, -40))
+    design.drag(design.middle('[data-point="1"] circle'), (0, -10))
     x, y = zip(*(design.middle(f'[data-point="{k}"] circle') for k in range(3)), strict=True)
     pairs = view.evaluate(f"{VIEW}.rows.function")
     degree = (x[2] - x[0]) / 90  # across as upward
-    assert pairs[1] == pytest.approx([45, 25 + 40 / degree], abs=0.2)
+    assert pairs[1] == pytest.approx([45, 25 + 10 / degree], abs=0.2)
     assert y[0] - y[1] == pytest.approx(pairs[1][1] * degree, abs=1)
+    view.click('[data-act="synthesise"]')
+    cards = view.locator('[data-list="designs"] .card')
+    cards.nth(1).hover(timeout=60_000)
+    # the chart stays beside the design, with the curve of the rocker over the crank through all pairs
+    assert view.locator(".plane").count() == 2
+    curve = view.locator(".plane:last-child .curve").get_attribute("d")
+    u, v = np.reshape([float(value) for value in re.findall(r"-?[\d.]+", curve)], (-1, 2)).T
+    assert np.interp([pair[0] for pair in pairs], u, -v) == pytest.approx([pair[1] for pair in pairs], abs=0.1)
+    here = view.locator(".plane:last-child > g > .joint")
+    before = here.get_attribute("cx")
+    view.wait_for_timeout(100)
+    assert here.get_attribute("cx") != before
     view.click('[data-value="dead-centres"]')
     for name, value in (("Swing [°]", "48"), ("Time ratio", "1.25")):
-        field = view.locator(f'[aria-label="Dead centres 1 {name}"]')
+        field = view.locator(f'[aria-label="Dead centres {name}"]')
         field.fill(value)
         field.press("Enter")
     arm = view.locator(".plane .arm").get_attribute("d")
     (a, b), (c, d) = (map(float, end.split()) for end in arm.removeprefix("M").split("L0 0L"))
     assert np.degrees(np.arccos((a * c + b * d) / np.hypot(a, b) / np.hypot(c, d))) == pytest.approx(48)
     view.click('[data-act="synthesise"]')
-    cards = view.locator('[data-list="designs"] .card')
     cards.nth(1).wait_for(timeout=60_000)
+    assert view.locator(".plane text").all_text_contents()[-2:] == ["Time ratio 1.25", "48°"]
+    # of each link both positions, faint, and the one that moves; the rocker stands at the ends of the swing
+    assert (view.locator(".faded .bar").count(), view.locator("[data-ghost] .bar").count()) == (6, 3)
+    rockers = [view.locator(".faded .bar").nth(k).get_attribute("d") for k in (2, 5)]
+    (a, b), (c, d) = (np.reshape([float(x) for x in re.findall(r"-?[\d.]+", one)], (2, 2)) for one in rockers)
+    arms = [complex(*(a - b)), complex(*(c - d))]
+    assert abs(np.degrees(np.angle(arms[1] / arms[0]))) == pytest.approx(48, abs=0.01)
     cards.last.hover()  # the plane stays in sight beside all of them
     plane = view.locator(".plane").bounding_box()
     assert plane["y"] >= 0

@@ -261,9 +261,11 @@ def test_nine_points_are_met_without_python(tab, folder, address, from_disk):
     page.page.click('[data-view="synthesis"]')
     page.page.evaluate("(rows) => gruebler.views.synthesis.take(rows, false)", ROWS[:5])
     set_already = page.page.locator('[data-fact="set"]')
-    assert set_already.text_content() == "5 of 9 set, 4 missing"
+    assert set_already.text_content() == "5 of 9 set"
+    assert page.page.locator('[data-act="synthesise"]').is_disabled()
+    page.page.evaluate("(rows) => gruebler.views.synthesis.take(rows, false)", ROWS)
+    assert set_already.text_content() == "9 set: enough"
     searching(page)
-    assert set_already.text_content() == "9 set: enough to find linkages"
     page.until("gruebler.views.synthesis.status.textContent.includes('of 1442 solutions followed')", 60)
     page.until("gruebler.root.querySelectorAll('[data-page=synthesis] .card svg .gr-curve').length === 4", 120)
     assert "Of the 1442 solutions of nine points" in page.page.locator('[data-page="synthesis"]').text_content()
@@ -299,7 +301,7 @@ def test_the_search_for_nine_points_can_be_cancelled_and_says_what_it_does_not_d
     page.until("gruebler.views.synthesis.status.textContent === 'Abgebrochen.'")
     searching(page, [[float(k), 0.5 * k] for k in range(9)])
     page.until("gruebler.views.synthesis.status.textContent.startsWith('9 der Punkte liegen auf einer Geraden')", 60)
-    searching(page, ROWS[:8])
+    searching(page, [*ROWS, (0.0, 0.0)])
     page.until("gruebler.views.synthesis.status.textContent.includes('gruebler explore')")
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import translate
 from gruebler.design.synthesis import (
@@ -23,6 +24,8 @@ from gruebler.design.synthesis import (
 )
 from gruebler.design.synthesis.tasks import gives_lengths
 from gruebler.files import linkage_to_json
+from gruebler.mechanics.analysis.measuring import measures
+from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.linkage.bodies import CarriedLine
 from gruebler.pictures.linkage.picture import draw_linkage
@@ -117,7 +120,8 @@ def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
         "shift": shift if isfinite(shift := design.relative_sensitivity) else None,
         "error": verdict.error if isfinite(verdict.error) else None,
         "size": linkage.size,
-        **_frames(linkage, posed),
+        **_frames(linkage, posed, _played(design, task, posed)),
+        **_met_angles(design, task, posed),
     }
 
 
@@ -147,24 +151,61 @@ def _target_marks(task: Task, frame: str, scale: float) -> list[CarriedLine]:
     return marks
 
 
-def _frames(linkage: Linkage, posed: PosedLinkage) -> dict[str, Any]:
+def _played(design: Design, task: Task, posed: PosedLinkage) -> Motion:
+    """The rows of the motion, evenly in time; where a crank turns fully with the pairs of its task in the middle."""
+    cycle = posed.cycle
+    if cycle is None:
+        return posed.path
+    rows = drive_rows(cycle, count=_FRAMES)
+    if posed.repeats and isinstance(task, FunctionTask):
+        rows += (min(design.drives) + max(design.drives) - rows[0] - rows[-1]) / 2
+    return cycle.at(rows, 0)
+
+
+def _seen(linkage: Linkage, motion: Motion) -> Reals:
+    """The places of joints, then of points, in as many digits as are seen; (rows, joints and points, 2)."""
+    names = (*linkage.mechanism.chain.joint_names(), *linkage.points)
+    digits = 5 - int(np.floor(np.log10(linkage.size)))
+    places: Reals = np.stack([motion.point(name) for name in names], axis=1)
+    return places.round(digits)
+
+
+def _there_and_back(rows: Reals, posed: PosedLinkage) -> list[Any]:
+    both: list[Any] = (rows if posed.repeats else np.concatenate([rows, rows[-2:0:-1]])).tolist()
+    return both
+
+
+def _met_angles(design: Design, task: Task, posed: PosedLinkage) -> dict[str, Any]:
+    """How angles are met: crank and output in degrees, as the pairs count them, of each row; or both dead centres."""
+    linkage, cycle = design.linkage, posed.cycle
+    if cycle is not None and isinstance(task, DeadCentreTask):
+        ends = np.array([centre.drive for centre in measures(linkage).dead_centres])
+        return {"ends": _seen(linkage, cycle.at(ends, 0)).tolist()}
+    if cycle is None or not isinstance(task, FunctionTask):
+        return {}
+    path = cycle.at(np.append(_played(design, task, posed).drives[:, 0], design.drives[0]), 0)
+    mechanism = linkage.mechanism
+    at_frame = {link for joint in mechanism.chain.joints if mechanism.frame in joint.links for link in joint.links}
+    (output,) = at_frame - set(mechanism.drives[0].between)
+    turned = np.stack([path.drives[:, 0], path.angle(output)], axis=1)
+    angles = np.degrees(turned - turned[-1] + (task.inputs[0], task.outputs[0]))[:-1]
+    return {"angles": _there_and_back(np.round(angles, 2), posed)}
+
+
+def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, Any]:
     """Places of joints and points, evenly in time, and which of them each moving link has; lengths of a four-bar."""
     chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
     points = linkage.points
-    path = posed.path if posed.cycle is None else posed.cycle.at(drive_rows(posed.cycle, count=_FRAMES), 0)
-    places = np.stack([path.point(name) for name in (*chain.joint_names(), *points)], axis=1)
-    rows = places if posed.repeats else np.concatenate([places, places[-2:0:-1]])
+    rows = _seen(linkage, path)
     carried = [*(joint.links for joint in chain.joints), *((point.link,) for point in points.values())]
     members = [[k for k, links in enumerate(carried) if link in links] for link in chain.links if link != frame]
-    digits = 5 - int(np.floor(np.log10(linkage.size)))
-    rows = np.round(rows, digits)
     joints = [[k for k, joint in enumerate(chain.joints) if link in joint.links] for link in chain.links]
     four_bar = chain.n == len(chain.joints) == _FOUR and all(joint.pair.is_turning for joint in chain.joints)
     apart = [(k, m) for own in joints for k in own for m in own if k < m]
     fixed = rows[0, joints[chain.links.index(frame)]]
     ends = sorted(zip(chain.links, joints, strict=True), key=lambda row: row[0] == frame)  # the frame comes last
     return {
-        "frames": rows.tolist(),
+        "frames": _there_and_back(rows, posed),
         "members": members,
         "joints": len(chain.joints),
         "drive": linkage.mechanism.drives[0].joint,

@@ -1,0 +1,61 @@
+/** What a design must do besides its targets, as fields. */
+
+import { h } from "./dom";
+import { t } from "./language";
+
+export class Demands {
+  #crank = true;
+  #least = 20; // degrees
+  /** Places of the targets in the order, as they are typed. */
+  order = "";
+
+  /** The fields, in the language of the page; those of places if there are such. */
+  form(closed: HTMLElement | false, places: boolean): HTMLElement {
+    const least = h("input", {
+      type: "number",
+      min: 0,
+      max: 90,
+      value: this.#least,
+      "data-field": "least",
+      onchange: () => (this.#least = Number(least.value)),
+    });
+    const order = h("input", {
+      value: this.order,
+      "aria-label": t("order, if another"),
+      placeholder: "1 2 3",
+      "data-field": "order",
+      onchange: () => (this.order = order.value),
+    });
+    return h(
+      "div.form",
+      {},
+      closed,
+      option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
+      h("label", {}, t("transmission angle from"), least, "°"),
+      places &&
+        h(
+          "details.words",
+          { open: this.order !== "" },
+          h("summary", {}, t("order, if another")),
+          order,
+          h("p.note", {}, t("One number for each target: the same for those in any order, – for one at any time")),
+        ),
+    );
+  }
+
+  /** What the library is told of them; the order only of places. */
+  asked(places: boolean) {
+    const ranks = places ? (this.order.match(/[^\s,;]+/g) ?? []) : [];
+    return {
+      order: ranks.map((rank) => (/\d/.test(rank) ? +rank : null)),
+      crank: this.#crank,
+      transmission: this.#least,
+    };
+  }
+}
+
+/** A box that is checked, with its text. */
+export function option(text: string, checked: boolean, set: (on: boolean) => void, key: string): HTMLElement {
+  const box = h("input", { type: "checkbox", checked, "data-field": key, onchange: () => set(box.checked) });
+  return h("label", {}, box, text);
+}

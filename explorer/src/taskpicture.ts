@@ -1,0 +1,104 @@
+/** What a linkage is to meet as a picture: places, a chart of angles or a swing, with the design that moves. */
+
+import { type Area, areaOf, gridOf, groundMark, viewBoxOf } from "./area";
+import type { Design } from "./designs";
+import { h, put, renew, svg } from "./dom";
+import { Ghost, pathOf } from "./ghost";
+import { numberPlaces, swingMark, swingOf, targetMark } from "./targets";
+import { type Kind, wordsOf } from "./tasks";
+
+const WIDE = 240; // of the plane, in millimetres; that of a phone is narrower
+const PART = 0.6; // of the height of the window, at most
+const LOW = 0.32; // the same on a phone, where designs need room
+
+/** What is met, and by what. */
+interface Task {
+  kind: Kind;
+  points: readonly number[][];
+  pivots: readonly number[][];
+  closed: boolean;
+  design: Design | null;
+  /** How wide the plane is before there is anything in it; 0 is as usual. */
+  home: number;
+}
+
+export class TaskPicture {
+  /** Where targets are put. */
+  readonly plane = svg("svg.plane", { role: "application", tabindex: 0 });
+  /** Where a design moves beside the chart of its angles. */
+  readonly #other = svg("svg.plane", { role: "img" });
+  readonly element = h("div.chain-picture", {}, this.plane);
+  readonly #marks = svg("g");
+  /** Where the design that moves is in the chart. */
+  readonly #here = svg("circle.joint", {});
+  readonly #ghost: Ghost;
+  #area!: Area;
+
+  /** It stands still while it is not seen. */
+  constructor(seen: () => boolean) {
+    this.#ghost = new Ghost(seen);
+    this.plane.append(this.#marks);
+  }
+
+  /** The unit of marks, as a length of the plane. */
+  get unit(): number {
+    return this.#area.unit;
+  }
+
+  /** Where a pointer is, in round numbers. */
+  at(event: PointerEvent): [number, number] {
+    const box = this.#marks.getScreenCTM()!.inverse();
+    const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(box);
+    const { left, right } = this.#area;
+    const fine = 10 ** Math.ceil(Math.log10(1000 / (right - left)));
+    const round = (value: number) => Math.round(value * fine) / fine;
+    return [round(point.x), round(-point.y)];
+  }
+
+  /** Draw all of it; while a mark is held what is seen stays, and the design goes on as it is. */
+  paint({ kind, points, pivots, closed, design, home }: Task, held: boolean): void {
+    const angles = kind === "function";
+    const swing = kind === "dead-centres" ? swingOf(points[0]![0]!, design) : null;
+    const charted = angles && design?.angles;
+    this.#other.remove();
+    if (charted) this.element.prepend(this.#other);
+    const narrow = this.element.clientWidth < 500;
+    const part = narrow && design ? LOW / (charted ? 2 : 1) : PART;
+    const moving = design?.frames.flat() ?? [];
+    if (!held) {
+      const places = [...(swing ?? points), ...pivots, ...(charted ? [] : moving)];
+      const wide = angles || swing ? 0 : home || (narrow ? 0.6 : 1) * WIDE;
+      this.#area = areaOf(design && !angles ? -Infinity : wide, part, places, this.plane);
+    }
+    const { unit } = this.#area;
+    const loop = closed && points.length > 2 ? "Z" : "";
+    const way = angles ? [...points].sort(([one], [two]) => one! - two!) : points;
+    const at = numberPlaces(points, closed, unit);
+    put(this.#here, { r: 1.5 * unit });
+    const ratios = (of: Area) => (design ? gridOf(of, ["", ""]) : []); // of lengths
+    const behind = swing
+      ? [...ratios(this.#area), ...swingMark(swing, points[0]!, unit, design)]
+      : [
+          ...gridOf(this.#area, angles ? wordsOf(kind).heads : []),
+          charted
+            ? svg("path.curve", { d: pathOf(charted) })
+            : svg("path.polygon", { d: kind === "positions" ? "" : pathOf(way) + loop }),
+        ];
+    renew(
+      this.#marks,
+      ...behind,
+      ...(charted ? [this.#here] : [this.#ghost.element]),
+      ...(swing ? [] : points.map((row, k) => targetMark(row, k, at[k]!, unit))),
+      ...pivots.map((place) => svg("g", { "data-pivot": "" }, groundMark(place, unit))),
+    );
+    put(this.plane, { viewBox: viewBoxOf(this.#area) });
+    let area = this.#area;
+    if (charted) {
+      area = areaOf(-Infinity, part, moving, this.#other);
+      put(this.#other, { viewBox: viewBoxOf(area) });
+      renew(this.#other, ...ratios(area), this.#ghost.element);
+    }
+    const follow = (frame: number) => charted && put(this.#here, { cx: charted[frame]![0], cy: -charted[frame]![1] });
+    if (!held) this.#ghost.play(design, area.unit, follow);
+  }
+}
