@@ -13,7 +13,8 @@ from gruebler.design.synthesis import Demands, PathTask, pareto, synthesise_path
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.curve_starts import atlas, mirror_image, transformed
 from gruebler.design.synthesis.curves import fit_curve, linkages_of
-from gruebler.design.synthesis.fit_limits import FitLimits, crank_turns
+from gruebler.design.synthesis.drawing_limits import limits_of_drawings
+from gruebler.design.synthesis.fit_limits import FourBarLimits, crank_turns
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK
 from gruebler.design.synthesis.structure_atlas import assembled_sides, dyad_structure, link_motions, structure_atlas
@@ -114,7 +115,7 @@ def test_a_triangle_is_drawn_by_a_linkage_at_the_limit_of_turning():
     corners = [0, 3, 1.5 + 2.6j, 0]
     z = np.concatenate([a + (b - a) * np.linspace(0, 1, 22, endpoint=False) for a, b in pairwise(corners)])
     best = fit_curve(z, closed=True, demands=Demands(size_ratio=1e4))[0]
-    limits = FitLimits(kind=best.kind, turning=True)
+    limits = FourBarLimits(kind=best.kind, turning=True)
     assert -1e-4 < limits.values(best.row[:, None], best.phi[None])[0, 0] < 2e-6
     assert best.error < 0.0146  # pylinkage's four-bar: 0.01535
 
@@ -299,7 +300,8 @@ def test_a_curve_that_a_six_bar_drew_is_met_exactly():
 def test_the_derivatives_of_a_point_against_differences(drawing):
     structure, z = drawn_curve(*drawing, 7)
     places, turned = np.array([drawing[2]]), np.linspace(0, 2 * np.pi, 7, endpoint=False)[None]
-    fit, sides, step = _CurveFit(structure, drawing[1], z), assembled_sides(structure, places[:, :-1].T), 1e-6
+    limits = next(limits_of_drawings(structure, Demands(), (), closed=True, unit=1.0))
+    fit, sides, step = _CurveFit(limits, drawing[1], z), assembled_sides(structure, places[:, :-1].T), 1e-6
     points, motions = fit.points(places, turned, sides)
     assert np.abs(points - z).max() < 1e-12
     exact = fit.slopes(places, motions, by_places=True)

@@ -10,7 +10,7 @@ from scipy.optimize import minimize
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, PathTask, synthesise_path
 from gruebler.design.synthesis.curves import fit_curve, linkages_of
-from gruebler.design.synthesis.fit_limits import FitLimits, _nearest_within
+from gruebler.design.synthesis.fit_limits import FourBarLimits, _nearest_within
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK
 
@@ -148,8 +148,8 @@ def test_slopes_of_limits_against_differences(kind):
     phi = np.linspace(0, 2, 5) + np.zeros((200, 1))
     frame = {"frame": 3.0} if kind is FOUR_BAR else {}
     for turning in (True, False):
-        limits = FitLimits(kind=kind, turning=turning, region=REGION, size_ratio=2, transmission=0.6, **frame)
-        slope = limits.slopes(rows, phi)
+        limits = FourBarLimits(kind=kind, turning=turning, region=REGION, size_ratio=2, transmission=0.6, **frame)
+        slope = limits.linearised(rows, phi)[1]
         for k in range(len(rows)):
             step = np.zeros((len(rows), 1))
             step[k] = 1e-7

@@ -7,7 +7,7 @@ from gruebler.design.synthesis import Demands, PositionTask, synthesise_position
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements, misfit
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.pair_search import pair_facts
-from gruebler.design.synthesis.positions import _targets, guiding_dyads, linkage_of_dyads, sliding_sample
+from gruebler.design.synthesis.positions import body_targets, guiding_dyads, linkage_of_dyads, sliding_sample
 from gruebler.design.synthesis.targets import point_targets
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics import move
@@ -36,7 +36,7 @@ def _against_motion(seed, count, samples, kind=CRANK, *, in_order=True):
     for pairs in (moving, others):
         for i, j in rng.permutation(pairs)[:samples]:
             linkage = linkage_of_dyads(dyads[i], second[j], complex(task.origins[0]), "mm")
-            verdict = judge_design(linkage, _targets(task, linkage), demands, "RR-RR").verdict
+            verdict = judge_design(linkage, body_targets(task, linkage), demands, "RR-RR").verdict
             assert verdict.accepted == met[i, j], (seed, i, j, verdict.reasons)
             if verdict.accepted:
                 assert verdict.turns_fully == facts.turns[i, j]

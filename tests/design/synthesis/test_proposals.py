@@ -14,15 +14,13 @@ from gruebler.cli.design import _type_row
 from gruebler.design.synthesis import DeadCentreTask, Demands, PathTask, PositionTask, pareto, synthesise_positions
 from gruebler.design.synthesis.clearances import guided_link, stays_clear
 from gruebler.design.synthesis.fitting import links_moved_by_all
-from gruebler.design.synthesis.judging import size_ratio
 from gruebler.design.synthesis.proposals import TriedType, candidate_types, propose
 from gruebler.design.synthesis.specification import Clearance, Specification
 from gruebler.design.synthesis.structure_atlas import dyad_structure, link_motions
-from gruebler.design.synthesis.structures import _size_ratios, fit_structure, synthesise_structures
+from gruebler.design.synthesis.structures import fit_structure, synthesise_structures
 from gruebler.files.specifications import read_specification, specification_from_json
 from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.kinematics.solve import move_quietly
-from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.designs.picture import design_figure
 from gruebler.structure.mechanism import Mechanism
 
@@ -100,14 +98,6 @@ def test_what_has_no_transmission_angle_is_not_fitted():
     design = fit_structure(path, mechanism, Demands(transmission=0.3))
     assert not design.verdict.accepted
     assert "there is no transmission angle" in str(design.verdict.reasons[0])
-
-
-def test_drawings_have_the_size_ratio_of_their_linkages():
-    mechanism, rng = candidate_types(Specification(SWING))[0], np.random.default_rng(3)
-    places = rng.normal(size=(3, 8)) + 1j * rng.normal(size=(3, 8))
-    for drawn, ratio in zip(places, _size_ratios(mechanism, places), strict=True):
-        named = dict(zip(mechanism.chain.joint_names(), ((z.real, z.imag) for z in drawn), strict=False))
-        assert size_ratio(Linkage.from_drawing(mechanism, named)) == pytest.approx(ratio, rel=1e-9)
 
 
 def test_a_travel_has_a_slide():

@@ -20,7 +20,7 @@ from gruebler.design.synthesis.curve_matching import (
     drive_angles,
     evenly_along,
 )
-from gruebler.design.synthesis.fit_limits import FitLimits, crank_turns
+from gruebler.design.synthesis.fit_limits import FourBarLimits, crank_turns
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FourBarKind
 
@@ -83,7 +83,7 @@ class CurveStart(NamedTuple):
     """(points,) crank angles of the target's points, in the plane."""
 
 
-def neighbours(z: Complexes, limits: FitLimits, *, closed: bool, number: int) -> list[CurveStart]:
+def neighbours(z: Complexes, limits: FourBarLimits, *, closed: bool, number: int) -> list[CurveStart]:
     """The nearest curves of the atlas, or pieces of them, up to a similarity that leaves given pivots where they are.
 
     Of those that pass limits the ones come first that are both alike and hardly beyond.

@@ -19,7 +19,7 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import message
 from gruebler.design.synthesis.curve_starts import CurveStart, neighbours, timed_neighbours, transformed
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
-from gruebler.design.synthesis.fit_limits import FitLimits, crank_turns
+from gruebler.design.synthesis.fit_limits import FourBarLimits, crank_turns
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK, FourBarKind
 from gruebler.design.synthesis.judging import Demands, best_of, order_notes, sought_order
@@ -100,7 +100,7 @@ def fit_curve(
     middle = z.mean()
     reduced = (z - middle) / size
     sequences = order.likely(reduced, _SEQUENCES) if order else [np.arange(len(z))]
-    placed: list[tuple[Fit, FitLimits]] = []
+    placed: list[tuple[Fit, FourBarLimits]] = []
     for limits in limits_of(demands, pivots, kinds, closed, (complex(middle), size)):
         begins = (
             [
@@ -119,14 +119,14 @@ def fit_curve(
 
 
 def _different(
-    fits: list[tuple[Fit, FitLimits]], number: int, order: TargetOrder | None = None
-) -> list[tuple[Fit, FitLimits]]:
+    fits: list[tuple[Fit, FourBarLimits]], number: int, order: TargetOrder | None = None
+) -> list[tuple[Fit, FourBarLimits]]:
     """The best fits of different shapes, so many, those that meet points in order first; then the best of each kind."""
     fits.sort(key=lambda each: max(each[0].error, _MET))
     if order is not None:
         fits = [fits[k] for k in np.argsort([not _meets_in_order(fit, order) for fit, _ in fits], kind="stable")]
     firsts = {fit.kind.name: k for k, (fit, _) in reversed([*enumerate(fits)])}.values()
-    chosen: list[tuple[Fit, FitLimits]] = []
+    chosen: list[tuple[Fit, FourBarLimits]] = []
     for k in sorted(range(len(fits)), key=lambda k: (k not in firsts, k)):
         fit = fits[k][0]
         if all(fit.kind != o.kind or np.abs(_shape(fit) - _shape(o)).max() > 0.02 for o, _ in chosen):
@@ -143,8 +143,8 @@ def _meets_in_order(fit: Fit, order: TargetOrder) -> bool:
 
 
 def _evened(
-    z: Complexes, timing: Reals | None, power: int, fits: list[tuple[Fit, FitLimits]]
-) -> list[tuple[Fit, FitLimits]]:
+    z: Complexes, timing: Reals | None, power: int, fits: list[tuple[Fit, FourBarLimits]]
+) -> list[tuple[Fit, FourBarLimits]]:
     """The fits with a higher mean of their distances made small, in the same order: the largest distances fall."""
     evened = list(fits)
     for limits in {id(limits): limits for _, limits in fits}.values():
@@ -172,7 +172,7 @@ def limits_of(
     kinds: Iterable[FourBarKind],
     closed: bool,
     unit: tuple[complex, float],
-) -> Iterator[FitLimits]:
+) -> Iterator[FourBarLimits]:
     """What linkages of the kinds keep to, about an origin and in units of a size; for each side that a pivot can be."""
     wanted, (origin, size) = demands or Demands(), unit
     region = None
@@ -189,7 +189,7 @@ def limits_of(
             held = {name: value for name, value in lengths.items() if name in kind.unknowns}
             for name, place in given.items():
                 held |= {name + "x": place.real, name + "y": place.imag}
-            yield FitLimits(
+            yield FourBarLimits(
                 kind=kind,
                 turning=closed or wanted.crank,
                 region=region,
@@ -206,7 +206,7 @@ def _extent(z: Complexes) -> float:
 
 
 def _improved(
-    z: Complexes, starts: list[CurveStart], timing: Reals | None, limits: FitLimits, power: int = 2
+    z: Complexes, starts: list[CurveStart], timing: Reals | None, limits: FourBarLimits, power: int = 2
 ) -> list[Fit]:
     """Levenberg and Marquardt's method for all starts at once; free crank angles are eliminated point by point.
 
@@ -254,7 +254,7 @@ def _improved(
 def _step(
     z: Complexes,
     timing: Reals | None,
-    limits: FitLimits,
+    limits: FourBarLimits,
     here: tuple[Reals, Reals, Reals, Reals],
     passed: Reals,
     power: int,

@@ -6,9 +6,9 @@ the best point of a link follow from linear least squares, and the best proposal
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, permutations, product
 from math import pi
 from typing import NamedTuple
 
@@ -57,10 +57,25 @@ class _Proposal:
     mirrored: bool
     link: str
     output: str
+    given: Sequence[_Given]
+
+
+class _Given(NamedTuple):
+    """A pin of the frame that has a given place."""
+
+    at: int
+    """The number of its x among the dimensions."""
+    own: complex
+    """Where it lies in the realised mechanism."""
+    place: complex
 
 
 def first_state(
-    closure: DesignClosure, targets: FitTargets, rng: np.random.Generator, link: str = ""
+    closure: DesignClosure,
+    targets: FitTargets,
+    rng: np.random.Generator,
+    link: str = "",
+    pivots: Sequence[complex] = (),
 ) -> FitState | None:
     """The state from which a mechanism is fitted; None if it cannot be moved, or nowhere meets the given angles.
 
@@ -69,6 +84,7 @@ def first_state(
         targets: of the task.
         rng: for poses that are proposed at random.
         link: that is guided, or whose motion is the output; the best one without it.
+        pivots: one or two places of pins of the frame; which pins, is tried in all ways.
     """
     try:
         course = _course(closure, rng)
@@ -78,13 +94,19 @@ def first_state(
         return _of_function(closure, course, targets, link)
     best: _Proposal | None = None
     carriers = links_moved_by_all(closure.linkage.mechanism)
-    for mirrored in (False, True):
+    frame = closure.linkage.mechanism.frame
+    pins = [closure.start[key] for key in closure.keys if key[1] == frame and closure.linkage.elements[key].is_pin]
+    for mirrored, held in product((False, True), permutations(pins, len(pivots))):
         shown = targets.mirrored() if mirrored else targets
+        given = [
+            _Given(at, complex(*closure.sizes[at : at + 2]), p.conjugate() if mirrored else p)
+            for at, p in zip(held, pivots, strict=True)
+        ]
         rows = np.unique(np.array([*_proposed(course, shown, rng)], np.int64), axis=0)
         if not len(rows):
             continue
         for carrier in (link,) if link else carriers:
-            proposal = _best(closure, course, shown, rows, carrier, mirrored=mirrored)
+            proposal = _best(closure, course, shown, rows, carrier, given, mirrored=mirrored)
             if proposal is not None and (best is None or proposal.cost < best.cost):
                 best = proposal
     return None if best is None else _placed(closure, course, targets, best)
@@ -187,11 +209,18 @@ class _Placements(NamedTuple):
 
 
 def _best(
-    closure: DesignClosure, course: _Course, targets: FitTargets, rows: Integers, link: str, *, mirrored: bool
+    closure: DesignClosure,
+    course: _Course,
+    targets: FitTargets,
+    rows: Integers,
+    link: str,
+    given: Sequence[_Given] = (),
+    *,
+    mirrored: bool,
 ) -> _Proposal | None:
     """The best of proposals for a link; of few targets with each pose in turn exchanged for a better one in order."""
     q, order = course.q, TargetOrder.of(targets.ranks, len(targets))
-    tried = _placements(closure, q, targets, rows, link)
+    tried = _placements(closure, q, targets, rows, link, given)
     chosen = rows[int(np.argmin(tried.cost))]
     if len(targets) <= _FEW and targets.inputs is None:
         for _ in range(_SWEEPS):
@@ -201,10 +230,10 @@ def _best(
                 others[:, k] = np.arange(len(q))
                 if course.ordered:
                     others = others[order.kept_along(others, len(q) if course.closed else np.inf)]
-                chosen = others[int(np.argmin(_placements(closure, q, targets, others, link).cost))]
+                chosen = others[int(np.argmin(_placements(closure, q, targets, others, link, given).cost))]
             if (chosen == before).all():
                 break
-    placed = _placements(closure, q, targets, chosen[None], link)
+    placed = _placements(closure, q, targets, chosen[None], link, given)
     if not np.isfinite(placed.cost[0]):
         return None
     turn, shift, point = (complex(values[0]) for values in (placed.turn, placed.shift, placed.point))
@@ -218,6 +247,7 @@ def _best(
         mirrored=mirrored,
         link=link,
         output=min(apart, key=lambda each: float(apart[each][0]), default=""),
+        given=given,
     )
 
 
@@ -229,19 +259,29 @@ def _outputs_apart(closure: DesignClosure, q: Reals, targets: FitTargets, rows: 
     return {link: _turned_apart(np.exp(1j * own), targets.outputs) for link, own in angles.items()}
 
 
-def _placements(closure: DesignClosure, q: Reals, targets: FitTargets, rows: Integers, link: str) -> _Placements:
+def _placements(
+    closure: DesignClosure,
+    q: Reals,
+    targets: FitTargets,
+    rows: Integers,
+    link: str,
+    given: Sequence[_Given] = (),
+) -> _Placements:
     """The similarity and the point of a link that leave least, by linear least squares.
 
     With the origin O and the direction e of the link in its poses the targets are z = T O + U e + s; the point is U/T.
+    A pin with a given place is the origin of both planes; a second one gives T.
     """
     assert targets.z is not None
     c = closure.column[link]
     origin, turn = (q[:, c] + 1j * q[:, c + 1])[rows], np.exp(1j * q[:, c + 2])[rows]
     placed = ~np.isnan(targets.z)
     own, each = origin[:, placed], turn[:, placed]
-    o, e = own - own.mean(axis=1, keepdims=True), each - each.mean(axis=1, keepdims=True)
+    from_, about = own.mean(axis=1, keepdims=True), each.mean(axis=1, keepdims=True)
     middle = targets.z[placed].mean()
-    z = targets.z[placed] - middle
+    if given:
+        from_, about, middle = np.full_like(from_, given[0].own), np.zeros_like(about), given[0].place
+    o, e, z = own - from_, each - about, targets.z[placed] - middle
 
     def inner(u: Complexes, v: Complexes) -> Complexes:
         return np.asarray(np.sum(np.conj(u) * v, axis=1))
@@ -252,9 +292,12 @@ def _placements(closure: DesignClosure, q: Reals, targets: FitTargets, rows: Int
     with np.errstate(divide="ignore", invalid="ignore"):
         along = np.where(both, (ee * oz - oe * ez) / det, oz / oo)
         arm = np.where(both, (oo * ez - np.conj(oe) * oz) / det, 0)
+        if len(given) > 1:
+            along = np.full_like(along, (given[1].place - given[0].place) / (given[1].own - given[0].own))
+            arm = np.where(both, (ez - along * np.conj(oe)) / ee, 0)
         point = arm / along
         cost = np.sum(np.abs(along[:, None] * o + arm[:, None] * e - z) ** 2, axis=1)
-    shift = middle - along * own.mean(axis=1) - arm * each.mean(axis=1)
+    shift = middle - along * from_[:, 0] - arm * about[:, 0]
     if targets.angles is not None:
         cost = cost + targets.size**2 * _turned_apart(turn, targets.angles)
     if targets.outputs is not None:
@@ -313,7 +356,11 @@ def _placed(closure: DesignClosure, course: _Course, targets: FitTargets, chosen
     free += [_constant(q[:, closure.column[crank] + 2], targets.inputs)] if targets.inputs is not None else []
     if targets.outputs is not None:
         free.append(_constant(q[:, closure.column[chosen.output] + 2], targets.outputs))
-    return FitState(p, q=q, link=chosen.link, crank=crank, output=chosen.output, free=np.array(free))
+    held = frozenset(each.at + k for each in chosen.given for k in range(2))
+    for each in chosen.given:
+        place = each.place.conjugate() if chosen.mirrored else each.place
+        p[each.at : each.at + 2] = place.real, place.imag
+    return FitState(p, q=q, link=chosen.link, crank=crank, output=chosen.output, held=held, free=np.array(free))
 
 
 def _constant(angles: Reals, wanted: Reals) -> float:

@@ -1,10 +1,12 @@
 """Limits that a fitted linkage keeps to while it is improved: a crank that turns, places, lengths, transmission angle.
 
-Each limit is a function of the linkage's numbers that is negative inside. docs/theory/synthesis-curves.md.
+Each limit is a function of the linkage's numbers that is negative inside. docs/theory/synthesis-curves.md. Those of
+larger linkages are in `place_limits` and `drawing_limits`.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import permutations
@@ -16,15 +18,91 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import Reals
 from gruebler.design.synthesis.four_bar_kinds import FourBarKind
 
-_MARGIN = 1e-6  # sizes: so far from each limit
-_HELD = 1e-10  # sizes: a frame of a given length is as near to it
+MARGIN = 1e-6
+"""Sizes: so far from each limit."""
+HELD = 1e-10
+"""Sizes: a given length that is no number of a linkage is as near."""
 _PUT_BACK = 3  # times, since limits are curved
 _PIVOTS = ("a0x", "a0y", "b0x", "b0y")
 _STEP = 1e-30  # of a complex difference, which loses no digit
 
 
+class FitLimits(ABC):
+    """What linkages keep to while their numbers are improved, many at once."""
+
+    @abstractmethod
+    def values(self, rows: NDArray[Any], phi: Reals) -> NDArray[Any]:
+        """(limits, ..., starts) how far each limit is passed; negative inside. Margins are part of them.
+
+        Args:
+            rows: (unknowns, ..., starts).
+            phi: (starts, points) crank angles.
+        """
+
+    @abstractmethod
+    def linearised(self, rows: Reals, phi: Reals) -> tuple[Reals, Reals]:
+        """The values, and (limits, unknowns, starts) how they change with the numbers that are not held."""
+
+    def passed(self, rows: Reals, phi: Reals) -> Reals:
+        """(starts,) by how much each start passes the limit that it passes most; 0 inside."""
+        values = self.values(rows, phi)
+        return np.asarray(np.maximum(np.max(values, axis=0, initial=0.0) - MARGIN / 2, 0.0))
+
+    def kept(self, rows: Reals, phi: Reals, gram: Reals, step: Reals, share: Reals) -> Reals:
+        """(starts, numbers) the steps, those beyond a limit changed to the best within all, put back if these bend.
+
+        Curves with corners are drawn by linkages at a limit; a step that is only refused there ends the search.
+
+        Args:
+            rows: (unknowns, starts).
+            phi: (starts, points) crank angles.
+            gram: (starts, numbers, numbers) what a change costs.
+            step: (starts, numbers) the unknowns first.
+            share: (starts,) of a limit that is passed already, which part is to be made up for.
+        """
+        values, slopes = self.linearised(rows, phi)
+        if not len(values):
+            return step
+        step, unknowns = step.copy(), len(rows)
+        beyond = self._within(gram, step, np.where(values > 0, share * values, values), slopes)
+        at = np.flatnonzero(beyond & (share == 1))
+        for _ in range(_PUT_BACK):
+            moved = rows[:, at] + step[at, :unknowns].T
+            passed = (self.values(moved, phi[at]) > 0).any(axis=0)
+            at, moved = at[passed], moved[:, passed]
+            if not len(at):
+                break
+            back = np.zeros((len(at), unknowns))
+            self._within(
+                np.broadcast_to(np.eye(unknowns), (len(at), unknowns, unknowns)), back, *self.linearised(moved, phi[at])
+            )
+            step[at, :unknowns] += back
+        return step
+
+    @staticmethod
+    def _within(gram: Reals, step: Reals, values: Reals, slopes: Reals) -> NDArray[np.bool_]:
+        """Change steps in place to the nearest within linear limits; which were changed."""
+        normal = np.zeros((len(step), len(values), step.shape[1]))
+        normal[:, :, : slopes.shape[1]] = slopes.transpose(2, 0, 1)
+        beyond = values.T + np.einsum("nik,nk->ni", normal, step)
+        changed = np.asarray((beyond > 0).any(axis=1) & np.isfinite(normal).all(axis=(1, 2)))
+        at = np.flatnonzero(changed)
+        worst = beyond[at].argmax(axis=1)
+        only = normal[at, worst]
+        along = np.linalg.solve(gram[at], only[:, :, None])[:, :, 0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            shift = along * (beyond[at, worst] / np.einsum("nk,nk->n", only, along))[:, None]
+        shift = np.nan_to_num(shift, posinf=0.0, neginf=0.0)
+        # One limit is enough for most; where another one is passed then, all are looked at together.
+        others = ((beyond[at] - np.einsum("nik,nk->ni", normal[at], shift)) > MARGIN / 4).any(axis=1)
+        for k in np.flatnonzero(others):
+            shift[k] = _nearest_within(gram[at[k]], normal[at[k]], beyond[at[k]])
+        step[at] -= shift
+        return changed
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class FitLimits:
+class FourBarLimits(FitLimits):
     """What a linkage of a kind has to keep to, in the units of its numbers."""
 
     kind: FourBarKind
@@ -61,28 +139,23 @@ class FitLimits:
         return np.array([float(name not in self.held) for name in self.kind.unknowns])
 
     def values(self, rows: NDArray[Any], phi: Reals) -> NDArray[Any]:
-        """(limits, ..., starts) how far each limit is passed; negative inside. Margins are part of them.
-
-        Args:
-            rows: (unknowns, ..., starts), complex ones too: all is analytic but where two of its parts are equal.
-            phi: (starts, points) crank angles.
-        """
+        """Of numbers that are complex, too: all is analytic but where two parts of a limit are equal."""
         r = self.kind.named(rows)
         limits = []
         if self.turning:
-            limits.append(self.kind.turning_excess(r) + _MARGIN)
+            limits.append(self.kind.turning_excess(r) + MARGIN)
         for name, low, high in self._sides:
-            limits += [low - r[name] + _MARGIN, r[name] - high + _MARGIN]
+            limits += [low - r[name] + MARGIN, r[name] - high + MARGIN]
         if self.size_ratio < np.inf:
             lengths = self.kind.lengths(r)
-            limits += [p / self.size_ratio - q + _MARGIN for p, q in permutations(lengths, 2)]
+            limits += [p / self.size_ratio - q + MARGIN for p, q in permutations(lengths, 2)]
         if self.transmission > 0:
             cosines = self.kind.cosines(r, None if self.turning else phi)
             most = np.cos(self.transmission)
-            limits += [_largest(cosines) - most + _MARGIN, _largest(-cosines) - most + _MARGIN]
+            limits += [largest(cosines) - most + MARGIN, largest(-cosines) - most + MARGIN]
         if self.frame:
             frame = self.kind.frame(r)
-            limits += [frame - self.frame - _HELD, self.frame - frame - _HELD]
+            limits += [frame - self.frame - HELD, self.frame - frame - HELD]
         return np.array(limits) if limits else np.zeros((0, *rows.shape[1:]))
 
     @property
@@ -93,67 +166,15 @@ class FitLimits:
         bounds = (self.region[::2], self.region[1::2])
         return [(name, *bounds[k % 2]) for k, name in enumerate(_PIVOTS) if name in self.kind.unknowns]
 
-    def passed(self, rows: Reals, phi: Reals) -> Reals:
-        """(starts,) by how much each start passes the limit that it passes most; 0 inside."""
-        values = self.values(rows, phi)
-        return np.asarray(np.maximum(np.max(values, axis=0, initial=0.0) - _MARGIN / 2, 0.0))
+    def linearised(self, rows: Reals, phi: Reals) -> tuple[Reals, Reals]:
+        """By complex differences."""
+        return self.values(rows, phi), complex_slopes(self, rows, phi) * self.free[:, None]
 
-    def slopes(self, rows: Reals, phi: Reals) -> Reals:
-        """(limits, unknowns, starts) how the limits change with the numbers that are not held."""
-        moved = rows[:, None, :] + 1j * _STEP * np.eye(len(rows))[:, :, None]
-        return np.asarray(self.values(moved, phi).imag / _STEP * self.free[:, None])
 
-    def kept(self, rows: Reals, phi: Reals, gram: Reals, step: Reals, share: Reals) -> Reals:
-        """(starts, numbers) the steps, those beyond a limit changed to the best within all, put back if these bend.
-
-        Curves with corners are drawn by linkages at a limit; a step that is only refused there ends the search.
-
-        Args:
-            rows: (unknowns, starts).
-            phi: (starts, points) crank angles.
-            gram: (starts, numbers, numbers) what a change costs.
-            step: (starts, numbers) the unknowns first.
-            share: (starts,) of a limit that is passed already, which part is to be made up for.
-        """
-        step = step.copy()
-        unknowns = len(rows)
-        values = self.values(rows, phi)
-        if not len(values):
-            return step
-        asked = np.where(values > 0, share * values, values)
-        beyond = self._within(gram, step, asked, self.slopes(rows, phi))
-        alike = np.broadcast_to(np.eye(unknowns), (len(step), unknowns, unknowns))
-        for _ in range(_PUT_BACK):
-            moved = rows + step[:, :unknowns].T
-            excess = self.values(moved, phi)
-            excess = np.where(beyond & (share == 1), excess, -np.inf)
-            if not (excess > 0).any():
-                break
-            back = np.zeros((len(step), unknowns))
-            self._within(alike, back, excess, self.slopes(moved, phi))
-            step[:, :unknowns] += back
-        return step
-
-    @staticmethod
-    def _within(gram: Reals, step: Reals, values: Reals, slopes: Reals) -> NDArray[np.bool_]:
-        """Change steps in place to the nearest within linear limits; which were changed."""
-        normal = np.zeros((len(step), len(values), step.shape[1]))
-        normal[:, :, : slopes.shape[1]] = slopes.transpose(2, 0, 1)
-        beyond = values.T + np.einsum("nik,nk->ni", normal, step)
-        changed = np.asarray((beyond > 0).any(axis=1) & np.isfinite(normal).all(axis=(1, 2)))
-        at = np.flatnonzero(changed)
-        worst = beyond[at].argmax(axis=1)
-        only = normal[at, worst]
-        along = np.linalg.solve(gram[at], only[:, :, None])[:, :, 0]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            shift = along * (beyond[at, worst] / np.einsum("nk,nk->n", only, along))[:, None]
-        shift = np.nan_to_num(shift, posinf=0.0, neginf=0.0)
-        # One limit is enough for most; where another one is passed then, all are looked at together.
-        others = ((beyond[at] - np.einsum("nik,nk->ni", normal[at], shift)) > _MARGIN / 4).any(axis=1)
-        for k in np.flatnonzero(others):
-            shift[k] = _nearest_within(gram[at[k]], normal[at[k]], beyond[at[k]])
-        step[at] -= shift
-        return changed
+def complex_slopes(limits: FitLimits, rows: Reals, phi: Reals) -> Reals:
+    """(limits, unknowns, starts) how analytic limits change with all numbers."""
+    moved = rows[:, None, :] + 1j * _STEP * np.eye(len(rows))[:, :, None]
+    return np.asarray(limits.values(moved, phi).imag / _STEP)
 
 
 def _nearest_within(gram: Reals, normal: Reals, beyond: Reals) -> Reals:
@@ -187,7 +208,7 @@ def crank_turns(kind: FourBarKind, rows: Reals) -> NDArray[np.bool_]:
     return np.asarray(kind.turning_excess(kind.named(rows)) < 0)
 
 
-def _largest(values: NDArray[Any]) -> NDArray[Any]:
+def largest(values: NDArray[Any]) -> NDArray[Any]:
     """The largest along the last axis, by its real part."""
     at = np.asarray(np.nan_to_num(values.real, nan=-np.inf).argmax(axis=-1))[..., None]
     return np.asarray(np.take_along_axis(values, at, axis=-1)[..., 0])

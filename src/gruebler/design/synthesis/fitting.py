@@ -14,6 +14,9 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis.closure import DesignClosure, PoseDerivatives
+from gruebler.design.synthesis.fit_limits import HELD
+from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.place_limits import PlaceLimits
 from gruebler.design.synthesis.target_bands import STAGES, TargetBands, numbers_or
 from gruebler.design.synthesis.target_orders import Ranks
 from gruebler.design.synthesis.targets import GuidedCurve
@@ -30,6 +33,7 @@ _NEWTON_STEPS = 60
 _SHORTEST = 1e-4  # part of a step of Newton's method: if not even so much is good, it is given up
 _RANK = 1e-13  # of the largest singular value: smaller ones are rounding
 _MET = 1e-26  # sum of squared errors by the squared size of the task: all targets are met
+_AT_REST = np.zeros((1, 0))  # no crank angles
 _ASIDE = (0.1, 0.01, 1e-3)
 """Radians: a dead centre lies where the output is the same so far before and after it, but for the square of this."""
 
@@ -195,6 +199,8 @@ class FitState:
     output: str = ""
     slide: tuple[int, str] = (-1, "")
     """The slide of an output that travels: joint and frame."""
+    held: frozenset[int] = frozenset()
+    """Dimensions that do not change: the coordinates of given pivots."""
     free: Reals = ()  # type: ignore[assignment]
     """The point on its link (two numbers), then the constants of coupler angles, inputs and outputs."""
 
@@ -277,8 +283,17 @@ def compared(closure: DesignClosure, targets: FitTargets, state: FitState) -> _C
     return _Compared(errors, *np.split(slopes, borders, axis=2))
 
 
-def improved(closure: DesignClosure, state: FitState, targets: FitTargets, *, steps: int = _STEPS) -> FitState:
+def improved(
+    closure: DesignClosure,
+    state: FitState,
+    targets: FitTargets,
+    demands: Demands | None = None,
+    *,
+    steps: int = _STEPS,
+) -> FitState:
     """The state at a minimum nearby of the sum of squared errors: where it vanishes, if that can be reached.
+
+    What is demanded of pivots and lengths is kept, as far as the task can be approached with it.
 
     Few targets are met exactly by many linkages: Newton's method looks for the nearest of them, again after some
     steps of least squares if that fails at first. Cost: for a six-bar 2 ms a step.
@@ -289,19 +304,39 @@ def improved(closure: DesignClosure, state: FitState, targets: FitTargets, *, st
     if not good.all():
         return state
     units = _units(closure, targets, state, size)
+    limits = _limits(closure, demands, state, size)
     start = _at(closure, targets, replace(state, q=q), size)
     freedoms = start.by_motion.shape[2]
     alike = targets.bands is None or bool(targets.bands.exact.all())
-    if not alike or targets.given - len(targets) * freedoms > len(units):
-        return _least_squares(closure, targets, start, size, units, steps).state
+    if not alike or targets.given - len(targets) * freedoms > len(units) - len(state.held):
+        return _least_squares(closure, targets, start, limits, units, steps).state
     for more in (0, min(steps, _FEW_STEPS), steps):
-        start = _least_squares(closure, targets, start, size, units, more)
-        if (met := _met(closure, targets, start, size, units)) is not None:
+        start = _least_squares(closure, targets, start, limits, units, more)
+        if (met := _met(closure, targets, start, limits, units)) is not None:
             return met.state
     return start.state
 
 
-def _met(closure: DesignClosure, targets: FitTargets, now: _Nearest, size: float, units: Reals) -> _Nearest | None:
+def _limits(closure: DesignClosure, demands: Demands | None, state: FitState, size: float) -> PlaceLimits:
+    """What the dimensions keep to."""
+    links = closure.linkage.mechanism.chain.links
+    return PlaceLimits(
+        pins={
+            link: tuple(
+                closure.start[key] for key in closure.keys if key[1] == link and closure.linkage.elements[key].is_pin
+            )
+            for link in links
+        },
+        frame=closure.linkage.mechanism.frame,
+        demands=demands or Demands(size_ratio=np.inf),
+        unit=size,
+        held=state.held,
+    )
+
+
+def _met(
+    closure: DesignClosure, targets: FitTargets, now: _Nearest, limits: PlaceLimits, units: Reals
+) -> _Nearest | None:
     """The state nearby that meets all targets, by Newton's method with least steps; None if it is not reached.
 
     Targets close to each other make the sum of squares a narrow curved valley. So a part of a step is good if the next
@@ -310,7 +345,8 @@ def _met(closure: DesignClosure, targets: FitTargets, now: _Nearest, size: float
     part = 1.0
     numbers = len(units)
     for _ in range(_NEWTON_STEPS):
-        if now.cost < _MET * targets.size**2:
+        beyond = now.beyond(limits)
+        if now.cost < _MET * targets.size**2 and beyond.max(initial=0.0) < HELD:
             return now
         count, errors, freedoms = now.by_motion.shape
         slopes = np.zeros((count, errors, numbers + count * freedoms))
@@ -318,17 +354,21 @@ def _met(closure: DesignClosure, targets: FitTargets, now: _Nearest, size: float
         for k in range(count):
             at = numbers + k * freedoms
             slopes[k, :, at : at + freedoms] = now.by_motion[k]
-        inverse = np.linalg.pinv(slopes.reshape(count * errors, -1), rcond=_RANK)
-        step = -inverse @ now.own.errors.ravel()
+        slopes = slopes.reshape(count * errors, -1)
+        own = limits.linearised(now.state.p[:, None], _AT_REST)[1][:, :, 0] * (beyond > 0)[:, None]
+        bounds = np.zeros((len(beyond), slopes.shape[1]))
+        bounds[:, : len(now.state.p)] = own * units[: len(now.state.p)]
+        inverse = np.linalg.pinv(np.concatenate([slopes, bounds]), rcond=_RANK)
+        step = -inverse @ np.append(now.own.errors, beyond)
         length = float(np.linalg.norm(step)) + 1e-300
         part = min(1.0, 4 * part)
         while True:
             change, along = units * part * step[:numbers], part * step[numbers:].reshape(count, freedoms, 1)
             slide = (now.derivatives.motion @ along)[:, :, 0]
-            trial = _changed(closure, targets, now.state, slide, change, size)
+            trial = _changed(closure, targets, now.state, slide, change, limits.unit)
             shrunk = part / 4
             if trial is not None:
-                rest = -inverse @ trial.own.errors.ravel()
+                rest = -inverse @ np.append(trial.own.errors, trial.beyond(limits))
                 if np.linalg.norm(rest) <= (1 - part / 4) * length:
                     now = trial
                     break
@@ -353,16 +393,18 @@ def _changed(
 
 
 def _least_squares(
-    closure: DesignClosure, targets: FitTargets, start: _Nearest, size: float, units: Reals, steps: int
+    closure: DesignClosure, targets: FitTargets, start: _Nearest, limits: PlaceLimits, units: Reals, steps: int
 ) -> _Nearest:
-    """Levenberg and Marquardt's method.
+    """Levenberg and Marquardt's method, within the limits if the start is, else first back to them.
 
     The place of each pose along its freedoms is eliminated: only the part of an error counts that no motion changes,
     and after each step of the dimensions the poses move to where they are nearest to their targets.
     """
+    size = limits.unit
     now = _nearest(closure, targets, start, size)
     damping = 1e-3
     for _ in range(steps):
+        passed = now.passed(limits)
         slopes = now.slopes(units)
         back = now.motion_against(damping)
         errors = now.own.errors[:, :, None]
@@ -370,15 +412,20 @@ def _least_squares(
         gram = np.sum(slopes.transpose(0, 2, 1) @ left, axis=0)
         right = np.sum(left.transpose(0, 2, 1) @ errors, axis=0)[:, 0]
         weight = np.diag(gram).mean() + 1e-30
-        step = -np.linalg.solve(gram + damping * weight * np.eye(len(gram)), right)
+        gram += damping * weight * np.eye(len(gram))
+        step = -np.linalg.solve(gram, right)
+        share = np.array([1 / (1 + 100 * damping) if passed else 1.0])
+        asked = (gram / np.outer(units, units))[None], (units * step)[None]
+        step = limits.kept(now.state.p[:, None], _AT_REST, *asked, share)[0] / units
         slide = now.slide(back @ (errors + slopes @ step[:, None]))
         trial = _changed(closure, targets, now.state, slide, units * step, size)
         if trial is not None:
             trial = _nearest(closure, targets, trial, size)
-        if trial is not None and trial.cost < now.cost:
+        beyond = np.inf if trial is None else trial.passed(limits)
+        if trial is not None and (beyond < passed or (beyond == passed == 0 and trial.cost < now.cost)):
             gain, now = now.cost - trial.cost, trial
             damping = max(damping * 0.3, 1e-12)
-            if gain < 1e-9 * now.cost or now.cost < _MET * targets.size**2:
+            if not passed and (gain < 1e-9 * now.cost or now.cost < _MET * targets.size**2):
                 break
         else:
             damping *= 5
@@ -414,7 +461,16 @@ class _Nearest:
     def slopes(self, units: Reals) -> Reals:
         """(targets, errors, numbers) how errors change with dimensions and what else is free, counted in units."""
         by_sizes = self.derivatives.gradient(self.own.by_pose) + self.own.by_sizes
+        by_sizes[:, :, [*self.state.held]] = 0
         return np.asarray(np.concatenate([by_sizes, self.own.by_free], axis=2) * units)
+
+    def beyond(self, limits: PlaceLimits) -> Reals:
+        """(limits,) by how much the dimensions pass each; 0 inside."""
+        return np.asarray(np.maximum(limits.values(self.state.p[:, None], _AT_REST)[:, 0], 0.0))
+
+    def passed(self, limits: PlaceLimits) -> float:
+        """By how much the dimensions pass the limit that they pass most; 0 inside."""
+        return float(limits.passed(self.state.p[:, None], _AT_REST)[0])
 
     def motion_against(self, damping: float) -> Reals:
         """(targets, freedoms, errors) the motion whose negative makes up for errors, as far as damping lets it."""

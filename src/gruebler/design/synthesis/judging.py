@@ -36,6 +36,7 @@ _ROWS = 16  # poses from one target to the next, with several drives
 
 BUILDABLE = 20.0
 """The longest length by the shortest, as a workshop accepts it; other ratios can be demanded."""
+OTHER_LENGTH = message("the length of the {link} is not {wanted:g}, but {found}")
 EXACT_AT_MOST = 1e-6
 """With larger tolerances targets are approached, not met: the whole curve within the tolerance counts."""
 
@@ -384,8 +385,7 @@ def faults_of_size(linkage: Linkage, ratio: float, inside: bool, demands: Demand
         distances = _distances_of_pins(linkage, link)
         if not any(abs(length - wanted) <= EXACT * max(wanted, linkage.size) for length in distances):
             faults.append(
-                message(
-                    "the length of the {link} is not {wanted:g}, but {found}",
+                OTHER_LENGTH.filled(
                     link=message(link),
                     wanted=wanted,
                     found=joined(f"{length:.6g}" for length in distances) if distances else "–",

@@ -18,7 +18,7 @@ from gruebler.base.text import joined, message
 from gruebler.design.synthesis.curve_starts import atlas, neighbours, transformed
 from gruebler.design.synthesis.curves import ACCEPTED, limits_of
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
-from gruebler.design.synthesis.fit_limits import FitLimits, crank_turns
+from gruebler.design.synthesis.fit_limits import FourBarLimits, crank_turns
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK, FourBarKind
 from gruebler.design.synthesis.judging import EXACT_AT_MOST, Demands, judge_design, order_notes, sought_order
 from gruebler.design.synthesis.positions import linkage_of_dyads, ranked
@@ -229,7 +229,7 @@ def _rest(wanted: _Wanted, state: _State) -> _Rest:
     return _Rest(*wanted.bands.weighed(np.moveaxis(errors, 0, -1), np.moveaxis(slopes, (0, 1), (3, 2))))
 
 
-def _cost(wanted: _Wanted, limits: FitLimits, state: _State) -> Reals:
+def _cost(wanted: _Wanted, limits: FourBarLimits, state: _State) -> Reals:
     """(linkages,) the sum of squares, infinite where a linkage cannot be assembled or has no lengths."""
     cost = np.sum(_rest(wanted, state).errors ** 2, axis=(1, 2))
     beyond = limits.values(state.own, state.phi)
@@ -240,7 +240,7 @@ def _cost(wanted: _Wanted, limits: FitLimits, state: _State) -> Reals:
     return np.where(np.isfinite(cost) & ~bad, cost, np.inf)
 
 
-def _improved(wanted: _Wanted, limits: FitLimits, state: _State) -> tuple[_State, Reals]:
+def _improved(wanted: _Wanted, limits: FourBarLimits, state: _State) -> tuple[_State, Reals]:
     """Levenberg and Marquardt's method for all at once; the crank angles are eliminated target by target."""
     cost, damping = _cost(wanted, limits, state), np.full(len(state.side), 1e-3)
     open_ = np.flatnonzero(np.isfinite(cost))
@@ -260,7 +260,7 @@ def _improved(wanted: _Wanted, limits: FitLimits, state: _State) -> tuple[_State
     return state, cost
 
 
-def _stepped(wanted: _Wanted, limits: FitLimits, state: _State, damping: Reals) -> _State:
+def _stepped(wanted: _Wanted, limits: FourBarLimits, state: _State, damping: Reals) -> _State:
     errors, slopes = _rest(wanted, state)
     slopes[..., : len(state.own)] *= limits.free
     own, by_crank = slopes[..., :-1], slopes[..., -1]
@@ -272,7 +272,7 @@ def _stepped(wanted: _Wanted, limits: FitLimits, state: _State, damping: Reals) 
     beyond = limits.values(state.own, state.phi)
     if len(beyond):
         passed = np.maximum(beyond, 0)
-        bounds = np.where(passed > 0, wanted.bands.hard, 0)[:, None] * limits.slopes(state.own, state.phi)
+        bounds = np.where(passed > 0, wanted.bands.hard, 0)[:, None] * limits.linearised(state.own, state.phi)[1]
         rows.append(np.concatenate([bounds, np.zeros((len(beyond), 3, count))], axis=1).transpose(2, 0, 1))
         value.append((wanted.bands.hard * passed).T)
     scale = np.sqrt(sum(np.sum(part**2, axis=1) for part in rows)) + 1e-6
@@ -296,7 +296,7 @@ def _in_turn(ranked: Sequence[int] | Integers, state: _State, order: TargetOrder
     return list(dict.fromkeys(n for pair in zip_longest(in_order, every) for n in pair if n is not None))
 
 
-def _starts(wanted: _Wanted, limits: FitLimits, order: TargetOrder | None = None) -> _State:
+def _starts(wanted: _Wanted, limits: FourBarLimits, order: TargetOrder | None = None) -> _State:
     """Curves of the atlas on the points, and linkages of it turned and shifted so that they come near."""
     kind = limits.kind
     timings = _timings(wanted, order)

@@ -70,15 +70,7 @@ class PairFacts:
         met = [(message("one branch"), self.branch if demands.one_branch else np.ones_like(self.branch))]
         if demands.one_branch and demands.in_order:
             met.append((message("the order of the targets"), self.moves))
-        if demands.crank:
-            met.append((message("a drive that turns fully"), self.turns))
-        if demands.transmission > 0:
-            angle = message("a transmission angle of {angle:g}°", angle=degrees(demands.transmission))
-            met.append((angle, self.transmission >= demands.transmission))
-        ratio = message("a size ratio of {ratio:g}", ratio=demands.size_ratio)
-        met.append((ratio, self.size_ratio <= demands.size_ratio))
-        if demands.region is not None:
-            met.append((message("the region"), self.inside))
+        met += demands_met(demands, self.turns, self.transmission, self.size_ratio, self.inside)
         if np.isnan(self.lengths).any():  # two lengths say little of a linkage that slides
             met.append(
                 (
@@ -443,6 +435,25 @@ def _gap(first: tuple[GuidingDyad, GuidingDyad], second: tuple[GuidingDyad, Guid
     )
 
 
+def demands_met(
+    demands: Demands, turns: Flags, transmission: Reals, size_ratio: Reals, inside: Flags
+) -> list[tuple[Message, Flags]]:
+    """What is demanded besides the targets by its names, each with the linkages that meet it."""
+    met = []
+    if demands.crank:
+        met.append((message("a drive that turns fully"), turns))
+    if demands.transmission > 0:
+        angle = message("a transmission angle of {angle:g}°", angle=degrees(demands.transmission))
+        met.append((angle, transmission >= demands.transmission))
+    met.append((message("a size ratio of {ratio:g}", ratio=demands.size_ratio), size_ratio <= demands.size_ratio))
+    if demands.region is not None:
+        met.append((message("the region"), inside))
+    return met
+
+
+WITHOUT = message("Without the demand of {demand} there are {count:,}.")
+
+
 def tightest(met: Sequence[tuple[Message, Flags]]) -> list[Message]:
     """The demand without which the most remain; the first, such as one branch, is the task itself and stays."""
     counts = [
@@ -452,7 +463,7 @@ def tightest(met: Sequence[tuple[Message, Flags]]) -> list[Message]:
     best = int(np.argmax(counts))
     if not counts[best]:
         return []
-    return [message("Without the demand of {demand} there are {count:,}.", demand=met[best + 1][0], count=counts[best])]
+    return [WITHOUT.filled(demand=met[best + 1][0], count=counts[best])]
 
 
 def _improved(

@@ -14,6 +14,7 @@ from gruebler.base.notebook import brief
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.clearances import stays_clear
 from gruebler.design.synthesis.fitting import links_moved_by_all, output_links
+from gruebler.design.synthesis.pair_search import WITHOUT
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.results import Design, ParetoRow, Progress, SolutionCount, SynthesisResult, pareto
 from gruebler.design.synthesis.specification import Specification
@@ -39,9 +40,11 @@ class TriedType:
 
     @property
     def reason(self) -> Message | None:
-        """Why there is no design: what is said against the rejected one with the fewest faults."""
+        """Why there is no design: the tightest demand, else the first fault of the design with the fewest."""
         if self.result.designs:
             return None
+        if (tight := next((note for note in self.result.notes if note.text == WITHOUT.text), None)) is not None:
+            return tight
         closest = min(self.result.rejected, key=lambda design: len(design.verdict.reasons), default=None)
         return closest.verdict.reasons[0] if closest else next(iter(self.result.notes), None)
 

@@ -26,7 +26,7 @@ _CURVES = 24_000
 _BLOCK = 1 << 15  # places of linkages that are looked at together
 
 
-class _Dyad(NamedTuple):
+class DrawnDyad(NamedTuple):
     """Two links, the numbers of their outer joints and of the joint between them, and what the outer joints hang on."""
 
     links: tuple[str, str]
@@ -45,8 +45,15 @@ class DyadStructure:
     pivot: int
     """The driven joint."""
     crank: str
-    dyads: tuple[_Dyad, ...]
+    dyads: tuple[DrawnDyad, ...]
     joints: int
+
+    @property
+    def output(self) -> str:
+        """The link whose transmission angle counts: the last one at the frame that is not driven."""
+        chain, frame = self.mechanism.chain, self.mechanism.frame
+        held = {link for joint in chain.joints if frame in joint.links for link in joint.links}
+        return [link for link in chain.links if link in held - {frame, self.crank}][-1]
 
     @property
     def coupler_links(self) -> tuple[str, ...]:
@@ -79,7 +86,7 @@ def dyad_structure(mechanism: Mechanism) -> DyadStructure | None:
             joint = next(n for n in group.outer if link in chain.joints[n].links)
             outer.append(joint)
             base.append(next(other for other in chain.joints[joint].links if other != link))
-        dyads.append(_Dyad(links, (outer[0], outer[1]), group.inner[0], (base[0], base[1])))
+        dyads.append(DrawnDyad(links, (outer[0], outer[1]), group.inner[0], (base[0], base[1])))
     return DyadStructure(
         mechanism=mechanism,
         written_form=mechanism.written_form,
@@ -140,6 +147,63 @@ def link_motions(structure: DyadStructure, drawn: Complexes, turned: Reals, side
                 rotation = (inner - end) / arm
                 motions[link] = rotation, end - rotation * places[joint]
     return motions
+
+
+def link_slopes(
+    structure: DyadStructure, columns: Complexes, motions: LinkMotions, *, by_places: bool
+) -> dict[str, tuple[Complexes, Complexes]]:
+    """How rotation and shift of each link change with the crank; before that, if wanted, with x, y of all joints.
+
+    An inner joint of a dyad moves by v with Re(conj(m) v) given for both of its links m; so v follows from two
+    linear equations.
+
+    Args:
+        structure: the solving order.
+        columns: (joints or more, linkages, 1) places in the drawing.
+        motions: of the links, (linkages, angles).
+        by_places: whether the places change, too.
+
+    Returns (numbers, linkages, angles) each.
+    """
+    count = 2 * structure.joints if by_places else 0
+
+    def with_place(slopes: Complexes, joint: int, factor: Complexes) -> Complexes:
+        if by_places:
+            slopes[2 * joint] += factor
+            slopes[2 * joint + 1] += 1j * factor
+        return slopes
+
+    spin = motions[structure.crank][0]
+    still = np.zeros((count + 1, *spin.shape), np.complex128)
+    pivot = columns[structure.pivot]
+    turn, shift = still.copy(), still.copy()
+    turn[-1], shift[-1] = 1j * spin, -1j * spin * pivot
+    slopes = {
+        structure.mechanism.frame: (still, still),
+        structure.crank: (turn, with_place(shift, structure.pivot, 1 - spin)),
+    }
+    for dyad in structure.dyads:
+        moved, across, along = [], [], []
+        for joint, base, link in zip(dyad.outer, dyad.base, dyad.links, strict=True):
+            by_turn, by_shift = slopes[base]
+            moved.append(with_place(by_turn * columns[joint] + by_shift, joint, motions[base][0]))
+            arm = columns[dyad.inner] - columns[joint]
+            across.append(motions[link][0] * arm)
+            given = np.real(np.conj(across[-1]) * moved[-1])
+            if by_places:
+                for other, sign in ((dyad.inner, 1.0), (joint, -1.0)):
+                    given[2 * other] += sign * arm.real
+                    given[2 * other + 1] += sign * arm.imag
+            along.append(given)
+        first, second = across
+        inner = 1j * (along[1] * first - along[0] * second) / np.imag(np.conj(first) * second)
+        for joint, link, by_outer in zip(dyad.outer, dyad.links, moved, strict=True):
+            rotation, arm = motions[link][0], columns[dyad.inner] - columns[joint]
+            by_turn = (inner - by_outer) / arm
+            with_place(by_turn, dyad.inner, -rotation / arm)
+            with_place(by_turn, joint, rotation / arm)
+            slopes[link] = by_turn, with_place(by_outer - by_turn * columns[joint], joint, -rotation)
+    return slopes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

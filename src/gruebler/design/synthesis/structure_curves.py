@@ -11,12 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, Reals
-from gruebler.design.synthesis.curve_matching import best_matches, drive_angles
+from gruebler.design.synthesis.curve_matching import Held, best_matches, drive_angles
+from gruebler.design.synthesis.drawing_limits import DrawingLimits
 from gruebler.design.synthesis.structure_atlas import (
     DyadStructure,
     LinkMotions,
     assembled_sides,
     link_motions,
+    link_slopes,
     structure_atlas,
 )
 
@@ -28,6 +30,7 @@ _APART = 0.03  # of the size: those of the pool differ by more
 _FAVOUR = 1.5  # the better half of the pool has 63 % of the descendants
 _SHARES, _STEPS = (0.3, 0.5, 0.7), (0.5, 0.8)  # of places from another one; of a difference of two
 _SCATTER = 0.02  # of the size
+_CANDIDATES = 4000  # neighbours that are placed to see which of them keep within limits
 _ROUND = np.linspace(0, 2 * np.pi, 64, endpoint=False)  # of the crank
 _THIN = 40  # points of the target that the first stages look at
 _BLOCK = 8_000  # points of curves that are computed at once: their derivatives stay near the processor
@@ -54,11 +57,11 @@ class DrawnCurves:
         return DrawnCurves(places=self.places[which], turned=self.turned[which], cost=self.cost[which])
 
 
-def fit_drawings(structure: DyadStructure, link: str, z: Complexes, *, closed: bool, number: int) -> DrawnCurves:
+def fit_drawings(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool, number: int) -> DrawnCurves:
     """Linkages whose point on a link is as near to all targets as possible, the best first, each once.
 
     Args:
-        structure: crank and dyads.
+        limits: of linkages of a structure, which all of them keep to.
         link: that carries the point.
         z: (targets,) in the order in which they are passed.
         closed: whether the last is followed by the first.
@@ -67,8 +70,9 @@ def fit_drawings(structure: DyadStructure, link: str, z: Complexes, *, closed: b
     Each stands at the first target. Cost: 2 to 3 ms a neighbour, and 2 s for what descends from them.
     """
     thin = np.unique(np.linspace(0, len(z) - 1, min(_THIN, len(z))).round().astype(np.int64))
-    fit = _CurveFit(structure, link, z)
-    rough = _CurveFit(structure, link, z[thin])
+    structure = limits.structure
+    fit = _CurveFit(limits, link, z)
+    rough = _CurveFit(limits, link, z[thin])
 
     def improved(curves: DrawnCurves) -> DrawnCurves:
         """The best of them by the first two stages, each once, drawn where they meet the first target."""
@@ -80,22 +84,24 @@ def fit_drawings(structure: DyadStructure, link: str, z: Complexes, *, closed: b
             curves = replace(curves, turned=_spread(curves.turned, thin, before))
         return _each_once(_at_first_target(structure, link, curves), _APART * fit.size)
 
-    first = pool = improved(_neighbours(structure, link, z, closed=closed, number=number))
+    first = pool = improved(_neighbours(limits, link, z, closed=closed, number=number))
     if not len(first.cost):
         return first
     chance = np.random.default_rng(1)
     for _ in range(_BRED):
         pool = _chosen(structure, pool, _POOL, closed=closed)
-        both = [pool, improved(_bred(pool, min(number, _CHILDREN), fit.size, chance))]
-        pool = _each_once(_together(both), _APART * fit.size)
+        both = [pool, improved(_bred(limits, pool, min(number, _CHILDREN), chance))]
+        pool = _each_once(together(both), _APART * fit.size)
     chosen = [_chosen(structure, each, max(1, number // _LAST[0]), closed=closed) for each in (first, pool)]
-    best = _each_once(_together(chosen), _APART * fit.size)
+    best = _each_once(together(chosen), _APART * fit.size)
     sides = assembled_sides(structure, best.places[:, :-1].T)
     best = fit.improved_in_parts(best.places, best.turned, sides, _LAST[1])
+    beyond = limits.passed(_rows(best.places), best.turned) > 0
+    best = replace(best, cost=np.where(beyond, np.inf, best.cost))
     return _each_once(_at_first_target(structure, link, best), _SAME * fit.size)
 
 
-def _bred(pool: DrawnCurves, count: int, size: float, chance: np.random.Generator) -> DrawnCurves:
+def _bred(limits: DrawingLimits, pool: DrawnCurves, count: int, chance: np.random.Generator) -> DrawnCurves:
     """Linkages with some places of another one, or moved by a part of the difference of two, as much each time."""
     rows, joints = pool.places.shape
     own, other, third = (rows * chance.random((3, count)) ** _FAVOUR).astype(np.int64)
@@ -104,27 +110,49 @@ def _bred(pool: DrawnCurves, count: int, size: float, chance: np.random.Generato
     taken = chance.random((count, joints)) < share
     given = np.where(chance.random((count, 1)) < 1 / 2, b, a + step * (b - c))
     scatter = chance.normal(size=(2, count, joints))
-    places = np.where(taken, given, a) + _SCATTER * size * (scatter[0] + 1j * scatter[1])
+    free = limits.free[::2]
+    places = np.where(taken, given, a) + _SCATTER * limits.places.unit * free * (scatter[0] + 1j * scatter[1])
     return DrawnCurves(places=places, turned=pool.turned[own], cost=np.zeros(count))
 
 
-def _neighbours(structure: DyadStructure, link: str, z: Complexes, *, closed: bool, number: int) -> DrawnCurves:
-    """The curves of the atlas that are most like the target, placed on it, no drawing twice."""
+def _neighbours(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool, number: int) -> DrawnCurves:
+    """The curves of the atlas that are most like the target, placed on it, no drawing twice.
+
+    Given pivots stay where they are: curves are compared in a plane that has the first as its origin, and a second one
+    at 1. Where limits are narrow, those come first that are both alike and hardly beyond.
+    """
+    structure, places_of = limits.structure, limits.pivots
     book = structure_atlas(structure)
     own = np.flatnonzero(book.link == structure.coupler_links.index(link))
+    joints, given = [*places_of], [*places_of.values()]
+    held = (Held.NOTHING, Held.ORIGIN, Held.ALL)[min(2, len(joints))]
+    drawn = np.concatenate([book.drawn[own], book.point[own, None]], axis=1)
+    origin = drawn[:, joints[0]] if joints else np.zeros(len(own))
+    unit = drawn[:, joints[1]] - origin if len(joints) > 1 else np.ones(len(own))
+    shift, turn = (given[0] if joints else 0j), (given[1] - given[0] if len(joints) > 1 else 1 + 0j)
+    drawn = (drawn - origin[:, None]) / unit[:, None]
+    traced = np.asarray((book.z[own] - origin[:, None]) / unit[:, None], np.complex128)
+    wanted = (z - shift) / turn
     places, turned, gaps = [], [], []
     seen: set[tuple[bytes, bool]] = set()
-    for match in best_matches(book.z[own], z, 2 * number, closed=closed):
+    most = max(number, _CANDIDATES) if limits.narrow else number
+    for match in best_matches(traced, wanted, 2 * most, closed=closed, held=held):
         n = int(own[match.number])
-        if (name := (book.drawn[n].tobytes(), match.mirrored)) in seen or len(seen) == number:
+        if (name := (book.drawn[n].tobytes(), match.mirrored)) in seen or len(seen) == most:
             continue
         seen.add(name)
-        at = match.turn * np.append(book.drawn[n], book.point[n]) + match.shift
+        at = match.turn * drawn[match.number] + match.shift
         angles = drive_angles(book.turned[n], match.at)
-        places.append(np.conj(at) if match.mirrored else at)
+        placed = turn * (np.conj(at) if match.mirrored else at) + shift
+        placed[joints] = given
+        places.append(placed)
         turned.append(-angles if match.mirrored else angles)
         gaps.append(match.gap)
-    return DrawnCurves(places=np.array(places), turned=np.array(turned), cost=np.array(gaps))
+    curves = DrawnCurves(places=np.array(places), turned=np.array(turned), cost=np.array(gaps))
+    if not limits.narrow:
+        return curves
+    beyond = limits.passed(_rows(curves.places), curves.turned)
+    return curves[np.argsort(np.sqrt(np.maximum(curves.cost, 0)) + beyond, kind="stable")[:number]]
 
 
 def _spread(turned: Reals, thin: NDArray[np.int64], before: Reals) -> Reals:
@@ -146,7 +174,7 @@ def _at_first_target(structure: DyadStructure, link: str, curves: DrawnCurves) -
     return DrawnCurves(places=np.stack(places, axis=1), turned=curves.turned - curves.turned[:, :1], cost=curves.cost)
 
 
-def _together(parts: list[DrawnCurves]) -> DrawnCurves:
+def together(parts: list[DrawnCurves]) -> DrawnCurves:
     """All linkages of the parts."""
     columns = zip(*((part.places, part.turned, part.cost) for part in parts), strict=True)
     places, turned, cost = map(np.concatenate, columns)
@@ -184,11 +212,12 @@ def _each_once(curves: DrawnCurves, apart: float) -> DrawnCurves:
 class _CurveFit:
     """Linkages improved by least squares: Levenberg and Marquardt's method with geodesic acceleration.
 
-    The crank angle of each target is eliminated: only the distance across the curve counts.
+    The crank angle of each target is eliminated: only the distance across the curve counts. A linkage beyond a limit
+    comes back first, with the least change of its curve; then no step passes a limit.
     """
 
-    def __init__(self, structure: DyadStructure, link: str, z: Complexes) -> None:
-        self.structure, self.link, self.z = structure, link, z
+    def __init__(self, limits: DrawingLimits, link: str, z: Complexes) -> None:
+        self.limits, self.structure, self.link, self.z = limits, limits.structure, link, z
         self.size = float(max(np.ptp(z.real), np.ptp(z.imag)))
 
     def points(self, places: Complexes, turned: Reals, sides: Reals) -> tuple[Complexes, LinkMotions]:
@@ -198,51 +227,9 @@ class _CurveFit:
         return rotation * places[:, -1:] + shift, motions
 
     def slopes(self, places: Complexes, motions: LinkMotions, *, by_places: bool) -> Complexes:
-        """(numbers, linkages, targets) how the point moves with the crank; before that, if wanted, with x, y of places.
-
-        An inner joint of a dyad moves by v with Re(conj(m) v) given for both of its links m; so v follows from two
-        linear equations.
-        """
-        structure, columns = self.structure, places.T[:, :, None]
-        count = 2 * structure.joints if by_places else 0
-
-        def with_place(slopes: Complexes, joint: int, factor: Complexes) -> Complexes:
-            if by_places:
-                slopes[2 * joint] += factor
-                slopes[2 * joint + 1] += 1j * factor
-            return slopes
-
-        spin = motions[structure.crank][0]
-        still = np.zeros((count + 1, *spin.shape), np.complex128)
-        pivot = columns[structure.pivot]
-        turn, shift = still.copy(), still.copy()
-        turn[-1], shift[-1] = 1j * spin, -1j * spin * pivot
-        slopes = {
-            structure.mechanism.frame: (still, still),
-            structure.crank: (turn, with_place(shift, structure.pivot, 1 - spin)),
-        }
-        for dyad in structure.dyads:
-            moved, across, along = [], [], []
-            for joint, base, link in zip(dyad.outer, dyad.base, dyad.links, strict=True):
-                by_turn, by_shift = slopes[base]
-                moved.append(with_place(by_turn * columns[joint] + by_shift, joint, motions[base][0]))
-                arm = columns[dyad.inner] - columns[joint]
-                across.append(motions[link][0] * arm)
-                given = np.real(np.conj(across[-1]) * moved[-1])
-                if by_places:
-                    for other, sign in ((dyad.inner, 1.0), (joint, -1.0)):
-                        given[2 * other] += sign * arm.real
-                        given[2 * other + 1] += sign * arm.imag
-                along.append(given)
-            first, second = across
-            inner = 1j * (along[1] * first - along[0] * second) / np.imag(np.conj(first) * second)
-            for joint, link, by_outer in zip(dyad.outer, dyad.links, moved, strict=True):
-                rotation, arm = motions[link][0], columns[dyad.inner] - columns[joint]
-                by_turn = (inner - by_outer) / arm
-                with_place(by_turn, dyad.inner, -rotation / arm)
-                with_place(by_turn, joint, rotation / arm)
-                slopes[link] = by_turn, with_place(by_outer - by_turn * columns[joint], joint, -rotation)
-        by_turn, by_shift = slopes[self.link]
+        """(numbers, linkages, targets) how the point moves with the crank, and first with x, y of places if wanted."""
+        columns = places.T[:, :, None]
+        by_turn, by_shift = link_slopes(self.structure, columns, motions, by_places=by_places)[self.link]
         of_point = by_turn * columns[-1] + by_shift
         if not by_places:
             return np.asarray(of_point)
@@ -266,36 +253,44 @@ class _CurveFit:
         rows = max(1, _BLOCK // turned.shape[1])
         parts = [slice(k, k + rows) for k in range(0, len(places), rows)]
         done = [self.improved(places[part], turned[part], sides[:, part], steps) for part in parts]
-        return _together([DrawnCurves(places=p, turned=t, cost=c) for p, t, c in done])
+        return together([DrawnCurves(places=p, turned=t, cost=c) for p, t, c in done])
 
     def improved(self, places: Complexes, turned: Reals, sides: Reals, steps: int) -> tuple[Complexes, Reals, Reals]:
-        """Places, crank angles and costs after so many steps, fewer where nothing is gained any more."""
+        """Places, crank angles and costs after so many steps, fewer where nothing is gained any more.
+
+        What passes limits is part of the costs.
+        """
         places = places.copy()
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
             turned, cost = self.slid(places, turned, sides, 3)
+            passed = self.limits.passed(_rows(places), turned)
             damping = np.full(len(places), 1e-3)
             active = np.isfinite(cost)
             for _ in range(steps):
                 own = np.flatnonzero(active)
                 if not len(own):
                     break
-                change, angles = self._step(places[own], turned[own], sides[:, own], damping[own])
+                change, angles = self._step(places[own], turned[own], sides[:, own], damping[own], passed[own])
                 trial = places[own] + change
                 angles, least = self.slid(trial, angles, sides[:, own], 1)
-                good = least < cost[own]
-                still = good & (cost[own] - least < _STILL * least)
+                beyond, outside = self.limits.passed(_rows(trial), angles), passed[own] > 0
+                good = np.where(outside, beyond < passed[own], (beyond == 0) & (least < cost[own])) & np.isfinite(least)
+                still = good & ~outside & (cost[own] - least < _STILL * least)
                 damping[own] = np.where(good, np.maximum(0.3 * damping[own], _LEAST), 5 * damping[own])
                 better = own[good]
                 places[better], turned[better], cost[better] = trial[good], angles[good], least[good]
-                met = cost[own] < _MET * self.size**2 * len(self.z)
+                passed[better] = beyond[good]
+                met = (passed[own] == 0) & (cost[own] < _MET * self.size**2 * len(self.z))
                 active[own[still | met | (damping[own] > _MOST)]] = False
-        return places, turned, cost
+        return places, turned, cost + len(self.z) * (self.size * passed) ** 2
 
-    def _step(self, places: Complexes, turned: Reals, sides: Reals, damping: Reals) -> tuple[Complexes, Reals]:
+    def _step(
+        self, places: Complexes, turned: Reals, sides: Reals, damping: Reals, passed: Reals
+    ) -> tuple[Complexes, Reals]:
         """The change of all places, and the crank angles after it."""
         points, motions = self.points(places, turned, sides)
         slopes = self.slopes(places, motions, by_places=True)
-        by_places, rate = slopes[:-1], slopes[-1]
+        by_places, rate = slopes[:-1] * self.limits.free[:, None, None], slopes[-1]
         normal = 1j * rate / (np.abs(rate) + 1e-300)
         across = np.real(np.conj(normal) * by_places).transpose(1, 0, 2)
         gram = across @ across.transpose(0, 2, 1)
@@ -322,6 +317,12 @@ class _CurveFit:
         believed &= np.isfinite(bend).all(axis=1)
         change += np.where(believed[:, None], further / 2, 0.0)
         slide += np.where(believed[:, None], more / 2, 0.0)
+        share = np.where(passed > 0, 1 / (1 + 100 * damping), 1.0)
+        kept = self.limits.kept(_rows(places), turned, gram, change, share)
+        if len(bent := np.flatnonzero((kept != change).any(axis=1))):
+            change[bent] = kept[bent]
+            left = errors[bent] + np.einsum("kni,nk->ni", by_places[:, bent], change[bent])
+            slide[bent] = _towards(rate[bent], left)
         return _paired(change), turned + np.clip(slide, -_FARTHEST, _FARTHEST)
 
 
@@ -329,6 +330,11 @@ def _towards(rate: Complexes, errors: Complexes) -> Reals:
     """How far a crank turns until the point is nearest to its target."""
     turn = -np.real(np.conj(rate) * errors) / (np.abs(rate) ** 2 + 1e-300)
     return np.asarray(np.clip(turn, -_FARTHEST, _FARTHEST))
+
+
+def _rows(places: Complexes) -> Reals:
+    """(numbers, linkages) x, y of places in turn."""
+    return np.stack([places.real, places.imag], axis=2).reshape(len(places), -1).T
 
 
 def _paired(numbers: Reals) -> Complexes:

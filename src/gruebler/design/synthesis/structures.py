@@ -6,20 +6,20 @@ like the targets are chosen, and all dimensions are improved together.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
 from functools import partial
-from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Complexes, Reals
+from gruebler.base.arrays import Complexes
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, joined_by_and, message
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis.closure import DesignClosure
+from gruebler.design.synthesis.drawing_limits import limits_of_drawings
 from gruebler.design.synthesis.first_states import first_state
 from gruebler.design.synthesis.fitting import (
     FitState,
@@ -31,7 +31,9 @@ from gruebler.design.synthesis.fitting import (
     output_links,
 )
 from gruebler.design.synthesis.judging import (
+    BUILDABLE,
     EXACT_AT_MOST,
+    OTHER_LENGTH,
     Demands,
     judge_design,
     judge_with_drives,
@@ -39,6 +41,7 @@ from gruebler.design.synthesis.judging import (
     transmission_fault,
 )
 from gruebler.design.synthesis.law_motion import over_interval
+from gruebler.design.synthesis.pair_search import WITHOUT, demands_met, tightest
 from gruebler.design.synthesis.positions import ranked
 from gruebler.design.synthesis.results import (
     FITTED,
@@ -50,7 +53,7 @@ from gruebler.design.synthesis.results import (
     in_order_of,
 )
 from gruebler.design.synthesis.structure_atlas import dyad_structure
-from gruebler.design.synthesis.structure_curves import fit_drawings
+from gruebler.design.synthesis.structure_curves import fit_drawings, together
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets, point_targets
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.mechanics.analysis.outputs import find_output
@@ -79,10 +82,11 @@ def synthesise_structures(
     """Every mechanism fitted to a task: positions or points of one of its links, a function, dead centres.
 
     Args:
-        task: what is wanted, without given pivots. Of functions and dead centres only differences count, since a
-            structure has no line from which angles are measured.
+        task: what is wanted; which pins of the frame given pivots are, is tried in all ways. Of functions and dead
+            centres only differences count, since a structure has no line from which angles are measured.
         structures: driven mechanisms of turning and sliding joints; with several drives for positions and points.
-        demands: what a design has to do besides.
+        demands: what a design has to do besides: pivots, lengths and their ratio are kept by every step, for a path by
+            turning joints a crank that turns and the transmission angle, too.
         starts: how many are improved to the end of each mechanism: by default the best 24 of 1,920 neighbours from the
             atlas of its structure (a crank and dyads of turning joints, for a path), or 4 realisations of any other.
         link: that is guided, or whose motion is the output; for each start the one that is most alike without it.
@@ -101,19 +105,9 @@ def synthesise_structures(
         raise SynthesisError(unheld)
     targets = fit_targets(task)
     for mechanism in mechanisms:
-        _check(mechanism, targets, link)
+        _check(mechanism, targets, link, len(getattr(task, "fixed_pivots", ())))
     jobs = [job for mechanism in mechanisms for job in _jobs(task, targets, mechanism, starts, link)]
-    work = partial(_fitted, task, wanted, link)
-    candidates: list[Design] = []
-    placed = isinstance(task, PositionTask | PathTask)
-    for done, designs in enumerate(run_work(work, jobs, executor), 1):
-        for design in designs:
-            if not any(same_machine(design.linkage, known.linkage, placed=placed) for known in candidates):
-                candidates.append(design)
-        if progress is not None:
-            progress(done, len(jobs))
-    if isinstance(task, FunctionTask):
-        candidates = [over_interval(design, task) for design in candidates]
+    candidates = _candidates(task, wanted, wanted, link, jobs, executor, progress)
     accepted, rejected = ranked(candidates)
     accepted = in_order_of(accepted, ["error"])
     own = isinstance(task, PathTask) and bool(task.tolerances)
@@ -124,9 +118,72 @@ def synthesise_structures(
         count=len(jobs),
         limit=_limit(wanted),
     )
+    search = partial(_candidates, link=link, jobs=jobs, executor=executor)
+    tight = () if accepted else _tightest(task, wanted, search)
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(candidates), real=len(candidates))
-    notes = (note, *order_notes(candidates, wanted))
+    notes = (note, *order_notes(candidates, wanted), *tight)
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=notes)
+
+
+def _candidates(
+    task: Task,
+    demands: Demands,
+    limits: Demands,
+    link: str,
+    jobs: Sequence[_Job],
+    executor: Executor | Callable[[], Executor] | None,
+    progress: Progress | None = None,
+) -> list[Design]:
+    """The designs of all starts, each machine once, that were improved within limits and judged by the demands."""
+    candidates: list[Design] = []
+    placed = isinstance(task, PositionTask | PathTask)
+    for done, designs in enumerate(run_work(partial(_fitted, task, demands, limits, link), jobs, executor), 1):
+        for design in designs:
+            if not any(same_machine(design.linkage, known.linkage, placed=placed) for known in candidates):
+                candidates.append(design)
+        if progress is not None:
+            progress(done, len(jobs))
+    return [over_interval(design, task) for design in candidates] if isinstance(task, FunctionTask) else candidates
+
+
+def _tightest(task: Task, demands: Demands, search: Callable[..., list[Design]]) -> list[Message]:
+    """The demand without which there are most designs, sought once more without any limit; none if the task has none.
+
+    Where no single one is enough, all of them together; given pivots last.
+    """
+    free = replace(demands, crank=False, transmission=0.0, size_ratio=np.inf, region=None, lengths=())
+    pivots = getattr(task, "fixed_pivots", ())
+    if replace(demands, size_ratio=BUILDABLE) == replace(free, size_ratio=BUILDABLE) and not pivots:
+        return []  # how many differ too much in their lengths is said anyway
+    if notes := _counted(search(task, demands, free), demands):
+        return notes
+    if pivots and isinstance(task, PositionTask | PathTask):
+        anywhere = search(replace(task, fixed_pivots=()), demands, demands)
+        if count := sum(design.verdict.accepted for design in anywhere):
+            return [WITHOUT.filled(demand=message("the given pivots"), count=count)]
+    return []
+
+
+def _counted(designs: Sequence[Design], demands: Demands) -> list[Message]:
+    """How many of the designs are good but for one demand, else but for several."""
+    verdicts = [design.verdict for design in designs if design.verdict.one_circuit]
+    if not verdicts:
+        return []
+    columns = [
+        np.array([getattr(verdict, name) for verdict in verdicts])
+        for name in ("turns_fully", "transmission", "size_ratio", "inside")
+    ]
+    met = demands_met(demands, *columns)
+    wrong = np.array([sum(reason.text == OTHER_LENGTH.text for reason in verdict.reasons) for verdict in verdicts])
+    if demands.lengths:
+        met.append((message("the given lengths"), wrong == 0))
+    said = np.sum([~flags for name, flags in met if name.text != "the given lengths"], axis=0) + wrong
+    good = np.array([len(verdict.reasons) for verdict in verdicts]) == said
+    good &= np.array([verdict.in_order or not demands.in_order for verdict in verdicts])
+    if notes := tightest([(message("the targets"), good), *met]):
+        return notes
+    count = int(np.count_nonzero(good))
+    return [message("Without all these demands there are {count:,}.", count=count)] if count else []
 
 
 def same_machine(first: Linkage, other: Linkage, *, placed: bool) -> bool:
@@ -167,18 +224,26 @@ def _drawn(linkage: Linkage, *, placed: bool) -> Complexes:
 def unheld_pivots(task: Task) -> Message | None:
     """Which pivots of a task no fit holds, in a sentence; None if it gives none.
 
-    >>> print(unheld_pivots(PathTask([(0, 0), (1, 2), (3, 3)], fixed_pivots=[(0, 3)])))
-    fixed_pivots: only four-bars and slider-cranks made without a structure take given pivots
+    >>> print(unheld_pivots(PositionTask([(0, 0, 0), (2, 1, 0.4)], moving_pivots=[(0, 1)])))
+    moving_pivots: only four-bars and slider-cranks made without a structure take them
     """
-    given = [key for key in ("moving_pivots", "fixed_pivots", "curve_parameters") if getattr(task, key, ())]
-    text = message("{keys}: only four-bars and slider-cranks made without a structure take given pivots")
+    given = [key for key in ("moving_pivots", "curve_parameters") if getattr(task, key, ())]
+    text = message("{keys}: only four-bars and slider-cranks made without a structure take them")
     return text.filled(keys=joined_by_and(given)) if given else None
 
 
-def _check(mechanism: Mechanism, targets: FitTargets, link: str) -> None:
-    """Refuse what cannot be fitted: the drives, and the link that was asked for."""
+def _check(mechanism: Mechanism, targets: FitTargets, link: str, pivots: int) -> None:
+    """Refuse what cannot be fitted: the drives, given pivots, and the link that was asked for."""
     drives, frame = mechanism.drives, mechanism.frame
     chain = mechanism.chain
+    own = sum(frame in joint.links and joint.pair.is_turning for joint in chain.joints)
+    if pivots > own:
+        raise SynthesisError(
+            "fixed_pivots: {count} are given, but {mechanism!r} has {own}",
+            count=pivots,
+            mechanism=mechanism.text(),
+            own=own,
+        )
     if targets.inputs is not None:
         if len(drives) > 1:
             raise SynthesisError(
@@ -256,20 +321,22 @@ def _jobs(task: Task, targets: FitTargets, mechanism: Mechanism, starts: int | N
     return [_Job(mechanism, seed) for seed in range(starts or _REALISATIONS)]
 
 
-def _fitted(task: Task, demands: Demands, link: str, job: _Job) -> list[Design]:
+def _fitted(task: Task, demands: Demands, limits: Demands, link: str, job: _Job) -> list[Design]:
     if not job.drawn_link:
-        design = fit_structure(task, job.mechanism, demands, seed=job.seed, link=link)
+        design = fit_structure(task, job.mechanism, demands, limits=limits, seed=job.seed, link=link)
         return [] if design is None else [design]
     assert isinstance(task, PathTask)
     structure = dyad_structure(job.mechanism)
     assert structure is not None
-    fits = fit_drawings(structure, job.drawn_link, task.z, closed=task.closed, number=_NEIGHBOURS * job.kept)
+    pivots = [complex(*p) for p in task.fixed_pivots]
+    every = [*limits_of_drawings(structure, limits, pivots, closed=task.closed, unit=fit_targets(task).size)]
+    number = -(-_NEIGHBOURS * job.kept // len(every))
+    fits = together([fit_drawings(each, job.drawn_link, task.z, closed=task.closed, number=number) for each in every])
     names = job.mechanism.chain.joint_names()
     fitted = fit_targets(task)
     targets = replace(point_targets("P", task.z, fitted.size), curve=fitted.curve, ranks=task.order)
     designs = []
-    slender = _size_ratios(job.mechanism, fits.places) > demands.size_ratio
-    for *joints, point in fits.places[np.argsort(slender, kind="stable")[: job.kept]]:
+    for *joints, point in fits.places[np.argsort(fits.cost, kind="stable")[: job.kept]]:
         drawing: dict[str | int, object] = {name: (z.real, z.imag) for name, z in zip(names, joints, strict=True)}
         points = {"P": (job.drawn_link, point.real, point.imag)}
         linkage = Linkage.from_drawing(job.mechanism, drawing, points=points)
@@ -277,17 +344,14 @@ def _fitted(task: Task, demands: Demands, link: str, job: _Job) -> list[Design]:
     return designs
 
 
-def _size_ratios(mechanism: Mechanism, places: Complexes) -> Reals:
-    """(drawings,) the longest distance of two pins of a link by the shortest; places (drawings, joints, ...)."""
-    joints = mechanism.chain.joints
-    pins = [[n for n, joint in enumerate(joints) if link in joint.links] for link in mechanism.chain.links]
-    pairs = np.array([pair for own in pins for pair in combinations(own, 2)])
-    lengths = np.abs(places[:, pairs[:, 0]] - places[:, pairs[:, 1]])
-    return np.asarray(lengths.max(axis=1) / lengths.min(axis=1))
-
-
 def fit_structure(
-    task: Task, mechanism: Mechanism, demands: Demands | None = None, *, seed: int = 0, link: str = ""
+    task: Task,
+    mechanism: Mechanism,
+    demands: Demands | None = None,
+    *,
+    limits: Demands | None = None,
+    seed: int = 0,
+    link: str = "",
 ) -> Design | None:
     """One mechanism fitted to a task from one realisation; None if it cannot be realised or started.
 
@@ -297,6 +361,7 @@ def fit_structure(
         task: positions, points, a function or dead centres.
         mechanism: with its drives, or none: then they are chosen.
         demands: what the design has to do besides.
+        limits: what is kept on the way to it; the demands by default.
         seed: of the realisation and the poses that are tried.
         link: that is guided, or whose motion is the output; the one that is most alike without it.
     """
@@ -306,18 +371,20 @@ def fit_structure(
     stages = fit_stages(task)
     if demands is not None and not demands.in_order and stages[0].z is not None and stages[0].curve is GuidedCurve.NONE:
         stages = tuple(replace(targets, ranks=(0,) * len(targets)) for targets in stages)
-    if demands is not None and demands.transmission > 0 and len(first.linkage.mechanism.drives) < 2:
+    limits = limits or demands or Demands()
+    if limits.transmission > 0 and len(first.linkage.mechanism.drives) < 2:
         try:
             pushing_links(cached_plan(first.linkage), find_output(first.linkage))
         except NoTransmissionAngleError:
             verdict = DesignVerdict(reasons=(transmission_fault(np.nan),))
             return Design(linkage=first.linkage, verdict=verdict, form=FITTED)
     closure = DesignClosure(first.linkage)
-    state = first_state(closure, stages[0], np.random.default_rng(seed), link)
+    pivots = [complex(*p) for p in getattr(task, "fixed_pivots", ())]
+    state = first_state(closure, stages[0], np.random.default_rng(seed), link, pivots)
     if state is None:
         return None
     for targets in stages:
-        state = improved(closure, state, targets)
+        state = improved(closure, state, targets, limits)
     outputs = (state.output,) if state.output else first.linkage.outputs
     return _judged(task, stages[-1], demands or Demands(), closure, state, outputs)
 

@@ -1,0 +1,144 @@
+"""Structures under limits: given pivots and lengths, a region, size ratio, transmission angle, a crank that turns."""
+
+from itertools import combinations
+from math import degrees, radians
+
+import numpy as np
+import pytest
+
+from gruebler.design.synthesis import Demands, PathTask, PositionTask, synthesise
+from gruebler.design.synthesis.drawing_limits import limits_of_drawings
+from gruebler.design.synthesis.structure_atlas import dyad_structure, structure_atlas
+from gruebler.mechanics.kinematics import circuit, move
+from gruebler.mechanics.linkages import Linkage
+from gruebler.structure.mechanism import Mechanism
+
+WATT = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3); frame=0; drive=R(0-1)")
+STEPHENSON = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2); frame=0; drive=R(0-1)")
+
+
+def pins(linkage, link):
+    """(pins,) of a link as x + iy, in its own plane."""
+    return [complex(e.x, e.y) for (_, own), e in linkage.elements.items() if own == link and e.is_pin]
+
+
+def lengths(linkage):
+    """The distances of the pins of all links."""
+    own = [pins(linkage, link) for link in linkage.mechanism.chain.links]
+    return [abs(p - q) for each in own for p, q in combinations(each, 2)]
+
+
+def least_angle(linkage, joint, links):
+    """Second method: over a whole turn of the crank by `move`, the least angle at a joint between arms of two links."""
+    start = circuit(linkage).drive[0]
+    motion = move(linkage, np.linspace(start, start + 2 * np.pi, 721))
+    assert motion.complete  # the crank turns fully
+    directions = []
+    for link, far in links:
+        ends = [linkage.elements[number, link] for number in (joint, far)]
+        first, other = (motion.complex_point((link, e.x, e.y)) for e in ends)
+        directions.append(other - first)
+    angle = np.abs(np.angle(directions[0] * np.conj(directions[1])))
+    return degrees(min(angle.min(), np.pi - angle.max()))
+
+
+def known(seed, mechanism, link, ratio, least=0.0):
+    """A six-bar, none of the atlas, whose crank turns fully and whose lengths and least angle are good; its curve."""
+    rng, names, structure = np.random.default_rng(seed), mechanism.chain.joint_names(), dyad_structure(mechanism)
+    book = structure_atlas(structure)
+    dyad = next(dyad for dyad in structure.dyads if structure.output in dyad.links)
+    arms = [*zip(dyad.links, dyad.outer, strict=True)]
+    for n in rng.permutation(np.flatnonzero(book.link == structure.coupler_links.index(link))):
+        drawn = np.append(book.drawn[n], book.point[n])
+        drawn = (3 + 2j) + np.exp(1j * rng.uniform(0, 6)) * drawn * (1 + 0.02 * rng.normal(size=len(drawn)))
+        places = dict(zip(names, ((z.real, z.imag) for z in drawn), strict=False))
+        linkage = Linkage.from_drawing(mechanism, places, points={"P": (link, drawn[-1].real, drawn[-1].imag)})
+        own = lengths(linkage)
+        if max(own) <= ratio * min(own) and least_angle(linkage, dyad.inner, arms) > degrees(least):
+            break
+    motion = move(linkage, circuit(linkage).drive[0] + np.linspace(0, 2 * np.pi, 36, endpoint=False))
+    return linkage, [(float(p.real), float(p.imag)) for p in motion.complex_point("P")], (dyad.inner, arms)
+
+
+def test_slopes_of_limits_against_differences():
+    structure, rng = dyad_structure(WATT), np.random.default_rng(3)
+    book = structure_atlas(structure)
+    places = np.concatenate([book.drawn[:60], book.point[:60, None]], axis=1)
+    places += 0.1 * rng.normal(size=places.shape)
+    rows, phi = np.stack([places.real, places.imag], axis=2).reshape(60, -1).T, rng.uniform(0, 1, (60, 5))
+    region = (-1, -1, 1, 1)
+    for crank in (False, True):
+        wanted = Demands(crank=crank, transmission=0.7, size_ratio=3, region=region, lengths={"1": 1.2, "2": 2.0})
+        limits = next(limits_of_drawings(structure, wanted, [0.3 + 0.2j], closed=False, unit=1.7))
+        exact = limits.linearised(rows, phi)[1]
+        assert not exact[:, :2].any()  # the pivot is given
+        for k in range(2, len(rows)):
+            step = np.zeros((len(rows), 1))
+            step[k] = 1e-6
+            ends = [limits.values(rows + sign * step, phi) for sign in (1, -1)]
+            # A top between places is found by a parabola, to a hundredth of a radian.
+            assert exact[:, k] == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=0.02 if crank else 1e-6)
+
+
+def checked(design, task, demands, angle, frame_pins=2):
+    """By the numbers of the linkage and by `move` what the verdict says of a design."""
+    linkage = design.linkage
+    own = pins(linkage, linkage.mechanism.frame)
+    for pivot in task.fixed_pivots:
+        assert min(abs(complex(*pivot) - p) for p in own) < 1e-12
+    assert len(own) == frame_pins
+    sizes = lengths(linkage)
+    assert max(sizes) <= demands.size_ratio * min(sizes)
+    for link, wanted in demands.lengths:
+        each = pins(linkage, link)
+        assert min(abs(abs(p - q) - wanted) for p, q in combinations(each, 2)) < 1e-9 * linkage.size
+    assert least_angle(linkage, *angle) >= degrees(demands.transmission) - 0.01
+
+
+def test_a_curve_comes_back_from_both_pivots_of_a_six_bar_with_all_demands():
+    linkage, points, angle = known(0, WATT, "4", 4, radians(35))
+    own = pins(linkage, "0")
+    task = PathTask(points, closed=True, fixed_pivots=[(p.real, p.imag) for p in own])
+    demands = Demands(crank=True, transmission=radians(35), size_ratio=4, tolerance=1e-3)
+    found = synthesise(task, structures=[WATT], demands=demands, link="4", starts=1)
+    assert found.designs
+    for design in found.designs:
+        checked(design, task, demands, angle)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("mechanism", [WATT, STEPHENSON], ids=["Watt I", "Stephenson III"])
+def test_tasks_from_six_bars_that_meet_demands(mechanism, seed):
+    """What a known six-bar does within its limits a design is found for that keeps to all of them."""
+    linkage, points, angle = known(seed, mechanism, "5", 6, radians(25))
+    own, crank = pins(linkage, "0"), pins(linkage, "1")
+    place = own[seed % len(own)]
+    task = PathTask(points, closed=True, fixed_pivots=[(place.real, place.imag)])
+    demands = Demands(
+        crank=True,
+        transmission=radians(25),
+        size_ratio=6,
+        lengths={"1": abs(crank[0] - crank[1])} if seed % 2 else {},
+        tolerance=0.02,
+    )
+    found = synthesise(task, structures=[mechanism], demands=demands, link="5", starts=6)
+    assert found.designs
+    for design in found.designs:
+        checked(design, task, demands, angle, len(own))
+
+
+def test_positions_with_a_pivot_a_region_and_lengths():
+    """Four and five positions of a known six-bar, met exactly within what is given of it."""
+    linkage, _, _ = known(1, WATT, "4", 6)
+    start = circuit(linkage).drive[0]
+    motion = move(linkage, start + np.linspace(0, 2.1, 5))
+    rows = [(*map(float, p), float(a)) for p, a in zip(motion.point("P"), motion.angle("4"), strict=True)]
+    own = pins(linkage, "0")
+    free = {"one_branch": False, "in_order": False}
+    task = PositionTask(rows[:4], fixed_pivots=[(own[0].real, own[0].imag)])
+    found = synthesise(task, structures=[WATT], demands=Demands(**free), link="4", starts=2)
+    best = found.designs[0]
+    assert best.verdict.error < 1e-9
+    assert min(abs(own[0] - p) for p in pins(best.linkage, "0")) < 1e-12
+    assert best.linkage.mechanism == WATT
