@@ -27,7 +27,7 @@ export class FactList {
         return;
       }
       this.#told[k] = told;
-      const value = h("dd", { class: style }, new Text(text), note ? h("small", {}, ` ${note}`) : null);
+      const value = h("dd", { class: style }, new Text(text), ...(note ? [" ", h("small", {}, note)] : []));
       const made = h("div", {}, h("dt", {}, name), value);
       if (old) old.replaceWith(made);
       else this.element.append(made);

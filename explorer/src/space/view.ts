@@ -189,7 +189,8 @@ export class SpaceView implements Driven {
         text: [size(distance), crossed !== null && `${number(crossed, DIGITS)}°`].filter(Boolean).join(" · "),
       }));
       this.#sizes.show(sizes);
-      panels.push(panelOf("sizes", t("Sizes"), true, this.#sizes.element, h("p.note", {}, words.axes)));
+      const said = data.unit ? [h("p.note", {}, words.axes)] : []; // on a sphere there are angles alone
+      panels.push(panelOf("sizes", t("Sizes"), true, this.#sizes.element, ...said));
     }
     this.#plots = new OutputPlots(linkage, texts.links, (value) => this.transport.pick(value));
     const { elements } = this.#plots;
