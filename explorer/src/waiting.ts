@@ -14,17 +14,22 @@ export function moment(): HTMLElement {
   );
 }
 
-/** Ask, and show at a place how far it is, with a button that gives it up.
+/** Ask, and show at a place how far it is, also as a bar where it counts, with a button that gives it up.
  *
  * Returns the answer; or null, and why there is none stands at the place. */
 export async function awaited<Result>(
   place: HTMLElement,
   ask: (progress: (text: string) => void) => Request<Result>,
 ): Promise<Result | null> {
-  const bar = h("span", {}, t("One moment …"));
-  const request = ask((text) => (bar.textContent = text));
+  const said = h("span", {}, t("One moment …"));
+  const bar = h("progress", {});
+  const request = ask((text) => {
+    said.textContent = text;
+    const [done, all, more] = text.match(/\d+/g) ?? [];
+    if (all && !more) Object.assign(bar, { max: all, value: done });
+  });
   const cancel = h("button.plain", { "data-act": "cancel", onclick: () => request.cancel() }, t("Cancel"));
-  renew(place, h("progress", {}), bar, cancel);
+  renew(place, bar, said, cancel);
   try {
     const found = await request;
     renew(place);

@@ -91,7 +91,16 @@ def design_records(
     """
     progress(translate("Looking for four-bars", lang))
     sort = ("range-transmission",) if crank and isinstance(task, PositionTask) else ()
-    result = synthesise(task, demands=Demands(crank=crank, transmission=radians(transmission)), sort=sort)
+
+    def counted(done: int, total: int) -> None:
+        progress(translate("Looking for four-bars: {number} of {total}", lang, number=done, total=total))
+
+    result = synthesise(
+        task,
+        demands=Demands(crank=crank, transmission=radians(transmission)),
+        sort=sort,
+        progress=counted if isinstance(task, PathTask | PositionTask) else None,
+    )
     designs = [design for design in result.designs if design.verdict.accepted]
     if sort:  # those that have the angle in all positions, if there are any
         whole = [each for each in designs if degrees(each.transmission_over_range) >= transmission]

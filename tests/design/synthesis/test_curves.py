@@ -131,7 +131,10 @@ def test_timed_points_beyond_five():
 
 def test_a_closed_curve_gives_judged_designs():
     z = curve_points(FOUR_BAR, ROWS[FOUR_BAR][:, None], TURN, 1).z
-    found = synthesise_path(PathTask([(w.real, w.imag) for w in z], closed=True), number=3)
+    calls: list[tuple[int, int]] = []
+    task = PathTask([(w.real, w.imag) for w in z], closed=True)
+    found = synthesise_path(task, number=3, progress=lambda *done: calls.append(done))
+    assert calls[:8] == [(k, 8) for k in range(1, 9)]  # two kinds, as they are and mirrored, there and back
     assert len(found.designs) == 3
     for design in found.designs:
         assert design.verdict.error < 0.05

@@ -5,6 +5,7 @@ Every curve of a book has the same number of places, evenly along it. docs/theor
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
@@ -68,8 +69,19 @@ def drive_angles(phi: Reals, at: Reals) -> Reals:
     return np.asarray(np.interp(at - laps * PLACES, np.arange(PLACES + 1), whole) + 2 * np.pi * laps)
 
 
+def passes(*, closed: bool) -> int:
+    """How often `best_matches` goes through all curves."""
+    return 4 * (1 if closed else len(_WINDOWS))
+
+
 def best_matches(
-    book: Complexes, z: Complexes, number: int, *, closed: bool, held: Held = Held.NOTHING
+    book: Complexes,
+    z: Complexes,
+    number: int,
+    *,
+    closed: bool,
+    held: Held = Held.NOTHING,
+    passed: Callable[[], object] | None = None,
 ) -> list[CurveMatch]:
     """The curves (or pieces of them, for an open target) most like a target, the best first.
 
@@ -79,6 +91,7 @@ def best_matches(
         number: how many are returned.
         closed: whether the target is closed.
         held: what the similarity may not move.
+        passed: called each time that it has gone through all curves.
     """
     spectrum = np.fft.fft(book, axis=1)
     matches: list[CurveMatch] = []
@@ -93,6 +106,8 @@ def best_matches(
                 elif back:
                     rows, along = target[::-1], 1 - parts
                 matches += _matched(book, spectrum, rows, along * length, number, mirrored=mirrored, held=held)
+                if passed is not None:
+                    passed()
     matches.sort(key=lambda match: match.gap)
     return matches[:number]
 

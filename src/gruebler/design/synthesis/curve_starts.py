@@ -5,6 +5,7 @@ The atlas holds curves of linkages whose crank turns fully. docs/theory/synthesi
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import NamedTuple
@@ -83,7 +84,9 @@ class CurveStart(NamedTuple):
     """(points,) crank angles of the target's points, in the plane."""
 
 
-def neighbours(z: Complexes, limits: FourBarLimits, *, closed: bool, number: int) -> list[CurveStart]:
+def neighbours(
+    z: Complexes, limits: FourBarLimits, *, closed: bool, number: int, passed: Callable[[], object] | None = None
+) -> list[CurveStart]:
     """The nearest curves of the atlas, or pieces of them, up to a similarity that leaves given pivots where they are.
 
     Of those that pass limits the ones come first that are both alike and hardly beyond.
@@ -103,6 +106,7 @@ def neighbours(z: Complexes, limits: FourBarLimits, *, closed: bool, number: int
         _CANDIDATES if limits.narrow else number,
         closed=closed,
         held=held,
+        passed=passed,
     )[:_CANDIDATES]
     starts = []
     for match in matches:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import permutations
+from itertools import count, permutations
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import message
+from gruebler.design.synthesis.curve_matching import passes
 from gruebler.design.synthesis.curve_starts import CurveStart, neighbours, timed_neighbours, transformed
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.fit_limits import FourBarLimits, crank_turns
@@ -68,6 +69,7 @@ def fit_curve(
     pivots: tuple[complex, ...] = (),
     power: int = 2,
     order: TargetOrder | None = None,
+    progress: Progress | None = None,
 ) -> list[Fit]:
     """The linkages whose coupler curves come nearest to points in the mean, the best first.
 
@@ -84,12 +86,14 @@ def fit_curve(
         power: of the distances whose sum is made as small as possible at the end; a high one lowers the largest.
         order: of the points, if it is not that of the list: starts pass them in likely sequences, and fits that
             keep it are the first.
+        progress: called with how often the curves of the atlas were gone through, and how often that is done; anew
+            where more neighbours are needed.
 
     Cost: 1 s for the atlas at the first call, then about 0.5 s, 2 s for curves that no linkage comes near.
     """
     if starts is None:
         fitted = partial(fit_curve, z, closed=closed, timing=timing, kinds=kinds, number=number)
-        fitted = partial(fitted, demands=demands, pivots=pivots, power=power, order=order)
+        fitted = partial(fitted, demands=demands, pivots=pivots, power=power, order=order, progress=progress)
         first, more = _STARTS
         fits = fitted(starts=first)
         enough, near = (number, _MET) if not closed and len(z) < MOST_POINTS else (1, _NEAR)
@@ -101,12 +105,17 @@ def fit_curve(
     reduced = (z - middle) / size
     sequences = order.likely(reduced, _SEQUENCES) if order else [np.arange(len(z))]
     placed: list[tuple[Fit, FourBarLimits]] = []
-    for limits in limits_of(demands, pivots, kinds, closed, (complex(middle), size)):
+    all_limits = list(limits_of(demands, pivots, kinds, closed, (complex(middle), size)))
+    done, total = count(1), len(all_limits) * len(sequences) * passes(closed=closed)
+    passed = None if progress is None else lambda: progress(next(done), total)
+    for limits in all_limits:
         begins = (
             [
                 start._replace(phi=start.phi[np.argsort(sequence)])
                 for sequence in sequences
-                for start in neighbours(reduced[sequence], limits, closed=closed, number=-(-starts // len(sequences)))
+                for start in neighbours(
+                    reduced[sequence], limits, closed=closed, number=-(-starts // len(sequences)), passed=passed
+                )
             ]
             if timing is None
             else timed_neighbours(limits.kind, reduced, timing, starts)
@@ -309,7 +318,7 @@ def fit_path(
     if len(task) < 5:
         raise SynthesisError("a whole curve needs at least five points, not {count}", count=len(task))
     timing = np.array(task.crank_angles) if task.crank_angles else None
-    fits = _fits(task, demands, timing, 4 * number, kinds=_kinds(sliders=sliders), power=_POWER)
+    fits = _fits(task, demands, timing, 4 * number, kinds=_kinds(sliders=sliders), power=_POWER, progress=progress)
     limit = demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED
     accepted, rejected = _judged_fits(task, replace(demands, tolerance=limit), fits, number, progress)
     accepted = in_order_of(accepted, ["error"])
@@ -317,9 +326,9 @@ def fit_path(
         "So many points are met by least squares; designs that come nearer than {limit:g} of the size are accepted.",
         limit=limit,
     )
-    count = SolutionCount(what=message("linkages"), theorem=0, found=len(fits), real=len(fits))
+    counted = SolutionCount(what=message("linkages"), theorem=0, found=len(fits), real=len(fits))
     notes = (note, *order_notes((*accepted, *rejected), demands))
-    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=notes)
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=counted, notes=notes)
 
 
 def _kinds(*, sliders: bool) -> tuple[FourBarKind, ...]:
@@ -348,7 +357,7 @@ def fit_open_points(
     the points. If none does, the nearest are rejected designs.
     """
     order = sought_order(task, demands)
-    fits = _fits(task, demands, None, 4 * number, kinds=_kinds(sliders=sliders), order=order)
+    fits = _fits(task, demands, None, 4 * number, kinds=_kinds(sliders=sliders), order=order, progress=progress)
     exact = [fit for fit in fits if fit.error < _MET]
     accepted, rejected = _judged_fits(task, demands, exact or fits[:number], len(fits), progress)
     note = message(
@@ -357,9 +366,9 @@ def fit_open_points(
         parameters=parameters,
         count=len(exact),
     )
-    count = SolutionCount(what=message("linkages"), theorem=None, found=len(exact), real=len(exact))
+    counted = SolutionCount(what=message("linkages"), theorem=None, found=len(exact), real=len(exact))
     notes = (note, *order_notes((*accepted, *rejected), demands))
-    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=notes)
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=counted, notes=notes)
 
 
 def _judged_fits(

@@ -62,7 +62,8 @@ def synthesise_path(
         number: of dyads taken from an infinite family (crank angles), or of designs for a whole curve.
         sliders: whether slider-cranks are looked for, too, where least squares find the designs.
         threads: how many follow paths; as many as there are processors if None.
-        progress: called with the paths done and their number, then with the verdicts.
+        progress: called with the paths, or the passes through an atlas, that are done, and their number, then with the
+            verdicts.
 
     Raises `SynthesisError` for combinations that no method serves. Cost: nine points about 3 s on one core, the others
     below 1 s, and 10 ms for each verdict.
