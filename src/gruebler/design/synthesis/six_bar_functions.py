@@ -226,13 +226,14 @@ def six_bar_solutions(
     base: GenericSolutions,
     p: Complexes,
     *,
+    special: float = _SPECIAL,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Complexes:
     """The regular complex solutions of a task, complex[4, unknowns] as `_core.track` takes it; (found, unknowns).
 
-    Paths that fail or end alike are followed again with fine steps, then along a way that is bent. Where many do, the
-    task is a special one, and only the bent way is tried.
+    Paths that fail or end alike are followed again with fine steps, then along a way that is bent. Where more than a
+    part of them does, the task is a special one, and only the bent way is tried.
     """
     ends, status = follow_from_generic(problem, base.z, base.parameters, p, QUICK, threads=threads, progress=progress)
 
@@ -242,7 +243,7 @@ def six_bar_solutions(
         return np.asarray(~good | repeated(problem, ends, good))
 
     again = lost()
-    loose = CAREFUL if again.mean() <= _SPECIAL else QUICK  # fine steps would follow singular ends without an end
+    loose = CAREFUL if again.mean() <= special else QUICK  # fine steps would follow singular ends without an end
     if loose == CAREFUL:
         ends[again], status[again] = follow_from_generic(
             problem, base.z[again], base.parameters, p, loose, threads=threads

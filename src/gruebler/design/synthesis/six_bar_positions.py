@@ -32,9 +32,14 @@ FIVE_POSITIONS = Problem(name="five positions", poses=4, points=0, classes=108, 
 """Both pivots of the frame are given, and the pin of the body on the coupler."""
 SIX_POSITIONS = Problem(name="six positions", poses=5, points=0, classes=5754, members=1, family="Watt I")
 """Both pivots of the frame are given."""
+_SENSITIVE = (
+    0.2  # of the paths: positions near to each other leave so many solutions that depend on them a billion times
+)
 DRIVES = ("R(frame-crank)", "R(frame-rocker)")
+_BODY = str(message("body"))  # its name, which is translated where it is shown
 _JOINTS = (
-    "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker) R(coupler-body) R(body-link) R(link-rocker)"
+    "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker) "
+    f"R(coupler-{_BODY}) R({_BODY}-link) R(link-rocker)"
 )
 """At A, C, D, B, H, G, F."""
 
@@ -84,7 +89,9 @@ def synthesise_guiding_six_bars(
     wanted = (demands or Demands()).with_links(_mechanism(DRIVES[0]).chain.links)
     place = _Place.of(task)
     generic = _generic(len(task), starts, threads, progress)
-    z = six_bar_solutions(generic.problem, generic.base, place.parameters, threads=threads, progress=progress)
+    z = six_bar_solutions(
+        generic.problem, generic.base, place.parameters, special=_SENSITIVE, threads=threads, progress=progress
+    )
     pins = place.pins(real_solutions(z))
     kept = keeps_sides(pins, place.turns, place.shifts) if wanted.one_branch else np.ones((len(pins), 2), bool)
     designs: list[Design] = []
@@ -92,7 +99,7 @@ def synthesise_guiding_six_bars(
         linkages = (drawn_guide(task, row, drive) for drive, keeps in zip(DRIVES, drives, strict=True) if keeps)
         if drives.any():
             with suppress(LinkageError):  # pins of a link coincide
-                designs.append(best_of(linkages, partial(body_targets, task, link="body"), wanted, FORM))
+                designs.append(best_of(linkages, partial(body_targets, task, link=_BODY), wanted, FORM))
     accepted, rejected = ranked(designs)
     notes = [generic.known, *how_followed(len(generic.base.z), len(z), np.any(kept, axis=1), generic.damaged)]
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(z), real=len(pins))
@@ -210,5 +217,5 @@ def _mechanism(drive: str) -> Mechanism:
 def drawn_guide(task: PositionTask, pins: Complexes, drive: str) -> Linkage:
     """The linkage of pins A, C, D, B, H, G, F in the first position."""
     places: dict[str | int, object] = {k: (z.real, z.imag) for k, z in enumerate(pins)}
-    points = {"P": ("body", task.origins[0].real, task.origins[0].imag)}
-    return Linkage.from_drawing(_mechanism(drive), places, points=points, unit=task.unit, outputs=["body"])
+    points = {"P": (_BODY, task.origins[0].real, task.origins[0].imag)}
+    return Linkage.from_drawing(_mechanism(drive), places, points=points, unit=task.unit, outputs=[_BODY])
