@@ -77,9 +77,9 @@ export class ChainList {
 
   /** Mark the chain of a text. */
   choose(text: string): void {
-    this.#chosen = text;
+    this.#chosen = text.split(";")[0]!;
     for (const card of this.#list.querySelectorAll<HTMLElement>("[data-of]"))
-      card.setAttribute("aria-pressed", String(text.startsWith(card.dataset.of!)));
+      card.setAttribute("aria-pressed", String(card.dataset.of === this.#chosen));
   }
 
   /** Ask for the chains of the numbers that are typed, if there can be such; else the list stays that of the last. */
@@ -149,7 +149,7 @@ export class ChainList {
       {
         [kind]: text,
         "data-of": of,
-        "aria-pressed": String(this.#chosen.startsWith(of)),
+        "aria-pressed": String(of === this.#chosen),
         onclick: () => this.take(text),
       },
       thumbnail(picture, text),

@@ -64,6 +64,9 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
         ["Yours: four-bar chain", "true"],
         ["four-bar chain", "false"],
     ]
+    view.evaluate("gruebler.describe('R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)')")  # begins as a four-bar
+    page.until("gruebler.views.structure.text.endsWith('R(5-2)')")
+    assert cards.evaluate_all("all => all.map((e) => e.ariaPressed)") == ["false", "false"]
     links.fill("40")
     links.press("Enter")
     most = links.get_attribute("max")
