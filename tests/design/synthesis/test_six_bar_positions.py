@@ -13,6 +13,7 @@ from gruebler.design.synthesis.alt_burmester import (
     solutions,
 )
 from gruebler.design.synthesis.dyads import Displacements, all_dyads
+from gruebler.design.synthesis.six_bar_census import EIGHT_POSITIONS, SEVEN_POSITIONS, Census
 from gruebler.design.synthesis.six_bar_guidance import random_guides
 from gruebler.design.synthesis.six_bar_monodromy import Search, follow, on_special_plane, trace
 from gruebler.design.synthesis.six_bar_positions import FIVE_POSITIONS, SIX_POSITIONS, keeps_sides
@@ -52,20 +53,25 @@ def positions_of(pins, angles):
     return rows
 
 
-def task_of(pins=PINS):
-    return PositionTask(positions_of(pins, np.linspace(0, 2.5, 6)), fixed_pivots=((-1.5, 0), (0, 0)))
+def task_of():
+    return PositionTask(positions_of(PINS, np.linspace(0, 2.5, 6)), fixed_pivots=((-1.5, 0), (0, 0)))
 
 
-def solution_of(pins):
-    """c, d, f, G, H with their conjugates, in the size of the task."""
-    a, c, d, _, h, g, f = pins
-    turns, origins = task_of().turns, task_of().origins
-    size = max(abs(a), np.abs(origins - turns * origins[0]).max())
-    numbers = np.array([(c - d) / (h - d), d / size, f / size, g / size, h / size])
-    task = np.zeros((4, 10), complex)
-    task[0, :5], task[1, :5] = turns[1:], (origins - turns * origins[0])[1:] / size
-    task[2, :5], task[3, :2] = np.conj(task[1, :5]), -a / size
-    return np.stack([numbers, np.conj(numbers)], axis=1).reshape(1, 10), task
+def solution_of(wanted):
+    """The six-bar of these pins, c, d, f, G, H, B - A, B, and a task of its positions, in the size of the task."""
+    origin = wanted.fixed_pivots[-1] if wanted.fixed_pivots else wanted.positions[0][:2]
+    a, c, d, b, h, g, f = PINS - complex(*origin)
+    origins = wanted.origins - complex(*origin)
+    shifts = origins - wanted.turns * origins[0]
+    frame = b - a if len(wanted.fixed_pivots) == 2 else 0
+    size = max(abs(frame), np.abs(shifts).max())
+    numbers = np.array([(c - d) / (h - d), *np.array([d - b, f - b, g, h, b - a, b]) / size])
+    z, poses = np.stack([numbers, np.conj(numbers)], axis=1).ravel(), len(wanted) - 1
+    task = np.zeros((4, 10 if frame else 14), complex)
+    task[0, :poses], task[1, :poses] = wanted.turns[1:], shifts[1:] / size
+    task[2] = np.conj(task[1])
+    task[3, :4] = z[10:] if frame else 0
+    return z[None, : task.shape[1]], task
 
 
 def test_every_six_bar_is_among_the_generic_solutions():
@@ -84,7 +90,7 @@ def test_every_six_bar_is_among_the_generic_solutions():
 def test_six_positions_of_a_six_bar_find_it_again(monkeypatch):
     """Beside a few others that start from the same task; what is found is moved once more, from circle to circle."""
     base = load_generic_solutions(SIX_POSITIONS)
-    z, task = solution_of(PINS)
+    z, task = solution_of(task_of())
     own, good = follow(SIX_POSITIONS, z, task, base.parameters)
     assert good.all()
     few = GenericSolutions(base.parameters, np.concatenate([base.z[:40], own]))
@@ -130,6 +136,27 @@ def test_five_positions_have_as_many_as_two_theorems_say():
         assert min(own) < 1e-6
         number += len(dyads) - 1
     assert found.count.real == number > 3
+
+
+@pytest.mark.parametrize("problem", [SEVEN_POSITIONS, EIGHT_POSITIONS], ids=lambda problem: problem.name)
+def test_more_positions_of_a_six_bar_find_it_again(problem, tmp_path, monkeypatch):
+    """With a census of a few six-bars, it among them."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    (tmp_path / "gruebler").mkdir(mode=0o700)
+    count = problem.poses + 1
+    pivots = ((0, 0),) if count == 7 else ()
+    wanted = PositionTask(positions_of(PINS, np.linspace(0, 2.5, count)), fixed_pivots=pivots)
+    census = Census(problem, 1)
+    end, good = follow(problem, *solution_of(wanted), census.task)
+    assert good.all()
+    others, tasks = random_guides(np.random.default_rng(4), 4, problem.poses, tilted=False)
+    ends = [follow(problem, z[None], begin, census.task)[0] for z, begin in zip(others, tasks, strict=True)]
+    census.z, census.met = np.concatenate([end, *ends]), np.array([1, 2, 1, 1, 1])
+    census.save(tmp_path / "gruebler" / f"six_bars_Watt_I_{problem.name.split()[0]}.npz")
+    found = synthesise(wanted, six_bars=True, starts=5, demands=Demands(size_ratio=1e6))
+    assert f"Watt I, {problem.name}: 5 complex solutions are known, of an estimated 15" in found.explain()
+    lengths = [design.linkage.length("crank", 0, 1) for design in found.designs]
+    assert min(abs(length - abs(PINS[1] - PINS[0])) for length in lengths) < 1e-8
 
 
 def test_one_assembly_mode_is_told_from_two():

@@ -6,6 +6,7 @@ chosen the ways between four tasks lead to the others. docs/theory/synthesis-fun
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
@@ -149,11 +150,17 @@ def arm_of(problem: Problem) -> slice:
 
 
 def follow(
-    problem: Problem, starts: Complexes, begin: Complexes, end: Complexes, threads: int | None = None
+    problem: Problem,
+    starts: Complexes,
+    begin: Complexes,
+    end: Complexes,
+    threads: int | None = None,
+    *,
+    steps: Sequence[float] = (QUICK, CAREFUL),
 ) -> tuple[Complexes, Flags]:
     """The ends of paths, sharpened, and which arrived at regular solutions; the lost ones once more with fine steps."""
     ends, good = np.empty_like(starts), np.zeros(len(starts), bool)
-    for loose in (QUICK, CAREFUL):
+    for loose in steps:
         left = np.flatnonzero(~good)
         there, status = follow_from_generic(problem, starts[left], begin, end, loose, threads=threads)
         good[left] = sharpened(problem, there, end) & (status == ARRIVED)
@@ -334,5 +341,7 @@ def on_special_plane(search: Search) -> tuple[Complexes, Complexes]:
         task[0, TILT], task[2, search.problem.poses - 1] = 0, number
     else:
         task[2], task[3, 0] = 0, number
-    ends, good = follow(search.problem, search.found[0], search.tasks[0], task, search.threads)
+    # Most paths of guides go to infinity, the longer the finer the steps.
+    steps = (QUICK,) if search.problem.guides else (QUICK, CAREFUL)
+    ends, good = follow(search.problem, search.found[0], search.tasks[0], task, search.threads, steps=steps)
     return task, merged(ends[:0], ends[good])[0]
