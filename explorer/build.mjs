@@ -1,5 +1,5 @@
 // Builds the page into the folder given, else into the package: an ES module and its style sheet, one more module
-// for static sites, one for their synthesis, one for linkages in space and what this adds to the style sheet.
+// for static sites, one for their synthesis, one for linkages in space and what adds to the style sheet.
 
 import { readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
@@ -78,23 +78,28 @@ const own = `
 
 /** Long names that others call, too, above all the browser's own, and that stand in a module again and again. */
 const often = `
-  active addEventListener angles append appendChild arrayBuffer attempt backend beginPath beside
-  between bottom button chains change changed checked children chosen circle class classList
-  clientWidth clientX colour conditions counted ctrlKey cursor cycle cylinder dataset delete
-  describe designs document documentElement domain dragging drawing drive drives elements entries
-  every filter find findIndex firstChild flatMap focus forces forEach frame from fromCharCode full
-  getAttribute getBoundingClientRect getContext getPropertyValue hasAttribute height hidden includes
-  indexOf isConnected items join joint jointAt joints keys kind knot knots lastChild length lengths
-  lines link linkage links listeners locks matches measured message mobility model motion moveTo
-  name onchange onclick onkeydown open operations output outputs overconstrained page parentElement
-  parts pause pending picture pieces places playing plots pointerId pointerType points pose
-  preventDefault program progress push querySelector querySelectorAll range reached redraw reduce
-  reference_pose remove removeAttribute replace replaceAll replaceChildren replaceWith right root
-  roots rows scale screen scrollIntoView scrollTop selected selectedIndex setAttribute
-  setPointerCapture setProperty shiftKey show shown side signs size sizes slice snapshot some source
-  sources speed split spots stage start startsWith state status stopPropagation structure style text
-  textContent title toFixed together toggle toLowerCase toUpperCase transform transmission transport
-  turning turns unit unknowns value values view viewBox viewport views width windings world zoom
+  accelerations active addEventListener angles append appendChild arrayBuffer ArrowRight attempt
+  backend beginPath beside between bodies bottom button cancel canvas catalog chains change changed
+  charCodeAt checked childElementCount children choose chosen circle class classList clientWidth
+  clientX clientY closed colour conditions contains count counted ctrlKey cursor cycle cylinder dataset
+  delete describe designs direction document documentElement domain draggable dragging dragJoint
+  drawImage drawing drive drives elements entries every exercises filter find findIndex firstChild
+  flatMap focus forces forEach found frame frames fresh from fromCharCode full function generic
+  getAttribute getBoundingClientRect getContext getPropertyValue ground gruebler hasAttribute hash
+  height hidden hodographs includes indexOf inflection inputmode inversions isConnected items join
+  joint jointAt joints keys kind knot knots lastChild length lengths lines link linkage linkCount links
+  listeners locks masses matches measured message missing mobility model motion moveTo name near number
+  onchange onclick onkeydown open operations output outputs overconstrained page parentElement parts
+  pause pending pick picture pieces places player playing plots pointerId pointerType points pose
+  positions preventDefault preventScroll program progress push querySelector querySelectorAll quick
+  range reached redraw reduce reference reference_pose refused remove removeAttribute replace
+  replaceAll replaceChildren replaceWith restore right root roots rows rulers scale screen
+  scrollIntoView scrollTop selected selectedIndex setAttribute setPointerCapture setProperty shift
+  shiftKey show shown side sides signs size sizes slice slider snapshot some sort source sources speed
+  split spots springs stage start startsWith state status stiffness stopPropagation stroke structure
+  style synthesis tabindex tagName targets test text textContent title toFixed together toggle
+  toLowerCase toUpperCase transform transmission transport trim turning turns unit unknowns unshift
+  value values velocities view viewBox viewport views width windings world zoom
 `.match(/\w+/g);
 
 /** These names, as members and as keys, and what else stands there as often, as constants: texts that are keys or

@@ -49,10 +49,13 @@ export function unitOf({ unit }: Drawing): string {
   return unit ?? "mm";
 }
 
-/** The links in the order in which they were drawn. */
+/** The links, those that are called by numbers in their order. */
 export function linksOf(drawing: Drawing): string[] {
   const all = drawing.frame === null ? [] : [drawing.frame];
-  return [...new Set([...all, ...drawing.knots.flatMap((knot) => knot.links)])];
+  const links = [...new Set([...all, ...drawing.knots.flatMap((knot) => knot.links)])];
+  const numbers = links.map(Number).filter((one) => one > 0);
+  numbers.sort((one, other) => one - other);
+  return links.map((link) => (Number(link) > 0 ? String(numbers.shift()) : link));
 }
 
 /** The joints: knots of at least two links. */

@@ -19,13 +19,14 @@ export interface Fact {
   note?: string;
 }
 
-/** What was found over the cycle: dead centres, the smallest transmission angle. */
+/** What was found over the cycle: dead centres, how far the output goes, the smallest transmission angle. */
 export interface Found {
   dead: DeadCentre[];
+  travel: number | null;
   least: Least | null;
 }
 
-export function factsOf(linkage: Linkage, { dead, least }: Found, inLap: (angle: number) => number): Fact[] {
+export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap: (angle: number) => number): Fact[] {
   const { cycle, model, pose } = linkage;
   const facts: Fact[] = [];
   const record = model.outputs[0];
@@ -41,12 +42,11 @@ export function factsOf(linkage: Linkage, { dead, least }: Found, inLap: (angle:
       note: rateUnit(linkage, 1),
     });
     const [one, two] = dead;
-    if (one && two && dead.length === 2) {
-      facts.push({ name: turning ? t("Swing") : t("Stroke"), text: size(Math.abs(one.output - two.output)) });
+    if (travel !== null) facts.push({ name: turning ? t("Swing") : t("Stroke"), text: size(travel) });
+    if (one && two && dead.length === 2 && cycle.full) {
       const part = Math.abs(wrapped(cycle, one.value) - wrapped(cycle, two.value));
       const rest = cycle.turns * TURN - part;
-      if (cycle.full)
-        facts.push({ name: t("Time ratio"), text: number(Math.max(part, rest) / Math.min(part, rest), 4) });
+      facts.push({ name: t("Time ratio"), text: number(Math.max(part, rest) / Math.min(part, rest), 4) });
     }
   }
   const mu = transmission(linkage, pose, 0);

@@ -197,6 +197,24 @@ export function deadCentres(linkage: Linkage): DeadCentre[] {
   return out;
 }
 
+/** How far the output goes, with its dead centres and the ends of the cycle; null where it goes round or is none. */
+export function travelOf(linkage: Linkage, dead: readonly DeadCentre[]): number | null {
+  const { cycle, model } = linkage;
+  if (!model.outputs[0] || cycle.values.length < 2) return null;
+  const turning = model.outputs[0].joint === null;
+  const last = cycle.values.length - 1;
+  const along = outputAlong(linkage, [...cycle.values.keys()]);
+  if (turning && cycle.full && Math.abs(along[last]! - along[0]!) > TURN / 2) return null;
+  // the rows of a cycle end just before what ends it
+  const ends = cycle.full ? [] : [linkage.from(0, cycle.low), linkage.from(last, cycle.high)];
+  const far = ends.map((rows, k) => {
+    const more = output(linkage, rows, 1) - output(linkage, rows, 0);
+    return along[k * last]! + (turning ? principal(more) : more);
+  });
+  const all = Float64Array.from([...along, ...far, ...dead.map((one) => one.output)].filter(Number.isFinite));
+  return outputStandsStill(linkage, all) ? 0 : Math.max(...all) - Math.min(...all);
+}
+
 /** The drive value between two at which the output turns back, found from a row of the cycle. */
 function turningBack(linkage: Linkage, from: number, to: number, row: number): DeadCentre | null {
   const speed = (drive: number) => {

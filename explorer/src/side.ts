@@ -6,7 +6,7 @@ import { FactList, InWords } from "./factlist";
 import { type Found, factsOf } from "./facts";
 import { Forces, type Loaded } from "./forces";
 import { t } from "./language";
-import { deadCentres, leastTransmission } from "./measures";
+import { deadCentres, leastTransmission, travelOf } from "./measures";
 import { type Editor, modesPanel, optionsPanel, pointsPanel, rulersPanel, SizeRows } from "./panels";
 import { Plots } from "./plots";
 import { panelOf } from "./shell";
@@ -24,7 +24,7 @@ export class Side {
   readonly element = h("div.side", {});
   readonly plots: Plots;
   /** What was found over the cycle. */
-  found: Found = { dead: [], least: null };
+  found: Found = { dead: [], travel: null, least: null };
   readonly forces: Forces;
   readonly #facts = new FactList();
   readonly #sizes: SizeRows;
@@ -89,7 +89,8 @@ export class Side {
   /** After a change: what takes longer than a frame, and what Python says, in pieces. */
   *measuring(): Generator<void> {
     const { linkage, transport } = this.view;
-    this.found = { dead: deadCentres(linkage), least: leastTransmission(linkage) };
+    const dead = deadCentres(linkage);
+    this.found = { dead, travel: travelOf(linkage, dead), least: leastTransmission(linkage) };
     yield;
     transport.showRange(this.found);
     clearTimeout(this.#resting);

@@ -107,6 +107,17 @@ test("joining and splitting are each other's way back", () => {
   assert.equal(joined(drawing, 0, 1), null); // the crank would meet itself
 });
 
+test("links are in the order of their numbers, whichever joint was there first", () => {
+  const grounds = withGround(withGround(EMPTY, place(0, 0)), place(70, 0));
+  const crank = withLink(grounds, knot(grounds, 0), place(0, 20));
+  const drawing = withDyad(crank, knot(crank, 2), place(60, 40), knot(crank, 1));
+  assert.deepEqual(
+    jointsOf(drawing).map((k) => jointName(drawing, k)),
+    ["R(frame-1)", "R(frame-3)", "R(1-2)", "R(2-3)"],
+  );
+  assert.deepEqual(linksOf(drawing), ["frame", "1", "2", "3"]);
+});
+
 test("a link that is removed leaves the ends of the others", () => {
   const drawing = driven(fourBar(), 0);
   const rest = withoutLink(drawing, "2");

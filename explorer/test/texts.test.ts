@@ -113,7 +113,7 @@ test("what is read off a four-bar", () => {
     { value: 3.7, output: 2.5 },
     { value: 0.385, output: 1.1 },
   ];
-  const found = { dead, least: { value: 0, mu: 0.65, link: null as number | null } };
+  const found = { dead, travel: 1.4, least: { value: 0, mu: 0.65, link: null as number | null } };
   const facts = () =>
     factsOf(linkage, found, (value) => value).map(({ name, text, style, note }) => [name, text, style ?? note ?? ""]);
   // psi: 180 degrees less the angle at D of the triangle 45, 40, 70

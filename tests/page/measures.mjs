@@ -11,10 +11,11 @@ for await (const line of createInterface({ input: createReadStream(process.argv[
   const { cycle, model, sizes } = linkage;
   const least = measures.leastTransmission(linkage);
   const kept = documentOf(linkage);
+  const dead = measures.deadCentres(linkage);
   const out = {
     full: cycle.full, turns: cycle.turns, low: cycle.low, high: cycle.high, rows: cycle.values.length,
     stops: cycle.stops.map((stop) => stop && { value: stop.value, form: stop.form, links: stop.links }),
-    deadCentres: measures.deadCentres(linkage), least, document: kept, drags: [],
+    deadCentres: dead, travel: measures.travelOf(linkage, dead), least, document: kept, drags: [],
   };
   // every joint is dragged a little: all other joints must stay, the joint must be where it was put
   model.joints.forEach((_, joint) => {
