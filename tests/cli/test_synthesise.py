@@ -59,6 +59,16 @@ def test_six_bars_carry_a_body_through_five_positions(tmp_path, capsys):
     assert read_linkage(best).length("frame", 0, 3) == pytest.approx(1.5)
 
 
+def test_any_order_is_said_instead_of_that_of_the_file(five, capsys):
+    rows = FIVE.splitlines()
+    ranks = ["order", 5, 1, 2, 3, 4]
+    five.write_text("\n".join(f"{row},{rank}" for row, rank in zip(rows, ranks, strict=True)), encoding="utf-8")
+    assert main(["synthesise", "positions", str(five), "--any-order"]) == 0
+    out = capsys.readouterr().out
+    assert "The targets may be met in any order." in out
+    assert "Order of the targets" not in out
+
+
 def test_json_has_counts_verdicts_and_linkages(five, capsys):
     assert main(["synthesise", "positions", str(five), "--json"]) == 0
     document = json.loads(capsys.readouterr().out)

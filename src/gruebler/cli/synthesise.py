@@ -401,7 +401,8 @@ def _task(arguments: argparse.Namespace) -> Task:
     if isinstance(task, PathTask):
         with _keys_as_options():
             pivots = (*task.fixed_pivots, *arguments.fixed_pivot)
-            return replace(task, closed=task.closed or arguments.closed, fixed_pivots=pivots)
+            closed, order = task.closed or arguments.closed, _ranks(arguments, task)
+            return replace(task, closed=closed, fixed_pivots=pivots, order=order)
     if isinstance(task, PositionTask):
         with _keys_as_options():
             return replace(
@@ -409,10 +410,16 @@ def _task(arguments: argparse.Namespace) -> Task:
                 moving_pivots=(*task.moving_pivots, *arguments.moving_pivot),
                 fixed_pivots=(*task.fixed_pivots, *arguments.fixed_pivot),
                 curve_parameters=(*task.curve_parameters, *arguments.curve_parameter),
+                order=_ranks(arguments, task),
             )
     if isinstance(task, FunctionTask) and task.law is None and arguments.free_starts:
         return replace(task, start_input=False, start_output=False)
     return task
+
+
+def _ranks(arguments: argparse.Namespace, task: PositionTask | PathTask) -> tuple[int | None, ...]:
+    """Those of a task that has some, all alike where any order will do."""
+    return (1,) * len(task.order) if arguments.any_order else task.order
 
 
 @contextmanager
