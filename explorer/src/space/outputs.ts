@@ -32,7 +32,7 @@ export class OutputPlots {
       const drives = Float64Array.from(rows, (_, row) => range[0] + row * step);
       const poses = rows.map((row) => row[link]!);
       const unit = turning.has(link) ? "°" : data.unit;
-      const values = turning.has(link) ? turns(poses) : shifts(poses);
+      const values = upward(turning.has(link) ? turns(poses) : shifts(poses));
       const plot = new Plot(drive?.turning ? TURN / 360 : 1, pick, span);
       const title = `${t("Output {name}", { name: names[link]! })} [${unit}]`;
       plot.show(drives, { title, values, colour: "--motion", same: 1e-6 * (unit === "°" ? 1 : data.size) }, range);
@@ -46,6 +46,11 @@ export class OutputPlots {
     const { active, cycle, drives } = this.machine;
     for (const plot of this.#plots) plot.at(wrapped(cycle, drives[active] ?? 0));
   }
+}
+
+/** Values with the sign for which most of their range is positive: an axis has no sense of its own. */
+function upward(values: Float64Array): Float64Array {
+  return Math.max(...values) < -Math.min(...values) ? values.map((value) => -value) : values;
 }
 
 /** Degrees by which a link is turned, with a sign and over full turns where its axis stays the same. */
