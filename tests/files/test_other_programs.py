@@ -5,6 +5,7 @@ import re
 from itertools import combinations
 from math import atan2, cos, hypot, pi, sin
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -589,13 +590,48 @@ def test_masses_and_the_speed_come_with_an_address(tmp_path):
     """The punch press, read off its address by hand, in base 64: 10/min (A), clockwise (2v is odd); crank 2 g (VG),
     0.05 kg cm² (o), centre (0, 0.6 cm) (9O); rod 3 g (ku), 0.4 kg cm² (6G), centre (0, -1.1 cm) (0HC)."""
     notes = files.convert(FOLDER / "punch-press.pmks", tmp_path / "press.toml")
-    assert [str(note) for note in notes] == ["the force F1", "colours", "the sense of rotation of the drive"]
+    assert [str(note) for note in notes] == ["colours", "the sense of rotation of the drive"]
     linkage, loads, speed = read_loaded(tmp_path / "press.toml")
     assert speed == pytest.approx(10 * 2 * pi / 60, rel=1e-12)
     found = {link: (body.mass, body.inertia) for link, body in loads.bodies.items()}
     assert found == {"AB": (0.002, pytest.approx(0.05)), "BC": (0.003, pytest.approx(0.4))}
     for link, centre in {"AB": (0, 0.6), "BC": (0, -1.1)}.items():
         assert linkage.reference_pose[link].put(*loads.bodies[link].centre) == pytest.approx(centre, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("flags", "unit", "newtons"), [(2, "1", 400.0), (3, "1", 400.0), (3, "0", 400.0 * 4.4482216152605)]
+)
+def test_forces_come_with_an_address(flags, unit, newtons, tmp_path):
+    """The punch press has 400 (1Xg0) in N, of inches in lbf, on its rod from (0, -3.4) (0r8) to (0, -2.4) (0bW); with
+    bit 1 the force turns with the rod."""
+    digits = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+    text = (FOLDER / "punch-press.pmks").read_text().partition("*")[0][:-1]
+    assert text.count(".2F1,BC,") == text.count(".1011.") == 1
+    body = text.replace(".2F1,BC,", f".{flags}F1,BC,").replace(".1011.", f".{unit}011.")
+    (tmp_path / "a.pmks").write_text(body + digits[len(body) % 62])
+    files.convert(tmp_path / "a.pmks", tmp_path / "a.toml")
+    linkage, loads, _ = read_loaded(tmp_path / "a.toml")
+    ((point, force),) = loads.forces.items()
+    link, _, place = point.partition(":")
+    pose = linkage.reference_pose[link]
+    assert link == "BC"
+    assert pose.put(*map(float, place.split(","))) == pytest.approx((0, -3.4), abs=1e-9)
+    for turn in (0.0, 0.7):
+        state = SimpleNamespace(angle=np.array([pose.angle + turn]))
+        found = [part(state)[0] for part in force] if flags & 1 else force
+        turned = turn * (flags & 1)
+        assert found == pytest.approx((-newtons * sin(turned), newtons * cos(turned)), abs=1e-9 * newtons)
+
+
+def test_forces_towards_where_they_act_are_left_out(tmp_path):
+    """An arrow whose tip lies at the link (bit 2 is missing), one on no link, one without length."""
+    digits = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+    text = (FOLDER / "punch-press.pmks").read_text().partition("*")[0][:-1]
+    body = text.replace(".2F1,", ".2F4,XY,F4,0,0,0,Fe,Fe.2F3,BC,F3,0,0,0,0,Fe.0F1,")
+    left_out = []
+    assert "forces" not in drawing_from_pmks(body + digits[len(body) % 62], left_out).loads
+    assert "forces F4, F3, F1" in map(str, left_out)
 
 
 @pytest.mark.parametrize(

@@ -238,6 +238,9 @@ def loads_document(path: Path, form: Format, linkage: Linkage) -> dict[str, Any]
     speed = str(table.get("speed", ""))
     if speed and [drive.turning for drive in mechanism.drives] == [speed.endswith("rpm")]:
         loads["speed"] = speed
+    drawn = [force for force in table.get("forces", ()) if force.link in mechanism.chain.links]
+    if drawn and (poses := linkage.reference_pose):
+        loads["forces"] = dict(force.load(poses[force.link]) for force in drawn)
     return {"loads": loads, "places": {}} if loads else {}
 
 

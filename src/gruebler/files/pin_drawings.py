@@ -23,6 +23,7 @@ from gruebler.base.units import MILLIMETRES
 from gruebler.files.measured_lengths import in_unit
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage, with_lower_pairs
+from gruebler.mechanics.linkages.elements import Pose2D
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import Pair, pair
 from gruebler.structure.mechanism import Drive, Mechanism
@@ -36,6 +37,7 @@ _PARALLEL = 1e-6  # radians
 _LEAST = 3  # links of a chain
 _PIN, _SLIDE = pair("revolute"), pair("prismatic")
 _TRIALS = 72
+_DIGITS = 12  # of places of forces, whose poses have rounding
 
 
 @dataclass(frozen=True)
@@ -64,6 +66,34 @@ class DrawnDrive:
 
 
 @dataclass(frozen=True, kw_only=True)
+class DrawnForce:
+    """A force on a link, at a place of the drawing."""
+
+    link: str
+    at: tuple[float, float]
+    force: tuple[float, float]
+    """Its components in the position that is drawn."""
+    unit: str
+    turns: bool
+    """Whether it keeps its direction in the link, not in the plane."""
+
+    def load(self, pose: Pose2D) -> tuple[str, list[Any]]:
+        """The point and both components as in ``[loads.forces]``, with the pose in which the link is drawn.
+
+        >>> DrawnForce(link="rod", at=(3.0, 2.0), force=(0.0, -5.0), unit="N", turns=False).load(Pose2D(1.0, 2.0, 0.0))
+        ('rod:2.0,0.0', ['0.0 N', '-5.0 N'])
+        """
+        x, y = (round(part, _DIGITS) + 0.0 for part in pose.to_local(*self.at))
+        point, (u, v) = f"{self.link}:{x!r},{y!r}", self.force
+        if not self.turns:
+            return point, [f"{u!r} {self.unit}", f"{v!r} {self.unit}"]
+        c, s = cos(pose.angle), sin(pose.angle)
+        along, across = c * u + s * v, c * v - s * u
+        formulas = f"{along!r}*cos(angle) + {-across!r}*sin(angle)", f"{along!r}*sin(angle) + {across!r}*cos(angle)"
+        return point, [{"formula": formula, "unit": self.unit} for formula in formulas]
+
+
+@dataclass(frozen=True, kw_only=True)
 class PinDrawing:
     """Everything that is drawn, in one position."""
 
@@ -75,7 +105,8 @@ class PinDrawing:
     rigid: tuple[tuple[str, str], ...] = ()
     """Links that are fastened to each other."""
     loads: Mapping[str, Any] = field(default_factory=dict)
-    """What stands in a table ``[loads]``: the ``speed`` of the only drive, ``bodies`` with centres in the drawing."""
+    """What stands in a table ``[loads]``: the ``speed`` of the only drive, ``bodies`` with centres in the drawing; and
+    ``forces``, each a `DrawnForce`."""
 
 
 SENSE = message("the sense of rotation of the drive")

@@ -12,8 +12,10 @@ Version 1: ``j=id,x,y,links|,type,ground,angle,friction,input`` in lines, and ``
 PMKS-Refactor: ``data=`` and compressed tables (`pmks_tables`) without a unit, cm when the program starts; a slider is
 a block on the frame with a pin.
 
-Of version 2 the speed of the only drive and the masses of links, unless they are the program's own, go into the loads;
-forces and colours are left out. Sources: the programs' transcoders, units and published addresses.
+Of version 2 the speed of the only drive, the masses of links, unless they are the program's own, and forces go into the
+loads; colours are left out. A force is ``flags id,link,name,start x,y,end x,y,magnitude``: bits 1 it turns with its
+link, 2 it points from start to end, in lbf if lengths are in inches, else in N. Sources: the programs' transcoders,
+force analysis, units and published addresses.
 """
 
 from __future__ import annotations
@@ -21,7 +23,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import repeat
-from math import atan2, cos, pi, radians, sin, ulp
+from math import atan2, cos, hypot, pi, radians, sin, ulp
 from typing import Any, NamedTuple
 from urllib.parse import parse_qs, unquote
 
@@ -30,6 +32,7 @@ from gruebler.base.text import Message, message
 from gruebler.files.pin_drawings import (
     SENSE,
     DrawnDrive,
+    DrawnForce,
     DrawnJoint,
     PinDrawing,
     drawing_in,
@@ -52,6 +55,7 @@ _EXACT = "P"
 _EXACT_FIELDS = {"0": "x", "1": "y", "2": "angle", "3": "", "4": ""}  # speed and mass are not of a linkage
 _EXACT_OTHERS = ("L", "F", "D", "I")  # links, forces, settings
 _CLOCKWISE = 1  # of the settings
+_TURNS, _OUTWARD = 1, 2  # of forces
 _MASSES = {"in": ("lb", "lb in2"), "cm": ("g", "kg cm2"), "m": ("kg", "kg m2")}  # siUnitFactors of the program
 _NO_LOADS = message("masses, colours and speeds")
 _ULPS = 4  # within which thousandths are the number
@@ -91,8 +95,6 @@ def _version_2(query: str, left_out: list[Message]) -> PinDrawing:
     records, rest = _groups(sections[4:])
     joints = [_joint(record) for record in records[0]]
     links = [_link(record) for record in records[1] if record[:1] in _ROOTS]
-    for forces in records[2]:
-        left_out.append(message("the force {name}", name=forces.split(",")[0][1:]))
     entries = [entry for entry in ".".join(rest).split(",") if entry]
     exact = [entry for entry in entries if entry[0] == _EXACT]
     joints = _with_exact_numbers(joints, exact)
@@ -102,7 +104,31 @@ def _version_2(query: str, left_out: list[Message]) -> PinDrawing:
     left_out[left_out.index(_NO_LOADS)] = message("colours")
     clockwise = _integer(sections[0]) & _CLOCKWISE
     speeds = _integer(sections[2].split(",")[0]), _integer(f"{sections[1]},".split(",")[1]) / 1000
-    return replace(drawing, loads=_loads(drawing, links, speeds, bool(clockwise), left_out))
+    loads = _loads(drawing, links, speeds, bool(clockwise), left_out)
+    forces = _forces(records[2], drawing, left_out)
+    return replace(drawing, loads={**loads, **({"forces": forces} if forces else {})})
+
+
+def _forces(records: list[str], drawing: PinDrawing, left_out: list[Message]) -> list[DrawnForce]:
+    """The forces that point away from where they act, on links that are drawn; one in each place."""
+    unit = "lbf" if drawing.unit == "in" else "N"
+    links = {link for joint in drawing.joints for link in joint.links}
+    forces: list[DrawnForce] = []
+    others: list[str] = []
+    for record in records:
+        flags, fields = _DIGITS.find(record[0]), record[1:].split(",")
+        if len(fields) < 8:
+            raise GrueblerError("force {record!r}: expected id, link, name, two places and a magnitude", record=record)
+        x, y, u, v, size = (_integer(field) / 1000 for field in fields[3:8])
+        long = hypot(u - x, v - y)
+        there = any((force.link, force.at) == (fields[1], (x, y)) for force in forces)
+        if fields[1] not in links or not flags & _OUTWARD or not long or there:
+            others.append(fields[0])
+            continue
+        force = (size * (u - x) / long, size * (v - y) / long)
+        forces.append(DrawnForce(link=fields[1], at=(x, y), force=force, unit=unit, turns=bool(flags & _TURNS)))
+    left_out += [message("forces {names}", names=", ".join(others))] if others else []
+    return forces
 
 
 def _loads(
