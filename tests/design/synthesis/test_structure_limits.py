@@ -1,14 +1,19 @@
 """Structures under limits: given pivots and lengths, a region, size ratio, transmission angle, a crank that turns."""
 
+from dataclasses import replace
 from itertools import combinations
 from math import degrees, radians
 
 import numpy as np
 import pytest
 
+from gruebler.design.realisation import realise
 from gruebler.design.synthesis import Demands, PathTask, PositionTask, synthesise
+from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.drawing_limits import limits_of_drawings
+from gruebler.design.synthesis.leg_angles import LegAngles
 from gruebler.design.synthesis.structure_atlas import dyad_structure, structure_atlas
+from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.kinematics import circuit, move
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
@@ -142,3 +147,33 @@ def test_positions_with_a_pivot_a_region_and_lengths():
     assert best.verdict.error < 1e-9
     assert min(abs(own[0] - p) for p in pins(best.linkage, "0")) < 1e-12
     assert best.linkage.mechanism == WATT
+
+
+LEGS = {
+    "Watt I": WATT.text(),
+    "slide at the frame": "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) P(5-0); frame=0; drive=R(0-1)",
+    "slide that pushes": "R(0-1) R(1-2) P(2-3) R(3-0); frame=0; drive=R(0-1)",
+}
+
+
+@pytest.mark.parametrize("name", LEGS)
+def test_angles_of_legs_are_those_of_the_motion_and_differentiated_exactly(name):
+    """By `move` with accelerations, another formula; the derivatives by pose and dimensions by differences."""
+    linkage = realise(Mechanism.parse(LEGS[name]), seed=1, budget=300).linkage
+    closure = DesignClosure(linkage)
+    motion = move(linkage, circuit(linkage).drive[:30:6], order=2)
+    poses = [motion.pose(k) for k in range(len(motion))]
+    q = np.array([[value for link in closure.links for value in pose[link]] for pose in poses])
+    legs = replace(LegAngles.of(closure, linkage.outputs, 0.5), most=-1.0)
+    cosines = legs.beyond(closure, q, closure.sizes)[0].max(axis=1) / 10 - 1  # ten times by how much -1 is passed
+    assert np.arccos(cosines) == pytest.approx(transmission_angle(motion), abs=1e-7)
+    sizes = closure.sizes + np.random.default_rng(1).uniform(1, 9, len(closure.sizes))  # no pose has to be closed
+    _, by_pose, by_sizes = legs.beyond(closure, q, sizes)
+    for at, exact in ((q, by_pose), (sizes, by_sizes)):
+        for k in range(at.shape[-1]):
+            step = np.zeros(at.shape[-1])
+            step[k] = 1e-6
+            ends = [
+                legs.beyond(closure, *((q + s * step, sizes) if at is q else (q, sizes + s * step)))[0] for s in (1, -1)
+            ]
+            assert exact[:, :, k] == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=1e-6)

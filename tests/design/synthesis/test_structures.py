@@ -23,6 +23,7 @@ from gruebler.design.synthesis import (
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.first_states import first_state
 from gruebler.design.synthesis.fitting import compared, fit_stages, fit_targets, improved
+from gruebler.design.synthesis.proposals import TriedType
 from gruebler.files.designs import design_to_json, result_to_json
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.kinematics import circuit, move
@@ -287,6 +288,20 @@ def test_pivots_that_no_fit_would_hold_are_refused_and_leave_types_out():
         synthesise(task, structures=[Mechanism.parse(FOUR)])
     with pytest.raises(SynthesisError, match=r"fixed_pivots: 2 are given, but .* has 1"):
         synthesise(replace(task, moving_pivots=()), structures=[Mechanism.parse(SLIDER)])
+
+
+def test_the_tightest_demand_is_named_with_what_there_is_without_it():
+    """The number is that of a search in which this demand is not made."""
+    four, loose = Mechanism.parse(FOUR), Demands(size_ratio=np.inf)
+    without = len(synthesise(TASKS["positions"], structures=[four], demands=loose, starts=4).designs)
+    assert without
+    steep = replace(loose, transmission=1.56)
+    found = synthesise(TASKS["positions"], structures=[four], demands=steep, starts=4)
+    assert not found.designs
+    said = f"Without the demand of a transmission angle of 89.3814° there are {without}."
+    assert str(TriedType(mechanism=four, result=found).reason) == said
+    none = synthesise(TASKS["positions"], structures=[four], demands=replace(steep, region=(50, 50, 51, 51)), starts=4)
+    assert str(none.notes[-1]) == f"Without all these demands there are {without}."
 
 
 def test_a_fit_does_not_depend_on_the_unit():

@@ -16,6 +16,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis.closure import DesignClosure, PoseDerivatives
 from gruebler.design.synthesis.fit_limits import HELD
 from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.leg_angles import LegAngles
 from gruebler.design.synthesis.place_limits import PlaceLimits
 from gruebler.design.synthesis.target_bands import STAGES, TargetBands, numbers_or
 from gruebler.design.synthesis.target_orders import Ranks
@@ -58,6 +59,8 @@ class FitTargets:
     ranks: Ranks = ()
     bands: TargetBands | None = None
     """How far each may be missed; None if all of them are met alike."""
+    legs: LegAngles | None = None
+    """What the transmission angle keeps to."""
 
     @property
     def given(self) -> int:
@@ -276,9 +279,14 @@ def compared(closure: DesignClosure, targets: FitTargets, state: FitState) -> _C
         by_pose[:, at, c], by_pose[:, at, c + 1] = along.real, along.imag
         by_sizes[:, at, angle] = np.imag(np.conj(along) * place)
         by_free[:, at, free] = -1.0
-    if targets.bands is None:
-        return _Compared(errors, by_pose, by_sizes, by_free)
-    errors, slopes = targets.bands.weighed(errors, np.concatenate([by_pose, by_sizes, by_free], axis=2))
+    slopes = np.concatenate([by_pose, by_sizes, by_free], axis=2)
+    if targets.bands is not None:
+        errors, slopes = targets.bands.weighed(errors, slopes)
+    if targets.legs is not None:
+        beyond, *by_numbers = targets.legs.beyond(closure, state.q, state.p)
+        still = np.zeros((*beyond.shape, len(state.free)))
+        errors = np.concatenate([errors, targets.size * beyond], axis=1)
+        slopes = np.concatenate([slopes, targets.size * np.concatenate([*by_numbers, still], axis=2)], axis=1)
     borders = np.cumsum([closure.unknowns, len(state.p)])
     return _Compared(errors, *np.split(slopes, borders, axis=2))
 
@@ -293,7 +301,8 @@ def improved(
 ) -> FitState:
     """The state at a minimum nearby of the sum of squared errors: where it vanishes, if that can be reached.
 
-    What is demanded of pivots and lengths is kept, as far as the task can be approached with it.
+    What is demanded of pivots and lengths is kept, as far as the task can be approached with it. The transmission angle
+    at the targets is one more error of each, which counts where it is too small.
 
     Few targets are met exactly by many linkages: Newton's method looks for the nearest of them, again after some
     steps of least squares if that fails at first. Cost: for a six-bar 2 ms a step.
@@ -305,6 +314,9 @@ def improved(
         return state
     units = _units(closure, targets, state, size)
     limits = _limits(closure, demands, state, size)
+    if demands is not None and demands.transmission > 0 and len(closure.linkage.mechanism.drives) < 2:
+        outputs = (state.output,) if state.output else closure.linkage.outputs
+        targets = replace(targets, legs=LegAngles.of(closure, outputs, demands.transmission))
     start = _at(closure, targets, replace(state, q=q), size)
     freedoms = start.by_motion.shape[2]
     alike = targets.bands is None or bool(targets.bands.exact.all())

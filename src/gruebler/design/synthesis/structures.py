@@ -66,6 +66,7 @@ from gruebler.structure.mechanism import Mechanism, check_drives
 _KEPT, _REALISATIONS = 24, 4  # designs of one mechanism
 _SAME = 1e-6  # of the size of a linkage: two that are drawn nearer to each other are one
 _NEIGHBOURS = 80  # from the atlas for each design that is kept
+_RAISED, _STEEPEST = 3, 1.5  # times a transmission angle at the targets; radians
 ACCEPTED = 0.05
 
 
@@ -86,7 +87,7 @@ def synthesise_structures(
             centres only differences count, since a structure has no line from which angles are measured.
         structures: driven mechanisms of turning and sliding joints; with several drives for positions and points.
         demands: what a design has to do besides: pivots, lengths and their ratio are kept by every step, for a path by
-            turning joints a crank that turns and the transmission angle, too.
+            turning joints a crank that turns, too; the transmission angle as far as the targets allow it.
         starts: how many are improved to the end of each mechanism: by default the best 24 of 1,920 neighbours from the
             atlas of its structure (a crank and dyads of turning joints, for a path), or 4 realisations of any other.
         link: that is guided, or whose motion is the output; for each start the one that is most alike without it.
@@ -386,7 +387,18 @@ def fit_structure(
     for targets in stages:
         state = improved(closure, state, targets, limits)
     outputs = (state.output,) if state.output else first.linkage.outputs
-    return _judged(task, stages[-1], demands or Demands(), closure, state, outputs)
+    wanted = demands or Demands()
+    design = _judged(task, stages[-1], wanted, closure, state, outputs)
+    for _ in range(_RAISED):  # between the targets the angle may be smaller than at them
+        if design is None or not limits.transmission > 0:
+            break
+        missing = wanted.transmission - design.verdict.transmission
+        if not missing > 0:
+            break
+        limits = replace(limits, transmission=min(limits.transmission + missing, _STEEPEST))
+        state = improved(closure, state, stages[-1], limits)
+        design = _judged(task, stages[-1], wanted, closure, state, outputs)
+    return design
 
 
 def _judged(
