@@ -14,7 +14,7 @@ from gruebler.cli.design import _type_row
 from gruebler.design.synthesis import DeadCentreTask, Demands, PathTask, PositionTask, pareto, synthesise_positions
 from gruebler.design.synthesis.clearances import guided_link, stays_clear
 from gruebler.design.synthesis.fitting import links_moved_by_all
-from gruebler.design.synthesis.proposals import TriedType, candidate_types, propose
+from gruebler.design.synthesis.proposals import TriedType, _by_own_names, candidate_types, propose
 from gruebler.design.synthesis.specification import Clearance, Specification
 from gruebler.design.synthesis.structure_atlas import dyad_structure, link_motions
 from gruebler.design.synthesis.structures import fit_structure, synthesise_structures
@@ -98,6 +98,14 @@ def test_what_has_no_transmission_angle_is_not_fitted():
     design = fit_structure(path, mechanism, Demands(transmission=0.3))
     assert not design.verdict.accepted
     assert "there is no transmission angle" in str(design.verdict.reasons[0])
+
+
+def test_lengths_of_crank_and_frame_are_those_of_every_type():
+    specification = Specification(SWING, demands=Demands(lengths={"crank": 2, "frame": 5}))
+    for mechanism in candidate_types(specification):
+        (crank, short), (frame, long) = _by_own_names(specification.demands, mechanism).lengths
+        driven = mechanism.chain.joints[mechanism.drives[0].joint].links
+        assert (set(driven), frame, short, long) == ({crank, frame}, mechanism.frame, 2, 5)
 
 
 def test_a_travel_has_a_slide():
@@ -205,7 +213,7 @@ def test_files_have_all_keys(tmp_path):
             {"stroke": 6, "time_ratio": 1.2, "sliding_joints": 0},
             "sliding_joints: expected a whole number of at least 1",
         ),
-        ({"swing": 60, "time_ratio": 1.2, "demands": {"lengths": {"crank": 1}}}, "links = 4"),
+        ({"swing": 60, "time_ratio": 1.2, "demands": {"lengths": {"coupler": 1}}}, "links = 4"),
         ({"swing": 60, "time_ratio": 1.2, "demands": {"angle": 1}}, "angle"),
         (
             {"swing": 60, "time_ratio": 1.2, "clear": [{"body": [[0, 0], [1, 1]], "obstacle": [[0, 2], [1, 2]]}]},

@@ -14,10 +14,11 @@ from gruebler.base.notebook import brief
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.clearances import stays_clear
 from gruebler.design.synthesis.fitting import links_moved_by_all, output_links
+from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.pair_search import WITHOUT
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.results import Design, ParetoRow, Progress, SolutionCount, SynthesisResult, pareto
-from gruebler.design.synthesis.specification import Specification
+from gruebler.design.synthesis.specification import COMMON_LINKS, Specification
 from gruebler.design.synthesis.structures import synthesise_structures, unheld_pivots
 from gruebler.design.synthesis.synthesising import synthesise
 from gruebler.design.synthesis.tasks import DwellTask, PathTask, output_travels
@@ -188,10 +189,19 @@ def _made(
     for mechanism in types:
         yield (
             mechanism,
-            synthesise_structures(task, [mechanism], demands, starts=starts, executor=executor)
+            synthesise_structures(
+                task, [mechanism], _by_own_names(demands, mechanism), starts=starts, executor=executor
+            )
             if unheld is None
             else SynthesisResult(task=task, designs=(), rejected=(), count=none, notes=(unheld,)),
         )
+
+
+def _by_own_names(demands: Demands, mechanism: Mechanism) -> Demands:
+    """The demands with the lengths of crank and frame by the names of a mechanism that is driven at its frame."""
+    crank = next(link for link in mechanism.drives[0].between if link != mechanism.frame)
+    names = dict(zip(COMMON_LINKS, (crank, mechanism.frame), strict=True))
+    return replace(demands, lengths=tuple((names[link], length) for link, length in demands.lengths))
 
 
 def _with_so_many_slides(result: SynthesisResult, specification: Specification) -> SynthesisResult:

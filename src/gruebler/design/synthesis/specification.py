@@ -12,11 +12,14 @@ import numpy as np
 from gruebler.base.arrays import Complexes
 from gruebler.base.errors import SynthesisError
 from gruebler.base.immutable import settle
+from gruebler.base.text import message
 from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.tasks import DwellTask, Pair, PathTask, PositionTask, Task, number_rows, output_travels
 
 LINKS = (4, 6)
 """Numbers of links of the mechanisms with one drive that are made: an even number, by Grübler's equation."""
+COMMON_LINKS = ("crank", "frame")
+"""Links that all mechanisms driven at the frame have."""
 _USUAL = Demands()
 
 
@@ -91,8 +94,14 @@ class Specification:
                 least=self._needed,
                 found=most,
             )
-        if self.demands.lengths and self.links > min(LINKS):
-            raise SynthesisError("{key}: given lengths belong to the links of four-bars: links = 4", key="lengths")
+        known = () if isinstance(self.task, DwellTask) else COMMON_LINKS
+        own = [link for link, _ in self.demands.lengths if link not in known]
+        if own and self.links > min(LINKS):
+            raise SynthesisError(
+                "{key}: only four-bars have a {link} of a given length: links = 4",
+                key="lengths",
+                link=message(own[0]),
+            )
         settle(self, clear=tuple(self.clear))
         if self.clear and not self.guides:
             raise SynthesisError("{key}: only a body on positions or a path can keep clear of something", key="clear")
