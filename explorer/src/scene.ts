@@ -300,9 +300,9 @@ function labelsOf(linkage: Linkage): Label[] {
     const name = linkage.linkName(link);
     const joints = () => sizes.elementsOn(link).map((k) => sizes.xy(k));
     let on!: NamePlace;
+    const points = () => sizes.points.filter((point) => point.link === link).map((point) => point.at);
     const sized = (scale: number) => {
-      const points = sizes.points.filter((point) => point.link === link).map((point) => point.at);
-      on = namePlace(joints(), points, name, scale);
+      on = namePlace(joints(), points(), name, scale);
     };
     const spots = (viewport: Viewport) => {
       const { at, away, along, ...more } = on;
@@ -311,7 +311,7 @@ function labelsOf(linkage: Linkage): Label[] {
       return nameSpots(viewport, { ...where, ...more, along: turned(along ?? [0, 0]) }, name);
     };
     const hull = (viewport: Viewport) =>
-      convexHull(joints().map((at) => viewport.screen(...place(linkage.pose, 0, link, ...at))));
+      convexHull([...joints(), ...points()].map((at) => viewport.screen(...place(linkage.pose, 0, link, ...at))));
     const element = svg("text.name", { "text-anchor": "middle" }, name);
     return { element, name, sized, spots, taken: 0, hull, half: halfOf(name), begins: false };
   });
