@@ -17,7 +17,7 @@ import type { Editor } from "./panels";
 import { PlaneTransport } from "./planetransport";
 import type { Plots } from "./plots";
 import { type Pair, place } from "./rows";
-import type { Shown } from "./shown";
+import { AT_FIRST, type Shown } from "./shown";
 import { Side } from "./side";
 import { snappedOn } from "./snapping";
 import { alike, type Snapshot, sameSizes } from "./snapshot";
@@ -40,17 +40,7 @@ interface State {
 export class MotionView implements View, Editor, Driven {
   readonly element = h("div.view.motion", {});
   readonly shown: Shown = {
-    curves: true,
-    velocities: false,
-    accelerations: false,
-    hodographs: false,
-    poles: false,
-    inflection: false,
-    labels: true,
-    grid: true,
-    snap: false,
-    link: 0,
-    chosen: null,
+    ...AT_FIRST,
     forces: () => this.#arrows(),
     springs: () => this.side.forces.springs,
   };

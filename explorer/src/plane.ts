@@ -76,7 +76,9 @@ export function spotAt(
 /** The picture of all of it, with the spots that are put already and the place of the cursor. */
 export function planePicture(plane: Plane): SVGElement[] {
   const { aim, chosen, cursor, drawing, spots, viewport } = plane;
+  const reach = (link: string) => drawing.knots.filter((knot) => knot.links.includes(link)).length;
   const bodies = linksOf(drawing).filter((link) => link !== drawing.frame);
+  bodies.sort((one, other) => reach(one) - reach(other)); // one with a joint between others goes on over them
   const path = (corners: readonly Pair[]) =>
     corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
   const hulls = bodies.map((link) => outlineOf(plane, link));

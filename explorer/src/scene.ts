@@ -73,9 +73,13 @@ export class Scene {
     ) as [SVGGElement, SVGGElement, SVGGElement, SVGGElement];
     this.#links = model.links.map((name, link) => {
       const group = svg("g", { class: link === model.frame ? "link ground" : "link", "data-link": name });
-      (link === model.frame ? back : bodies).append(group);
       return group;
     });
+    // a link with a joint between others goes on over what ends there
+    const order = [...model.links.keys()].sort(
+      (one, other) => sizes.elementsOn(one).length - sizes.elementsOn(other).length,
+    );
+    for (const link of order) (link === model.frame ? back : bodies).append(this.#links[link]!);
     this.#pins = [...model.joints.keys()]
       .filter((joint) => sizes.elementsOf(joint).some((k) => sizes.is(k, "pin")))
       .map((joint) => ({ element: this.#pin(linkage, joint, dragging), joint }));

@@ -28,3 +28,18 @@ const PALETTE = ["--motion", "--accent", "--green", "--purple"] as const;
 export function ownColour(point: number): string {
   return PALETTE[point % PALETTE.length]!;
 }
+
+/** What is shown of a linkage before somebody chooses. */
+export const AT_FIRST: Omit<Shown, "forces" | "springs"> = {
+  curves: true,
+  velocities: false,
+  accelerations: false,
+  hodographs: false,
+  poles: false,
+  inflection: false,
+  labels: true,
+  grid: true,
+  snap: false,
+  link: 0,
+  chosen: null,
+};
