@@ -57,8 +57,9 @@ export function clearAbout([x, y]: Pair, far: number, hulls: readonly (readonly 
     const off = far * (1 + (k >> 4));
     return [x + (off + Math.sign(far) * room) * Math.cos(phi), y + off * Math.sin(phi)];
   });
+  const near = hulls.filter((hull) => toHull(hull, x, y) < 3 * Math.abs(far) + 2 * room); // others are no matter
   const clear = around.map(([u, v], k) => {
-    const gaps = [-room, 0, room].flatMap((d) => hulls.map((hull) => toHull(hull, u + d, v)));
+    const gaps = [-room, 0, room].flatMap((d) => near.map((hull) => toHull(hull, u + d, v)));
     return Math.min(Math.abs(far), ...gaps) / (1 + (k >> 4));
   });
   return around[clear.indexOf(Math.max(...clear))]!;
