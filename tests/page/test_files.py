@@ -7,6 +7,7 @@ import json
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from gruebler.base.errors import GrueblerError
@@ -179,16 +180,23 @@ def test_the_drive_of_a_drawn_four_bar_comes_back_from_another_program():
     assert [drive["name"] for drive in opened["model"]["drives"]] == ["R(frame-1)"]
 
 
-def test_masses_and_speed_of_another_program_act_on_the_page():
-    """The punch press of PMKS+: 10/min, 2 g and 3 g, as its address says (tests/files/test_other_programs.py)."""
+def test_loads_and_speed_of_another_program_act_on_the_page():
+    """The punch press of PMKS+: 10/min, 2 g and 3 g, 400 N up on the end of its rod, as its address says
+    (tests/files/test_other_programs.py); the torque by the way of that end, as virtual work has it."""
     content = (Path(__file__).parents[1] / "files" / "samples" / "punch-press.pmks").read_bytes()
     asked = {"name": "press.pmks", "base64": base64.b64encode(content).decode()}
     opened = answer("open_file", asked, "en", print)
-    assert opened["note"] == "Left out: the force F1; colours; the sense of rotation of the drive"
+    assert opened["note"] == "Left out: colours; the sense of rotation of the drive"
     told = answer("forces", {"document": opened["model"]["document"], "drives": [1.0]}, "en", print)
     assert sorted(told["masses"])[-2:] == pytest.approx([0.002, 0.003])
     assert told["speed"] == pytest.approx(10 * 2 * math.pi / 60)
     assert told["lines"]
+    linkage = linkage_from_json({key: value for key, value in opened["model"]["document"].items() if key != "loads"})
+    drives = np.array(told["drives"])
+    step = 1e-5
+    ends = [move(linkage, drives + side * step).point(linkage.mechanism.chain.joint_names()[2]) for side in (1, -1)]
+    wanted = -400 * (ends[0] - ends[1])[:, 1] / (2 * step)
+    assert told["effort"] == pytest.approx(wanted.tolist(), abs=1e-3 * abs(wanted).max())
 
 
 def test_a_file_that_is_dropped_is_said_to_be_opened_at_once(tab, server):
