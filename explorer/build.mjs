@@ -83,7 +83,7 @@ const often = `
   charCodeAt checked childElementCount children choose chosen circle class classList clientWidth
   clientX clientY closed colour conditions contains count counted ctrlKey cursor cycle cylinder dataset
   delete describe designs direction document documentElement domain draggable dragging dragJoint
-  drawImage drawing drive drives elements entries every exercises filter find findIndex firstChild
+  drawImage drawing drive drives elements entries error every exercises filter find findIndex firstChild
   flatMap focus forces forEach found frame frames fresh from fromCharCode full function generic
   getAttribute getBoundingClientRect getContext getPropertyValue ground gruebler hasAttribute hash
   height hidden hodographs includes indexOf inflection inputmode inversions isConnected items join
@@ -99,7 +99,7 @@ const often = `
   split spots springs stage start startsWith state status stiffness stopPropagation stroke structure
   style synthesis tabindex tagName targets test text textContent title toFixed together toggle
   toLowerCase toUpperCase transform transmission transport trim turning turns unit unknowns unshift
-  value values velocities view viewBox viewport views width windings world zoom
+  offsetLeft order plane value values velocities view viewBox viewport views width windings world zoom
 `.match(/\w+/g);
 
 /** These names, as members and as keys, and what else stands there as often, as constants: texts that are keys or
@@ -109,7 +109,7 @@ function shared(code) {
   const letters = [..."abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"];
   const pairs = letters.flatMap((one) => letters.map((other) => one + other));
   const unused = pairs.filter((pair) => !taken.has(pair) && !/^(do|if|in|of)$/.test(pair));
-  const repeated = /(?<=[([{,=?:&|+>])"([\w .#-]{6,60})"(?=[)\]},?:;&|+])/g;
+  const repeated = /(?<=[([{,=?:&|+>])"([\w .#-]{4,60})"(?=[)\]},?:;&|+])/g;
   const names = `(${often.join("|")})`;
   // texts are passed over
   const member = new RegExp(`"(?:[^"\\\\]|\\\\.)*"|(\\?\\.|\\.)${names}\\b|([{,])${names}(?=:)|\\bvoid 0`, "g");

@@ -108,7 +108,8 @@ export class DesignCards {
   arrange(): void {
     const found = this.#found;
     if (!found) return renew(this.element);
-    const shown = found.items.length;
+    const { items, total } = found;
+    const shown = items.length;
     const orders: [Order, string][] = [
       ["error", t("by deviation")],
       ["balanced", t("balanced")],
@@ -142,7 +143,13 @@ export class DesignCards {
     const chosen = { "data-field": "form" };
     renew(
       this.element,
-      h("h2", {}, t("{shown} of {count} designs", { shown, count: found.total })),
+      h(
+        "h2",
+        {},
+        shown < total
+          ? t("{shown} of {count} designs", { shown, count: total })
+          : t("{count} designs", { count: total }),
+      ),
       h("p.note", {}, told.filter((text) => text).join(" ")),
       shown > 1
         ? h(
@@ -175,7 +182,9 @@ export class DesignCards {
   #card(design: Design): HTMLElement {
     const { form, lengths, range, shift, transmission, error, size } = design;
     const degrees = (mu: number) => angle((mu * Math.PI) / 180, 3);
-    const all = typeof range !== "number" ? "" : `, ${t("≥ {angle} in all positions", { angle: degrees(range) })}`;
+    const all = typeof range === "number" ? t("≥ {angle} in all positions", { angle: degrees(range) }) : "";
+    const way = transmission === null ? "" : t("μ ≥ {angle} on the way", { angle: degrees(transmission) });
+    const alike = all && way.includes(` ${degrees(range!)}`);
     const value = error === null || exact(error) ? 0 : 100 * error;
     const deviation = value ? t("deviation {value} %", { value: number(value, 2) }) : t("met exactly");
     const off = shift ? ` · ${t("sensitivity {value} %", { value: number(100 * shift, 2) })}` : "";
@@ -188,7 +197,7 @@ export class DesignCards {
       h("b", {}, title),
       h("span", {}, lengths.map((one) => number(one, 3)).join(" · ")),
       h("span", {}, error === null || this.#exact ? "" : deviation),
-      h("span", {}, transmission === null ? "" : t("μ ≥ {angle} on the way", { angle: degrees(transmission) }) + all),
+      h("span", {}, alike ? `μ ${all}` : [way, all].filter((text) => text).join(", ")),
       h("span", {}, t("size {value}", { value: number(size, 3) }) + (this.#found?.relative ? "" : " mm") + off),
     );
   }

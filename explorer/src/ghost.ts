@@ -13,6 +13,10 @@ export interface Moving {
   /** Which of them each moving link has. */
   members: number[][];
   joints: number;
+  /** How many points follow the joints; ends of slides stand behind them. */
+  points?: number;
+  /** The ends of the guides of slides. */
+  rails?: number[][];
   /** The joint that is driven. */
   drive?: number;
 }
@@ -46,23 +50,24 @@ export class Ghost {
   play(moving: Moving | null, unit: number, shown: (frame: number) => void): void {
     cancelAnimationFrame(this.#frame);
     if (!moving) return renew(this.element);
-    const { drive, frames, joints, members } = moving;
+    const { drive, frames, joints, members, points, rails = [] } = moving;
     const [first] = frames as [Pair[]];
     const curves = first
-      .slice(joints)
+      .slice(joints, points && joints + points)
       .map((_, k) => svg("path.curve", { d: `${pathOf(frames.map((frame) => frame[joints + k]!))}Z` }));
     const pins = first.slice(0, joints).map(() => svg("circle.joint", { r: 1.5 * unit }));
     const still = (k: number) =>
       frames.every((frame) => Math.hypot(frame[k]![0] - first[k]![0], frame[k]![1] - first[k]![1]) < 1e-3 * unit);
     const grounds = pins.flatMap((_, k) => (still(k) ? [groundMark(first[k]!, unit)] : []));
-    const bodies = bodiesOf(members);
+    const hatched = (k: number) => (still(k) ? ["rail", "rail-hatch"] : ["rail"]).map((name) => svg(`path.${name}`));
+    const bodies = [...rails.map(([end]) => hatched(end!)), ...bodiesOf(members)];
     const driven = drive === undefined ? [] : [mark("driven", DRIVEN, first[drive]!, unit)];
     renew(this.element, ...curves, ...grounds, ...bodies.flat(), ...pins, ...driven);
     const calm = wantsStill();
     const tick = (now: number) => {
       const frame = Math.floor((now / 1000) * PACE) % frames.length;
       const places = frames[frame]!;
-      putBodies(bodies, members, places);
+      putBodies(bodies, [...rails, ...members], places);
       for (const [k, pin] of pins.entries()) put(pin, { cx: places[k]![0], cy: -places[k]![1] });
       shown(frame);
       if (!calm && this.seen()) this.#frame = requestAnimationFrame(tick);

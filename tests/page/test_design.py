@@ -261,3 +261,24 @@ def test_each_kind_of_rows_is_its_task():
     assert task_of("dead-centres", [[90, 1.5]]).swing == pytest.approx(np.pi / 2)
     assert task_of("positions", [[0, 0, 90], [1, 2, 0]], pivots=[[3, 4]]).fixed_pivots == ((3, 4),)
     assert task_of("points", [[k, k * k] for k in range(6)], closed=True).closed
+
+
+def test_a_slide_of_a_design_has_its_block_on_its_guide():
+    """The pin of the block, found by the motion, is the middle of the block and on the line between the rail's ends."""
+    from gruebler.page.designs import design_records, task_of
+
+    task = task_of("positions", [[-40, 0, 0], [0, 25, 20], [35, 10, 50]])
+    items = design_records(task, True, 20.0, "en", lambda _: None)["items"]
+    for design in (
+        next(item for item in items if item["form"] == form) for form in ("slider-crank", "inverted slider-crank")
+    ):
+        *_, (start, end) = design["members"]
+        ((low, high),) = design["rails"]
+        z = np.array(design["frames"]) @ (1, 1j)
+        pin = z[:, [3 if design["form"].startswith("inv") else 2]]
+        for at in (pin, z[:, [start]], z[:, [end]]):
+            part = (at[:, 0] - z[:, low]) / (z[:, high] - z[:, low])
+            assert np.abs(part.imag).max() < 1e-3
+            assert part.real.min() > -1e-3
+            assert part.real.max() < 1 + 1e-3
+        assert np.abs(z[:, start] + z[:, end] - 2 * pin[:, 0]).max() < 1e-3 * design["size"]

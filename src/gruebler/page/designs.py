@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import degrees, isfinite, radians
@@ -26,8 +27,8 @@ from gruebler.design.synthesis.tasks import gives_lengths
 from gruebler.files import linkage_to_json
 from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.kinematics import Motion
-from gruebler.mechanics.linkages import Linkage
-from gruebler.pictures.linkage.bodies import CarriedLine
+from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.pictures.linkage.bodies import CarriedLine, pins_of, slides
 from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, drive_rows, posed_linkage
 
@@ -38,6 +39,7 @@ _NAMES = {"RR-RR": "four-bar", "RR-PR": "slider-crank", "RR-RP": "inverted-slide
 _FOUR = 4
 _RING = 8.0  # pixels: the radius of the mark of a point
 _ARM = 34.0  # pixels: the arrow of a position
+_BLOCK = 12.0  # pixels: half the block of a slide, and what its guide is longer than its way
 _CIRCLE = np.exp(2j * np.pi * np.arange(17) / 16)
 _LIKE = 0.1
 """Of the size: designs of one form whose pivots and lengths differ by less are variants of one another."""
@@ -171,12 +173,31 @@ def _played(design: Design, task: Task, posed: PosedLinkage) -> Motion:
     return cycle.at(rows, 0)
 
 
-def _seen(linkage: Linkage, motion: Motion) -> Reals:
-    """The places of joints, then of points, in as many digits as are seen; (rows, joints and points, 2)."""
+def _seen(linkage: Linkage, motion: Motion, more: Sequence[LinkPoint] = ()) -> Reals:
+    """The places of joints, of points, then of others, in as many digits as are seen; (rows, places, 2)."""
     names = (*linkage.mechanism.chain.joint_names(), *linkage.points)
     digits = 5 - int(np.floor(np.log10(linkage.size)))
-    places: Reals = np.stack([motion.point(name) for name in names], axis=1)
+    others = [motion.complex_point(place).view(float).reshape(-1, 2) for place in more]
+    places: Reals = np.stack([*(motion.point(name) for name in names), *others], axis=1)
     return places.round(digits)
+
+
+def _slide_ends(posed: PosedLinkage) -> dict[int, list[LinkPoint]]:
+    """By sliding joint the ends of its block, then those of its guide."""
+    half, mechanism = _BLOCK / posed.scale, posed.linkage.mechanism
+    by_joint = {}
+    for slide in slides(posed):
+        along = cmath.rect(half, posed.lower.elements[slide.joint, slide.block].direction)
+        reached = [slide.low - half * slide.along, slide.high + half * slide.along]
+        if slide.guide != mechanism.frame:
+            reached += pins_of(posed.lower, slide.guide)
+        parts = [((z - slide.low) / slide.along).real for z in reached]
+        ends = [slide.low + part * slide.along for part in (min(parts), max(parts))]
+        block = [LinkPoint(slide.block, z.real, z.imag) for z in (slide.middle - along, slide.middle + along)]
+        guide = [LinkPoint(slide.guide, z.real, z.imag) for z in ends]
+        if slide.block in mechanism.chain.links:  # not a pin in a slot
+            by_joint[slide.joint] = [*block, *guide]
+    return by_joint
 
 
 def _there_and_back(rows: Reals, posed: PosedLinkage) -> list[Any]:
@@ -202,24 +223,35 @@ def _met_angles(design: Design, task: Task, posed: PosedLinkage) -> dict[str, An
 
 
 def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, Any]:
-    """Places of joints and points, evenly in time, and which of them each moving link has; lengths of a four-bar."""
+    """Places of joints, points and ends of slides, evenly in time; which of them links and guides have; lengths."""
     chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
-    points = linkage.points
-    rows = _seen(linkage, path)
+    points, sliding = linkage.points, _slide_ends(posed)
+    rows = _seen(linkage, path, [end for ends in sliding.values() for end in ends])
     carried = [*(joint.links for joint in chain.joints), *((point.link,) for point in points.values())]
-    members = [[k for k, links in enumerate(carried) if link in links] for link in chain.links if link != frame]
+    members = [
+        [k for k, links in enumerate(carried) if link in links and k not in sliding]
+        for link in chain.links
+        if link != frame
+    ]
     joints = [[k for k, joint in enumerate(chain.joints) if link in joint.links] for link in chain.links]
     four_bar = chain.n == len(chain.joints) == _FOUR and all(joint.pair.is_turning for joint in chain.joints)
     apart = [(k, m) for own in joints for k in own for m in own if k < m]
-    fixed = rows[0, joints[chain.links.index(frame)]]
-    ends = sorted(zip(chain.links, joints, strict=True), key=lambda row: row[0] == frame)  # the frame comes last
+    measured = [*rows[0, joints[chain.links.index(frame)]].ravel(), *(_apart(rows[0], k, m) for k, m in apart)]
+    bars = sorted(zip(chain.links, joints, strict=True), key=lambda row: row[0] == frame)  # the frame comes last
+    blocks = [[k, k + 1] for k in range(len(carried), rows.shape[1], 4)]
+    for joint, block in zip(sliding, blocks, strict=True):
+        rows[:, joint] = rows[:, block].mean(axis=1)
     return {
         "frames": _there_and_back(rows, posed),
-        "members": members,
+        "members": [*members, *blocks],
+        "rails": [[k + 2 for k in block] for block in blocks],
         "joints": len(chain.joints),
+        "points": len(points),
         "drive": linkage.mechanism.drives[0].joint,
-        "measures": [*fixed.ravel(), *(float(np.hypot(*(rows[0, k] - rows[0, m]))) for k, m in apart)],
-        "lengths": [float(np.hypot(*(rows[0, first] - rows[0, other]))) for _, (first, other) in ends]
-        if four_bar
-        else [],
+        "measures": measured,
+        "lengths": [_apart(rows[0], first, other) for _, (first, other) in bars] if four_bar else [],
     }
+
+
+def _apart(places: Reals, first: int, second: int) -> float:
+    return float(np.hypot(*(places[first] - places[second])))
