@@ -1,5 +1,6 @@
 /** The canvas over the bodies: curves of points, centrodes, hodographs. */
 
+import { clearAbout } from "./hull";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
 import type { PointRecord, Target } from "./model";
@@ -73,18 +74,22 @@ export class Painter {
     pen.strokeStyle = pen.fillStyle = this.colour("--purple");
     pen.lineWidth = 2;
     pen.font = "12px system-ui, sans-serif";
-    for (const [k, [x, y, degrees]] of targets.entries()) {
+    pen.textAlign = "center";
+    const arrows = targets.map(([x, y, degrees]) => {
+      const phi = ((degrees ?? 0) * Math.PI) / 180;
+      const [u, v] = viewport.screen(x, y);
+      return [6, degrees === undefined ? 6 : 26].map((far): Pair => [u + far * Math.cos(phi), v - far * Math.sin(phi)]);
+    });
+    for (const [k, [x, y]] of targets.entries()) {
       const [u, v] = viewport.screen(x, y);
       pen.beginPath();
       pen.arc(u, v, 6, 0, 7);
-      const phi = ((degrees ?? 0) * Math.PI) / 180;
-      const [c, s] = [Math.cos(phi), -Math.sin(phi)];
-      if (degrees !== undefined) {
-        pen.moveTo(u + 6 * c, v + 6 * s);
-        pen.lineTo(u + 26 * c, v + 26 * s);
-      }
+      const [from, to] = arrows[k] as [Pair, Pair];
+      pen.moveTo(...from);
+      pen.lineTo(...to);
       pen.stroke();
-      pen.fillText(String(k + 1), u + 8, v - 8);
+      const [left, middle] = clearAbout([u, v], -14, arrows);
+      pen.fillText(String(k + 1), left, middle + 4);
     }
   }
 

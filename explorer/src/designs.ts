@@ -130,6 +130,7 @@ export class DesignCards {
     const refused = found.refused > 1 && t("{count} others do not meet what is asked.", { count: found.refused });
     const told = [
       found.note,
+      !total && t("None does: try a crank that need not turn fully, a smaller angle or other targets."),
       this.#exact && shown > 0 && t("All meet the targets exactly."),
       refused || (found.refused && t("One other does not meet what is asked.")),
     ];

@@ -281,6 +281,14 @@ export function jointName({ knots }: Drawing, number: number): string {
   return `${isPin(knot) ? "R" : sign}(${knot.links.join("-")})`;
 }
 
+/** A driven joint in the text of the chain: of three links and more it moves the first one beside the frame. */
+function driveName(drawing: Drawing, number: number): string {
+  const { links } = drawing.knots[number]!;
+  const own = links.find((link) => link === drawing.frame) ?? links[0];
+  const way = links.length > 2 ? `:${own}-${links.find((link) => link !== own)}` : "";
+  return jointName(drawing, number) + way;
+}
+
 /** The document of the linkage, which the library reads; open ends are named points of their links. */
 export function documentOfDrawing(drawing: Drawing): LinkageDocument {
   const joints = jointsOf(drawing);
@@ -300,7 +308,7 @@ export function documentOfDrawing(drawing: Drawing): LinkageDocument {
     joints: joints.map(name).join(" "),
     links: linksOf(drawing),
     ...(drawing.frame === null ? {} : { frame: drawing.frame }),
-    drives: drawing.drives.map(name),
+    drives: drawing.drives.map((k) => driveName(drawing, k)),
     ...(Object.keys(beside).length && { page: beside }),
     places: Object.fromEntries(
       joints.map((k) => {

@@ -82,11 +82,17 @@ export class SizeRows {
       this.#labels[k]!.classList.toggle("chosen", link === editor.shown.chosen);
     });
     if (anew) return;
-    sizes.forEach(({ first, second, value }, k) => {
+    sizes.forEach(({ first, second }, k) => {
       for (const button of this.#locks[k]!.children) showLock(editor, button as HTMLElement, first, second);
-      showDigits(this.#fields[k]!, value);
       this.#fields[k]!.setAttribute("aria-invalid", "false");
     });
+    this.follow();
+  }
+
+  /** The same sizes while a joint is dragged. */
+  follow(): void {
+    const lengths = this.editor.dragging.lengths();
+    for (const [k, field] of this.#fields.entries()) showDigits(field, lengths[k]!.value);
   }
 }
 

@@ -115,6 +115,7 @@ export class Side {
       if (this.#plotting) this.plots.follow(linkage);
       else {
         transport.showRange(this.found);
+        this.#sizes.follow();
         this.#showFacts();
       }
     }

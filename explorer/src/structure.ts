@@ -183,7 +183,10 @@ export class StructureView implements View {
         2,
         t("Frame"),
         h("p.note.form", {}, t("Links that a symmetry exchanges stand here once.")),
-        this.#cards("inversions", found.inversions, ({ frame }) => [frame, frame === found.chosen]),
+        this.#cards("inversions", found.inversions, ({ frame }) => [
+          /^\d/.test(frame) ? `${t("Frame")} ${frame}` : frame,
+          frame === found.chosen,
+        ]),
       ),
       step(
         3,
@@ -232,7 +235,7 @@ export class StructureView implements View {
     const found = await awaited(place, (progress) => this.#page.ask<Realised>("realise", { text }, progress));
     if (!found) return;
     place.remove();
-    this.#page.open({ ...found.model, plays: true, name: t("A mechanism with found dimensions") });
-    this.#page.say(found.message, "done");
+    const driven = this.structure?.driven.find((choice) => choice.text === this.structure!.driver);
+    this.#page.open({ ...found.model, plays: true, name: driven?.family || t("A mechanism with found dimensions") });
   }
 }

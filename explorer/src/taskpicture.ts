@@ -62,8 +62,11 @@ export class TaskPicture {
     const charted = angles && design?.angles;
     this.#other.remove();
     if (charted) this.element.prepend(this.#other);
-    const narrow = this.element.clientWidth < 500;
-    const part = narrow && design ? LOW / (charted ? 2 : 1) : PART;
+    const { clientWidth } = this.element;
+    const narrow = clientWidth < 500;
+    const half = (clientWidth - 14) / 2 / window.innerHeight; // a chart is as high alone as beside a design
+    const high = angles && !narrow ? Math.min(PART, half) : PART;
+    const part = narrow && design ? LOW / (charted ? 2 : 1) : high;
     const moving = design?.frames.flat() ?? [];
     if (!held) {
       const places = [...(swing ?? points), ...pivots, ...(charted ? [] : moving)];

@@ -86,6 +86,13 @@ test("a slider-crank", () => {
   assert.deepEqual(away.knots[3]!.at, [80, 5]);
 });
 
+test("a driven joint of three links moves the first one beside the frame", () => {
+  const drawing = fourBar();
+  const third = driven(withLink(drawing, knot(drawing, 0), place(-50, 50)), 0);
+  const [name] = documentOfDrawing(third).drives as string[];
+  assert.equal(name, "R(frame-1-4):frame-1");
+});
+
 test("three links in one joint count as two joints", () => {
   const drawing = fourBar();
   const third = withLink(drawing, knot(drawing, 2), place(100, 100));

@@ -229,9 +229,7 @@ def test_dead_centres_are_those_that_were_asked_for(design):
     assert plane["y"] >= 0
     assert plane["y"] + plane["height"] <= view.viewport_size["height"]
     view.locator('[data-field="sorted"]').select_option("transmission")
-    angles = [
-        float(text.split("≥")[1].split("°")[0]) for text in cards.locator("span:text('≥')").all_text_contents()
-    ]
+    angles = [float(text.split("≥")[1].split("°")[0]) for text in cards.locator("span:text('≥')").all_text_contents()]
     assert len(angles) > 2
     assert angles == sorted(angles, reverse=True)
     found = measures(opened(design))

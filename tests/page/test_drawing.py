@@ -27,6 +27,8 @@ def test_what_is_offered_mends_it():
     # a link on two grounds does not move: its joints are no drives, neither offered nor taken
     held = "R(0-1) R(0-1) R(0-2)"
     assert [offer["joint"] for offer in drawing_record(held, "0", [], "en")["offers"]] == [2]
+    shared = drawing_record("R(0-1-4) R(1-2) R(2-3) R(3-0) R(4-5) R(5-3)", "0", [0], "en")
+    assert (shared["reason"], shared["fixed"]) == ("", True)  # the drive moves link 1
     stuck = drawing_record(held, "0", [0], "en")
     assert not stuck["fixed"]
     assert "still moving: 2" in stuck["reason"]

@@ -14,6 +14,10 @@ const SAME = 1e-4; // of the longest: directions that differ by less are one
 export class OutputPlots {
   readonly elements: Element[];
   readonly #plots: Plot[];
+  /** What they show, in the order of the outputs, from the first value of the drive on in such steps. */
+  readonly #values: Float64Array[] = [];
+  #first = 0;
+  #step = 1;
 
   constructor(
     private readonly machine: Machine,
@@ -33,6 +37,8 @@ export class OutputPlots {
       const poses = rows.map((row) => row[link]!);
       const unit = turning.has(link) ? "°" : data.unit;
       const values = upward(turning.has(link) ? turns(poses) : shifts(poses));
+      [this.#first, this.#step] = [range[0], step];
+      this.#values.push(values);
       const plot = new Plot(drive?.turning ? TURN / 360 : 1, pick, span);
       const title = `${t("Output {name}", { name: names[link]! })} [${unit}]`;
       plot.show(drives, { title, values, colour: "--motion", same: 1e-6 * (unit === "°" ? 1 : data.size) }, range);
@@ -41,10 +47,24 @@ export class OutputPlots {
     this.elements = this.#plots.map(({ element }) => element);
   }
 
+  get #drive(): number {
+    const { active, cycle, drives } = this.machine;
+    return wrapped(cycle, drives[active] ?? 0);
+  }
+
   /** Put the cursor to where the drive stands. */
   follow(): void {
-    const { active, cycle, drives } = this.machine;
-    for (const plot of this.#plots) plot.at(wrapped(cycle, drives[active] ?? 0));
+    for (const plot of this.#plots) plot.at(this.#drive);
+  }
+
+  /** An angle of an output with the sign and the full turns that its plot has there, in radians. */
+  plotted(output: number, angle: number): number {
+    const values = this.#values[output];
+    if (!values) return angle;
+    const about = (values[Math.round((this.#drive - this.#first) / this.#step)]! * TURN) / 360;
+    const near = (one: number) => one + TURN * Math.round((about - one) / TURN);
+    const [same, other] = [near(angle), near(-angle)];
+    return Math.abs(same - about) <= Math.abs(other - about) ? same : other;
   }
 }
 

@@ -305,11 +305,12 @@ export class SpaceView implements Driven {
     const { data, linkage } = this;
     const [texts, words] = [this.#texts, this.#words];
     const { poses } = linkage;
-    const facts: Fact[] = data.outputs.map((link) => {
+    const facts: Fact[] = data.outputs.map((link, k) => {
       const pose = poses[link]!;
       const turns = data.live ? turnOf(pose) > TURNED : linkage.turning.has(link);
       const far = `${number(Math.hypot(pose[3]!, pose[7]!, pose[11]!), DIGITS)} ${data.unit}`;
-      const text = turns ? angle(turnOf(pose), DIGITS) : far;
+      const turned = turnOf(pose);
+      const text = turns ? angle(this.#plots?.plotted(k, turned) ?? turned, DIGITS) : far;
       return { name: words[turns ? "turned" : "shifted"]!.replace("{link}", texts.links[link]!), text };
     });
     for (const { name, link, at } of linkage.spots) {

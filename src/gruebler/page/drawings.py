@@ -30,7 +30,7 @@ def drawing_record(joints: str, frame: str, drives: list[int], lang: str, names:
     """
     chain = Chain.parse(joints)
     report = mobility_report(chain, frame=frame)
-    parts = [joints, f"frame={frame}", *(f"drive={chain.joint_names()[number]}" for number in drives)]
+    parts = [joints, f"frame={frame}", *(f"drive={_drive_name(chain, frame, number)}" for number in drives)]
     titles = {
         chain.joint_title(number).in_language(lang): name for number, name in enumerate(names[: len(chain.joints)])
     }
@@ -49,6 +49,14 @@ def drawing_record(joints: str, frame: str, drives: list[int], lang: str, names:
         "reason": "" if driven.fixed or len(drives) < report.generic else named(driven.message.in_language(lang)),
         "offers": list(_offers(chain, frame, drives, report))[:_MOST_OFFERS],
     }
+
+
+def _drive_name(chain: Chain, frame: str, number: int) -> str:
+    """A driven joint; of three links and more it moves the first one beside the frame."""
+    links = chain.joints[number].links
+    own = frame if frame in links else links[0]
+    other = next(link for link in links if link != own)
+    return chain.joint_names()[number] + (f":{own}-{other}" if len(links) > 2 else "")
 
 
 def _offers(chain: Chain, frame: str, drives: list[int], report: MobilityReport) -> Iterator[dict[str, Any]]:

@@ -11,6 +11,7 @@ from gruebler.mechanics.screws.model import SpatialLinkage
 
 _ON_AXES = ("revolute", "helical", "cylindrical")
 _AT_POINTS = ("spherical", "universal")
+_NONE = 1e-9  # of the size of the linkage: joints that are less apart are at one place
 _PARALLEL = 1e-9  # the sine of the angle between axes that are taken as parallel
 
 
@@ -38,7 +39,8 @@ def link_sizes(linkage: SpatialLinkage) -> list[LinkSize]:
     for link in chain.links:
         joints = [k for k, joint in enumerate(chain.joints) if link in joint.links]
         if len(joints) == 2 and all(chain.joints[k].pair.name in (*_ON_AXES, *_AT_POINTS) for k in joints):
-            sizes.append(LinkSize(link, *_between(linkage, *joints)))
+            distance, angle = _between(linkage, *joints)
+            sizes.append(LinkSize(link, distance if distance > _NONE * linkage.size else 0.0, angle))
     return sizes
 
 
