@@ -182,7 +182,7 @@ def test_from_a_chain_to_a_moving_mechanism(tab, server):
     view.locator('[data-list="inversions"] .card span:text-is("Watt II")').wait_for()
     # Watt's chain: a ternary or a binary frame, each with two joints that no symmetry exchanges
     frames, drives = (view.locator(f'[data-list="{key}"] .card') for key in ("inversions", "driven"))
-    assert frames.locator("b").all_text_contents() == ["0", "2"]
+    assert frames.locator("b").all_text_contents() == ["Frame 0", "Frame 2"]
     # the page chooses the first of each, and marks it
     pressed = "all => all.map((e) => e.ariaPressed)"
     assert [cards.evaluate_all(pressed) for cards in (frames, drives)] == [["true", "false"]] * 2
@@ -192,7 +192,7 @@ def test_from_a_chain_to_a_moving_mechanism(tab, server):
         assert drives.count() == 2
         numbers = frames.nth(number).locator("svg text").all_text_contents()
         assert sorted(numbers) == list("012345")
-        assert frames.locator("b").nth(number).inner_text() in numbers
+        assert frames.locator("b").nth(number).inner_text().removeprefix("Frame ") in numbers
     drives.nth(1).click()
     page.until("gruebler.views.structure.text.includes('drive=')")
     view.locator('[data-list="driven"] [aria-pressed="true"]').wait_for()

@@ -217,11 +217,11 @@ def test_a_link_made_there_opens_there_for_everyone(tab, address):
     page.until("gruebler.views.structure.structure?.text.startsWith('R(0-1)')")
     page.page.click('[data-list="driven"] .card')
     page.page.click('[data-act="realise"]')
-    page.until("gruebler.shown.name.startsWith('A mechanism with')")
+    page.until("gruebler.shown.name.startsWith('four-bar linkage')")
     page.page.evaluate("gruebler.motion.transport.toggle(), gruebler.share()")  # what runs stands still
     link = page.until("location.hash.length > 200 && location.href")
     other = tab().open(address + "#" + link.partition("#")[2])
-    other.until("gruebler.shown.name.startsWith('A mechanism with')")
+    other.until("gruebler.shown.name.startsWith('four-bar linkage')")
     places = "gruebler.motion.linkage.jointAt(2).map((value) => value.toFixed(6))"
     assert other.page.evaluate(places) == page.page.evaluate(places)
 
