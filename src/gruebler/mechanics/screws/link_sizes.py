@@ -8,9 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.mechanics.screws.model import SpatialLinkage
+from gruebler.structure.chain.pairs import Pair
 
-_ON_AXES = ("revolute", "helical", "cylindrical")
-_AT_POINTS = ("spherical", "universal")
 _NONE = 1e-9  # of the size of the linkage: joints that are less apart are at one place
 _PARALLEL = 1e-9  # the sine of the angle between axes that are taken as parallel
 
@@ -38,15 +37,21 @@ def link_sizes(linkage: SpatialLinkage) -> list[LinkSize]:
     sizes = []
     for link in chain.links:
         joints = [k for k, joint in enumerate(chain.joints) if link in joint.links]
-        if len(joints) == 2 and all(chain.joints[k].pair.name in (*_ON_AXES, *_AT_POINTS) for k in joints):
+        pairs = [chain.joints[k].pair for k in joints]
+        if len(joints) == 2 and all(_has_axis(pair) or pair.is_ball or pair.is_cross for pair in pairs):
             distance, angle = _between(linkage, *joints)
             sizes.append(LinkSize(link, distance if distance > _NONE * linkage.size else 0.0, angle))
     return sizes
 
 
+def _has_axis(pair: Pair) -> bool:
+    """Whether all that a pair lets go is about and along one axis of the joint."""
+    return pair.is_lower and {freedom.axis for freedom in pair.motion} == {"z"}
+
+
 def _between(linkage: SpatialLinkage, first: int, second: int) -> tuple[float, float | None]:
     gap = linkage.frames[second, :3, 3] - linkage.frames[first, :3, 3]
-    has_axis = [linkage.mechanism.chain.joints[k].pair.name in _ON_AXES for k in (first, second)]
+    has_axis = [_has_axis(linkage.mechanism.chain.joints[k].pair) for k in (first, second)]
     axes = [linkage.frames[k, :3, 2] for k, has in zip((first, second), has_axis, strict=True) if has]
     if not axes:
         return float(np.linalg.norm(gap)), None
