@@ -74,8 +74,10 @@ function sketch(drawing: Drawing): SVGElement {
 /** Cards along the upper edge of an empty plane. */
 export function starters(view: Beginning): HTMLElement[] {
   const found = drawingOf(view.linkage).drawing;
+  const { title } = view.linkage;
+  const name = title.length > 36 ? `${title.slice(0, 34)}…` : title;
   const cards: [string, string, Drawing | undefined][] = [
-    ["hand", t("Edit {name}", { name: view.linkage.title }), found],
+    ["hand", t("Edit {name}", { name }), found],
     ["four-bar", t("Four-bar linkage"), drawn(FOUR_BAR)],
     ["slider-crank", t("Slider-crank"), drawn(SLIDER_CRANK)],
     ["six-bar", t("Six-bar (Watt II)"), drawn(SIX_BAR)],
