@@ -15,6 +15,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Integers
 from gruebler.base.atomic_files import atomic_file
+from gruebler.base.errors import SynthesisError
 from gruebler.base.private_folder import goes_on_from, private_folder
 from gruebler.design.synthesis.alt_burmester import Problem, sharpened
 from gruebler.design.synthesis.results import Progress
@@ -30,8 +31,20 @@ SEVEN_POSITIONS, EIGHT_POSITIONS = (
     for name, poses in (("seven positions", 6), ("eight positions", 7))
 )
 """Six-bars that carry a body through positions, of seven with the rocker's pivot given; their number is estimated."""
+START_SOLUTIONS = 20_000
+"""So many are followed to a task unless it is said how many."""
+_MOST = 500_000  # of more of them most would be found again
 _PIECE = 2048  # six-bars at a time
 _SEED = 1
+
+
+def as_start_solutions(number: int) -> int:
+    """How many are followed to a task. Raises `SynthesisError` for none or more than half a million."""
+    if not 1 <= number <= _MOST:
+        raise SynthesisError(
+            "start solutions: expected a whole number from 1 to {most:,}, but found {found}", most=_MOST, found=number
+        )
+    return number
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -33,7 +33,7 @@ from gruebler.design.synthesis.judging import Demands, judge_design
 from gruebler.design.synthesis.law_motion import over_interval
 from gruebler.design.synthesis.positions import ranked
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
-from gruebler.design.synthesis.six_bar_census import ELEVEN, Census, kept_census
+from gruebler.design.synthesis.six_bar_census import ELEVEN, START_SOLUTIONS, Census, as_start_solutions, kept_census
 from gruebler.design.synthesis.six_bar_monodromy import LOOPS, LoopVectors, loop_vectors
 from gruebler.design.synthesis.six_bar_starts import StartSet, eight_pairs, start_set
 from gruebler.design.synthesis.targets import Probe, Targets
@@ -44,7 +44,6 @@ from gruebler.structure.mechanism import Mechanism
 NINE_PAIRS = Problem(name="nine pairs", poses=0, points=8, classes=26370, members=1, family="Watt II")
 """At least so many complex six-bars turn through nine general pairs."""
 FORM = "six-bar"
-_MOST = 500_000  # start solutions; of more of them most would be found again
 _REAL = 1e-7  # relative: conjugate unknowns that differ by less are conjugate
 _SPECIAL = 0.05  # of the paths: where more are lost, the task is special, not the way to it
 _BENT = 0.1  # how far a way leads aside for what was lost on the straight one, relative to the task
@@ -70,7 +69,7 @@ class SixBarType:
     long as the frame has less regular solutions, since four-bars that fold move without their coupler."""
     shape: complex = 0.5 + 0.75**0.5 * 1j
     """Of Stephenson's: the other arm from the same pin, by this one; by default all sides are equal."""
-    start_solutions: int = 20_000
+    start_solutions: int = START_SOLUTIONS
     """Of eleven pairs, which leave arm and shape no choice: how many of the generic solutions are followed."""
 
     def __post_init__(self) -> None:
@@ -82,12 +81,7 @@ class SixBarType:
         for name, length in (("arm", self.arm), ("shape", abs(self.shape))):
             if not 0 < length < np.inf:
                 raise SynthesisError("{key}: expected a positive length, but found {value:g}", key=name, value=length)
-        if not 1 <= self.start_solutions <= _MOST:
-            raise SynthesisError(
-                "start solutions: expected a whole number from 1 to {most:,}, but found {found}",
-                most=_MOST,
-                found=self.start_solutions,
-            )
+        as_start_solutions(self.start_solutions)
 
 
 def synthesise_six_bars(

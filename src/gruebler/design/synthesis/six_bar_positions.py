@@ -21,7 +21,13 @@ from gruebler.design.synthesis.alt_burmester import GenericSolutions, Problem, l
 from gruebler.design.synthesis.judging import Demands, best_of
 from gruebler.design.synthesis.positions import body_targets, ranked
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult
-from gruebler.design.synthesis.six_bar_census import EIGHT_POSITIONS, SEVEN_POSITIONS, kept_census
+from gruebler.design.synthesis.six_bar_census import (
+    EIGHT_POSITIONS,
+    SEVEN_POSITIONS,
+    START_SOLUTIONS,
+    as_start_solutions,
+    kept_census,
+)
 from gruebler.design.synthesis.six_bar_functions import FORM, how_followed, how_many, real_solutions, six_bar_solutions
 from gruebler.design.synthesis.six_bar_guidance import unknowns_of_guides
 from gruebler.design.synthesis.tasks import PIVOTS_OF_SIX_BARS, PositionTask
@@ -32,9 +38,8 @@ FIVE_POSITIONS = Problem(name="five positions", poses=4, points=0, classes=108, 
 """Both pivots of the frame are given, and the pin of the body on the coupler."""
 SIX_POSITIONS = Problem(name="six positions", poses=5, points=0, classes=5754, members=1, family="Watt I")
 """Both pivots of the frame are given."""
-_SENSITIVE = (
-    0.2  # of the paths: positions near to each other leave so many solutions that depend on them a billion times
-)
+_SENSITIVE = 0.2
+"""Of the paths: positions near to each other leave so many solutions that depend on them a billion times."""
 DRIVES = ("R(frame-crank)", "R(frame-rocker)")
 _BODY = str(message("body"))  # its name, which is translated where it is shown
 _JOINTS = (
@@ -123,12 +128,7 @@ def _generic(positions: int, starts: int | None, threads: int | None, progress: 
         problem = FIVE_POSITIONS if positions == 5 else SIX_POSITIONS
         text = message("Watt I, {count} general positions with these pivots: {classes:,} complex solutions.")
         return _Generic(problem, load_generic_solutions(problem), text.filled(count=positions, classes=problem.classes))
-    most = 500_000
-    number = 20_000 if starts is None else starts
-    if not 1 <= number <= most:
-        raise SynthesisError(
-            "start solutions: expected a whole number from 1 to {most:,}, but found {found}", most=most, found=number
-        )
+    number = START_SOLUTIONS if starts is None else as_start_solutions(starts)
     problem = SEVEN_POSITIONS if positions == 7 else EIGHT_POSITIONS
     census = kept_census(problem, number, threads=threads, progress=progress)
     targets = message("seven positions") if positions == 7 else message("eight positions")

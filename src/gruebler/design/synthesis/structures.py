@@ -176,9 +176,9 @@ def _counted(designs: Sequence[Design], demands: Demands) -> list[Message]:
     ]
     met = demands_met(demands, *columns)
     wrong = np.array([sum(reason.text == OTHER_LENGTH.text for reason in verdict.reasons) for verdict in verdicts])
+    said = np.sum([~flags for _, flags in met], axis=0) + wrong
     if demands.lengths:
         met.append((message("the given lengths"), wrong == 0))
-    said = np.sum([~flags for name, flags in met if name.text != "the given lengths"], axis=0) + wrong
     good = np.array([len(verdict.reasons) for verdict in verdicts]) == said
     good &= np.array([verdict.in_order or not demands.in_order for verdict in verdicts])
     if notes := tightest([(message("the targets"), good), *met]):
