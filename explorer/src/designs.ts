@@ -185,7 +185,7 @@ export class DesignCards {
     const degrees = (mu: number) => angle((mu * Math.PI) / 180, 3);
     const all = typeof range === "number" ? t("≥ {angle} in all positions", { angle: degrees(range) }) : "";
     const way = transmission === null ? "" : t("μ ≥ {angle} on the way", { angle: degrees(transmission) });
-    const alike = all && way.includes(`≥ ${degrees(range!)}`);
+    const alike = all && way && degrees(range!) === degrees(transmission!);
     const value = error === null || exact(error) ? 0 : 100 * error;
     const deviation = value ? t("deviation {value} %", { value: number(value, 2) }) : t("met exactly");
     const off = shift ? ` · ${t("sensitivity {value} %", { value: number(100 * shift, 2) })}` : "";

@@ -127,6 +127,7 @@ export class Side {
     const { linkage, transport } = this.view;
     linkage.rest();
     transport.showRange(this.found);
+    this.#sizes.follow();
     this.view.redraw();
     if (this.#opened.has("plots")) whole(this.plots.drawing(linkage));
     this.showPose();

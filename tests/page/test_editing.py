@@ -521,7 +521,7 @@ def test_all_curves_follow_a_drag_and_those_of_the_other_mode_shine_through(tab,
 
 
 def test_plots_and_measures_follow_where_a_drag_rests(tab, crank_rocker):
-    """In each step one plot or the measures follow; all of them do before the joint is let go."""
+    """In each step one plot or the measures follow; all of them do before the joint is let go, and the lengths."""
     page = tab().open(crank_rocker)
     said = """() => [...gruebler.root.querySelectorAll(".plot"), gruebler.root.querySelector(".facts dd")].map(
         (one) => one.outerHTML)"""
@@ -533,6 +533,9 @@ def test_plots_and_measures_follow_where_a_drag_rests(tab, crank_rocker):
     page.page.evaluate("new Promise((seen) => requestAnimationFrame(() => requestAnimationFrame(seen)))")
     resting = "(({ dragged, quick }) => dragged && !quick)(gruebler.motion.linkage)"
     page.until(f"{resting} && ({said})().every((now, k) => now !== before[k])")
+    shown = [float(field.input_value()) for field in page.page.locator('[data-panel="sizes"] input').all()]
+    lengths = page.page.evaluate("gruebler.motion.dragging.lengths().map(({ value }) => value)")
+    assert shown == pytest.approx(lengths, rel=1e-3)
     rested = page.page.evaluate(said)
     page.page.mouse.up()
     page.until("!gruebler.motion.linkage.dragged")
