@@ -19,11 +19,6 @@ function step(number: number, title: string, ...content: HTMLElement[]): HTMLEle
   return h("div.step", {}, h("h2", {}, h("i", {}, String(number)), title), ...content);
 }
 
-interface Realised {
-  model: Model;
-  message: string;
-}
-
 export class StructureView implements View {
   readonly element = h("div.view", { "data-page": "structure" });
   private text = "";
@@ -232,10 +227,10 @@ export class StructureView implements View {
     const text = this.#field.value; // as it stands, described or not yet
     const place = h("span.form", {});
     this.#go.append(place);
-    const found = await awaited(place, (progress) => this.#page.ask<Realised>("realise", { text }, progress));
+    const found = await awaited(place, (progress) => this.#page.ask<Model>("realise", { text }, progress));
     if (!found) return;
     place.remove();
     const driven = this.structure?.driven.find((choice) => choice.text === this.structure!.driver);
-    this.#page.open({ ...found.model, plays: true, name: driven?.family || t("A mechanism with found dimensions") });
+    this.#page.open({ ...found, plays: true, name: driven?.family || t("A mechanism with found dimensions") });
   }
 }

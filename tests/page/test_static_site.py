@@ -116,11 +116,11 @@ def test_the_site_answers_as_the_library_does(tab, folder, address):
         json.dumps(answer("open", {"id": "crankrocker"}, "en", nothing))
     )
     moved = asked(page, "realise", {"text": "R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)"})
-    assert moved["model"]["links"][:4] == ["frame", "crank", "coupler", "rocker"]
-    assert moved["model"]["linkNames"]["de"][:4] == ["Gestell", "Kurbel", "Koppel", "Schwinge"]
+    assert moved["links"][:4] == ["frame", "crank", "coupler", "rocker"]
+    assert moved["linkNames"]["de"][:4] == ["Gestell", "Kurbel", "Koppel", "Schwinge"]
     six = "R(0-1) R(1-2) R(2-3) R(0-3) R(3-4) R(4-5) R(0-5); frame=0; drive=R(0-1)"
     of_library = answer("realise", {"text": six}, "de", nothing)
-    assert of_library["model"]["linkNames"]["de"][:6] == [
+    assert of_library["linkNames"]["de"][:6] == [
         "Gestell",
         "Kurbel",
         "Koppel1",
@@ -128,7 +128,6 @@ def test_the_site_answers_as_the_library_does(tab, folder, address):
         "Koppel2",
         "Schwinge2",
     ]
-    assert "frame" not in of_library["message"], of_library["message"]
 
 
 ANSWERS = [

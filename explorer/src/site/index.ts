@@ -5,7 +5,7 @@ import type { Language } from "../language";
 import type { LinkageDocument, Model } from "../model";
 import { DesignWorker, NINE } from "./designs";
 import { type Catalog, fitting } from "./machines";
-import { type Answer, type Asked, marked, type Said, type Tolerances } from "./marks";
+import { type Answer, type Asked, marked, type Tolerances } from "./marks";
 import { pack } from "./packs";
 import { chainOf, type Pair, type StructurePack, structureOf } from "./structures";
 
@@ -109,10 +109,9 @@ class SiteModel extends StillModel {
       case "realise": {
         const name = await this.#numberOf(chainOf(text));
         if (!name || !/^[3-6]-1-/.test(name)) throw this.#library(text);
-        const all = await pack<Record<string, { model: Model; message: Said }>>(`moving-${name}`);
-        const found = all[text];
+        const found = (await pack<Record<string, Model>>(`moving-${name}`))[text];
         if (!found) throw this.#library(text);
-        return { model: found.model, message: found.message[lang] };
+        return found;
       }
       case "exercise_kinds":
         return (await pack<Record<Language, unknown>>("kinds"))[lang];

@@ -196,8 +196,7 @@ def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:
     from gruebler.page.realised import realised
 
     progress(translate("Looking for dimensions with which it moves", lang))
-    answer = realised(asked.text, asked.seed)
-    return answer | {"message": answer["message"][lang]}
+    return realised(asked.text, asked.seed)
 
 
 def _synthesise(asked: SynthesiseTask, lang: str, progress: Progress) -> dict[str, Any]:

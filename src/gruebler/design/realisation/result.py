@@ -82,17 +82,13 @@ class Realisation:
                 lang,
                 seed=self.seed,
             )
-        sentences = [sentence for lines in self._drive_ranges(lang) for sentence in lines]
+        sentences = list(self._drive_ranges(lang))
         text = message("Smallest measure of conditioning {quality:.2f} (1 is best, 0 singular).")
         sentences.append(text.filled(quality=self.quality))
         tried = plural("Tried: {count} layout.", "Tried: {count} layouts.", self.tries, lang)
         return f"{joined(sentences, ' ').in_language(lang)} {tried}"
 
-    def ranges_text(self, lang: str = "en") -> str:
-        """How far each drive goes, as text in English (``en``) or German (``de``); empty if nothing was found."""
-        return joined([whole for whole, *_ in self._drive_ranges(lang)], " ").in_language(lang)
-
-    def _drive_ranges(self, lang: str) -> Iterator[list[Message]]:
+    def _drive_ranges(self, lang: str) -> Iterator[Message]:
         """How far each drive goes, and, where that is not the same, how far it is well conditioned."""
         names = self.mechanism.drive_names(Alphabet.of_language(lang))
         unit = "" if self.linkage is None else self.linkage.unit
@@ -105,8 +101,6 @@ class Realisation:
             else:
                 whole = _FULL if self.span.full else texts["range"]
                 ranges = [(whole, (self.span.low, self.span.high)), (texts["well conditioned"], well_conditioned)]
-            lines = []
             for text, ends in ranges:
                 low, high = (degrees(value) if drive.turning else value for value in ends)
-                lines.append(text.filled(drive=name, low=low, high=high, unit=unit))
-            yield lines
+                yield text.filled(drive=name, low=low, high=high, unit=unit)
