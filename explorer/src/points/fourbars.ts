@@ -102,7 +102,7 @@ const DEGREE = Math.PI / 180;
 
 /** A four-bar as the page takes it: the model of some four-bar whose coupler point is named P, with other sizes.
  *
- * Each moving link has its origin at its first pin and its second pin on its x axis, as the library draws it. */
+ * The x axis of each moving link runs from its pin on the frame, else its first, to the other, as the library has it. */
 export function modelOf(template: Model, bar: FourBar, point: Complex, pose: Placed): Model {
   const [crank, coupler, rocker] = lengthsOf(bar);
   const [a, b] = [bar[0].fixed, bar[1].fixed];
@@ -114,7 +114,7 @@ export function modelOf(template: Model, bar: FourBar, point: Complex, pose: Pla
     frame: { 0: pair(a), 3: pair(b) },
     crank: { 0: [0, 0], 1: [crank, 0] },
     coupler: { 1: [0, 0], 2: [coupler, 0] },
-    rocker: { 2: [0, 0], 3: [rocker, 0] },
+    rocker: { 2: [rocker, 0], 3: [0, 0] },
   };
   const elements = template.elements.map((e) => ({ ...e, at: pins[template.links[e.link]!]![e.joint]! }));
   const points = template.sources.flatMap((source) => elements[source]!.at);
@@ -146,7 +146,7 @@ export function modelOf(template: Model, bar: FourBar, point: Complex, pose: Pla
       frame: [0, 0, 0],
       crank: [...a, pose.crank / DEGREE],
       coupler: [...from, pose.coupler / DEGREE],
-      rocker: [...to, angle(sub(b, to)) / DEGREE],
+      rocker: [...b, angle(sub(to, b)) / DEGREE],
     },
   };
   return {

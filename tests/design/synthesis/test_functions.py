@@ -101,8 +101,7 @@ def test_three_pairs_against_freudensteins_equation():
     sign_a = 1 if abs(np.exp(1j * linkage.reference_pose["crank"].angle) - np.exp(1j * phi[0])) < 1e-6 else -1
     frame = linkage.reference_pose["rocker"].angle
     sign_c = 1 if np.real(np.exp(1j * (frame - psi[0]))) > 0 else -1
-    # Rockers are drawn from the coupler's pin to the frame: their x axis points backwards.
-    a, c = sign_a * a, -sign_c * c
+    a, c = sign_a * a, sign_c * c
     left = d / a * np.cos(psi) - d / c * np.cos(phi) + (a**2 - b**2 + c**2 + d**2) / (2 * a * c)
     assert left == pytest.approx(np.cos(phi - psi), abs=1e-9)
 

@@ -76,7 +76,13 @@ SIX_BARS = {
 }
 """Which link of a parallelogram drives a dyad, about which pivot the place turns where it does so, and its joints."""
 CRANK = RigidBody(1.0, (0.5, 0), 1 / 12)
-DYAD = {"4": RigidBody(0.7, (0.5, 0.1), 0.2), "5": RigidBody(0.8, (0.3, 0), 0.1)}
+
+
+def dyad_masses(kind):
+    """Those of link 5, whose x axis begins at the frame, lies 0.3 m from its joint with link 4."""
+    *_, (x, y), (u, v) = SIX_BARS[kind]
+    length = np.hypot(u - x, v - y)
+    return {"4": RigidBody(0.7, (0.5, 0.1), 0.2), "5": RigidBody(0.8, (length - 0.3, 0), 0.1)}
 
 
 def six_bar(kind):
@@ -87,7 +93,7 @@ def six_bar(kind):
     linkage = Linkage.from_drawing(
         Mechanism.parse(f"{joints}; frame=0; drive=R(0-1)"), places, points={"C": ("2", 1.0, 1.0)}, unit="m"
     )
-    return linkage, Loads(bodies={"1": CRANK, "3": CRANK, **DYAD}, masses={"C": 1.0}, gravity=(0, -9.81))
+    return linkage, Loads(bodies={"1": CRANK, "3": CRANK, **dyad_masses(kind)}, masses={"C": 1.0}, gravity=(0, -9.81))
 
 
 def its_four_bar(kind):
@@ -102,7 +108,7 @@ def its_four_bar(kind):
     pose = linkage.required_pose["3"]
     middle = pose.to_local(pivot[0], pivot[1] + 0.5)
     both = RigidBody(2.0, middle, 2 / 12)
-    return linkage, Loads(bodies={"3": both, **DYAD}, masses={"E": 1.0}, gravity=(0, -9.81))
+    return linkage, Loads(bodies={"3": both, **dyad_masses(kind)}, masses={"E": 1.0}, gravity=(0, -9.81))
 
 
 def driven_by(linkage, drive):

@@ -44,8 +44,8 @@ def test_the_circuit_goes_straight_on_and_names_them(count, angle):
 def test_a_near_miss_is_none():
     linkage = parallelograms(2)
     wrong = {link: dict(mine) for link, mine in linkage._by_link().items()}
-    pin = wrong["w2"][6]
-    wrong["w2"][6] = (pin.x * (1 + 1e-5), pin.y * (1 + 1e-5))  # the second parallelogram misses its change points
+    pin = wrong["w2"][5]
+    wrong["w2"][5] = (pin.x * (1 + 1e-4), pin.y * (1 + 1e-4))  # the second parallelogram misses its change points
     made = circuit(Linkage(linkage.mechanism, wrong), at=1.0)
     assert made.closed
     assert len(made.change_points) >= 2  # those of the first one

@@ -64,6 +64,18 @@ def test_the_coupler_is_known_by_its_name_or_by_its_place():
     assert points_of(drawn, (1, 2)) == (LinkPoint("c", 1.0, 2.0),)
 
 
+@pytest.mark.parametrize("text", ["R(0-1) R(1-2) R(2-3) R(0-3)", "R(2-3) R(1-2) R(0-3) R(0-1)"])
+def test_a_crank_and_a_rocker_turn_with_the_line_from_their_pivots(text):
+    """By hand for 25, 70, 40, 70: with the crank on the frame B is at x = 25 + (45² + 70² - 40²)/90 = 84.17."""
+    turned = np.radians(30)
+    places = {"R(0-1)": 0, "R(1-2)": 25, "R(2-3)": 25 + 355 / 6 + 1j * np.sqrt(70**2 - (355 / 6) ** 2), "R(0-3)": 70}
+    drawn = {joint: (z.real, z.imag) for joint, at in places.items() for z in [np.exp(1j * turned) * at]}
+    linkage = gr.Linkage.from_drawing(gr.Mechanism.parse(f"{text}; frame=0; drive=R(0-1)"), drawn)
+    motion = gr.move(linkage, [turned])
+    assert motion.angle("1") - turned == pytest.approx(0, abs=1e-12)
+    assert motion.angle("3") - turned == pytest.approx(np.arccos((25 + 355 / 6 - 70) / 40), abs=1e-12)  # 69.3 degrees
+
+
 REFUSED = [
     ((1, 2, 3), "expected a point: its name, (link, x, y), or (x, y) on the coupler of a four-bar, not (1, 2, 3)"),
     (7, "not 7"),

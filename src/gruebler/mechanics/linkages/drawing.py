@@ -104,9 +104,10 @@ def _link_coordinates(mechanism: Mechanism, link: str, drawn: Mapping[tuple[int,
     """The coordinates of a link: origin and x axis in the plane."""
     if link == mechanism.frame:
         return Pose2D(0.0, 0.0, 0.0)
-    driven = {drive.joint for drive in mechanism.drives}
-    own_elements = sorted((number not in driven, number, e) for (number, owner), e in drawn.items() if owner == link)
-    elements = [element for _, _, element in own_elements]
+    joints, driven = mechanism.chain.joints, {drive.joint for drive in mechanism.drives}
+    own = [number for number, owner in drawn if owner == link]
+    own.sort(key=lambda number: (number not in driven, mechanism.frame not in joints[number].links))
+    elements = [drawn[number, link] for number in own]
     lines = [e for e in elements if e.is_line]
     pins = [e for e in elements if e.is_pin]
     first = pins[0] if pins else elements[0]

@@ -124,8 +124,9 @@ class Linkage(Immutable):
         A turning joint is given by ``(x, y)``, a slide by ``(x, y, angle)``. A pin in a slot is
         ``(x, y, angle, link)``, the link being the one with the slot; wheels are given for each link, as
         ``{link: Wheel(x, y, radius), ...}``. Points are given by where they lie in the
-        drawing. Each link's x axis goes from its driven (else its first) joint to the next, or along its slide; the
-        ways of slides are counted from pin to pin where the links have pins.
+        drawing. The coordinates of a link begin at its driven joint, else at its joint with the frame, else at its
+        first one; the x axis goes to its next joint, or along its slide. So the angle of a crank or rocker is that
+        from its pivot to its moving joint. The ways of slides are counted from pin to pin where the links have pins.
 
         >>> quad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
         >>> drawn = Linkage.from_drawing(quad, {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (6, 4), "R(0-3)": (6, 0)})
