@@ -218,9 +218,11 @@ def solutions(
         ends[doubtful] = np.where(same[:, None], sharp, ends[doubtful])
         doubtful[doubtful] = ~_core.certify(ends[doubtful], p, problem.poses, problem.points)
     outcome = _outcome(problem, base, p, lost | doubtful, threads)
-    # What arrived, though it is not certified, is believed unless the endgame finds others, or branches, at its end.
-    near = np.abs(outcome.z - ends[lost | doubtful]).max(axis=1, initial=0.0) < _NEAR
-    single = doubtful[lost | doubtful] & ~(outcome.several & near)
+    # What arrived, though it is not certified, is believed if it is regular, unless the endgame finds others, or
+    # branches, at its end.
+    unsure = ends[lost | doubtful]
+    near = np.abs(outcome.z - unsure).max(axis=1, initial=0.0) < _NEAR
+    single = doubtful[lost | doubtful] & ~(outcome.several & near) & _regular(problem, unsure, p)
     lost |= doubtful
     lost[np.flatnonzero(lost)[single]] = False
     outcome = outcome.without(single)
