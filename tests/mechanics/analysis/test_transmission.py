@@ -17,6 +17,7 @@ from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics import from_degrees, move
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
+from gruebler.teaching.catalog import entry
 from tests.samples import CLASS_III, CYLINDER
 
 SIZES = [
@@ -116,6 +117,23 @@ def test_larger_groups_are_measured_at_the_leg_on_the_moving_side() -> None:
     assert found.smallest.mu == pytest.approx(0, abs=1e-8)  # at the limits
     assert found.largest.mu == pytest.approx(mu.max(), abs=1e-5)
     assert found.largest.mu >= mu.max() - 1e-9
+
+
+def test_between_two_moving_legs_it_is_the_angle_of_the_dyad() -> None:
+    """Law of cosines for Jansen's leg: link and foot meet at 39.4 and 36.7 from the joints that hold them."""
+    linkage = entry("jansen").linkage()
+    course = drive_cycle(linkage)
+    motion = course.at(np.linspace(0, 2 * math.pi, 3601), 2)
+    upper, knee, lower = (
+        motion.complex_point(name) for name in ("R(triangle-link)", "R(link-foot)", "R(lower_rod-rocker-foot)")
+    )
+    arms = np.abs(upper - knee), np.abs(lower - knee)
+    cosine = (arms[0] ** 2 + arms[1] ** 2 - np.abs(upper - lower) ** 2) / (2 * arms[0] * arms[1])
+    expected = np.arccos(np.abs(cosine))
+    assert transmission_angle(motion) == pytest.approx(expected, abs=1e-9)
+    smallest = measure_transmission(course, find_output(linkage)).smallest
+    assert smallest.mu == pytest.approx(expected.min(), abs=1e-5)
+    assert smallest.mu <= expected.min()
 
 
 def test_virtual_work_at_the_driving_leg() -> None:

@@ -27,6 +27,7 @@ from gruebler.structure.chain.pairs import Pair, in_alphabets
 
 _SLOW = 1e-7  # of the fastest motion in the same pose: a velocity below it has no direction of its own
 _LEAST = 1e-10  # of the natural size: the turning of the force, or the sine of its angle, that is none
+_DYAD = 2  # links
 _CONSTANT = 1e-8  # radians: an angle that varies by less is constant; next to change points half the digits are lost
 
 
@@ -50,7 +51,8 @@ class PushingLink:
     pushed: str
     """The link that it pushes."""
     guide: tuple[Pair, Element] | None
-    """How the pushed link hangs on the frame, if by one joint: its pair, and the joint on the frame."""
+    """By which one joint the pushed link is held, on the frame or, in a dyad, on a link that moves: its pair, and the
+    joint there, else on the pushed link."""
 
     @property
     def form(self) -> str:
@@ -146,11 +148,13 @@ def _leg(plan: Plan, group: SolvedGroup, body: int) -> PushingLink | None:
 def _guide(plan: Plan, group: SolvedGroup, body: int) -> tuple[Pair, Element] | None:
     frame = plan.lower.mechanism.frame
     held = [(n, m) for n, m in group.joints if m.outer and body in m.links]
-    at_frame = [(n, m) for n, m in held if frame in plan.lower.mechanism.chain.joints[n].links]
-    if len(held) != 1 or len(at_frame) != 1:
+    if len(held) != 1:
         return None
-    number, member = at_frame[0]
-    return member.pair, _element(plan, number, (frame,))
+    number, member = held[0]
+    at_frame = frame in plan.lower.mechanism.chain.joints[number].links
+    if not at_frame and (len(group.bodies) != _DYAD or not member.pair.is_basic):
+        return None
+    return member.pair, _element(plan, number, (frame,) if at_frame else _bodies(group)[body])
 
 
 def _element(plan: Plan, joint: int, links: tuple[str, ...]) -> Element:
@@ -180,9 +184,10 @@ def _lines(motion: Motion, leg: PushingLink) -> _Lines:
     if leg.guide is not None:
         pair, place = leg.guide
         if pair.is_sliding:
-            directions = np.full(len(motion), place[2])
-            return _Lines(force, force_rate, directions, np.zeros_like(directions))
-        return _Lines(force, force_rate, 1j * (point[0] - place[1]), 1j * point[1])
+            across, across_rate = _normal(motion, place)
+            return _Lines(force, force_rate, -1j * across, -1j * across_rate)
+        held = _point(motion, place)
+        return _Lines(force, force_rate, 1j * (point[0] - held[0]), 1j * (point[1] - held[1]))
     return _Lines(force, force_rate, *_velocity(motion, leg.pushed, point))
 
 
