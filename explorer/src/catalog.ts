@@ -76,7 +76,7 @@ export class CatalogView implements View {
     const feature = (key: string, label: string) =>
       field(label, this.#features[key] ?? "", (text) => (this.#features[key] = text), "", key);
     const more = h(
-      "details",
+      "details.words",
       { open: this.#refining, "data-panel": "features", ontoggle: () => (this.#refining = more.open) },
       h("summary", {}, t("More features")),
       h(

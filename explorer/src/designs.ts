@@ -24,7 +24,7 @@ export interface Design extends Moving {
   angles?: Pair[];
   /** Of dead centres the places of the joints at both. */
   ends?: [Pair[], Pair[]];
-  /** Of crank, coupler, rocker and frame; none of what has other joints. */
+  /** Of frame, crank, coupler and rocker; none of what has other joints. */
   lengths: number[];
 }
 
@@ -119,17 +119,16 @@ export class DesignCards {
       ["shift", t("by sensitivity")],
     ];
     if (this.#exact) orders.shift();
-    const lengths = t("Lengths: crank · coupler · rocker · frame");
     const words = [
       this.#order === "balanced" && t("Balanced: transmission angle, size and sensitivity count alike."),
-      found.items.some((each) => each.lengths.length) &&
-        `${lengths}${found.relative ? `; ${t("only their ratios count")}` : ", mm"}.`,
+      found.relative && t("Of lengths only the ratios count."),
       found.items.some(({ shift }) => shift) &&
         t("Sensitivity: how far a target is off at most, if all lengths are 0.1 % wrong."),
     ];
     const refused = found.refused > 1 && t("{count} others do not meet what is asked.", { count: found.refused });
     const told = [
       found.note,
+      shown < total && t("The best {shown} of {count} are shown.", { shown, count: total }),
       !total && t("None does: try a crank that need not turn fully, a smaller angle or other targets."),
       this.#exact && shown > 0 && t("All meet the targets exactly."),
       refused || (found.refused && t("One other does not meet what is asked.")),
@@ -144,13 +143,7 @@ export class DesignCards {
     const chosen = { "data-field": "form" };
     renew(
       this.element,
-      h(
-        "h2",
-        {},
-        shown < total
-          ? t("{shown} of {count} designs", { shown, count: total })
-          : t("{count} designs", { count: total }),
-      ),
+      h("h2", {}, (this.#form && `${capital(this.#form)}: `) + t("{count} designs", { count: this.#shown.length })),
       h("p.note", {}, told.filter((text) => text).join(" ")),
       shown > 1
         ? h(
@@ -182,13 +175,11 @@ export class DesignCards {
 
   #card(design: Design): HTMLElement {
     const { form, lengths, range, shift, transmission, error, size } = design;
-    const degrees = (mu: number) => angle((mu * Math.PI) / 180, 3);
-    const all = typeof range === "number" ? t("≥ {angle} in all positions", { angle: degrees(range) }) : "";
-    const way = transmission === null ? "" : t("μ ≥ {angle} on the way", { angle: degrees(transmission) });
-    const alike = all && way && degrees(range!) === degrees(transmission!);
+    const degrees = (mu: number | null | undefined) => typeof mu === "number" && angle((mu * Math.PI) / 180, 3);
+    const [way, all] = [transmission, range].map(degrees);
+    const names = t("frame · crank · coupler · rocker").split(" · ");
     const value = error === null || exact(error) ? 0 : 100 * error;
     const deviation = value ? t("deviation {value} %", { value: number(value, 2) }) : t("met exactly");
-    const off = shift ? ` · ${t("sensitivity {value} %", { value: number(100 * shift, 2) })}` : "";
     const title = `${capital(form)} ${this.#of(form).indexOf(design) + 1}`;
     const play = () => this.play(design);
     return h(
@@ -196,10 +187,17 @@ export class DesignCards {
       { onclick: () => this.open(design), onpointerenter: play, onfocus: play },
       thumbnail(design.picture, form),
       h("b", {}, title),
-      h("span", {}, lengths.map((one) => number(one, 3)).join(" · ")),
+      h("span.lengths", {}, ...lengths.map((one, k) => h("span", {}, names[k]!, h("strong", {}, number(one, 3))))),
       h("span", {}, error === null || this.#exact ? "" : deviation),
-      h("span", {}, alike ? `μ ${all}` : [way, all].filter((text) => text).join(", ")),
-      h("span", {}, t("size {value}", { value: number(size, 3) }) + (this.#found?.relative ? "" : " mm") + off),
+      h(
+        "span",
+        {},
+        way && way !== all
+          ? t("μ ≥ {way} on the way", { way }) + (all ? t(", else {all}", { all }) : "")
+          : all && t("μ ≥ {all} in all positions", { all }),
+      ),
+      h("span", {}, !lengths.length && t("size {value} mm", { value: number(size, 3) })),
+      h("span", {}, !!shift && t("sensitivity {value} %", { value: number(100 * shift, 2) })),
     );
   }
 }

@@ -316,7 +316,7 @@ export class SynthesisView implements View {
     const lacks = count < wanted ? t("{count} of {wanted} set", { count, wanted }) : "";
     this.#key.disabled = !!lacks;
     this.#key.title = lacks;
-    const enough = this.#planar && !this.#shownDesign ? t("{count} set: enough", { count }) : "";
+    const enough = this.#planar && !this.#shownDesign ? t("{count} set", { count }) : "";
     this.#told.textContent = lacks || enough;
     renew(
       this.#list,

@@ -8,7 +8,7 @@ import { numberPlaces, swingMark, swingOf, targetMark } from "./targets";
 import { type Kind, wordsOf } from "./tasks";
 
 const WIDE = 240; // of the plane, in millimetres; that of a phone is narrower
-const PART = 0.6; // of the height of the window, at most
+const PART = 0.64; // of the height of the window, at most
 const LOW = 0.32; // the same on a phone, where designs need room
 
 /** What is met, and by what. */
@@ -78,7 +78,7 @@ export class TaskPicture {
     const way = angles ? [...points].sort(([one], [two]) => one! - two!) : points;
     const at = numberPlaces(points, closed, unit);
     put(this.#here, { r: 1.5 * unit });
-    const ratios = (of: Area) => (design ? gridOf(of, ["", ""]) : []); // of lengths
+    const ratios = (of: Area) => gridOf(of, ["", ""]); // of lengths
     const behind = swing
       ? [...ratios(this.#area), ...swingMark(swing, points[0]!, unit, design)]
       : [

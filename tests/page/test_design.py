@@ -48,6 +48,28 @@ def undo_and_redo(design):
     assert view.locator('[data-value=""]').get_attribute("aria-pressed") == "true"
 
 
+def found_designs(view):
+    """The cards of designs that are looked for by the button, which stays where it is."""
+    key = view.locator('[data-act="synthesise"]')
+    before = key.bounding_box()
+    key.click()
+    cards = view.locator('[data-list="designs"] .card')
+    cards.first.wait_for(timeout=60_000)
+    assert key.bounding_box() == before
+    return cards
+
+
+def shows_the_first_card(view, lengths: list[str]) -> None:
+    """How many of its kind there are, its lengths, three positions; curves have the blue that they have in Motion."""
+    assert view.locator(".designs h2").inner_text().endswith(f": {view.locator('.designs .card').count()} designs")
+    card = view.locator('[data-list="designs"] .card').first
+    assert card.locator(".lengths").inner_text().split()[: len(lengths)] == lengths
+    assert card.locator("svg .gr-target-head").count() == 3
+    stroke = "(one) => getComputedStyle(one).stroke"
+    curves = [view.locator(f"{where} [class$=curve]").first.evaluate(stroke) for where in ("[data-ghost]", ".card")]
+    assert curves == ["rgb(0, 114, 178)"] * 2
+
+
 def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(design):
     view = design.page
     view.click('[data-value="positions"]')
@@ -72,10 +94,8 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
     assert view.locator("[data-pivot]").count() == 2
     view.locator('[data-field="crank"]').uncheck()
     view.locator('[data-field="least"]').fill("0")
-    view.click('[data-act="synthesise"]')
-    view.locator('[data-list="designs"] .card').first.wait_for(timeout=60_000)
-    cards = view.locator('[data-list="designs"] .card')
-    assert cards.first.locator("svg .gr-head").count() >= 3  # where the positions are
+    found_designs(view)
+    shows_the_first_card(view, lengths=["frame", "60", "crank"])  # from pivot to pivot
     # it plays over the targets: three moving links, one curve
     assert view.locator("[data-ghost] .bar").count() == 3
     assert view.locator("[data-ghost] .support").count() == 2
@@ -195,9 +215,8 @@ def test_dead_centres_are_those_that_were_asked_for(design):
     degree = (x[2] - x[0]) / 90  # across as upward
     assert pairs[1] == pytest.approx([45, 25 + 10 / degree], abs=0.2)
     assert y[0] - y[1] == pytest.approx(pairs[1][1] * degree, abs=1)
-    view.click('[data-act="synthesise"]')
-    cards = view.locator('[data-list="designs"] .card')
-    cards.nth(1).hover(timeout=60_000)
+    cards = found_designs(view)
+    cards.nth(1).hover()
     # the chart stays beside the design, with the curve of the rocker over the crank through all pairs
     assert view.locator(".plane").count() == 2
     curve = view.locator(".plane:last-child .curve").get_attribute("d")

@@ -88,7 +88,7 @@ function designOf({ model, cycle, full, transmission, error }: Judged, targets: 
     return [own === link ? [...joints, pins.length] : joints];
   });
   const fixed = model.joints.flatMap(({ links }, joint) => (links.includes(model.frame) ? [joint] : []));
-  const lengths = [...members.map((own) => own.slice(0, 2)), fixed].map((ends) => {
+  const lengths = [fixed, ...members.map((own) => own.slice(0, 2))].map((ends) => {
     const [one, other] = ends.map((joint) => shown[0]![joint]!);
     return abs(sub(one!, other!));
   });

@@ -157,8 +157,8 @@ def _target_marks(task: Task, frame: str, scale: float) -> list[CarriedLine]:
     marks = []
     for at, turn in rows:
         if turn is not None:
-            marks.append(CarriedLine(frame, (at, at + _ARM / scale * np.exp(1j * turn)), "drive"))
-        marks.append(CarriedLine(frame, tuple(at + _RING / scale * _CIRCLE), "head"))
+            marks.append(CarriedLine(frame, (at, at + _ARM / scale * np.exp(1j * turn)), "target"))
+        marks.append(CarriedLine(frame, tuple(at + _RING / scale * _CIRCLE), "target-head"))
     return marks
 
 
@@ -237,7 +237,7 @@ def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, An
     four_bar = chain.n == len(chain.joints) == _FOUR and all(joint.pair.is_turning for joint in chain.joints)
     apart = [(k, m) for own in joints for k in own for m in own if k < m]
     measured = [*rows[0, joints[chain.links.index(frame)]].ravel(), *(_apart(rows[0], k, m) for k, m in apart)]
-    bars = sorted(zip(chain.links, joints, strict=True), key=lambda row: row[0] == frame)  # the frame comes last
+    bars = sorted(zip(chain.links, joints, strict=True), key=lambda row: row[0] != frame)  # the frame comes first
     blocks = [[k, k + 1] for k in range(len(carried), rows.shape[1], 4)]
     for joint, block in zip(sliding, blocks, strict=True):
         rows[:, joint] = rows[:, block].mean(axis=1)

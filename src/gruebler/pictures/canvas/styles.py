@@ -100,6 +100,8 @@ STYLES = {
     "centrode-fixed": Style(stroke="green", width=1.6),
     "centrode-moving": Style(stroke="purple", width=1.6, dash=_DASHED),
     "inflection": Style(stroke="accent", width=1.5, dash=_DASHED),
+    "target": Style(stroke="purple", width=2.2),
+    "target-head": Style(fill="purple"),
     "warning": Style(fill="warning"),
     "rest": Style(fill="frame"),
     "grid": Style(stroke="grid", width=1.0),
