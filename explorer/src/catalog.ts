@@ -13,6 +13,8 @@ interface Entry {
   counted: number;
   /** The mobility that special dimensions give, null where they give none other. */
   special: number | null;
+  /** How many freedoms change nothing but a part for itself, such as the spin of a rod between two balls. */
+  idle: number;
   moves: boolean;
   /** Whether it has a page of its own, on which it moves in space. */
   space: boolean;
@@ -178,11 +180,13 @@ export class CatalogView implements View {
   }
 
   #card(entry: Entry): HTMLElement {
-    const { id, links, counted, moves, space, special } = entry;
-    const sizes =
-      special === null || special === counted
-        ? t("{links} links, F = {counted}", { links, counted })
-        : t("{links} links, F = {special}, by the count {counted}", { links, special, counted });
+    const { id, idle, links, counted, moves, space } = entry;
+    const special = entry.special ?? counted;
+    const sizes = [
+      t("{links} links, F = {mobility}", { links, mobility: special - idle }),
+      ...(idle ? [t("{idle} idle", { idle })] : []),
+      ...(special === counted ? [] : [t("by the count {counted}", { counted })]),
+    ].join(", ");
     const kinds = space ? [t("in space")] : [t("structure only")].slice(Number(moves));
     const card = h(
       "button.card",

@@ -88,14 +88,15 @@ export class ChainList {
     if (!wrong) {
       this.#links = Number(links.value);
       this.mobility = Number(mobility.value);
-      return void this.#ask(0);
+      return void this.#ask(0, true);
     }
     const { min, max } = wrong;
     const text = t("Expected a whole number from {min} to {max}.", { min, max });
     renew(this.#status, h("span.error", { role: "alert" }, text));
   }
 
-  async #ask(start: number): Promise<void> {
+  /** Ask for some more of them; the first one is taken if others are wanted. */
+  async #ask(start: number, others = false): Promise<void> {
     const question = { links: this.#links, mobility: this.mobility, start };
     const number = ++this.#asked;
     const place = this.#found ? this.#status : this.#list;
@@ -106,6 +107,8 @@ export class ChainList {
       this.#found = { ...found, items: [...before, ...found.items] };
     }
     this.#show();
+    const first = others && found?.items[0];
+    if (first) this.take(first.text);
   }
 
   #show(): void {

@@ -177,7 +177,7 @@ export class StructureView implements View {
       step(
         2,
         t("Frame"),
-        h("p.note.form", {}, t("Links that a symmetry exchanges stand here once.")),
+        h("p.note.form", {}, t("Equivalent links stand here once.")),
         this.#cards("inversions", found.inversions, ({ frame }) => [
           /^\d/.test(frame) ? `${t("Frame")} ${frame}` : frame,
           frame === found.chosen,
@@ -197,7 +197,6 @@ export class StructureView implements View {
     renew(
       this.#go,
       h("button.key", { "data-act": "realise", onclick: () => void this.#realise() }, t("Find dimensions and move it")),
-      found.drives ? "" : h("span.note", {}, t("Frame and drive are chosen for you unless you choose them.")),
     );
     if (before !== false) for (const scrolled of [this.element, window]) scrolled.scrollBy(0, top() - before);
   }

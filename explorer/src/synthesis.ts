@@ -123,6 +123,10 @@ export class SynthesisView implements View {
     this.element.classList.toggle("typed", !this.#planar);
     renew(this.#key, t("Find linkages"));
     const back = () => this.element.scrollIntoView();
+    const close = (on: boolean) => {
+      this.#closed = on;
+      this.#draw();
+    };
     renew(
       this.#doing,
       this.#picture.element,
@@ -166,7 +170,7 @@ export class SynthesisView implements View {
             "div",
             {},
             this.#demands.form(
-              this.kind === "points" && option(t("closed curve"), this.#closed, (on) => this.#close(on), "closed"),
+              this.kind === "points" && option(t("closed curve"), this.#closed, close, "closed"),
               this.#planar && this.#page.served,
             ),
             this.#list,
@@ -186,11 +190,6 @@ export class SynthesisView implements View {
     this.#play(null);
     renew(this.status);
     this.arrange();
-  }
-
-  #close(on: boolean): void {
-    this.#closed = on;
-    this.#draw();
   }
 
   #down(event: PointerEvent): void {

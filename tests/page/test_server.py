@@ -5,6 +5,8 @@ import os
 import re
 import signal
 import socket
+import subprocess
+import sys
 import threading
 import time
 from contextlib import suppress
@@ -134,6 +136,24 @@ def test_a_worker_killed_while_idle_is_replaced_before_the_next_request(server):
     assert "default-src 'none'" in policy
     assert "unsafe" not in policy.replace("'wasm-unsafe-eval'", "")  # the kernels, docs/theory/explorer.md
     assert 'src="explorer.js"' in text
+
+
+def test_what_views_ask_first_finds_its_modules_loaded():
+    """By a worker that is begun before anybody asks; another process, since this one has loaded them."""
+    program = """
+import sys
+from gruebler.page.requests import answer
+from gruebler.page.worker import load
+load()
+before = set(sys.modules)
+answer("catalog", {"words": "cam"}, "de", print)
+for machine in ("belt", "cam", "delta", "sarrus"):
+    answer("picture", {"id": machine}, "de", print)
+answer("structure", {"text": "R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)"}, "de", print)
+print(sorted(set(sys.modules) - before))
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
+    assert done.stdout == "[]\n"
 
 
 def test_a_socket_from_another_origin_is_closed(server):

@@ -74,7 +74,7 @@ def error_on_page(error: GrueblerError, lang: str) -> str:
 
 def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, Any]]:
     from gruebler.structure.mechanism import Mechanism
-    from gruebler.structure.mobility import counted
+    from gruebler.structure.mobility import counted, mobility_report
     from gruebler.teaching.catalog.feature_query import FeatureQuery, entry_features, entry_mechanism, read_pairs
     from gruebler.teaching.catalog.loader import Query, search
 
@@ -99,6 +99,9 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
             "links": candidate.chain().n,
             "counted": counted(candidate.chain()),
             "special": candidate.claims.mobility,
+            "idle": sum(freedom.freedoms for freedom in mobility_report(candidate.chain()).idle_freedoms)
+            if candidate.claims.idle  # names all of them
+            else 0,
             "moves": candidate.dimensions is not None and candidate.space == "planar",
             "space": candidate.in_space,
             "text": Mechanism(

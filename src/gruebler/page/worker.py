@@ -1,9 +1,14 @@
-"""A process that answers requests of the page, one after the other: a line of JSON in, lines of JSON out."""
+"""A process that answers requests of the page, one after the other: a line of JSON in, lines of JSON out.
+
+With an argument it loads what views first ask for while nobody asks: that takes a second, for which who turns to the
+catalog would wait.
+"""
 
 from __future__ import annotations
 
 import os
 import sys
+from threading import Thread
 from typing import Any
 
 import msgspec
@@ -12,11 +17,27 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import translate
 from gruebler.page.requests import answer, error_on_page
 
+_FIRST: tuple[tuple[str, dict[str, Any]], ...] = (
+    ("catalog", {}),
+    ("picture", {"id": "bennett"}),
+    ("picture", {"id": "cam_roller"}),
+    ("structure", {"text": "R(0-1) R(1-2) R(2-3) R(3-0)"}),
+)
+
+
+def load() -> None:
+    """Load the modules that the catalog, its pictures and the structure of a machine need. Cost: 1 s."""
+    for method, params in _FIRST:
+        answer(method, params, "en", lambda _: None)
+
 
 def main() -> None:
     """Answer until standard input ends; what anything prints goes to standard error."""
     stream = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
+
+    if len(sys.argv) > 1:
+        Thread(target=load, daemon=True).start()
 
     def say(kind: str, content: Any) -> None:
         stream.write(msgspec.json.encode([kind, content]) + b"\n")

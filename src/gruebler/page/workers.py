@@ -34,8 +34,8 @@ class Workers:
         self._slots = asyncio.Semaphore(most)
 
     async def begin(self) -> None:
-        """Start one, so that the first request need not wait for it."""
-        self._free.append(await self._started())
+        """Start one that loads what it will need, so that the first request need not wait for it."""
+        self._free.append(await self._started("load"))
 
     async def ask(
         self,
@@ -96,8 +96,8 @@ class Workers:
                 return reply
             await self._end(used[0])
 
-    async def _started(self) -> Process:
-        command = (sys.executable, "-m", "gruebler.page.worker")
+    async def _started(self, *arguments: str) -> Process:
+        command = (sys.executable, "-m", "gruebler.page.worker", *arguments)
         process = await asyncio.create_subprocess_exec(*command, stdin=PIPE, stdout=PIPE, limit=_WIDEST)
         self._all.add(process)
         return process
