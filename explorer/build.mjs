@@ -73,12 +73,12 @@ const packed = {
  * library, calls them. */
 const own = `
   adding addPoint appeared arrange atFrame attemptAnywhere cancelDrag changeSlowly dragCancel
-  dragEnd dragPoint dragStart element elementAt elementsOf elementsOn falling holdJoint
+  dragEnd dragPoint dragStart editor element elementAt elementsOf elementsOn falling forget holdJoint knot
   jointName leftOf lineFirst linkList linkName moveJointBy movePointBy openDocument openFile
-  paused picked plottedAngle pointed pointName poleAside possible present recoloured runAlong
+  pan paused picked playAt plottedAngle pointed pointName poleAside possible present recoloured runAlong
   fitted nudge recall spots
   served setAdding setLength setTheme shiftLine shownDesign showPose showRange showValue
-  sized snapping switchMode toLocal turnTo writeSizes
+  sized snapping switchMode toLocal turnTo upright writeSizes
 `.match(/\w+/g);
 
 /** Long names that others call, too, above all the browser's own, and that stand in a module again and again. */

@@ -3,20 +3,31 @@
 import { gripAt, gripped } from "./backdrop";
 import { choiceOf, removeChosen } from "./choice";
 import { h, renew, svg } from "./dom";
-import { type Drawing, documentOfDrawing, EMPTY, joined, joinsBoth, linksOf, moved, type Spot, same } from "./drawing";
+import {
+  type Drawing,
+  documentOfDrawing,
+  EMPTY,
+  joined,
+  joining,
+  linksOf,
+  moved,
+  type Spot,
+  same,
+  traced,
+} from "./drawing";
 import { Fingers, pixelIn, wheelZooms, whileDown } from "./fingers";
 import { stepOf } from "./grid";
 import { zoomedBy } from "./help";
 import { History } from "./history";
 import { away } from "./hull";
 import { keepDrawing, keptDrawing, saveDrawing } from "./kept";
-import { t } from "./language";
+import { spaced, t } from "./language";
 import type { Linkage } from "./linkage";
 import { type Drawn, MobilityPanel } from "./mobility";
 import type { Model } from "./model";
 import { hintOf, KEYS, NEEDED, palette, type Tool, withTool } from "./palette";
 import { placesPanel } from "./places";
-import { type Aim, type Chosen, GRIP, type Plane, planePicture, spotAt } from "./plane";
+import { type Aim, type Chosen, GRIP, isPicture, type Plane, planePicture, spotAt } from "./plane";
 import { WAYS } from "./pointer";
 import type { Pair } from "./rows";
 import { zoomButtons } from "./shell";
@@ -60,12 +71,12 @@ export class BuildView implements View, Plane, Drawn {
   readonly #starters = h("div.starters", {});
   readonly #side = h("div.side", {});
   private readonly mobility = new MobilityPanel(this);
-  readonly #choice = h("div.choosing", {});
+  readonly #choice = h("div.form.hint.choosing", {});
   readonly #places = h("section.panel.options", {});
 
   constructor(readonly page: Page) {
     this.viewport.scale = 4;
-    const stage = h("div.stage", {}, this.root, this.#hint, this.#starters, this.#buttons);
+    const stage = h("div.stage", {}, this.root, this.#hint, this.#choice, this.#starters, this.#buttons);
     this.element.append(stage, this.#tools, this.#side);
     wheelZooms(this.root, (...about) => this.zoom(...about));
     new ResizeObserver(() => this.#resize()).observe(stage);
@@ -90,6 +101,9 @@ export class BuildView implements View, Plane, Drawn {
   fit(): void {
     const box = extentOf(this.drawing);
     const seen = box.right > box.left || box.top > box.bottom;
+    const room = 0.1 * (box.right - box.left); // for letters
+    box.left -= room;
+    box.right += room;
     this.viewport.fit(seen ? box : FIRST, 1e-9, this.#hint.offsetHeight + 12);
     this.#draw();
   }
@@ -111,19 +125,7 @@ export class BuildView implements View, Plane, Drawn {
     renew(
       this.#side,
       h("section.panel", {}, h("h2", {}, t("Mobility")), this.mobility.element),
-      h("section.panel", {}, h("h2", {}, t("What is chosen")), this.#choice),
-      h(
-        "section.panel.options",
-        {},
-        h("label", {}, snap, t("Snap")),
-        h(
-          "p.note",
-          {},
-          t("Ends snap to joints, the grid, round angles and equal lengths."),
-          h("span.keys", {}, " ", t("With Shift links are level or upright.")),
-        ),
-        h("button.plain", { "data-act": "empty", onclick: () => this.#empty() }, t("Empty plane")),
-      ),
+      h("section.panel.options", {}, h("label", {}, snap, t("Snap to joints, grid, angles and lengths"))),
       this.#places,
     );
     this.root.setAttribute("aria-label", t("Plane to draw on"));
@@ -151,7 +153,7 @@ export class BuildView implements View, Plane, Drawn {
     this.fit();
   }
 
-  #empty(): void {
+  empty(): void {
     this.change(EMPTY);
     this.#take("ground");
     this.fit();
@@ -160,6 +162,7 @@ export class BuildView implements View, Plane, Drawn {
   #take(tool: Tool): void {
     this.#tool = tool;
     this.spots = [];
+    this.chosen = null;
     this.aim = "away";
     this.arrange();
   }
@@ -170,7 +173,7 @@ export class BuildView implements View, Plane, Drawn {
     if (!next) return this.page.say(text);
     const { chosen, drawing } = this;
     const all = next.knots.length === drawing.knots.length;
-    const stays = chosen && ("knot" in chosen ? all : "link" in chosen && linksOf(next).includes(chosen.link));
+    const stays = chosen?.link ? linksOf(next).includes(chosen.link) : all && !isPicture(chosen);
     if (!stays) this.chosen = null;
     this.#history.add(drawing);
     this.drawing = next;
@@ -214,13 +217,16 @@ export class BuildView implements View, Plane, Drawn {
     const { drawing } = this;
     const tool = this.#tool;
     const [held] = this.spots;
-    if (this.#goingOn && held && joinsBoth(drawing, held, spot)) this.spots = []; // another link begins there
+    if (this.#goingOn && held && joining(drawing, held, spot)) this.spots = []; // another link begins there
     this.#goingOn = false;
     const { spots } = this;
     spots.push(spot);
     if (this.aim === "aiming") this.aim = "here";
     if (spots.length < NEEDED[tool]) return this.#draw();
     this.spots = [];
+    const [from] = spots as [Spot];
+    const link = tool === "link" && !same(from, spot) && joining(drawing, from, spot);
+    if (link) return this.change(null, t("{link} joins them already.", { link: spaced(link) }));
     this.change(withTool(tool, drawing, spots));
     if (tool === "link" && spot.knot === null && spot.link === null) this.#goOn(spot.at);
   }
@@ -290,8 +296,10 @@ export class BuildView implements View, Plane, Drawn {
     const { picture } = before;
     let last = pixelIn(this.root, event);
     const start = this.viewport.world(...last);
-    const held = picture && this.chosen && "picture" in this.chosen;
-    const grip = held && spot.knot === null ? gripAt(picture, start, GRIP / this.viewport.scale) : null;
+    const grip =
+      picture && isPicture(this.chosen) && spot.knot === null
+        ? gripAt(picture, start, GRIP / this.viewport.scale)
+        : null;
     if (!grip) this.#choose(spot, start);
     this.root.setPointerCapture(event.pointerId);
     const moves = (next: PointerEvent) => {
@@ -333,9 +341,8 @@ export class BuildView implements View, Plane, Drawn {
 
   #choose(spot: Spot, place = spot.at): void {
     const { picture } = this.drawing;
-    this.chosen = picture && gripAt(picture, place, GRIP / this.viewport.scale) ? { picture: true } : null;
-    if (spot.knot !== null) this.chosen = { knot: spot.knot };
-    else if (spot.link !== null) this.chosen = { link: spot.link };
+    const picked = picture && gripAt(picture, place, GRIP / this.viewport.scale);
+    this.chosen = picked || !isPicture(spot) ? spot : null;
     this.#draw();
     this.#showChoice();
   }
@@ -386,7 +393,8 @@ export class BuildView implements View, Plane, Drawn {
     this.#known = this.drawing;
     try {
       const { title } = this.drawing;
-      const question = { document: documentOfDrawing(this.drawing), name: title ?? t("A drawn mechanism") };
+      const shown = title === undefined ? traced(this.drawing) : this.drawing;
+      const question = { document: documentOfDrawing(shown), name: title ?? t("A drawn mechanism") };
       const model = await this.page.ask<Model>("open_document", question);
       this.page.open({ ...model, changed: title !== undefined, plays: true });
       this.#made = this.linkage;

@@ -16,7 +16,7 @@ import {
   withoutLink,
 } from "./drawing";
 import { parsed, spaced, t } from "./language";
-import type { Plane } from "./plane";
+import { isPicture, type Plane } from "./plane";
 import type { Pair } from "./rows";
 
 /** The view of a drawing, as far as it is changed here. */
@@ -31,8 +31,9 @@ interface Changing extends Plane {
 export function removeChosen(view: Changing): void {
   const { chosen, drawing } = view;
   if (!chosen) return;
-  if ("picture" in chosen) view.change({ ...drawing, picture: undefined });
-  else view.change("knot" in chosen ? without(drawing, chosen.knot) : withoutLink(drawing, chosen.link));
+  const { knot, link } = chosen;
+  if (knot !== null) view.change(without(drawing, knot));
+  else view.change(link === null ? { ...drawing, picture: undefined } : withoutLink(drawing, link));
 }
 
 /** A number in a field that changes the drawing. */
@@ -75,14 +76,14 @@ export function choiceOf(view: Changing): HTMLElement[] {
   const button = (key: string, text: string, act: () => void) =>
     h("button.plain", { "data-act": key, onclick: act }, text);
   const removing = button("remove", t("Remove"), () => removeChosen(view));
-  const note = (text: string) => h("p.note", {}, text);
-  if (!chosen) return [note(t("Nothing yet: take Move and choose a joint or a link."))];
-  if ("picture" in chosen) {
+  const note = (text: string) => h("b", {}, text);
+  if (!chosen) return [];
+  const { link } = chosen;
+  if (isPicture(chosen)) {
     const how = t("The picture: drag it; its corner sizes it, the grip on its side turns it.");
-    return [note(how), h("div.form", {}, removing)];
+    return [note(how), removing];
   }
-  if ("link" in chosen) {
-    const { link } = chosen;
+  if (link !== null) {
     const name = h("input", {
       value: spaced(link),
       size: 7,
@@ -90,29 +91,27 @@ export function choiceOf(view: Changing): HTMLElement[] {
       onchange: () =>
         view.change(
           renamed(drawing, link, name.value.trim().replaceAll(" ", "_")),
-          t("Expected a name that nothing else has, without spaces and brackets."),
+          t("Expected a new name without spaces and brackets."),
         ),
     });
     const frame = button("frame", t("Hold as frame"), () => view.change({ ...drawing, frame: link, drives: [] }));
-    return [
-      h("div.form", {}, h("label", {}, t("Name"), name), ...lengthField(view, link)),
-      h("div.form", {}, frame, removing),
-    ];
+    return [h("label", {}, t("Name"), name), ...lengthField(view, link), frame, removing];
   }
-  const { at, between, links } = drawing.knots[chosen.knot]!;
+  const knot = chosen.knot!;
+  const { at, between, links } = drawing.knots[knot]!;
   const parts: HTMLElement[] = [removing];
   if (links.length > 1) {
-    const is = drawing.drives.includes(chosen.knot);
-    parts.unshift(button("drive", is ? t("Not driven") : t("Drive"), () => view.change(driven(drawing, chosen.knot))));
-    if (isPin(drawing.knots[chosen.knot]!))
-      parts.push(button("split", t("Split"), () => view.change(split(drawing, chosen.knot, view.step / 2))));
+    const is = drawing.drives.includes(knot);
+    parts.unshift(button("drive", is ? t("Not driven") : t("Drive"), () => view.change(driven(drawing, knot))));
+    if (isPin(drawing.knots[knot]!))
+      parts.push(button("split", t("Split"), () => view.change(split(drawing, knot, view.step / 2))));
   }
   const places = (["x", "y"] as const).map((key, axis) =>
     field(view, key, key, at[axis]!, (value) => {
       const place: Pair = axis ? [at[0], value] : [value, at[1]];
-      return Number.isFinite(value) ? moved(drawing, chosen.knot, place) : null;
+      return Number.isFinite(value) ? moved(drawing, knot, place) : null;
     }),
   );
-  const name = `${knotName(drawing, chosen.knot)}: ${links.map(spaced).join(" – ")}`;
-  return [note(name), h("div.form", {}, ...(between ? [] : places)), h("div.form", {}, ...parts)];
+  const name = `${knotName(drawing, knot)}: ${links.map(spaced).join(" – ")}`;
+  return [note(name), ...(between ? [] : places), ...parts];
 }

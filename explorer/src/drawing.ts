@@ -74,10 +74,10 @@ export function same(one: Pick<Spot, "at">, two: Pick<Spot, "at">): boolean {
   return one.at[0] === two.at[0] && one.at[1] === two.at[1];
 }
 
-/** Whether one link joins two spots. */
-export function joinsBoth({ knots }: Drawing, one: Spot, two: Spot): boolean {
-  const linksAt = ({ knot }: Spot) => (knot === null ? [] : knots[knot]!.links);
-  return linksAt(one).some((link) => linksAt(two).includes(link));
+/** The link that joins two spots, if one does. */
+export function joining({ knots }: Drawing, one: Spot, two: Spot): string | undefined {
+  const linksAt = ({ knot, link }: Spot) => (knot === null ? [link] : knots[knot]!.links);
+  return linksAt(one).find((link): link is string => link !== null && linksAt(two).includes(link));
 }
 
 /** Whether links turn about a knot. */
@@ -272,6 +272,23 @@ export function lengthsOf(drawing: Drawing): number[] {
     const [one, two, three] = drawing.knots.filter((knot) => knot.links.includes(link) && isPin(knot));
     return one && two && !three ? [Math.hypot(two.at[0] - one.at[0], two.at[1] - one.at[1])] : [];
   });
+}
+
+/** With a point whose curve is shown, beside the longest link that is not on the frame; as it is if there is one. */
+export function traced(drawing: Drawing): Drawing {
+  const { frame, knots } = drawing;
+  if (knots.some(({ links }) => !links[1] && links[0] !== frame)) return drawing;
+  let [made, most] = [drawing, 0];
+  for (const link of linksOf(drawing)) {
+    const pins = knots.filter((knot) => isPin(knot) && knot.links.includes(link));
+    if (pins.some(({ links }) => links.includes(frame!))) continue;
+    const [[x, y], [u, v]] = [pins[0]?.at ?? [0, 0], pins.at(-1)?.at ?? [0, 0]];
+    const [dx, dy] = [u - x, v - y];
+    if (Math.hypot(dx, dy) <= most) continue;
+    most = Math.hypot(dx, dy);
+    made = { ...drawing, knots: [...knots, { at: [x + dx / 2 - 0.4 * dy, y + dy / 2 + 0.4 * dx], links: [link] }] };
+  }
+  return made;
 }
 
 /** What a joint is called in the text of the chain. */

@@ -257,13 +257,13 @@ export class ExercisesView implements View {
           set,
           { "data-answer": key },
         )
-      : h("span", {}, symbol ? h("span.symbol", {}, ...formula(symbol), " = ") : null, input, ` ${unit}`);
+      : h("span", {}, symbol ? h("span.symbol", {}, ...formula(symbol), " =") : null, input, ` ${unit}`);
     return h(
       "div.answer",
-      { "data-state": mark?.mark },
+      { "data-mark": mark?.mark },
       choices.length ? h("span", {}, name) : h("label", { for: id }, name),
       field,
-      mark ? h("b", { "data-mark": mark.mark }, words[mark.mark]) : null,
+      mark ? h("b", {}, words[mark.mark]) : null,
       mark?.hint ? h("div", { id: hint }, ...indexed(mark.hint)) : null,
     );
   }

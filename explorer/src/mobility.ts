@@ -10,6 +10,7 @@ import {
   knotName,
   linksOf,
   type Spot,
+  withGround,
   withLink,
   withoutLink,
 } from "./drawing";
@@ -18,7 +19,7 @@ import type { Page } from "./view";
 import { moment } from "./waiting";
 
 interface Offer {
-  kind: "drive" | "undrive" | "bar" | "remove";
+  kind: "drive" | "undrive" | "ground" | "bar" | "remove";
   joint?: number;
   links?: string[];
   generic: number;
@@ -62,8 +63,7 @@ export class MobilityPanel {
     this.element.classList.remove("asking");
     if (frame === null || linksOf(drawing).length < 3) {
       const text = frame === null ? t("Put a ground") : t("Draw links: a mechanism has at least three.");
-      const key = h("span.keys", {}, frame === null ? " (G)" : " (L)");
-      return renew(this.element, ...(linksOf(drawing).length ? [count] : []), h("p.note", {}, text, key));
+      return renew(this.element, ...(linksOf(drawing).length ? [count] : []), h("p.note", {}, text));
     }
     if (this.element.querySelector('[data-fact="freedoms"]')) this.element.firstChild!.replaceWith(count);
     else renew(this.element, count, moment());
@@ -72,8 +72,9 @@ export class MobilityPanel {
     const joints = numbers.map((k) => jointName(drawing, k)).join(" ");
     const names = numbers.map((k) => knotName(drawing, k));
     const drives = drawing.drives.map((k) => numbers.indexOf(k));
+    const ends = drawing.knots.flatMap(({ links }) => (links[1] ? [] : links));
     try {
-      const told = await page.ask<Told>("drawing", { joints, names, frame, drives });
+      const told = await page.ask<Told>("drawing", { joints, names, frame, drives, ends: [...new Set(ends)] });
       if (asked !== this.#asked) return;
       const { fixed: good, generic } = told;
       const text = told.reason || t("Mobility {generic}, drives: {drives}", { generic, drives: drives.length });
@@ -98,13 +99,17 @@ export class MobilityPanel {
 
   #offer({ kind, joint, links, generic }: Offer, numbers: number[]): HTMLElement {
     const { drawing } = this.view;
-    const knot = joint === undefined ? -1 : numbers[joint]!;
     const [one, two] = (links ?? []) as [string, string];
+    const knot = joint === undefined ? endOf(drawing, one) : numbers[joint]!;
     const [from, to] = [one, two].map((link) => spaced(link ?? ""));
     const called = { joint: knot < 0 ? "" : knotName(drawing, knot), one: from!, two: to!, generic };
     const [text, act] = {
       drive: [t("Drive {joint}", called), () => driven(drawing, knot)],
       undrive: [t("Let {joint} free", called), () => driven(drawing, knot)],
+      ground: [
+        t("Ground at {joint}: F = {generic}", called),
+        () => withGround(drawing, { at: drawing.knots[knot]!.at, knot, link: null }),
+      ],
       bar: [t("A link between {one} and {two}: F = {generic}", called), () => barred(this.view, one, two)],
       remove: [t("Without {one}: F = {generic}", called), () => withoutLink(drawing, one)],
     }[kind] as [string, () => Drawing];
@@ -112,10 +117,15 @@ export class MobilityPanel {
   }
 }
 
+/** The first open end of a link, else -1. */
+function endOf({ knots }: Drawing, link: string): number {
+  return knots.findIndex(({ links }) => `${links}` === link);
+}
+
 /** A link between two others: from an open end if there is one, to a place beside. */
 function barred({ drawing, step }: Drawn, one: string, two: string): Drawing {
   const place = (link: string, aside: number): Spot => {
-    const end = drawing.knots.findIndex(({ links }) => links.length === 1 && links[0] === link);
+    const end = endOf(drawing, link);
     if (end >= 0) return { at: drawing.knots[end]!.at, knot: end, link: null };
     const mine = drawing.knots.filter(({ links }) => links.includes(link)).map(({ at }) => at);
     const mean = (axis: 0 | 1) => mine.reduce((sum, at) => sum + at[axis], 0) / mine.length;

@@ -199,7 +199,7 @@ function pointRow(editor: Editor, k: number): HTMLElement {
         renameEnds(linkage, point.name, name);
         point.name = name;
       });
-    else editor.page.say(t("Expected a name that nothing else has, without spaces and brackets."));
+    else editor.page.say(t("Expected a new name without spaces and brackets."));
   };
   const coordinate = (axis: 0 | 1) => (field: HTMLInputElement) => {
     const value = parsed(field.value);

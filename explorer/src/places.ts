@@ -9,7 +9,7 @@ import type { Pair } from "./rows";
 import { rowsTable } from "./targets";
 import type { Viewport } from "./viewport";
 
-export function placesPanel(view: Drawn & { readonly viewport: Viewport }): HTMLElement[] {
+export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty(): void }): HTMLElement[] {
   const { drawing, viewport } = view;
   const { keeps, knots, picture } = drawing;
   const numbers = [...knots.keys()].filter((k) => isPin(knots[k]!));
@@ -42,5 +42,8 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport }): HTML
       : []),
     file,
     h("button.plain", { "data-act": "picture", onclick: () => file.click() }, t("A picture behind it")),
+    ...(knots.length
+      ? [h("div.form", {}, h("button.plain", { "data-act": "empty", onclick: () => view.empty() }, t("Empty plane")))]
+      : []),
   ];
 }

@@ -8,13 +8,17 @@ import { away, clearAbout, convexHull, nearest, toHull } from "./hull";
 import { angle, number, spaced } from "./language";
 import { clearSpot, halfOf, namePlace, nameSpots } from "./names";
 import type { Pair } from "./rows";
-import { SUPPORT } from "./scene";
+import { DRIVEN, SUPPORT } from "./scene";
 import { guidelines, snapped } from "./snapping";
 import type { Viewport } from "./viewport";
 
 export const GRIP = 16; // pixels
 
-export type Chosen = { knot: number } | { link: string } | { picture: true };
+/** A knot, else a link, else the picture behind them. */
+export interface Chosen {
+  readonly knot: number | null;
+  readonly link: string | null;
+}
 
 export interface Plane {
   readonly drawing: Drawing;
@@ -28,6 +32,10 @@ export interface Plane {
 }
 
 export type Aim = "away" | "here" | "aiming";
+
+export function isPicture(chosen: Chosen | null): boolean {
+  return chosen?.knot === null && chosen.link === null;
+}
 
 /** The hull of the knots of a link, in pixels. */
 export function outlineOf({ drawing, viewport }: Pick<Plane, "drawing" | "viewport">, link: string): Pair[] {
@@ -82,15 +90,16 @@ export function planePicture(plane: Plane): SVGElement[] {
   const path = (corners: readonly Pair[]) =>
     corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
   const hulls = bodies.map((link) => outlineOf(plane, link));
-  const letters = lettersOf(plane, hulls);
+  const arrows = drawing.drives.map((k) => [viewport.screen(...drawing.knots[k]!.at)]);
+  const letters = lettersOf(plane, [...hulls, ...arrows]);
   const links = bodies.flatMap((link, k) => {
     const hull = hulls[k]!;
-    const mark = chosen && "link" in chosen && chosen.link === link ? " chosen" : "";
+    const mark = chosen?.link === link ? " chosen" : "";
     const d = path(hull) + (hull.length > 2 ? "Z" : "");
     const joints = drawing.knots.filter((knot) => knot.links.includes(link)).map(({ at }) => at);
     const name = spaced(link);
     const places = nameSpots(viewport, namePlace(joints, [], name, viewport.scale), name);
-    const others = hulls.filter((one) => one !== hull && one.length);
+    const others = [...hulls, ...arrows].filter((one) => one !== hull && one.length);
     const free = (spot: Pair) => letters.every(({ at }) => away(at, ...spot) > 14 + halfOf(name));
     const [x, y] = places[clearSpot(places, name, [hull, others], free)]!;
     return [svg("path", { class: `outline${mark}`, d, "data-link": link }), svg("path.bar", { d }), text(name, [x, y])];
@@ -118,8 +127,8 @@ export function planePicture(plane: Plane): SVGElement[] {
     ...letters.map(({ at, name }) => text(name, at)),
     ...(waiting.length > 1 ? [svg("path.pending", { d: path(waiting) })] : []),
     svg("text.tick", { x: cx + 12, y: cy + 18 }, read),
-    ...(picture && chosen && "picture" in chosen ? grips(plane, picture) : []),
-    ...(aim === "away" ? [] : [svg("path.crosshair", { d: `M${cx - 7} ${cy}h14M${cx} ${cy - 7}v14` })]),
+    ...(picture && isPicture(chosen) ? grips(plane, picture) : []),
+    svg("path.crosshair", { d: waiting.map(([x, y]) => `M${x - 7} ${y}h14M${x} ${y - 7}v14`).join("") }),
   ];
 }
 
@@ -131,7 +140,7 @@ function text(name: string, [x, y]: Pair): SVGElement {
 function lettersOf({ drawing, viewport }: Plane, hulls: readonly Pair[][]): { at: Pair; name: string }[] {
   const { frame, knots } = drawing;
   const ends = knots.flatMap(({ between }) => (between ? [between.map((at) => viewport.screen(...at))] : []));
-  // the name of a link of one joint stands above it
+  // above the joint of a link that has one stands its name, above one that is driven an arrow
   const drawn = [
     ...ends,
     ...hulls.map((hull) =>
@@ -193,7 +202,7 @@ function knotElement({ chosen, drawing, viewport }: Plane, k: number, at: Pair):
   const { between, links, slide } = drawing.knots[k]!;
   const [x, y] = viewport.screen(...at);
   const classes = ["pin", "free"];
-  if (chosen && "knot" in chosen && chosen.knot === k) classes.push("chosen");
+  if (chosen?.knot === k) classes.push("chosen");
   const element = svg("g", {
     class: classes.join(" "),
     "data-knot": String(k),
@@ -208,7 +217,7 @@ function knotElement({ chosen, drawing, viewport }: Plane, k: number, at: Pair):
     element.append(turned);
   } else if (ground) element.append(svg("path.support", { d: SUPPORT }));
   if (slide === undefined && !between) element.append(svg("circle.joint", { r: links.length > 1 || ground ? 5 : 3.2 }));
-  if (drawing.drives.includes(k)) element.append(svg("circle.driven", { r: 12 }));
+  if (drawing.drives.includes(k)) element.append(svg("path.driven", { d: DRIVEN }));
   return element;
 }
 

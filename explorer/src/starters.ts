@@ -57,7 +57,7 @@ function sketch(drawing: Drawing): SVGElement {
   const viewport = new Viewport();
   const { left, right, bottom, top } = extentOf(drawing);
   viewport.scale = Math.min((WIDE - 16) / (right - left), (HIGH - 16) / (top - bottom));
-  viewport.pan(8 - viewport.scale * left, HIGH - 8 + viewport.scale * bottom);
+  viewport.pan((WIDE - viewport.scale * (left + right)) / 2, (HIGH + viewport.scale * (top + bottom)) / 2);
   const links = linksOf(drawing).filter((link) => link !== drawing.frame);
   const hulls = links.map((link) => outlineOf({ drawing, viewport }, link));
   return svg(

@@ -10,6 +10,7 @@ import {
   driven,
   EMPTY,
   joined,
+  joining,
   jointName,
   jointsOf,
   knotName,
@@ -18,6 +19,7 @@ import {
   renamed,
   type Spot,
   split,
+  traced,
   withCylinder,
   withDyad,
   withGears,
@@ -55,6 +57,19 @@ test("a four-bar has F = 1, its dyad changes nothing", () => {
   assert.equal(linksOf(six).length, 6);
   const held = withDyad(drawing, on("2", 30, 60), on("3", 65, 20), on("frame", 120, 0));
   assert.equal(counted(held), -1); // 3(6 - 1) - 2·8: its middle is pinned to the link that it lies on, too
+});
+
+test("a link joins spots on it, and one that is not on the frame gets a point", () => {
+  const drawing = fourBar();
+  assert.equal(joining(drawing, knot(drawing, 0), knot(drawing, 1)), "1");
+  assert.equal(joining(drawing, on("2", 30, 30), knot(drawing, 2)), "2");
+  assert.equal(joining(drawing, on("1", 0, 10), on("3", 65, 20)), undefined);
+  assert.equal(joining(drawing, place(5, 5), place(9, 9)), undefined);
+  const made = traced(drawing);
+  assert.deepEqual(made.knots.at(-1)!.links, ["2"]); // the coupler, from (0, 20) to (60, 40)
+  near(made.knots.at(-1)!.at, [30 - 0.4 * 20, 30 + 0.4 * 60], 1e-12);
+  assert.equal(traced(made), made); // it has one
+  assert.equal(traced(EMPTY), EMPTY);
 });
 
 test("joints are called by letters, ends by their own names", () => {

@@ -21,6 +21,12 @@ FREEDOMS = '[data-fact="freedoms"]'
 
 def test_what_is_offered_mends_it():
     """The mobility beside each offer is that of the chain which it leads to, written by hand."""
+    # an open chain of three links has F = 3; its end on the ground makes a four-bar, that of link 2 a rigid triangle
+    first = drawing_record("R(0-1) R(1-2) R(2-3)", "0", [], "en", ends=["3"])["offers"]
+    assert first[0] == {"kind": "ground", "links": ["3"], "generic": 1}
+    assert len({str(offer) for offer in first}) == len(first)
+    rigid = drawing_record("R(0-1) R(1-2)", "0", [], "en", ends=["1", "2"])["offers"]
+    assert "ground" not in {offer["kind"] for offer in rigid}
     assert [offer["joint"] for offer in drawing_record(FOUR_BAR, "0", [], "en")["offers"]] == [0, 3]
     assert drawing_record(FOUR_BAR, "0", [0], "en")["offers"] == []
     assert [offer["kind"] for offer in drawing_record(FOUR_BAR, "0", [0, 3], "en")["offers"]] == ["undrive", "undrive"]
@@ -80,10 +86,16 @@ def test_a_four_bar_and_then_a_watt_six_bar_are_drawn_and_moved(plane):
     click(plane, (0, 20), (60, 40), (70, 0))
     view.locator(FREEDOMS).wait_for()
     assert view.locator('[data-fact="drawn"]').inner_text() == "F = 3"  # 3(4 - 1) - 2·3: an open chain
-    view.keyboard.press("g")
-    click(plane, (70, 0))
+    offers = view.locator("[data-offer]")
+    assert offers.first.inner_text() == "Ground at D: F = 1"
+    assert len(set(offers.all_inner_texts())) == offers.count()
+    offers.first.click()
     view.locator('[data-offer="drive"]').first.wait_for()
     assert view.locator('[data-fact="drawn"]').inner_text() == "F = 1"
+    view.keyboard.press("l")
+    click(plane, (0, 20), (0, 0))  # over link 1
+    assert view.locator(".message").inner_text().startswith("1 joins them already.")
+    assert view.evaluate("gruebler.views.build.drawing.knots.length") == 4
     # joints have letters on the plane and beside it, links numbers
     assert view.locator(".drawing text.name").all_text_contents() == ["1", "2", "3", "A", "B", "C", "D"]
     assert view.locator("tr td:first-child").all_inner_texts()[:4] == ["A", "B", "C", "D"]
@@ -99,6 +111,10 @@ def test_a_four_bar_and_then_a_watt_six_bar_are_drawn_and_moved(plane):
     assert linkage.length("1", 0, 1) == pytest.approx(20, abs=1e-9)
     assert measures(linkage).span.full  # 20 + 70 < 63.2 + 41.2
     assert view.evaluate("gruebler.motion.transport.player.playing")
+    # a point of the coupler, which is not on the frame, has a curve; it is not drawn
+    assert view.evaluate("gruebler.motion.linkage.sizes.points.map(({ link }) => link)") == [
+        view.evaluate("gruebler.motion.linkage.model.links.indexOf('2')")
+    ]
     drawing = "JSON.stringify(gruebler.views.build.drawing)"
     drawn = view.evaluate(drawing)
     view.keyboard.press("Control+z")  # back to what it was drawn as, and the machine before it is in motion again
@@ -142,7 +158,7 @@ def test_an_empty_plane_begins_with_the_ground_and_ends_stay_on_axes(plane):
     view.keyboard.press("g")
     view.click('[data-tool="ground"]')
     click(plane, (0, 0))
-    assert "(L)" in view.locator('[data-place="mobility"]').inner_text()
+    assert "Draw links" in view.locator('[data-place="mobility"]').inner_text()
     view.keyboard.press("l")
     assert view.locator(".drawing + .hint").inner_text().startswith("Link")
     click(plane, (0, 0), (60, 35))  # 69.46 long: as near to 70 as the pointer is
@@ -154,8 +170,12 @@ def test_an_empty_plane_begins_with_the_ground_and_ends_stay_on_axes(plane):
     assert guides.get_attribute("d") == ""  # the click is over
     plane.page.mouse.move(*plane.middle('[data-tool="move"]'), steps=8)
     assert guides.get_attribute("d") == ""  # nor does one stay where the pointer left
+    drawn = view.evaluate("gruebler.views.build.drawing.knots.length")
     view.click('[data-act="empty"]')
     assert view.locator('.palette [aria-pressed="true"]').get_attribute("data-tool") == "ground"
+    assert not view.locator('[data-act="empty"]').count()
+    view.click('[data-icon="undo"]')
+    assert view.evaluate("gruebler.views.build.drawing.knots.length") == drawn > 0
 
 
 def test_a_slider_crank_is_drawn_by_keys_alone(plane):
@@ -333,7 +353,10 @@ def test_joints_are_joined_split_named_and_removed(plane):
     plane.drag((box["x"] + x, box["y"] + y), (u - x, v - y))
     knots = "gruebler.views.build.drawing.knots.map((knot) => knot.links.join('-')).sort()"
     assert view.evaluate(knots) == ["1", "1-2", "2"]
+    places = ".palette button, .side > *, .drawing"
+    before = [one.bounding_box() for one in view.locator(places).all()]
     click(plane, (40, 0))
+    assert [one.bounding_box() for one in view.locator(places).all()] == before  # what is chosen moves nothing
     view.click('[data-act="split"]')
     assert view.evaluate(knots) == ["1", "1", "2", "2"]
     view.keyboard.press("Control+z")

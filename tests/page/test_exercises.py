@@ -59,7 +59,7 @@ def test_the_page_shows_kinds_figure_and_hints(exercises):
     for field in page.page.locator("input[data-answer]").all():
         field.fill("123456.789")
     page.page.click('[data-act="mark"]')
-    wrong = page.page.locator('[data-state="wrong"]')
+    wrong = page.page.locator('[data-mark="wrong"]')
     wrong.first.wait_for()
     assert page.page.locator("[id^=hint-]").count() == wrong.count() == page.page.locator("input[data-answer]").count()
     assert page.page.locator(".score").text_content().endswith("0 of 1 solved")

@@ -15,12 +15,14 @@ _MOST_OFFERS = 4
 _MOST_BARS = 2
 
 
-def drawing_record(joints: str, frame: str, drives: list[int], lang: str, names: Sequence[str] = ()) -> dict[str, Any]:
+def drawing_record(
+    joints: str, frame: str, drives: list[int], lang: str, names: Sequence[str] = (), ends: Sequence[str] = ()
+) -> dict[str, Any]:
     """Mobility, reason and offers of a chain that is drawn, as plain data.
 
-    Joints are given by their numbers in the text, and called by the names given. An offer is a change after which as
-    many drives as there are give a definite motion, or a step towards it. Each that changes the chain was tried: its
-    generic mobility stands beside it.
+    Joints are given by their numbers in the text, and called by the names given; ends are links with an open end. An
+    offer is a change after which as many drives as there are give a definite motion, or a step towards it. Each that
+    changes the chain was tried: its generic mobility stands beside it.
 
     Raises `GrueblerError` for a text that is no chain.
 
@@ -47,7 +49,7 @@ def drawing_record(joints: str, frame: str, drives: list[int], lang: str, names:
         "immobile": list(report.immobile_joints),
         "fixed": driven.fixed and report.generic > 0,
         "reason": "" if driven.fixed or len(drives) < report.generic else named(driven.message.in_language(lang)),
-        "offers": list(_offers(chain, frame, drives, report))[:_MOST_OFFERS],
+        "offers": list(_offers(chain, frame, drives, report, ends))[:_MOST_OFFERS],
     }
 
 
@@ -59,7 +61,9 @@ def _drive_name(chain: Chain, frame: str, number: int) -> str:
     return chain.joint_names()[number] + (f":{own}-{other}" if len(links) > 2 else "")
 
 
-def _offers(chain: Chain, frame: str, drives: list[int], report: MobilityReport) -> Iterator[dict[str, Any]]:
+def _offers(
+    chain: Chain, frame: str, drives: list[int], report: MobilityReport, ends: Sequence[str]
+) -> Iterator[dict[str, Any]]:
     generic = report.generic
     if generic < 1:
         yield from _removals(chain, frame)
@@ -72,11 +76,22 @@ def _offers(chain: Chain, frame: str, drives: list[int], report: MobilityReport)
     if len(drives) == generic:
         return
     if generic > 1:
+        yield from _grounds(chain, frame, generic, ends)
         yield from _bars(chain, frame, generic)
     for number, joint in enumerate(chain.joints):
         movable = number not in drives and number not in report.immobile_joints
         if movable and frame in joint.links and len(joint.links) == 2:
             yield {"kind": "drive", "joint": number, "generic": generic}
+
+
+def _grounds(chain: Chain, frame: str, generic: int, ends: Sequence[str]) -> Iterator[dict[str, Any]]:
+    """Open ends that close the chain where they are held by a joint on the frame."""
+    for link in ends:
+        if link == frame or any({link, frame} <= set(joint.links) for joint in chain.joints):
+            continue
+        after = mobility_report(Chain.parse(f"{chain.text()} R({link}-{frame})")).generic
+        if 0 < after < generic:
+            yield {"kind": "ground", "links": [link], "generic": after}
 
 
 def _bars(chain: Chain, frame: str, generic: int) -> Iterator[dict[str, Any]]:

@@ -76,12 +76,14 @@ class DescribeStructure(Params):
 
 
 class DescribeDrawing(Params):
-    """A chain that is drawn: its joints as text and what they are called, its frame, the numbers of driven joints."""
+    """A chain that is drawn: its joints as text and what they are called, its frame, the numbers of driven joints, the
+    links that have an open end."""
 
     joints: ChainText
     frame: Word
     drives: Annotated[list[Number], msgspec.Meta(max_length=20)] = []
     names: Annotated[list[Word], msgspec.Meta(max_length=200)] = []
+    ends: Annotated[list[Word], msgspec.Meta(max_length=200)] = []
 
 
 class ListModes(Params):
