@@ -76,8 +76,7 @@ class DescribeStructure(Params):
 
 
 class DescribeDrawing(Params):
-    """A chain that is drawn: its joints as text and what they are called, its frame, the numbers of driven joints, the
-    links that have an open end."""
+    """A chain that is drawn: joints as text and what they are called, frame, driven joints, links with an open end."""
 
     joints: ChainText
     frame: Word
