@@ -45,7 +45,7 @@ def task_pack(id: str, langs: Sequence[str]) -> dict[str, Any]:
             answers[key] = {lang: _marked_words(task, key, words, lang) for lang, words in choices.items()}
         else:
             known = [(m.value, m.hint) for m in solution.mistakes if m.key == result.key]
-            answers[key] = _number_record(result, known, langs) | {"way": _said(way(solution, result), langs)}
+            answers[key] = _number_record(result, known, langs) | {"way": _said(way(task, solution, result), langs)}
     tried = tried_task(id)
     chains = [structure_pack(mechanism_of_text(each["text"]), langs) for each in tried if "text" in each]
     if chains:

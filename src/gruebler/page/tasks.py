@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import Message, Readable, error_in_language, message, translate
+from gruebler.base.text import Message, Readable, error_in_language, joined, message, translate
 from gruebler.files import Exercise
 from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES
+from gruebler.structure.chain import Chain
 from gruebler.teaching.exercises import (
     KINDS,
     Mark,
@@ -30,11 +31,6 @@ from gruebler.teaching.worksheets.exercise_figures import exercise_linkages
 from gruebler.teaching.worksheets.tasks import exercise_figure
 
 _OF_THE_TEXT = "exercise"
-_COUNTED = {
-    "n": message("Every link counts once, the frame too."),
-    "g1": message("A joint of k links counts k - 1 times; sliding joints are counted as well."),
-    "g2": message("Only joints that roll and slide have f = 2."),
-}
 _OTHERWISE = message("See the steps of the solution.")
 
 
@@ -50,7 +46,7 @@ def task_kinds(lang: str) -> list[dict[str, Any]]:
         for task in all_exercises().values()
         if task.id.startswith(_OF_THE_TEXT)
     ]
-    return [*fresh, {"kind": _OF_THE_TEXT, "name": translate("Exercises of the text", lang), "tasks": tasks}]
+    return [*fresh, {"kind": _OF_THE_TEXT, "name": translate("Numbered exercises", lang), "tasks": tasks}]
 
 
 def task_record(id: str, lang: str) -> dict[str, Any]:
@@ -169,19 +165,43 @@ def _mark(task: Exercise, solution: Solution, key: str, given: str, lang: str) -
     except GrueblerError as error:
         said = error_in_language(error, lang)
         return {"key": key, "mark": str(Mark.WRONG), "hint": said[:1].upper() + said[1:]}
-    hint = graded.hint or (way(solution, graded.result) if graded.mark is Mark.WRONG else None)
+    hint = graded.hint or (way(task, solution, graded.result) if graded.mark is Mark.WRONG else None)
     return {"key": key, "mark": str(graded.mark), "hint": hint.in_language(lang) if hint else ""}
 
 
-def way(solution: Solution, result: Result) -> Message:
-    """What helps with a wrong answer that is no likely mistake: the formula without its numbers."""
+def way(task: Exercise, solution: Solution, result: Result) -> Message:
+    """What helps with a wrong answer that is no likely mistake: the formula without its numbers, or what is counted.
+
+    >>> task = exercise("mobility-1-3")  # a four-bar: R(2-3) R(3-4) R(4-1) R(1-2)
+    >>> way(task, solve(task), solve(task).results["g1"]).in_language("en")
+    'Each joint that joins two links counts once.'
+    """
     beginning = f"{result.symbol.rstrip('*')} = "
     steps = (part for part in solution.parts if isinstance(part, SolutionStep))
     formula = next((step.formula for step in steps if step.formula.startswith(beginning) and step.numbers), "")
     if formula:
         indexed = re.sub(r"\b([^\W\d_])(\d+)\b", r"\1_\2", formula)
         return message("The formula is {formula}.", formula=indexed)
-    return _COUNTED.get(result.key, _OTHERWISE)
+    return _counted(task).get(result.key, _OTHERWISE)
+
+
+def _counted(task: Exercise) -> dict[str, Message]:
+    """What helps to count links and joints; of the joints only what the chain of the task has, if it has one."""
+    text = _chain_of(task)
+    joints = Chain.parse(text, space=str(task.given.get("space", "planar"))).joints if text else ()
+    several = not text or any(len(joint.links) > 2 for joint in joints)
+    sliding = not text or any(joint.pair.is_sliding for joint in joints)
+    counts = [
+        message("A joint of k links counts k - 1 times." if several else "Each joint that joins two links counts once.")
+    ]
+    freedom = message(
+        "Joints that only turn or only slide have f = 1." if sliding else "Joints that only turn have f = 1."
+    )
+    if not text or any(joint.pair.is_higher for joint in joints):
+        freedom = message("Only joints that roll and slide have f = 2.")
+    if sliding:
+        counts.append(message("Sliding joints are counted as well."))
+    return {"n": message("Every link counts once, the frame too."), "g1": joined(counts, " "), "g2": freedom}
 
 
 def tried_task(id: str) -> list[dict[str, Any]]:

@@ -14,8 +14,8 @@ from gruebler.structure.transformations import Extension, extend
 from gruebler.teaching.exercises.mobility import add_frame_mistakes
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, SolutionStep, Value
 
-_BEFORE = message("degree of freedom before")
-_AFTER = message("degree of freedom after")
+_BEFORE = message("mobility before")
+_AFTER = message("mobility after")
 
 CHANGES = {0: message("unchanged"), -1: message("lowered by one"), 1: message("raised by one")}
 """What may become of F."""

@@ -108,7 +108,7 @@ def _mobility(random: Random, level: int) -> _Draft:
     kinds = {joint.pair for joint in shuffled.joints}
     task = message(
         "Count links and joints of the planar chain {chain} ({letters}; the numbers name the links) and "
-        "find its degree of freedom F.",
+        "find its mobility F.",
         chain=in_alphabets(shuffled.text),
         letters=joined(text for name, text in _LETTERS.items() if pair(name) in kinds),
     )
@@ -461,7 +461,7 @@ def _differential(random: Random, level: int) -> _Draft:
 
 
 KINDS: dict[str, tuple[Message, Callable[[Random, int], _Draft]]] = {
-    "mobility": (message("Degree of freedom"), _mobility),
+    "mobility": (message("Mobility"), _mobility),
     "grashof": (message("Grashof's theorem"), _grashof),
     "dead-centre": (message("Dead centres"), _dead_centre),
     "transmission-angle": (message("Transmission angle"), _transmission),

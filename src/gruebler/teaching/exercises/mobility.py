@@ -16,7 +16,7 @@ from gruebler.teaching.catalog import entry
 from gruebler.teaching.exercises.solution import PartHeading, Solution, SolutionBuilder, SolutionStep
 
 _LINKS = message("number of links, the frame included")
-_FREEDOM = message("degree of freedom")
+_FREEDOM = message("mobility")
 _BY_RANK = message("F (at least 0) by the rank of the constraints at random sizes")
 _CRITERION = {
     True: message("Criterion of constrained motion holds (0)"),

@@ -182,7 +182,7 @@ def _text(exercise: Exercise, lang: str) -> str:
     symbols = {joint.pair.symbol(Alphabet.of_language(lang)) for joint in _chain(exercise).joints}
     return translate(
         "Count the links and the joints ({symbols}) of the drawn chain, a joint of k links k - 1 times, and find its "
-        "degree of freedom F.",
+        "mobility F.",
         lang,
         symbols=", ".join(sorted(symbols)),
     )
