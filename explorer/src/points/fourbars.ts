@@ -102,7 +102,7 @@ const DEGREE = Math.PI / 180;
 
 /** A four-bar as the page takes it: the model of some four-bar whose coupler point is named P, with other sizes.
  *
- * The x axis of each moving link runs from its pin on the frame, else its first, to the other, as the library has it. */
+ * The x axis of each moving link runs from its pin on the frame, else its first, to the other, as in the library. */
 export function modelOf(template: Model, bar: FourBar, point: Complex, pose: Placed): Model {
   const [crank, coupler, rocker] = lengthsOf(bar);
   const [a, b] = [bar[0].fixed, bar[1].fixed];
