@@ -64,6 +64,7 @@ export class SizeRows {
     const rows = sizes.map((size) => sizeRow(editor, size, alone(size)));
     const names = rows.map(([label]) => label!.outerHTML).join("");
     const anew = names !== this.#names || !this.element.isConnected;
+    this.element.closest("details")!.hidden = !names; // wheels and cams have none
     if (anew) {
       this.#names = names;
       this.#labels = rows.map(([label]) => label!);

@@ -69,7 +69,7 @@ export class Track {
     this.#unit = turning ? TURN / 360 : 1;
     const [low, high] = limitsOf(cycle, turning, between);
     this.#limits = [low, high];
-    [this.#from, this.#to] = shownRange(this.#limits, cycle.full, turning);
+    [this.#from, this.#to] = shownRange(this.#limits, full);
     const parts: SVGElement[] = [];
     const x = (value: number) => `${((value - this.#from) / (this.#to - this.#from)) * 100}%`;
     const line = (a: number, b: number, style: string) =>
@@ -151,10 +151,8 @@ export function limitsOf(cycle: Reach, turning: boolean, between: [number, numbe
   return wanted[1] > wanted[0] ? wanted : [low, high];
 }
 
-/** The drive values from end to end of the slider: a turn, or somewhat more than the limits. */
-export function shownRange([low, high]: [number, number], full: boolean, turning: boolean): [number, number] {
-  if (full) return [low, high];
-  const width = high - low;
-  if (turning && width > 1 && width < TURN) return [(low + high) / 2 - Math.PI, (low + high) / 2 + Math.PI];
-  return [low - 0.12 * (width || 1), high + 0.12 * (width || 1)];
+/** The drive values from end to end of the slider: whole turns, or somewhat more than the limits. */
+export function shownRange([low, high]: [number, number], full: boolean): [number, number] {
+  const more = full ? 0 : 0.12 * (high - low || 1);
+  return [low - more, high + more];
 }

@@ -1,7 +1,6 @@
 /** The plots of what a machine in space drives: how far its outputs turn or shift, over the only drive. */
 
 import { TURN, wrapped } from "../cycle";
-import { t } from "../language";
 import { Plot } from "../plot";
 import { Span } from "../span";
 import type { Vector } from "./algebra";
@@ -40,7 +39,7 @@ export class OutputPlots {
       [this.#first, this.#step] = [range[0], step];
       this.#values.push(values);
       const plot = new Plot(drive?.turning ? TURN / 360 : 1, pick, span);
-      const title = `${t("Output {name}", { name: names[link]! })} [${unit}]`;
+      const title = `${names[link]} [${unit}]`;
       plot.show(drives, { title, values, colour: "--motion", same: 1e-6 * (unit === "°" ? 1 : data.size) }, range);
       return plot;
     });

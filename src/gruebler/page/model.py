@@ -262,7 +262,8 @@ def _output(linkage: Linkage, plan: Plan) -> list[dict[str, Any]]:
     try:
         legs = pushing_links(plan, output)
     except NoTransmissionAngleError as error:
-        return [record | {"note": {lang: error_in_language(error, lang) for lang in LANGUAGES}}]
+        notes = {lang: (said := error_in_language(error, lang))[0].upper() + said[1:] for lang in LANGUAGES}
+        return [record | {"note": notes}]
 
     def place(element: tuple[str, complex, complex]) -> list[float]:
         link, point, line = element

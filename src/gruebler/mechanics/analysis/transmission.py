@@ -23,7 +23,7 @@ from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.kinematics.root_finding import find_zeros
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.structure.assur import SolvedGroup
-from gruebler.structure.chain.pairs import Pair, in_alphabets
+from gruebler.structure.chain.pairs import Pair
 
 _SLOW = 1e-7  # of the fastest motion in the same pose: a velocity below it has no direction of its own
 _LEAST = 1e-10  # of the natural size: the turning of the force, or the sine of its angle, that is none
@@ -94,12 +94,7 @@ def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
     others = {k: leg for k, leg in legs.items() if output.link not in _bodies(group)[k]}
     chosen = others or legs
     if not chosen:
-        names = ", ".join(group.links)
-        raise NoTransmissionAngleError(
-            "there is no transmission angle: no link with two joints drives the group {form} {{{links}}}",
-            form=in_alphabets(group.form),
-            links=names,
-        )
+        raise NoTransmissionAngleError("there is no transmission angle: no link with two joints drives the output")
     couples = [leg for leg in chosen.values() if all(pair.is_sliding for pair in leg.pairs)]
     if couples:
         links = ", ".join(couples[0].links)
