@@ -14,7 +14,9 @@ a block on the frame with a pin.
 
 Of version 2 the speed of the only drive, the masses of links, unless they are the program's own, and forces go into the
 loads; colours are left out. A force is ``flags id,link,name,start x,y,end x,y,magnitude``: bits 1 it turns with its
-link, 2 it points from start to end, in lbf if lengths are in inches, else in N. Sources: the programs' transcoders,
+link, 2 it points from start to end, in lbf if lengths are in inches, else in N. Without bit 2 the head is drawn at the
+start, while the program's own analysis goes on from start to end; of version 1 its writer calls a force local that its
+reader does not: which is meant is not known, such forces are left out, and named. Sources: the programs' transcoders,
 force analysis, units and published addresses.
 """
 
@@ -115,6 +117,7 @@ def _forces(records: list[str], drawing: PinDrawing, left_out: list[Message]) ->
     links = {link for joint in drawing.joints for link in joint.links}
     forces: list[DrawnForce] = []
     others: list[str] = []
+    inward: list[str] = []
     for record in records:
         flags, fields = _DIGITS.find(record[0]), record[1:].split(",")
         if len(fields) < 8:
@@ -123,11 +126,13 @@ def _forces(records: list[str], drawing: PinDrawing, left_out: list[Message]) ->
         long = hypot(u - x, v - y)
         there = any((force.link, force.at) == (fields[1], (x, y)) for force in forces)
         if fields[1] not in links or not flags & _OUTWARD or not long or there:
-            others.append(fields[0])
+            (others if flags & _OUTWARD else inward).append(fields[0])
             continue
         force = (size * (u - x) / long, size * (v - y) / long)
         forces.append(DrawnForce(link=fields[1], at=(x, y), force=force, unit=unit, turns=bool(flags & _TURNS)))
     left_out += [message("forces {names}", names=", ".join(others))] if others else []
+    if inward:
+        left_out.append(message("forces {names}: whether they push or pull is not known", names=", ".join(inward)))
     return forces
 
 
