@@ -6,7 +6,15 @@ type Attributes = Record<string, string | number | boolean | null | undefined | 
 
 const SVG = "http://www.w3.org/2000/svg";
 
-function filled<E extends Element>(element: E, classes: string[], given: Attributes | Child, children: Child[]): E {
+/** An element that is made by its name, with what stands after that in its tag as classes. */
+function filled<E extends Element>(
+  make: (name: string) => Element,
+  tag: string,
+  given: Attributes | Child,
+  children: Child[],
+): E {
+  const [kind, ...classes] = tag.split(".");
+  const element = make(kind!) as E;
   if (classes.length) element.setAttribute("class", classes.join(" "));
   const none = !given || typeof given === "string" || given instanceof Node; // it is a child (build.mjs)
   if (none) children.unshift(given);
@@ -38,8 +46,7 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   attributes: Attributes | Child = {},
   ...children: Child[]
 ): HTMLElementTagNameMap[K] {
-  const [name, ...classes] = tag.split(".") as [K, ...string[]];
-  return filled(document.createElement(name), classes, attributes, children);
+  return filled((name) => document.createElement(name), tag, attributes, children);
 }
 
 export function svg<K extends keyof SVGElementTagNameMap>(
@@ -47,8 +54,7 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   attributes: Attributes | Child = {},
   ...children: Child[]
 ): SVGElementTagNameMap[K] {
-  const [name, ...classes] = tag.split(".") as [K, ...string[]];
-  return filled(document.createElementNS(SVG, name) as SVGElementTagNameMap[K], classes, attributes, children);
+  return filled((name) => document.createElementNS(SVG, name), tag, attributes, children);
 }
 
 /** Give an element attributes: only those are written that are others than before, since to write one takes long. */
