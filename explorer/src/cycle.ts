@@ -61,7 +61,8 @@ export interface Moved {
 /** An end of the range: where it is and why, unless nothing stops it there. */
 type End = [number, Stop | null];
 
-/** The cycle of the active drive over its whole range, from the pose that is shown. */
+/** The cycle of the active drive over its whole range, or the part in which the machine is used, from the pose that is
+ * shown. */
 export function findCycle(moved: Moved): Cycle {
   const { active, drive, drives, sizes, pose } = moved;
   // as `pose_at_reference`, so that what the library says of this pose has the same lap; wheels count their turns
@@ -88,6 +89,13 @@ export function findCycle(moved: Moved): Cycle {
   if (!drive.turning) {
     if (!above) high = Math.min(high, start + ENDLESS * sizes.unit);
     if (!below) low = Math.max(low, start - ENDLESS * sizes.unit);
+  }
+  const { between } = sizes.model.span;
+  if (between) {
+    const shift = drive.turning ? TURN * Math.round((low + high - between[0] - between[1]) / 2 / TURN) : 0;
+    const [from, to] = [Math.min(start, between[0] + shift), Math.max(start, between[1] + shift)];
+    if (from > low) [low, below] = [from, null];
+    if (to < high) [high, above] = [to, null];
   }
   const stops: [Stop | null, Stop | null] = [below, above];
   if (high - low < 2e-6 * (drive.turning ? 1 : sizes.unit)) return { ...still, low, high, stops };

@@ -52,22 +52,15 @@ export class Track {
     return this.#limits;
   }
 
-  show(
-    cycle: Reach,
-    turning: boolean,
-    between: [number, number] | null,
-    dead: number[],
-    least: number | null,
-    unit: string,
-  ): void {
+  show(cycle: Reach, turning: boolean, dead: number[], least: number | null, unit: string): void {
     this.#cycle = cycle;
     const { full, turns, low: from, high: to } = cycle;
     const reached = full ? [] : [from, to, ...cycle.stops.map(Boolean)]; // full turns go from 0 on wherever they began
-    const told = JSON.stringify([turning, between, dead, least, unit, turns, reached, currentLanguage()]);
+    const told = JSON.stringify([turning, dead, least, unit, turns, reached, currentLanguage()]);
     if (told === this.#told) return;
     this.#told = told;
     this.#unit = turning ? TURN / 360 : 1;
-    const [low, high] = limitsOf(cycle, turning, between);
+    const [low, high] = limitsOf(cycle);
     this.#limits = [low, high];
     [this.#from, this.#to] = shownRange(this.#limits, full);
     const parts: SVGElement[] = [];
@@ -140,15 +133,10 @@ export function driveText(
   return drive?.turning ? angle(value, digits) : `${number(value, digits)} ${model.unit}`;
 }
 
-/** The drive values that are played: the range, or the part of it that the mechanism is used in. */
-export function limitsOf(cycle: Reach, turning: boolean, between: [number, number] | null): [number, number] {
-  if (cycle.full) return [0, TURN * cycle.turns];
-  const room = 1e-7 * (cycle.high - cycle.low);
-  const [low, high] = [cycle.low + room, cycle.high - room];
-  if (!between) return [low, high];
-  const shift = turning ? TURN * Math.round((low + high - between[0] - between[1]) / 2 / TURN) : 0;
-  const wanted: [number, number] = [Math.max(low, between[0] + shift), Math.min(high, between[1] + shift)];
-  return wanted[1] > wanted[0] ? wanted : [low, high];
+/** The drive values that are played. */
+export function limitsOf({ full, high, low, turns }: Reach): [number, number] {
+  const room = 1e-7 * (high - low);
+  return full ? [0, TURN * turns] : [low + room, high - room];
 }
 
 /** The drive values from end to end of the slider: whole turns, or somewhat more than the limits. */

@@ -13,7 +13,7 @@ export interface Drivable {
   readonly drive: { turning: boolean } | null;
   readonly cycle: Reach;
   readonly drives: ArrayLike<number>;
-  readonly model: { drives: { name: string }[]; span: { between: [number, number] | null }; unit: string };
+  readonly model: { drives: { name: string }[]; unit: string };
   readonly size: number;
   jointName(name: string): string;
   choose(active: number): void;
@@ -99,7 +99,7 @@ export class Transport<View extends Driven = Driven> {
   showRange({ dead, least }: Marked): void {
     const { cycle, drive, model } = this.view.linkage;
     const places = dead.map(({ value }) => value);
-    this.#track.show(cycle, drive?.turning ?? true, model.span.between, places, least?.value ?? null, model.unit);
+    this.#track.show(cycle, drive?.turning ?? true, places, least?.value ?? null, model.unit);
   }
 
   /** The value of the drive as it is shown. */

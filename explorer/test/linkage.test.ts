@@ -58,6 +58,13 @@ test("the range of a rocker ends where coupler and other rocker are in line", ()
     assert.equal(stop?.form, "RRR");
     assert.deepEqual(stop?.links, ["coupler", "rocker"]);
   }
+  // a machine that is used in a part of it has measures and plots of that part, said here a turn farther on
+  const used = fourBar(DOUBLE_ROCKER, 1);
+  used.span.between = [0.5 + TURN, 1.2 + TURN];
+  const part = new Linkage(used).cycle;
+  near([part.low, part.high], [0.5, 1.2]);
+  assert.deepEqual(part.stops, [null, null]);
+  assert.ok(part.values.every((value) => value > 0.5 && value < 1.2));
 });
 
 test("a drive that goes round comes back, one that does not stays in its range", () => {

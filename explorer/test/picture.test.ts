@@ -144,10 +144,8 @@ test("full turns are plotted from 0 to 360 degrees", () => {
 });
 
 test("the slider", () => {
-  near(limitsOf(ROUND, true, null), [0, TURN]);
-  near(limitsOf(RANGE, true, null), [1, 3], 1e-6);
-  near(limitsOf(RANGE, true, [1.5 + TURN, 2 + TURN]), [1.5, 2]); // said a turn farther on
-  near(limitsOf(RANGE, false, [4, 5]), [1, 3], 1e-6);
+  near(limitsOf(ROUND), [0, TURN]);
+  near(limitsOf(RANGE), [1, 3], 1e-6);
   near(shownRange([0, TURN], true), [0, TURN]);
   near(shownRange([1, 3], false), [0.76, 3.24]);
 });

@@ -34,7 +34,7 @@ export class Machine implements Drivable {
     this.size = size;
     this.#solver = live && new Solver(live, size, middle, bodies.length);
     const names = motions.map(({ drive }) => ({ name: String(drive) }));
-    this.model = { drives: names, span: { between: null }, unit: data.unit };
+    this.model = { drives: names, unit: data.unit };
     const turns = (link: number) => motions.some(({ poses }) => poses.some((row) => turnOf(row[link]!) > TURNED));
     this.turning = new Set(bodies.map((_, link) => link).filter(turns));
     this.drives = motions.map((motion) => {
