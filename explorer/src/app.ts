@@ -100,7 +100,7 @@ export class App implements Page {
       }
       await drawn();
     }
-    if (!(location.hash.length > 1)) this.motion.run();
+    if (this.shown.plays && !(location.hash.length > 1)) this.motion.run();
     if (this.#linkable) {
       const { view } = (history.state ?? {}) as { view?: string }; // that of a page which is loaded again
       await this.#read();
@@ -281,8 +281,8 @@ export class App implements Page {
     if (this.motion.linkage) this.#remember("motion");
     this.motion.open(model, this.views[this.view]?.title && this.view);
     this.show("motion");
-    this.motion.run();
-    if (drive !== undefined) this.motion.transport.pick(drive);
+    if (drive === undefined) this.motion.run();
+    else this.motion.transport.pick(drive);
   }
 
   /** Show the structure of a text. */

@@ -396,7 +396,7 @@ export class BuildView implements View, Plane, Drawn {
       const shown = title === undefined ? traced(this.drawing) : this.drawing;
       const question = { document: documentOfDrawing(shown), name: title ?? t("A drawn mechanism") };
       const model = await this.page.ask<Model>("open_document", question);
-      this.page.open({ ...model, changed: title !== undefined, plays: true });
+      this.page.open({ ...model, changed: title !== undefined });
       this.#made = this.linkage;
     } catch (error) {
       this.page.say((error as Error).message);

@@ -106,9 +106,9 @@ export class MotionView implements View, Editor, Driven {
     this.shown.link = floatingLink(model);
   }
 
-  /** Let what was opened move, if it is to, unless the reader wants no motion. */
+  /** Let what was opened move, unless the reader wants no motion. */
   run(): void {
-    if (this.linkage.model.plays && !wantsStill()) this.transport.toggle();
+    if (this.linkage.drive && !wantsStill()) this.transport.toggle();
   }
 
   /** Other sizes of the same structure, as a link holds them. */

@@ -230,6 +230,6 @@ export class StructureView implements View {
     if (!found) return;
     place.remove();
     const driven = this.structure?.driven.find((choice) => choice.text === this.structure!.driver);
-    this.#page.open({ ...found, plays: true, name: driven?.family || t("A mechanism with found dimensions") });
+    this.#page.open({ ...found, name: driven?.family || t("A mechanism with found dimensions") });
   }
 }

@@ -372,7 +372,7 @@ export class SynthesisView implements View {
     try {
       const document = { ...design.document, page: { targets: this.targets } };
       const model = await this.#page.ask<Model>("open_document", { document, name });
-      this.#page.open({ ...model, plays: true });
+      this.#page.open(model);
     } catch (error) {
       this.#page.say((error as Error).message);
     }
