@@ -16,13 +16,16 @@ export interface Beside {
   readonly picture?: Backdrop;
   readonly locks?: readonly Lock[];
   readonly rulers?: readonly Ruler[];
+  /** What joints are called where they were drawn, in the order of the linkage, spaces between. */
+  readonly letters?: string;
 }
 
 /** What a document keeps, as far as it is what the page writes. */
 export function besideOf({ page }: LinkageDocument): Beside {
   const numbers = (row: unknown, ...counts: number[]) =>
     Array.isArray(row) && counts.includes(row.length) && row.every((one) => Number.isFinite(one));
-  const { locks, picture, rulers, targets } = (page ?? {}) as {
+  const { letters, locks, picture, rulers, targets } = (page ?? {}) as {
+    letters?: unknown;
     locks?: unknown;
     rulers?: unknown;
     picture?: Partial<Backdrop>;
@@ -37,6 +40,7 @@ export function besideOf({ page }: LinkageDocument): Beside {
     ...(shown && { picture: picture as Backdrop }),
     ...(kept.length && { locks: kept }),
     ...(measured.length && { rulers: measured }),
+    ...(typeof letters === "string" && { letters }),
   };
 }
 

@@ -319,14 +319,18 @@ export function documentOfDrawing(drawing: Drawing): LinkageDocument {
     while (taken.has(`K${number}`)) number++;
     return `K${number++}`;
   };
-  const beside = { ...drawing.beside, ...(drawing.picture && drawing.keeps && { picture: drawing.picture }) };
+  const beside = {
+    ...drawing.beside,
+    ...(drawing.picture && drawing.keeps && { picture: drawing.picture }),
+    letters: joints.map((k) => knotName(drawing, k)).join(" "),
+  };
   return {
     unit: unitOf(drawing),
     joints: joints.map(name).join(" "),
     links: linksOf(drawing),
     ...(drawing.frame === null ? {} : { frame: drawing.frame }),
     drives: drawing.drives.map((k) => driveName(drawing, k)),
-    ...(Object.keys(beside).length && { page: beside }),
+    page: beside,
     places: Object.fromEntries(
       joints.map((k) => {
         return [name(k), placeOf(drawing.knots[k]!)];

@@ -94,9 +94,17 @@ export class Linkage {
     return spaced(this.model.linkNames[currentLanguage()]?.[link] ?? this.model.links[link]!);
   }
 
+  /** What a joint is called where it was drawn. */
+  letterOf(joint: number): string | undefined {
+    return this.beside.letters?.split(" ")[joint];
+  }
+
   /** What the joint of this name is called in the reader's language. */
   jointName(name: string): string {
-    const joint = this.model.joints.find((one) => one.name === name);
+    const number = this.model.joints.findIndex((one) => one.name === name);
+    const letter = this.letterOf(number);
+    if (letter) return letter;
+    const joint = this.model.joints[number];
     const links = joint?.links.map((link) => this.linkName(link)).join("-");
     return links ? name.replace(/^(.*?)\(.*\)/, (_, sign: string) => `${inLetters(sign)}(${links})`) : name;
   }

@@ -102,6 +102,8 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
   const { joints, unit } = linkage.model;
   const others = (k: number) => {
     const element = linkage.sizes.element(k);
+    const letter = linkage.letterOf(element.joint);
+    if (letter) return letter;
     const links = joints[element.joint]!.links.filter((other) => other !== element.link);
     return links.map((other) => linkage.linkName(other)).join(", ");
   };
@@ -123,8 +125,10 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
     onkeydown: (event: KeyboardEvent) => event.stopPropagation(),
   });
   const name = linkage.linkName(link);
-  const ends = `${others(first)} – ${others(second)}`;
-  const label = h("label", { for: id, title: `${name}: ${ends}` }, h("b", {}, name), alone ? "" : ` ${ends}`);
+  const lettered = linkage.letterOf(0);
+  const ends = `${others(first)}${lettered ? "–" : " – "}${others(second)}`;
+  const bold = h("b", {}, lettered ? ends : name);
+  const label = h("label", { for: id, title: `${name}: ${ends}` }, bold, alone || lettered ? "" : ` ${ends}`);
   const pins = [first, second].every((k) => linkage.sizes.is(k, "pin"));
   return [
     label,

@@ -23,6 +23,7 @@ const LONGEST_ARROW = 90; // pixels
 const LINE = 15; // pixels that names are apart
 const INK = 8; // from a name to an arrow
 const MOST_CLEAR = 40; // names that look for a place of their own in every picture
+const LETTER = 16; // from a joint to its letter
 
 export class Scene {
   #links: SVGGElement[] = [];
@@ -188,7 +189,11 @@ export class Scene {
         [x + dx, y + dy],
       ]),
     );
-    const drawn = [...hulls.filter((hull) => hull.length), ...arrows];
+    const grounds = this.#pins.flatMap(({ element, joint }) =>
+      element.firstElementChild?.matches(".support") ? [standing(viewport.screen(...linkage.jointAt(joint)))] : [],
+    );
+    const avoided = [...arrows, ...grounds];
+    const drawn = [...hulls.filter((hull) => hull.length), ...avoided];
     for (const [k, label] of this.#labels.entries()) {
       const { element, half, begins, name, spots } = label;
       const places = spots(viewport);
@@ -196,8 +201,11 @@ export class Scene {
         taken.find((other) => half + other.half > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01);
       if (hulls[k]!.length) {
         const others = hulls.filter((one, other) => other !== k && one.length);
-        const free = (at: Pair) => !touching(at) && arrows.every((one) => clearOf(one, half, at));
+        const free = (at: Pair) => !touching(at) && avoided.every((one) => clearOf(one, half, at));
         label.taken = clearSpot(places, name, [hulls[k]!, others], free, label.taken);
+      } else if (!begins) {
+        const free = (at: Pair) => !touching(at) && drawn.every((one) => clearOf(one, half, at));
+        if (!free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
       }
       const [left, top] = places[label.taken]!;
       const x = left + (begins ? half : 0);
@@ -332,7 +340,31 @@ function labelsOf(linkage: Linkage): Label[] {
       begins: true,
     }),
   );
-  return [...names, ...marks];
+  const letters = [...model.joints.keys()].flatMap((joint): Label[] => {
+    const name = linkage.letterOf(joint);
+    if (!name) return [];
+    const spots = (viewport: Viewport) => {
+      const [x, y] = viewport.screen(...linkage.jointAt(joint));
+      return Array.from({ length: 16 }, (_, k): Pair => {
+        const phi = ((3 - k) * Math.PI) / 8;
+        return [x + LETTER * Math.cos(phi), y + 4 - LETTER * Math.sin(phi)];
+      });
+    };
+    const element = svg("text.name", { "text-anchor": "middle" }, name);
+    return [{ element, name, spots, taken: 0, half: halfOf(name), begins: false }];
+  });
+  return [...letters, ...names, ...marks];
+}
+
+/** About a ground with its hatching, below a joint. */
+function standing([x, y]: Pair): Pair[] {
+  return convexHull([
+    [x, y],
+    [x - 17, y + 17],
+    [x + 17, y + 17],
+    [x - 14, y + 23],
+    [x + 17, y + 23],
+  ]);
 }
 
 /** Whether a name keeps clear of an arrow. */

@@ -108,6 +108,10 @@ def test_a_watt_six_bar_is_drawn_and_moved(reader):
     reader.click('[data-offer="drive"]')
     reader.click('[data-act="move"]')
     reader.tab.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.joints.length === 7", 40)
+    # joints keep the letters of the drawing, in the sizes and on the stage
+    sizes = reader.page.locator('[data-panel="sizes"] label b').all_text_contents()
+    assert {"A–B", "B–C", "B–E", "C–E", "C–D", "A–D"} < set(sizes)
+    assert {*"ABCDEFG"} < set(reader.page.locator(".stage text.name").all_text_contents())
     reader.plays()
     reader.end("drawn", 21)
 
