@@ -116,7 +116,8 @@ export class Linkage {
 
   /** Links by their names in the linkage, as the reader calls them. */
   linkList(links: readonly string[]): string {
-    return links.map((name) => this.linkName(this.model.links.indexOf(name)) ?? name).join(", ");
+    const names = links.map((name) => this.linkName(this.model.links.indexOf(name)));
+    return new Intl.ListFormat(currentLanguage()).format(names);
   }
 
   /** Where an element lies in the plane. */
@@ -339,22 +340,23 @@ export class Linkage {
     if (!this.late) this.cycle = findCycle(this);
   }
 
-  /** Change the sizes at the drive value nearest to the present one at which that is possible. */
-  elsewhere(edit: () => void): void {
+  /** Change the sizes at the drive value nearest to the present one at which that is possible, if there is one. */
+  elsewhere(edit: () => void): boolean {
     const old = this.snapshot();
     const { values } = this.cycle;
     const here = this.drives[this.active]!;
     const step = Math.max(1, Math.floor(values.length / 36));
     const tried = values.filter((_, row) => row % step === 0).sort((a, b) => Math.abs(a - here) - Math.abs(b - here));
-    for (const [k, value] of tried.entries()) {
-      this.restore(old);
-      if (!this.moveTo(value)) continue;
+    for (const value of tried)
       try {
-        return edit();
+        if (!this.moveTo(value)) continue;
+        edit();
+        return true;
       } catch (error) {
-        if (k === tried.length - 1 || !(error instanceof Refused)) throw error;
+        if (!(error instanceof Refused)) throw error;
       }
-    }
+    this.restore(old);
+    return false;
   }
 
   /** Other sizes at the same drive values, in small steps, so that larger groups stay on their branch. */

@@ -182,14 +182,14 @@ export class MotionView implements View, Editor, Driven {
 
   // --- changes -------------------------------------------------------------------------------------------------------
 
-  attempt(change: () => void, elsewhere?: () => void): void {
+  attempt(change: () => void, anywhere = false): void {
     this.#begin();
-    this.#tryTo(change, elsewhere);
+    this.#tryTo(change, anywhere);
     this.#end();
   }
 
   attemptAnywhere(change: () => void): void {
-    this.attempt(change, () => this.attempt(() => this.linkage.elsewhere(change)));
+    this.attempt(change, true);
   }
 
   edit(change: () => void): void {
@@ -223,18 +223,26 @@ export class MotionView implements View, Editor, Driven {
     this.page.changed();
   }
 
-  /** Change the sizes; what is refused at this drive value is offered where it fits, if that can be looked for. */
-  #tryTo(change: () => void, elsewhere?: () => void): void {
+  /** Change the sizes; what is refused at this drive value is offered where it fits, if it is to be looked for. */
+  #tryTo(change: () => void, anywhere = false): void {
     const start = performance.now();
     try {
       change();
       this.page.say("");
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
-      const offer = t("Move the drive to where it fits");
-      const offered = error.stop && elsewhere;
-      const action = offered && h("button.plain", { "data-act": "elsewhere", onclick: elsewhere }, offer);
-      this.page.say(refusedText(this.linkage, error, this.transport.drive), "error", action || undefined);
+      const { linkage } = this;
+      const text = refusedText(linkage, error, this.transport.drive);
+      if (!error.stop || !anywhere) this.page.say(text);
+      else {
+        const before = linkage.snapshot();
+        const fits = linkage.elsewhere(change);
+        linkage.restore(before);
+        const onclick = () => this.attempt(() => linkage.elsewhere(change));
+        const offer = h("button.plain", { "data-act": "elsewhere", onclick }, t("Move the drive to where it fits"));
+        if (fits) this.page.say(text, "error", offer);
+        else this.page.say(t("With these sizes it fits at no position of the drive; nothing was changed."));
+      }
     }
     this.#followed();
     this.timed(start);

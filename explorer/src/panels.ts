@@ -6,7 +6,7 @@ import { applyDocument, documentOf } from "./document";
 import { h, renew } from "./dom";
 import { type Dragging, type Length, LONGEST } from "./dragging";
 import { icon } from "./icons";
-import { inLetters, number, parsed, t } from "./language";
+import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
 import type { Kept } from "./locks";
 import type { LinkageDocument } from "./model";
@@ -290,12 +290,11 @@ export function modesPanel(editor: Editor): HTMLElement {
   const { linkage } = editor;
   const groups = linkage.model.groups.filter((group) => group.modes);
   if (!groups.length) return h("p.note", {}, t("There is one assembly mode only."));
-  const chips = groups.map(({ dyad, form, links, number: mode }) => {
-    const text = `${inLetters(form)} {${linkage.linkList(links)}}`;
+  const chips = groups.map(({ dyad, links, number: mode }) => {
+    const text = linkage.linkList(links);
     if (!dyad) return h("div.chip", {}, text);
     const onclick = () => editor.attempt(() => linkage.switchMode(mode));
-    const sign = linkage.state.signs[mode]! < 0 ? "−" : "+";
-    return h("button.plain", { "data-mode": mode, onclick }, `${text}  ${sign}`);
+    return h("button.plain", { "data-mode": mode, onclick }, t("{links}: other side", { links: text }));
   });
   const own = h("div.chips", {}, ...chips);
   if (!editor.page.served || groups.every((group) => group.dyad)) return own;

@@ -1,7 +1,7 @@
 /** Drive values and ends of a motion in words. */
 
 import { type Stop, wrapped } from "./cycle";
-import { inLetters, t } from "./language";
+import { t } from "./language";
 import type { Linkage, Refused } from "./linkage";
 import type { Model } from "./model";
 import { Status } from "./status";
@@ -24,17 +24,15 @@ export function placeOf({ cycle, drive }: Linkage, value: number): number {
 
 /** Why the motion ends, or why the linkage cannot be assembled. */
 export function stopText(linkage: Linkage, stop: Stop): string {
-  const drives = `${linkage.jointName(linkage.drive?.name ?? "")} = ${driveText(linkage, stop.value, 4)}`;
-  const links = linkage.linkList(stop.links);
-  const form = stop.status === "open" ? linkage.jointName(stop.form) : inLetters(stop.form);
-  if (stop.status === "open") return t("The motion ends at {drives}: there {form} is open.", { drives, form });
-  const values = { drives, form, links };
+  const drives = driveText(linkage, stop.value, 4);
+  const values = { drives, form: linkage.jointName(stop.form), links: linkage.linkList(stop.links) };
+  if (stop.status === "open") return t("The motion ends at {drives}: there {form} is open.", values);
   if (stop.status === Status.START)
-    return t("With these sizes {form} {{links}} cannot be assembled at {drives}; nothing was changed.", values);
+    return t("With these sizes the joints of {links} do not meet at {drives}; nothing was changed.", values);
   if (stop.status === Status.SINGULAR)
-    return t("The motion ends at {drives}: there two assembly modes of {form} {{links}} meet.", values);
-  if (stop.status === Status.GIVEN_UP) return t("The motion was given up at {drives}: it is too long.", { drives });
-  return t("The motion ends at {drives}: there {form} {{links}} can no longer be assembled.", values);
+    return t("The motion ends at {drives}: there two assembly modes of {links} meet.", values);
+  if (stop.status === Status.GIVEN_UP) return t("The motion was given up at {drives}: it is too long.", values);
+  return t("The motion ends at {drives}: there the joints of {links} no longer meet.", values);
 }
 
 /** Why sizes were refused at a drive value. */

@@ -145,15 +145,15 @@ test("what is read off a four-bar", () => {
 test("why a motion ends", () => {
   const linkage = new Linkage(fourBar(CRANK_ROCKER, 0));
   const stop = { value: Math.PI / 2, status: Status.LIMIT, form: "RRR", links: ["coupler", "rocker"] };
-  const said = "there RRR {coupler, rocker} can no longer be assembled.";
-  assert.equal(stopText(linkage, stop), `The motion ends at R(frame-crank) = 90°: ${said}`);
+  const said = "there the joints of coupler and rocker no longer meet.";
+  assert.equal(stopText(linkage, stop), `The motion ends at 90°: ${said}`);
   const third = { ...stop, value: Math.PI / 3 + 0.001 }; // 60.0573 degrees, in four digits as the library says it
-  assert.equal(stopText(linkage, third), `The motion ends at R(frame-crank) = 60.06°: ${said}`);
+  assert.equal(stopText(linkage, third), `The motion ends at 60.06°: ${said}`);
   const open = { ...stop, status: "open" as const, form: "R(a-b)", links: [] };
-  assert.equal(stopText(linkage, open), "The motion ends at R(frame-crank) = 90°: there R(a-b) is open.");
+  assert.equal(stopText(linkage, open), "The motion ends at 90°: there R(a-b) is open.");
   inGerman(() => {
     const text = stopText(linkage, stop);
-    assert.ok(text.includes("D(Gestell-Kurbel) = 90°") && text.includes("DDD {Koppel, Schwinge}"), text);
+    assert.ok(text.includes("bei 90°") && text.includes("von Koppel und Schwinge"), text);
   });
 });
 

@@ -218,7 +218,7 @@ def test_a_length_that_fits_elsewhere_only_is_offered_there(tab, crank_rocker):
     field = page.page.locator(".rows.sizes input").nth(2)
     field.fill("15")
     field.press("Enter")
-    assert "cannot be assembled at R(frame-crank) = 51.57" in told(page)
+    assert "the joints of coupler and rocker do not meet at 51.57" in told(page)
     assert lengths(page) == pytest.approx([70, 25, 70, 40])
     page.page.click('[data-act="elsewhere"]')
     assert lengths(page) == pytest.approx([70, 25, 15, 40])
@@ -229,6 +229,11 @@ def test_a_length_that_fits_elsewhere_only_is_offered_there(tab, crank_rocker):
     page.page.locator("h1").click()
     page.page.keyboard.press("Control+z")
     assert lengths(page) == pytest.approx([70, 25, 70, 40])
+    field.fill("200")  # longer than the three others together: nowhere, and nothing is offered
+    field.press("Enter")
+    assert "at no position of the drive" in told(page)
+    assert page.page.locator('[data-act="elsewhere"]').count() == 0
+    assert page.page.evaluate("gruebler.motion.linkage.drives[0]") == pytest.approx(0.9)
 
 
 def test_the_drive_is_typed_and_walked_by_keys(tab, crank_rocker):

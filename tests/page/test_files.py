@@ -121,6 +121,11 @@ def test_a_file_of_another_program_is_dropped_and_saved_as_dxf(tab, server, tmp_
     assert chosen.bounding_box() == place  # whatever the name
     lengths = page.page.evaluate("gruebler.motion.dragging.lengths().map((one) => one.value)")
     assert sorted(lengths)[-4:] == pytest.approx([25, 40, 70, 70], abs=1e-3)
+    # it plays; with the crank on the frame the end of the rocker is at x = 25 + (45² + 70² - 40²)/90 = 84.17, by hand,
+    # and the rocker at arccos((84.17 - 70)/40) = 69.26° from its pivot to that end
+    page.until("gruebler.motion.linkage.drives[0] !== gruebler.motion.linkage.model.start.drives[0]")
+    page.page.evaluate("gruebler.motion.transport.pick(0)")
+    assert page.page.locator('[data-panel="measures"] dd').first.text_content().strip() == "69,26°"
     panel = page.page.locator('[data-panel="export"]')
     page.page.locator('[data-icon="save"]').click()
     assert [title.split()[0] for title in panel.locator("[data-group] b").all_text_contents()] == [
