@@ -247,7 +247,6 @@ def test_every_planar_machine_plays_without_an_error(tab, single_file, step):
     for machine in machines:
         page.page.evaluate("(model) => gruebler.open(model)", model_of(machine.linkage(), name=machine.name))
         page.page.evaluate(f"window.before = {pose}")
-        page.page.evaluate("gruebler.motion.transport.toggle()")
         if machine.linkage().mechanism.drives:
             page.until(f"{pose} !== window.before")
         else:
@@ -410,7 +409,7 @@ def test_all_assembly_modes_of_a_larger_group(tab, server, tmp_path):
 
     linkage = samples()["six-bar of class III"][0]
     page = tab().open(server.address)
-    page.page.evaluate("(model) => gruebler.open(model)", model_of(linkage))
+    page.page.evaluate("(model) => { gruebler.open(model); gruebler.motion.transport.pause(); }", model_of(linkage))
     page.page.locator('[data-panel="modes"] summary').click()
     page.page.click('[data-act="modes"]')
     page.page.locator('[data-panel="modes"] [data-mode="1"]').wait_for()
