@@ -52,17 +52,22 @@ function toSegment(x: number, y: number, [ax, ay]: Pair, [bx, by]: Pair): number
 /** Of places so far from another, or twice as far, the one that is clearest of hulls, with some room at its sides. The
  * first of equals lies to the right and, where y grows upward, above; with a negative distance on the other side. */
 export function clearAbout([x, y]: Pair, far: number, hulls: readonly (readonly Pair[])[], room = 0): Pair {
-  const around = Array.from({ length: 32 }, (_, k): Pair => {
-    const phi = ((3 - k) * Math.PI) / 8;
-    const off = far * (1 + (k >> 4));
-    return [x + (off + Math.sign(far) * room) * Math.cos(phi), y + off * Math.sin(phi)];
-  });
+  const around = spotsAbout([x, y], far, room);
   const near = hulls.filter((hull) => toHull(hull, x, y) < 3 * Math.abs(far) + 2 * room); // others are no matter
   const clear = around.map(([u, v], k) => {
     const gaps = [-room, 0, room].flatMap((d) => near.map((hull) => toHull(hull, u + d, v)));
     return Math.min(Math.abs(far), ...gaps) / (1 + (k >> 4));
   });
   return around[clear.indexOf(Math.max(...clear))]!;
+}
+
+/** These places. */
+export function spotsAbout([x, y]: Pair, far: number, room = 0): Pair[] {
+  return Array.from({ length: 32 }, (_, k): Pair => {
+    const phi = ((3 - k) * Math.PI) / 8;
+    const off = far * (1 + (k >> 4));
+    return [x + (off + Math.sign(far) * room) * Math.cos(phi), y + off * Math.sin(phi)];
+  });
 }
 
 /** How far a place is from another. */

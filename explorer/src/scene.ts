@@ -4,7 +4,7 @@ import { backdropElement, putBackdrop } from "./backdrop";
 import { Bodies } from "./bodies";
 import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
-import { clearAbout, convexHull, toHull } from "./hull";
+import { clearAbout, convexHull, spotsAbout, toHull } from "./hull";
 import { number as numberText } from "./language";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
@@ -160,7 +160,7 @@ export class Scene {
 
   /** Put everything where the pose has it. */
   draw(linkage: Linkage, shown: Shown): void {
-    const { pose, sizes } = linkage;
+    const { model, pose, sizes } = linkage;
     const { viewport } = this;
     this.#links.forEach((group, link) => {
       const [c, s] = turn(pose, 0, link);
@@ -189,9 +189,9 @@ export class Scene {
         [x + dx, y + dy],
       ]),
     );
-    const grounds = this.#pins.flatMap(({ element, joint }) =>
-      element.firstElementChild?.matches(".support") ? [standing(viewport.screen(...linkage.jointAt(joint)))] : [],
-    );
+    const grounds = this.#pins
+      .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
+      .map(({ joint }) => standing(viewport.screen(...linkage.jointAt(joint))));
     const avoided = [...arrows, ...grounds];
     const drawn = [...hulls.filter((hull) => hull.length), ...avoided];
     for (const [k, label] of this.#labels.entries()) {
@@ -199,14 +199,12 @@ export class Scene {
       const places = spots(viewport);
       const touching = (at: Pair) =>
         taken.find((other) => half + other.half > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01);
+      const around = hulls[k]!.length ? avoided : drawn;
+      const free = (at: Pair) => !touching(at) && around.every((one) => clearOf(one, half, at));
       if (hulls[k]!.length) {
         const others = hulls.filter((one, other) => other !== k && one.length);
-        const free = (at: Pair) => !touching(at) && avoided.every((one) => clearOf(one, half, at));
         label.taken = clearSpot(places, name, [hulls[k]!, others], free, label.taken);
-      } else if (!begins) {
-        const free = (at: Pair) => !touching(at) && drawn.every((one) => clearOf(one, half, at));
-        if (!free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
-      }
+      } else if (!free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
       const [left, top] = places[label.taken]!;
       const x = left + (begins ? half : 0);
       let y = top;
@@ -343,13 +341,8 @@ function labelsOf(linkage: Linkage): Label[] {
   const letters = [...model.joints.keys()].flatMap((joint): Label[] => {
     const name = linkage.letterOf(joint);
     if (!name) return [];
-    const spots = (viewport: Viewport) => {
-      const [x, y] = viewport.screen(...linkage.jointAt(joint));
-      return Array.from({ length: 16 }, (_, k): Pair => {
-        const phi = ((3 - k) * Math.PI) / 8;
-        return [x + LETTER * Math.cos(phi), y + 4 - LETTER * Math.sin(phi)];
-      });
-    };
+    const spots = (viewport: Viewport) =>
+      spotsAbout(viewport.screen(...linkage.jointAt(joint)), -LETTER).map(([x, y]): Pair => [x, y + 4]);
     const element = svg("text.name", { "text-anchor": "middle" }, name);
     return [{ element, name, spots, taken: 0, half: halfOf(name), begins: false }];
   });
