@@ -72,7 +72,7 @@ const packed = {
 /** Long names of methods and fields of the page's own, which get short ones; nobody outside, neither tests nor the
  * library, calls them. */
 const own = `
-  adding addPoint appeared arrange atFrame attemptAnywhere cancelDrag changeSlowly dragCancel
+  adding addPoint appeared arrange atFrame cancelDrag changeSlowly dragCancel
   dragEnd dragPoint dragStart editor element elementAt elementsOf elementsOn falling forget holdJoint knot
   jointName leftOf lineFirst linkList linkName moveJointBy movePointBy openDocument openFile
   pan paused picked playAt plottedAngle pointed pointName poleAside possible present recoloured runAlong

@@ -4,6 +4,7 @@ import { h, menu } from "./dom";
 import { showOver } from "./help";
 import { currentLanguage, t } from "./language";
 import { chainText, type LinkageDocument } from "./model";
+import { fromBase64 } from "./packed";
 import { film, filmType, imageOf } from "./video";
 import type { Page } from "./view";
 
@@ -89,7 +90,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
     page
       .ask<Saved>("export", { document: shown.document(), kind, name: page.shown.name, ...more })
       .then(({ base64, type, ending, note }) => {
-        const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+        const bytes = fromBase64(base64);
         save(page, say, ending?.slice(1) ?? kind, type, new Blob([bytes], { type }), note);
       }, failed);
   };

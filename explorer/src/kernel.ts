@@ -3,7 +3,7 @@
  * core/page/door.cpp is the other side of the door and says what lies where in the block of memory between them. */
 
 import packed from "../../core/page/motion.wasm.gz";
-import { unpackedBytes } from "./packed";
+import { unpacked } from "./packed";
 import type { Program } from "./program";
 import type { Status } from "./status";
 
@@ -45,7 +45,7 @@ interface Core {
 }
 
 async function loaded(): Promise<Core> {
-  const { instance } = await WebAssembly.instantiate(await unpackedBytes(packed));
+  const { instance } = await WebAssembly.instantiate(await unpacked(packed).arrayBuffer());
   return instance.exports as unknown as Core;
 }
 

@@ -1,5 +1,7 @@
 /** A linkage as the part of an address behind #: version, packed document, checksum. */
 
+import { base64Of, fromBase64, through } from "./packed";
+
 const VERSION = "1";
 const LONGEST = 200_000;
 
@@ -13,17 +15,10 @@ export function checksum(bytes: Uint8Array): string {
   return (~crc >>> 0).toString(16).padStart(8, "0");
 }
 
-async function through(
-  stream: CompressionStream | DecompressionStream,
-  bytes: Uint8Array<ArrayBuffer>,
-): Promise<Uint8Array<ArrayBuffer>> {
-  const out = new Blob([bytes]).stream().pipeThrough(stream);
-  return new Uint8Array(await new Response(out).arrayBuffer());
-}
-
 export async function packed(content: unknown): Promise<string> {
-  const bytes = await through(new CompressionStream("deflate-raw"), new TextEncoder().encode(JSON.stringify(content)));
-  const text = btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
+  const stream = new CompressionStream("deflate-raw");
+  const bytes = new Uint8Array(await through(stream, JSON.stringify(content)).arrayBuffer());
+  const text = base64Of(bytes);
   return `${VERSION}.${text.replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "")}.${checksum(bytes)}`;
 }
 
@@ -36,9 +31,8 @@ export async function unpacked(text: string): Promise<unknown> {
     throw new BadLink("This link was made by a newer version of this page.");
   if (!data || !sum || text.length > LONGEST) throw new BadLink("This link is not complete.");
   try {
-    const bytes = Uint8Array.from(atob(data.replace(/-/g, "+").replace(/_/g, "/")), (c) => c.charCodeAt(0));
-    if (checksum(bytes) === sum)
-      return JSON.parse(new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes)));
+    const bytes = fromBase64(data.replace(/-/g, "+").replace(/_/g, "/"));
+    if (checksum(bytes) === sum) return await through(new DecompressionStream("deflate-raw"), bytes).json();
   } catch {
     // said below
   }

@@ -188,10 +188,6 @@ export class MotionView implements View, Editor, Driven {
     this.#end();
   }
 
-  attemptAnywhere(change: () => void): void {
-    this.attempt(change, true);
-  }
-
   edit(change: () => void): void {
     this.#begin();
     change();
@@ -232,17 +228,20 @@ export class MotionView implements View, Editor, Driven {
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
       const { linkage } = this;
-      const text = refusedText(linkage, error, this.transport.drive);
-      if (!error.stop || !anywhere) this.page.say(text);
-      else {
-        const before = linkage.snapshot();
-        const fits = linkage.elsewhere(change);
-        linkage.restore(before);
-        const onclick = () => this.attempt(() => linkage.elsewhere(change));
-        const offer = h("button.plain", { "data-act": "elsewhere", onclick }, t("Move the drive to where it fits"));
-        if (fits) this.page.say(text, "error", offer);
-        else this.page.say(t("With these sizes it fits at no position of the drive; nothing was changed."));
-      }
+      const before = linkage.snapshot();
+      const tried = error.stop && anywhere;
+      const fits = tried && linkage.elsewhere(change);
+      if (fits) linkage.restore(before);
+      const onclick = () => this.attempt(() => linkage.elsewhere(change));
+      this.page.say(
+        tried && !fits
+          ? t("It fits at no position of the drive; nothing was changed.")
+          : refusedText(linkage, error, this.transport.drive),
+        "error",
+        fits
+          ? h("button.plain", { "data-act": "elsewhere", onclick }, t("Move the drive to where it fits"))
+          : undefined,
+      );
     }
     this.#followed();
     this.timed(start);

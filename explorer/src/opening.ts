@@ -4,6 +4,7 @@ import type { Drawing } from "./drawing";
 import { drawingFrom } from "./kept";
 import { t } from "./language";
 import type { LinkageDocument, Model } from "./model";
+import { base64Of } from "./packed";
 import { isOf } from "./sharing";
 import type { Page } from "./view";
 
@@ -28,7 +29,7 @@ export async function contentOf(file: File, page: Page): Promise<Content> {
   if (drawing) return { drawing };
   if (page.served) {
     const bytes = new Uint8Array(await file.arrayBuffer());
-    const base64 = btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
+    const base64 = base64Of(bytes);
     return page.ask<Content>("open_file", { name: file.name.slice(-200), base64 });
   }
   const document = jsonOf(await file.text());

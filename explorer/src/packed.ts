@@ -1,7 +1,21 @@
 /** What stands packed in the module, unpacked. */
 
-export function unpackedBytes(packed: BlobPart): Promise<ArrayBuffer> {
-  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+/** What comes of something in a stream that packs or unpacks it. */
+export function through(stream: CompressionStream | DecompressionStream, content: BlobPart): Response {
+  return new Response(new Blob([content]).stream().pipeThrough(stream));
+}
+
+export function unpacked(content: BlobPart): Response {
+  return through(new DecompressionStream("gzip"), content);
+}
+
+/** Bytes in base 64, and back. */
+export function base64Of(bytes: Uint8Array): string {
+  return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
+}
+
+export function fromBase64(text: string): Uint8Array<ArrayBuffer> {
+  return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 }
 
 /** The bytes that `written` of build.mjs made a text of. */
@@ -25,6 +39,6 @@ export function bytesOf(text: string): Uint8Array<ArrayBuffer> {
 }
 
 /** The text of its packed bytes. */
-export async function textOf(packed: string): Promise<string> {
-  return new TextDecoder().decode(await unpackedBytes(bytesOf(packed)));
+export function textOf(packed: string): Promise<string> {
+  return unpacked(bytesOf(packed)).text();
 }

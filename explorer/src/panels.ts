@@ -29,10 +29,9 @@ export interface Editor {
   readonly dragging: Dragging;
   readonly shown: Shown;
   readonly stage: { fit(): void };
-  /** Change sizes; where that is impossible, say why. It can be undone. */
-  attempt(change: () => void): void;
-  /** The same, and offer other drive values if it is refused at this one. */
-  attemptAnywhere(change: () => void): void;
+  /** Change sizes; where that is impossible, say why, and offer other drive values if they are asked for. It can be
+   * undone. */
+  attempt(change: () => void, anywhere?: boolean): void;
   /** Change the points; it can be undone. */
   edit(change: () => void): void;
   addPoint(link: number, x: number, y: number): void;
@@ -115,7 +114,7 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
     onchange: () => {
       const wanted = parsed(input.value);
       const right = wanted >= 0 && wanted < LONGEST;
-      if (right) editor.attemptAnywhere(() => editor.dragging.setLength(first, second, wanted));
+      if (right) editor.attempt(() => editor.dragging.setLength(first, second, wanted), true);
       input.setAttribute("aria-invalid", String(!right));
       if (right) return;
       editor.page.say(
@@ -150,10 +149,7 @@ function locksOf(editor: Editor, first: number, second: number, name: string): H
     showLock(editor, button, first, second);
     return button;
   };
-  return [
-    lock("length", t("Keep this length while joints are dragged")),
-    lock("direction", t("Keep this direction while joints are dragged")),
-  ];
+  return [lock("length", t("Keep this length")), lock("direction", t("Keep this direction"))];
 }
 
 function showLock({ dragging }: Editor, button: HTMLElement, first: number, second: number): void {
@@ -163,19 +159,25 @@ function showLock({ dragging }: Editor, button: HTMLElement, first: number, seco
 
 // --- points ----------------------------------------------------------------------------------------------------------
 
-export function pointsPanel(editor: Editor): HTMLElement {
+/** The links that move, of which one is chosen for new points and poles. */
+function linkMenu(editor: Editor, label: string): HTMLElement {
   const { linkage, shown } = editor;
-  const { model } = linkage;
-  const rows = linkage.sizes.points.map((_, k) => pointRow(editor, k));
-  const { frame, own } = model;
-  const links = [...model.links.slice(0, own).keys()]
+  const { frame, links, own } = linkage.model;
+  const choices = [...links.slice(0, own).keys()]
     .filter((k) => k !== frame)
     .map((k) => h("option", { value: k, selected: k === shown.link }, linkage.linkName(k)));
-  const link = h(
-    "select",
-    { "aria-label": t("Link of a new point"), onchange: () => (shown.link = Number(link.value)) },
-    ...links,
-  );
+  const onchange = () => {
+    shown.link = Number(link.value);
+    editor.redraw();
+  };
+  const link = h("select", { "aria-label": label, onchange }, ...choices);
+  return link;
+}
+
+export function pointsPanel(editor: Editor): HTMLElement {
+  const { linkage, shown } = editor;
+  const rows = linkage.sizes.points.map((_, k) => pointRow(editor, k));
+  const link = linkMenu(editor, t("Link of a new point"));
   const add = () => {
     const mine = linkage.sizes.elementsOn(shown.link).map((k) => linkage.elementAt(k));
     const mean = (axis: 0 | 1) => mine.reduce((sum, p) => sum + p[axis], 0) / (mine.length || 1);
@@ -187,7 +189,7 @@ export function pointsPanel(editor: Editor): HTMLElement {
     {},
     h("div.point-rows", {}, ...rows),
     h("div.form", {}, link, h("button.plain", { "data-act": "add-point", onclick: add }, t("Add a point"))),
-    h("p.note", {}, t("Click or tap twice to put a point: on a link, or beside all of them on the one chosen here.")),
+    h("p.note", {}, t("Click twice to put a point: on a link, else on the one chosen here.")),
   );
 }
 
@@ -329,7 +331,7 @@ async function listModes(editor: Editor, place: HTMLElement): Promise<void> {
 // --- options ---------------------------------------------------------------------------------------------------------
 
 export function optionsPanel(editor: Editor): HTMLElement {
-  const { linkage, shown } = editor;
+  const { shown } = editor;
   const option = (key: Exclude<keyof Shown, "chosen" | "link" | "forces" | "springs">, text: string) => {
     const onchange = () => {
       shown[key] = box.checked;
@@ -338,15 +340,7 @@ export function optionsPanel(editor: Editor): HTMLElement {
     const box = h("input", { type: "checkbox", checked: shown[key], onchange });
     return h("label", {}, box, text);
   };
-  const { frame, links, own } = linkage.model;
-  const choices = [...links.slice(0, own).keys()]
-    .filter((k) => k !== frame)
-    .map((k) => h("option", { value: k, selected: k === shown.link }, linkage.linkName(k)));
-  const onchange = () => {
-    shown.link = Number(link.value);
-    editor.redraw();
-  };
-  const link = h("select", { "aria-label": t("Link"), onchange }, ...choices);
+  const link = linkMenu(editor, t("Link"));
   return h(
     "div.options",
     {},

@@ -1,7 +1,7 @@
 /** Play and pause: the drive goes on by itself. */
 
 import { type Reach, TURN } from "./cycle";
-import { h, svg } from "./dom";
+import { h, put, svg } from "./dom";
 import { t } from "./language";
 
 const LONGEST = 0.1; // seconds: what a page that slept goes on by
@@ -39,8 +39,7 @@ export class Player {
   /** Write the button, in the language of the page. */
   arrange(): void {
     const text = this.playing ? t("Pause") : t("Play");
-    this.button.setAttribute("aria-label", text);
-    this.button.title = text;
+    put(this.button, { "aria-label": text, title: text });
     const d = this.playing ? "M3 2h4v14H3zM11 2h4v14h-4z" : "M4 1.5v15l12.5-7.5z";
     this.button.replaceChildren(svg("svg", { viewBox: "0 0 18 18", "aria-hidden": "true" }, svg("path", { d })));
   }

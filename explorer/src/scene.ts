@@ -23,7 +23,7 @@ const LONGEST_ARROW = 90; // pixels
 const LINE = 15; // pixels that names are apart
 const INK = 8; // from a name to an arrow
 const MOST_CLEAR = 40; // names that look for a place of their own in every picture
-const LETTER = 16; // from a joint to its letter
+const LETTER = 20; // from a joint to its letter
 
 export class Scene {
   #links: SVGGElement[] = [];
@@ -349,15 +349,13 @@ function labelsOf(linkage: Linkage): Label[] {
   return [...letters, ...names, ...marks];
 }
 
-/** About a ground with its hatching, below a joint. */
+/** From the arrow of a drive to the hatching of a ground. */
 function standing([x, y]: Pair): Pair[] {
-  return convexHull([
-    [x, y],
-    [x - 17, y + 17],
-    [x + 17, y + 17],
-    [x - 14, y + 23],
+  return [
+    [x, y - 14],
     [x + 17, y + 23],
-  ]);
+    [x - 17, y + 23],
+  ];
 }
 
 /** Whether a name keeps clear of an arrow. */

@@ -3,7 +3,7 @@
  * but without the endgame. */
 
 import packed from "../../../core/page/solutions.wasm.gz";
-import { unpackedBytes } from "../packed";
+import { unpacked } from "../packed";
 import { abs, add, type Complex, conj, div, mul, scaled, sub } from "./complex";
 
 export const CLASSES = 1442;
@@ -57,7 +57,7 @@ export class Homotopy {
   }
 
   static async from(generic: Generic): Promise<Homotopy> {
-    const { instance } = await WebAssembly.instantiate(await unpackedBytes(packed));
+    const { instance } = await WebAssembly.instantiate(await unpacked(packed).arrayBuffer());
     return new Homotopy(instance.exports as unknown as Core, generic);
   }
 

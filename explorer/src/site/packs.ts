@@ -1,6 +1,6 @@
 /** The files of a static site: scripts beside the page, each of which hands over one packed text. */
 
-import { unpackedBytes } from "../packed";
+import { fromBase64, unpacked } from "../packed";
 
 const waiting = new Map<string, (data: string) => void>();
 const packs = new Map<string, Promise<unknown>>();
@@ -25,6 +25,5 @@ async function loaded(name: string): Promise<unknown> {
     document.head.append(script);
   });
   script.remove();
-  const bytes = await unpackedBytes(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)));
-  return JSON.parse(new TextDecoder().decode(bytes));
+  return unpacked(fromBase64(data)).json();
 }
