@@ -140,6 +140,25 @@ def test_a_rod_with_its_round_end_stays_on_its_side_of_the_face(name):
     assert any(before.minus(place).length < 1e-6 for face in faces for place in face.parts[0])
 
 
+def test_a_block_stands_on_one_rail_which_its_rod_does_not_cross():
+    shapes = draw_linkage(SliderCrank(25, 70).linkage(), at=1.0).shapes
+    lines = [shape.parts[0] for shape in shapes if isinstance(shape, Polylines) and shape.style == "rail"]
+    assert len(lines) == 2  # below the pedestal and below the block
+    rail = max(lines, key=lambda line: line[0].minus(line[-1]).length)
+    (block,) = (shape.parts[0] for shape in shapes if isinstance(shape, Polylines) and shape.style == "block")
+    rod = [place for shape in shapes if getattr(shape, "style", "") == "body-bar" for place in shape.parts[0]]
+    assert max(place.y for place in [*block, *rod]) < min(place.y for place in rail)  # y grows downward
+
+
+def test_the_letter_of_the_frame_stands_between_its_pins():
+    names = {"crank": "a", "coupler": "b", "rocker": "c", "frame": "d"}
+    shapes = draw_linkage(FourBar(25, 70, 40, 70).linkage(), labels=True, names=names).shapes
+    (text,) = (shape for shape in shapes if isinstance(shape, TextShape) and shape.text == "d")
+    pins = [shape.at for shape in shapes if isinstance(shape, CircleShape) and shape.style == "joint"]
+    left, right = sorted(pins, key=lambda at: at.y)[-2:]
+    assert text.at.x == pytest.approx((left.x + right.x) / 2)
+
+
 def test_the_name_of_a_point_is_nearer_to_it_than_to_a_pin():
     """Q of Hart's inversor lies beside a pin."""
     shapes = draw_linkage(entry("hart").linkage()).shapes

@@ -358,7 +358,10 @@ def _box(a: Point, b: Point, half: float) -> Polylines:
 
 
 def _ground(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[Shape]:
-    """Rails with hatching along the guides of the frame, a pedestal below each of its pins."""
+    """Rails with hatching along the guides of the frame, a pedestal below each of its pins.
+
+    A block stands on one rail: what is hinged to it swings over the other side.
+    """
     lower, frame = posed.lower, posed.lower.mechanism.frame
     shapes: list[Shape] = []
     for slide in joint_slides:
@@ -366,7 +369,8 @@ def _ground(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[Shape]
             long, wide = _outline_extent(posed, slide) or _BLOCK
             a, b = _guide_line(posed, slide, _SLOT_END if slide.sign == "slot" else long + _BEYOND)
             half = _SLOT_HALF if slide.sign == "slot" else wide + _RAIL
-            for side in (b.minus(a).unit.across, a.minus(b).unit.across):
+            sides = (b.minus(a).unit.across, a.minus(b).unit.across)
+            for side in sides if slide.sign == "slot" else (max(sides, key=lambda side: (round(side.y, 9), side.x)),):
                 rail = a.plus(side, half), b.plus(side, half)
                 shapes += [Polylines((rail,), "rail"), ticks(*rail, side)]
     for outline in posed.linkage.outlines.get(frame, ()):

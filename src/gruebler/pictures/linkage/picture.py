@@ -34,6 +34,7 @@ from gruebler.pictures.linkage.bodies import (
     corners_of,
     layered,
     outline_parts,
+    pins_of,
     room_for,
     shapes_at_pose,
     slides,
@@ -185,6 +186,12 @@ def _named(
     """Names beside the bodies, and the entries of the list."""
     joint_slides = slides(posed)
     outlines = {link: _outline(posed, link, pieces, joint_slides) for link in posed.linkage.mechanism.chain.links}
+    frame = posed.lower.mechanism.frame
+    pins = dict.fromkeys(pins_of(posed.lower, frame))
+    if (
+        len((names or {}).get(frame, "").strip()) == 1 and len(pins) == 2
+    ):  # the letter of a length stands between its ends
+        outlines[frame] = _placed(posed, frame, [posed.local(pin) for pin in pins])
     return labels_with_names(outlines, {link: len(outlines[link]) > 2 for link in outlines}, shapes, names)
 
 
