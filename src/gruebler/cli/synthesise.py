@@ -65,6 +65,7 @@ _OPTIONS = {
     "region": "--region",
     "lengths": "--length",
     "tolerance": "--tolerance",
+    "starts": "--start-solutions",
 }
 """The options for keys of task files."""
 _TASK_OPTIONS = {
@@ -126,7 +127,8 @@ def add(parser: Parser) -> None:
         task TASK  a .toml, .json or .csv file; CSV columns x,y,angle and order where wanted
         --moving-pivot X Y float ...  choose a pivot on the body in its first position, for two to four positions; with
             four the nearest point of Burmester's curve; repeatable
-        --fixed-pivot X Y float ...  choose a pivot on the frame, likewise; repeatable
+        --fixed-pivot X Y float ...  choose a pivot on the frame, likewise; repeatable; beside a single pivot the best
+            others are sought
         --six-bars  six-bars of Watt's first kind: all through six positions with two fixed pivots, first that of the
             crank, then that of the ternary rocker; all through five with the pin of the body on the coupler as a
             moving pivot besides; some through seven with the rocker's pivot, or through eight with none
@@ -482,18 +484,18 @@ def _law(arguments: argparse.Namespace) -> FunctionLaw:
 
 def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> SynthesisResult:
     progress = count_line(_COUNTED.get("" if arguments.structure else arguments.action, _IMPROVED), arguments.lang)
-    if arguments.structure:
-        return _fitted(arguments, task, demands, progress)
     more = {} if arguments.number is None else {"number": max(arguments.number, _LEAST[type(task)])}
-    if isinstance(task, PositionTask | FunctionTask) and arguments.six_bars:
-        return _six_bars(arguments, task, demands, progress)
-    if isinstance(task, PositionTask):
-        return synthesise_positions(task, demands, sort=_orders(arguments), progress=progress, **more)
-    if isinstance(task, FunctionTask):
-        return synthesise_function(task, demands, minimax=arguments.minimax, sort=_orders(arguments), **more)
-    if isinstance(task, DeadCentreTask):
-        return synthesise_dead_centres(task, demands, sort=_orders(arguments), **more)
     with _keys_as_options():
+        if arguments.structure:
+            return _fitted(arguments, task, demands, progress)
+        if isinstance(task, PositionTask | FunctionTask) and arguments.six_bars:
+            return _six_bars(arguments, task, demands, progress)
+        if isinstance(task, PositionTask):
+            return synthesise_positions(task, demands, sort=_orders(arguments), progress=progress, **more)
+        if isinstance(task, FunctionTask):
+            return synthesise_function(task, demands, minimax=arguments.minimax, sort=_orders(arguments), **more)
+        if isinstance(task, DeadCentreTask):
+            return synthesise_dead_centres(task, demands, sort=_orders(arguments), **more)
         method: Callable[..., SynthesisResult] = synthesise_dwells if isinstance(task, DwellTask) else synthesise_path
         return method(task, demands, progress=progress, **more)
 

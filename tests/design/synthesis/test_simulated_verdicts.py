@@ -20,7 +20,7 @@ STEP = np.radians(0.05)
 SHARE = 0.02
 
 
-def _pivots(design):
+def pivots_of(design):
     """A0, A, B, B0 of an RR-RR design in its first position."""
     linkage = design.linkage
     pose = linkage.required_pose
@@ -112,13 +112,13 @@ def _verdicts(seeds):
         tasks += 1
         for design in (*found.designs, *found.rejected):
             if design.form == "RR-RR" and design.verdict.size_ratio < _RATIO:
-                pivots = np.array(_pivots(design))
+                pivots = np.array(pivots_of(design))
                 moved = z + (pivots[1:3, None] - z[0]) * np.exp(1j * (angles - angles[0]))
                 rows.append((seed, pivots, moved, design.verdict.accepted, ranks or tuple(range(count))))
     return rows, tasks
 
 
-def _passes(onward, back, ranks):
+def passes(onward, back, ranks):
     """Whether a crank reaches all targets, in order; onward and back it turns to each by so much, or NaN."""
     if np.isnan(np.fmin(onward, back)).any():
         return False
@@ -137,7 +137,7 @@ def _disagreements(seeds):
         pivots = np.array([row[1] for row in same]).T
         moved = np.array([row[2] for row in same]).transpose(1, 0, 2)
         reached = zip(*simulated(pivots, moved), strict=True)
-        passed = [_passes(*both, row[4]) for both, row in zip(reached, same, strict=True)]
+        passed = [passes(*both, row[4]) for both, row in zip(reached, same, strict=True)]
         wrong += [(row[0], row[3]) for row, moves in zip(same, passed, strict=True) if row[3] != moves]
     accepted = sum(row[3] for row in rows)
     return wrong, accepted, len(rows) - accepted, tasks

@@ -204,7 +204,7 @@ def synthesise_dead_centres(
     >>> round(found.designs[0].linkage.length("crank", 0, 1), 4)
     23.5237
     """
-    wanted = (demands or Demands()).with_links()
+    wanted = (demands or Demands()).of_task(task)
     orders = tuple("transmission" if name == "range-transmission" else name for name in sort)  # its crank turns fully
     family = dead_centre_family(task)
     low, high = family.range

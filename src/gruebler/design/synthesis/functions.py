@@ -78,7 +78,7 @@ def synthesise_function(
     >>> found.count.found, found.count.theorem
     (1, 1)
     """
-    wanted = (demands or Demands()).with_links()
+    wanted = (demands or Demands()).of_task(task)
     if minimax and task.law is None:
         raise SynthesisError("the minimax optimum needs the function as an expression, not a table of pairs")
     free = (not task.start_input) + (not task.start_output)

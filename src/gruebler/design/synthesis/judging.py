@@ -108,10 +108,12 @@ class Demands:
         """Whether lengths, the place of the pivots or the transmission angle are limited."""
         return bool(self.lengths) or self.region is not None or self.transmission > 0
 
-    def with_links(self, known: Iterable[str] = ("crank", "coupler", "rocker", "frame")) -> Demands:
-        """These demands; raises `SynthesisError` for lengths of other links, by default than those of four-bars.
+    def of_task(self, task: object, known: Iterable[str] = ("crank", "coupler", "rocker", "frame")) -> Demands:
+        """These demands, which a task of linkages with such links can meet, by default four-bars.
 
-        >>> Demands(lengths={"foo": 2}).with_links()
+        Raises `SynthesisError` for lengths of other links, and for a pivot that the task gives outside the region.
+
+        >>> Demands(lengths={"foo": 2}).of_task(None)
         Traceback (most recent call last):
         gruebler.base.errors.SynthesisError: the length of a link 'foo' is given, but the links are crank, coupler, ...
         """
@@ -122,6 +124,12 @@ class Demands:
                     "the length of a link {link!r} is given, but the links are {known}",
                     link=link,
                     known=joined_by_and(links),
+                )
+        x1, y1, x2, y2 = self.region or (-np.inf, -np.inf, np.inf, np.inf)
+        for x, y in getattr(task, "fixed_pivots", ()):
+            if not (x1 <= x <= x2 and y1 <= y <= y2):
+                raise SynthesisError(
+                    "{name}: ({x:g}, {y:g}) lies outside the region that is demanded", name="fixed_pivots", x=x, y=y
                 )
         return self
 

@@ -316,6 +316,7 @@ def best_pairs(
     near: Nearby,
     *,
     second: Sequence[GuidingDyad] = (),
+    given: Sequence[GuidingDyad] = (),
     orders: Sequence[str] = (),
     number: int = 16,
 ) -> FoundPairs:
@@ -327,6 +328,7 @@ def best_pairs(
         demands: what counts besides.
         near: dyads of the family near one of them.
         second: a sample of sliding dyads of one kind, in the order of their family, instead of the first ones again.
+        given: some of the first ones, all where there are second ones: each pair has just one of them.
         orders: what is best, by the names of `results.ORDERS`.
         number: of pairs, at most.
 
@@ -334,15 +336,22 @@ def best_pairs(
     """
     others = second or dyads
     facts = pair_facts(task, dyads, others, demands)
-    met = facts.met(demands)
+    usable = np.ones((len(dyads), len(others)), bool)
+    if given and not second:
+        is_given = np.array([dyad in given for dyad in dyads])
+        usable = is_given[:, None] != is_given
+    elif not second:
+        np.fill_diagonal(usable, False)
+    (name, first), *rest = facts.met(demands)
+    met = [(name, first & usable), *rest]
     fails = np.sum([~flags for _, flags in met], axis=0)
     good = fails == 0
     notes = [
-        _SEARCHED[bool(second)].filled(
+        _SEARCHED[bool(given), bool(second)].filled(
             dyads=len(dyads),
             others=len(others),
             form=form_symbols(others[0].kind.form),
-            pairs=len(dyads) * (len(others) - (not second)),
+            pairs=int(np.count_nonzero(usable)),
             count=int(np.count_nonzero(good)),
             step=_WIDTHS[-1],
         )
@@ -355,7 +364,7 @@ def best_pairs(
         i, j = divmod(int(rank), len(others))
         same = [(i, j)] if second else [(i, j), (j, i)]
         apart = all(abs(p - k) + abs(q - m) > _APART for k, m in chosen for p, q in same)
-        if apart and (second or i != j) and (good[i, j] or not good.any()):
+        if apart and usable[i, j] and (good[i, j] or not good.any()):
             chosen.append((i, j))
         if len(chosen) == 2 * number:
             break
@@ -415,16 +424,24 @@ def best_dyads(
 
 
 _SEARCHED = {
-    False: message(
+    (False, False): message(
         "{dyads} dyads, each with each and driven at either: of {pairs:,} four-bars {count:,} meet all demands. "
         "The best are improved within the family to {step:.1g} of it."
     ),
-    True: message(
+    (False, True): message(
         "{dyads} cranks, each with {others} dyads {form}: of {pairs:,} linkages {count:,} meet all demands. "
         "The best are improved within the family to {step:.1g} of it."
     ),
+    (True, False): message(
+        "Four-bars with the given pivot, driven there or at the other one: {count:,} of {pairs:,} meet all demands. "
+        "The best are improved within the family to {step:.1g} of it."
+    ),
+    (True, True): message(
+        "Linkages with the given pivot and a dyad {form}: {count:,} of {pairs:,} meet all demands. "
+        "The best are improved within the family to {step:.1g} of it."
+    ),
 }
-"""By whether the other dyad slides."""
+"""By whether a dyad is given and whether the other one slides."""
 
 
 def _gap(first: tuple[GuidingDyad, GuidingDyad], second: tuple[GuidingDyad, GuidingDyad]) -> float:
@@ -451,7 +468,7 @@ def demands_met(
     return met
 
 
-WITHOUT = message("Without the demand of {demand} there are {count:,}.")
+WITHOUT = message("Designs that meet all but the demand of {demand}: {count:,}.")
 
 
 def tightest(met: Sequence[tuple[Message, Flags]]) -> list[Message]:

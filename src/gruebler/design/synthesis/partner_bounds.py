@@ -58,6 +58,13 @@ _BESIDE_NONE = message(
     "Proved: the {count} cranks that came nearest to the demands meet them with no other dyad whose pivots lie within "
     "{far:g} sizes of the task. Other cranks were sampled."
 )
+_NONE_BESIDE = message(
+    "Proved: no four-bar with the given pivot and the other pivots within {far:g} sizes of the task meets all demands."
+)
+_MOST_BESIDE = message(
+    "Proved: no four-bar with the given pivot and the other pivots within {far:g} sizes of the task meets all demands "
+    "with a transmission angle above {angle:.1f}°."
+)
 _BESIDE_UNKNOWN = message(
     "Linkages {form}: no bound could be proved beside the dyads of the best one, which was found by sampling."
 )
@@ -290,6 +297,36 @@ def improved_pair(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -
         if partner.left and partner.dyad is None:
             margin *= _WIDER
     return improved, [_BESIDE_UNKNOWN.filled(form=form)]
+
+
+def best_beside(
+    task: PositionTask, demands: Demands, held: GuidingDyad, pairs: Sequence[Pair]
+) -> tuple[list[Pair], list[Message]]:
+    """Four-bars with a dyad of three positions, better than pairs with it, and what is proved of all the others.
+
+    Cost: 1 to 4 s.
+    """
+    begin = max((_angle(task, demands, pair) for pair in pairs), default=-np.inf)
+    known, left = begin > -np.inf, 0.0
+    better: list[Pair] = []
+    margin = MARGIN[3] if known else 0.0
+    begin = max(begin, demands.transmission)
+    for driven in (True, False):
+        partner = PartnerSearch(task, demands, held, driven=driven).partner(begin, margin)
+        left += partner.left
+        begin = max(begin, partner.angle)
+        if partner.dyad is not None:
+            better.insert(0, (held, partner.dyad) if driven else (partner.dyad, held))
+    if better and not known:
+        others, notes = best_beside(task, demands, held, better)
+        return others + better, notes
+    if left:
+        return better, [_BESIDE_UNKNOWN.filled(form=form_symbols(f"{CRANK.form}-{CRANK.form}"))]
+    if not known:
+        return [], [_NONE_BESIDE.filled(far=FAR)]
+    if begin + margin >= pi / 2:
+        return better, []  # no angle is larger
+    return better, [_MOST_BESIDE.filled(far=FAR, angle=_upward(begin + margin))]
 
 
 def _first_found(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -> tuple[Pair | None, list[Message]]:

@@ -73,7 +73,7 @@ def synthesise_path(
     >>> str(count.what), count.theorem, count.found, count.real
     ('four-bars', 36, 36, 14)
     """
-    wanted = (demands or Demands()).with_links()
+    wanted = (demands or Demands()).of_task(task)
     run = _Run(task=task, demands=wanted, number=number, sliders=sliders, threads=threads, progress=progress)
     return next((method.solve for method in _METHODS if method.suits(run)), _finite)(run)
 

@@ -35,7 +35,7 @@ from gruebler.design.synthesis.dyads import (
 from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design, order_notes
 from gruebler.design.synthesis.pair_search import FoundPairs, Nearby, best_pairs
-from gruebler.design.synthesis.partner_bounds import improved_pair, slide_notes
+from gruebler.design.synthesis.partner_bounds import best_beside, improved_pair, slide_notes
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.targets import Targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PositionTask
@@ -55,6 +55,8 @@ _SLIDES = 64
 """Sliding dyads of each kind that are taken of two or three positions."""
 _BULGES = (0.25, -0.25, 1.0, -1.0)
 """How far a third position between two lies beside them, by their distance: four pivots for a point of the plane."""
+_ENDS = 64
+"""Dyads of a pivot that are taken of two positions."""
 _PLANE = 40.0  # sizes of the task: the plane in which pivots are sought counts as so long
 
 _FOUR_BAR = f"{CRANK.form}-{CRANK.form}"
@@ -113,10 +115,9 @@ def guiding_dyads(
         construct = dyad_of_moving_pivot if region is None else dyad_of_fixed_pivot
         chosen = [(construct, pivot) for pivot in _grid(task, number, region)]
     given = [displacements]
-    if count == 2:  # a third position between them chooses the pivot of the frame on the bisector, or of the body
+    if count == 2:
         bulges = _BULGES[:1] if task.moving_pivots or task.fixed_pivots else _BULGES
-        q, t = displacements
-        given = [Displacements(np.append(q, _halfway(q[0])), np.append(t, _halved(displacements, b))) for b in bulges]
+        given = [_with_third(displacements, bulge) for bulge in bulges]
     dyads = []
     for k, (construct, pivot) in enumerate(chosen):
         try:
@@ -126,6 +127,31 @@ def guiding_dyads(
             if task.moving_pivots or task.fixed_pivots:
                 raise
     return tuple(dyads)
+
+
+def _of_one_pivot(task: PositionTask) -> list[GuidingDyad]:
+    """The dyad of the one pivot that is given; of two positions, which leave one of its ends to choose, some."""
+    if len(task) > 2:
+        return list(guiding_dyads(task))
+    displacements, origin, size = Displacements.of(task.origins, task.turns)
+    construct = dyad_of_moving_pivot if task.moving_pivots else dyad_of_fixed_pivot
+    (pivot,) = (complex(*p) for p in (*task.moving_pivots, *task.fixed_pivots))
+    dyads = []
+    for k in range(_ENDS):
+        bulge = np.tan(np.pi * ((k + 0.5) / _ENDS - 0.5))
+        part = _with_third(displacements, bulge)
+        with suppress(SynthesisError):  # it serves any dyad
+            dyads.append(construct(part, (pivot - origin) / size).moved(size, origin))
+    return dyads
+
+
+def _with_third(given: Displacements, bulge: float) -> Displacements:
+    """With a third position between two, which chooses the pivot of the frame on the bisector, or that of the body."""
+    q, t = given
+    shift = complex(t[0])
+    third = shift * (0.5 + 1j * bulge) if abs(shift) > 0 else complex(bulge)
+    # Half the rotation: with it two positions become three of the rotation about their pole, or of the shift.
+    return Displacements(np.append(q, np.exp(0.5j * np.angle(q[0]))), np.append(t, third))
 
 
 def _grid(task: PositionTask, number: int, region: tuple[float, float, float, float] | None) -> list[complex]:
@@ -167,17 +193,6 @@ def sliding_family(task: PositionTask, kind: DyadKind, places: Iterable[complex]
     return dyads
 
 
-def _halfway(q: complex) -> complex:
-    """Half the rotation: with it two positions become three of the rotation about their pole, or of the shift."""
-    return complex(np.exp(0.5j * np.angle(q)))
-
-
-def _halved(given: Displacements, bulge: float) -> complex:
-    """The shift of a third position that bulges, so that the centres lie at hand."""
-    t = complex(given.t[0])
-    return t * (0.5 + 1j * bulge) if abs(t) > 0 else complex(bulge)
-
-
 def synthesise_positions(
     task: PositionTask,
     demands: Demands | None = None,
@@ -204,16 +219,19 @@ def synthesise_positions(
     >>> found.count.found, found.count.real, len(found.designs) + len(found.rejected)
     (4, 4, 6)
     """
-    wanted = (demands or Demands()).with_links()
+    wanted = (demands or Demands()).of_task(task)
     if len(task) > 4 and task.fixed_pivots:
         raise SynthesisError("four-bars have no pivots to choose for more than four positions; six-bars have some")
-    searched = len(task) < 5 and not (task.moving_pivots or task.fixed_pivots or task.curve_parameters)
-    dyads = guiding_dyads(task, _SAMPLE[len(task)] if searched else number, wanted.region)
+    chosen = len(task.moving_pivots) + len(task.fixed_pivots) + len(task.curve_parameters)
+    searched = len(task) < 5 and chosen < 2
+    given = _of_one_pivot(task) if searched and chosen else []
+    free = replace(task, moving_pivots=(), fixed_pivots=(), curve_parameters=()) if searched else task
+    dyads = (*given, *guiding_dyads(free, _SAMPLE[len(task)] if searched else number, wanted.region))
     if len(task) > 5:
         return _approximate(task, wanted, dyads, progress)
     notes: list[Message] = []
     if searched:
-        candidates = _judged_best(task, wanted, dyads, number, sort, progress, notes)
+        candidates = _judged_best(free, wanted, dyads, given, number, sort, progress, notes)
     else:
         candidates = _judged_pairs(task, wanted, list(combinations(dyads, 2)), progress)
     complex_dyads = len(dyads)
@@ -230,7 +248,7 @@ def synthesise_positions(
     designs, rejected = ranked(candidates)
     if not searched:
         notes += order_notes(candidates, wanted)
-    if searched and len(task) == 4 and sum(not dyad.slides for dyad in dyads) > 1:
+    if searched and not given and len(task) == 4 and sum(not dyad.slides for dyad in dyads) > 1:
         angles = [design.verdict.transmission for design in designs if design.form == _FOUR_BAR]
         notes += bound_notes(task, wanted, max(angles, default=None))
         for kind in (SLIDER, BLOCK):
@@ -278,33 +296,47 @@ def _judged_best(
     task: PositionTask,
     demands: Demands,
     dyads: Sequence[GuidingDyad],
+    given: Sequence[GuidingDyad],
     number: int,
     sort: Sequence[str],
     progress: Progress | None,
     notes: list[Message],
 ) -> list[Design]:
-    """The designs of the best pairs of a family, and of its sliding dyads with some of it; notes on the search."""
+    """The designs of the best pairs of a family, and of its sliding dyads with some of it; notes on the search.
+
+    Of dyads that are given each pair has one.
+    """
     turning = [dyad for dyad in dyads if not dyad.slides]
     sliding: list[GuidingDyad] = []
-    near = near_on_curve(task) if len(task) == 4 and turning else partial(near_in_plane, task)
+    of_family = near_on_curve(task) if len(task) == 4 and turning else partial(near_in_plane, task)
+
+    def near(dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
+        return [] if dyad in given else of_family(dyad, width)
+
     searches: list[FoundPairs] = []
     if len(turning) > 1:
-        searches.append(best_pairs(task, turning, demands, near, orders=sort, number=number))
+        searches.append(best_pairs(task, turning, demands, near, given=given, orders=sort, number=number))
     for kind in (SLIDER, BLOCK):
         second = (
             [dyad for dyad in dyads if dyad.kind == kind] if len(task) == 4 else sliding_sample(task, kind, demands)
         )
         sliding += second[:: max(1, len(second) // 2)]
-        if turning and second:
+        if cranks := [dyad for dyad in given or turning if not dyad.slides] if second else []:
             searches.append(
-                best_pairs(task, turning, demands, near, second=second, orders=sort, number=max(1, number // 4))
+                best_pairs(
+                    task, cranks, demands, near, second=second, given=given, orders=sort, number=max(1, number // 4)
+                )
             )
     pairs: list[tuple[GuidingDyad, GuidingDyad]] = []
     for search in searches:
         notes += search.notes
-        if len(task) < 4 and search.pairs:
+        if len(task) < 4 and search.pairs and not given:
             better, proved = improved_pair(task, demands, search.pairs)
             pairs += [better] if better else []
+            notes += proved
+        elif len(given) == 1 and len(task) == 3 and search is searches[0]:
+            best, proved = best_beside(task, demands, given[0], search.pairs)
+            pairs += best
             notes += proved
         pairs += search.pairs
     designs: list[Design] = []
@@ -315,7 +347,7 @@ def _judged_best(
             designs.append(judge_design(linkage, body_targets(task, linkage), demands, form))
         if progress is not None:
             progress(done, len(pairs))
-    return designs + _judged_pairs(task, demands, list(combinations(sliding, 2)), None)
+    return designs if given else designs + _judged_pairs(task, demands, list(combinations(sliding, 2)), None)
 
 
 def sliding_sample(task: PositionTask, kind: DyadKind, demands: Demands) -> list[GuidingDyad]:

@@ -123,7 +123,7 @@ def synthesise_six_bars(
     if len(task) == 9 and kind is not None:
         raise SynthesisError("nine pairs leave nothing of a six-bar free; give its type and an arm with eight pairs")
     of = kind or SixBarType()
-    wanted = wanted.with_links(_six_bar(of.family).chain.links)
+    wanted = wanted.of_task(task, _six_bar(of.family).chain.links)
     phi, output = (values - values[0] for values in pair_arrays(task))
     pairs = len(task) - 1
     p = np.zeros((4, max(8, pairs)), np.complex128)

@@ -91,7 +91,7 @@ def synthesise_guiding_six_bars(
             fixed=len(task.fixed_pivots),
             moving=len(task.moving_pivots),
         )
-    wanted = (demands or Demands()).with_links(_mechanism(DRIVES[0]).chain.links)
+    wanted = (demands or Demands()).of_task(task, _mechanism(DRIVES[0]).chain.links)
     place = _Place.of(task)
     generic = _generic(len(task), starts, threads, progress)
     z = six_bar_solutions(
@@ -124,7 +124,9 @@ def _generic(positions: int, starts: int | None, threads: int | None, progress: 
     """Those of so many positions."""
     if positions <= 6:
         if starts is not None:
-            raise SynthesisError("starts: only of seven and eight positions; of others all solutions are followed")
+            raise SynthesisError(
+                "{name}: only of seven and eight positions; of others all solutions are followed", name="starts"
+            )
         problem = FIVE_POSITIONS if positions == 5 else SIX_POSITIONS
         text = message("Watt I, {count} general positions with these pivots: {classes:,} complex solutions.")
         return _Generic(problem, load_generic_solutions(problem), text.filled(count=positions, classes=problem.classes))

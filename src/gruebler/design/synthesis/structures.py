@@ -97,7 +97,7 @@ def synthesise_structures(
     Cost: a six-bar with an atlas 1 s for the atlas and 5 s for its neighbours; others 1 to 3 s a start.
     """
     mechanisms = tuple(structures)
-    wanted = (demands or Demands()).with_links(link for mechanism in mechanisms for link in mechanism.chain.links)
+    wanted = (demands or Demands()).of_task(task, (link for mechanism in mechanisms for link in mechanism.chain.links))
     if not mechanisms:
         raise SynthesisError("structures: expected at least one mechanism")
     if starts is not None and starts < 1:
@@ -184,7 +184,7 @@ def _counted(designs: Sequence[Design], demands: Demands) -> list[Message]:
     if notes := tightest([(message("the targets"), good), *met]):
         return notes
     count = int(np.count_nonzero(good))
-    return [message("Without all these demands there are {count:,}.", count=count)] if count else []
+    return [message("Designs without any of these demands: {count:,}.", count=count)] if count else []
 
 
 def same_machine(first: Linkage, other: Linkage, *, placed: bool) -> bool:

@@ -116,11 +116,12 @@ class PositionTask:
     """A body that is to be carried through positions: each ``(x, y, angle)``, the angle in radians.
 
     With two to four positions pivots may be chosen: ``moving_pivots`` where they lie on the body in its first position,
-    ``fixed_pivots`` on the frame. With four the nearest points of Burmester's curves are taken; ``curve_parameters``
-    are places along the circle-point curve, from 0 to 1. Of six-bars of Watt's first kind both fixed pivots are given
-    with five or six positions, first that of the crank, with seven that of the ternary rocker, and with five the pin
-    of the body on the coupler. ``order`` gives each position its place in the order in which they are passed, the
-    same to those that may follow in any order, None at any time; by default that of the list.
+    ``fixed_pivots`` on the frame; beside a single one the best others are sought. With four the nearest points of
+    Burmester's curves are taken; ``curve_parameters`` are places along the circle-point curve, from 0 to 1. Of six-bars
+    of Watt's first kind both fixed pivots are given with five or six positions, first that of the crank, with seven
+    that of the ternary rocker, and with five the pin of the body on the coupler. ``order`` gives each position its
+    place in the order in which they are passed, the same to those that may follow in any order, None at any time; by
+    default that of the list.
 
     Raises `SynthesisError` for fewer than two positions and for two equal ones, naming them.
 
