@@ -10,6 +10,7 @@ from gruebler.design.synthesis import Demands, PositionTask, synthesise_position
 from gruebler.design.synthesis.burmester import burmester_curves
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, all_dyads, misfit
 from gruebler.design.synthesis.positions import guiding_dyads
+from gruebler.design.synthesis.six_bar_positions import synthesise_guiding_six_bars
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.kinematics.solve import move_quietly
@@ -317,7 +318,55 @@ def test_far_pivots_do_not_crowd_out_the_other_dyads():
 )
 def test_motions_of_infinitely_many_dyads_say_so(rows):
     with pytest.raises(SynthesisError, match="infinitely many"):
-        synthesise_positions(task_of(rows))
+        guiding_dyads(task_of(rows))
+
+
+def lengths_of(linkage):
+    """The distances of pins on each link."""
+    by_link = [[complex(e.x, e.y) for (_, o), e in linkage.elements.items() if o == k and e.is_pin] for k in LINKS]
+    return np.array([abs(p - q) for pins in by_link for k, p in enumerate(pins) for q in pins[:k]])
+
+
+LINKS = ("frame", "crank", "coupler", "rocker", "link", "body")
+
+
+def on_a_grid(*rows):
+    """Rows of numbers rounded so that they have no more digits far away and magnified."""
+    return [tuple(np.round(np.multiply(row[:2], 2.0**30)) / 2**30) + tuple(row[2:]) for row in rows]
+
+
+@pytest.mark.parametrize("size", [1.0, 2.0**20])
+@pytest.mark.parametrize("solve", [synthesise_positions, synthesise_guiding_six_bars])
+def test_a_task_far_away_and_large_has_the_same_designs(solve, size):
+    """A million times its size from the origin, its coordinates have ten digits left."""
+    if solve is synthesise_positions:
+        task, _ = positions_of(KNOWN, np.radians([10.0, 35.0, 60.0, 85.0, 110.0]))
+        task = PositionTask(on_a_grid(*task.positions))
+    else:
+        places = [(0.5, 0.25, 0), (-0.18, 1.22, 0.6), (-0.87, 1.43, 0.78), (-1.48, 1.26, 0.93), (-1.86, 0.85, 1.13)]
+        pivots = on_a_grid((-1.5, 0), (0, 0), (-0.46, -0.77))
+        task = PositionTask(on_a_grid(*places), fixed_pivots=pivots[:2], moving_pivots=pivots[2:])
+    shift = complex(2**20, -(2**19))
+
+    def moved(rows):
+        return [(size * (x + shift.real), size * (y + shift.imag), *angle) for x, y, *angle in rows]
+
+    pivots = {name: moved(getattr(task, name)) for name in ("fixed_pivots", "moving_pivots")}
+    far = PositionTask(moved(task.positions), **pivots)
+    near, found = solve(task), solve(far)
+    assert found.task == far
+    assert len(found.designs) == len(near.designs) > 0
+    assert len(found.rejected) == len(near.rejected)
+    for design, other in zip(found.designs + found.rejected, near.designs + near.rejected, strict=True):
+        assert design.form == other.form
+        wanted = size * lengths_of(other.linkage)
+        limit = 1e-9 * wanted.max()
+        assert lengths_of(design.linkage) == pytest.approx(wanted, abs=limit)
+        pose = other.linkage.required_pose
+        for link in pose.keys() - {"frame"}:
+            place = moved([pose[link][:2]])[0]
+            assert design.linkage.required_pose[link][:2] == pytest.approx(place, abs=limit)
+        assert design.relative_sensitivity == pytest.approx(other.relative_sensitivity, rel=1e-7, nan_ok=True)
 
 
 def test_a_region_without_solutions():

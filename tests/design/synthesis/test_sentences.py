@@ -20,6 +20,7 @@ from gruebler.mechanics.kinematics import move
 
 CIRCLE = [(np.cos(k / 3), np.sin(k / 3), k / 3) for k in range(5)]
 LINE = [(k, 2 * k, 0) for k in range(5)]
+ON_A_CIRCLE = [(6, 2, 0.4), (1, 7, 0.4), (-4, 2, 0.4), (1, -3, 0.4)]
 
 
 def equal_points():
@@ -43,14 +44,31 @@ def too_long():
     [
         (equal_points, "points 1 and 3 are equal", "die Punkte 1 und 3 sind gleich"),
         (equal_positions, "positions 1 and 3 are equal", "die Lagen 1 und 3 sind gleich"),
-        (lambda: synthesise(PositionTask(LINE)), "infinitely many dyads guide", "unendlich viele Zweischläge führen"),
-        (lambda: synthesise(PositionTask(CIRCLE)), "such as a rotation", "etwa einer Drehung"),
         (
-            lambda: synthesise(PositionTask(LINE[:4])),
-            "every point of the body can be a pivot",
-            "jeder Punkt des Körpers",
+            lambda: synthesise(PositionTask(LINE[:3])),
+            "inclined by 63.4349°: one slide there passes all positions",
+            "um 63,4349° geneigt ist: Ein Schieber auf ihr durchläuft alle Lagen",
         ),
-        (lambda: synthesise(PositionTask(CIRCLE[:4])), "belong to a rotation", "gehören zu einer Drehung"),
+        (
+            lambda: synthesise(PositionTask(CIRCLE), six_bars=True),
+            "turns about (0, 0): a link on one pivot there passes them",
+            "Drehungen um (0; 0): Ein Glied auf einem Lager dort durchläuft sie",
+        ),
+        (
+            lambda: synthesise(PositionTask(ON_A_CIRCLE)),
+            "on a circle about (1, 2): every parallelogram with cranks of length 5",
+            "auf einem Kreis um (1; 2): Jedes Parallelogramm mit Kurbeln der Länge 5",
+        ),
+        (
+            lambda: synthesise(PositionTask([*ON_A_CIRCLE, (0, 0, 0.4)])),
+            "its places lie on no circle: no four-bar passes them",
+            "liegen seine Orte auf keinem Kreis: Kein Viergelenkgetriebe durchläuft sie",
+        ),
+        (
+            lambda: synthesise(PositionTask([*ON_A_CIRCLE[:2], (0, 0, 1), ON_A_CIRCLE[2]])),
+            "positions 1, 2 and 4 have the same angle",
+            "Die Lagen 1, 2 und 4 haben denselben Winkel",
+        ),
         (
             lambda: synthesise(PathTask([p[:2] for p in [*LINE, (5, 10, 0), (6, 12, 0), (7, 1, 0), (9, 2, 0)]])),
             "7 of the points lie on one line",

@@ -161,7 +161,7 @@ def dyad_of_moving_pivot(given: Displacements, x: complex, /) -> GuidingDyad:
     if abs(area) < _FAR:
         direction = (places[-1] - places[0]) if abs(places[-1] - places[0]) > _FAR else gaps[0]
         return GuidingDyad(SLIDER, x, x, complex(direction / abs(direction)))
-    return GuidingDyad(CRANK, x, _centre(places))
+    return GuidingDyad(CRANK, x, circle_centre(places))
 
 
 def dyad_of_fixed_pivot(given: Displacements, m: complex, /) -> GuidingDyad:
@@ -172,7 +172,7 @@ def dyad_of_fixed_pivot(given: Displacements, m: complex, /) -> GuidingDyad:
     return GuidingDyad(CRANK, guiding_dyad.fixed, m)
 
 
-def _centre(places: Complexes) -> complex:
+def circle_centre(places: Complexes) -> complex:
     """The centre of the circle through three places."""
     u, v = places[1] - places[0], places[2] - places[0]
     cross = 2 * float(np.imag(np.conj(u) * v))

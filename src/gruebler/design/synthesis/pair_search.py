@@ -63,7 +63,7 @@ class PairFacts:
     @property
     def size_ratio(self) -> Reals:
         """(n, m) the longest length by the shortest."""
-        return np.asarray(self.longest / np.maximum(np.nanmin(self.lengths, axis=0), 1e-300), np.float64)
+        return np.asarray(self.longest / np.maximum(np.nanmin(self.lengths, axis=0), 1e-200), np.float64)
 
     def met(self, demands: Demands) -> list[tuple[Message, Flags]]:
         """The demands by their names, each with the pairs that meet it."""

@@ -20,6 +20,7 @@ from gruebler.design.synthesis.finite_points import all_four_bars, check_general
 from gruebler.design.synthesis.judging import Demands, order_notes, sought_order
 from gruebler.design.synthesis.positions import ranked, synthesise_positions
 from gruebler.design.synthesis.results import EXACT, Design, Progress, SolutionCount, SynthesisResult
+from gruebler.design.synthesis.special_tasks import solved_where_it_lies
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask, PositionTask
 from gruebler.design.synthesis.timed_points import (
     MOST_TIMED,
@@ -37,6 +38,7 @@ _SHARES = {5: 2, 4: 3}
 """By the number of points: how many dyads are taken, in halves of the number asked for; of four few are accepted."""
 
 
+@solved_where_it_lies
 def synthesise_path(
     task: PathTask,
     demands: Demands | None = None,

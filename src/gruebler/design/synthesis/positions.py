@@ -37,6 +37,7 @@ from gruebler.design.synthesis.judging import Demands, best_of, judge_design, or
 from gruebler.design.synthesis.pair_search import FoundPairs, Nearby, best_pairs
 from gruebler.design.synthesis.partner_bounds import best_beside, improved_pair, slide_notes
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.special_tasks import refuse_one_joint, refuse_parallelograms, solved_where_it_lies
 from gruebler.design.synthesis.targets import Targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PositionTask
 from gruebler.mechanics.fourbar import grashof
@@ -193,6 +194,7 @@ def sliding_family(task: PositionTask, kind: DyadKind, places: Iterable[complex]
     return dyads
 
 
+@solved_where_it_lies
 def synthesise_positions(
     task: PositionTask,
     demands: Demands | None = None,
@@ -222,6 +224,8 @@ def synthesise_positions(
     wanted = (demands or Demands()).of_task(task)
     if len(task) > 4 and task.fixed_pivots:
         raise SynthesisError("four-bars have no pivots to choose for more than four positions; six-bars have some")
+    refuse_one_joint(task)
+    refuse_parallelograms(task)
     chosen = len(task.moving_pivots) + len(task.fixed_pivots) + len(task.curve_parameters)
     searched = len(task) < 5 and chosen < 2
     given = _of_one_pivot(task) if searched and chosen else []

@@ -47,6 +47,7 @@ FORM = "six-bar"
 _REAL = 1e-7  # relative: conjugate unknowns that differ by less are conjugate
 _SPECIAL = 0.05  # of the paths: where more are lost, the task is special, not the way to it
 _BENT = 0.1  # how far a way leads aside for what was lost on the straight one, relative to the task
+_FEW = 64  # of the lost paths of a special task: if these find nothing new, the others would not
 
 
 @compared_by_value
@@ -227,7 +228,7 @@ def six_bar_solutions(
     """The regular complex solutions of a task, complex[4, unknowns] as `_core.track` takes it; (found, unknowns).
 
     Paths that fail or end alike are followed again with fine steps, then along a way that is bent. Where more than a
-    part of them does, the task is a special one, and only the bent way is tried.
+    part of them does, the task is a special one, and only the bent way is tried, and only if a few find more on it.
     """
     ends, status = follow_from_generic(problem, base.z, base.parameters, p, QUICK, threads=threads, progress=progress)
 
@@ -246,10 +247,19 @@ def six_bar_solutions(
     rng = np.random.default_rng(9)  # fixed: the same task has the same answer
     aside = rng.normal(size=p.shape) + 1j * rng.normal(size=p.shape)
     middle = (base.parameters + p) / 2 + _BENT * np.where(p == 0, 0, aside)
-    halfway, there = follow_from_generic(problem, base.z[again], base.parameters, middle, loose, threads=threads)
-    more, arrived = follow_from_generic(problem, halfway[there == ARRIVED], middle, p, loose, threads=threads)
-    z = np.concatenate([ends[~again], more[arrived == ARRIVED]])
-    return distinct(problem, z[sharpened(problem, z, p)])
+
+    def with_bent(starts: Complexes) -> Complexes:
+        halfway, there = follow_from_generic(problem, starts, base.parameters, middle, loose, threads=threads)
+        more, arrived = follow_from_generic(problem, halfway[there == ARRIVED], middle, p, loose, threads=threads)
+        z = np.concatenate([ends[~again], more[arrived == ARRIVED]])
+        return distinct(problem, z[sharpened(problem, z, p)])
+
+    starts = base.z[again]
+    if loose == QUICK and len(starts) > _FEW:
+        sample = with_bent(np.ascontiguousarray(starts[:: len(starts) // _FEW]))
+        if len(sample) == np.count_nonzero(~again):
+            return sample
+    return with_bent(starts)
 
 
 def real_solutions(z: Complexes) -> Complexes:

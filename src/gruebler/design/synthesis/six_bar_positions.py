@@ -30,6 +30,7 @@ from gruebler.design.synthesis.six_bar_census import (
 )
 from gruebler.design.synthesis.six_bar_functions import FORM, how_followed, how_many, real_solutions, six_bar_solutions
 from gruebler.design.synthesis.six_bar_guidance import unknowns_of_guides
+from gruebler.design.synthesis.special_tasks import refuse_one_joint, solved_where_it_lies
 from gruebler.design.synthesis.tasks import PIVOTS_OF_SIX_BARS, PositionTask
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
@@ -49,6 +50,7 @@ _JOINTS = (
 """At A, C, D, B, H, G, F."""
 
 
+@solved_where_it_lies
 def synthesise_guiding_six_bars(
     task: PositionTask,
     demands: Demands | None = None,
@@ -82,6 +84,7 @@ def synthesise_guiding_six_bars(
     >>> found.count.found, found.count.real
     (108, 34)
     """
+    refuse_one_joint(task)
     if PIVOTS_OF_SIX_BARS.get(len(task)) != (len(task.fixed_pivots), len(task.moving_pivots)):
         raise SynthesisError(
             "six-bars carry a body through five positions with both fixed pivots and the pin of the body on the "

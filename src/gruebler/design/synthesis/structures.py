@@ -52,6 +52,7 @@ from gruebler.design.synthesis.results import (
     SynthesisResult,
     in_order_of,
 )
+from gruebler.design.synthesis.special_tasks import solved_where_it_lies
 from gruebler.design.synthesis.structure_atlas import dyad_structure
 from gruebler.design.synthesis.structure_curves import fit_drawings, together
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets, point_targets
@@ -70,6 +71,7 @@ _RAISED, _STEEPEST = 3, 1.5  # times a transmission angle at the targets; radian
 ACCEPTED = 0.05
 
 
+@solved_where_it_lies
 def synthesise_structures(
     task: Task,
     structures: Iterable[Mechanism],

@@ -6,7 +6,7 @@ Every task is a value, checked when it is constructed; lengths are in the task's
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, replace
 from math import isfinite, pi
 from typing import Any
 
@@ -181,6 +181,15 @@ class PositionTask:
     def __len__(self) -> int:
         return len(self.positions)
 
+    def shifted(self, x: float, y: float) -> PositionTask:
+        """The same task at another place of the plane."""
+        return replace(
+            self,
+            positions=tuple((u + x, v + y, angle) for u, v, angle in self.positions),
+            moving_pivots=tuple((u + x, v + y) for u, v in self.moving_pivots),
+            fixed_pivots=tuple((u + x, v + y) for u, v in self.fixed_pivots),
+        )
+
     @property
     def origins(self) -> Complexes:
         """(positions,) the body's origin as x + iy."""
@@ -307,6 +316,11 @@ class PathTask:
 
     def __len__(self) -> int:
         return len(self.points)
+
+    def shifted(self, x: float, y: float) -> PathTask:
+        """The same task at another place of the plane."""
+        points = tuple(None if point is None else (point[0] + x, point[1] + y) for point in self.points)
+        return replace(self, points=points, fixed_pivots=tuple((u + x, v + y) for u, v in self.fixed_pivots))
 
     @property
     def z(self) -> Complexes:

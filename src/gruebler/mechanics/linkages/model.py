@@ -270,6 +270,30 @@ class Linkage(Immutable):
             outlines={link: [outline.scaled(factor) for outline in of] for link, of in self.outlines.items()},
         )
 
+    def shifted(self, x: float, y: float) -> Linkage:
+        """The same linkage at another place of the plane.
+
+        >>> quad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
+        >>> drawn = Linkage.from_drawing(quad, {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (6, 4), "R(0-3)": (6, 0)})
+        >>> drawn.shifted(10, 1).element("R(0-3)", "0")
+        Pin(x=16.0, y=1.0)
+        """
+        frame, there, elements = self.mechanism.frame, Pose2D(-x, -y, 0.0), self._by_link()
+        for (number, link), e in self.elements.items():
+            if link == frame:
+                elements[link][number] = e.placed(e.x + x, e.y + y, e.direction)
+        pose = self.reference_pose
+        return self._changed(
+            elements=elements,
+            points={
+                n: (p.link, *((p.x + x, p.y + y) if p.link == frame else (p.x, p.y))) for n, p in self.points.items()
+            },
+            reference_pose=None
+            if pose is None
+            else {k: p if k == frame else (p.x + x, p.y + y, p.angle) for k, p in pose.items()},
+            outlines={k: [o.seen_from(there) if k == frame else o for o in of] for k, of in self.outlines.items()},
+        )
+
     def mirrored(self) -> Linkage:
         """The mirror image in the x axis: every y and every angle with the other sign."""
         return self._changed(

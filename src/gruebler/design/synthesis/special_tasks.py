@@ -1,0 +1,128 @@
+"""Tasks far from the origin of the plane, and positions that one joint passes, or no four-bar.
+
+docs/theory/synthesis-positions.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import wraps
+from inspect import signature
+from math import degrees, hypot
+from typing import Any, ParamSpec
+
+import numpy as np
+
+from gruebler.base.errors import SynthesisError
+from gruebler.base.text import joined_by_and
+from gruebler.design.synthesis.dyads import Displacements, circle_centre
+from gruebler.design.synthesis.results import Design, SynthesisResult
+from gruebler.design.synthesis.tasks import PathTask, PositionTask
+
+_FAR = 100.0
+"""Sizes of a task: farther from the origin coordinates lack digits that a verdict needs."""
+_ALIKE = 1e-9
+"""Sizes and radians: what a position may be off a common turn or shift."""
+_P = ParamSpec("_P")
+
+
+def solved_where_it_lies(method: Callable[_P, SynthesisResult]) -> Callable[_P, SynthesisResult]:
+    """The synthesis of a task far from the origin about its first target; its designs are put back to the task."""
+    form = signature(method)
+
+    @wraps(method)
+    def solved(*args: _P.args, **options: _P.kwargs) -> SynthesisResult:
+        given = form.bind(*args, **options)
+        task = given.arguments["task"]
+        if not isinstance(task, PositionTask | PathTask):
+            return method(*args, **options)
+        if isinstance(task, PositionTask):
+            x, y, _ = task.positions[0]
+        else:
+            x, y = next(point for point in task.points if point is not None)
+        if hypot(x, y) <= _FAR * task.size:
+            return method(*args, **options)
+        demands = given.arguments.get("demands")
+        if demands is not None and demands.region is not None:
+            region = tuple(edge - by for edge, by in zip(demands.region, (x, y, x, y), strict=True))
+            given.arguments["demands"] = replace(demands, region=region)
+        given.arguments["task"] = task.shifted(-x, -y)
+        result = method(*given.args, **given.kwargs)
+        designs, rejected = (tuple(_shifted(each, x, y) for each in row) for row in (result.designs, result.rejected))
+        return replace(result, task=task, designs=designs, rejected=rejected)
+
+    return solved
+
+
+def _shifted(design: Design, x: float, y: float) -> Design:
+    """The design at another place of the plane."""
+    changed: dict[str, Any] = {"linkage": design.linkage.shifted(x, y)}
+    if design.targets is not None:
+        by = [complex(x, y) if probe.point else 0 for probe in design.targets.probes]
+        changed["targets"] = replace(design.targets, values=design.targets.values + np.array(by))
+    return replace(design, **changed)
+
+
+def refuse_one_joint(task: PositionTask) -> None:
+    """Raises `SynthesisError` for three positions or more that one joint passes, and says where it lies.
+
+    >>> refuse_one_joint(PositionTask([(2, 0, 0), (0, 2, 1.5707963267948966), (-2, 0, 3.141592653589793)]))
+    Traceback (most recent call last):
+    gruebler.base.errors.SynthesisError: all positions are turns about (0, 0): a link on one pivot there passes them
+    """
+    (q, t), origin, size = Displacements.of(task.origins, task.turns)
+    if len(task) < 3:
+        return
+    turned = np.abs(q - 1)
+    if turned.max() <= _ALIKE:
+        far = t[np.abs(t).argmax()]
+        if np.abs(np.imag(np.conj(far) * t)).max() <= _ALIKE:
+            raise SynthesisError(
+                "the body keeps its angle on a straight line, inclined by {angle:.6g}°: one slide there passes all "
+                "positions",
+                angle=degrees(np.angle(far)) % 180,
+            )
+        return
+    pole = t[turned.argmax()] / (1 - q[turned.argmax()])
+    if np.abs(t - (1 - q) * pole).max() <= _ALIKE:
+        pole = origin + size * pole
+        limit = _ALIKE * size
+        raise SynthesisError(
+            "all positions are turns about ({x:.6g}, {y:.6g}): a link on one pivot there passes them",
+            x=pole.real if abs(pole.real) > limit else 0.0,
+            y=pole.imag if abs(pole.imag) > limit else 0.0,
+        )
+
+
+def refuse_parallelograms(task: PositionTask) -> None:
+    """Raises `SynthesisError` for four or five positions, three of them of one angle: at best a parallelogram.
+
+    A pivot of the body has congruent places in the three, hence all dyads have parallel cranks there.
+    """
+    if len(task) not in (4, 5):
+        return
+    turns = task.turns / task.turns[0]
+    alike = np.abs(turns[:, None] - turns) <= _ALIKE
+    some = np.flatnonzero(alike[alike.sum(axis=1).argmax()])
+    if len(some) < 3:
+        return
+    if len(some) < len(task):
+        raise SynthesisError(
+            "positions {some} have the same angle: a four-bar that passes them is a parallelogram, which does not "
+            "turn its coupler",
+            some=joined_by_and([str(k + 1) for k in some]),
+        )
+    places = task.origins - task.origins[0]
+    centre = circle_centre(places[:3])
+    radii = np.abs(places - centre)
+    if not np.ptp(radii) <= _ALIKE * max(task.size, radii[0]):
+        raise SynthesisError("the body keeps its angle, but its places lie on no circle: no four-bar passes them")
+    centre += task.origins[0]
+    raise SynthesisError(
+        "the body keeps its angle on a circle about ({x:.6g}, {y:.6g}): every parallelogram with cranks of length "
+        "{radius:.6g} passes the positions, parallel to the line from that centre to the first place",
+        x=centre.real,
+        y=centre.imag,
+        radius=radii[0],
+    )
