@@ -76,7 +76,7 @@ const own = `
   dragEnd dragPoint dragStart editor element elementAt elementsOf elementsOn falling forget holdJoint knot
   jointName leftOf lineFirst linkList linkName moveJointBy movePointBy openDocument openFile
   pan paused picked playAt plottedAngle pointed pointName poleAside possible present recoloured runAlong
-  fitted nudge recall spots
+  fitted measured nudge recall spots
   advance destroy elsewhere emit follow heads letterOf posed showKeys taken undoing
   served setAdding setLength setTheme shiftLine shownDesign showPose showRange showValue
   sized snapping switchMode toLocal turnTo upright writeSizes

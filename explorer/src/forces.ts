@@ -35,7 +35,7 @@ interface Answer {
   lines: string[];
 }
 
-/** A force on the stage: its joint, and its parts against the largest one, and how much it is. */
+/** A force on the stage: its joint, its direction, as long as the root of its part of the largest, and how much. */
 export type Arrow = [joint: number, x: number, y: number, force: number];
 
 /** What the panel asks of its view. */
@@ -52,6 +52,8 @@ export class Forces {
     () => this.changed(),
     (speed) => this.#view.transport.playAt(speed),
   );
+  /** What acts, folded where there are results. */
+  readonly #acting = h("details.words", {});
   readonly #result = h("div", {});
   readonly #facts = new FactList();
   readonly #polar = new Polar();
@@ -81,9 +83,10 @@ export class Forces {
       this.#model = linkage.model;
       this.#forces = [];
       this.#form.clear();
+      this.#acting.open = false;
       renew(this.#result);
     }
-    if (!this.#form.element.isConnected) renew(this.element, this.#result, this.#form.element);
+    if (!this.#acting.isConnected) renew(this.element, this.#acting, this.#result);
     this.#result.classList.add("waiting");
     if (!this.#opened()) return;
     if (!this.#result.firstChild) renew(this.#result, moment());
@@ -114,17 +117,24 @@ export class Forces {
   #show(linkage: Linkage, { assumed, drives, effort, forces, lines, masses, speed, springs }: Answer): void {
     const { drive, model } = linkage;
     this.#form.show(linkage, masses, speed ?? 0, springs);
+    renew(this.#acting, h("summary", {}, t("Speed, masses, loads")), this.#form.element);
+    this.#acting.open ||= !drives;
     this.#plot = null;
     this.#forces = [];
     const assume = () => {
       this.#form.masses = assumed;
+      this.#acting.open = false;
       this.changed();
     };
     const weightless = masses.every((mass) => !mass);
-    const button = h("button.plain", { "data-act": "assume", onclick: assume }, t("Assume bars of steel"));
+    const button = h(
+      "button.plain",
+      { "data-act": "assume", onclick: assume },
+      t("Assume bars of steel, 20 mm × 5 mm"),
+    );
     const offer = weightless ? [h("div.form", {}, button)] : [];
     if (!drives) {
-      const note = t("Nothing acts yet. Type masses or a load, or assume bars of steel, 20 mm × 5 mm.");
+      const note = t("Nothing acts yet: type masses or loads.");
       renew(this.#result, h("p.note", {}, note), ...offer);
     } else {
       const places = Float64Array.from(drives);
@@ -148,7 +158,6 @@ export class Forces {
       const fallen = h("div.form", {});
       const onclick = () => void this.#fall(fallen);
       const release = t("Release the drive: free motion");
-      const how = t("Weight and springs alone move the linkage, in real time");
       const most = effort.reduce<number>((best, one, k) => (size(one) > size(effort[best]!) ? k : best), 0);
       const largest = `${number(effort[most] ?? 0, 4)} ${turning ? momentUnit(model) : "N"}`;
       const place = driveText(linkage, drives[most]!, 4);
@@ -166,10 +175,11 @@ export class Forces {
         ...offer,
         this.#facts.element,
         this.#plot.element,
+        h("p.note", {}, t("Arrow length: square root of the force")),
         h("div.form", {}, h("label", {}, t("Force"), this.#joint)),
         this.#polar.element,
         h("details.words", {}, h("summary", {}, t("In words")), ...lines.map((line) => h("p.note", {}, line))),
-        h("div.form", {}, h("button.plain", { "data-act": "fall", onclick }, release), h("p.note", {}, how)),
+        h("div.form", {}, h("button.plain", { "data-act": "fall", onclick }, release)),
         fallen,
       );
       this.#showJoint();
@@ -202,7 +212,9 @@ export class Forces {
     const most = Math.max(...this.#forces.map((force) => force.most));
     return this.#forces.map((force) => {
       const [x, y] = vectorAt(force, this.#view.transport.drive);
-      return [force.joint, (x * force.most) / most, (y * force.most) / most, Math.hypot(x, y) * force.most];
+      const here = Math.hypot(x, y) * force.most;
+      const root = Math.sqrt(here * most) / force.most || 1; // small ones are seen, too
+      return [force.joint, x / root, y / root, here];
     });
   }
 

@@ -48,7 +48,7 @@ export function keepDrawing(drawing: Drawing): void {
 export function saveDrawing(page: Page, drawing: Drawing, title: string): void {
   const name = `${title.replace(/[^\p{L}\d-]+/gu, "_")}.json`;
   download(name, new Blob([JSON.stringify(drawing, null, 1)], { type: "application/json" }));
-  page.say(t("Saved: {name}. What moves is exported from Motion.", { name }), "done");
+  page.say(t("Saved: {name}", { name }), "done");
 }
 
 /** The drawing of a text, if it is one. */

@@ -63,7 +63,7 @@ export class LoadForm {
       },
     );
     const play = h("button.plain", { "data-act": "play", onclick: () => this.play(speed) }, t("Play at this speed"));
-    const first = [h("div.rows", {}, ...rows.splice(0)), h("div.form", {}, play)];
+    const first = [h("div.rows", {}, ...rows.splice(0)), ...(speed ? [h("div.form", {}, play)] : [])];
     for (const link of links)
       rows.push(
         ...this.#row(`mass-${link}`, t("Mass {link}", { link: linkage.linkName(link) }), "kg", masses[link]!, (v) => {

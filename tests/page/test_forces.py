@@ -171,6 +171,7 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     page.page.locator(f"{PANEL} summary").click()
     page.page.locator("#force-load-0").select_option("link 3")
     assert page.page.evaluate(ARROWS) == ""
+    assert not page.page.locator('[data-act="play"]').count()  # nothing has a speed yet
     for number, moment in enumerate(("600", "400")):  # of which the sum acts
         page.page.locator(f"#force-load-{number}").select_option("link 3")
         page.page.locator(f"#force-x-{number}").fill(moment)
@@ -192,6 +193,7 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     page.page.locator("button.play").click()
     assert page.page.evaluate(POSE) == before
     assert "12/min" in page.page.locator(".transport .speed").inner_text()
+    page.page.locator(f"{PANEL} .words summary").first.click()
     page.page.locator('[data-act="play"]').click()
     assert "60/min" in page.page.locator(".transport .speed").inner_text()
     assert page.page.evaluate("gruebler.motion.transport.player.playing")
@@ -230,10 +232,13 @@ def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_field
     panel.locator("summary").click()
     offer = panel.locator('[data-act="assume"]')
     offer.wait_for()
-    assert offer.bounding_box()["y"] < panel.locator("#force-speed").bounding_box()["y"]  # what to do, before fields
+    assert panel.locator("#force-speed").is_visible()
     offer.click()
     panel.locator(".plot.polar").wait_for()
-    assert panel.locator(".plot.polar").bounding_box()["y"] < panel.locator("#force-speed").bounding_box()["y"]
+    folded = panel.locator(".words").first  # what acts, above its results
+    assert not panel.locator("#force-speed").is_visible()
+    assert folded.bounding_box()["y"] < panel.locator(".facts").bounding_box()["y"]
+    folded.locator("summary").click()
     result = panel.locator(".facts")
     assert result.bounding_box()["y"] < panel.locator(".plot").first.bounding_box()["y"]
     torque, force = result.locator("dd").all_text_contents()
