@@ -52,7 +52,7 @@ export class Forces {
     () => this.changed(),
     (speed) => this.#view.transport.playAt(speed),
   );
-  /** What acts, folded where there are results. */
+  /** What acts, above its results. */
   readonly #acting = h("details.words", {});
   readonly #result = h("div", {});
   readonly #facts = new FactList();
@@ -118,12 +118,10 @@ export class Forces {
     const { drive, model } = linkage;
     this.#form.show(linkage, masses, speed ?? 0, springs);
     renew(this.#acting, h("summary", {}, t("Speed, masses, loads")), this.#form.element);
-    this.#acting.open ||= !drives;
     this.#plot = null;
     this.#forces = [];
     const assume = () => {
       this.#form.masses = assumed;
-      this.#acting.open = false;
       this.changed();
     };
     const weightless = masses.every((mass) => !mass);
