@@ -125,6 +125,7 @@ export class DesignCards {
       found.items.some(({ shift }) => shift) &&
         t("Sensitivity: how far a target is off at most, if all lengths are 0.1 % wrong."),
     ];
+    const said = shown ? words.filter((text) => text).join(" ") : "";
     const refused = found.refused > 1 && t("{count} others do not meet what is asked.", { count: found.refused });
     const told = [
       found.note,
@@ -155,7 +156,7 @@ export class DesignCards {
             }),
           )
         : "",
-      h("details.words", {}, h("summary", {}, t("In words")), h("p.note", {}, words.filter((text) => text).join(" "))),
+      said && h("details.words", {}, h("summary", {}, t("In words")), h("p.note", {}, said)),
       h("div.cards.sorted", { "data-list": "designs" }, ...mine.map((design) => this.#card(design))),
       more.length
         ? h(

@@ -238,6 +238,9 @@ def check_sizes_plots_and_files(page):
     sizes = page.locator('[data-panel="sizes"]').inner_text().split("\n")
     assert "300 mm · 33.69°" in sizes
     assert "45 mm" in sizes  # the crank
+    swing = next(each for each in entry("wiper_rssr").quantities if each.kind == "swing")
+    told = page.locator('[data-panel="measures"] dt:text-is("Swing rocker") + dd')
+    assert told.inner_text() == f"{swing.degrees:.4g}°"
     drive_to(page, "90")
     turned = page.locator('[data-panel="measures"] dd').first.inner_text()
     assert page.locator(".plot .read").text_content().lstrip("−") == turned

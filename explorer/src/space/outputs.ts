@@ -56,6 +56,14 @@ export class OutputPlots {
     for (const plot of this.#plots) plot.at(this.#drive);
   }
 
+  /** How far an output goes to and fro, in degrees or lengths; 0 of one that turns round, and where none is plotted. */
+  travel(output: number): number {
+    const values = this.#values[output];
+    if (!values) return 0;
+    const far = highest(values) + highest(values.map((value) => -value));
+    return this.machine.turning.has(this.machine.data.outputs[output]!) && far > 359.9 ? 0 : far;
+  }
+
   /** An angle of an output with the sign and the full turns that its plot has there, in radians. */
   plotted(output: number, angle: number): number {
     const values = this.#values[output];
@@ -65,6 +73,15 @@ export class OutputPlots {
     const [same, other] = [near(angle), near(-angle)];
     return Math.abs(same - about) <= Math.abs(other - about) ? same : other;
   }
+}
+
+/** The largest of values that are evenly apart, between two of them perhaps: that of the parabola through three. */
+function highest(values: Float64Array): number {
+  const most = Math.max(...values);
+  const at = values.indexOf(most);
+  const [before, after] = [values[at - 1] ?? most, values[at + 1] ?? most];
+  const bend = 2 * most - before - after;
+  return most + (at && at < values.length - 1 && bend ? (after - before) ** 2 / (8 * bend) : 0);
 }
 
 /** Values with the sign for which most of their range is positive: an axis has no sense of its own. */

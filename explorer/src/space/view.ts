@@ -305,13 +305,18 @@ export class SpaceView implements Driven {
     const { data, linkage } = this;
     const [texts, words] = [this.#texts, this.#words];
     const { poses } = linkage;
-    const facts: Fact[] = data.outputs.map((link, k) => {
+    const facts: Fact[] = data.outputs.flatMap((link, k) => {
       const pose = poses[link]!;
       const turns = data.live ? turnOf(pose) > TURNED : linkage.turning.has(link);
       const far = `${number(Math.hypot(pose[3]!, pose[7]!, pose[11]!), DIGITS)} ${data.unit}`;
       const turned = turnOf(pose);
       const text = turns ? angle(this.#plots?.plotted(k, turned) ?? turned, DIGITS) : far;
-      return { name: words[turns ? "turned" : "shifted"]!.replace("{link}", texts.links[link]!), text };
+      const travel = this.#plots?.travel(k);
+      const goes = travel ? `${number(travel, DIGITS)}${turns ? "°" : ` ${data.unit}`}` : "";
+      return [
+        { name: words[turns ? "turned" : "shifted"]!.replace("{link}", texts.links[link]!), text },
+        ...(goes ? [{ name: `${t(turns ? "Swing" : "Stroke")} ${texts.links[link]!}`, text: goes }] : []),
+      ];
     });
     for (const { name, link, at } of linkage.spots) {
       const text = moved(poses[link]!, at).map((v) => number(Math.abs(v) < 1e-9 * data.size ? 0 : v, DIGITS));
