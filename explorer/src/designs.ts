@@ -121,7 +121,7 @@ export class DesignCards {
     if (this.#exact) orders.shift();
     const words = [
       this.#order === "balanced" && t("Balanced: transmission angle, size and sensitivity count alike."),
-      found.relative && t("Of lengths only the ratios count."),
+      found.relative && t("Of lengths only the ratios count; the longest is 100 mm."),
       found.items.some(({ shift }) => shift) &&
         t("Sensitivity: how far a target is off at most, if all lengths are 0.1 % wrong."),
     ];

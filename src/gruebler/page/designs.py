@@ -43,6 +43,8 @@ _BLOCK = 12.0  # pixels: half the block of a slide, and what its guide is longer
 _CIRCLE = np.exp(2j * np.pi * np.arange(17) / 16)
 _LIKE = 0.1
 """Of the size: designs of one form whose pivots and lengths differ by less are variants of one another."""
+_LONGEST = 100.0
+"""Of designs of which only the ratios count: so long is the longest distance of joints on a link, in mm."""
 _FRAMES = 144  # of a motion, there and back if it does not turn fully
 
 
@@ -107,13 +109,15 @@ def design_records(
     if sort:  # those that have the angle in all positions, if there are any
         whole = [each for each in designs if degrees(each.transmission_over_range) >= transmission]
         designs = whole or designs
+    relative = not gives_lengths(task)
+    if relative:
+        designs = [replace(each, linkage=each.linkage.scaled(_LONGEST / each.linkage.size)) for each in designs]
     items = []
     for number, design in enumerate(designs[:_MOST_DESIGNS], 1):
         progress(translate("Drawing design {number} of {total}", lang, number=number, total=len(designs)))
         items.append(_record(design, task, lang))
     _mark_variants(items)
     refused = len(result.designs) - len(designs)
-    relative = not gives_lengths(task)
     return {"total": len(designs), "refused": refused, "whole": bool(sort), "relative": relative, "items": items}
 
 
