@@ -59,13 +59,15 @@ export function nameSpots(viewport: Viewport, { at, away, along = [0, 0], bar }:
 }
 
 /** Which of its spots a name takes, so that it is nearer to its own body than to any other and touches no other name:
- * the one before if it still does, else the first that does, else the one that is least wrong. */
+ * the one before if it still does, else the first that does, also clear of grounds if it can, else the one that is least
+ * wrong. */
 export function clearSpot(
   spots: readonly Pair[],
   name: string,
   [own, others]: [readonly Pair[], readonly (readonly Pair[])[]],
   free: (spot: Pair) => boolean,
   before = 0,
+  clear = (_: Pair) => true,
 ): number {
   const half = halfOf(name);
   const worth = (spot: Pair | undefined) => {
@@ -77,8 +79,11 @@ export function clearSpot(
     });
     return Math.min(...nearer) - (free(spot) ? 0 : 1e4);
   };
-  if (worth(spots[before]) > 0) return before;
+  const good = (spot: Pair | undefined) => worth(spot) > INK && clear(spot!);
+  if (good(spots[before])) return before;
+  const best = spots.findIndex(good);
+  if (best >= 0) return best;
   const worths = spots.map(worth);
-  const good = worths.findIndex((value) => value > 0);
-  return good < 0 ? worths.indexOf(Math.max(...worths)) : good;
+  const fair = worths.findIndex((value) => value > 0);
+  return fair < 0 ? worths.indexOf(Math.max(...worths)) : fair;
 }

@@ -192,18 +192,17 @@ export class Scene {
     const grounds = this.#pins
       .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
       .map(({ joint }) => standing(viewport.screen(...linkage.jointAt(joint))));
-    const avoided = [...arrows, ...grounds];
-    const drawn = [...hulls.filter((hull) => hull.length), ...avoided];
+    const drawn = [...hulls.filter((hull) => hull.length), ...arrows, ...grounds];
     for (const [k, label] of this.#labels.entries()) {
       const { element, half, begins, name, spots } = label;
       const places = spots(viewport);
       const touching = (at: Pair) =>
         taken.find((other) => half + other.half > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01);
-      const around = hulls[k]!.length ? avoided : drawn;
-      const free = (at: Pair) => !touching(at) && around.every((one) => clearOf(one, half, at));
+      const clear = (of: Pair[][]) => (at: Pair) => !touching(at) && of.every((one) => clearOf(one, half, at));
+      const free = clear(hulls[k]!.length ? arrows : drawn);
       if (hulls[k]!.length) {
         const others = hulls.filter((one, other) => other !== k && one.length);
-        label.taken = clearSpot(places, name, [hulls[k]!, others], free, label.taken);
+        label.taken = clearSpot(places, name, [hulls[k]!, others], free, label.taken, clear(grounds));
       } else if (!free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
       const [left, top] = places[label.taken]!;
       const x = left + (begins ? half : 0);
