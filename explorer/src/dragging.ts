@@ -298,7 +298,7 @@ export class Dragging {
       if (value < sizes.near && link !== model.frame) return null;
     } else value = sizes.gap(first, second);
     if (this.#locked[sizes.element(first).joint] && this.#locked[sizes.element(second).joint]) return null;
-    return { link, first, second, value };
+    return { link, first, second, value: value < 1e3 * sizes.near ? 0 : value };
   }
 
   #lineFirst(first: number, second: number): Pair {

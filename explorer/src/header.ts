@@ -73,7 +73,7 @@ export function sayIn(place: HTMLElement, text: string, kind: "error" | "done", 
   place.hidden = !text;
   place.classList.toggle("done", kind === "done");
   const close = h("button.quiet", { "aria-label": t("Close"), onclick: () => sayIn(place, "", "error") }, "×");
-  place.replaceChildren(h("span", {}, text), ...(action ? [action] : []), close);
+  place.replaceChildren(h("span", {}, text, action && " ", action), close);
 }
 
 /** The button of what can be taken away, on a wide page with its word. */

@@ -234,9 +234,7 @@ export class MotionView implements View, Editor, Driven {
       if (fits) linkage.restore(before);
       const onclick = () => this.attempt(() => linkage.elsewhere(change));
       this.page.say(
-        tried && !fits
-          ? t("It fits at no position of the drive; nothing was changed.")
-          : refusedText(linkage, error, this.transport.drive),
+        tried && !fits ? t("It fits at no position of the drive.") : refusedText(linkage, error, this.transport.drive),
         "error",
         fits
           ? h("button.plain", { "data-act": "elsewhere", onclick }, t("Move the drive to where it fits"))

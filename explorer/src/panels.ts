@@ -75,7 +75,7 @@ export class SizeRows {
         return last;
       });
       const more = lengths.length - sizes.length;
-      const rest = more > 0 ? [h("p.note", {}, t("{count} more sizes are not listed.", { count: more }))] : [];
+      const rest = more > 0 ? [h("p.note", {}, t("… {count} more", { count: more }))] : [];
       renew(this.element, ...rows.flat(), ...this.#locks, ...rest);
     }
     sizes.forEach(({ link }, k) => {

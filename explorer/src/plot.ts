@@ -66,29 +66,20 @@ export class Plot {
       fill: "none",
     });
     const { element } = this;
-    const [band, cursor, curve, here, title, value, zero] = [
-      this.#band,
-      this.#cursor,
-      this.#curve,
-      this.#here,
-      this.#title,
-      this.#value,
-      this.#zero,
-    ];
     // what is enlarged ends at the axes
     const inner = { x: LEFT, y: 0, width: WIDE, height: HEIGHT, viewBox: `${LEFT} 0 ${WIDE} ${HEIGHT}` };
     element.append(
-      band,
+      this.#band,
       this.#mesh,
       this.#upward,
       this.#across,
       frame,
-      zero,
-      svg("svg", inner, curve, this.#beyond),
-      cursor,
-      here,
-      title,
-      value,
+      this.#zero,
+      svg("svg", inner, this.#curve, this.#beyond),
+      this.#cursor,
+      this.#here,
+      this.#title,
+      this.#value,
     );
     const partOf = (x: number) => {
       const box = element.getBoundingClientRect();

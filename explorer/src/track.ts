@@ -109,7 +109,7 @@ export class Track {
     };
     label(low, cycle.full ? "start" : "middle");
     if (high > low) label(high, cycle.full ? "end" : "middle");
-    const inner = svg("svg", { x: 12, overflow: "visible" }, ...parts, this.#knob);
+    const inner = svg("svg", { x: 12, width: "calc(100% - 24px)", overflow: "visible" }, ...parts, this.#knob);
     inner.style.width = "calc(100% - 24px)";
     this.#root.replaceChildren(inner);
     const [valuemin, valuemax] = [low / this.#unit, high / this.#unit];

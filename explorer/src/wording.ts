@@ -39,9 +39,7 @@ export function stopText(linkage: Linkage, stop: Stop): string {
 export function refusedText(linkage: Linkage, { reason, stop }: Refused, value: number): string {
   if (stop) return stopText(linkage, { ...stop, status: Status.START, value });
   if (reason === "near") return t("Two joints of a link cannot lie in one place.");
-  return reason
-    ? t("What is kept does not allow it: release a length, a direction or a joint.")
-    : t("This size is not possible.");
+  return reason ? t("What is kept does not allow it.") : t("This size is not possible.");
 }
 
 /** The unit of the first or second derivative of the output by the drive, in brackets; nothing if there is none. */
