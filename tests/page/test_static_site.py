@@ -270,7 +270,7 @@ def test_nine_points_are_met_without_python(tab, folder, address, from_disk):
     assert "Of the 1442 solutions of nine points" in page.page.locator('[data-page="synthesis"]').text_content()
     cards = page.page.locator('[data-page="synthesis"] .card')
     assert cards.locator("b").all_text_contents() == [f"Four-bar {number}" for number in (1, 2, 3, 4)]
-    assert "25 · 70 · 40 · 70" in cards.locator("span:nth-of-type(1)").all_text_contents()  # that of the points
+    assert "frame70crank25coupler70rocker40" in cards.locator(".lengths").all_text_contents()  # that of the points
     assert "All meet the targets exactly." in page.page.locator(".designs").inner_text()
     cards.first.click()
     page.until("gruebler.view === 'motion'")
