@@ -283,6 +283,8 @@ export class App implements Page {
     this.show("motion");
     if (drive === undefined) this.motion.run();
     else this.motion.transport.pick(drive);
+    // what had the focus is out of sight
+    if (this.#shadow.activeElement) this.root.querySelector<HTMLElement>(".play")?.focus({ preventScroll: true });
   }
 
   /** Show the structure of a text. */

@@ -65,7 +65,8 @@ export function put(element: Element, attributes: Record<string, string | number
   }
 }
 
-/** Put other children into a place, which stays scrolled as it is; the focus goes to the element of the same name. */
+/** Put other children into a place, which stays scrolled as it is; the focus goes to the element of the same name, or to
+ * the first button where there is no such element any more. */
 export function renew(place: Element, ...children: (Node | string)[]): void {
   const focused = (place.getRootNode() as Document | ShadowRoot).activeElement;
   const name = focused && focused !== place && place.contains(focused) ? selectorOf(focused) : "";
@@ -73,7 +74,8 @@ export function renew(place: Element, ...children: (Node | string)[]): void {
   const scrollTop = place.matches(".view, .side") ? place.scrollTop : 0;
   place.replaceChildren(...children);
   if (scrollTop) place.scrollTop = scrollTop;
-  if (name) place.querySelector<HTMLElement>(name)?.focus({ preventScroll: true });
+  const next = name && (place.querySelector<HTMLElement>(name) ?? place.querySelector("button"));
+  if (next) next.focus({ preventScroll: true });
 }
 
 /** What an element is called: its number in the document, its data, else what it is read as. */

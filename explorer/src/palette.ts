@@ -89,10 +89,10 @@ export function hintOf(tool: Tool): (Node | string)[] {
     move: t("Drag joints; choose a joint or a link to change it."),
     ground: t("Place it, on a joint too."),
     slider: t("Place it, on a joint too."),
-    link: t("Place joint after joint, or drag from end to end. A joint that is there already ends the row."),
+    link: t("Place joint after joint, or drag from end to end."),
     cylinder: t("Place both ends, or drag from end to end."),
     dyad: t("Place an end, the middle, the other end."),
-    gears: t("Place both centres, then where they touch; beyond a centre the other wheel has internal teeth."),
+    gears: t("Place both centres, then where they touch; beyond a centre one is a ring."),
   };
   return [h("b", {}, nameOf(tool)), " ", hints[tool]];
 }

@@ -90,7 +90,10 @@ export function planePicture(plane: Plane): SVGElement[] {
   const path = (corners: readonly Pair[]) =>
     corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
   const hulls = bodies.map((link) => outlineOf(plane, link));
-  const arrows = drawing.drives.map((k) => [viewport.screen(...drawing.knots[k]!.at)]);
+  const arrows = drawing.drives.map((k): Pair[] => {
+    const [x, y] = viewport.screen(...drawing.knots[k]!.at);
+    return [[x - 8, y]];
+  });
   const letters = lettersOf(plane, [...hulls, ...arrows]);
   const links = bodies.flatMap((link, k) => {
     const hull = hulls[k]!;

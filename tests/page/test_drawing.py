@@ -197,12 +197,21 @@ def test_a_slider_crank_is_drawn_by_keys_alone(plane):
     view.keyboard.press("s")
     view.keyboard.press("Enter")
     plane.until("gruebler.root.querySelector('[data-place=mobility]').textContent.includes('Mobility 1, drives: 0')")
+    focused = "gruebler.root.getRootNode().activeElement"
+    for _ in range(30):  # beside the plane
+        view.keyboard.press("Tab")
+        if view.evaluate(f"{focused}?.dataset.offer") == "drive":
+            break
+    view.keyboard.press("Enter")
+    plane.until(f"{focused}?.dataset.act === 'move'")  # the offer is gone, what it makes possible has the focus
     assert view.evaluate("gruebler.views.build.drawing.knots.map((knot) => knot.links.join('-'))") == [
         "frame-1",
         "1-2",
         "2-3",
         "frame-3",
     ]
+    view.keyboard.press("Enter")
+    plane.until(f"gruebler.view === 'motion' && {focused}?.matches('.play')")
 
 
 def test_the_library_takes_cylinders_and_gears_as_they_are_drawn():
