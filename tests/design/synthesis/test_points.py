@@ -21,6 +21,7 @@ from gruebler.mechanics.geometry import cognates
 from gruebler.mechanics.kinematics import move
 from tests.core.four_bar_equations import evaluate
 from tests.design.synthesis.monodromy import find_generic
+from tests.design.synthesis.test_simulated_verdicts import cut_circles, pivots_of
 
 NINE, TWO, THREE, FOUR, GIVEN = PROBLEMS
 KNOWN = FourBar(25, 70, 40, 70).linkage({"P": (45, 40)})
@@ -391,7 +392,7 @@ def solved_open(name):
 def test_few_open_points_are_met_by_some_of_a_family(name):
     """As many parameters are free as are left of the nine of a coupler curve; every design passes in order."""
     points, found = OPEN[name], solved_open(name)
-    assert f"a family of {9 - len(points)} parameters" in str(found.notes[0])
+    assert f"(free parameters: {9 - len(points)})" in str(found.notes[0])
     assert found.count.theorem is None
     z = np.array([complex(*p) for p in points])
     assert len(found.designs) >= 3
@@ -421,15 +422,34 @@ def test_designs_of_six_points_are_different():
 @pytest.mark.slow
 def test_points_that_no_linkage_was_found_for_show_the_nearest():
     found = synthesise_path(PathTask([(6 * s, np.sin(6 * s)) for s in np.linspace(0, 1, 8)]), number=2)
-    assert "a family of 1 parameters: 0 of them" in str(found.notes[0])
+    assert "(free parameters: 1): 0 of them" in str(found.notes[0])
     assert (found.count.real, len(found.designs)) == (0, 0)
     assert all(1e-4 < design.verdict.error < 0.1 for design in found.rejected)
 
 
-def test_fewer_points_are_completed():
-    found = synthesise_path(PathTask([(0, 0), (1, 0.6), (2, 0.8), (3, 0.6)], fixed_pivots=[(0, -3), (4, -2)]))
-    assert "infinitely many" in str(found.notes[0])
-    assert (found.count.theorem, found.count.found) == (None, 36)
+def test_fewer_points_with_both_pivots_are_met_by_many_four_bars():
+    """Each curve, drawn by cutting circles, passes the points in order from the given pivots; all are different."""
+    points, pivots = np.array([0, 1 + 0.6j, 2 + 0.8j, 3 + 0.6j]), np.array([-3j, 4 - 2j])
+    task = PathTask([(p.real, p.imag) for p in points], fixed_pivots=[(p.real, p.imag) for p in pivots])
+    found = synthesise_path(task)
+    assert found.count.theorem is None
+    assert "(free parameters: 1)" in str(found.notes[0])
+    assert len(found.designs) >= 6
+    turn = np.exp(1j * np.linspace(-np.pi, np.pi, 40_001))
+    shapes = []
+    for design in found.designs:
+        ends = np.array(pivots_of(design))
+        assert np.abs(ends[[0, 3], None] - pivots).min(axis=1) == pytest.approx(0, abs=1e-9)
+        a0, a, b, b0 = ends
+        pins = a0 + (a - a0) * turn
+        arm = (points[0] - a) / (b - a)
+        gaps = []
+        for far in cut_circles(pins, b0, abs(b - a), abs(b0 - b)):
+            curve = pins + arm * (far - pins)
+            gaps.append(np.nan_to_num(np.abs(curve - points[:, None]), nan=9.0).min(axis=1).max())
+        assert min(gaps) < 1e-3, gaps
+        shapes.append(sorted(abs(x - y) for x, y in pairwise((*ends, a0))))
+    assert all(np.abs(np.log(np.divide(one, other))).max() > 1e-3 for one, other in combinations(shapes, 2))
 
 
 @settings(max_examples=6, deadline=None)

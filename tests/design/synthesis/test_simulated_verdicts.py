@@ -36,7 +36,7 @@ def pivots_of(design):
     ]
 
 
-def _cut(pin, centre, coupler, rocker):
+def cut_circles(pin, centre, coupler, rocker):
     """Both places of B for places of A; NaN where the circles do not meet."""
     line = centre - pin
     distance = np.abs(line)
@@ -77,11 +77,11 @@ def simulated(pivots, moved):
                 pins = a0[rows] + (a - a0)[rows] * np.exp(1j * sense * due[rows, j])
                 share = (due[rows, j] - at[rows]) / step[rows]
                 wanted = here[rows] + share * (here - last)[rows]
-                there = _nearest(_cut(pins, b0[rows], coupler[rows], rocker[rows]), wanted)
+                there = _nearest(cut_circles(pins, b0[rows], coupler[rows], rocker[rows]), wanted)
                 hit = np.abs(there - moved[1][rows, j]) < 1e-6 * size[rows]
                 reached[rows[hit], j] = due[rows[hit], j]
             pins = a0 + (a - a0) * np.exp(1j * sense * (at + step))
-            there = _nearest(_cut(pins, b0, coupler, rocker), 2 * here - last)
+            there = _nearest(cut_circles(pins, b0, coupler, rocker), 2 * here - last)
             alive &= np.isfinite(there)
             last, here = np.where(alive, here, last), np.where(alive, there, here)
             at = at + step

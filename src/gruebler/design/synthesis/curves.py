@@ -361,7 +361,7 @@ def fit_open_points(
     exact = [fit for fit in fits if fit.error < _MET]
     accepted, rejected = _judged_fits(task, demands, exact or fits[:number], len(fits), progress)
     note = message(
-        "There are infinitely many solutions, a family of {parameters} parameters: {count} of them were found by least "
+        "There are infinitely many solutions (free parameters: {parameters}): {count} of them were found by least "
         "squares from linkages with similar curves.",
         parameters=parameters,
         count=len(exact),

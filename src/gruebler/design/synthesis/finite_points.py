@@ -119,8 +119,8 @@ def check_general(task: PathTask) -> None:
 def _notes(problem: Problem, complete: Solutions, added: int) -> Iterator[Message]:
     if added:
         yield message(
-            "There are infinitely many solutions: {count} points on a smooth curve through the given ones were added; "
-            "with them there are {theorem} solutions.",
+            "There are infinitely many solutions: points on a smooth curve through the given ones were added "
+            "({count}); with them there are {theorem} solutions.",
             count=added,
             theorem=problem.classes,
         )

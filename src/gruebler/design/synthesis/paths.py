@@ -52,9 +52,9 @@ def synthesise_path(
 
     Nine points, five points and two fixed pivots, five points with crank angles, and the finite mixed tasks have
     finitely many solutions, all of which are found. Fewer points have infinitely many: up to five are met with several
-    choices of the crank angles, six to eight by linkages whose curves are similar, and so are fewer where a region, one
-    pivot, lengths or a transmission angle is demanded; where both pivots or coupler angles are given, points on a
-    smooth curve through them are added until the number is finite. For more points, and for a closed curve, the
+    choices of the crank angles, six to eight by linkages whose curves are similar, and so are fewer where a region,
+    pivots, lengths or a transmission angle are demanded; where coupler angles are given, points on a smooth curve
+    through them are added until the number is finite. For more points, and for a closed curve, the
     linkages that come nearest are sought, within the demands; of a closed curve with nine points the four-bars that
     pass through all of them come first.
 
@@ -104,7 +104,7 @@ class _Run:
     @property
     def sought(self) -> bool:
         """Whether one of infinitely many linkages is sought that keeps to limits: a given pivot, lengths, a region."""
-        limited = len(self.task.fixed_pivots) == 1 or (self.points_alone and self.demands.limits_of_size)
+        limited = bool(self.task.fixed_pivots) or (self.points_alone and self.demands.limits_of_size)
         return limited and not (self.oriented or self.task.closed) and free_parameters(self.task, self.demands) > 0
 
     @property
@@ -218,7 +218,7 @@ def _sampled(run: _Run) -> SynthesisResult:
         if progress is not None:
             progress(done + 1, len(choices))
     note = message(
-        "There are infinitely many solutions, a family of {parameters} parameters: for all crank angles at the points "
+        "There are infinitely many solutions (free parameters: {parameters}): for all crank angles at the points "
         "there are linkages. Those for {count} choices were taken; fixed_pivots or crank_angles choose others.",
         parameters=MOST_POINTS - len(run.task),
         count=len(choices),
