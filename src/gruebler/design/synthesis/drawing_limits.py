@@ -19,6 +19,7 @@ from gruebler.design.synthesis.place_limits import PlaceLimits
 from gruebler.design.synthesis.structure_atlas import DrawnDyad, DyadStructure, LinkMotions, link_motions, link_slopes
 
 _ROUND = np.linspace(0, 2 * np.pi, 40, endpoint=False)  # of the crank
+_SIGNS = np.array([1.0, -1.0])  # of a cosine, for an angle that is too small and one that is too large
 _SAFE = 1e-4  # of a cosine: so far from where a dyad is stretched
 
 
@@ -44,75 +45,80 @@ class DrawingLimits(FitLimits):
         return np.array([float(k not in self.places.held) for k in range(2 * self.structure.joints + 2)])
 
     @property
-    def _bounds(self) -> Iterator[tuple[DrawnDyad, float]]:
+    def _bounds(self) -> list[tuple[DrawnDyad, float]]:
         """The dyads whose angle is limited, with the largest cosine of it."""
-        output = self.structure.output
-        for dyad in self.structure.dyads:
-            least = self.places.demands.transmission if output in dyad.links else 0.0
-            if self.turning or least > 0:
-                yield dyad, min(float(np.cos(least)), 1 - _SAFE)
+        output, angle = self.structure.output, self.places.demands.transmission
+        least = [(dyad, angle if output in dyad.links else 0.0) for dyad in self.structure.dyads]
+        return [(dyad, min(float(np.cos(mu)), 1 - _SAFE)) for dyad, mu in least if self.turning or mu > 0]
 
     def values(self, rows: Reals, phi: Reals) -> Reals:
         """Of a crank that turns fully all round, to the top between places; else at the targets."""
-        angles = [self._beyond(rows, *top) for top in self._tops(rows, phi)]
-        return np.concatenate([self.places.values(rows, phi), np.reshape(angles, (len(angles), rows.shape[1]))])
+        if not self._bounds:
+            return self.places.values(rows, phi)
+        motions = link_motions(self.structure, _drawn(rows), self._tops(rows, phi))
+        return np.concatenate([self.places.values(rows, phi), *self._beyond(rows, motions)])
 
     def linearised(self, rows: Reals, phi: Reals) -> tuple[Reals, Reals]:
         """Exact; a top does not move as long as it is one."""
-        tops = [*self._tops(rows, phi)]
-        angles = [self._beyond(rows, *top) for top in tops]
-        slopes = [sign * self._cosine_slopes(dyad, rows, at) for dyad, _, at, sign in tops]
-        return (
-            np.concatenate([self.places.values(rows, phi), np.reshape(angles, (len(angles), rows.shape[1]))]),
-            np.concatenate([self.places.linearised(rows, phi)[1], np.reshape(slopes, (len(slopes), *rows.shape))])
-            * self.free[:, None],
-        )
+        values, slopes = self.places.linearised(rows, phi)
+        if self._bounds:
+            motions = link_motions(self.structure, _drawn(rows), self._tops(rows, phi))
+            values = np.concatenate([values, *self._beyond(rows, motions)])
+            slopes = np.concatenate([slopes, *self._cosine_slopes(rows, motions)])
+        return values, slopes * self.free[:, None]
 
-    def _beyond(self, rows: Reals, dyad: DrawnDyad, most: float, at: Reals, sign: float) -> Reals:
-        cosine = _cosine(dyad, _drawn(rows)[..., None], link_motions(self.structure, _drawn(rows), at))[:, 0]
-        return np.nan_to_num(sign * cosine, nan=-1.0) - most + MARGIN
+    def _beyond(self, rows: Reals, motions: LinkMotions) -> Iterator[Reals]:
+        """(2, starts) of each dyad, by how much its cosine passes both limits at their tops."""
+        for n, (dyad, most) in enumerate(self._bounds):
+            cosines = _cosine(dyad, _drawn(rows)[..., None], _at_tops(motions, n))
+            yield (np.nan_to_num(_SIGNS * cosines, nan=-1.0) - most + MARGIN).T
 
-    def _tops(self, rows: Reals, phi: Reals) -> Iterator[tuple[DrawnDyad, float, Reals, float]]:
-        """Each limit of an angle: the dyad, the largest cosine, (starts, 1) where it is largest, and its sign."""
-        bounds = [*self._bounds]
-        if not bounds:
-            return
+    def _tops(self, rows: Reals, phi: Reals) -> Reals:
+        """(starts, tops) the crank angles where the cosine of each dyad is largest, and where it is least."""
         angles = np.broadcast_to(_ROUND, (rows.shape[1], len(_ROUND))) if self.turning else phi
-        motions = link_motions(self.structure, _drawn(rows), angles)
-        for dyad, most in bounds:
+        motions, tops = link_motions(self.structure, _drawn(rows), angles), []
+        for dyad, _ in self._bounds:
             cosines = _cosine(dyad, _drawn(rows)[..., None], motions)
-            for sign in (1.0, -1.0):
+            for sign in _SIGNS:
                 at = np.nan_to_num(sign * cosines, nan=-np.inf).argmax(axis=1)
                 top = np.take_along_axis(angles, at[:, None], axis=1)
                 if self.turning:
                     top = top + _beside(sign * cosines, at)[:, None] * (_ROUND[1] - _ROUND[0])
-                yield dyad, most, top, sign
+                tops.append(top)
+        return np.concatenate(tops, axis=1)
 
-    def _cosine_slopes(self, dyad: DrawnDyad, rows: Reals, turned: Reals) -> Reals:
-        """(numbers, starts) how the cosine of a dyad's angle changes at one crank angle each."""
+    def _cosine_slopes(self, rows: Reals, motions: LinkMotions) -> Iterator[Reals]:
+        """(2, numbers, starts) of each dyad, how its cosine passes both limits at their tops, as numbers change."""
         columns = rows.T.copy().view(np.complex128).T[..., None]
-        motions = link_motions(self.structure, columns[:-1, :, 0], turned)
         with np.errstate(invalid="ignore", divide="ignore"):  # NaN where a dyad cannot be assembled
             slopes = link_slopes(self.structure, columns, motions, by_places=True)
         count = len(rows)
-        gap_slopes = np.zeros((count - 2, *turned.shape), np.complex128)
-        for sign, joint, base in zip((-1, 1), dyad.outer, dyad.base, strict=True):
-            by_turn, by_shift = slopes[base]
-            gap_slopes += sign * (by_turn * columns[joint] + by_shift)[:-1]
-            gap_slopes[2 * joint] += sign * motions[base][0]
-            gap_slopes[2 * joint + 1] += sign * 1j * motions[base][0]
-        gap = _gap(dyad, columns, motions)
-        arms = [columns[dyad.inner] - columns[joint] for joint in dyad.outer]
-        first, second = np.abs(arms)
-        product, cosine = first * second, _cosine(dyad, columns, motions)
-        by_number = np.zeros((count, *turned.shape))
-        by_number[:-2] = -np.real(np.conj(gap) * gap_slopes) / product
-        for arm, own, joint in zip(arms, (first, second), dyad.outer, strict=True):
-            by_length = own / product - cosine / own
-            for k, part in enumerate((arm.real, arm.imag)):
-                by_number[2 * dyad.inner + k] += by_length * part / own
-                by_number[2 * joint + k] -= by_length * part / own
-        return np.nan_to_num(by_number[..., 0])
+        for n, (dyad, _) in enumerate(self._bounds):
+            moved, changed = _at_tops(motions, n), _at_tops(slopes, n)
+            gap_slopes = np.zeros((count - 2, rows.shape[1], len(_SIGNS)), np.complex128)
+            for sign, joint, base in zip((-1, 1), dyad.outer, dyad.base, strict=True):
+                by_turn, by_shift = changed[base]
+                gap_slopes += sign * (by_turn * columns[joint] + by_shift)[:-1]
+                gap_slopes[2 * joint] += sign * moved[base][0]
+                gap_slopes[2 * joint + 1] += sign * 1j * moved[base][0]
+            gap = _gap(dyad, columns, moved)
+            arms = [columns[dyad.inner] - columns[joint] for joint in dyad.outer]
+            first, second = np.abs(arms)
+            product, cosine = first * second, _cosine(dyad, columns, moved)
+            by_number = np.zeros((count, *gap.shape))
+            by_number[:-2] = -np.real(np.conj(gap) * gap_slopes) / product
+            for arm, own, joint in zip(arms, (first, second), dyad.outer, strict=True):
+                by_length = own / product - cosine / own
+                for k, part in enumerate((arm.real, arm.imag)):
+                    by_number[2 * dyad.inner + k] += by_length * part / own
+                    by_number[2 * joint + k] -= by_length * part / own
+            yield np.moveaxis(_SIGNS * np.nan_to_num(by_number), 2, 0)
+
+
+def _at_tops(motions: LinkMotions, dyad: int) -> LinkMotions:
+    """Motions, or how they change, at both tops of a dyad by its number."""
+    own = slice(len(_SIGNS) * dyad, len(_SIGNS) * (dyad + 1))
+    return {link: (turn[..., own], shift[..., own]) for link, (turn, shift) in motions.items()}
 
 
 def _drawn(rows: Reals) -> Complexes:
