@@ -62,8 +62,11 @@ export class LoadForm {
         this.speed = v > 0 ? v * factor : null;
       },
     );
-    const play = h("button.plain", { "data-act": "play", onclick: () => this.play(speed) }, t("Play at this speed"));
-    const first = [h("div.rows", {}, ...rows.splice(0)), ...(speed ? [h("div.form", {}, play)] : [])];
+    const play = { "data-act": "play", onclick: () => this.play(speed) };
+    const first = [
+      h("div.rows", {}, ...rows.splice(0)),
+      speed ? h("div.form", {}, h("button.plain", play, t("Play at this speed"))) : "",
+    ];
     for (const link of links)
       rows.push(
         ...this.#row(`mass-${link}`, t("Mass {link}", { link: linkage.linkName(link) }), "kg", masses[link]!, (v) => {
