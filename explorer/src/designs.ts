@@ -125,7 +125,8 @@ export class DesignCards {
       found.items.some(({ shift }) => shift) &&
         t("Sensitivity: how far a target is off at most, if all lengths are 0.1 % wrong."),
     ];
-    const said = shown ? words.filter((text) => text).join(" ") : "";
+    const joined = (texts: unknown[]) => texts.filter((text) => text).join(" ");
+    const said = shown ? joined(words) : "";
     const refused = found.refused > 1 && t("{count} others do not meet what is asked.", { count: found.refused });
     const told = [
       found.note,
@@ -134,18 +135,16 @@ export class DesignCards {
       this.#exact && shown > 0 && t("All meet the targets exactly."),
       refused || (found.refused && t("One other does not meet what is asked.")),
     ];
-    const [mine, more] = [false, true].map((like) => this.#shown.filter(({ variant }) => !!variant === like)) as [
-      Design[],
-      Design[],
-    ];
+    const mine = this.#shown.filter(({ variant }) => !variant);
+    const more = this.#shown.filter(({ variant }) => variant);
     const forms = this.#forms();
-    const kinds = forms.map((form): [string, string] => [form, `${capital(form)} · ${this.#of(form).length}`]);
+    const kinds = forms.map((form): [string, string] => [form, `${form} · ${this.#of(form).length}`]);
     if (forms.length > 1) kinds.unshift(["", `${t("All")} · ${shown}`]);
     const chosen = { "data-field": "form" };
     renew(
       this.element,
-      h("h2", {}, (this.#form && `${capital(this.#form)}: `) + t("{count} designs", { count: this.#shown.length })),
-      h("p.note", {}, told.filter((text) => text).join(" ")),
+      h("h2", {}, (this.#form && `${this.#form}: `) + t("{count} designs", { count: this.#shown.length })),
+      h("p.note", {}, joined(told)),
       shown > 1
         ? h(
             "div.form",
@@ -181,7 +180,7 @@ export class DesignCards {
     const names = t("frame · crank · coupler · rocker").split(" · ");
     const value = error === null || exact(error) ? 0 : 100 * error;
     const deviation = value ? t("deviation {value} %", { value: number(value, 2) }) : t("met exactly");
-    const title = `${capital(form)} ${this.#of(form).indexOf(design) + 1}`;
+    const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
     const play = () => this.play(design);
     return h(
       "button.card",
@@ -201,8 +200,4 @@ export class DesignCards {
       h("span", {}, !!shift && t("sensitivity {value} %", { value: number(100 * shift, 2) })),
     );
   }
-}
-
-function capital(text: string): string {
-  return text[0]!.toUpperCase() + text.slice(1);
 }

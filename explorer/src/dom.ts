@@ -65,8 +65,8 @@ export function put(element: Element, attributes: Record<string, string | number
   }
 }
 
-/** Put other children into a place, which stays scrolled as it is; the focus goes to the element of the same name, or to
- * the first button where there is no such element any more. */
+/** Put other children into a place, which stays scrolled as it is; the focus goes to the element of the same name, or
+ * to the first button where there is no such element any more. */
 export function renew(place: Element, ...children: (Node | string)[]): void {
   const focused = (place.getRootNode() as Document | ShadowRoot).activeElement;
   const name = focused && focused !== place && place.contains(focused) ? selectorOf(focused) : "";

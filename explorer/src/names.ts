@@ -59,8 +59,8 @@ export function nameSpots(viewport: Viewport, { at, away, along = [0, 0], bar }:
 }
 
 /** Which of its spots a name takes, so that it is nearer to its own body than to any other and touches no other name:
- * the one before if it still does, else the first that does, also clear of grounds if it can, else the one that is least
- * wrong. */
+ * the one before if it still does, else the first that does, also clear of grounds if it can, else the one that is
+ * least wrong. */
 export function clearSpot(
   spots: readonly Pair[],
   name: string,

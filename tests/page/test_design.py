@@ -287,12 +287,12 @@ def test_a_slide_of_a_design_has_its_block_on_its_guide():
     task = task_of("positions", [[-40, 0, 0], [0, 25, 20], [35, 10, 50]])
     items = design_records(task, True, 20.0, "en", lambda _: None)["items"]
     for design in (
-        next(item for item in items if item["form"] == form) for form in ("slider-crank", "inverted slider-crank")
+        next(item for item in items if item["form"] == form) for form in ("Slider-crank", "Inverted slider-crank")
     ):
         *_, (start, end) = design["members"]
         ((low, high),) = design["rails"]
         z = np.array(design["frames"]) @ (1, 1j)
-        pin = z[:, [3 if design["form"].startswith("inv") else 2]]
+        pin = z[:, [3 if design["form"].startswith("Inv") else 2]]
         for at in (pin, z[:, [start]], z[:, [end]]):
             part = (at[:, 0] - z[:, low]) / (z[:, high] - z[:, low])
             assert np.abs(part.imag).max() < 1e-3

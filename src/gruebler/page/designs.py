@@ -129,7 +129,7 @@ def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
     return {
         "document": linkage_to_json(linkage),
         "picture": draw_linkage(linkage, curves=list(linkage.points), lang=lang, outlines=marks).svg(styled=False),
-        "form": replace(design, form=_NAMES.get(design.form, design.form)).form_in_language(lang),
+        "form": capitalised(replace(design, form=_NAMES.get(design.form, design.form)).form_in_language(lang)),
         "transmission": angle if isfinite(angle) else None,
         "range": degrees(over_range) if isfinite(over_range := design.transmission_over_range) else None,
         "shift": shift if isfinite(shift := design.relative_sensitivity) else None,
@@ -138,6 +138,15 @@ def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
         **_frames(linkage, posed, _played(design, task, posed)),
         **_met_angles(design, task, posed),
     }
+
+
+def capitalised(text: str) -> str:
+    """As a title begins.
+
+    >>> capitalised("four-bar")
+    'Four-bar'
+    """
+    return text[:1].upper() + text[1:]
 
 
 def _mark_variants(items: list[dict[str, Any]]) -> None:

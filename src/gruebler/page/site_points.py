@@ -17,6 +17,7 @@ from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.finite_points import ON_CIRCLE, ON_LINE, UNRESOLVED
 from gruebler.design.synthesis.positions import linkage_of_dyads
 from gruebler.design.synthesis.tasks import EQUAL_POINTS
+from gruebler.page.designs import capitalised
 from gruebler.page.model import model_of
 from gruebler.page.page import module_text
 
@@ -49,7 +50,9 @@ def point_packs() -> Iterator[tuple[str, Any]]:
         {
             "script": module_text("points"),
             "template": model_of(linkage_of_dyads(first, other, 3 + 4j, "mm")),
-            "texts": {lang: {key: text.in_language(lang) for key, text in texts.items()} for lang in LANGUAGES},
+            "texts": {
+                lang: {key: capitalised(text.in_language(lang)) for key, text in texts.items()} for lang in LANGUAGES
+            },
         },
     )
     task, solutions = stored_solutions(NINE_POINTS)
