@@ -18,13 +18,16 @@ export interface Beside {
   readonly rulers?: readonly Ruler[];
   /** What joints are called where they were drawn, in the order of the linkage, spaces between. */
   readonly letters?: string;
+  /** Pairs of angles that were asked for, which the library reads and marks. */
+  readonly pairs?: unknown;
 }
 
 /** What a document keeps, as far as it is what the page writes. */
 export function besideOf({ page }: LinkageDocument): Beside {
   const numbers = (row: unknown, ...counts: number[]) =>
     Array.isArray(row) && counts.includes(row.length) && row.every((one) => Number.isFinite(one));
-  const { letters, locks, picture, rulers, targets } = (page ?? {}) as {
+  const { letters, locks, pairs, picture, rulers, targets } = (page ?? {}) as {
+    pairs?: unknown;
     letters?: unknown;
     locks?: unknown;
     rulers?: unknown;
@@ -40,6 +43,7 @@ export function besideOf({ page }: LinkageDocument): Beside {
     ...(shown && { picture: picture as Backdrop }),
     ...(kept.length && { locks: kept }),
     ...(measured.length && { rulers: measured }),
+    ...(!!pairs && { pairs }),
     ...(typeof letters === "string" && { letters }),
   };
 }

@@ -22,6 +22,8 @@ export interface Design extends Moving {
   size: number;
   /** Of a function crank and output in each frame, in degrees as its pairs count them. */
   angles?: Pair[];
+  /** Where it meets its pairs: drive and output in degrees, as they are in Motion. */
+  pairs?: Pair[];
   /** Of dead centres the places of the joints at both. */
   ends?: [Pair[], Pair[]];
   /** Of frame, crank, coupler and rocker; none of what has other joints. */

@@ -16,10 +16,10 @@ export function showKeys(root: HTMLElement, draws: boolean): void {
   const rows: [string, string][] = [
     [t("Space"), t("play and pause")],
     ["Esc", t("give up a drag")],
-    [t("Shift"), t("while dragging: snap to others, to the grid, to round angles and equal lengths")],
+    [t("Shift"), t("while dragging: snap to joints, grid, angles, lengths")],
     ["← →", t("move the drive by 1°, with Shift by 10°")],
-    ["Tab, ← → ↑ ↓", t("choose a joint and move it, with Shift in small steps")],
-    [t("Enter, double-click"), t("let a joint stay where it is while others are dragged")],
+    ["Tab, ← → ↑ ↓", t("move a joint, with Shift in small steps")],
+    [t("Enter, double-click"), t("hold or release a joint")],
     [`${ctrl} Z, ${ctrl} Y`, t("undo, redo")],
     [`${ctrl} S`, t("save as JSON")],
     ["+ − 0", t("zoom, show everything")],

@@ -1,6 +1,7 @@
 /** What Python says of a linkage (`gruebler.page.model.model_of`). */
 
 import type { ProgramRecord } from "./program";
+import type { Pair } from "./rows";
 
 export interface ElementRecord {
   joint: number;
@@ -39,6 +40,8 @@ export interface OutputRecord {
   link: number;
   joint: number | null;
   legs: Leg[];
+  /** Places that are marked in its plot: the drive in radians, the output in degrees. */
+  marks?: Pair[];
   note: Record<string, string>;
 }
 

@@ -236,9 +236,7 @@ export class MotionView implements View, Editor, Driven {
       this.page.say(
         tried && !fits ? t("It fits at no position of the drive.") : refusedText(linkage, error, this.transport.drive),
         "error",
-        fits
-          ? h("button.plain", { "data-act": "elsewhere", onclick }, t("Move the drive to where it fits"))
-          : undefined,
+        fits ? h("button.plain", { "data-act": "elsewhere", onclick }, t("Move the drive there")) : undefined,
       );
     }
     this.#followed();
@@ -310,7 +308,7 @@ export class MotionView implements View, Editor, Driven {
   /** The link that is to carry a coupler point; it stands still then. */
   #carry(link: number | null): void {
     this.transport.pause();
-    this.page.say(link === null ? t("No link is near: click on the one that is to carry the point.") : "");
+    this.page.say(link === null ? t("A coupler point: choose the link that carries it.") : "");
     this.#choose(link);
   }
 

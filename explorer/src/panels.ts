@@ -189,7 +189,7 @@ export function pointsPanel(editor: Editor): HTMLElement {
     {},
     h("div.point-rows", {}, ...rows),
     h("div.form", {}, link, h("button.plain", { "data-act": "add-point", onclick: add }, t("Add a point"))),
-    h("p.note", {}, t("Click twice to put a point: on a link, else on the one chosen here.")),
+    h("p.note", {}, t("Click twice to put a point on a link, else on this one.")),
   );
 }
 

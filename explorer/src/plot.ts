@@ -14,6 +14,8 @@ export interface Series {
   floor?: number;
   /** Values that differ by less are the same but for rounding. */
   same?: number;
+  /** Places with rings, of drive and value. */
+  marks?: readonly Pair[] | undefined;
 }
 
 const WIDTH = 300;
@@ -43,6 +45,7 @@ export class Plot {
   #measure = "";
   readonly #beyond = svg("path.here", {});
   readonly #mesh = svg("path.mesh", {});
+  readonly #marks = svg("path.curve", { stroke: "var(--purple)" });
   readonly #upward = svg("g");
   readonly #across = svg("g");
   #ticked = "";
@@ -75,7 +78,7 @@ export class Plot {
       this.#across,
       frame,
       this.#zero,
-      svg("svg", inner, this.#curve, this.#beyond),
+      svg("svg", inner, this.#curve, this.#beyond, this.#marks),
       this.#cursor,
       this.#here,
       this.#title,
@@ -159,6 +162,8 @@ export class Plot {
     });
     put(this.#beyond, { d: beyondMarks(across, series.values, sides) });
     put(this.#curve, { d: lineThrough(across, places) });
+    const ring = ([x, y]: Pair) => `M${this.#x(x)} ${this.#y(y) - 4}a4 4 0 1 0 .1 0`;
+    put(this.#marks, { d: (series.marks ?? []).map(ring).join("") });
     const crossed = this.#low < 0 && this.#high > 0;
     put(this.#zero, { d: crossed ? `M${LEFT} ${this.#y(0).toFixed(1)}H${WIDTH - RIGHT}` : "" });
     const floor = series.floor;

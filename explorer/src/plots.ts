@@ -60,10 +60,7 @@ export class Plots {
     const notes = note ? [h("p.note", {}, note)] : [];
     if (record) {
       const name = linkage.linkName(record.link);
-      const turning = record.joint === null;
-      this.#still.textContent = turning
-        ? t("Output {name} moves without turning.", { name })
-        : t("Output {name} does not travel.", { name });
+      this.#still.textContent = t("Output {name} is constant.", { name });
     }
     const tool = (sign: Icon, text: string, factor: number) =>
       h(
@@ -180,6 +177,7 @@ function outputSeries(linkage: Linkage, record: OutputRecord): Making[] {
     title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${lengthUnit(linkage.model)}]`),
     colour: "--motion",
     values: turning ? output.map(degrees) : output,
+    marks: record.marks,
     same: turning ? degrees(same) : same,
   });
   const velocity: Making = ({ rows }) => ({

@@ -370,7 +370,7 @@ export class SynthesisView implements View {
   async #open(design: Design): Promise<void> {
     const name = wordsOf(this.kind, this.points.length).design;
     try {
-      const document = { ...design.document, page: { targets: this.targets } };
+      const document = { ...design.document, page: { targets: this.targets, pairs: design.pairs } };
       const model = await this.#page.ask<Model>("open_document", { document, name });
       this.#page.open(model);
     } catch (error) {

@@ -31,7 +31,7 @@ export function stopText(linkage: Linkage, stop: Stop): string {
     return t("With these sizes the joints of {links} do not meet at {drives}; nothing was changed.", values);
   if (stop.status === Status.SINGULAR)
     return t("The motion ends at {drives}: there two assembly modes of {links} meet.", values);
-  if (stop.status === Status.GIVEN_UP) return t("The motion was given up at {drives}: it is too long.", values);
+  if (stop.status === Status.GIVEN_UP) return t("The motion was given up at {drives}.", values);
   return t("The motion ends at {drives}: there the joints of {links} no longer meet.", values);
 }
 

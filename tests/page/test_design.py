@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 
+from gruebler.base.errors import GrueblerError
 from gruebler.files import linkage_from_json
 from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.kinematics import move
@@ -259,10 +260,36 @@ def test_dead_centres_are_those_that_were_asked_for(design):
     facts = view.locator(".facts").inner_text()
     assert "48°" in facts
     assert "1.25" in facts
+    # only ratios count: the longest distance is 100 mm
+    assert max(view.evaluate("gruebler.motion.dragging.lengths().map((one) => one.value)")) == pytest.approx(100)
+
+
+def test_pairs_of_angles_are_ringed_in_the_plot_of_the_output(design):
+    """Where the library moves the design to, in the turns that were asked for."""
+    from gruebler.page.designs import design_records, task_of
+    from gruebler.page.requests import answer
+
+    item = design_records(task_of("function", [[0, 0], [45, 25], [90, 60]]), True, 30.0, "en", lambda _: None)["items"][
+        0
+    ]
+    drive, output = np.array(item["pairs"]).T
+    assert np.diff(drive) == pytest.approx([45, 45], abs=1e-5)
+    assert np.diff(output) == pytest.approx([25, 35], abs=1e-5)
+    assert np.degrees(move(linkage_from_json(item["document"]), np.radians(drive)).angle("rocker")) == pytest.approx(
+        output, abs=1e-4
+    )
+    model = answer("open_document", {"document": item["document"] | {"page": {"pairs": item["pairs"]}}}, "en", print)
+    design.page.evaluate("(model) => { gruebler.open(model); gruebler.motion.transport.pause(); }", model)
+    rings = design.page.locator('[data-panel="plots"] .plot').first.locator("path[stroke]").get_attribute("d")
+    across = [float(x) for x in re.findall(r"M([\d.]+)", rings)]
+    assert np.array(across) == pytest.approx(44 + 246 * drive / 360, abs=0.01)  # the axis lies from 44 to 290
+    notes = design.page.locator('[data-panel="plots"] .note').all_text_contents()
+    assert any(f"{drive[1]:.4g}° → " in note for note in notes)
+    with pytest.raises(GrueblerError, match="pairs: expected 2 numbers in each row"):
+        answer("open_document", {"document": item["document"] | {"page": {"pairs": [[1, "x"]]}}}, "en", print)
 
 
 def test_rows_of_another_length_are_refused_in_a_sentence():
-    from gruebler.base.errors import GrueblerError
     from gruebler.page.requests import answer
 
     for kind, row in (("positions", [1, 2]), ("points", [1, 2, 3]), ("dead-centres", [1, 2, 3])):

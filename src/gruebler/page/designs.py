@@ -226,13 +226,17 @@ def _met_angles(design: Design, task: Task, posed: PosedLinkage) -> dict[str, An
         return {"ends": _seen(linkage, cycle.at(ends, 0)).tolist()}
     if cycle is None or not isinstance(task, FunctionTask):
         return {}
-    path = cycle.at(np.append(_played(design, task, posed).drives[:, 0], design.drives[0]), 0)
+    played = _played(design, task, posed).drives[:, 0]
+    path = cycle.at(np.append(played, design.drives), 0)
     mechanism = linkage.mechanism
     at_frame = {link for joint in mechanism.chain.joints if mechanism.frame in joint.links for link in joint.links}
     (output,) = at_frame - set(mechanism.drives[0].between)
     turned = np.stack([path.drives[:, 0], path.angle(output)], axis=1)
-    angles = np.degrees(turned - turned[-1] + (task.inputs[0], task.outputs[0]))[:-1]
-    return {"angles": _there_and_back(np.round(angles, 2), posed)}
+    pairs = turned[len(played) :]
+    angles = np.degrees(turned[: len(played)] - pairs[0] + (task.inputs[0], task.outputs[0]))
+    if posed.repeats:  # as the page counts a drive that goes round
+        pairs[:, 0] %= 2 * np.pi
+    return {"angles": _there_and_back(np.round(angles, 2), posed), "pairs": np.degrees(pairs).round(6).tolist()}
 
 
 def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, Any]:

@@ -9,12 +9,14 @@ from __future__ import annotations
 import re
 from cmath import rect
 from collections.abc import Iterator, Mapping, Sequence
+from math import radians
 from typing import Any
 
 import numpy as np
 
 from gruebler.base.arrays import Complexes
-from gruebler.base.text import LANGUAGES, Text, error_in_language, translate
+from gruebler.base.errors import LinkageError
+from gruebler.base.text import LANGUAGES, Text, error_in_language, number, translate
 from gruebler.files import linkage_to_json
 from gruebler.files.load_reading import loads_of_document
 from gruebler.files.load_writing import loads_to_json
@@ -36,12 +38,33 @@ _SAME = 1e-12  # sizes: elements of the plan are copies of the linkage's, but fo
 
 
 def with_document(model: dict[str, Any], linkage: Linkage, document: Mapping[str, Any]) -> dict[str, Any]:
-    """A model that keeps what the document of its linkage has besides: ``loads``, and ``page`` for the page alone."""
+    """A model that keeps what the document of its linkage has besides: ``loads``, and ``page`` for the page alone.
+
+    Of ``pairs`` in ``page``, rows of drive and output in degrees, the plot of the output has marks.
+    """
     kept = {"page": document["page"]} if document.get("page") else {}
+    pairs = (document.get("page") or {}).get("pairs")
+    if pairs and model["outputs"]:
+        model = model | {"outputs": [_marked(model["outputs"][0], pairs)]}
     if document.get("loads"):
         loads, speed = loads_of_document(document, linkage)
         kept["loads"] = loads_to_json(loads, linkage, speed)
     return model | {"document": model["document"] | kept}
+
+
+def _marked(output: dict[str, Any], pairs: Any) -> dict[str, Any]:
+    """An output with marks in its plot, drive in radians and output in degrees, and where they lie in its note."""
+    try:
+        rows = [(float(drive), float(value)) for drive, value in pairs]
+    except (TypeError, ValueError) as error:
+        raise LinkageError("{key}: expected {count} numbers in each row", key="pairs", count=2) from error
+
+    def told(lang: str) -> str:
+        said = ", ".join(" → ".join(f"{number(value, lang, '.4g')}°" for value in row) for row in rows)
+        return translate("Ringed are the pairs asked for, drive → output: {pairs}.", lang, pairs=said)
+
+    marks = [(radians(drive), value) for drive, value in rows]
+    return output | {"marks": marks, "note": {lang: told(lang) for lang in LANGUAGES} | output["note"]}
 
 
 def model_of(
@@ -285,10 +308,10 @@ def _output(linkage: Linkage, plan: Plan) -> list[dict[str, Any]]:
 def _element_at(plan: Plan, element: tuple[str, complex, complex]) -> int:
     """The number of an element of the plan, so that the page follows when it is dragged."""
     link, point, line = element
-    for number, (joint, owner) in enumerate(plan.keys):
+    for k, (joint, owner) in enumerate(plan.keys):
         e = plan.lower.elements[joint, owner]
         if owner == link and complex(e.x, e.y) == point and abs(rect(1, e.direction) - line) < _SAME:
-            return number
+            return k
     return -1
 
 
