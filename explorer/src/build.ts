@@ -170,7 +170,10 @@ export class BuildView implements View, Plane, Drawn {
   // --- changes -------------------------------------------------------------------------------------------------------
 
   change(next: Drawing | null, text = t("A link cannot meet itself.")): void {
-    if (!next) return this.page.say(text);
+    if (!next) {
+      this.#draw();
+      return this.page.say(text);
+    }
     const { chosen, drawing } = this;
     const all = next.knots.length === drawing.knots.length;
     const stays = chosen?.link ? linksOf(next).includes(chosen.link) : all && !isPicture(chosen);

@@ -80,7 +80,7 @@ export function choiceOf(view: Changing): HTMLElement[] {
   if (!chosen) return [];
   const { link } = chosen;
   if (isPicture(chosen)) {
-    const how = t("Picture: drag it; its corner sizes it, the grip turns it.");
+    const how = t("Drag it; its corner sizes it, the grip turns it.");
     return [note(how), removing];
   }
   if (link !== null) {

@@ -62,7 +62,7 @@ export class MobilityPanel {
     const { frame } = drawing;
     this.element.classList.remove("asking");
     if (frame === null || linksOf(drawing).length < 3) {
-      const text = frame === null ? t("Put a ground") : t("Draw links: a mechanism has at least three.");
+      const text = frame === null ? t("Put a ground") : t("Draw links, at least three.");
       return renew(this.element, ...(linksOf(drawing).length ? [count] : []), h("p.note", {}, text));
     }
     if (this.element.querySelector('[data-fact="freedoms"]')) this.element.firstChild!.replaceWith(count);

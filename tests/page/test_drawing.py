@@ -333,6 +333,7 @@ def test_links_are_drawn_in_a_row_or_by_dragging_and_the_drawing_is_saved(plane,
     view.keyboard.press("Escape")
     click(plane, (0, 20), (0, 0))  # over link 1
     assert view.locator(".message").inner_text().startswith("1 joins them already.")
+    assert not view.locator(".drawing .pending").count()
     assert view.evaluate(drawn) == all_of_it
     assert view.locator("h1 small").inner_text() == "New drawing"
     kept = view.evaluate("JSON.stringify(gruebler.views.build.drawing)")
