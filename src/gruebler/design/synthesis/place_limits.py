@@ -5,6 +5,7 @@ docs/theory/synthesis-any.md. The places are those of a drawing, or of the pins 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
@@ -45,24 +46,20 @@ class PlaceLimits(FitLimits):
                 for k in range(2):
                     low, high = self.demands.region[k::2]
                     limits += [(low - rows[x + k]) / self.unit + MARGIN, (rows[x + k] - high) / self.unit + MARGIN]
-        lengths = {link: self._lengths(rows, own) for link, own in self.pins.items() if len(own) > 1}
         for link, wanted in self.demands.lengths:
-            if link in lengths:
-                gaps = lengths[link] - wanted / self.unit
+            if len(self.pins.get(link, ())) > 1:
+                gaps = self._lengths(rows, [self.pins[link]]) - wanted / self.unit
                 nearest = np.take_along_axis(gaps, np.abs(gaps.real).argmin(axis=0)[None], axis=0)[0]
                 limits += [nearest - HELD, -nearest - HELD]
-        if self.demands.size_ratio < np.inf and lengths:
-            every = np.concatenate([*lengths.values()])
+        if self.demands.size_ratio < np.inf and any(len(own) > 1 for own in self.pins.values()):
+            every = self._lengths(rows, self.pins.values())
             limits += [*(largest(np.moveaxis(every, 0, -1)) / self.demands.size_ratio - every + MARGIN)]
         return np.array(limits) if limits else np.zeros((0, *rows.shape[1:]))
 
-    def _lengths(self, rows: NDArray[Any], own: tuple[int, ...]) -> NDArray[Any]:
-        """(pairs, ..., starts) the distances of the pins of a link, each with each."""
-        pairs = [*combinations(own, 2)]
-        return (
-            np.stack([np.sqrt((rows[p] - rows[q]) ** 2 + (rows[p + 1] - rows[q + 1]) ** 2) for p, q in pairs])
-            / self.unit
-        )
+    def _lengths(self, rows: NDArray[Any], links: Iterable[tuple[int, ...]]) -> NDArray[Any]:
+        """(pairs, ..., starts) the distances of the pins of each of these links, each with each."""
+        p, q = np.array([pair for own in links for pair in combinations(own, 2)]).T
+        return np.asarray(np.sqrt((rows[p] - rows[q]) ** 2 + (rows[p + 1] - rows[q + 1]) ** 2) / self.unit)
 
     def linearised(self, rows: Reals, phi: Reals) -> tuple[Reals, Reals]:
         """By complex differences."""
