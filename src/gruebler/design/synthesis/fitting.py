@@ -320,7 +320,8 @@ def improved(
     start = _at(closure, targets, replace(state, q=q), size)
     freedoms = start.by_motion.shape[2]
     alike = targets.bands is None or bool(targets.bands.exact.all())
-    if not alike or targets.given - len(targets) * freedoms > len(units) - len(state.held):
+    same = 3 * (len(closure.linkage.mechanism.chain.links) - 1)  # numbers that place a link's own coordinates on it
+    if not alike or targets.given - len(targets) * freedoms > len(units) - len(state.held) - same:
         return _least_squares(closure, targets, start, limits, units, steps).state
     for more in (0, min(steps, _FEW_STEPS), steps):
         start = _least_squares(closure, targets, start, limits, units, more)
