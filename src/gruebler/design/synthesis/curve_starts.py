@@ -24,6 +24,7 @@ from gruebler.design.synthesis.curve_matching import (
 from gruebler.design.synthesis.fit_limits import FourBarLimits, crank_turns
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FourBarKind
+from gruebler.design.synthesis.pivot_starts import given_pivots_starts
 
 _CANDIDATES = 1500  # neighbours that are placed to see which of them keep within limits
 
@@ -87,38 +88,46 @@ class CurveStart(NamedTuple):
 def neighbours(
     z: Complexes, limits: FourBarLimits, *, closed: bool, number: int, passed: Callable[[], object] | None = None
 ) -> list[CurveStart]:
-    """The nearest curves of the atlas, or pieces of them, up to a similarity that leaves given pivots where they are.
+    """The nearest curves of the atlas, or pieces of them, up to a similarity that leaves a given pivot where it is.
 
-    Of those that pass limits the ones come first that are both alike and hardly beyond.
+    With both pivots given, four-bars on them of which crank and coupler point are gone through. Of those that pass
+    limits the ones come first that are both alike and hardly beyond.
     """
-    kind, (own, far) = limits.kind, limits.pivots
-    book = atlas(kind)
-    frame = kind.frame(kind.named(book.rows))
-    # A given pivot is the origin, a given frame runs from there to 1.
-    origin = frame if own is None and far is not None else np.zeros(len(frame))
-    unit = frame if own is not None and far is not None else np.ones(len(frame))
-    turn = 1 + 0j if own is None or far is None else far - own
-    shift = own if own is not None else far if far is not None else 0j
-    held = (Held.NOTHING, Held.ORIGIN, Held.ALL)[(own is not None) + (far is not None)]
-    matches = best_matches(
-        np.asarray((book.z - origin[:, None]) / unit[:, None], np.complex128),
-        (z - shift) / turn,
-        _CANDIDATES if limits.narrow else number,
-        closed=closed,
-        held=held,
-        passed=passed,
-    )[:_CANDIDATES]
-    starts = []
-    for match in matches:
-        n = match.number
-        scale = match.turn / float(unit[n])
-        placed = replace(match, turn=scale, shift=match.shift - scale * float(origin[n]))
-        starts.append(_moved(kind, _placed(book, placed), turn, shift))
+    own, far = limits.pivots
+    most = _CANDIDATES if limits.narrow else number
+    if own is not None and far is not None:
+        miss, rows, side, phi = given_pivots_starts(z, own, far, most, closed=closed)
+        starts = [
+            CurveStart(float(m) ** 2, row, float(s), at) for m, row, s, at in zip(miss, rows.T, side, phi, strict=True)
+        ]
+    else:
+        starts = _similar(z, limits, most, closed=closed, passed=passed)
     if not limits.narrow:
         return starts
     rows, phi = np.array([start.row for start in starts]).T, np.array([start.phi for start in starts])
     order = np.argsort(np.sqrt([start.gap for start in starts]) + limits.passed(rows, phi), kind="stable")
     return [starts[k] for k in order[:number]]
+
+
+def _similar(
+    z: Complexes, limits: FourBarLimits, number: int, *, closed: bool, passed: Callable[[], object] | None
+) -> list[CurveStart]:
+    """From the atlas; a given pivot is the origin."""
+    kind, (own, far) = limits.kind, limits.pivots
+    book = atlas(kind)
+    frame = kind.frame(kind.named(book.rows))
+    origin = np.zeros(len(frame)) if far is None else frame
+    shift = own if own is not None else far if far is not None else 0j
+    matches = best_matches(
+        np.asarray(book.z - origin[:, None], np.complex128),
+        z - shift,
+        number,
+        closed=closed,
+        held=Held.NOTHING if own is None and far is None else Held.ORIGIN,
+        passed=passed,
+    )[:_CANDIDATES]
+    placed = (replace(each, shift=each.shift - each.turn * float(origin[each.number])) for each in matches)
+    return [_moved(kind, _placed(book, each), 1 + 0j, shift) for each in placed]
 
 
 def _placed(book: CurveAtlas, match: CurveMatch) -> CurveStart:
