@@ -1,5 +1,7 @@
 """Families of dyads: closed forms of all pairs against the verdict by motion, and the best pairs by a measure."""
 
+from math import degrees, radians
+
 import numpy as np
 import pytest
 
@@ -141,3 +143,34 @@ def test_positions_in_any_order_lie_on_one_branch():
             motion = move(design.linkage, np.interp(places, np.arange(len(targets)), drives[targets]))
             assert motion.complete
             assert np.abs(motion.complex_point("P")[::10] - task.origins[targets]).max() < 1e-9 * task.size
+
+
+def _best_of_forms(seed, count):
+    """A random task, and the largest transmission angle that is found for each form without any demand."""
+    rng = np.random.default_rng(seed)
+    z = np.cumsum(rng.uniform(0.2, 1, count) * np.exp(1j * rng.uniform(0, 2.5, count)))
+    angles = np.cumsum(rng.uniform(-0.2, 0.8, count))
+    task = PositionTask(list(zip(z.real, z.imag, angles, strict=True)))
+    best = {}
+    for design in synthesise_positions(task).designs:
+        best[design.form] = max(best.get(design.form, 0.0), design.verdict.transmission)
+    return task, {form: angle for form, angle in best.items() if radians(5) < angle < radians(89.5)}
+
+
+def _found_again(seed, count):
+    task, best = _best_of_forms(seed, count)
+    for form, angle in best.items():
+        found = synthesise_positions(task, Demands(transmission=angle - radians(0.1)))
+        assert form in {design.form for design in found.designs}, (form, degrees(angle))
+    return len(best)
+
+
+def test_what_is_found_without_a_demand_is_found_with_it():
+    """A demand just below the best angle: of the sample hardly one meets it, and those beside it do."""
+    assert _found_again(10, 3) >= 2
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [2, 3, 4])
+def test_what_is_found_for_random_tasks_is_found_with_a_demand(count):
+    assert sum(_found_again(seed, count) for seed in range(10, 20)) >= 10

@@ -356,8 +356,8 @@ def best_pairs(
             step=_WIDTHS[-1],
         )
     ]
-    if not good.any():
-        notes += tightest(met)
+    if demands.transmission > 0 and not good.any():
+        orders = ("transmission", *orders)  # those that are nearly good come first
     ranks = np.lexsort([cost.ravel() for cost in reversed([fails.astype(float), *facts.costs(orders)])])
     chosen: list[tuple[int, int]] = []
     for rank in ranks[: _LOOKED_AT * number]:
@@ -369,15 +369,15 @@ def best_pairs(
         if len(chosen) == 2 * number:
             break
     pairs: list[tuple[GuidingDyad, GuidingDyad]] = []
-    for i, j in chosen:
-        pair = dyads[i], others[j]
-        if good.any():
-            pair = _improved(task, pair, demands, near, orders)
+    known = bool(good.any())
+    for i, j in chosen:  # where none of the sample is good, one beside it may be
+        pair, meets = _improved(task, (dyads[i], others[j]), demands, near, orders)
+        known |= meets
         if all(_gap(pair, other) > _ALIKE * task.size for other in pairs):
             pairs.append(pair)
         if len(pairs) == number:
             break
-    return FoundPairs(pairs=tuple(pairs), notes=tuple(notes))
+    return FoundPairs(pairs=tuple(pairs), notes=(*notes, *([] if known else tightest(met))))
 
 
 def best_dyads(
@@ -408,19 +408,18 @@ def best_dyads(
             step=_WIDTHS[-1],
         )
     ]
-    if not good.any():
-        return [], notes + tightest(met)
     best: list[GuidingDyad] = []
-    for rank in ranks[: np.count_nonzero(good)]:
-        dyad = dyads[rank]
+    for rank in ranks[: np.count_nonzero(good) or number]:  # where none of the sample is good, one beside it may be
+        dyad, meets = dyads[rank], False
         for width in _WIDTHS:
             others = [dyad, *near(dyad, width)]
-            dyad = others[ranked(others)[0][0]]
-        if all(abs(dyad.moving - each.moving) + abs(dyad.fixed - each.fixed) > _ALIKE for each in best):
+            order, fine, _ = ranked(others)
+            dyad, meets = others[order[0]], bool(fine[order[0]])
+        if meets and all(abs(dyad.moving - each.moving) + abs(dyad.fixed - each.fixed) > _ALIKE for each in best):
             best.append(dyad)
         if len(best) == number:
             break
-    return best, notes
+    return best, notes if best else notes + tightest(met)
 
 
 _SEARCHED = {
@@ -489,13 +488,14 @@ def _improved(
     demands: Demands,
     near: Nearby,
     orders: Sequence[str],
-) -> tuple[GuidingDyad, GuidingDyad]:
-    """The best pair nearby, on finer and finer grids about the best so far."""
+) -> tuple[tuple[GuidingDyad, GuidingDyad], bool]:
+    """The best pair nearby, on finer and finer grids about the best so far, and whether it meets all demands."""
+    meets = False
     for width in _WIDTHS:
         first, second = ([dyad, *near(dyad, width)] for dyad in pair)
         facts = pair_facts(task, first, second, demands)
         fails = np.sum([~flags for _, flags in facts.met(demands)], axis=0).astype(float)
         best = np.lexsort([cost.ravel() for cost in reversed([fails, *facts.costs(orders)])])[0]
         i, j = divmod(int(best), len(second))
-        pair = first[i], second[j]
-    return pair
+        pair, meets = (first[i], second[j]), fails[i, j] == 0
+    return pair, meets

@@ -273,7 +273,7 @@ def improved_pair(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -
     One of its dyads is held while the whole family of the other is searched, then the other way round. Where no pair
     meets the demands, the cranks of the first ones are held in turn. Cost: 1 s each time.
     """
-    best, pair = max(((_angle(task, demands, pair), pair) for pair in pairs), key=lambda row: row[0])
+    best, pair = max(((angle_of_pair(task, demands, pair), pair) for pair in pairs), key=lambda row: row[0])
     form, margin = form_symbols(f"{CRANK.form}-{pair[1].kind.form}"), MARGIN[len(task)]
     if best + margin >= pi / 2:
         return None, []  # no angle is larger
@@ -306,7 +306,7 @@ def best_beside(
 
     Cost: 1 to 4 s.
     """
-    begin = max((_angle(task, demands, pair) for pair in pairs), default=-np.inf)
+    begin = max((angle_of_pair(task, demands, pair) for pair in pairs), default=-np.inf)
     known, left = begin > -np.inf, 0.0
     better: list[Pair] = []
     margin = MARGIN[3] if known else 0.0
@@ -342,7 +342,7 @@ def _first_found(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) ->
     return None, [_BESIDE_NONE.filled(count=len(cranks), far=FAR)]
 
 
-def _angle(task: PositionTask, demands: Demands, pair: Pair) -> float:
+def angle_of_pair(task: PositionTask, demands: Demands, pair: Pair) -> float:
     """The transmission angle of a pair that meets the demands, minus infinity of others."""
     facts = pair_facts(task, pair[:1], pair[1:], demands)
     good = all(flags[0, 0] for _, flags in facts.met(demands)) and facts.branch[0, 0]

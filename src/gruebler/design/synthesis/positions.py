@@ -34,8 +34,8 @@ from gruebler.design.synthesis.dyads import (
 )
 from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design, order_notes
-from gruebler.design.synthesis.pair_search import FoundPairs, Nearby, best_pairs
-from gruebler.design.synthesis.partner_bounds import best_beside, improved_pair, slide_notes
+from gruebler.design.synthesis.pair_search import Nearby, best_pairs
+from gruebler.design.synthesis.partner_bounds import Pair, angle_of_pair, best_beside, improved_pair, slide_notes
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.special_tasks import refuse_one_joint, refuse_parallelograms, solved_where_it_lies
 from gruebler.design.synthesis.targets import Targets, position_targets
@@ -317,32 +317,38 @@ def _judged_best(
     def near(dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
         return [] if dyad in given else of_family(dyad, width)
 
-    searches: list[FoundPairs] = []
+    def found(
+        cranks: Sequence[GuidingDyad], second: Sequence[GuidingDyad], count: int, wished: Demands
+    ) -> tuple[list[Pair], list[Message]]:
+        search = best_pairs(task, cranks, wished, near, second=second, given=given, orders=sort, number=count)
+        if not search.pairs or len(task) == 4 or (given and (second or len(given) > 1)):
+            return [*search.pairs], [*search.notes]
+        if given:
+            better, proved = best_beside(task, wished, given[0], search.pairs)
+        else:
+            improved, proved = improved_pair(task, wished, search.pairs)
+            better = [improved] if improved else []
+        return [*better, *search.pairs], [*search.notes, *proved]
+
+    asked: list[tuple[Sequence[GuidingDyad], Sequence[GuidingDyad], int]] = []
     if len(turning) > 1:
-        searches.append(best_pairs(task, turning, demands, near, given=given, orders=sort, number=number))
+        asked.append((turning, (), number))
     for kind in (SLIDER, BLOCK):
         second = (
             [dyad for dyad in dyads if dyad.kind == kind] if len(task) == 4 else sliding_sample(task, kind, demands)
         )
         sliding += second[:: max(1, len(second) // 2)]
         if cranks := [dyad for dyad in given or turning if not dyad.slides] if second else []:
-            searches.append(
-                best_pairs(
-                    task, cranks, demands, near, second=second, given=given, orders=sort, number=max(1, number // 4)
-                )
-            )
-    pairs: list[tuple[GuidingDyad, GuidingDyad]] = []
-    for search in searches:
-        notes += search.notes
-        if len(task) < 4 and search.pairs and not given:
-            better, proved = improved_pair(task, demands, search.pairs)
-            pairs += [better] if better else []
-            notes += proved
-        elif len(given) == 1 and len(task) == 3 and search is searches[0]:
-            best, proved = best_beside(task, demands, given[0], search.pairs)
-            pairs += best
-            notes += proved
-        pairs += search.pairs
+            asked.append((cranks, second, max(1, number // 4)))
+    pairs: list[Pair] = []
+    for drivers, partners, count in asked:
+        some, said = found(drivers, partners, count, demands)
+        if demands.transmission > 0 and not any(angle_of_pair(task, demands, pair) > -np.inf for pair in some):
+            # Where none of the sample has the angle, the best without the demand may have it.
+            freed, _ = found(drivers, partners, count, replace(demands, transmission=0.0))
+            some = [pair for pair in freed if angle_of_pair(task, demands, pair) > -np.inf] + some
+        pairs += some
+        notes += said
     designs: list[Design] = []
     for done, (first, second_dyad) in enumerate(pairs, 1):
         with suppress(LinkageError):  # two dyads with a common pivot are no linkage
