@@ -94,15 +94,18 @@ def neighbours(
     limits the ones come first that are both alike and hardly beyond.
     """
     own, far = limits.pivots
-    most = _CANDIDATES if limits.narrow else number
+    both = own is not None and far is not None
+    narrow = limits.narrow or (both and limits.turning)  # those of the atlas turn fully
+    most = _CANDIDATES if narrow else number
     if own is not None and far is not None:
+        most = min(most, 4 * number)  # of which those that keep to limits come first
         miss, rows, side, phi = given_pivots_starts(z, own, far, most, closed=closed)
         starts = [
             CurveStart(float(m) ** 2, row, float(s), at) for m, row, s, at in zip(miss, rows.T, side, phi, strict=True)
         ]
     else:
         starts = _similar(z, limits, most, closed=closed, passed=passed)
-    if not limits.narrow:
+    if not narrow:
         return starts
     rows, phi = np.array([start.row for start in starts]).T, np.array([start.phi for start in starts])
     order = np.argsort(np.sqrt([start.gap for start in starts]) + limits.passed(rows, phi), kind="stable")

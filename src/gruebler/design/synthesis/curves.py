@@ -32,7 +32,7 @@ from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask
 from gruebler.mechanics.linkages import Linkage
 
 _STARTS = (40, 240)  # neighbours that are made better; a triangle needs the more
-_STARTS_ON_PIVOTS = (12, 80)  # if both fixed pivots are given: these are near already
+_STARTS_ON_PIVOTS = (12, 240)  # if both fixed pivots are given: these are near already
 _NEAR = 1e-3  # of the size: if the best of the first come nearer, more are not tried
 _SEQUENCES = 3  # of points with an order of their own, in which curves of the atlas are put onto them
 _STEPS = 300
@@ -80,7 +80,7 @@ def fit_curve(
         timing: (points,) crank angles, of which differences count; without them the crank angle of each point is free.
         kinds: of linkages.
         starts: how many neighbours of each kind are made better; by default 40, and 240 if these do not come near, or
-            too few of them meet fewer than nine points of an open curve exactly; with both pivots given 12 and 80.
+            too few of them meet fewer than nine points of an open curve exactly; with both pivots given 12 and 240.
         number: how many are returned.
         demands: limits that no linkage passes: region, size ratio, transmission angle, lengths, a crank that turns.
         pivots: one or both of the fixed pivots, in the plane of the points.

@@ -59,9 +59,9 @@ def given_pivots_starts(
             rest = f0 + np.real(m[:, None] * g0)
             c = np.sqrt(np.abs(m) ** 2 + np.mean(f + np.real(m[:, None] * g), axis=1))
             miss = np.sqrt(np.mean(rest**2, axis=1)) / (2 * c)
-        b = np.abs(m)
-        w = p * np.conj(m) / b
-        turned = np.imag(np.conj(far - pin) * theta * m[:, None])
+            b = np.abs(m)
+            w = p * np.conj(m) / b
+            turned = np.imag(np.conj(far - pin) * theta * m[:, None])
         held = [np.full(len(a), value) for value in (own.real, own.imag, far.real, far.imag)]
         rows = np.array([*held, a, b, c, w.real, w.imag])
         side = np.where((turned > 0).mean(axis=1) > 0.5, 1.0, -1.0)
