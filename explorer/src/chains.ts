@@ -120,9 +120,17 @@ export class ChainList {
     this.#count.textContent = shown < total ? t("{shown} of {total} chains", { shown, total }) : one;
     // without a list of names, if there is one
     const drawn = (own?.inversions.find(({ frame }) => frame === own.chosen) ?? own)?.picture ?? "";
-    const mine = own
-      ? [this.#card(own.text, drawn, own.name ? t("Yours: {name}", { name: own.name }) : t("Your machine"), "data-own")]
-      : [];
+    const mine =
+      own?.links.length === this.#links
+        ? [
+            this.#card(
+              own.text,
+              drawn,
+              own.name ? t("Yours: {name}", { name: own.name }) : t("Your machine"),
+              "data-own",
+            ),
+          ]
+        : [];
     if (!total) {
       const odd = (this.#links + this.mobility) % 2 === 0;
       const why = odd
@@ -137,9 +145,11 @@ export class ChainList {
         "div.cards.few",
         { "data-list": "chains" },
         ...mine,
-        ...items.map(({ name, text, picture }, k) =>
-          this.#card(text, picture, name[currentLanguage()] || `${k + 1}`, "data-chain"),
-        ),
+        // the machine at hand takes the place of its chain
+        ...items.map(({ name: names, text, picture }, k) => {
+          const name = names[currentLanguage()];
+          return name && name === own?.name ? null : this.#card(text, picture, name || `${k + 1}`, "data-chain");
+        }),
       ),
       ...more,
     );
