@@ -360,8 +360,9 @@ def _demands(arguments: argparse.Namespace) -> Demands:
 def _lengths(rows: Sequence[tuple[str, str]]) -> tuple[tuple[str, float], ...]:
     try:
         return tuple((link, float(length)) for link, length in rows)
-    except ValueError as error:
-        raise SynthesisError("--length: expected a link and its length, but found {found}", found=error) from None
+    except ValueError:
+        found = ", ".join(map(" ".join, rows))
+        raise SynthesisError("--length: expected a link and its length, but found {found}", found=found) from None
 
 
 def _dead_centres(arguments: argparse.Namespace) -> Task:

@@ -81,3 +81,40 @@ def _conditions(task, m):
 def test_a_pivot_outside_the_region_is_refused():
     with pytest.raises(SynthesisError, match=r"fixed_pivots: \(0, -3\) lies outside the region"):
         synthesise_positions(given(3, "fixed_pivots"), Demands(region=(-1, -1, 1, 1)))
+
+
+def test_a_pivot_that_moves_in_line_is_that_of_a_slide():
+    """Three places on a line; the coupler turns 50 degrees against it, so the angle is 90 - 50/2 at most, by hand."""
+    task = PositionTask([(0, 0, 0), (1, 0, np.radians(20)), (2, 0, np.radians(50))], moving_pivots=[(0, 0)])
+    found = synthesise_positions(task, number=8)
+    assert len(found.designs) == 8
+    assert {design.form for design in found.designs} == {"RR-PR"}
+    best = max(design.verdict.transmission for design in found.designs)
+    assert np.degrees(best) == pytest.approx(65, abs=0.06)
+
+
+@pytest.mark.parametrize("count", [3, 4])
+def test_given_lengths_are_those_of_designs(count):
+    """Of crank and frame, and all the way by simulation; no member of a sample has them."""
+    task = PositionTask(given(count, "fixed_pivots").positions)
+    found = synthesise_positions(
+        task, Demands(lengths={"crank": 2.75} | ({} if count > 3 else {"frame": 5.5})), number=6
+    )
+    four_bars = np.array([pivots_of(design) for design in found.designs if design.form == "RR-RR"])
+    assert len(four_bars) >= 2
+    assert np.abs(four_bars[:, 1] - four_bars[:, 0]) == pytest.approx(2.75, abs=1e-8)
+    if count < 4:
+        assert np.abs(four_bars[:, 3] - four_bars[:, 0]) == pytest.approx(5.5, abs=1e-8)
+    z, turns = task.origins, np.exp(1j * (task.angles - task.angles[0]))
+    moved = z + (four_bars[:, 1:3, None] - z[0]) * turns
+    reached = zip(*simulated(four_bars.T, moved.transpose(1, 0, 2)), strict=True)
+    assert all(passes(*both, tuple(range(count))) for both in reached)
+
+
+def test_places_in_sentences_are_those_of_a_task_far_from_the_origin():
+    far = [(x + 5000, y + 2000, np.radians(angle)) for x, y, angle in ROWS[:3]]
+    with pytest.raises(SynthesisError, match=r"\(5000, 1997\) lies outside the region"):
+        synthesise_positions(PositionTask(far, fixed_pivots=[(5000, 1997)]), Demands(region=(5000, 2000, 5003, 2003)))
+    turned = [(5003 + 2 * np.cos(a), 2002 + 2 * np.sin(a), a) for a in (0, 0.3, 0.8)]
+    with pytest.raises(SynthesisError, match=r"turns about \(5003, 2002\)"):
+        synthesise_positions(PositionTask(turned))

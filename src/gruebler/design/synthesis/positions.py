@@ -61,6 +61,14 @@ _ENDS = 64
 _PLANE = 40.0  # sizes of the task: the plane in which pivots are sought counts as so long
 
 _FOUR_BAR = f"{CRANK.form}-{CRANK.form}"
+_NAMED = {
+    _FOUR_BAR: "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); frame=frame; drive=R(frame-crank)",
+    f"{CRANK.form}-{SLIDER.form}": (
+        "R(frame-crank) R(crank-coupler) R(coupler-slider) P(frame-slider); frame=frame; drive=R(frame-crank)"
+    ),
+}
+"""Linkages whose links may have given lengths, by their forms."""
+_LEAST_TOLERANCE = 2e-6  # with a smaller one structures are accepted that come near
 DYADS = message("dyads")
 _FAMILIES = {
     2: message(
@@ -226,6 +234,8 @@ def synthesise_positions(
         raise SynthesisError("four-bars have no pivots to choose for more than four positions; six-bars have some")
     refuse_one_joint(task)
     refuse_parallelograms(task)
+    if wanted.lengths and len(task) < 5 and not (task.moving_pivots or task.curve_parameters):
+        return _with_lengths(task, wanted, number, progress)
     chosen = len(task.moving_pivots) + len(task.fixed_pivots) + len(task.curve_parameters)
     searched = len(task) < 5 and chosen < 2
     given = _of_one_pivot(task) if searched and chosen else []
@@ -253,19 +263,48 @@ def synthesise_positions(
     if not searched:
         notes += order_notes(candidates, wanted)
     if searched and not given and len(task) == 4 and sum(not dyad.slides for dyad in dyads) > 1:
-        angles = [design.verdict.transmission for design in designs if design.form == _FOUR_BAR]
-        notes += bound_notes(task, wanted, max(angles, default=None))
-        for kind in (SLIDER, BLOCK):
-            form, slides = f"{CRANK.form}-{kind.form}", [dyad for dyad in dyads if dyad.kind == kind]
-            angles = [design.verdict.transmission for design in designs if design.form == form]
-            if slides:
-                notes += slide_notes(task, wanted, slides, max(angles, default=None), form)
+        notes += _proved(task, wanted, dyads, designs)
     return SynthesisResult(
         task=task,
         designs=designs,
         rejected=rejected,
         count=SolutionCount(what=DYADS, theorem=THEOREM[len(task)], found=complex_dyads, real=len(dyads)),
         notes=tuple(notes),
+    )
+
+
+def _proved(
+    task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad], designs: Sequence[Design]
+) -> Iterator[Message]:
+    """What no linkage of the family of four positions does better than these designs."""
+    angles = [design.verdict.transmission for design in designs if design.form == _FOUR_BAR]
+    yield from bound_notes(task, demands, max(angles, default=None))
+    for kind in (SLIDER, BLOCK):
+        form, slides = f"{CRANK.form}-{kind.form}", [dyad for dyad in dyads if dyad.kind == kind]
+        angles = [design.verdict.transmission for design in designs if design.form == form]
+        if slides:
+            yield from slide_notes(task, demands, slides, max(angles, default=None), form)
+
+
+def _with_lengths(task: PositionTask, demands: Demands, number: int, progress: Progress | None) -> SynthesisResult:
+    """Linkages with given lengths, which no member of a sample has: by least squares with these lengths held."""
+    from gruebler.design.synthesis.structures import synthesise_structures
+
+    forms = {_mechanism(text): form for form, text in _NAMED.items()}
+    given = {link for link, _ in demands.lengths}
+    some = [each for each in forms if given <= set(each.chain.links)]
+    exact = replace(demands, tolerance=max(demands.tolerance, _LEAST_TOLERANCE))
+    found = synthesise_structures(task, some, exact, starts=number, link="coupler", progress=progress)
+    designs, rejected = ranked(
+        replace(design, form=forms[design.linkage.mechanism]) for design in (*found.designs, *found.rejected)
+    )
+    note = message("Given lengths: linkages are sought by least squares, so that there may be others.")
+    return replace(
+        found,
+        designs=designs,
+        rejected=rejected,
+        count=SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs)),
+        notes=(note, *found.notes),
     )
 
 
@@ -321,9 +360,10 @@ def _judged_best(
         cranks: Sequence[GuidingDyad], second: Sequence[GuidingDyad], count: int, wished: Demands
     ) -> tuple[list[Pair], list[Message]]:
         search = best_pairs(task, cranks, wished, near, second=second, given=given, orders=sort, number=count)
-        if not search.pairs or len(task) == 4 or (given and (second or len(given) > 1)):
+        turns = given and not given[0].slides
+        if not search.pairs or len(task) == 4 or (turns and (second or len(given) > 1)):
             return [*search.pairs], [*search.notes]
-        if given:
+        if turns:
             better, proved = best_beside(task, wished, given[0], search.pairs)
         else:
             improved, proved = improved_pair(task, wished, search.pairs)
@@ -331,14 +371,16 @@ def _judged_best(
         return [*better, *search.pairs], [*search.notes, *proved]
 
     asked: list[tuple[Sequence[GuidingDyad], Sequence[GuidingDyad], int]] = []
-    if len(turning) > 1:
+    if given and given[0].slides:
+        asked.append((turning, given, number))
+    elif len(turning) > 1:
         asked.append((turning, (), number))
-    for kind in (SLIDER, BLOCK):
+    for kind in () if given and given[0].slides else (SLIDER, BLOCK):
         second = (
             [dyad for dyad in dyads if dyad.kind == kind] if len(task) == 4 else sliding_sample(task, kind, demands)
         )
         sliding += second[:: max(1, len(second) // 2)]
-        if cranks := [dyad for dyad in given or turning if not dyad.slides] if second else []:
+        if second and (cranks := list(given or turning)):
             asked.append((cranks, second, max(1, number // 4)))
     pairs: list[Pair] = []
     for drivers, partners, count in asked:

@@ -5,7 +5,7 @@ docs/theory/synthesis-positions.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import wraps
 from inspect import signature
@@ -48,11 +48,21 @@ def solved_where_it_lies(method: Callable[_P, SynthesisResult]) -> Callable[_P, 
             region = tuple(edge - by for edge, by in zip(demands.region, (x, y, x, y), strict=True))
             given.arguments["demands"] = replace(demands, region=region)
         given.arguments["task"] = task.shifted(-x, -y)
-        result = method(*given.args, **given.kwargs)
+        try:
+            result = method(*given.args, **given.kwargs)
+        except SynthesisError as error:
+            raise SynthesisError(error.text, **_places_shifted(error.values, x, y)) from None
         designs, rejected = (tuple(_shifted(each, x, y) for each in row) for row in (result.designs, result.rejected))
-        return replace(result, task=task, designs=designs, rejected=rejected)
+        notes = tuple(replace(note, values=_places_shifted(note.values, x, y)) for note in result.notes)
+        return replace(result, task=task, designs=designs, rejected=rejected, notes=notes)
 
     return solved
+
+
+def _places_shifted(values: Mapping[str, Any], x: float, y: float) -> dict[str, Any]:
+    """The values of a sentence with its places, x, y and u, v, at another place of the plane."""
+    by = {"x": x, "y": y, "u": x, "v": y}
+    return {name: value + by[name] if name in by else value for name, value in values.items()}
 
 
 def _shifted(design: Design, x: float, y: float) -> Design:

@@ -151,10 +151,10 @@ class PositionTask:
                 "these for {count}",
                 count=len(rows),
             )
-        if len(rows) > 4 and len(self.fixed_pivots) == 2:
+        if len(self.fixed_pivots) == 2:
             crank, rocker = (complex(*pivot) for pivot in self.fixed_pivots)
             if abs(crank - rocker) <= SAME * self.size:
-                raise SynthesisError("fixed_pivots: the two pivots coincide")
+                raise SynthesisError("{key}: the two pivots coincide", key="fixed_pivots")
         places = _numbers(self, "curve_parameters")
         settle(self, curve_parameters=places)
         if places and len(rows) != 4:
@@ -269,7 +269,7 @@ class PathTask:
         if len(pivots) > 2:
             raise SynthesisError("fixed_pivots: expected one or two, but found {count}", count=len(pivots))
         if len(pivots) == 2 and abs(complex(*pivots[0]) - complex(*pivots[1])) <= SAME * self.size:
-            raise SynthesisError("fixed_pivots: the two pivots coincide")
+            raise SynthesisError("{key}: the two pivots coincide", key="fixed_pivots")
         for name in ("tolerances", "weights"):
             for k, value in enumerate(getattr(self, name)):
                 if value is not None and value < 0:
