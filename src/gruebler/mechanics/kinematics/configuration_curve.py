@@ -304,11 +304,9 @@ def _follow(system: ClosureSystem, pose: Reals, tangent: Reals, longest: float, 
         elif status == FLIP:
             chord = float(np.linalg.norm(curve.poses[count] - curve.poses[count - 1]))
             ends = curve.poses[count - 1], curve.poses[count]
-            change_pose = _change(system, *ends) if chord <= _SHORT else None
-            several = False
-            if change_pose is None and chord <= _SHORT:
-                change_pose, lost = _meeting(system, *ends, curve.tangents[count - 1])
-                several = lost > 1
+            change_pose, several = None, False
+            if chord <= _SHORT:
+                change_pose, several = _change_or_meeting(system, *ends, curve.tangents[count - 1])
             if change_pose is None:
                 step = chord / 2
                 if step < SHORTEST:
@@ -350,6 +348,20 @@ def _is_start(curve: SampleBuffer, sample: int) -> bool:
     gap = curve.poses[sample] - curve.poses[0]
     gap[2::3] -= 2 * np.pi * np.round(gap[2::3] / (2 * np.pi))
     return bool(sample > 1 and np.abs(gap).max() < _SAME and curve.tangents[sample] @ curve.tangents[0] > _AHEAD)
+
+
+def _change_or_meeting(system: ClosureSystem, first: Reals, second: Reals, tangent: Reals) -> tuple[Reals | None, bool]:
+    """The change point between two neighbouring samples, None if there is none; whether several curves meet there.
+
+    Newton's method for one other curve hardly converges where several meet, but it may, so their number is counted.
+    """
+    pose = _change(system, first, second)
+    if pose is None:
+        pose, lost = _meeting(system, first, second, tangent)
+    else:
+        singular = np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[: system.unknowns - 1]
+        lost = int(np.count_nonzero(singular < _ZERO))
+    return pose, lost > 1
 
 
 def _change(closure: ClosureSystem, first: Reals, second: Reals) -> Reals | None:
@@ -452,11 +464,8 @@ def _quiet_changes(system: ClosureSystem, samples: TracedCurve, gauges: Reals) -
     changes = []
     for k in range(1, len(gauges) - 1):
         if gauges[k] < min(_SMALL, gauges[k - 1]) and gauges[k] <= gauges[k + 1]:
-            pose = _change(system, samples.poses[k - 1], samples.poses[k + 1])
-            several = False
-            if pose is None:
-                pose, lost = _meeting(system, samples.poses[k - 1], samples.poses[k + 1], samples.tangents[k])
-                several = lost > 1
+            ends = samples.poses[k - 1], samples.poses[k + 1]
+            pose, several = _change_or_meeting(system, *ends, samples.tangents[k])
             if pose is None or np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[system.unknowns - 2] > _ZERO:
                 continue
             ahead = (pose - samples.poses[k]) @ samples.tangents[k] >= 0
