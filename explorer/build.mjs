@@ -109,13 +109,13 @@ const often = `
 `.match(/\w+/g);
 
 /** These names, as members and as keys, and what else stands there as often, as constants: texts that are keys or
- * operands, told by the signs beside them, and `void 0`. */
+ * operands, told by the signs beside them (not values in a selector, `[role="tab"]`), and `void 0`. */
 function shared(code) {
   const taken = new Set(code.match(/[\w$]+/g));
   const letters = [..."abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"];
   const pairs = letters.flatMap((one) => letters.map((other) => one + other));
   const unused = pairs.filter((pair) => !taken.has(pair) && !/^(do|if|in|of)$/.test(pair));
-  const repeated = /(?<=[([{,=?:&|+>])"([\w .#-]{4,60})"(?=[)\]},?:;&|+])/g;
+  const repeated = /(?<=[([{,=?:&|+>])(?<!\[[a-z-]+=)"([\w .#-]{4,60})"(?=[)\]},?:;&|+])/g;
   const names = `(${often.join("|")})`;
   // texts are passed over
   const member = new RegExp(`"(?:[^"\\\\]|\\\\.)*"|(\\?\\.|\\.)${names}\\b|([{,])${names}(?=:)|\\bvoid 0`, "g");

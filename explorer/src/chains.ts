@@ -122,14 +122,7 @@ export class ChainList {
     const drawn = (own?.inversions.find(({ frame }) => frame === own.chosen) ?? own)?.picture ?? "";
     const mine =
       own?.links.length === this.#links
-        ? [
-            this.#card(
-              own.text,
-              drawn,
-              own.name ? t("Yours: {name}", { name: own.name }) : t("Your machine"),
-              "data-own",
-            ),
-          ]
+        ? [this.#card(own.text, drawn, own.name ? t("Yours: {name}", { name: own.name }) : t("Your machine"))]
         : [];
     if (!total) {
       const odd = (this.#links + this.mobility) % 2 === 0;
@@ -148,19 +141,19 @@ export class ChainList {
         // the machine at hand takes the place of its chain
         ...items.map(({ name: names, text, picture }, k) => {
           const name = names[currentLanguage()];
-          return name && name === own?.name ? null : this.#card(text, picture, name || `${k + 1}`, "data-chain");
+          return name && name === own?.name ? null : this.#card(text, picture, name || `${k + 1}`);
         }),
       ),
       ...more,
     );
   }
 
-  #card(text: string, picture: string, name: string, kind: string): HTMLElement {
+  #card(text: string, picture: string, name: string): HTMLElement {
     const of = text.split(";")[0]!;
     return h(
       "button.card",
       {
-        [kind]: text,
+        "data-chain": text,
         "data-of": of,
         "aria-pressed": String(of === this.#chosen),
         onclick: () => this.take(text),

@@ -77,18 +77,21 @@ export class DesignCards {
     return this.#shown[0] ?? null;
   }
 
-  #sorted(order = this.#order): Design[] {
+  #sorted(): Design[] {
     const items = this.#found?.items ?? [];
-    const places = order === "balanced" ? LEVEL.map((level) => this.#sorted(level)) : [];
-    const worth = (design: Design) =>
-      ({
-        error: exact(design.error) ? 0 : Math.abs(design.error!),
-        balanced: places.reduce((sum, sorted) => sum + sorted.indexOf(design), 0),
-        size: design.size,
-        transmission: -(design.transmission ?? 0),
-        range: -(design.range ?? design.transmission ?? 0),
-        shift: design.shift ?? Infinity,
-      })[order];
+    // a place is how many are better, so that equal ones have the same
+    const place = (design: Design, level: Order) =>
+      items.filter((other) => worth(other, level) < worth(design, level)).length;
+    const worth = (design: Design, by = this.#order): number =>
+      by === "balanced"
+        ? LEVEL.reduce((sum, level) => sum + place(design, level), 0)
+        : {
+            error: exact(design.error) ? 0 : Math.abs(design.error!),
+            size: design.size,
+            transmission: -(design.transmission ?? 0),
+            range: -(design.range ?? design.transmission ?? 0),
+            shift: design.shift ?? Infinity,
+          }[by];
     return [...items].sort((one, two) => worth(one) - worth(two) || 0);
   }
 

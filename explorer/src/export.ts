@@ -62,7 +62,7 @@ export function showExport(root: HTMLElement, page: Page, shown: Exported): void
   const dialog = showOver(root, t("Save and export"), told, ...groupsOf(page, shown, say));
   dialog.dataset.panel = "export";
   dialog.addEventListener("click", ({ target }) => {
-    if (target === dialog || (target as Element).matches('[data-act="share"]')) dialog.close();
+    if (target === dialog || (target as Element).matches("[data-act=share]")) dialog.close();
   });
 }
 

@@ -52,7 +52,7 @@ export function tabs(keys: string[], chosen: string, turnTo: (key: string) => vo
 /** On a phone tabs are wider than the screen: the chosen one stands in the middle, the page where it is. */
 export function centred(list: HTMLElement): HTMLElement {
   requestAnimationFrame(() => {
-    const here = list.querySelector<HTMLElement>('[aria-selected="true"], [aria-current]');
+    const here = list.querySelector<HTMLElement>("[aria-selected=true], [aria-current]");
     if (here) list.scrollLeft = here.offsetLeft - list.offsetLeft - (list.clientWidth - here.offsetWidth) / 2;
   });
   return list;

@@ -65,7 +65,7 @@ export class MobilityPanel {
       const text = frame === null ? t("Put a ground") : t("Draw links, at least three.");
       return renew(this.element, ...(linksOf(drawing).length ? [count] : []), h("p.note", {}, text));
     }
-    if (this.element.querySelector('[data-fact="freedoms"]')) this.element.firstChild!.replaceWith(count);
+    if (this.element.querySelector("[data-fact=freedoms]")) this.element.firstChild!.replaceWith(count);
     else renew(this.element, count, moment());
     this.element.classList.add("asking"); // what was offered before does not hold any more
     const numbers = jointsOf(drawing);

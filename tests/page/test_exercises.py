@@ -177,6 +177,8 @@ def test_answers_and_hints_in_german_on_a_phone(exercises):
     assert formulas.first.locator("i").all_inner_texts() == ["la", "a", "b"]
     assert formulas.first.locator("sub").first.inner_text() == "a"
     assert page.page.evaluate("document.documentElement.scrollWidth") <= 390
+    own = page.page.locator('[role="tab"][aria-selected="true"]').bounding_box()
+    assert 0 <= own["x"] < own["x"] + own["width"] <= 390  # the tabs are moved to the last one
     page.page.fill('[data-answer="H"]', "6o")
     page.page.click('[data-act="mark"]')
     page.until("gruebler.root.querySelector('#hint-H').textContent.includes('6o')")

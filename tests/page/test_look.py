@@ -409,7 +409,8 @@ def test_what_is_chosen_among_drives_stays_where_it_is(tab, server):
     page = tab(width=390, height=844, touch=True).open(server.address)
     page.page.set_default_timeout(60_000)
     page.page.locator('[data-view="structure"]').tap()
-    page.page.locator("[data-chain]").first.tap()
+    page.page.locator("[data-chain]").first.wait_for()
+    page.page.evaluate("gruebler.describe('R(0-1) R(1-2) R(2-3) R(3-0)')")
     chosen = "gruebler.views.structure.structure?.inversions.some(({ frame }) => frame === '0')"
     page.until(chosen)
     page.page.locator('[data-list="inversions"] .card').first.tap()

@@ -361,8 +361,8 @@ def _lengths(rows: Sequence[tuple[str, str]]) -> tuple[tuple[str, float], ...]:
     try:
         return tuple((link, float(length)) for link, length in rows)
     except ValueError:
-        found = ", ".join(map(" ".join, rows))
-        raise SynthesisError("--length: expected a link and its length, but found {found}", found=found) from None
+        written = ", ".join(map(" ".join, rows))
+        raise SynthesisError("--length: expected a link and its length, but found {found}", found=written) from None
 
 
 def _dead_centres(arguments: argparse.Namespace) -> Task:

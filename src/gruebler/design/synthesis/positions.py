@@ -294,17 +294,17 @@ def _with_lengths(task: PositionTask, demands: Demands, number: int, progress: P
     given = {link for link, _ in demands.lengths}
     some = [each for each in forms if given <= set(each.chain.links)]
     exact = replace(demands, tolerance=max(demands.tolerance, _LEAST_TOLERANCE))
-    found = synthesise_structures(task, some, exact, starts=number, link="coupler", progress=progress)
+    fitted = synthesise_structures(task, some, exact, starts=number, link="coupler", progress=progress)
     designs, rejected = ranked(
-        replace(design, form=forms[design.linkage.mechanism]) for design in (*found.designs, *found.rejected)
+        replace(design, form=forms[design.linkage.mechanism]) for design in (*fitted.designs, *fitted.rejected)
     )
     note = message("Given lengths: linkages are sought by least squares, so that there may be others.")
     return replace(
-        found,
+        fitted,
         designs=designs,
         rejected=rejected,
         count=SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs)),
-        notes=(note, *found.notes),
+        notes=(note, *fitted.notes),
     )
 
 
@@ -356,7 +356,7 @@ def _judged_best(
     def near(dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
         return [] if dyad in given else of_family(dyad, width)
 
-    def found(
+    def sought(
         cranks: Sequence[GuidingDyad], second: Sequence[GuidingDyad], count: int, wished: Demands
     ) -> tuple[list[Pair], list[Message]]:
         search = best_pairs(task, cranks, wished, near, second=second, given=given, orders=sort, number=count)
@@ -384,10 +384,10 @@ def _judged_best(
             asked.append((cranks, second, max(1, number // 4)))
     pairs: list[Pair] = []
     for drivers, partners, count in asked:
-        some, said = found(drivers, partners, count, demands)
+        some, said = sought(drivers, partners, count, demands)
         if demands.transmission > 0 and not any(angle_of_pair(task, demands, pair) > -np.inf for pair in some):
             # Where none of the sample has the angle, the best without the demand may have it.
-            freed, _ = found(drivers, partners, count, replace(demands, transmission=0.0))
+            freed, _ = sought(drivers, partners, count, replace(demands, transmission=0.0))
             some = [pair for pair in freed if angle_of_pair(task, demands, pair) > -np.inf] + some
         pairs += some
         notes += said
