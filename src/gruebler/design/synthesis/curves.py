@@ -24,8 +24,8 @@ from gruebler.design.synthesis.fit_limits import FourBarLimits, crank_turns
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK, FourBarKind
 from gruebler.design.synthesis.judging import Demands, best_of, order_notes, sought_order
-from gruebler.design.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
-from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.positions import four_bar_linkages, linkage_of_dyads
+from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of, ranked
 from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask

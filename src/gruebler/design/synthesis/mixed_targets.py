@@ -21,8 +21,8 @@ from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.fit_limits import FourBarLimits, crank_turns
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK, FourBarKind
 from gruebler.design.synthesis.judging import EXACT_AT_MOST, Demands, judge_design, order_notes, sought_order
-from gruebler.design.synthesis.positions import linkage_of_dyads, ranked
-from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.positions import linkage_of_dyads
+from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of, ranked
 from gruebler.design.synthesis.target_bands import STAGES, TargetBands, numbers_or
 from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.targets import Probe, Targets

@@ -18,8 +18,8 @@ from gruebler.base.text import message
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem
 from gruebler.design.synthesis.finite_points import all_four_bars, check_general, crowded, points_between
 from gruebler.design.synthesis.judging import Demands, order_notes, sought_order
-from gruebler.design.synthesis.positions import ranked, synthesise_positions
-from gruebler.design.synthesis.results import EXACT, Design, Progress, SolutionCount, SynthesisResult
+from gruebler.design.synthesis.positions import synthesise_positions
+from gruebler.design.synthesis.results import EXACT, Design, Progress, SolutionCount, SynthesisResult, ranked
 from gruebler.design.synthesis.special_tasks import solved_where_it_lies
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask, PositionTask
 from gruebler.design.synthesis.timed_points import (

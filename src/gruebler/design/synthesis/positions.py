@@ -36,7 +36,7 @@ from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design, order_notes
 from gruebler.design.synthesis.pair_search import Nearby, best_pairs
 from gruebler.design.synthesis.partner_bounds import Pair, angle_of_pair, best_beside, improved_pair, slide_notes
-from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of, ranked
 from gruebler.design.synthesis.special_tasks import refuse_one_joint, refuse_parallelograms, solved_where_it_lies
 from gruebler.design.synthesis.targets import Targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PositionTask
@@ -306,14 +306,6 @@ def _with_lengths(task: PositionTask, demands: Demands, number: int, progress: P
         count=SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs)),
         notes=(note, *fitted.notes),
     )
-
-
-def ranked(candidates: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
-    """Accepted designs, those with a full turn and the largest transmission angle first, and rejected ones."""
-    usual = in_order_of(candidates, ("full-turn", "transmission", "size-ratio"))
-    accepted = [design for design in usual if design.verdict.accepted]
-    rejected = sorted((d for d in usual if not d.verdict.accepted), key=lambda design: len(design.verdict.reasons))
-    return tuple(accepted), tuple(rejected)
 
 
 def _judged_pairs(

@@ -378,3 +378,11 @@ def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
     ]
     best = [row for row in rows if not any(other.dominates(row) for other in rows)]
     return tuple(sorted(best, key=lambda row: row._costs))
+
+
+def ranked(candidates: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
+    """Accepted designs, those with a full turn and the largest transmission angle first, and rejected ones."""
+    usual = in_order_of(candidates, ("full-turn", "transmission", "size-ratio"))
+    accepted = [design for design in usual if design.verdict.accepted]
+    rejected = sorted((d for d in usual if not d.verdict.accepted), key=lambda design: len(design.verdict.reasons))
+    return tuple(accepted), tuple(rejected)

@@ -31,8 +31,7 @@ from gruebler.design.synthesis.alt_burmester import (
 from gruebler.design.synthesis.coordination import pair_arrays
 from gruebler.design.synthesis.judging import Demands, judge_design
 from gruebler.design.synthesis.law_motion import over_interval
-from gruebler.design.synthesis.positions import ranked
-from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of, ranked
 from gruebler.design.synthesis.six_bar_census import ELEVEN, START_SOLUTIONS, Census, as_start_solutions, kept_census
 from gruebler.design.synthesis.six_bar_monodromy import LOOPS, LoopVectors, loop_vectors
 from gruebler.design.synthesis.six_bar_starts import StartSet, eight_pairs, start_set

@@ -42,7 +42,6 @@ from gruebler.design.synthesis.judging import (
 )
 from gruebler.design.synthesis.law_motion import over_interval
 from gruebler.design.synthesis.pair_search import WITHOUT, demands_met, tightest
-from gruebler.design.synthesis.positions import ranked
 from gruebler.design.synthesis.results import (
     FITTED,
     Design,
@@ -51,6 +50,7 @@ from gruebler.design.synthesis.results import (
     SolutionCount,
     SynthesisResult,
     in_order_of,
+    ranked,
 )
 from gruebler.design.synthesis.special_tasks import solved_where_it_lies
 from gruebler.design.synthesis.structure_atlas import dyad_structure
