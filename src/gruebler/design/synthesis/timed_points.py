@@ -17,10 +17,9 @@ from gruebler.design.synthesis.positions import (
     guiding_dyads,
     linkage_of_dyads,
     near_in_plane,
-    ranked,
     sliding_sample,
 )
-from gruebler.design.synthesis.results import Design, SolutionCount, SynthesisResult
+from gruebler.design.synthesis.results import Design, SolutionCount, SynthesisResult, ranked
 from gruebler.design.synthesis.targets import Probe, Targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PathTask, PositionTask
 
