@@ -10,17 +10,33 @@ import { build } from "esbuild";
 const here = path.dirname(fileURLToPath(import.meta.url));
 const target = process.argv[2] ?? path.join(here, "../src/gruebler/page/static");
 
-/** Bytes as text: thirteen bits in two of the 91 characters from " " to "}" without quote, "<" and backslash; the last
- * six or fewer in one. */
+// All of ASCII that may stand in a text of a script within a page.
+const SIGNS = Array.from({ length: 127 }, (_, k) => String.fromCharCode(k + 1)).filter(
+  (sign) => !/["<\\\n\r]/.test(sign),
+);
+
+/** Bytes as text: six in seven of the 122 signs; of the last n, if they are fewer, n + 1. */
 function written(bytes) {
-  const bits = Array.from(bytes, (byte) => byte.toString(2).padStart(8, "0")).join("");
-  const sign = (digit) => String.fromCharCode(32 + digit + (digit > 1) + (digit > 26) + (digit > 57));
-  const pairs = (bits.match(/.{1,13}/g) ?? []).map((part) => {
-    if (part.length < 7) return sign(parseInt(part.padEnd(6, "0"), 2));
-    const value = parseInt(part.padEnd(13, "0"), 2);
-    return sign(Math.floor(value / 91)) + sign(value % 91);
-  });
-  return JSON.stringify(pairs.join(""));
+  let text = "";
+  for (let at = 0; at < bytes.length; at += 6) {
+    const some = bytes.subarray(at, at + 6);
+    let value = some.reduce((sum, byte) => 256 * sum + byte, 0);
+    let group = "";
+    for (let k = 0; k <= some.length; k++) {
+      group = SIGNS[value % SIGNS.length] + group;
+      value = Math.floor(value / SIGNS.length);
+    }
+    text += group;
+  }
+  return text;
+}
+
+/** Texts that stand in the modules in the end only: the bundler would write signs out, "\\x01". */
+const kept = [];
+
+/** What stands for packed bytes until then. */
+function standIn(bytes) {
+  return JSON.stringify(`packed ${kept.push(written(bytes)) - 1}`);
 }
 
 const german = JSON.parse(await readFile(path.join(here, "src/de.json"), "utf8"));
@@ -53,13 +69,13 @@ const packed = {
       return { contents: given(bare(numbered(await readFile(file, "utf8")))), loader: "ts" };
     });
     onLoad({ filter: /\.gz$/ }, async ({ path: file }) => {
-      const contents = `import { bytesOf } from "./packed";\nexport default bytesOf(${written(await readFile(file))});`;
+      const contents = `import { bytesOf } from "./packed";\nexport default bytesOf(${standIn(await readFile(file))});`;
       return { contents, loader: "js", resolveDir: path.join(here, "src") };
     });
     // all of one language, then all of the other: what is alike stands nearer
     onLoad({ filter: /\bde\.json$/ }, async () => {
       const lines = [...texts, ...texts.map((one) => german[one])].join("\n");
-      const text = `await textOf(${written(await zopfli.gzipAsync(Buffer.from(lines), {}))})`;
+      const text = `await textOf(${standIn(await zopfli.gzipAsync(Buffer.from(lines), {}))})`;
       const table = `all.splice(0, ${texts.length}).map((text, k) => [text, all[k]])`;
       const contents = `import { textOf } from "./packed";
         const all = (${text}).split("\\n");
@@ -160,7 +176,11 @@ const { outputFiles } = await build({
   plugins: [packed],
   write: false,
 });
-for (const { path: file, text } of outputFiles) await writeFile(file, shared(text));
+for (const { path: file, text } of outputFiles)
+  await writeFile(
+    file,
+    shared(text).replace(/"packed (\d+)"/g, (_, number) => `"${kept[number]}"`),
+  );
 
 // Before the script is there nobody but the browser knows which colours are wanted: dark ones stand there twice.
 const night = /:host\(\[data-theme="dark"\]\)(\{[^}]*\})/;

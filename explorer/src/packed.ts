@@ -20,19 +20,19 @@ export function fromBase64(text: string): Uint8Array<ArrayBuffer> {
 
 /** The bytes that `written` of build.mjs made a text of. */
 export function bytesOf(text: string): Uint8Array<ArrayBuffer> {
-  const out = new Uint8Array(((13 * text.length) / 2) >> 3);
-  const digit = (k: number) => {
-    const code = text.charCodeAt(k);
-    return code - 32 - Number(code > 34) - Number(code > 60) - Number(code > 92);
-  };
-  let [rest, bits, to] = [0, 0, 0];
-  for (let k = 0; k < text.length; k += 2) {
-    const wide = k + 1 < text.length ? 13 : 6;
-    rest = (rest << wide) | (wide > 6 ? 91 * digit(k) + digit(k + 1) : digit(k));
-    for (bits += wide; bits >= 8; ) {
-      bits -= 8;
-      out[to++] = rest >> bits;
-      rest &= (1 << bits) - 1;
+  const groups = Math.ceil(text.length / 7);
+  const out = new Uint8Array(text.length - groups);
+  for (let group = 0; group < groups; group++) {
+    const signs = text.slice(7 * group, 7 * group + 7);
+    let value = 0;
+    for (const sign of signs) {
+      const code = sign.charCodeAt(0);
+      const skipped = [0, 10, 13, 34, 60, 92].filter((one) => one < code).length;
+      value = 122 * value + code - skipped;
+    }
+    for (let k = signs.length - 2; k >= 0; k--) {
+      out[6 * group + k] = value;
+      value = Math.floor(value / 256);
     }
   }
   return out;

@@ -51,14 +51,18 @@ def test_the_built_file_is_what_the_sources_give(tmp_path):
         assert (tmp_path / name).read_bytes() == (BUILT.parent / name).read_bytes(), name
 
 
+SIGNS = "".join(chr(code) for code in range(1, 128) if chr(code) not in '"<\\\n\r')
+
+
 def bytes_of(text: str) -> bytes:
-    """What stands in a text of 91 characters, as `written` of build.mjs makes it: thirteen bits in two of them."""
-    digits = {chr(code): k for k, code in enumerate(code for code in range(32, 126) if chr(code) not in '"<\\')}
-    pairs = [text[k : k + 2] for k in range(0, len(text), 2)]
-    bits = "".join(
-        f"{91 * digits[pair[0]] + digits[pair[1]]:013b}" if len(pair) > 1 else f"{digits[pair]:06b}" for pair in pairs
-    )
-    return bytes(int(bits[k : k + 8], 2) for k in range(0, len(bits) - 7, 8))
+    """What stands in a text of 122 signs, as `written` of build.mjs makes it: six bytes in seven of them."""
+    out = b""
+    for start in range(0, len(text), 7):
+        value = 0
+        for sign in text[start : start + 7]:
+            value = len(SIGNS) * value + SIGNS.index(sign)
+        out += value.to_bytes(len(text[start : start + 7]) - 1, "big")
+    return out
 
 
 def test_the_modules_of_the_kernels_are_made_of_these_sources():
