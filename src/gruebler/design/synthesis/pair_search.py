@@ -349,11 +349,9 @@ def best_pairs(
     notes = [
         _SEARCHED[bool(given), bool(second)].filled(
             dyads=len(dyads),
-            others=len(others),
             form=form_symbols(others[0].kind.form),
             pairs=int(np.count_nonzero(usable)),
             count=int(np.count_nonzero(good)),
-            step=_WIDTHS[-1],
         )
     ]
     if demands.transmission > 0 and not good.any():
@@ -401,12 +399,11 @@ def best_dyads(
     ranks, good, met = ranked(dyads)
     notes = [
         message(
-            "Of {dyads} linkages of the family {count} meet all demands. The best are improved within the family to "
-            "{step:.1g} of it.",
+            "Of {dyads} linkages of the family {count} meet all demands.",
             dyads=len(dyads),
             count=int(np.count_nonzero(good)),
-            step=_WIDTHS[-1],
-        )
+        ),
+        IMPROVED,
     ]
     best: list[GuidingDyad] = []
     for rank in ranks[: np.count_nonzero(good) or number]:  # where none of the sample is good, one beside it may be
@@ -422,23 +419,16 @@ def best_dyads(
     return best, notes if best else notes + tightest(met)
 
 
+IMPROVED = message("The best are then improved: their pivots are moved within the family, in ever smaller steps.")
 _SEARCHED = {
     (False, False): message(
-        "{dyads} dyads, each with each and driven at either: of {pairs:,} four-bars {count:,} meet all demands. "
-        "The best are improved within the family to {step:.1g} of it."
+        "{dyads} dyads, each with each and driven at either: of {pairs:,} four-bars {count:,} meet all demands."
     ),
-    (False, True): message(
-        "{dyads} cranks, each with {others} dyads {form}: of {pairs:,} linkages {count:,} meet all demands. "
-        "The best are improved within the family to {step:.1g} of it."
-    ),
+    (False, True): message("Linkages of a crank and a dyad {form}: {count:,} of {pairs:,} meet all demands."),
     (True, False): message(
-        "Four-bars with the given pivot, driven there or at the other one: {count:,} of {pairs:,} meet all demands. "
-        "The best are improved within the family to {step:.1g} of it."
+        "Four-bars with the given pivot, driven there or at the other one: {count:,} of {pairs:,} meet all demands."
     ),
-    (True, True): message(
-        "Linkages with the given pivot and a dyad {form}: {count:,} of {pairs:,} meet all demands. "
-        "The best are improved within the family to {step:.1g} of it."
-    ),
+    (True, True): message("Linkages with the given pivot and a dyad {form}: {count:,} of {pairs:,} meet all demands."),
 }
 """By whether a dyad is given and whether the other one slides."""
 

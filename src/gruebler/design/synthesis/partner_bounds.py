@@ -66,8 +66,13 @@ _MOST_BESIDE = message(
     "with a transmission angle above {angle:.1f}°."
 )
 _BESIDE_UNKNOWN = message(
-    "Linkages {form}: no bound could be proved beside the dyads of the best one, which was found by sampling."
+    "Not decided for linkages {form}: whether exchanging one dyad of the best one gives a larger transmission angle."
 )
+_GIVEN_UNKNOWN = (
+    message("Not decided: whether a four-bar with the given pivot meets all demands."),
+    message("Not decided: whether a four-bar with the given pivot has a larger transmission angle than the best here."),
+)
+"""By whether one that meets the demands is known."""
 
 
 class Partner(NamedTuple):
@@ -321,7 +326,7 @@ def best_beside(
         others, notes = best_beside(task, demands, held, better)
         return others + better, notes
     if left:
-        return better, [_BESIDE_UNKNOWN.filled(form=form_symbols(f"{CRANK.form}-{CRANK.form}"))]
+        return better, [_GIVEN_UNKNOWN[known]]
     if not known:
         return [], [_NONE_BESIDE.filled(far=FAR)]
     if begin + margin >= pi / 2:
@@ -338,7 +343,7 @@ def _first_found(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) ->
             improved, notes = improved_pair(task, demands, [(crank, partner.dyad)])
             return improved or (crank, partner.dyad), notes
         if partner.left:
-            return None, [_BESIDE_UNKNOWN.filled(form=form_symbols(f"{CRANK.form}-{CRANK.form}"))]
+            return None, [_UNKNOWN.filled(form=form_symbols(f"{CRANK.form}-{CRANK.form}"))]
     return None, [_BESIDE_NONE.filled(count=len(cranks), far=FAR)]
 
 

@@ -34,7 +34,7 @@ from gruebler.design.synthesis.dyads import (
 )
 from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design, order_notes
-from gruebler.design.synthesis.pair_search import Nearby, best_pairs
+from gruebler.design.synthesis.pair_search import IMPROVED, Nearby, best_pairs
 from gruebler.design.synthesis.partner_bounds import Pair, angle_of_pair, best_beside, improved_pair, slide_notes
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of, ranked
 from gruebler.design.synthesis.special_tasks import refuse_one_joint, refuse_parallelograms, solved_where_it_lies
@@ -383,6 +383,7 @@ def _judged_best(
             some = [pair for pair in freed if angle_of_pair(task, demands, pair) > -np.inf] + some
         pairs += some
         notes += said
+    notes += [IMPROVED] if asked else []
     designs: list[Design] = []
     for done, (first, second_dyad) in enumerate(pairs, 1):
         with suppress(LinkageError):  # two dyads with a common pivot are no linkage
