@@ -290,7 +290,7 @@ export class App implements Page {
   /** Show the structure of a text. */
   describe(text: string): void {
     this.#turnTo("structure");
-    void (this.#viewOf("structure") as StructureView).describe(text);
+    void (this.#viewOf("structure") as StructureView).describe(text, true);
   }
 
   /** After a change: the link follows, a notebook is told. */

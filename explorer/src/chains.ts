@@ -9,8 +9,8 @@ import { awaited, moment } from "./waiting";
 interface Chains {
   total: number;
   start: number;
-  /** Each with its name in the literature, if it has one. */
-  items: { text: string; name: Record<Language, string>; picture: string }[];
+  /** Each with its code, the same for chains of one structure, and its name in the literature, if it has one. */
+  items: { code: string; text: string; name: Record<Language, string>; picture: string }[];
 }
 
 export class ChainList {
@@ -18,9 +18,11 @@ export class ChainList {
   #links: number;
   private mobility: number;
   /** The structure of the machine at hand, with which the list begins. */
-  #own: Structure | null = null;
+  own: Structure | null = null;
+  /** The last structure that was described without a card of its own. */
+  #other: Structure | null = null;
   #found: Chains | null = null;
-  /** The text of the chain that is described. */
+  /** The code of the chain that is described. */
   #chosen = "";
   readonly #list = h("div.chains", {});
   readonly #count = h("span.note.count", {}, "\u00a0");
@@ -36,16 +38,21 @@ export class ChainList {
     this.mobility = Math.min(shown.drives.length, limits.mobility?.max ?? 1) || 1;
   }
 
-  /** A structure is described, that of the machine at hand or another; or there is none. */
-  follow(found: Structure | null, own: boolean): void {
-    if (own) this.#own = found;
+  /** A structure is described, or there is none; the list turns to its size if it is the machine at hand or comes
+   * from another view. */
+  follow(found: Structure | null, leads: boolean): void {
     const { limits } = this.page;
     const [links, mobility] = [found?.links.length ?? 0, found?.counted ?? 0];
     const within = (value: number, range = { min: 1, max: 0 }) => range.min <= value && value <= range.max;
     const listed = within(links, limits.links) && within(mobility, limits.mobility);
-    const turned = listed && (own || !this.#asked) && (links !== this.#links || mobility !== this.mobility);
+    const turned = listed && (leads || !this.#asked) && (links !== this.#links || mobility !== this.mobility);
     if (turned) [this.#links, this.mobility] = [links, mobility];
-    if (own || turned) this.arrange();
+    this.#chosen = found?.code ?? "";
+    const cards = [...this.#list.querySelectorAll<HTMLElement>("[data-of]")];
+    for (const card of cards) card.setAttribute("aria-pressed", String(card.dataset.of === this.#chosen));
+    const anew = found && !cards.some(({ dataset }) => dataset.of === found.code);
+    if (anew) this.#other = found;
+    if (leads || turned || anew) this.arrange();
     if (turned || !this.#asked) void this.#ask(0);
   }
 
@@ -73,13 +80,6 @@ export class ChainList {
       this.#list,
     );
     this.#show();
-  }
-
-  /** Mark the chain of a text. */
-  choose(text: string): void {
-    this.#chosen = text.split(";")[0]!;
-    for (const card of this.#list.querySelectorAll<HTMLElement>("[data-of]"))
-      card.setAttribute("aria-pressed", String(card.dataset.of === this.#chosen));
   }
 
   /** Ask for the chains of the numbers that are typed, if there can be such; else the list stays that of the last. */
@@ -112,18 +112,23 @@ export class ChainList {
   }
 
   #show(): void {
-    const [found, own] = [this.#found, this.#own];
+    const { own } = this;
+    const [found, other] = [this.#found, this.#other];
     if (!found) return renew(this.#list, moment());
     const { items, total } = found;
     const one = total === 1 ? t("one chain") : t("{total} chains", { total });
     const shown = items.length;
     this.#count.textContent = shown < total ? t("{shown} of {total} chains", { shown, total }) : one;
-    // without a list of names, if there is one
-    const drawn = (own?.inversions.find(({ frame }) => frame === own.chosen) ?? own)?.picture ?? "";
-    const mine =
-      own?.links.length === this.#links
-        ? [this.#card(own.text, drawn, own.name ? t("Yours: {name}", { name: own.name }) : t("Your machine"))]
-        : [];
+    const cardOf = (drawn: Structure, name: string) => {
+      // without a list of names, if there is one
+      const { picture } = drawn.inversions.find(({ frame }) => frame === drawn.chosen) ?? drawn;
+      return drawn.links.length === this.#links && this.#card(drawn.code, drawn.text, picture, name);
+    };
+    const listed = [own, ...items].some((each) => each?.code === other?.code);
+    const mine = [
+      own && cardOf(own, own.name ? t("Yours: {name}", { name: own.name }) : t("Your machine")),
+      other && !listed && cardOf(other, other.name || t("Chosen")),
+    ];
     if (!total) {
       const odd = (this.#links + this.mobility) % 2 === 0;
       const why = odd
@@ -139,23 +144,21 @@ export class ChainList {
         { "data-list": "chains" },
         ...mine,
         // the machine at hand takes the place of its chain
-        ...items.map(({ name: names, text, picture }, k) => {
-          const name = names[currentLanguage()];
-          return name && name === own?.name ? null : this.#card(text, picture, name || `${k + 1}`);
-        }),
+        ...items.map(({ code, name: names, text, picture }, k) =>
+          code === own?.code ? null : this.#card(code, text, picture, names[currentLanguage()] || `${k + 1}`),
+        ),
       ),
       ...more,
     );
   }
 
-  #card(text: string, picture: string, name: string): HTMLElement {
-    const of = text.split(";")[0]!;
+  #card(code: string, text: string, picture: string, name: string): HTMLElement {
     return h(
       "button.card",
       {
         "data-chain": text,
-        "data-of": of,
-        "aria-pressed": String(of === this.#chosen),
+        "data-of": code,
+        "aria-pressed": String(code === this.#chosen),
         onclick: () => this.take(text),
       },
       thumbnail(picture, text),

@@ -77,7 +77,8 @@ export class StructureView implements View {
     if (this.text) void this.describe(this.text);
   }
 
-  async describe(text: string): Promise<void> {
+  /** Show the structure of a text, which may come from another view. */
+  async describe(text: string, elsewhere = false): Promise<void> {
     const number = ++this.#asked;
     if (this.#field.value !== text) this.#field.value = text;
     if (!this.structure) renew(this.#shown, moment());
@@ -89,6 +90,8 @@ export class StructureView implements View {
         names: namesOf(this.#page.shown),
         document: this.#contacts(text),
       });
+      const own = text === this.#own;
+      if (own) this.chains.own = found;
       if (number !== this.#asked) return;
       this.text = text;
       this.structure = found;
@@ -97,8 +100,7 @@ export class StructureView implements View {
       this.#error.textContent = "";
       this.#field.setAttribute("aria-invalid", "false");
       this.#showStructure();
-      this.chains.choose(text);
-      this.chains.follow(found, text === this.#own);
+      this.chains.follow(found, own || elsewhere);
     } catch (error) {
       if (number !== this.#asked) return;
       if (!this.structure) renew(this.#shown);

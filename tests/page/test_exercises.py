@@ -157,6 +157,36 @@ def test_a_task_is_chosen_marked_mended_and_tried(exercises):
     assert view.locator("[data-result]").count() == 0
 
 
+def test_the_chain_of_a_task_that_is_tried_is_the_marked_card(exercises):
+    """Watt's chain, whose links of three joints are jointed to each other; one with a slide, which is in no list."""
+    page = exercises()
+    view = page.page
+    cards = view.locator('[data-list="chains"] .card')
+    named = "all => all.map((e) => [e.querySelector('span').textContent, e.ariaPressed])"
+
+    def tried(seed, level, text):
+        begin(page, "mobility", seed, level)
+        assert tried_task(f"mobility-{level}-{seed}")[0]["text"] == text
+        view.locator("input[data-answer]").first.fill("1")
+        view.click('[data-act="mark"]')
+        view.click('[data-act="try"]')
+        page.until(f"gruebler.view === 'structure' && gruebler.views.structure.text === '{text}'")
+        view.locator('[data-list="chains"] .card[aria-pressed="true"]').wait_for()
+        found = cards.evaluate_all(named)
+        view.go_back()
+        page.until("gruebler.view === 'exercises'")
+        return found
+
+    watt = "R(5-2) R(5-3) R(3-6) R(6-2) R(5-4) R(4-1) R(1-2)"
+    assert tried(7, 1, watt) == [["Watt's chain", "true"], ["Stephenson's chain", "false"]]
+    slide = "R(3-6) R(4-6-7) R(3-5-2) P(5-7) R(2-1) R(4-1)"
+    first, *others = tried(2, 2, slide)
+    assert first == ["Chosen", "true"]
+    assert {pressed for _, pressed in others} <= {"false"}
+    four = "R(2-3) R(3-4) R(4-1) R(1-2)"  # that of the machine at hand
+    assert tried(3, 1, four) == [["Yours: four-bar chain", "true"]]
+
+
 def test_answers_and_hints_in_german_on_a_phone(exercises):
     """A central slider-crank of 30 and 100 mm: the dead centres at 130 and 70, the stroke twice the crank."""
     page = exercises(width=390, height=844, locale="de-DE")

@@ -2,6 +2,8 @@
 
 import re
 
+import pytest
+
 from gruebler.files import linkage_to_json
 from gruebler.page.requests import answer
 from gruebler.page.structures import structure_record
@@ -65,7 +67,9 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     ]
     view.evaluate("gruebler.describe('R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)')")  # begins as a four-bar
     page.until("gruebler.views.structure.text.endsWith('R(5-2)')")
-    assert cards.evaluate_all("all => all.map((e) => e.ariaPressed)") == ["false"]
+    view.locator('[data-list="chains"] .card', has_text="Stephenson").wait_for()  # the list turns to its size
+    assert links.input_value() == "6"
+    assert cards.evaluate_all("all => all.map((e) => e.ariaPressed)") == ["true", "false"]
     links.fill("40")
     links.press("Enter")
     most = links.get_attribute("max")
@@ -81,6 +85,31 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     page.until("gruebler.root.textContent.includes('one is even and one is odd')")
     view.evaluate("gruebler.describe('R(a-b) R(b-c) R(c-d) R(d-a) R(a-c)')")
     page.until("gruebler.root.textContent.includes('Purple: links that are rigid')")
+
+
+def test_a_chain_has_the_code_of_its_card_however_it_is_numbered():
+    """Stephenson's chain: its links of three joints, 3 and 5 here, have no joint with each other."""
+    found = {
+        item["name"]["en"]: item["code"] for item in answer("chains", {"links": 6, "mobility": 1}, "en", print)["items"]
+    }
+    text = "R(3-1) R(1-2) R(2-5) R(3-4) R(4-5) R(3-6) R(6-5)"
+    assert structure_record(text, "en")["code"] == found["Stephenson's chain"] != found["Watt's chain"]
+    assert structure_record(text.replace("R(6-5)", "P(6-5)"), "en")["code"] not in found.values()
+
+
+@pytest.mark.parametrize("lang", ["en", "de"])
+def test_names_of_chains_are_not_broken_within_a_word(tab, server, lang):
+    """A word is broken where it needs more room than its card has: then its letters stand in two lines."""
+    page = tab(width=1024, height=768, locale=lang).open(server.address)
+    view = page.page
+    view.click('[data-view="structure"]')
+    view.evaluate("gruebler.describe('R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)')")
+    name = view.locator('[data-list="chains"] .card span', has_text="Stephenson")
+    name.wait_for()
+    lines = """span => { const range = document.createRange(), text = span.firstChild, end = text.data.indexOf(" ");
+        range.setStart(text, 0); range.setEnd(text, end);
+        return range.getClientRects().length; }"""
+    assert name.evaluate(lines) == 1
 
 
 def test_links_are_called_by_the_names_of_the_machine():

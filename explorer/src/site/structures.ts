@@ -27,6 +27,7 @@ type Driven = [string, number, string, Record<Language, [string, string, string]
 
 export interface StructurePack {
   text: string;
+  code: string;
   names: Record<Language, string[]>;
   counted: number;
   generic: number;
@@ -87,6 +88,7 @@ export function structureOf(pack: StructurePack, text: string, lang: Language, p
   }));
   return {
     text,
+    code: pack.code,
     chosen: frame.like,
     driver: chosen?.[4] ?? frame.driver,
     picture: over(frame.picture, (chosen ?? given)?.[2] ?? ""),

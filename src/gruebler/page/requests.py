@@ -183,13 +183,14 @@ def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
     from gruebler.pictures.structure import draw_structure
     from gruebler.pictures.structure.messages import chain_name
     from gruebler.structure.enumeration import chains, count_chains
+    from gruebler.structure.isomorphism import code
 
     total = count_chains(asked.links, asked.mobility).chains
     items = []
     for chain in islice(chains(asked.links, asked.mobility), asked.start, asked.start + _PAGE):
         picture = draw_structure(chain, lang=lang).svg(styled=False)
         names = {language: chain_name(chain, language) for language in LANGUAGES}
-        items.append({"text": chain.text(), "name": names, "picture": picture})
+        items.append({"code": code(chain), "text": chain.text(), "name": names, "picture": picture})
         if len(items) % 10 == 0:
             progress(translate("{done} of {total} chains", lang, done=asked.start + len(items), total=total))
     return {"total": total, "start": asked.start, "items": items}

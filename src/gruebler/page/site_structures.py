@@ -10,7 +10,7 @@ from typing import Any
 
 from gruebler.page.structures import drawn_frame, like_driven, listed_drives
 from gruebler.structure.chain.pairs import Alphabet
-from gruebler.structure.isomorphism import symmetry
+from gruebler.structure.isomorphism import code, symmetry
 from gruebler.structure.mechanism import Mechanism
 from gruebler.structure.mechanism.drives import check_drives
 from gruebler.structure.mechanism.inversion import family, inversions
@@ -78,6 +78,7 @@ def structure_pack(
     shown = mobility_report(chain.renamed(named) if named else chain, frame=named.get(mechanism.frame, mechanism.frame))
     return {
         "text": chain.text(),
+        "code": code(chain),
         "names": {lang: chain.renamed(named).joint_names(Alphabet.of_language(lang)) for lang in langs},
         "counted": report.counted,
         "generic": report.generic,

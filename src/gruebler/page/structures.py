@@ -19,7 +19,7 @@ from gruebler.pictures.structure.messages import chain_name
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import PAIRS, Alphabet
 from gruebler.structure.chain.spaces import Space
-from gruebler.structure.isomorphism import symmetry
+from gruebler.structure.isomorphism import code, symmetry
 from gruebler.structure.mechanism import Mechanism
 from gruebler.structure.mechanism.drives import check_drives
 from gruebler.structure.mechanism.inversion import driven_mechanisms, family, inversions
@@ -74,6 +74,7 @@ def structure_record(
     drawn = drawn_frame(Mechanism(chain, mechanism.frame), [moved], contacts, called, lang)
     return {
         "text": mechanism.text() if ";" in text else chain.text(),
+        "code": code(chain),
         "name": chain_name(chain, lang),
         "picture": drawn.with_drives(moved),
         "joints": list(_joints(mechanism, shown, drawn, lang)),
