@@ -18,7 +18,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.mechanics.kinematics.assembly_modes import conditions, search_modes
 from gruebler.mechanics.kinematics.kernel_records import PIN
 from gruebler.structure.count_tables import count_table, count_tables
-from gruebler.structure.enumeration import count_simple_chains
+from gruebler.structure.enumeration import count_chains
 from tests.structure.assur.monodromy_oracle import Truss
 
 
@@ -169,7 +169,7 @@ def test_the_b_file():
     )
     assert list(terms) == list(range(1, 10))
     for k in range(1, 7):
-        assert terms[k] == count_simple_chains(2 * k + 2).chains
+        assert terms[k] == count_chains(2 * k + 2).chains
 
 
 def test_the_entries_for_the_oeis_are_those_of_the_tables():

@@ -6,18 +6,16 @@ import networkx as nx
 import pytest
 
 from gruebler import Chain, code, mobility_report
-from gruebler.structure.enumeration.counting import count_simple_chains
 from gruebler.structure.enumeration.fractionated import block_additions, composed
 from gruebler.structure.enumeration.fractionation_class import CLASSES, fractionation
-from gruebler.structure.enumeration.listing import chains
-from gruebler.structure.enumeration.simple_chains import simple_chains as plain
+from gruebler.structure.enumeration.listing import chains, count_chains
 from tests.structure.enumeration.definition_oracle import is_constrained
 from tests.structure.enumeration.fractionated_oracle import count_fractionated
 
 
 def fractionated_chains(links, mobility, kind):
     for part in block_additions(links, mobility, kind):
-        yield from (compound.chain for compound in composed(plain, part))
+        yield from (compound.chain for compound in composed(chains, part))
 
 
 def fractionated_list(links, mobility, kind):
@@ -25,7 +23,7 @@ def fractionated_list(links, mobility, kind):
 
 
 def plain_count(links, mobility):
-    found = count_simple_chains(links, mobility, orbits=True)
+    found = count_chains(links, mobility, orbits=True)
     return found.chains, found.inversions
 
 
@@ -57,17 +55,17 @@ def test_known_numbers(links, mobility, numbers):
 )
 def test_composition_agrees_with_counting_by_polya(links, mobility):
     built = {kind: len(fractionated_list(links, mobility, kind)) for kind in ("link", "joint")}
-    assert built == count_fractionated(links, mobility, plain, plain_count)
+    assert built == count_fractionated(links, mobility, chains, plain_count)
 
 
 @pytest.mark.parametrize(("links", "number"), [(13, 2189), (15, 87123)])
 def test_one_joint_link_is_an_unordered_pair_of_inversions(links, number):
     """F = 2: two chains with F = 1, each at one of its link orbits."""
-    orbits = {n: count_simple_chains(n, 1, orbits=True).inversions for n in range(4, links - 2, 2)}
+    orbits = {n: count_chains(n, 1, orbits=True).inversions for n in range(4, links - 2, 2)}
     ordered = sum(orbits[n] * orbits[links + 1 - n] for n in orbits)
     twice = orbits.get((links + 1) // 2, 0)
     assert (ordered + twice) // 2 == number
-    assert count_fractionated(links, 2, plain, plain_count) == {"link": number, "joint": 0}
+    assert count_fractionated(links, 2, chains, plain_count) == {"link": number, "joint": 0}
 
 
 @pytest.mark.parametrize(("links", "mobility"), [(9, 2), (8, 3), (10, 3), (9, 4)])

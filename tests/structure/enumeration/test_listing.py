@@ -18,7 +18,7 @@ from gruebler.structure.enumeration import (
     edge_blocks,
     graph6_blocks,
 )
-from gruebler.structure.enumeration.pieces import list_piece, pieces, run_pieces
+from gruebler.structure.enumeration.pieces import list_piece, pieces
 
 
 def freedoms(links, edges):
@@ -191,18 +191,3 @@ def test_planarity_of_a_chain_is_that_of_its_contracted_graph():
             assert nx.check_planarity(nx.Graph(chain.link_graph()))[0] == graph.is_planar
             crossing += not graph.is_planar
     assert crossing == 11
-
-
-def test_what_a_piece_raises_is_raised_and_the_rest_is_taken_back():
-    def fail(number):
-        if number == 3:
-            raise ArithmeticError(number)
-        return number
-
-    assert list(run_pieces(str, range(100), None)) == [str(k) for k in range(100)]
-    with ThreadPoolExecutor(2) as executor:
-        assert list(run_pieces(str, iter(range(100)), executor, ahead=5)) == [str(k) for k in range(100)]
-        results = run_pieces(fail, range(100), executor, ahead=5)
-        assert [next(results), next(results), next(results)] == [0, 1, 2]
-        with pytest.raises(ArithmeticError):
-            next(results)

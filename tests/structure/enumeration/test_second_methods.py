@@ -7,7 +7,7 @@ from math import factorial, prod
 import pytest
 
 from benchmarks.evidence import check_chains, sums_of_graphs
-from gruebler.structure.enumeration import contracted_graphs, count_simple_chains
+from gruebler.structure.enumeration import contracted_graphs, count_chains
 from tests.structure.enumeration.mass_oracle import contracted_masses
 
 
@@ -33,7 +33,7 @@ def test_sums_over_contracted_graphs_of_more_loops():
 def test_all_chains_by_pebbles(links):
     checked = list(check_chains(links, most=10**9))
     assert all(row.graphs == row.checked for row in checked)
-    count = count_simple_chains(links)
+    count = count_chains(links)
     assert {row.assortment: row.chains for row in checked if row.chains} == count.by_assortment
 
 

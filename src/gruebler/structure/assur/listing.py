@@ -104,10 +104,10 @@ def count_assur_groups(links: int) -> int:
     >>> [count_assur_groups(links) for links in (2, 4, 6, 8, 10, 12)]
     [1, 2, 10, 173, 5438, 251638]
     """
-    from gruebler.structure.enumeration import count_simple_chains
+    from gruebler.structure.enumeration import count_chains
 
     _check_number(links)
-    number = count_simple_chains(links + 1, 0, orbits=True).inversions
+    number = count_chains(links + 1, 0, orbits=True).inversions
     assert number is not None
     return number
 

@@ -8,7 +8,7 @@ from gruebler.structure.enumeration.assortment import (
     largest_degree,
 )
 from gruebler.structure.enumeration.contracted import ContractedGraph, contracted_graphs
-from gruebler.structure.enumeration.counting import ChainCount, count_simple_chains
+from gruebler.structure.enumeration.counting import ChainCount
 from gruebler.structure.enumeration.epicyclic import (
     EpicyclicCount,
     EpicyclicTrain,
@@ -39,7 +39,6 @@ __all__ = [
     "contracted_graphs",
     "count_chains",
     "count_epicyclic_trains",
-    "count_simple_chains",
     "each_assortment",
     "each_joint_assortment",
     "edge_blocks",

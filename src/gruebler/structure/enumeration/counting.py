@@ -1,18 +1,15 @@
-"""The numbers of chains and of their mechanisms, counted without building a chain."""
+"""The numbers of chains and of their mechanisms."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from concurrent.futures import Executor
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import partial
 from typing import Any
 
 from gruebler.base.notebook import explained
 from gruebler.base.plain_data import plain
 from gruebler.base.text import message
-from gruebler.structure.enumeration.assortment import Assortment, loop_count
-from gruebler.structure.enumeration.pieces import PieceCount, count_piece, pieces, run_pieces
+from gruebler.structure.enumeration.assortment import Assortment
 
 
 @explained
@@ -38,7 +35,8 @@ class ChainCount:
     def explain(self, lang: str = "en") -> str:
         """The numbers, a line each, in English or German (``de``).
 
-        >>> print(count_simple_chains(6, orbits=True))
+        >>> from gruebler.structure.enumeration import count_chains
+        >>> print(count_chains(6, orbits=True))
         Chains of 6 links with F = 1: 2.
         By numbers of binary, ternary, ... links: 4,2: 2.
         Choices of a frame: 5; of a frame and a driven joint at it: 9.
@@ -54,7 +52,8 @@ class ChainCount:
     def to_json(self) -> dict[str, Any]:
         """Plain data; an assortment is written ``4,4``, orbits only if they were counted, classes only if several were.
 
-        >>> count_simple_chains(6).to_json()
+        >>> from gruebler.structure.enumeration import count_chains
+        >>> count_chains(6).to_json()
         {'links': 6, 'mobility': 1, 'chains': 2, 'by_assortment': {'4,2': 2}}
         """
         counted = [name for name in ("inversions", "drives", "joint_orbits") if getattr(self, name) is not None]
@@ -71,62 +70,3 @@ _ORBITS = message("Choices of a frame: {inversions}; of a frame and a driven joi
 
 def _parts(numbers: Mapping[str, int]) -> str:
     return "; ".join(f"{name}: {number}" for name, number in numbers.items())
-
-
-def count_simple_chains(
-    links: int,
-    mobility: int = 1,
-    *,
-    assortment: Sequence[int] | None = None,
-    orbits: bool = False,
-    executor: Executor | None = None,
-) -> ChainCount:
-    """Count the non-fractionated planar chains of simple revolute joints, none of them with a rigid part.
-
-    Args:
-        links: number of links, n.
-        mobility: F >= 0; with F = 0 the chains are the Baranov trusses.
-        assortment: count only chains with these numbers of binary, ternary, ... links.
-        orbits: whether to count inversions, drives and joint orbits too; costs a few per cent.
-        executor: runs the pieces of the work; by default this process.
-
-    Definition and proofs: docs/theory/enumeration.md. Cost on one core: 0.01 s for 14 links, 0.17 s for 16,
-    5.5 s for 18; the kernels release the lock of the interpreter, so threads (``ThreadPoolExecutor``) share the pieces.
-
-    Raises:
-        GrueblerError: links < 1, mobility < 0, or more loops than can be worked on.
-
-    >>> count_simple_chains(8, orbits=True)
-    ChainCount(links=8, mobility=1, chains=16, by_assortment={(4, 4): 9, (5, 2, 1): 5, (6, 0, 2): 2},
-               inversions=71, drives=153, joint_orbits=84, by_fractionation={})
-    """
-    work = pieces(links, mobility, assortment=assortment)
-    counts = [count for done in run_pieces(partial(count_piece, orbits=orbits), work, executor) for count in done]
-    if loop_count(links, mobility) == 1 and (assortment is None or tuple(assortment) == (links,)):
-        counts.append(
-            PieceCount(assortment=(links,), chains=1, inversions=1, joint_orbits=1, drives=1)
-        )  # one loop: all links alike, all joints alike
-    return add_counts(links, mobility, counts, orbits)
-
-
-def add_counts(links: int, mobility: int, counts: Iterable[PieceCount], orbits: bool) -> ChainCount:
-    """The sum of the counts of pieces, in any order."""
-    by_assortment: dict[Assortment, int] = {}
-    chains = inversions = drives = joint_orbits = 0
-    for count in counts:
-        if count.chains:
-            by_assortment[count.assortment] = by_assortment.get(count.assortment, 0) + count.chains
-        chains += count.chains
-        inversions += count.inversions
-        drives += count.drives
-        joint_orbits += count.joint_orbits
-    ordered = dict(sorted(by_assortment.items()))
-    return ChainCount(
-        links=links,
-        mobility=mobility,
-        chains=chains,
-        by_assortment=ordered,
-        inversions=inversions if orbits else None,
-        drives=drives if orbits else None,
-        joint_orbits=joint_orbits if orbits else None,
-    )

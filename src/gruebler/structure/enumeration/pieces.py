@@ -7,13 +7,10 @@ always the same.
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Executor, Future
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
-from itertools import islice
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,8 +22,6 @@ from gruebler.structure.enumeration.contracted import MOST_LOOPS, packed_graphs
 MOST_FREEDOMS = 24  # the kernels' products of binomial coefficients stay within 64 bits
 
 Packed = NDArray[np.int64]
-P = TypeVar("P")
-R = TypeVar("R")
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,9 +37,10 @@ class WorkPiece:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PieceCount:
-    """The chains of one assortment in a piece, and the orbits on them (0 if not requested)."""
+class PieceTally:
+    """The chains of one class and assortment in a piece, and the orbits on them (0 if not requested)."""
 
+    kind: str
     assortment: Assortment
     chains: int
     inversions: int
@@ -163,7 +159,7 @@ def census(piece: WorkPiece, orbits: bool) -> NDArray[np.int64]:
     return _core.take_census(np.ascontiguousarray(piece.graphs), loops, piece.mobility, orbits)
 
 
-def count_piece(piece: WorkPiece, orbits: bool = False) -> tuple[PieceCount, ...]:
+def count_piece(piece: WorkPiece, orbits: bool = False) -> list[PieceTally]:
     """The numbers of chains of a piece by assortment, with orbits if requested.
 
     Raises:
@@ -180,7 +176,8 @@ def count_piece(piece: WorkPiece, orbits: bool = False) -> tuple[PieceCount, ...
         rows = table[table[:, 0] == code, 1:]
         chains, inversions, joint_orbits, drives = rows.sum(axis=0).tolist()
         counts.append(
-            PieceCount(
+            PieceTally(
+                kind="none",
                 assortment=(piece.links - sum(higher), *higher),
                 chains=chains,
                 inversions=inversions,
@@ -188,7 +185,7 @@ def count_piece(piece: WorkPiece, orbits: bool = False) -> tuple[PieceCount, ...
                 drives=drives,
             )
         )
-    return tuple(counts)
+    return counts
 
 
 def list_piece(piece: WorkPiece, form: str = "edges") -> NDArray[np.uint8]:
@@ -211,26 +208,3 @@ def graph6_lines(edges: NDArray[np.unsignedinteger[Any]], links: int) -> NDArray
     from gruebler import _core
 
     return _core.write_graph6(np.ascontiguousarray(edges, np.uint8), links)
-
-
-def run_pieces(
-    function: Callable[[P], R], work: Iterable[P], executor: Executor | None = None, ahead: int = 64
-) -> Iterator[R]:
-    """The results of a function for every piece, in order; at most `ahead` pieces are pending at a time.
-
-    Without an executor the work runs in this process. An error of a piece is raised; pieces not yet started are then,
-    or when the iterator is closed, cancelled.
-    """
-    if executor is None:
-        yield from map(function, work)
-        return
-    source = iter(work)
-    pending: deque[Future[R]] = deque(executor.submit(function, piece) for piece in islice(source, ahead))
-    try:
-        while pending:
-            result = pending.popleft().result()
-            pending.extend(executor.submit(function, piece) for piece in islice(source, 1))
-            yield result
-    finally:
-        for future in pending:
-            future.cancel()

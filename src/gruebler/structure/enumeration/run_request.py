@@ -11,12 +11,12 @@ from gruebler.base.atomic_files import temporary_directory
 from gruebler.structure.enumeration.assortment import loop_count
 from gruebler.structure.enumeration.checkpoint import PieceFiles, checkpoint_files
 from gruebler.structure.enumeration.counting import ChainCount
+from gruebler.structure.enumeration.pieces import PieceTally
 from gruebler.structure.enumeration.request import Request
 from gruebler.structure.enumeration.work_units import (
     PieceCounter,
     PieceLister,
     PieceListing,
-    PieceTally,
     Work,
     add_tallies,
     work_units,

@@ -1,4 +1,4 @@
-"""Chains with simple joints, one by one or in blocks.
+"""Chains with simple joints in blocks.
 
 The order is always the same: contracted graphs as `contracted.packed_graphs` yields them, the chains of each in
 lexicographic order of the weights of its bundles. Each chain appears once; its links are the nodes of the
@@ -17,40 +17,11 @@ from numpy.typing import NDArray
 from gruebler.structure.chain import Chain
 from gruebler.structure.enumeration.assortment import loop_count
 from gruebler.structure.enumeration.contracted import ContractedGraph, pack
-from gruebler.structure.enumeration.pieces import WorkPiece, graph6_lines, list_piece, pieces, run_pieces
+from gruebler.structure.enumeration.pieces import WorkPiece, graph6_lines, list_piece, pieces
+from gruebler.structure.enumeration.worker_pool import run_work
 
 LAZY = 100_000  # work of a piece when chains are requested one by one: a few thousand chains
 _BULK = 200_000  # ... and in bulk: some ten thousand chains, a megabyte or two
-
-
-def simple_chains(
-    links: int,
-    mobility: int = 1,
-    *,
-    assortment: Sequence[int] | None = None,
-    executor: Executor | None = None,
-) -> Iterator[Chain]:
-    """The non-fractionated planar chains of simple revolute joints, none of them with a rigid part, each once.
-
-    Args:
-        links: number of links, n.
-        mobility: F >= 0; with F = 0 the chains are the Baranov trusses.
-        assortment: only chains with these numbers of binary, ternary, ... links.
-        executor: runs the pieces of the work; by default this process.
-
-    Lazy: the first chains are available immediately. Building the `Chain` objects takes most of the time, some 50 us
-    each; use `edge_blocks` or `graph6_blocks` for millions of chains.
-
-    Raises:
-        GrueblerError: links < 1, mobility < 0, or more loops than the kernels can process.
-
-    >>> for chain in simple_chains(6):
-    ...     print(chain)
-    R(0-1) R(0-2) R(2-3) R(3-1) R(0-4) R(4-5) R(5-1)
-    R(0-2) R(2-1) R(0-3) R(3-1) R(0-4) R(4-5) R(5-1)
-    """
-    blocks = _blocks(links, mobility, assortment, executor, "edges", LAZY)
-    return (chain_of_edges(links, edges) for block in blocks for edges in block.tolist())
 
 
 def chains_of(graph: ContractedGraph, mobility: int = 1) -> Iterator[Chain]:
@@ -72,7 +43,13 @@ def edge_blocks(
     assortment: Sequence[int] | None = None,
     executor: Executor | None = None,
 ) -> Iterator[NDArray[np.uint8]]:
-    """The same chains in bulk: arrays uint8[k, joints, 2] of links that share a joint.
+    """The chains that are not fractionated, in bulk: arrays uint8[k, joints, 2] of links that share a joint.
+
+    Args:
+        links: number of links, n.
+        mobility: F >= 0; with F = 0 the chains are the Baranov trusses.
+        assortment: only chains with these numbers of binary, ternary, ... links.
+        executor: runs the pieces of the work; by default this process.
 
     Cost about 250 ns for each chain on one core.
 
@@ -106,7 +83,7 @@ def _blocks(
     work = pieces(links, mobility, assortment=assortment, size=size)
     if loop_count(links, mobility) == 1 and (assortment is None or tuple(assortment) == (links,)):
         return iter([_ring(links, form)])
-    return (block for block in run_pieces(partial(list_piece, form=form), work, executor) if len(block))
+    return (block for block in run_work(partial(list_piece, form=form), work, executor) if len(block))
 
 
 def _ring(links: int, form: str) -> NDArray[np.uint8]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from itertools import islice
 
 import numpy as np
@@ -26,10 +26,16 @@ from gruebler.structure.enumeration.fractionated import (
 )
 from gruebler.structure.enumeration.fractionation_class import fractionation
 from gruebler.structure.enumeration.multiple import grown_joints, with_multiple_joints
-from gruebler.structure.enumeration.pieces import WorkPiece, count_piece, graph6_lines, list_piece, pieces
+from gruebler.structure.enumeration.pieces import (
+    PieceTally,
+    WorkPiece,
+    count_piece,
+    graph6_lines,
+    list_piece,
+    pieces,
+)
 from gruebler.structure.enumeration.request import Request
 from gruebler.structure.enumeration.simple_chains import LAZY, chain_of_edges
-from gruebler.structure.enumeration.simple_chains import simple_chains as plain_chains
 from gruebler.structure.isomorphism import orbits as orbits_of
 from gruebler.structure.isomorphism import symmetry
 
@@ -56,18 +62,6 @@ class MultipleJointPiece:
 
 
 Work = WorkPiece | RingPiece | BlockAddition | MultipleJointPiece
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PieceTally:
-    """The chains of one class and assortment in a piece, and the orbits on them (0 if not requested)."""
-
-    kind: str
-    assortment: Assortment
-    chains: int
-    inversions: int
-    joint_orbits: int
-    drives: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +101,10 @@ def chains_of_request(request: Request) -> Iterator[Chain]:
     return (chain for work in work_units(request, size=LAZY) for _, chain in chains_of_piece(request, work))
 
 
+def _not_fractionated(links: int, mobility: int) -> Iterator[Chain]:
+    return chains_of_request(Request(links, mobility=mobility))
+
+
 def chains_of_piece(request: Request, work: Work) -> Iterator[tuple[str, Chain]]:
     """The chains of a piece with their classes."""
     if isinstance(work, WorkPiece):
@@ -115,7 +113,7 @@ def chains_of_piece(request: Request, work: Work) -> Iterator[tuple[str, Chain]]
         yield "none", Chain.from_edges([(i, (i + 1) % work.links) for i in range(work.links)])
     elif isinstance(work, BlockAddition):
         kind = "joint" if work.bridges else "link"
-        for compound in composed(plain_chains, work):
+        for compound in composed(_not_fractionated, work):
             if request.assortment in (None, compound.chain.assortment):
                 yield kind, compound.chain
     elif isinstance(work, MultipleJointPiece):
@@ -138,7 +136,7 @@ class PieceCounter:
     def __call__(self, work: Work) -> list[PieceTally]:
         """The numbers of a piece, by class and assortment."""
         if isinstance(work, WorkPiece) and not self.listed:
-            return [PieceTally(kind="none", **asdict(count)) for count in count_piece(work, self.orbits)]
+            return count_piece(work, self.orbits)
         few = self.request.mobility < 2 and not (self.orbits or self.listed)
         if isinstance(work, MultipleJointPiece) and few:
             return _grown_tallies(self.request, work)
