@@ -1,21 +1,32 @@
 """The page in a real browser: every view is walked through, machines are played, dragged, shared."""
 
+import base64
 import json
 import re
+import zlib
 
 import numpy as np
 import pytest
+from msgspec import to_builtins
 
 from gruebler.cli import main
 from gruebler.files import linkage_from_json, linkage_to_json
 from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.fourbar import FourBar
-from gruebler.page.links import SharedLinkage, link_of, read_link
+from gruebler.page.links import VERSION, read_link
 from gruebler.page.model import model_of
 from gruebler.teaching.catalog import entries
 
 LEAST = "gruebler.motion.found.least.mu"
 CURVE = "JSON.stringify(Array.from(gruebler.motion.linkage.cycle.rows.places.slice(0, 4000)))"
+
+
+def link_of(shared):
+    """The text behind # of a linkage: version, packed document, checksum."""
+    packer = zlib.compressobj(9, wbits=-15)
+    packed = packer.compress(json.dumps(shared).encode()) + packer.flush()
+    data = base64.urlsafe_b64encode(packed).rstrip(b"=").decode("ascii")
+    return f"{VERSION}.{data}.{zlib.crc32(packed):08x}"
 
 
 @pytest.fixture(scope="module")
@@ -153,7 +164,7 @@ def test_a_link_is_the_same_linkage_elsewhere(tab, single_file):
     shared = read_link(address)
     linkage = linkage_from_json(shared.document)
     assert linkage.length("crank", 0, 1) == pytest.approx(page.page.evaluate(sizes)[1], rel=1e-12)
-    again = link_of(SharedLinkage(linkage_to_json(linkage), shared.name, shared.source, shared.drive))
+    again = link_of({**to_builtins(shared), "document": linkage_to_json(linkage)})
     third = tab().open(f"{single_file.as_uri()}#{again}")
     third.page.wait_for_timeout(400)
     assert third.page.evaluate(sizes) == pytest.approx(page.page.evaluate(sizes), rel=1e-12)

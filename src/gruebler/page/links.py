@@ -6,7 +6,6 @@ The page writes and reads the same (explorer/src/link.ts).
 from __future__ import annotations
 
 import base64
-import json
 import zlib
 from typing import Any
 
@@ -26,19 +25,6 @@ class SharedLinkage(msgspec.Struct):
     name: str = ""
     source: str = ""
     drive: float = 0.0
-
-
-def link_of(shared: SharedLinkage) -> str:
-    """The text behind #.
-
-    >>> read_link(link_of(SharedLinkage({"joints": "R(0-1)"}, "four-bar"))).name
-    'four-bar'
-    """
-    text = json.dumps(msgspec.to_builtins(shared), ensure_ascii=False, separators=(",", ":"))
-    packer = zlib.compressobj(9, wbits=-15)
-    packed = packer.compress(text.encode("utf-8")) + packer.flush()
-    data = base64.urlsafe_b64encode(packed).rstrip(b"=").decode("ascii")
-    return f"{VERSION}.{data}.{zlib.crc32(packed):08x}"
 
 
 def read_link(text: str) -> SharedLinkage:

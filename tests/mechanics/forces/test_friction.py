@@ -9,13 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.forces import Friction, Loads, slider_friction, statics
+from gruebler.mechanics.forces import Friction, Loads, statics
 from gruebler.mechanics.forces.coulomb import Contacts, continued
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics import from_degrees, move
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
+from tests.mechanics.forces.slider_oracle import slider_friction
 from tests.mechanics.forces.test_statics import FIVE_BAR, FORKED
 from tests.mechanics.geometry.linkages import MOVING
 
@@ -744,12 +745,6 @@ def test_wrong_friction(make, message):
 
 
 def test_wrong_calls():
-    with pytest.raises(LinkageError, match="is not negative"):
-        slider_friction(SliderCrank(2, 5), 0.1, 1.0, -0.1)
-    with pytest.raises(LinkageError, match=r"sin\(alpha\) = 1.2"):
-        slider_friction(SliderCrank(6, 5), np.pi / 2, 1.0, 0.1)
-    with pytest.raises(LinkageError, match="load"):
-        slider_friction(SliderCrank(2, 5), 0.1, float("nan"), 0.1)
     with pytest.raises(LinkageError, match="stands still in row 1"):
         statics(move(SLIDER_CRANK, [0.5, 0.6], speed=[1.0, 0.0]), PUSHED, friction=0.1)
 

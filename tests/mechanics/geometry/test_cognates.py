@@ -9,9 +9,11 @@ from hypothesis import strategies as st
 
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
-from gruebler.mechanics.geometry import cognate_sizes, cognates, coupler_sextic, parallel_motion, slider_cognates
+from gruebler.mechanics.geometry import cognate_sizes, cognates, parallel_motion, slider_cognates
 from gruebler.mechanics.kinematics import from_degrees, move
 from gruebler.mechanics.linkages.branch import branch_of_side
+
+from .sextic_oracle import coupler_sextic
 
 LENGTHS = st.floats(1, 6)
 PLACES = st.floats(-6, 6)

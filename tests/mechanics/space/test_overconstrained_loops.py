@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.screws import SpatialLinkage, exponential, follow_joint, freedoms
+from gruebler.mechanics.screws import SpatialLinkage, exponential, freedoms
 from gruebler.mechanics.space import move
 from gruebler.mechanics.space.drive_ranges import followed, spatial_range
 from tests.mechanics.screws import machines
+from tests.mechanics.screws.following import follow_joint
 
 QUARTER = pi / 2
 

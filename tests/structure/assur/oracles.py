@@ -6,6 +6,7 @@ from functools import cache
 from itertools import combinations
 
 from gruebler import Chain, code
+from gruebler.structure.assur import AssurGroup
 from gruebler.structure.mechanism import Mechanism
 
 Edges = tuple[tuple[int, int], ...]
@@ -67,3 +68,16 @@ def blocks_by_subsets(mechanism: Mechanism) -> set[frozenset[str]]:
     for link in others:
         classes.setdefault(frozenset(k for k, inside in enumerate(tight) if link in inside), set()).add(link)
     return {frozenset(links) for where, links in classes.items() if where}
+
+
+def group_of_truss(truss: Chain, link: str) -> AssurGroup:
+    """The group of a truss without this link; each of the link's joints gets a place of its own.
+
+    >>> print(group_of_truss(Chain.parse("R(0-1) R(1-2) R(2-0)"), "0"))
+    R(place1-1) R(1-2) R(2-place2)
+    """
+    joints, place = [], 0
+    for joint in truss.joints:
+        place += link in joint.links
+        joints.append((joint.pair, [f"place{place}" if other == link else other for other in joint.links]))
+    return AssurGroup(Chain(joints, space=truss.space))

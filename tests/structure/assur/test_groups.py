@@ -8,12 +8,12 @@ import pytest
 
 from gruebler import Chain, code
 from gruebler.base.errors import ChainError
-from gruebler.structure.assur import DYADS, AssurError, AssurGroup, assur_groups, count_assur_groups, group_of_truss
+from gruebler.structure.assur import DYADS, AssurError, AssurGroup, assur_groups, count_assur_groups
 from gruebler.structure.assur.forms import roman
 from gruebler.structure.assur.listing import group_rows
 from gruebler.structure.enumeration import chains
 from gruebler.structure.isomorphism import symmetry
-from tests.structure.assur.oracles import closed_chains
+from tests.structure.assur.oracles import closed_chains, group_of_truss
 
 TETRAD = "R(a-1) R(1-2) R(2-3) R(3-4) R(4-1) R(3-b)"
 SHARED = "R(a-1-3) R(b-2) R(c-4) R(1-5) R(2-5) R(3-6) R(4-6) R(5-6)"  # two legs on one pin

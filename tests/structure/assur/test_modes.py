@@ -6,12 +6,13 @@ import pytest
 from gruebler import Chain
 from gruebler.mechanics.kinematics.assembly_modes import conditions, search_modes
 from gruebler.mechanics.kinematics.kernel_records import PIN
-from gruebler.structure.assur import AssurError, assur_groups, count_modes, group_of_truss
+from gruebler.structure.assur import AssurError, assur_groups, count_modes
 from gruebler.structure.assur.listing import group_rows
 from gruebler.structure.assur.modes import modes_of_rows, modes_of_trusses, sets_of_ends
 from gruebler.structure.enumeration import chains, edge_blocks
 from tests.structure.assur.cross_ratio_oracle import count_by_cross_ratios
 from tests.structure.assur.monodromy_oracle import count_by_monodromy
+from tests.structure.assur.oracles import group_of_truss
 from tests.structure.assur.spherical_monodromy_oracle import count_by_spherical_monodromy
 
 # lnumber 0.20 (J. Capco), planar and spherical Laman numbers of the triangulated trusses over 2 ** sum (k - 2), in the

@@ -2,8 +2,7 @@
 
 `Loads` are what acts, for statics and dynamics alike: forces, moments, `RigidBody`s, `Spring`s, `Motor`s.
 `statics` solves the equilibrium of all links at every row of a motion, with Coulomb friction if asked, and sets the
-drive's effort against the one that virtual work gives; `statics_table` has them as columns; `slider_friction` is the
-closed form of a slider-crank. docs/theory/statics.md.
+drive's effort against the one that virtual work gives; `statics_table` has them as columns. docs/theory/statics.md.
 """
 
 from lazy_loader import attach_stub

@@ -2,7 +2,6 @@ from .bodies import RigidBody
 from .friction import Friction, FrictionForces, RubbingContact
 from .laws import Curve, Law, LoadFormula, Motor, State
 from .loads import Loads
-from .slider_crank import SliderFriction, slider_friction
 from .solution import Statics, statics
 from .springs import Gas, Spring, TorsionSpring
 from .tables import component_table, statics_table
@@ -18,13 +17,11 @@ __all__ = [
     "Motor",
     "RigidBody",
     "RubbingContact",
-    "SliderFriction",
     "Spring",
     "State",
     "Statics",
     "TorsionSpring",
     "component_table",
-    "slider_friction",
     "statics",
     "statics_table",
 ]

@@ -1,10 +1,10 @@
 """The geometry of motion: poles, curvature, cognates, coupler curves, straight lines.
 
 `poles` and `centrodes`, `inflection_circle` and `path_curvature` take any `Motion`; `cognates`, `slider_cognates` and
-`parallel_motion` find other linkages for one coupler curve, `coupler_sextic` its equation; `path_piece`,
-`longest_piece` and `piece_of_ratio` tell how straight a path is; `coupler_curve` finds length, area, cusps,
-inflections, vertices and double points, `tangent_contact` the order of contact, `taylor_series` the Taylor series of a
-motion. Definitions, theorems and errors: docs/theory/geometry.md, docs/theory/coupler-curves.md.
+`parallel_motion` find other linkages for one coupler curve; `path_piece`, `longest_piece` and `piece_of_ratio` tell how
+straight a path is; `coupler_curve` finds length, area, cusps, inflections, vertices and double points,
+`tangent_contact` the order of contact, `taylor_series` the Taylor series of a motion. Definitions, theorems and errors:
+docs/theory/geometry.md, docs/theory/coupler-curves.md.
 """
 
 from gruebler.mechanics.geometry.contact import TangentContact, tangent_contact
@@ -20,7 +20,6 @@ from gruebler.mechanics.geometry.roberts import (
     slider_cognates,
 )
 from gruebler.mechanics.geometry.series import TaylorSeries, taylor_series
-from gruebler.mechanics.geometry.sextic import CouplerSextic, coupler_sextic
 from gruebler.mechanics.geometry.straight import (
     Path,
     PathPiece,
@@ -36,7 +35,6 @@ __all__ = [
     "Cognate",
     "CognateSizes",
     "CouplerCurve",
-    "CouplerSextic",
     "InflectionCircle",
     "Path",
     "PathCurvature",
@@ -49,7 +47,6 @@ __all__ = [
     "cognates",
     "coupler_curve",
     "coupler_path",
-    "coupler_sextic",
     "inflection_circle",
     "linkage_path",
     "longest_piece",

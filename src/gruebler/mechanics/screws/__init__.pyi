@@ -1,6 +1,6 @@
 from .closing import Closing
 from .finite_mobility import Evidence, FiniteMobility
-from .following import follow_joint, joint_value
+from .following import joint_value
 from .instant_mobility import InstantMobility
 from .joint_geometry import Reason
 from .joint_places import JointPlace
@@ -22,7 +22,6 @@ __all__ = [
     "adjoint",
     "common_group",
     "exponential",
-    "follow_joint",
     "freedoms",
     "joint_value",
     "twist_matrix",

@@ -1,17 +1,15 @@
-"""A joint of a linkage moved through given values, the others following: all joints closed at once."""
+"""Joints of a linkage moved through given values, the others following: all joints closed at once."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import joined, message
 from gruebler.mechanics.screws.closing import CLOSED, RANK, Closing
-from gruebler.mechanics.screws.model import SpatialLinkage
 
 _STEP = 0.05  # of the driven joint, in radians or sizes, between two corrections
 
@@ -25,34 +23,16 @@ def joint_value(closing: Closing, pose: Reals, joint: int) -> float:
     return float(np.arctan2(e[1, 0], e[0, 0]))
 
 
-def follow_joint(linkage: SpatialLinkage, joint: str | int, values: ArrayLike) -> Reals:
-    """The poses (values, n, 4, 4) in which a revolute or prismatic joint has these values, from the reference pose.
+def follow_joints(closing: Closing, pose: Reals, joints: Sequence[int], values: Reals) -> list[Reals]:
+    """The poses (n, 4, 4) in which revolute or prismatic joints have these values (rows, joints), followed from a pose.
 
-    Translations are in units of the linkage's size, from its centre. Between values the joint goes in steps of at most
-    0.05, so that the linkage stays on its way; where several ways lead on it takes the nearest pose. Redundant
+    Translations are in units of the linkage's size, from its centre. Between rows the joints go evenly in steps of at
+    most 0.05, so that the linkage stays on its way; where several ways lead on it takes the nearest pose. Redundant
     constraints are allowed.
 
     Raises:
         LinkageError: a joint that is neither, or a value that cannot be reached.
-
-    >>> from gruebler.structure.mechanism import Mechanism
-    >>> quad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3)")
-    >>> square = SpatialLinkage(quad, {0: (0, 0), 1: (0, 1), 2: (3, 1), 3: (3, 0)})
-    >>> follow_joint(square, 0, [0.5])[0, 3, :2, :2].round(6).tolist()  # the other crank turns as much
-    [[0.877583, -0.479426], [0.479426, 0.877583]]
     """
-    closing = Closing.of(linkage)
-    number = linkage.mechanism.chain.joint_number(joint, error=LinkageError)
-    return follow_from_pose(closing, closing.reference, number, np.atleast_1d(np.asarray(values, float)))
-
-
-def follow_from_pose(closing: Closing, pose: Reals, joint: int, values: Reals) -> Reals:
-    """The poses (values, n, 4, 4) in which a joint has these values, followed from a pose; `LinkageError` as above."""
-    return np.array(follow_joints(closing, pose, [joint], np.reshape(values, (-1, 1))))
-
-
-def follow_joints(closing: Closing, pose: Reals, joints: Sequence[int], values: Reals) -> list[Reals]:
-    """`follow_from_pose` for several joints at once: values (rows, joints); between rows all go evenly."""
     chain = closing.mechanism.chain
     for joint in joints:
         if not chain.joints[joint].pair.is_basic or chain.joints[joint].count > 1:

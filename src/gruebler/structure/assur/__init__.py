@@ -9,7 +9,7 @@ from gruebler.structure.assur.choices import drive_choices
 from gruebler.structure.assur.decomposition import Decomposition, JointShare, SolvedGroup, decompose
 from gruebler.structure.assur.forms import DYADS
 from gruebler.structure.assur.groups import AssurGroup
-from gruebler.structure.assur.listing import assur_groups, count_assur_groups, group_of_truss
+from gruebler.structure.assur.listing import assur_groups, count_assur_groups
 from gruebler.structure.assur.locking import AssurError
 from gruebler.structure.assur.modes import count_modes
 
@@ -25,5 +25,4 @@ __all__ = [
     "count_modes",
     "decompose",
     "drive_choices",
-    "group_of_truss",
 ]

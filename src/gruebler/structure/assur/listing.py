@@ -125,21 +125,3 @@ def expected_seconds_of_groups(links: int) -> float:
         return 0.0
     trusses, _ = expected_chains(Request(links + 1, mobility=0))
     return trusses * (links + 1) * _GROUP
-
-
-def group_of_truss(truss: Chain, link: str) -> AssurGroup:
-    """The group of a truss without this link; each of the link's joints gets a place of its own.
-
-    >>> print(group_of_truss(Chain.parse("R(0-1) R(1-2) R(2-0)"), "0"))
-    R(place1-1) R(1-2) R(2-place2)
-    """
-    return AssurGroup(_without(truss, link))
-
-
-def _without(truss: Chain, link: str) -> Chain:
-    truss.index(link)
-    joints, place = [], 0
-    for joint in truss.joints:
-        place += link in joint.links
-        joints.append((joint.pair, [f"place{place}" if other == link else other for other in joint.links]))
-    return Chain(joints, space=truss.space)

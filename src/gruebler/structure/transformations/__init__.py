@@ -7,7 +7,7 @@ from gruebler.structure.transformations.contacts import replace_roll_slide, rest
 from gruebler.structure.transformations.contraction import contract, expand
 from gruebler.structure.transformations.derivations import OPERATIONS, Derivation, replay
 from gruebler.structure.transformations.dyads import insert_coupler, insert_dyad, remove_coupler, remove_dyad
-from gruebler.structure.transformations.extension import Extension, extend, grow_family
+from gruebler.structure.transformations.extension import Extension, extend
 from gruebler.structure.transformations.groups import insert_group, remove_group
 from gruebler.structure.transformations.growth import Growth, derive
 from gruebler.structure.transformations.places import Attachment
@@ -24,7 +24,6 @@ __all__ = [
     "derive",
     "expand",
     "extend",
-    "grow_family",
     "insert_coupler",
     "insert_dyad",
     "insert_group",

@@ -1,8 +1,7 @@
-"""All extensions of a chain by one dyad or one coupler, each structure once, and families grown by dyads."""
+"""All extensions of a chain by one dyad or one coupler, each structure once."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import permutations
 
@@ -92,22 +91,3 @@ def extend(
 
 def _share_a_link(chain: Chain, start: Attachment, end: Attachment) -> bool:
     return not set(links_at(chain, start)).isdisjoint(links_at(chain, end))
-
-
-def grow_family(start: Chain, links: int, forms: Iterable[str] = ("RRR",)) -> Iterator[Chain]:
-    """All chains with this number of links that grow from a chain by dyads of these forms, each structure once.
-
-    >>> four_bar = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
-    >>> [len(list(grow_family(four_bar, n))) for n in (4, 6, 7, 8)]
-    [1, 2, 0, 12]
-    """
-    dyad_forms = list(forms)
-    level = {code(start): start}
-    while level and min(chain.n for chain in level.values()) < links:
-        following: dict[str, Chain] = {}
-        for chain in level.values():
-            for form in dyad_forms:
-                for extension in extend(chain, dyad=form):
-                    following.setdefault(extension.code, extension.chain)
-        level = following
-    yield from (chain for chain in level.values() if chain.n == links)
