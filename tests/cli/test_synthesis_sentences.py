@@ -1,9 +1,14 @@
 """What the commands of synthesis say beside the tables, in both languages, as a user reads it."""
 
+import json
+
+import numpy as np
 import pytest
 
 from gruebler.cli import main
+from gruebler.files import linkage_from_json
 
+LINKS = ("crank", 0, 1), ("coupler", 1, 2), ("rocker", 2, 3), ("frame", 0, 3)
 ROWS = ("0,0,0", "2.1,0.9,20", "3.2,1,46", "4,0.2,86")
 
 
@@ -15,7 +20,8 @@ def said(tmp_path, capsys):
         rows = ROWS[:positions] if isinstance(positions, int) else positions
         task = tmp_path / "task.csv"
         task.write_text("\n".join(("x,y,angle", *rows)), encoding="utf-8")
-        main(["synthesise", action, str(task), *words.split(), "--lang", lang])
+        words = words.split() if isinstance(words, str) else words
+        main(["synthesise", action, str(task), *words, "--lang", lang])
         printed = capsys.readouterr()
         return printed.out + printed.err
 
@@ -53,3 +59,53 @@ def test_a_bound_that_is_not_proved_beside_a_given_pivot_is_not_that_of_a_dyad(s
     ):
         (line,) = [line for line in said(3, f"--moving-pivot -8.1 -0.9 {demands}", lang).splitlines() if begin in line]
         assert line.endswith(end)
+
+
+def test_a_slider_crank_has_no_length_of_the_frame_and_is_not_sought(said):
+    out = said(4, "--length frame 5 --rejected")
+    assert "RR-RR" in out
+    assert "RR-PR" not in out
+    slider = ["--structure", "slider-crank", "--initial-designs", "1", "--length", "0", "5"]
+    assert "the length of a link '0' is given, but only 1 and 2 have one" in said(3, slider)
+    both = said(3, [*slider, "--structure", "four-bar linkage"])
+    assert "P(3-0); frame=0; drive=R(0-1) – 0: no length, since this link has fewer than two pins" in both
+    assert "Designs: 1 accepted, 0 rejected." in both
+
+
+@pytest.mark.parametrize(
+    "kind", ["dead-centres --stroke 50 --time-ratio 1.2", "function x --interval 0 1 --swings 60 9 --travel"]
+)
+def test_an_output_that_travels_leaves_the_frame_without_a_length(capsys, kind):
+    assert main(["synthesise", *kind.split(), "--length", "frame", "5"]) == 2
+    assert "the length of a link 'frame' is given, but only crank and coupler have one" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", ["", "--minimax", "--starts 45 60"])
+def test_angles_alone_take_a_given_length_as_their_scale(capsys, words):
+    """The ratios are those without it: angles say nothing of the size."""
+    found = []
+    for demand in ("", "--length rocker 7"):
+        options = f"--interval 1 2 --swings 60 60 {words} {demand} --json"
+        assert main(["synthesise", "function", "log10(x)", *options.split()]) == 0
+        linkage = linkage_from_json(json.loads(capsys.readouterr().out)["designs"][0]["linkage"])
+        found.append(np.array([linkage.length(*link) for link in LINKS]))
+    free, scaled = found
+    assert free[3] == pytest.approx(1)
+    assert scaled == pytest.approx(7 / free[2] * free, rel=1e-9)
+
+
+def test_a_length_that_is_missed_shows_by_how_much(said):
+    """The cranks of two pivots: the radii of the circles through their places in three positions."""
+    places = np.array([(0, 0), (2.1, 0.9), (3.2, 1)]) @ [1, 1j]
+    turns = np.exp(1j * np.radians([0, 20, 46]))
+    radii = []
+    for pivot in (1 + 0j, 3 + 1j):
+        p, q, r = places + turns * pivot
+        twice_area = abs(((q - p) * np.conj(r - p)).imag)
+        radii.append(abs(q - p) * abs(r - q) * abs(p - r) / (2 * twice_area))
+    near = f"{radii[0]:.6g}", f"{radii[0]:.7g}"
+    assert near[0] != near[1]
+    out = said(3, f"--moving-pivot 1 0 --moving-pivot 3 1 --length crank {near[0]}")
+    assert f"the length of the crank is not {near[0]}, but {near[1]}" in out
+    out = said(3, "--moving-pivot 1 0 --moving-pivot 3 1 --length crank 2.5", "de")
+    assert f"die Länge des Glieds Kurbel ist nicht 2,5, sondern {near[0].replace('.', ',')}" in out

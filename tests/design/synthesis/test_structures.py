@@ -272,12 +272,12 @@ def test_what_a_structure_cannot_do_is_refused(kind, text, link, sentence):
 def test_lengths_of_links_that_there_are_not_are_refused_with_those_that_there_are(kind):
     """A demand that no design can meet was laid to their size."""
     wanted = Demands(lengths={"foo": 2})
-    with pytest.raises(SynthesisError, match="'foo' is given, but the links are crank, coupler, rocker and frame"):
+    with pytest.raises(SynthesisError, match="'foo' is given, but only crank, coupler, rocker and frame have one"):
         synthesise(TASKS[kind], demands=wanted)
-    with pytest.raises(SynthesisError, match="'foo' is given, but the links are 0, 1, 2 and 3"):
+    with pytest.raises(SynthesisError, match="'foo' is given, but only 0, 1, 2 and 3 have one"):
         synthesise(TASKS[kind], demands=wanted, structures=[Mechanism.parse(FOUR)])
     free = FunctionTask(np.linspace(0, 1, 9), outputs=np.linspace(0, 2, 9), start_input=False, start_output=False)
-    with pytest.raises(SynthesisError, match="the links are frame, crank, coupler, ternary, link and rocker"):
+    with pytest.raises(SynthesisError, match="only frame, crank, coupler, ternary, link and rocker have one"):
         synthesise(free, demands=wanted, six_bars=True)
 
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
+from gruebler.design.synthesis.given_lengths import scale_to_length
 from gruebler.design.synthesis.judging import Demands, faults_of_size, pivots_inside, size_ratio, transmission_fault
 from gruebler.design.synthesis.pair_search import tightest
 from gruebler.design.synthesis.results import PASSED, Design, SolutionCount, SynthesisResult, in_order_of
@@ -341,12 +342,8 @@ _NOTES = {
 
 
 def _design(task: DeadCentreTask, member: FamilyMember, demands: Demands) -> Design:
-    lengths = _named_lengths(member.linkage)
-    scales = [length / lengths[link] for link, length in demands.lengths if link in lengths]
-    scale = task.stroke or (scales[0] if scales else 1.0)
     linkage = member.linkage.linkage(unit=task.unit)
-    if scale != 1:
-        linkage = linkage.scaled(scale)
+    linkage = linkage.scaled(task.stroke or scale_to_length(linkage, demands))
     ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
     reasons = faults_of_size(linkage, ratio, inside, demands)
     if member.transmission < demands.transmission:

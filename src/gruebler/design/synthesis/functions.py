@@ -27,6 +27,7 @@ from gruebler.design.synthesis.coordination import (
 )
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, GuidingDyad
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
+from gruebler.design.synthesis.given_lengths import scale_to_length
 from gruebler.design.synthesis.judging import Demands, judge_design
 from gruebler.design.synthesis.law_motion import over_interval
 from gruebler.design.synthesis.minimax_search import minimax as minimax_near
@@ -59,7 +60,7 @@ def synthesise_function(
     minimax: bool = False,
     sort: Sequence[str] = (),
 ) -> SynthesisResult:
-    """All linkages that coordinate the pairs; the frame of four-bars has the length 1.
+    """All linkages that coordinate the pairs; the frame of four-bars has the length 1 unless another length is given.
 
     Args:
         task: two to five pairs; with both starts free more of them, by least squares.
@@ -98,6 +99,14 @@ def synthesise_function(
             message(
                 "The angles of the table count from the line of the frame; with free starts only their differences "
                 "count."
+            ),
+        )
+    if not designs and task.output == "angle" and len(wanted.lengths) > 1:
+        notes = (
+            *notes,
+            message(
+                "Angles leave one length free, the first of the given ones; the others were only compared. A "
+                "structure fitted to the pairs keeps all of them."
             ),
         )
     if fitted:
@@ -238,7 +247,12 @@ def _same_optimum(first: Minimax, second: Minimax) -> bool:
 
 def _judged_optimum(task: FunctionTask, law: FunctionLaw, demands: Demands, optimum: Minimax) -> Design:
     """A minimax optimum as a design, carried from one end of the interval to the other through the pairs."""
-    linkage, solution = optimum.linkage(task.unit), optimum.solution
+    solution = optimum.solution
+    if task.output == "angle":
+        scale = scale_to_length(optimum.linkage(), demands)
+        solution = replace(solution, lengths=tuple(scale * length for length in solution.lengths))
+        optimum = replace(optimum, solution=solution)
+    linkage = optimum.linkage(task.unit)
     x = np.array([law.interval[0], *chebyshev_spacing(*law.interval, len(task)), law.interval[1]])
     free_law = replace(law, input_start=0.0, output_start=0.0)
     phi, output = solution.input_start + free_law.inputs(x), solution.output_start + free_law.outputs(x)
@@ -328,6 +342,8 @@ def _judged_function(
     }
     mechanism = Mechanism.parse(f"{' '.join(map(str, places))}; frame=frame; drive=R(frame-crank)")
     linkage = Linkage.from_drawing(mechanism, places, unit=task.unit, outputs=[side])
+    if task.output == "angle":
+        linkage = linkage.scaled(scale_to_length(linkage, demands))
     return judge_design(linkage, _function_targets(task, linkage, side), demands, form)
 
 

@@ -23,7 +23,7 @@ from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.target_paths import TargetPath, limit_before, path_through
 from gruebler.design.synthesis.target_places import places_approached, places_met
 from gruebler.design.synthesis.targets import GuidedCurve, Targets
-from gruebler.design.synthesis.tasks import PathTask, PositionTask
+from gruebler.design.synthesis.tasks import PathTask, PositionTask, Task, output_travels
 from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.kinematics import Circuit, circuit
 from gruebler.mechanics.kinematics.motion import Motion
@@ -36,7 +36,9 @@ _ROWS = 16  # poses from one target to the next, with several drives
 
 BUILDABLE = 20.0
 """The longest length by the shortest, as a workshop accepts it; other ratios can be demanded."""
-OTHER_LENGTH = message("the length of the {link} is not {wanted:g}, but {found}")
+OTHER_LENGTH = message("the length of the {link} is not {wanted}, but {found}")
+NO_LENGTH = message("{link}: no length, since this link has fewer than two pins")
+_DIGITS = range(6, 18)  # of a length: as many as tell it from the one that is given
 EXACT_AT_MOST = 1e-6
 """With larger tolerances targets are approached, not met: the whole curve within the tolerance counts."""
 
@@ -108,20 +110,22 @@ class Demands:
         """Whether lengths, the place of the pivots or the transmission angle are limited."""
         return bool(self.lengths) or self.region is not None or self.transmission > 0
 
-    def of_task(self, task: object, known: Iterable[str] = ("crank", "coupler", "rocker", "frame")) -> Demands:
-        """These demands, which a task of linkages with such links can meet, by default four-bars.
+    def of_task(self, task: Task, known: Iterable[str] | None = None) -> Demands:
+        """These demands, which a task of linkages with such links can meet, by default four-bars or slider-cranks.
 
         Raises `SynthesisError` for lengths of other links, and for a pivot that the task gives outside the region.
 
-        >>> Demands(lengths={"foo": 2}).of_task(None)
+        >>> from gruebler.design.synthesis.tasks import DeadCentreTask
+        >>> Demands(lengths={"frame": 2}).of_task(DeadCentreTask(stroke=1, time_ratio=1))
         Traceback (most recent call last):
-        gruebler.base.errors.SynthesisError: the length of a link 'foo' is given, but the links are crank, coupler, ...
+        gruebler.base.errors.SynthesisError: the length of a link 'frame' is given, but only crank and coupler have one
         """
-        links = tuple(dict.fromkeys(known))
+        usual = ("crank", "coupler", *(() if output_travels(task) else ("rocker", "frame")))
+        links = tuple(dict.fromkeys(usual if known is None else known))
         for link, _ in self.lengths:
             if link not in links:
                 raise SynthesisError(
-                    "the length of a link {link!r} is given, but the links are {known}",
+                    "the length of a link {link!r} is given, but only {known} have one",
                     link=link,
                     known=joined_by_and(links),
                 )
@@ -390,20 +394,29 @@ def faults_of_size(linkage: Linkage, ratio: float, inside: bool, demands: Demand
     """What speaks against a linkage before it moves: the place of its pivots, its lengths and their ratio."""
     faults = []
     for link, wanted in demands.lengths:
-        distances = _distances_of_pins(linkage, link)
-        if not any(abs(length - wanted) <= EXACT * max(wanted, linkage.size) for length in distances):
-            faults.append(
-                OTHER_LENGTH.filled(
-                    link=message(link),
-                    wanted=wanted,
-                    found=joined(f"{length:.6g}" for length in distances) if distances else "–",
-                )
-            )
+        distances = distances_of_pins(linkage, link)
+        if not distances:
+            faults.append(NO_LENGTH.filled(link=message(link)))
+        elif not any(abs(length - wanted) <= EXACT * max(wanted, linkage.size) for length in distances):
+            own, *others = _told_apart(wanted, *distances)
+            faults.append(OTHER_LENGTH.filled(link=message(link), wanted=own, found=joined(others, "; ")))
     if not inside:
         faults.append(message("a fixed pivot lies outside the region"))
     if ratio > demands.size_ratio:
         faults.append(TOO_SLENDER.filled(ratio=ratio))
     return faults
+
+
+def _told_apart(wanted: float, *lengths: float) -> list[Message]:
+    """A length and others with six digits, or as many as differ.
+
+    >>> print(joined(_told_apart(3.558, 3.5580558)), joined(_told_apart(3.55806, 3.5580558)), sep=", ")
+    3.558, 3.55806, 3.55806, 3.558056
+    """
+    digits = next(
+        (n for n in _DIGITS if all(f"{wanted:.{n}g}" != f"{length:.{n}g}" for length in lengths)), _DIGITS[-1]
+    )
+    return [Message(f"{{length:.{digits}g}}", {"length": length}) for length in (wanted, *lengths)]
 
 
 def _faults_of_drive(demands: Demands, *, full: bool, transmission: float) -> Iterator[Message]:
@@ -463,11 +476,11 @@ def _in_another_order(error: float) -> Message:
 
 def size_ratio(linkage: Linkage) -> float:
     """The longest distance of two pins of a link by the shortest; points on slides do not count."""
-    lengths = [length for link in linkage.mechanism.chain.links for length in _distances_of_pins(linkage, link)]
+    lengths = [length for link in linkage.mechanism.chain.links for length in distances_of_pins(linkage, link)]
     return max(lengths) / min(lengths) if lengths else 1.0
 
 
-def _distances_of_pins(linkage: Linkage, link: str) -> list[float]:
+def distances_of_pins(linkage: Linkage, link: str) -> list[float]:
     """The distances of the pins of a link, each with each."""
     pins = [complex(e.x, e.y) for (_, owner), e in linkage.elements.items() if owner == link and e.is_pin]
     return [abs(p - q) for k, p in enumerate(pins) for q in pins[:k]]

@@ -33,6 +33,7 @@ from gruebler.design.synthesis.dyads import (
     sliding_dyads,
 )
 from gruebler.design.synthesis.family_bounds import bound_notes
+from gruebler.design.synthesis.given_lengths import missing_length
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design, order_notes
 from gruebler.design.synthesis.pair_search import IMPROVED, Nearby, best_pairs
 from gruebler.design.synthesis.partner_bounds import Pair, angle_of_pair, best_beside, improved_pair, slide_notes
@@ -291,8 +292,7 @@ def _with_lengths(task: PositionTask, demands: Demands, number: int, progress: P
     from gruebler.design.synthesis.structures import synthesise_structures
 
     forms = {_mechanism(text): form for form, text in _NAMED.items()}
-    given = {link for link, _ in demands.lengths}
-    some = [each for each in forms if given <= set(each.chain.links)]
+    some = [each for each in forms if missing_length(each, demands) is None]
     exact = replace(demands, tolerance=max(demands.tolerance, _LEAST_TOLERANCE))
     fitted = synthesise_structures(task, some, exact, starts=number, link="coupler", progress=progress)
     designs, rejected = ranked(

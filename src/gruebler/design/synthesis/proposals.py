@@ -14,6 +14,7 @@ from gruebler.base.notebook import brief
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.clearances import stays_clear
 from gruebler.design.synthesis.fitting import links_moved_by_all, output_links
+from gruebler.design.synthesis.given_lengths import missing_length
 from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.pair_search import WITHOUT
 from gruebler.design.synthesis.paths import synthesise_path
@@ -184,14 +185,13 @@ def _made(
     else:
         four_links = synthesise(task, demands=demands)
     yield None, _with_so_many_slides(four_links, specification)
-    unheld = unheld_pivots(task)
     none = SolutionCount(what=message("linkages"), theorem=0, found=0, real=0)
     for mechanism in types:
+        own = _by_own_names(demands, mechanism)
+        unheld = unheld_pivots(task) or missing_length(mechanism, own)
         yield (
             mechanism,
-            synthesise_structures(
-                task, [mechanism], _by_own_names(demands, mechanism), starts=starts, executor=executor
-            )
+            synthesise_structures(task, [mechanism], own, starts=starts, executor=executor)
             if unheld is None
             else SynthesisResult(task=task, designs=(), rejected=(), count=none, notes=(unheld,)),
         )

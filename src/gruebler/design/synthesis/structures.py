@@ -16,7 +16,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes
 from gruebler.base.errors import LinkageError, SynthesisError
-from gruebler.base.text import Message, joined_by_and, message
+from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.drawing_limits import limits_of_drawings
@@ -30,6 +30,7 @@ from gruebler.design.synthesis.fitting import (
     links_moved_by_all,
     output_links,
 )
+from gruebler.design.synthesis.given_lengths import links_with_lengths, missing_length
 from gruebler.design.synthesis.judging import (
     BUILDABLE,
     EXACT_AT_MOST,
@@ -99,7 +100,8 @@ def synthesise_structures(
     Cost: a six-bar with an atlas 1 s for the atlas and 5 s for its neighbours; others 1 to 3 s a start.
     """
     mechanisms = tuple(structures)
-    wanted = (demands or Demands()).of_task(task, (link for mechanism in mechanisms for link in mechanism.chain.links))
+    known = [link for mechanism in mechanisms for link in links_with_lengths(mechanism)]
+    wanted = (demands or Demands()).of_task(task, known)
     if not mechanisms:
         raise SynthesisError("structures: expected at least one mechanism")
     if starts is not None and starts < 1:
@@ -107,6 +109,11 @@ def synthesise_structures(
     if (unheld := unheld_pivots(task)) is not None:
         raise SynthesisError(unheld)
     targets = fit_targets(task)
+    unsized = {mechanism: missing_length(mechanism, wanted) for mechanism in mechanisms}
+    left_out = [joined([each.text(), reason], " – ") for each, reason in unsized.items() if reason is not None]
+    mechanisms = tuple(mechanism for mechanism in mechanisms if unsized[mechanism] is None)
+    if not mechanisms:
+        raise SynthesisError(left_out[0])
     for mechanism in mechanisms:
         _check(mechanism, targets, link, len(getattr(task, "fixed_pivots", ())))
     jobs = [job for mechanism in mechanisms for job in _jobs(task, targets, mechanism, starts, link)]
@@ -124,7 +131,7 @@ def synthesise_structures(
     search = partial(_candidates, link=link, jobs=jobs, executor=executor)
     tight = () if accepted else _tightest(task, wanted, search)
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(candidates), real=len(candidates))
-    notes = (note, *order_notes(candidates, wanted), *tight)
+    notes = (*left_out, note, *order_notes(candidates, wanted), *tight)
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=notes)
 
 
