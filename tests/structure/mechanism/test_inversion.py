@@ -120,6 +120,8 @@ def test_every_driven_mechanism_of_the_six_links_is_fixed_by_its_drive():
         ("Stephenson III", "Stephenson III"),
         ("Kreuzschubkurbel", "Scotch yoke"),
         ("Elliptic trammel", "elliptic trammel (double slider)"),
+        ("four-bar", "four-bar linkage"),
+        ("Viergelenk", "four-bar linkage"),
         ("kurbelschleife", "inverted slider-crank (turning or swinging block)"),
     ],
 )

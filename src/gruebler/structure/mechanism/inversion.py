@@ -196,7 +196,7 @@ def _families() -> dict[str, Message]:
 def of_family(name: str) -> Mechanism | None:
     """The mechanism of a family by its name in any language, without drives; None if it is no such name.
 
-    What stands in brackets may be left out, and capital letters do not matter.
+    What stands in brackets may be left out, and the word linkage; capital letters do not matter.
 
     >>> of_family("watt II").frame, of_family("Kreuzschubkurbel") == of_family("scotch yoke")
     ('2', True)
@@ -204,7 +204,8 @@ def of_family(name: str) -> Mechanism | None:
     wanted = name.casefold()
     for known, text in _FAMILIES:
         whole = [known.in_language(lang).casefold() for lang in LANGUAGES]
-        if wanted in whole or wanted in [full.partition(" (")[0] for full in whole]:
+        short = [full.partition(" (")[0].removesuffix(" linkage").removesuffix("getriebe") for full in whole]
+        if wanted in (*whole, *short):
             return Mechanism.parse(text)
     return None
 
