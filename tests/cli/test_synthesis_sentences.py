@@ -1,6 +1,7 @@
 """What the commands of synthesis say beside the tables, in both languages, as a user reads it."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -109,3 +110,35 @@ def test_a_length_that_is_missed_shows_by_how_much(said):
     assert f"the length of the crank is not {near[0]}, but {near[1]}" in out
     out = said(3, "--moving-pivot 1 0 --moving-pivot 3 1 --length crank 2.5", "de")
     assert f"die Länge des Glieds Kurbel ist nicht 2,5, sondern {near[0].replace('.', ',')}" in out
+
+
+def beside_a_circle(places):
+    """Zero for four places on one circle, of one sign on each side of it."""
+    return np.linalg.det([[abs(z) ** 2, z.real, z.imag, 1] for z in places])
+
+
+def test_the_point_that_is_taken_for_a_given_pivot_is_told_with_its_distance(said):
+    """Its four places lie on a circle, and on no circle of points about the given one that is smaller."""
+    out = said(4, "--moving-pivot 1 1")
+    told = re.search(r"\(1, 1\) is not on the circle-point .* \(([-\d.]+), ([-\d.]+)\), at a distance of ([\d.]+)", out)
+    x, y, distance = map(float, told.groups())
+    rows = np.array([[float(v) for v in row.split(",")] for row in ROWS])
+    places, turns = rows[:, 0] + 1j * rows[:, 1], np.exp(1j * np.radians(rows[:, 2]))
+    assert abs(beside_a_circle(places + turns * complex(x, y))) < 1e-3
+    assert distance == pytest.approx(abs(complex(x, y) - complex(1, 1)), abs=1e-4)
+    nearer = 1 + 1j + 0.98 * distance * np.exp(1j * np.linspace(0, 2 * np.pi, 200))
+    assert len({np.sign(beside_a_circle(places + turns * z)) for z in (1 + 1j, *nearer)}) == 1
+    assert "Der gegebene Gelenkpunkt (1; 1) liegt nicht auf der Kreispunktkurve" in said(4, "--moving-pivot 1 1", "de")
+    assert "centre-point curve" in said(4, "--fixed-pivot 0 -3")
+    assert "is not on" not in said(3, "--fixed-pivot 0 -3")
+
+
+def test_a_pivot_of_the_body_that_turns_outside_the_region_is_named(said):
+    """The centre of the circle through the three places of (1, 1), from the mid-perpendiculars."""
+    rows = np.array([[float(v) for v in row.split(",")] for row in ROWS[:3]])
+    p, q, r = rows[:, 0] + 1j * rows[:, 1] + np.exp(1j * np.radians(rows[:, 2])) * (1 + 1j)
+    sides = np.array([[(q - p).real, (q - p).imag], [(r - p).real, (r - p).imag]])
+    u, v = np.linalg.solve(sides, np.array([abs(q) ** 2 - abs(p) ** 2, abs(r) ** 2 - abs(p) ** 2]) / 2)
+    out = said(3, "--moving-pivot 1 1 --region -1 -1 2 2")
+    assert f"With the given pivot (1, 1) a pivot of the frame is at ({u:.6g}, {v:.6g}), outside the region" in out
+    assert "outside the region: no" not in said(3, f"--moving-pivot 1 1 --region -1 {v - 1} {u + 1} 2")

@@ -34,6 +34,7 @@ from gruebler.design.synthesis.dyads import (
 )
 from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.given_lengths import missing_length
+from gruebler.design.synthesis.given_pivots import notes_on_pivots
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design, order_notes
 from gruebler.design.synthesis.pair_search import IMPROVED, Nearby, best_pairs
 from gruebler.design.synthesis.partner_bounds import Pair, angle_of_pair, best_beside, improved_pair, slide_notes
@@ -244,7 +245,7 @@ def synthesise_positions(
     dyads = (*given, *guiding_dyads(free, _SAMPLE[len(task)] if searched else number, wanted.region))
     if len(task) > 5:
         return _approximate(task, wanted, dyads, progress)
-    notes: list[Message] = []
+    notes = [*notes_on_pivots(task, given or dyads, wanted)] if chosen and len(task) in (3, 4) else []
     if searched:
         candidates = _judged_best(free, wanted, dyads, given, number, sort, progress, notes)
     else:
@@ -256,8 +257,6 @@ def synthesise_positions(
         notes.append(_PAIRS.filled(dyads=complex_dyads, pairs=complex_dyads**2, linkages=comb(complex_dyads, 2)))
     else:
         notes.append(_FAMILIES[len(task)].filled(count=len(dyads)))
-    if len(task) == 4 and (task.moving_pivots or task.fixed_pivots):
-        notes.append(message("For each pivot that was chosen the nearest point of its curve was taken."))
     if len(dyads) < 2:
         notes.append(message("A linkage needs two dyads."))
     designs, rejected = ranked(candidates)
