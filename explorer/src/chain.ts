@@ -16,6 +16,8 @@ export interface Structure {
   text: string;
   /** The same for all chains of one structure. */
   code: string;
+  /** How many links it has. */
+  size: number;
   /** That of the chain in the literature, if it has one and the library says it. */
   name?: string;
   /** The frame of the list that is like the one of the text, or like the one it is given. */

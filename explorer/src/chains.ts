@@ -42,7 +42,7 @@ export class ChainList {
    * from another view. */
   follow(found: Structure | null, leads: boolean): void {
     const { limits } = this.page;
-    const [links, mobility] = [found?.links.length ?? 0, found?.counted ?? 0];
+    const [links, mobility] = [found?.size ?? 0, found?.counted ?? 0];
     const within = (value: number, range = { min: 1, max: 0 }) => range.min <= value && value <= range.max;
     const listed = within(links, limits.links) && within(mobility, limits.mobility);
     const turned = listed && (leads || !this.#asked) && (links !== this.#links || mobility !== this.mobility);
@@ -122,7 +122,7 @@ export class ChainList {
     const cardOf = (drawn: Structure, name: string) => {
       // without a list of names, if there is one
       const { picture } = drawn.inversions.find(({ frame }) => frame === drawn.chosen) ?? drawn;
-      return drawn.links.length === this.#links && this.#card(drawn.code, drawn.text, picture, name);
+      return drawn.size === this.#links && this.#card(drawn.code, drawn.text, picture, name);
     };
     const listed = [own, ...items].some((each) => each?.code === other?.code);
     const mine = [

@@ -89,7 +89,20 @@ def test_the_site_answers_as_the_library_does(tab, folder, address):
         for text in ("R(0-1) R(1-2) R(2-3) R(3-0)", "R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)"):
             of_site = asked(page, "structure", {"text": text}, lang)
             of_library = answer("structure", {"text": text}, lang, nothing)
-            for key in ("text", "chosen", "driver", "frame", "counted", "generic", "verdict", "lines", "drives"):
+            for key in (
+                "code",
+                "size",
+                "name",
+                "text",
+                "chosen",
+                "driver",
+                "frame",
+                "counted",
+                "generic",
+                "verdict",
+                "lines",
+                "drives",
+            ):
                 assert of_site[key] == of_library[key], (key, lang)
             for key in ("inversions", "driven"):
                 for one, other in zip(of_site[key], of_library[key], strict=True):
@@ -212,7 +225,8 @@ def test_a_link_made_there_opens_there_for_everyone(tab, address):
     page.page.click('[data-view="structure"]')
     page.page.fill('[data-page="structure"] input[aria-label="Links"]', "4")
     page.page.press('[data-page="structure"] input[aria-label="Links"]', "Enter")
-    page.page.click("[data-chain]")
+    page.page.locator("[data-chain]", has_text="Yours: four-bar chain").wait_for()
+    page.page.evaluate("gruebler.describe('R(0-1) R(1-2) R(2-3) R(3-0)')")
     page.until("gruebler.views.structure.structure?.text.startsWith('R(0-1)')")
     page.page.click('[data-list="driven"] .card')
     page.page.click('[data-act="realise"]')

@@ -28,6 +28,8 @@ type Driven = [string, number, string, Record<Language, [string, string, string]
 export interface StructurePack {
   text: string;
   code: string;
+  size: number;
+  name: Said;
   names: Record<Language, string[]>;
   counted: number;
   generic: number;
@@ -89,6 +91,8 @@ export function structureOf(pack: StructurePack, text: string, lang: Language, p
   return {
     text,
     code: pack.code,
+    size: pack.size,
+    name: pack.name[lang],
     chosen: frame.like,
     driver: chosen?.[4] ?? frame.driver,
     picture: over(frame.picture, (chosen ?? given)?.[2] ?? ""),

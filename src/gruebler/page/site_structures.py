@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from gruebler.page.structures import drawn_frame, like_driven, listed_drives
+from gruebler.pictures.structure.messages import chain_name
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.isomorphism import code, symmetry
 from gruebler.structure.mechanism import Mechanism
@@ -79,6 +80,8 @@ def structure_pack(
     return {
         "text": chain.text(),
         "code": code(chain),
+        "size": chain.n,
+        "name": {lang: chain_name(chain, lang) for lang in langs},
         "names": {lang: chain.renamed(named).joint_names(Alphabet.of_language(lang)) for lang in langs},
         "counted": report.counted,
         "generic": report.generic,

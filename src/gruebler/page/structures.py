@@ -75,6 +75,7 @@ def structure_record(
     return {
         "text": mechanism.text() if ";" in text else chain.text(),
         "code": code(chain),
+        "size": chain.n,
         "name": chain_name(chain, lang),
         "picture": drawn.with_drives(moved),
         "joints": list(_joints(mechanism, shown, drawn, lang)),
