@@ -4,7 +4,7 @@ import { choice, h, indexed, menu, picture, renew } from "./dom";
 import { t } from "./language";
 import type { Model } from "./model";
 import type { Page, View } from "./view";
-import { moment } from "./waiting";
+import { drawn, moment } from "./waiting";
 
 interface Asked {
   key: string;
@@ -91,6 +91,7 @@ export class ExercisesView implements View {
   readonly #kinds = h("div", {});
   readonly #tasks = h("div", {});
   readonly #score = h("span.score", { role: "status" });
+  readonly #verdict = h("b", { role: "status", "data-result": "" });
   #answers: Record<string, string> = {};
   /** The tasks that were marked, and whether all their answers were right. */
   private readonly record = new Map<string, boolean>();
@@ -175,10 +176,9 @@ export class ExercisesView implements View {
       void this.#mark();
     };
     const solved = this.record.get(task.id) === true;
+    this.#verdict.textContent = "";
     const act = (name: string, text: string, key: boolean, onclick: () => void, type = "button") =>
       h("button", { class: key ? "key" : "plain", "data-act": name, type, onclick }, text);
-    const right = marked?.marks.filter(({ mark }) => mark === "right").length ?? 0;
-    const count = task.asked.length;
     renew(
       place,
       h(
@@ -194,11 +194,11 @@ export class ExercisesView implements View {
         h(
           "div",
           {},
-          ...task.figures.map(({ name, picture: drawn }) =>
+          ...task.figures.map(({ name, picture: figure }) =>
             h(
               "figure.chain-picture",
               {},
-              picture(drawn, name || t("The figure of the task")),
+              picture(figure, name || t("The figure of the task")),
               name ? h("figcaption", {}, name) : null,
             ),
           ),
@@ -207,25 +207,23 @@ export class ExercisesView implements View {
           "form",
           { onsubmit: submit },
           ...task.asked.map((one) => this.#row(one)),
-          marked
-            ? h(
-                "p",
-                { class: solved ? "good" : "bad", role: "status", "data-result": "" },
-                t("{right} of {count} right", { right, count }),
-              )
-            : null,
           h(
-            "div.form",
+            "div.form.go",
             {},
             act("mark", t("Mark my answers"), !solved, () => undefined, "submit"),
             act("next", t("Next task"), solved, () => this.#next()),
+            this.#verdict,
+            this.#score,
+          ),
+          h(
+            "div.form",
+            {},
             ...(marked ? task.figures.slice(0, task.tries) : []).map(({ name }, k) =>
               act("try", [t("Try it"), name].filter(Boolean).join(": "), false, () => void this.#tryIt(k)),
             ),
-            this.#score,
           ),
           marked
-            ? h("details.solution", {}, h("summary", {}, t("The solution")), ...marked.solution.map(partOf))
+            ? h("details.words.solution", {}, h("summary", {}, t("The solution")), ...marked.solution.map(partOf))
             : null,
         ),
       ),
@@ -278,10 +276,15 @@ export class ExercisesView implements View {
       return this.#page.say((error as Error).message);
     }
     this.#page.say("");
-    const right = this.#marked.marks.filter(({ mark }) => mark === "right");
-    this.record.set(task.id, right.length === task.asked.length);
+    const count = task.asked.length;
+    const right = this.#marked.marks.filter(({ mark }) => mark === "right").length;
+    this.record.set(task.id, right === count);
     this.#show();
     this.#showScore();
+    await drawn(); // what comes with its place is not read out
+    if (task !== this.task) return;
+    this.#verdict.className = right === count ? "good" : "bad";
+    this.#verdict.textContent = t("{right} of {count} right", { right, count });
   }
 
   #showScore(): void {

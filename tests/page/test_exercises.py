@@ -142,8 +142,7 @@ def test_a_task_is_chosen_marked_mended_and_tried(exercises):
     assert view.locator('[data-answer="type"] [aria-pressed="true"]').all_text_contents() == ["crank-rocker"]
     view.locator('[data-answer="type"] [data-value="double crank"]').press("Enter")
     view.locator('[data-answer="sum_ends"]').press("Enter")
-    page.until(f"{KIND}.record.get('grashof-1-3')")
-    assert view.locator("[data-result]").inner_text() == "4 of 4 right"
+    view.locator("[data-result]", has_text="4 of 4 right").wait_for()
     assert view.locator(".score").inner_text() == "●1 of 1 solved"
     view.click('[data-act="try"]')
     page.until("gruebler.view === 'motion'")
@@ -154,7 +153,7 @@ def test_a_task_is_chosen_marked_mended_and_tried(exercises):
     page.until("gruebler.view === 'exercises'")
     view.click('[data-act="next"]')
     page.until(f"{KIND}.task.id === 'grashof-1-4'")
-    assert view.locator("[data-result]").count() == 0
+    assert view.locator("[data-result]").inner_text() == ""
 
 
 def test_the_chain_of_a_task_that_is_tried_is_the_marked_card(exercises):
@@ -215,6 +214,38 @@ def test_answers_and_hints_in_german_on_a_phone(exercises):
     assert page.page.locator("[id=hint-H]").inner_text() == "Erwartet wird eine Zahl in mm, nicht 6o"
     figure, field = (page.page.locator(part).bounding_box() for part in (".task svg", '[data-answer="l_a"]'))
     assert figure["y"] + figure["height"] < field["y"]
+
+
+@pytest.mark.parametrize(("width", "height"), [(390, 844), (1024, 768)])
+def test_the_verdict_is_in_sight_and_read_out(exercises, width, height):
+    """Below four answers with their hints; a reader of the screen is told what changes in a place that is there."""
+    page = exercises(width=width, height=height, touch=width < 500)
+    view = page.page
+    begin(page, "mobility", 7)
+    view.locator("input[data-answer]").first.fill("5")
+    verdict = view.locator("[data-result]")
+    assert verdict.get_attribute("role") == "status"
+    assert verdict.text_content() == ""
+    said = """gruebler.root.querySelector("[data-result]"), new MutationObserver((found) => {
+        window.told = found.map(({ target }) => target.isConnected); })"""
+    view.evaluate(f"(([place, watch]) => watch.observe(place, {{ childList: true }}))([{said}])")
+    view.locator('[data-act="mark"]').focus()
+    view.keyboard.press("Enter")
+    page.until("gruebler.root.querySelector('[data-result]').textContent")
+    assert verdict.inner_text() == "0 of 4 right"
+    assert view.evaluate("told").pop() is True
+    box = verdict.bounding_box()
+    assert box["y"] > height / 2
+    assert box["y"] + box["height"] <= height
+    assert (
+        view.evaluate(
+            "gruebler.root.activeElement?.dataset.act ?? gruebler.root.getRootNode().activeElement.dataset.act"
+        )
+        == "mark"
+    )
+    view.locator('[data-answer="F"]').focus()  # what is typed into is not under the bar
+    field, bar = (view.locator(part).bounding_box() for part in ('[data-answer="F"]', ".shown .go"))
+    assert field["y"] + field["height"] <= bar["y"]
 
 
 def test_the_velocity_is_asked_where_the_linkage_then_stands(exercises):

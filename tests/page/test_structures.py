@@ -112,6 +112,14 @@ def test_names_of_chains_are_not_broken_within_a_word(tab, server, lang):
     assert name.evaluate(lines) == 1
 
 
+def test_the_button_that_finds_dimensions_is_in_sight_on_a_phone(tab, server):
+    view = tab(width=390, height=844, touch=True).open(server.address).page
+    view.click('[data-view="structure"]')
+    box = view.locator('[data-act="realise"]').bounding_box()
+    assert 422 < box["y"] < box["y"] + box["height"] <= 844
+    assert view.evaluate("document.documentElement.scrollWidth") == 390
+
+
 def test_links_are_called_by_the_names_of_the_machine():
     """What is read has the German names; the texts, which the page sends back, keep those of the catalog."""
     text = "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); frame=frame; drive=R(frame-crank)"
