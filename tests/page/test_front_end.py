@@ -27,7 +27,8 @@ def run(program: str, *arguments: str) -> None:
 def tools() -> None:
     if shutil.which("npm") is None:
         pytest.skip("building the front end needs node and npm")
-    if not all((SOURCES / "node_modules" / tool).exists() for tool in (".bin/biome", ".bin/tsc", "@gfx/zopfli", "axe-core")):
+    wanted = (".bin/biome", ".bin/tsc", "@gfx/zopfli", "axe-core")
+    if not all((SOURCES / "node_modules" / tool).exists() for tool in wanted):
         run("npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts")
 
 
