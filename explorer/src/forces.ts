@@ -52,8 +52,9 @@ export class Forces {
     () => this.changed(),
     (speed) => this.#view.transport.playAt(speed),
   );
+  readonly #summary = h("summary", {});
   /** What acts, above its results. */
-  readonly #acting = h("details.words", {});
+  readonly #acting = h("details.words", {}, this.#summary, this.#form.element);
   readonly #result = h("div", {});
   readonly #facts = new FactList();
   readonly #polar = new Polar();
@@ -62,6 +63,8 @@ export class Forces {
   #model: Model | null = null;
   #forces: (Vectors & { joint: number })[] = [];
   #timer = 0;
+  /** Whether the next forces are brought to sight. */
+  #brings = false;
   readonly #view: Loaded;
   readonly #opened: () => boolean;
 
@@ -86,6 +89,7 @@ export class Forces {
       this.#acting.open = false;
       renew(this.#result);
     }
+    this.#summary.textContent = t("Speed, masses, loads");
     if (!this.#acting.isConnected) renew(this.element, this.#acting, this.#result);
     this.#result.classList.add("waiting");
     if (!this.#opened()) return;
@@ -117,11 +121,11 @@ export class Forces {
   #show(linkage: Linkage, { assumed, drives, effort, forces, lines, masses, speed, springs }: Answer): void {
     const { drive, model } = linkage;
     this.#form.show(linkage, masses, speed ?? 0, springs);
-    renew(this.#acting, h("summary", {}, t("Speed, masses, loads")), this.#form.element);
     this.#plot = null;
     this.#forces = [];
     const assume = () => {
       this.#form.masses = assumed;
+      this.#brings = true;
       this.changed();
     };
     const weightless = masses.every((mass) => !mass);
@@ -181,6 +185,8 @@ export class Forces {
         fallen,
       );
       this.#showJoint();
+      if (this.#brings) this.element.parentElement!.parentElement!.scrollIntoView();
+      this.#brings = false;
     }
     this.at(this.#view.transport.drive);
     this.#view.redraw();

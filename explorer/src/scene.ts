@@ -54,6 +54,11 @@ export class Scene {
     return this.#pins.map(({ joint }) => joint);
   }
 
+  /** The length of the longest arrow: in a low picture others would be covered by it. */
+  get #longest(): number {
+    return Math.min(LONGEST_ARROW, 0.3 * this.viewport.height);
+  }
+
   /** Give one link a class, or none. */
   mark(marked: number | null, name: "chosen" | "hovered"): void {
     for (const [link, { classList }] of this.#links.entries())
@@ -192,7 +197,11 @@ export class Scene {
     const grounds = this.#pins
       .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
       .map(({ joint }) => standing(viewport.screen(...linkage.jointAt(joint))));
-    const drawn = [...hulls.filter((hull) => hull.length), ...arrows, ...grounds];
+    const buttons: Pair[] = [
+      [viewport.width - 46, 0],
+      [viewport.width, 46],
+    ];
+    const drawn = [...hulls.filter((hull) => hull.length), ...arrows, ...grounds, buttons];
     for (const [k, label] of this.#labels.entries()) {
       const { element, half, begins, name, spots } = label;
       const places = spots(viewport);
@@ -230,7 +239,7 @@ export class Scene {
   #forceArrows(linkage: Linkage, shown: Shown): Vector[] {
     return shown.forces().map(([joint, x, y, force]): Vector => {
       const [u, v] = this.viewport.screen(...linkage.jointAt(joint));
-      return [u, v, LONGEST_ARROW * x, -LONGEST_ARROW * y, force];
+      return [u, v, this.#longest * x, -this.#longest * y, force];
     });
   }
 
@@ -251,7 +260,7 @@ export class Scene {
     });
     if (wanted) for (const point of sizes.points) add(point.link, ...point.at);
     const most = Math.max(...places.map((one) => one[4]).filter(Number.isFinite), 1e-12);
-    const shortened = (value: number) => (LONGEST_ARROW * value) / most;
+    const shortened = (value: number) => (this.#longest * value) / most;
     return places.map(([x, y, dx, dy, size]): Vector => [x, y, shortened(dx), shortened(dy), size]);
   }
 

@@ -2,6 +2,7 @@
 
 import base64
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -168,7 +169,7 @@ def test_a_load_that_is_nowhere_is_refused():
 def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     page = tab(locale=locale).open(server.address)
     page.page.evaluate("gruebler.motion.transport.pick(1)")
-    page.page.locator(f"{PANEL} summary").click()
+    page.page.locator(f"{PANEL} summary").first.click()
     page.page.locator(f"{PANEL} .words summary").first.click()
     page.page.locator("#force-load-0").select_option("link 3")
     assert page.page.evaluate(ARROWS) == ""
@@ -203,7 +204,7 @@ def test_springs_are_chosen_drawn_and_turn_the_drive(tab, server):
     """A coil from the left bearing to C and a spiral about A: energies that the drive stores in them."""
     page = tab().open(server.address)
     page.page.evaluate("gruebler.motion.transport.pick(1)")
-    page.page.locator(f"{PANEL} summary").click()
+    page.page.locator(f"{PANEL} summary").first.click()
     page.page.locator(f"{PANEL} .words summary").first.click()
     page.page.locator("#spring-0").select_option(label="straight")
     page.page.locator("#spring-0-1").select_option(label="R(coupler-rocker)")
@@ -230,7 +231,7 @@ def test_springs_are_chosen_drawn_and_turn_the_drive(tab, server):
 def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_fields(tab, server):
     page = tab(width=390, height=844, touch=True).open(server.address).page
     panel = page.locator(PANEL)
-    panel.locator("summary").click()
+    panel.locator("summary").first.click()
     offer = panel.locator('[data-act="assume"]')
     offer.wait_for()
     offer.click()
@@ -278,11 +279,47 @@ def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_field
     assert stage["height"] == pytest.approx(0.25 * 844, abs=1)
 
 
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768), (390, 844)])
+def test_the_figures_that_a_button_brings_are_in_sight(tab, server, width, height):
+    """They stand below all other panels; on a phone below the picture and its bar."""
+    page = tab(width=width, height=height, touch=width < 500).open(server.address).page
+    panel = page.locator(PANEL)
+    panel.locator("summary").first.click()
+    folded = panel.locator(".words summary")
+    assert folded.inner_text() == "Speed, masses, loads"  # before there is an answer, too
+    panel.locator('[data-act="assume"]').click()
+    panel.locator(".plot.polar").wait_for()
+    page.wait_for_timeout(100)
+    top = page.locator(".motion > .transport").bounding_box() if width < 500 else None
+    for part in (".facts", ".plot"):
+        box = panel.locator(part).first.bounding_box()
+        assert box["y"] >= (top["y"] + top["height"] if top else 0)
+        assert box["y"] + box["height"] <= height
+
+
+def test_arrows_of_a_low_picture_are_shorter_and_their_value_is_not_under_a_button(tab, server):
+    page = tab(width=390, height=844, touch=True).open(server.address)
+    page.page.locator(f"{PANEL} summary").first.click()
+    page.page.locator('[data-act="assume"]').click()
+    page.page.locator(f"{PANEL} .plot.polar").wait_for()
+    page.until(f"{ROOT}.querySelector('.stage.low')")
+    high = page.page.locator(".stage").bounding_box()["height"]
+    value = page.page.locator(".stage text[data-arrow]:not(:empty)")
+    for drive in range(0, 360, 20):
+        page.page.evaluate(f"gruebler.motion.transport.pick({math.radians(drive)})")
+        strokes = re.findall(r"M([^ML]+) ([^ML]+)L([^ML]+) ([^ML]+)", page.page.evaluate(ARROWS))
+        lengths = [math.dist((float(x), float(y)), (float(u), float(v))) for x, y, u, v in strokes]
+        assert max(lengths) <= 0.3 * high + 0.2
+        button, text = (one.bounding_box() for one in (page.page.locator(".stage .tools button").last, value))
+        apart = (button["x"] - text["x"] - text["width"], text["y"] - button["y"] - button["height"])
+        assert max(apart) >= 0, drive
+
+
 def test_without_the_library_it_says_so(tab, tmp_path):
     from gruebler.cli import main
 
     path = tmp_path / "page.html"
     assert main(["explore", "crankrocker", "-o", str(path)]) == 0
     page = tab().open(path.as_uri())
-    page.page.locator(f"{PANEL} summary").click()
+    page.page.locator(f"{PANEL} summary").first.click()
     assert page.page.locator(f"{PANEL} .note").inner_text().endswith("gruebler explore crankrocker")
