@@ -198,8 +198,9 @@ export class Scene {
       .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
       .map(({ joint }) => standing(viewport.screen(...linkage.jointAt(joint))));
     const buttons: Pair[] = [
-      [viewport.width - 46, 0],
-      [viewport.width, 46],
+      [viewport.width, 60],
+      [viewport.width - 54, 60],
+      [viewport.width - 54, 0],
     ];
     const drawn = [...hulls.filter((hull) => hull.length), ...arrows, ...grounds, buttons];
     for (const [k, label] of this.#labels.entries()) {
