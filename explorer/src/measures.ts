@@ -221,7 +221,7 @@ function turningBack(linkage: Linkage, from: number, to: number, row: number): D
     const rows = linkage.from(row, drive);
     return rows.reached < 2 ? NaN : output(linkage, rows, 1, 1);
   };
-  const value = zero(speed, from, to);
+  const value = zero(speed, from, to, linkage.quick ? 1e-5 : undefined);
   if (value === null) return null;
   const rows = linkage.from(row, value);
   if (rows.reached < 2 || leastRoot(rows, 1) < CHANGE) return null;
@@ -229,10 +229,10 @@ function turningBack(linkage: Linkage, from: number, to: number, row: number): D
 }
 
 /** A zero of a function between two values at which it has different signs; null where it has no value. */
-export function zero(f: (value: number) => number, from: number, to: number): number | null {
+export function zero(f: (value: number) => number, from: number, to: number, fine = 1e-11): number | null {
   let [a, b] = [from, to];
   let [fa, fb] = [f(a), f(b)];
-  for (let k = 0; k < 60 && Math.abs(b - a) > 1e-11 * (1 + Math.abs(a)); k++) {
+  for (let k = 0; k < 60 && Math.abs(b - a) > fine * (1 + Math.abs(a)); k++) {
     let middle = k % 3 === 2 ? (a + b) / 2 : a - (fa * (b - a)) / (fb - fa);
     if (!(middle > Math.min(a, b) && middle < Math.max(a, b))) middle = (a + b) / 2;
     const fm = f(middle);
@@ -264,7 +264,7 @@ export function leastTransmission(linkage: Linkage): Least | null {
     return pose.reached < 2 ? Infinity : transmission(linkage, pose, 1);
   };
   const next = [values[Math.max(0, best - 1)]!, values[Math.min(values.length - 1, best + 1)]!] as const;
-  for (const one of smallest(angleAt, ...next)) if (one.mu < found.mu) found = one;
+  for (const one of smallest(angleAt, ...next, linkage.quick ? 14 : 40)) if (one.mu < found.mu) found = one;
   const pose = linkage.from(best, found.value);
   let [, link] = leastOfLegs(linkage, (leg) => forceAndWay(linkage, pose, pose.reached - 1, leg));
   if (!full && values.length > 2) {
@@ -281,12 +281,12 @@ function ascending(a: number, b: number): number {
 }
 
 /** The two places where a golden section search for the smallest value ends. */
-function smallest(f: (value: number) => number, from: number, to: number): [Low, Low] {
+function smallest(f: (value: number) => number, from: number, to: number, steps: number): [Low, Low] {
   let [low, high] = [from, to];
   let a = high - GOLDEN * (high - low);
   let b = low + GOLDEN * (high - low);
   let [fa, fb] = [f(a), f(b)];
-  for (let k = 0; k < 40; k++) {
+  for (let k = 0; k < steps; k++) {
     if (fa <= fb) {
       [high, b, fb] = [b, a, fa];
       a = high - GOLDEN * (high - low);

@@ -30,8 +30,8 @@ export class Side {
   readonly #sizes: SizeRows;
   readonly #words: InWords;
   readonly #opened = new Set(["sizes", "measures", "plots"]);
-  /** Whether plots followed in the last step of a drag. */
-  #plotting = false;
+  /** What followed in the last step of a drag. */
+  #turn = 0;
   #resting = 0;
 
   constructor(private readonly view: Panelled) {
@@ -89,8 +89,8 @@ export class Side {
   /** After a change: what takes longer than a frame, and what Python says, in pieces. */
   *measuring(): Generator<void> {
     const { linkage, transport } = this.view;
-    const dead = deadCentres(linkage);
-    this.found = { dead, travel: travelOf(linkage, dead), least: leastTransmission(linkage) };
+    this.#findTravel();
+    this.#findLeast();
     yield;
     transport.showRange(this.found);
     clearTimeout(this.#resting);
@@ -105,14 +105,29 @@ export class Side {
     this.#words.ask(linkage, () => documentOf(linkage, linkage.cycle.rows, linkage.cycle.home));
   }
 
-  /** After each step of a drag: what follows at once. Plots and texts take turns, in steps without a cycle where that
-   * takes long; all of them follow where it rests. */
+  /** Where the output turns back, and how far it goes. */
+  #findTravel(): void {
+    const { linkage } = this.view;
+    const dead = deadCentres(linkage);
+    this.found = { ...this.found, dead, travel: travelOf(linkage, dead) };
+  }
+
+  #findLeast(): void {
+    this.found = { ...this.found, least: leastTransmission(this.view.linkage) };
+  }
+
+  /** After each step of a drag: what follows at once. Texts, measures and plots take turns; where a cycle takes long,
+   * texts and plots do in steps without one. All of them follow where it rests. */
   follow(): void {
     const { linkage, transport } = this.view;
     const alone = linkage.program.roots.length && !linkage.late;
     if (!alone) {
-      this.#plotting = !this.#plotting && this.#opened.has("plots");
-      if (this.#plotting) this.plots.follow(linkage);
+      const turn = (this.#turn + 1) % 4;
+      this.#turn = turn;
+      const soon = !linkage.program.roots.length;
+      if (soon && turn === 1) this.#findTravel();
+      else if (soon && turn === 2) this.#findLeast();
+      else if (turn % 2 && this.#opened.has("plots")) this.plots.follow(linkage);
       else {
         transport.showRange(this.found);
         this.#sizes.follow();
@@ -126,6 +141,8 @@ export class Side {
   #rest(): void {
     const { linkage, transport } = this.view;
     linkage.rest();
+    this.#findTravel();
+    this.#findLeast();
     transport.showRange(this.found);
     this.#sizes.follow();
     this.view.redraw();

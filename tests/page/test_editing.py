@@ -547,6 +547,46 @@ def test_plots_and_measures_follow_where_a_drag_rests(tab, crank_rocker):
     assert page.page.evaluate(said) == rested
 
 
+def test_swing_and_transmission_follow_while_a_joint_is_dragged(tab, crank_rocker):
+    """The right bearing goes to the left: with a shorter frame the swing is another one, known from triangles."""
+    page = tab().open(crank_rocker)
+    page.page.evaluate("""() => {
+        window.seen = [];
+        const told = () => {
+            const { linkage, dragging } = gruebler.motion;
+            const texts = [...gruebler.root.querySelectorAll(".facts > div")].map((one) =>
+                ["dt", "dd"].map((part) => one.querySelector(part).firstChild.textContent));
+            if (linkage.dragged && linkage.quick) seen.push(Object.fromEntries(texts));
+        };
+        const how = { subtree: true, childList: true, characterData: true };
+        new MutationObserver(told).observe(gruebler.root.querySelector(".facts"), how);
+    }""")
+    before = page.page.evaluate(
+        "[...gruebler.root.querySelectorAll('.facts dd')].map((one) => one.firstChild.textContent)"
+    )
+    x, y = page.middle('.stage [data-joint="R(frame-rocker)"] .joint')
+    page.page.mouse.move(x, y)
+    page.page.mouse.down()
+    for step in range(40):
+        page.page.mouse.move(x - step / 2, y)
+    moving = page.page.evaluate("seen.at(-1)")
+    for name in ("Swing", "Smallest μ", "Dead centres", "Time ratio"):
+        assert moving[name] not in before, name
+    page.until("!gruebler.motion.linkage.quick")
+    frame, crank, coupler, rocker = page.page.evaluate(
+        "['frame', 'crank', 'coupler', 'rocker'].map((name) => gruebler.motion.dragging.lengths().find(({ link }) => "
+        "gruebler.motion.linkage.model.links[link] === name).value)"
+    )
+
+    def angle(reach: float) -> float:
+        """That of the rocker against the frame where crank and coupler are in line."""
+        return math.degrees(math.acos((frame**2 + rocker**2 - reach**2) / (2 * frame * rocker)))
+
+    swing = page.page.locator(".facts > div", has_text="Swing").locator("dd").inner_text()
+    assert swing == f"{angle(coupler + crank) - angle(coupler - crank):.4g}°"
+    page.page.mouse.up()
+
+
 def test_a_joint_snaps_while_it_is_dragged(tab, crank_rocker):
     """With the option, and with Shift: the right bearing, (70, 0), stops level with the left one."""
     page = tab().open(crank_rocker)
