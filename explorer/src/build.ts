@@ -1,7 +1,7 @@
 /** The view in which a mechanism is drawn on an empty plane; its mobility is told while it grows. */
 
 import { gripAt, gripped } from "./backdrop";
-import { choiceOf, removeChosen } from "./choice";
+import { choiceOf, isLow, removeChosen } from "./choice";
 import { h, renew, svg } from "./dom";
 import {
   type Drawing,
@@ -374,6 +374,8 @@ export class BuildView implements View, Plane, Drawn {
 
   #showChoice(): void {
     renew(this.#choice, ...choiceOf(this));
+    this.#choice.classList.toggle("above", isLow(this));
+    this.#hint.hidden = !!this.chosen;
   }
 
   get title(): string {

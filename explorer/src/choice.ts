@@ -19,6 +19,8 @@ import { parsed, spaced, t } from "./language";
 import { isPicture, type Plane } from "./plane";
 import type { Pair } from "./rows";
 
+const SHEET = 90; // pixels at an edge of the plane, with what can be done with what is chosen
+
 /** The view of a drawing, as far as it is changed here. */
 interface Changing extends Plane {
   /** How far a new end is put beside others. */
@@ -34,6 +36,13 @@ export function removeChosen(view: Changing): void {
   const { knot, link } = chosen;
   if (knot !== null) view.change(without(drawing, knot));
   else view.change(link === null ? { ...drawing, picture: undefined } : withoutLink(drawing, link));
+}
+
+/** Whether what is chosen is at the lower edge of the plane, where else stands what can be done with it. */
+export function isLow({ chosen, drawing, viewport }: Plane): boolean {
+  const places = drawing.knots.filter(({ links }, k) => k === chosen?.knot || links.includes(chosen?.link ?? ""));
+  const rows = places.map(({ at }) => viewport.screen(...at)[1]);
+  return Math.max(...rows) > viewport.height - SHEET && Math.min(...rows) > SHEET;
 }
 
 /** A number in a field that changes the drawing. */

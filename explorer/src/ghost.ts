@@ -50,7 +50,8 @@ export class Ghost {
   play(moving: Moving | null, unit: number, shown: (frame: number) => void): void {
     cancelAnimationFrame(this.#frame);
     if (!moving) return renew(this.element);
-    const { drive, frames, joints, members, points, rails = [] } = moving;
+    const { drive, frames, joints, points, rails = [] } = moving;
+    const members = [...moving.members].sort((one, other) => other.length - one.length); // plates lie below bars
     const [first] = frames as [Pair[]];
     const curves = first
       .slice(joints, points && joints + points)

@@ -6,6 +6,7 @@ import type { Viewport } from "./viewport";
 
 const HALF_LETTER = 3.7; // pixels
 const BODY = 9; // pixels from the line between two joints to a name: half the width of a bar, and some room
+const ALONE = 22; // pixels from the only joint of a body, such as a block, to its name
 const INK = 6; // half the height of a name, in pixels
 const ROOM = 15; // pixels between a name in a body and the lines between its joints
 
@@ -50,6 +51,15 @@ export function namePlace(joints: readonly Pair[], points: readonly Pair[], name
 export function nameSpots(viewport: Viewport, { at, away, along = [0, 0], bar }: NamePlace, name: string): Pair[] {
   const [x, y] = viewport.screen(...at);
   if (!away) return [[x, y + 4]];
+  if (bar === undefined) {
+    const side = ALONE + halfOf(name);
+    return [
+      [x, y + 4 - ALONE],
+      [x, y + 4 + ALONE],
+      [x + side, y + 4],
+      [x - side, y + 4],
+    ];
+  }
   const [u, v] = away;
   const far = BODY + halfOf(name) * Math.abs(u) + INK * Math.abs(v);
   const [dx, dy] = along.map((value) => value * viewport.scale) as Pair;
@@ -85,5 +95,8 @@ export function clearSpot(
   if (best >= 0) return best;
   const worths = spots.map(worth);
   const fair = worths.findIndex((value) => value > 0);
-  return fair < 0 ? worths.indexOf(Math.max(...worths)) : fair;
+  if (fair >= 0) return fair;
+  const clearer = worths.map((value, k) => value - (clear(spots[k]!) ? 0 : 99));
+  const most = Math.max(...clearer);
+  return clearer[before]! > most - INK ? before : clearer.indexOf(most);
 }

@@ -85,14 +85,19 @@ export function spotAt(
 export function planePicture(plane: Plane): SVGElement[] {
   const { aim, chosen, cursor, drawing, spots, viewport } = plane;
   const reach = (link: string) => drawing.knots.filter((knot) => knot.links.includes(link)).length;
+  // plates first; a bar with a joint between others goes on over these
+  const rank = (link: string) => (outlineOf(plane, link)[2] ? 0 : 99) + reach(link);
   const bodies = linksOf(drawing).filter((link) => link !== drawing.frame);
-  bodies.sort((one, other) => reach(one) - reach(other)); // one with a joint between others goes on over them
+  bodies.sort((one, other) => rank(one) - rank(other));
   const path = (corners: readonly Pair[]) =>
     corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
   const hulls = bodies.map((link) => outlineOf(plane, link));
   const arrows = drawing.drives.map((k): Pair[] => {
     const [x, y] = viewport.screen(...drawing.knots[k]!.at);
-    return [[x - 8, y]];
+    return [
+      [x - 13, y - 5],
+      [x + 9, y - 10],
+    ];
   });
   const letters = lettersOf(plane, [...hulls, ...arrows]);
   const links = bodies.flatMap((link, k) => {

@@ -4,12 +4,13 @@ import { backdropElement, putBackdrop } from "./backdrop";
 import { Bodies } from "./bodies";
 import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
-import { clearAbout, convexHull, spotsAbout, toHull } from "./hull";
+import { clearAbout, convexHull } from "./hull";
+import { clearOf, type Label, labelsOf, standing } from "./labels";
 import { number as numberText } from "./language";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
-import { clearSpot, halfOf, type NamePlace, namePlace, nameSpots } from "./names";
-import { direction, origin, type Pair, place, turn } from "./rows";
+import { clearSpot, halfOf } from "./names";
+import { origin, type Pair, place, turn } from "./rows";
 import { readingsOf } from "./rulers";
 import { ownColour, type Shown } from "./shown";
 import { springPath } from "./springs";
@@ -21,12 +22,16 @@ export const SUPPORT = "M0 0 L-11 17 H11 Z M-17 17 H17 M-14 23 l5 -6 M-5 23 l5 -
 export const DRIVEN = "M9.5 -9.5 A13.4 13.4 0 0 0 -12.5 -5 M-12.5 -5 l6 -1.5 M-12.5 -5 l-0.6 -6";
 const LONGEST_ARROW = 90; // pixels
 const LINE = 15; // pixels that names are apart
-const INK = 8; // from a name to an arrow
 const MOST_CLEAR = 40; // names that look for a place of their own in every picture
-const LETTER = 20; // from a joint to its letter
+const RAIL = 6; // half the width of a rail with its hatching, and some room
 
 export class Scene {
   #links: SVGGElement[] = [];
+  /** Where those that move lie, and which of them over which. */
+  #bodies!: SVGElement;
+  #order = "";
+  /** The ends of the rails of the frame, in pixels from its origin. */
+  #rails: Pair[][] = [];
   #pins: { element: SVGGElement; joint: number }[] = [];
   #marks: { element: SVGGElement; point: number }[] = [];
   #labels: Label[] = [];
@@ -77,15 +82,13 @@ export class Scene {
     const [back, bodies, marks, front] = ["back", "bodies", "marks", "front"].map((name) =>
       svg("g", { class: name }),
     ) as [SVGGElement, SVGGElement, SVGGElement, SVGGElement];
+    this.#bodies = bodies;
     this.#links = model.links.map((name, link) => {
       const group = svg("g", { class: link === model.frame ? "link ground" : "link", "data-link": name });
       return group;
     });
-    // a link with a joint between others goes on over what ends there
-    const order = [...model.links.keys()].sort(
-      (one, other) => sizes.elementsOn(one).length - sizes.elementsOn(other).length,
-    );
-    for (const link of order) (link === model.frame ? back : bodies).append(this.#links[link]!);
+    back.append(this.#links[model.frame]!);
+    this.#order = "";
     this.#pins = [...model.joints.keys()]
       .filter((joint) => sizes.elementsOf(joint).some((k) => sizes.is(k, "pin")))
       .map((joint) => ({ element: this.#pin(linkage, joint, dragging), joint }));
@@ -147,9 +150,21 @@ export class Scene {
   /** Draw the bodies of the links and find where their names stand on them, after their sizes or the scale changed. */
   sized(linkage: Linkage): void {
     for (const label of this.#labels) label.sized?.(this.viewport.scale);
+    const { frame } = linkage.model;
     const bodies = new Bodies(linkage, this.viewport.scale);
     for (const [link, group] of this.#links.entries()) {
       const made = bodies.of(link);
+      if (link === frame)
+        this.#rails = made.flatMap(([, { class: name, d }]) =>
+          name === "rail"
+            ? [
+                String(d)
+                  .slice(1)
+                  .split("L")
+                  .map((at) => at.split(" ").map(Number) as Pair),
+              ]
+            : [],
+        );
       while (group.childElementCount > made.length) group.lastChild!.remove();
       made.forEach(([tag, attributes], k) => {
         const old = group.children[k];
@@ -159,6 +174,15 @@ export class Scene {
         else group.append(svg(tag, attributes));
       });
     }
+    // plates first; a bar with a joint between others goes on over what ends there
+    const rank = (link: number) =>
+      (this.#links[link]!.querySelector(".plate") ? 0 : 99) + linkage.sizes.elementsOn(link).length;
+    const order = [...this.#links.keys()]
+      .filter((link) => link !== frame)
+      .sort((one, other) => rank(one) - rank(other));
+    if (order.join() === this.#order) return;
+    this.#order = order.join();
+    for (const link of order) this.#bodies.append(this.#links[link]!);
   }
 
   // --- the pose ------------------------------------------------------------------------------------------------------
@@ -202,6 +226,15 @@ export class Scene {
       [viewport.width - 54, 60],
       [viewport.width - 54, 0],
     ];
+    const [c, s] = turn(pose, 0, model.frame);
+    const [ox, oy] = viewport.screen(...origin(pose, 0, model.frame));
+    const placed = (x: number, y: number): Pair => [ox + c * x + s * y, oy - s * x + c * y];
+    for (const ends of this.#rails)
+      grounds.push(
+        convexHull(
+          ends.flatMap(([x, y]) => [-RAIL, RAIL].flatMap((d) => [placed(x + d, y + d), placed(x + d, y - d)])),
+        ),
+      );
     const drawn = [...hulls.filter((hull) => hull.length), ...arrows, ...grounds, buttons];
     for (const [k, label] of this.#labels.entries()) {
       const { element, half, begins, name, spots } = label;
@@ -294,83 +327,6 @@ export class Scene {
 
 /** An arrow: its start and its extent in pixels, and how much it is. */
 type Vector = [number, number, number, number, number];
-
-/** A name and where it stands in the picture. */
-interface Label {
-  element: SVGTextElement;
-  name: string;
-  /** After the sizes of its link or the scale changed. */
-  sized?: (scale: number) => void;
-  /** Where it may stand, and which of these places it takes. */
-  spots: (viewport: Viewport) => Pair[];
-  taken: number;
-  /** The corners of its link. */
-  hull?: (viewport: Viewport) => Pair[];
-  /** Half its width, in pixels, and whether it begins at its place instead of having its middle there. */
-  half: number;
-  begins: boolean;
-}
-
-/** The names of links, in or beside their bodies, and of points. */
-function labelsOf(linkage: Linkage): Label[] {
-  const { model, sizes } = linkage;
-  const links = [...model.links.slice(0, model.own).keys()].filter((link) => link !== model.frame);
-  const names = links.map((link): Label => {
-    const name = linkage.linkName(link);
-    const joints = () => sizes.elementsOn(link).map((k) => sizes.xy(k));
-    let on!: NamePlace;
-    const points = () => sizes.points.filter((point) => point.link === link).map((point) => point.at);
-    const sized = (scale: number) => {
-      on = namePlace(joints(), points(), name, scale);
-    };
-    const spots = (viewport: Viewport) => {
-      const { at, away, along, ...more } = on;
-      const turned = (way: Pair) => direction(linkage.pose, 0, link, way);
-      const where = { at: place(linkage.pose, 0, link, ...at), away: away && turned(away) };
-      return nameSpots(viewport, { ...where, ...more, along: turned(along ?? [0, 0]) }, name);
-    };
-    const hull = (viewport: Viewport) =>
-      convexHull([...joints(), ...points()].map((at) => viewport.screen(...place(linkage.pose, 0, link, ...at))));
-    const element = svg("text.name", { "text-anchor": "middle" }, name);
-    return { element, name, sized, spots, taken: 0, hull, half: halfOf(name), begins: false };
-  });
-  const marks = sizes.points.map(
-    (point): Label => ({
-      element: svg("text.mark", {}, linkage.pointName(point.name)),
-      name: point.name,
-      spots: (viewport) => {
-        const [x, y] = viewport.screen(...place(linkage.pose, 0, point.link, ...point.at));
-        return [[x + 9, y - 9]];
-      },
-      taken: 0,
-      half: halfOf(linkage.pointName(point.name)),
-      begins: true,
-    }),
-  );
-  const letters = [...model.joints.keys()].flatMap((joint): Label[] => {
-    const name = linkage.letterOf(joint);
-    if (!name) return [];
-    const spots = (viewport: Viewport) =>
-      spotsAbout(viewport.screen(...linkage.jointAt(joint)), -LETTER).map(([x, y]): Pair => [x, y + 4]);
-    const element = svg("text.name", { "text-anchor": "middle" }, name);
-    return [{ element, name, spots, taken: 0, half: halfOf(name), begins: false }];
-  });
-  return [...letters, ...names, ...marks];
-}
-
-/** From the arrow of a drive to the hatching of a ground. */
-function standing([x, y]: Pair): Pair[] {
-  return [
-    [x, y - 14],
-    [x + 17, y + 23],
-    [x - 17, y + 23],
-  ];
-}
-
-/** Whether a name keeps clear of an arrow. */
-function clearOf(one: readonly Pair[], half: number, [x, y]: Pair): boolean {
-  return [-half, 0, half].every((d) => !(toHull(one, x + d, y - 4) < INK));
-}
 
 function move(element: SVGElement, [x, y]: Pair): void {
   put(element, { transform: `translate(${x.toFixed(2)} ${y.toFixed(2)})` });

@@ -172,6 +172,56 @@ def test_an_empty_plane_begins_with_the_ground_and_ends_stay_on_axes(plane):
     assert view.evaluate("gruebler.views.build.drawing.knots.length") == drawn > 0
 
 
+def test_a_plate_lies_below_bars(plane):
+    """A point beside the rod of a slider-crank makes it a triangle, over which the crank goes on; in Motion, too."""
+    view = plane.page
+    view.click('[data-begin="slider-crank"]')
+    order = "[...gruebler.root.querySelectorAll('.drawing [data-link]')].map((one) => one.dataset.link)"
+    assert view.evaluate(order).index("1") < view.evaluate(order).index("2")  # two bars, as they were drawn
+    view.evaluate("""() => {
+        const { build } = gruebler.views;
+        build.change({ ...build.drawing, knots: [...build.drawing.knots, { at: [20, -30], links: ["2"] }] });
+    }""")
+    assert view.evaluate(order)[0] == "2"
+    view.locator('[data-act="move"]').click()
+    plane.until("gruebler.view === 'motion'")
+    bodies = "[...gruebler.root.querySelectorAll('.bodies > .link')].map((one) => one.dataset.link)"
+    assert view.evaluate(bodies)[0] == "2"
+    # its point is taken onto the line of its joints: it is a bar, and none lies below another
+    view.evaluate("""() => {
+        const { linkage } = gruebler.motion;
+        const { at } = linkage.model.elements.find(({ link }) => linkage.model.links[link] === "2");
+        gruebler.motion.attempt(() => { linkage.sizes.points[0].at = [...at]; });
+    }""")
+    assert view.evaluate(bodies) == ["1", "2", "3"]
+
+
+def test_what_is_done_with_the_chosen_takes_one_row_of_a_phone_and_leaves_it_in_sight(tab, server):
+    page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
+    view = page.page
+    view.click('[data-view="build"]')
+    view.click('[data-begin="slider-crank"]')
+    view.locator('[data-act="move"]').wait_for()
+    stage = view.locator(".stage:has(.drawing)").bounding_box()
+    sheet = view.locator(".choosing")
+    for down in range(0, 240, 60):  # the crank pin is seen lower and lower
+        view.evaluate(
+            f"gruebler.views.build.viewport.fit({{left: -60, right: 140, bottom: {down - 160}, top: {down}}}, 1e-9)"
+        )
+        box = view.locator(".drawing").bounding_box()
+        x, y = view.evaluate("gruebler.views.build.viewport.screen(0, 20)")
+        view.mouse.click(box["x"] + x, box["y"] + y)
+        if not 0 < y < box["height"]:
+            continue
+        shown = sheet.bounding_box()
+        assert shown["height"] < 0.16 * stage["height"]
+        joint = view.locator(".drawing .chosen .joint").bounding_box()
+        assert joint["y"] > shown["y"] + shown["height"] or joint["y"] + joint["height"] < shown["y"]
+    assert view.locator(".drawing + .hint").is_hidden()
+    sheet.locator('[data-act="remove"]').click()  # the last one is reached
+    assert sheet.is_hidden()
+
+
 def test_a_slider_crank_is_drawn_by_keys_alone(plane):
     view = plane.page
     view.locator(".drawing").focus()

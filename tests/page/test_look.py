@@ -252,6 +252,23 @@ def test_names_of_a_six_bar_do_not_lie_on_each_other(tab, server):
         assert page.page.evaluate(overlaps) == [], drive
 
 
+def test_no_name_lies_on_the_hatching_of_a_rail(tab, server):
+    page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-id="slidercrank"]').click()
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'slidercrank'")
+    gaps = """(() => {
+        const box = (one) => one.getBoundingClientRect();
+        const { left, right, top, bottom } = box(gruebler.root.querySelector(".ground .rail-hatch"));
+        const middle = (top + bottom) / 2;
+        return [...gruebler.root.querySelectorAll("text.name")].map(box).map((one) =>
+            Math.max(middle - 4.5 - one.bottom, one.top - middle - 4.5, left - one.right, one.left - right));
+    })()"""
+    for drive in np.linspace(0, 6, 13):
+        page.page.evaluate(f"gruebler.motion.transport.pick({drive})")
+        assert min(page.page.evaluate(gaps)) > 0, drive
+
+
 def test_no_name_lies_on_the_edge_of_its_link(tab, server):
     """Klann's leg has links with three joints in a thin triangle: names stand within their link, or beside it."""
     page = tab(width=1024, height=768).open(server.address)

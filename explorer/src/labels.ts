@@ -1,0 +1,93 @@
+/** The names in the picture of a linkage, and where each of them may stand. */
+
+import { svg } from "./dom";
+import { convexHull, spotsAbout, toHull } from "./hull";
+import type { Linkage } from "./linkage";
+import { halfOf, type NamePlace, namePlace, nameSpots } from "./names";
+import { direction, type Pair, place } from "./rows";
+import type { Viewport } from "./viewport";
+
+const INK = 8; // pixels from a name to an arrow
+const LETTER = 20; // from a joint to its letter
+
+/** A name and where it stands in the picture. */
+export interface Label {
+  element: SVGTextElement;
+  name: string;
+  /** After the sizes of its link or the scale changed. */
+  sized?: (scale: number) => void;
+  /** Where it may stand, and which of these places it takes. */
+  spots: (viewport: Viewport) => Pair[];
+  taken: number;
+  /** The corners of its link. */
+  hull?: (viewport: Viewport) => Pair[];
+  /** Half its width, in pixels, and whether it begins at its place instead of having its middle there. */
+  half: number;
+  begins: boolean;
+}
+
+/** The names of links, in or beside their bodies, and of points. */
+export function labelsOf(linkage: Linkage): Label[] {
+  const { model, sizes } = linkage;
+  const links = [...model.links.slice(0, model.own).keys()].filter((link) => link !== model.frame);
+  const names = links.map((link): Label => {
+    const name = linkage.linkName(link);
+    const joints = () => sizes.elementsOn(link).map((k) => sizes.xy(k));
+    let on!: NamePlace;
+    const points = () => sizes.points.filter((point) => point.link === link).map((point) => point.at);
+    const sized = (scale: number) => {
+      on = namePlace(joints(), points(), name, scale);
+    };
+    const spots = (viewport: Viewport) => {
+      const { at, away, along, ...more } = on;
+      const turned = (way: Pair) => direction(linkage.pose, 0, link, way);
+      const where = { at: place(linkage.pose, 0, link, ...at), away: away && turned(away) };
+      return nameSpots(viewport, { ...where, ...more, along: turned(along ?? [0, 0]) }, name);
+    };
+    const hull = (viewport: Viewport) =>
+      convexHull(
+        [
+          ...sizes.elementsOn(link).map((k) => linkage.jointAt(sizes.element(k).joint)),
+          ...points().map((at) => place(linkage.pose, 0, link, ...at)),
+        ].map((at) => viewport.screen(...at)),
+      );
+    const element = svg("text.name", { "text-anchor": "middle" }, name);
+    return { element, name, sized, spots, taken: 0, hull, half: halfOf(name), begins: false };
+  });
+  const marks = sizes.points.map(
+    (point): Label => ({
+      element: svg("text.mark", {}, linkage.pointName(point.name)),
+      name: point.name,
+      spots: (viewport) => {
+        const [x, y] = viewport.screen(...place(linkage.pose, 0, point.link, ...point.at));
+        return [[x + 9, y - 9]];
+      },
+      taken: 0,
+      half: halfOf(linkage.pointName(point.name)),
+      begins: true,
+    }),
+  );
+  const letters = [...model.joints.keys()].flatMap((joint): Label[] => {
+    const name = linkage.letterOf(joint);
+    if (!name) return [];
+    const spots = (viewport: Viewport) =>
+      spotsAbout(viewport.screen(...linkage.jointAt(joint)), -LETTER).map(([x, y]): Pair => [x, y + 4]);
+    const element = svg("text.name", { "text-anchor": "middle" }, name);
+    return [{ element, name, spots, taken: 0, half: halfOf(name), begins: false }];
+  });
+  return [...letters, ...names, ...marks];
+}
+
+/** From the arrow of a drive to the hatching of a ground. */
+export function standing([x, y]: Pair): Pair[] {
+  return [
+    [x, y - 14],
+    [x + 17, y + 23],
+    [x - 17, y + 23],
+  ];
+}
+
+/** Whether a name keeps clear of an arrow. */
+export function clearOf(one: readonly Pair[], half: number, [x, y]: Pair): boolean {
+  return [-half, 0, half].every((d) => !(toHull(one, x + d, y - 4) < INK));
+}
