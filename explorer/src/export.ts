@@ -57,9 +57,10 @@ export function showExport(root: HTMLElement, page: Page, shown: Exported): void
   const told = h("p.told", { role: "status" });
   const say = (text: string, failed = false) => {
     told.replaceChildren(text);
-    told.classList.toggle("error", failed);
+    told.className = `told ${failed ? "error" : "good"}`;
   };
-  const dialog = showOver(root, t("Save and export"), told, ...groupsOf(page, shown, say));
+  const dialog = showOver(root, t("Save and export"), ...groupsOf(page, shown, say));
+  dialog.querySelector("h2")!.after(told); // in its place
   dialog.dataset.panel = "export";
   dialog.addEventListener("click", ({ target }) => {
     if (target === dialog || (target as Element).matches("[data-act=share]")) dialog.close();

@@ -66,7 +66,8 @@ export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap:
   }
   if (linkage.drive) {
     const full = cycle.turns === 1 ? t("full turns") : t("full turns, repeats after {turns}", { turns: cycle.turns });
-    const part = `${driveText(linkage, cycle.low, 4)} … ${driveText(linkage, cycle.high, 4)}`;
+    const low = linkage.drive.turning ? angle(cycle.low) : number(cycle.low);
+    const part = `${low} … ${driveText(linkage, cycle.high, 4)}`;
     facts.push({ name: t("Range of the drive"), text: cycle.full ? full : part });
   }
   for (const { name, text } of readingsOf(linkage)) facts.push({ name, text });

@@ -25,7 +25,7 @@ const RIGHT = 10;
 const TOP = 20;
 const BOTTOM = 18;
 const WIDE = WIDTH - LEFT - RIGHT;
-const LONG = 33; // letters of a title beside which its value has no room
+const LONG = 36; // letters of a title and a unit beside which a value has no room
 const EVEN = 200; // places of the drive at which values are compared
 const PART = 0.05; // of the drive: where values may be without bound
 const FLAT = 0.1; // pixels: the second difference below which a line is nearly straight
@@ -174,7 +174,7 @@ export class Plot {
       const [text, unit = ""] = series.title.split(/ \[|\]/);
       this.#title.textContent = text!;
       this.#measure = unit === "°" ? unit : ` ${unit}`;
-      put(this.#value, { y: text!.length > LONG ? TOP + 10 : 13 });
+      put(this.#value, { y: series.title.length > LONG ? TOP + 10 : 13 });
       this.#curve.style.stroke = `var(${series.colour})`;
       put(this.element, { "aria-label": series.title });
     }

@@ -56,9 +56,9 @@ export class Track {
     this.#cycle = cycle;
     const { full, turns, low: from, high: to } = cycle;
     const reached = full ? [] : [from, to, ...cycle.stops.map(Boolean)]; // full turns go from 0 on wherever they began
-    const told = JSON.stringify([turning, dead, least, unit, turns, reached, currentLanguage()]);
-    if (told === this.#told) return;
-    this.#told = told;
+    const shows = JSON.stringify([turning, dead, least, unit, turns, reached, currentLanguage()]);
+    if (shows === this.#told) return;
+    this.#told = shows;
     this.#unit = turning ? TURN / 360 : 1;
     const [low, high] = limitsOf(cycle);
     this.#limits = [low, high];
@@ -96,19 +96,19 @@ export class Track {
         t("Smallest transmission angle at {value}", { value: shown(least) }),
       );
     const part = least === null ? NaN : wrap(least);
-    const label = (value: number, anchor: string) => {
+    const label = (value: number, anchor: string, told = value) => {
       // beside the mark that stands there
       const covered = Math.abs(part - value) < 0.03 * (this.#to - this.#from);
       const dx = (anchor === "middle" ? 24 : 8) * (value === low ? 1 : -1);
       const text = svg(
         "text",
         { x: x(value), y: 39, "text-anchor": anchor, dx: covered && dx },
-        turning ? angle(value) : number(value, 4),
+        turning ? angle(told) : number(told, 4),
       );
       parts.push(text);
     };
-    label(low, cycle.full ? "start" : "middle");
-    if (high > low) label(high, cycle.full ? "end" : "middle");
+    label(low, full ? "start" : "middle", full ? low : from);
+    if (high > low) label(high, full ? "end" : "middle", full ? high : to);
     const inner = svg("svg", { x: 12, width: "calc(100% - 24px)", overflow: "visible" }, ...parts, this.#knob);
     inner.style.width = "calc(100% - 24px)";
     this.#root.replaceChildren(inner);

@@ -137,6 +137,12 @@ def test_a_file_of_another_program_is_dropped_and_saved_as_dxf(tab, server, tmp_
         "Speichern",
     ]
     assert "1 : 1, mm" in panel.inner_text()
+    assert (
+        panel.locator("[data-group] b").evaluate_all("all => all.map((one) => one.getClientRects().length)") == [1] * 8
+    )
+    title = panel.locator("h2").evaluate("(one) => one.getBoundingClientRect().bottom")
+    assert panel.locator("[data-group]").first.bounding_box()["y"] < title + 20  # no room is kept for what is said
+    height = panel.evaluate("(one) => one.offsetHeight")
     panel.locator('[data-field="kind"] option[value="pmks"]').wait_for(state="attached")
     kinds = panel.locator('[data-field="kind"] option').all_text_contents()
     assert len({*kinds, *buttons}) == len(kinds) + len(buttons)  # each once
@@ -148,6 +154,7 @@ def test_a_file_of_another_program_is_dropped_and_saved_as_dxf(tab, server, tmp_
     ezdxf = pytest.importorskip("ezdxf", reason="drawings are audited with ezdxf")
     assert not ezdxf.readfile(tmp_path / "leg.dxf").audit().errors
     told = panel.get_by_role("status").inner_text()
+    assert panel.evaluate("(one) => one.offsetHeight") == height  # it stands in the place of the title
     assert told.startswith("Gespeichert: leg.dxf. Nicht übernommen")
     # a German spreadsheet has semicolons and decimal commas; the sheet stays
     with page.page.expect_download() as saved:
