@@ -1,7 +1,7 @@
 /** The plane of the synthesis: how much of it is seen, its grid, and how large its marks are. */
 
 import { svg } from "./dom";
-import { gridStep } from "./grid";
+import { degreeStep, gridStep } from "./grid";
 import { number } from "./language";
 import { SUPPORT } from "./scene";
 import type { Box } from "./viewport";
@@ -45,7 +45,7 @@ export function viewBoxOf({ left, right, bottom, top }: Area): string {
 
 /** Lines with their numbers, and the unit of length or else the names of both axes. */
 export function gridOf({ left, right, bottom, top, unit }: Area, [across = "", up = "mm"]: string[]): SVGElement[] {
-  const step = gridStep((LINES / MARK) * unit);
+  const step = (across ? degreeStep : gridStep)((LINES / MARK) * unit);
   const line = (k: number, d: string) => svg("path", { class: k ? "mesh" : "axis", d });
   const tick = (x: number, y: number, text: string) =>
     svg("text.tick", { transform: `translate(${x} ${-y}) scale(${unit})` }, text);

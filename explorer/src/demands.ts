@@ -9,8 +9,9 @@ export class Demands {
   /** Places of the targets in the order, as they are typed. */
   order = "";
 
-  /** The fields, in the language of the page; those of places if there are such. */
-  form(closed: HTMLElement | false, places: boolean): HTMLElement {
+  /** The fields, in the language of the page; that of places if there are such; the angle is that on the way
+   * from target to target, or that of all positions. */
+  form(closed: HTMLElement | false, way: boolean, places: boolean): HTMLElement {
     const least = h("input", {
       type: "number",
       min: 0,
@@ -31,7 +32,7 @@ export class Demands {
       {},
       closed,
       option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
-      h("label", {}, t("transmission angle from"), least, "°"),
+      h("label", {}, way ? t("transmission angle on the way from") : t("transmission angle from"), least, "°"),
       places &&
         h(
           "details.words",

@@ -35,8 +35,6 @@ export interface Found {
   refused: number;
   /** Whether linkages of any size do it. */
   relative?: boolean;
-  /** Whether the transmission angle counts in all positions, not only on the way. */
-  whole?: boolean;
   items: Design[];
   /** How complete they are, where the page found them itself. */
   note?: string;
@@ -126,6 +124,8 @@ export class DesignCards {
     if (this.#exact) orders.shift();
     const words = [
       this.#order === "balanced" && t("Balanced: transmission angle, size and sensitivity count alike."),
+      found.items.some((one) => (one.range ?? Infinity) < one.transmission!) &&
+        t("On the way: from the first target to the last."),
       found.relative && t("Of lengths only the ratios count; the longest is 100 mm."),
       found.items.some(({ shift }) => shift) &&
         t("Sensitivity: how far a target is off at most, if all lengths are 0.1 % wrong."),
@@ -135,7 +135,7 @@ export class DesignCards {
     const refused = found.refused > 1 && t("{count} others do not meet what is asked.", { count: found.refused });
     const told = [
       found.note,
-      shown < total && t("The best {shown} of {count} are shown.", { shown, count: total }),
+      shown < total && t("The best of {count}.", { count: total }),
       !total && t("None does: try a crank that need not turn fully, a smaller angle or other targets."),
       this.#exact && shown > 0 && t("All meet the targets exactly."),
       refused || (found.refused && t("One other does not meet what is asked.")),
@@ -144,17 +144,25 @@ export class DesignCards {
     const more = this.#shown.filter(({ variant }) => variant);
     const forms = this.#forms();
     const kinds = forms.map((form): [string, string] => [form, `${form} · ${this.#of(form).length}`]);
-    if (forms.length > 1) kinds.unshift(["", `${t("All")} · ${shown}`]);
+    const several = forms.length > 1;
+    kinds.unshift(["", t("All")]);
     const chosen = { "data-field": "form" };
     renew(
       this.element,
-      h("h2", {}, (this.#form && `${this.#form}: `) + t("{count} designs", { count: this.#shown.length })),
+      h("h2", {}, (several || !shown ? "" : `${forms[0]}: `) + t("{count} designs", { count: shown })),
       h("p.note", {}, joined(told)),
       shown > 1
         ? h(
             "div.form",
             {},
-            menu(t("Kinds of machines"), kinds, this.#form, (form) => this.#choose(() => (this.#form = form)), chosen),
+            several &&
+              menu(
+                t("Kinds of machines"),
+                kinds,
+                this.#form,
+                (form) => this.#choose(() => (this.#form = form)),
+                chosen,
+              ),
             menu(t("Order"), orders, this.#order, (order) => this.#choose(() => (this.#order = order as Order)), {
               "data-field": "sorted",
             }),

@@ -10,6 +10,11 @@ export function gridStep(wanted: number): number {
   return [1, 2, 5, 10].map((m) => m * power).find((value) => value >= wanted)!;
 }
 
+/** The least number of degrees that divides a circle and is not below others. */
+export function degreeStep(wanted: number): number {
+  return [5, 15, 30, 45, 90, 180, 360, 720, 1440].find((one) => one >= wanted) ?? gridStep(wanted);
+}
+
 /** Between lines of the grid, some 70 pixels. */
 export function stepOf({ scale }: Viewport): number {
   return gridStep(70 / scale);

@@ -1,7 +1,7 @@
 /** Small plots over the drive, linked with it by a cursor; the value at the drive or pointer stands above the curve. */
 
 import { put, svg } from "./dom";
-import { gridStep } from "./grid";
+import { degreeStep, gridStep } from "./grid";
 import { number } from "./language";
 import type { Pair } from "./rows";
 import { Span } from "./span";
@@ -325,8 +325,8 @@ export function roundValues(low: number, high: number, count: number): number[] 
 
 /** Angles in degrees that divide a circle. */
 function degreeValues(low: number, high: number): number[] {
-  const step = [5, 10, 15, 30, 45, 90, 180, 360, 720, 1440].find((one) => (high - low) / one <= 5);
-  if (!step || high - low < 10) return roundValues(low, high, 4);
+  if (high - low < 10) return roundValues(low, high, 4);
+  const step = degreeStep((high - low) / 5);
   const first = Math.ceil(low / step - 1e-9);
   return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, k) => (first + k) * step);
 }

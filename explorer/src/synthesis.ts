@@ -171,6 +171,7 @@ export class SynthesisView implements View {
             {},
             this.#demands.form(
               this.kind === "points" && option(t("closed curve"), this.#closed, close, "closed"),
+              this.kind !== "dead-centres",
               this.#planar && this.#page.served,
             ),
             this.#list,

@@ -139,14 +139,25 @@ export function swingMark(
   ];
 }
 
-/** Where the number of each target has its middle: near its point, as clear as possible of all arrows, else of the way
- * from point to point. */
-export function numberPlaces(rows: readonly number[][], closed: boolean, unit: number): Pair[] {
+/** Where the number of each target has its middle: near its point, as clear as possible of other points, of what is
+ * drawn besides, and of all arrows, else of the way from point to point. */
+export function numberPlaces(
+  rows: readonly number[][],
+  closed: boolean,
+  unit: number,
+  drawn: readonly Pair[][] = [],
+): Pair[] {
   const lines = rows.map((row, k) => {
     const next = rows[k + 1] ?? (closed ? rows[0]! : row);
     return [row, row.length > 2 ? tip(row, unit) : next].map(([x, y]): Pair => [x!, y!]);
   });
-  return rows.map(([x, y]) => clearAbout([x!, y!], AWAY * unit, lines));
+  const placed = [...lines, ...drawn];
+  return rows.map(([x, y], k) => {
+    const others = rows.filter((_, other) => other !== k).map(([u, v]): Pair[] => [[u!, v!]]);
+    const at = clearAbout([x!, y!], AWAY * unit, [...placed, ...others]);
+    placed.push([at]);
+    return at;
+  });
 }
 
 /** A point with its number, and the arrow of a position; all of it in units that are so long. */

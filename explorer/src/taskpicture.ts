@@ -4,6 +4,7 @@ import { type Area, areaOf, gridOf, groundMark, viewBoxOf } from "./area";
 import type { Design } from "./designs";
 import { h, put, renew, svg } from "./dom";
 import { Ghost, pathOf } from "./ghost";
+import type { Pair } from "./rows";
 import { numberPlaces, swingMark, swingOf, targetMark } from "./targets";
 import { type Kind, wordsOf } from "./tasks";
 
@@ -76,7 +77,27 @@ export class TaskPicture {
     const { unit } = this.#area;
     const loop = closed && points.length > 2 ? "Z" : "";
     const way = angles ? [...points].sort(([one], [two]) => one! - two!) : points;
-    const at = numberPlaces(points, closed, unit);
+    const { left, right, bottom, top } = this.#area;
+    const [axes, curve]: [Pair[][], Pair[]] = [
+      [
+        [
+          [left, 0],
+          [right, 0],
+        ],
+        [
+          [0, bottom],
+          [0, top],
+        ],
+      ],
+      charted || [],
+    ];
+    const grounds = pivots.map(([x, y]): Pair[] => [
+      [x!, y!],
+      [x! - 5 * unit, y! - 7 * unit],
+      [x! + 5 * unit, y! - 7 * unit],
+    ]);
+    const parts = curve.slice(1).map((next, k): Pair[] => [curve[k]!, next]);
+    const at = numberPlaces(points, closed, unit, [...(angles ? axes : []), ...parts, ...grounds]);
     put(this.#here, { r: 1.5 * unit });
     const ratios = (of: Area) => gridOf(of, ["", ""]); // of lengths
     const behind = swing

@@ -231,6 +231,32 @@ test("the number of a target stands beside its point, clear of the arrows of oth
   });
 });
 
+test("the number of a target keeps clear of the axes, of other targets and of their numbers", () => {
+  const unit = 1;
+  const rows = [
+    [0, 0],
+    [7, -7],
+    [7, 7],
+  ];
+  const axes: Pair[][] = [
+    [
+      [-50, 0],
+      [50, 0],
+    ],
+    [
+      [0, -50],
+      [0, 50],
+    ],
+  ];
+  const places = numberPlaces(rows, false, unit, axes);
+  places.forEach(([x, y], k) => {
+    close(Math.hypot(x - rows[k]![0]!, y - rows[k]![1]!), 6);
+    assert.ok(Math.min(Math.abs(x), Math.abs(y)) > 2);
+    for (const [u, v] of [...rows, ...places].filter((_, other) => other % 3 !== k))
+      assert.ok(Math.hypot(x - u!, y - v!) > 5);
+  });
+});
+
 test("beside a joint of a bar and a plate its letter keeps clear of both, further away if it has to", () => {
   const bar: Pair[] = [
     [0, 0],

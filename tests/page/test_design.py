@@ -62,7 +62,11 @@ def found_designs(view):
 
 def shows_the_first_card(view, lengths: list[str]) -> None:
     """How many of its kind there are, its lengths, three positions; curves have the blue that they have in Motion."""
-    assert view.locator(".designs h2").inner_text().endswith(f": {view.locator('.designs .card').count()} designs")
+    counts = view.locator(".designs h2, .designs select").evaluate_all(
+        "all => all.flatMap((one) => (one.selectedOptions?.[0] ?? one).textContent.match(/\\d+/g) ?? [])"
+    )
+    assert str(view.locator(".designs .card").count()) in counts
+    assert len({*counts}) == len(counts)  # each is said once
     card = view.locator('[data-list="designs"] .card').first
     assert card.locator(".lengths").inner_text().split()[: len(lengths)] == lengths
     assert card.locator("svg .gr-target-head").count() == 3
@@ -287,6 +291,21 @@ def test_pairs_of_angles_are_ringed_in_the_plot_of_the_output(design):
     assert any(f"{drive[1]:.4g}° → " in note for note in notes)
     with pytest.raises(GrueblerError, match="pairs: expected 2 numbers in each row"):
         answer("open_document", {"document": item["document"] | {"page": {"pairs": [[1, "x"]]}}}, "en", print)
+
+
+def test_the_transmission_angle_asked_for_says_where_it_holds(design):
+    """Between the targets, as designs are judged; of dead centres over the whole turn from one to the other and back."""
+    view = design.page
+    least = view.locator('label:has([data-field="least"])')
+    for kind in ("points", "positions", "function"):
+        view.click(f'[data-value="{kind}"]')
+        assert least.inner_text().startswith("transmission angle on the way from")
+    view.click('[data-act="synthesise"]')
+    view.locator('[data-list="designs"] .card:has-text("on the way, else")').first.wait_for(timeout=60_000)
+    view.locator(".designs summary").first.click()
+    assert "On the way: from the first target to the last." in view.locator(".designs details").first.inner_text()
+    view.click('[data-value="dead-centres"]')
+    assert least.inner_text().startswith("transmission angle from")
 
 
 def test_rows_of_another_length_are_refused_in_a_sentence():

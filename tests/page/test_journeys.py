@@ -144,7 +144,10 @@ def test_three_positions_are_designed(reader):
     reader.page.go_back()
     reader.tab.until("gruebler.view === 'synthesis'")
     kinds = reader.page.locator('[data-field="form"]')
-    counts = [int(name.split()[-1]) for name in kinds.locator("option").all_inner_texts()]
+    total = int(reader.page.locator(".designs h2").inner_text().split()[0])
+    everyone, *names = kinds.locator("option").all_inner_texts()
+    counts = [total, *(int(name.split()[-1]) for name in names)]
+    assert not any(letter.isdigit() for letter in everyone)  # that is said above
     assert counts[1:] == sorted(counts[1:], reverse=True)
     assert counts[0] == sum(counts[1:]) > counts[1]
     cards = reader.page.locator('[data-list="designs"] .card')
