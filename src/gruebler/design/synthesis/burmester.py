@@ -22,6 +22,7 @@ from gruebler.design.synthesis.dyads import (
     Displacements,
     GuidingDyad,
     circle_point_cubics,
+    guiding_conditions,
     misfit,
     sliding_dyads,
 )
@@ -209,18 +210,10 @@ def _centres(given: Displacements, x: Complexes) -> tuple[Complexes, NDArray[np.
     return m, good
 
 
-def _conditions(given: Displacements, x: complex, m: complex) -> tuple[Reals, Reals]:
-    """How far a dyad is from guiding the body, and the derivatives by both pivots: (3,), (3, 4)."""
-    gap = given.q * x + given.t - m
-    residual = np.abs(gap) ** 2 - abs(x - m) ** 2
-    by_x, by_m = 2 * (np.conj(given.q) * gap - (x - m)), -2 * (gap - (x - m))
-    return residual, np.stack([by_x.real, by_x.imag, by_m.real, by_m.imag], axis=1)
-
-
 def _sharpened(given: Displacements, x: complex, m: complex) -> GuidingDyad:
     """The nearest exact dyad of three displacements, by Gauss and Newton."""
     for _ in range(20):
-        residual, matrix = _conditions(given, x, m)
+        residual, matrix = guiding_conditions(given, np.complex128(x), np.complex128(m))
         step, *_ = np.linalg.lstsq(matrix, -residual, rcond=1e-13)
         x, m = x + complex(step[0], step[1]), m + complex(step[2], step[3])
         if np.abs(step).max() < 1e-15 * (1 + abs(x) + abs(m)):
@@ -234,7 +227,7 @@ def _sharpened(given: Displacements, x: complex, m: complex) -> GuidingDyad:
 def _nearest_dyad(given: Displacements, x: complex, m: complex, target: complex, side: int) -> GuidingDyad:
     """From a dyad along the curve to where its pivot (0: on the body, 1: on the frame) is nearest to a place."""
     for _ in range(_STEPS):
-        tangent = np.linalg.svd(_conditions(given, x, m)[1])[2][-1]
+        tangent = np.linalg.svd(guiding_conditions(given, np.complex128(x), np.complex128(m))[1])[2][-1]
         own = complex(tangent[2 * side], tangent[2 * side + 1])
         along = float(np.real(np.conj(own) * (target - (x, m)[side]))) / max(abs(own) ** 2, 1e-12)
         longest = _LONGEST * (1 + abs(x) + abs(m))

@@ -14,7 +14,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from gruebler.base.arrays import Complexes, Flags, Integers, Reals
-from gruebler.design.synthesis.dyads import Displacements
+from gruebler.design.synthesis.dyads import Displacements, GuidingDyad
 from gruebler.design.synthesis.enclosures import Enclosure
 from gruebler.design.synthesis.polar_cubics import PolarCubic
 
@@ -130,6 +130,34 @@ class DyadFamily(Protocol):
 
     def fixed_pivots(self, cells: Reals, moving: Enclosure) -> tuple[Enclosure, Reals]:
         """The pivots on the frame likewise."""
+
+
+class OneDyad:
+    """A dyad that is held, as a family with the parameters of another one, on which nothing depends."""
+
+    def __init__(self, family: DyadFamily, dyad: GuidingDyad) -> None:
+        self.given, self.dyad, self.first = family.given, dyad, family.first_cells()[:1]
+
+    def first_cells(self) -> Reals:
+        """The one cell."""
+        return self.first
+
+    def halves(self, cells: Reals) -> Reals:
+        """The same dyad, which has no parts."""
+        return cells
+
+    def moving_pivots(self, cells: Reals) -> tuple[Enclosure, Reals]:
+        """The pivot on the body."""
+        return self._pivot(cells, self.dyad.moving), np.zeros(len(cells))
+
+    def fixed_pivots(self, cells: Reals, _: Enclosure) -> tuple[Enclosure, Reals]:
+        """The pivot on the frame."""
+        return self._pivot(cells, self.dyad.fixed), np.zeros(len(cells))
+
+    def _pivot(self, cells: Reals, pivot: complex) -> Enclosure:
+        nothing = np.zeros(len(cells), np.complex128)
+        count = cells.shape[1] // 2 - 1
+        return Enclosure(nothing + pivot, (nothing,) * count, np.zeros(len(cells)))
 
 
 class DyadCells:

@@ -11,7 +11,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.design.synthesis.dyad_cells import FAR, DyadCurve, DyadFamily, centres, halves
-from gruebler.design.synthesis.dyads import Displacements, GuidingDyad
+from gruebler.design.synthesis.dyads import Displacements
 from gruebler.design.synthesis.enclosures import Enclosure
 
 _POLES_APART = 1e-3
@@ -82,11 +82,6 @@ class DyadPlane:
         rows += [(1 + k, 1, 0, radius, 0, 2 * np.pi) for k, radius in enumerate(self.radii)]
         return np.array(rows, np.float64)
 
-    def cell_of(self, dyad: GuidingDyad) -> Reals:
-        """The cell of this dyad alone."""
-        x, y = dyad.moving.real, dyad.moving.imag
-        return np.array([[0, 1, x, x, y, y]], np.float64)
-
     def halves(self, cells: Reals) -> Reals:
         """Each cell in two, one after the other."""
         scale = np.array([1.0, *self.radii])[cells[:, 0].astype(int)]
@@ -126,13 +121,6 @@ class DyadPencil:
         far = FAR + abs(self.pole)
         ends = [np.linspace(low, high, 5) for low, high in ((0, far), (0, 2 * np.pi), (-far, far))]
         return np.array([(0, 1, *np.ravel(cell)) for cell in product(*map(pairwise, ends))], np.float64)
-
-    def cell_of(self, dyad: GuidingDyad) -> Reals:
-        """The cell of this dyad alone."""
-        arm = dyad.moving - self.pole
-        along = ((dyad.fixed - self.pole) * np.conj(self.half * arm)).real / abs(arm)
-        place = abs(arm), float(np.angle(arm)), along
-        return np.array([[0, 1, *np.repeat(place, 2)]], np.float64)
 
     def halves(self, cells: Reals) -> Reals:
         """Each cell in two, one after the other."""

@@ -72,6 +72,11 @@ class DyadKind:
     """The displacements in which its pivot stays on a line; None if it stays on a circle."""
 
     @property
+    def slides(self) -> bool:
+        """Whether one of its joints slides, so that its pivot stays on a line."""
+        return self.seen is not None
+
+    @property
     def form(self) -> str:
         """Its joints in letters, such as PR."""
         return "".join(joint.symbol() for joint in self.pairs)
@@ -115,7 +120,7 @@ class GuidingDyad:
     @property
     def slides(self) -> bool:
         """Whether one of its joints slides, so that its pivot stays on a line."""
-        return self.kind.seen is not None
+        return self.kind.slides
 
     @property
     def length(self) -> float:
@@ -146,6 +151,42 @@ def misfit(given: Displacements, dyad: GuidingDyad) -> float:
     else:
         gaps = np.imag(np.conj(dyad.direction) * dyad.kind.seen(given).images(dyad.moving))
     return float(gaps.max() - gaps.min())
+
+
+def guiding_conditions(
+    given: Displacements, x: Complexes | np.complex128, m: Complexes | np.complex128
+) -> tuple[Reals, Reals]:
+    """How far RR dyads are from guiding the body, and the derivatives by the coordinates of both pivots.
+
+    Args:
+        given: displacements.
+        x: (...,) pivots on the body.
+        m: (...,) pivots on the frame.
+
+    Returns:
+        (..., displacements) differences of the squares of the length, and (..., displacements, 4) their derivatives.
+    """
+    x, m = np.asarray(x)[..., None], np.asarray(m)[..., None]
+    gap, arm = given.q * x + (given.t - m), x - m
+    by_x, by_m = 2 * (np.conj(given.q) * gap - arm), -2 * (gap - arm)
+    return np.abs(gap) ** 2 - np.abs(arm) ** 2, np.stack([by_x.real, by_x.imag, by_m.real, by_m.imag], axis=-1)
+
+
+def line_conditions(seen: Displacements, point: Complexes, angle: Reals) -> tuple[Reals, Reals]:
+    """How far points leave lines of some inclination, and the derivatives by x, y and the angle.
+
+    Args:
+        seen: displacements.
+        point: (...,) the points in the first position.
+        angle: (...,) of the lines.
+
+    Returns:
+        (..., displacements) distances, and (..., displacements, 3) their derivatives.
+    """
+    turn = np.exp(-1j * angle)[..., None]
+    moved = turn * ((seen.q - 1) * point[..., None] + seen.t)
+    by_point = turn * (seen.q - 1)
+    return moved.imag, np.stack([by_point.imag, by_point.real, -moved.real], axis=-1)
 
 
 def dyad_of_moving_pivot(given: Displacements, x: complex, /) -> GuidingDyad:

@@ -6,7 +6,7 @@ the two cells is halved. docs/theory/synthesis-positions.md, "Proofs in the fami
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from math import ceil, degrees, radians
@@ -21,6 +21,7 @@ from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, shor
 from gruebler.design.synthesis.dyads import Displacements
 from gruebler.design.synthesis.enclosures import Enclosure
 from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.results import EXACT
 from gruebler.design.synthesis.tasks import PositionTask
 
 _BUDGET = 150_000  # pairs of cells that are looked at
@@ -62,7 +63,7 @@ def order_dropped(task: PositionTask, demands: Demands) -> Demands:
 def excluded(task: PositionTask, demands: Demands, budget: int = _BUDGET) -> Exclusion:
     """Whether enclosures exclude every four-bar of four positions, with pivots within 30 sizes, under the demands.
 
-    Lengths that are demanded and tolerances are not asked: what is excluded is so without them. Cost: 0.2 s, with the
+    Tolerances are not asked: what is excluded is so without them. Cost: 0.2 s, with the
     whole budget 0.5 s.
     """
     given, origin, size = Displacements.of(task.origins, task.turns)
@@ -160,6 +161,7 @@ class PairTests:
         """Factors of the product of coupler and rocker whose imaginary parts have one sign where the angle is kept."""
         corner = np.array([origin.real, origin.imag, origin.real, origin.imag])
         self.region = None if demands.region is None else (np.array(demands.region) - corner) / size
+        self.lengths = [(link, length / size) for link, length in demands.lengths]
 
     def kept(self, seen: DyadCells) -> tuple[Flags, Flags]:
         """Cells whose dyads may be driven, and those that may be the other dyad."""
@@ -177,6 +179,7 @@ class PairTests:
         longest = np.maximum.reduce([length.low for length in (a, b, c, d)])
         shortest = np.minimum.reduce([length.high for length in (a, b, c, d)])
         fails: Flags = longest > self.demands.size_ratio * shortest
+        fails |= self.have_other_lengths({"crank": a, "coupler": b, "rocker": c, "frame": d})
         # The crank passes pi if b + c > a + d, and 0 if |a - d| < |b - c| does not hold: a product of two factors.
         inner, first, second = b + c - a - d, a + c - b - d, a + b - c - d
         pi_free, pi_shut = inner.low > 0, inner.high <= 0
@@ -193,6 +196,15 @@ class PairTests:
         phi = driven(seen.angle) - frame.angle.column
         ranges = Ranges(pi_free=pi_free, pi_shut=pi_shut, zero_free=zero_free, zero_shut=zero_shut)
         return np.asarray(fails | no_way(phi, seen, i, ranges, self._too_flat(a, b, c, d), self.demands))
+
+    def have_other_lengths(self, links: Mapping[str, Enclosure]) -> Flags:
+        """Whether links certainly have other lengths than those that are demanded."""
+        some = next(iter(links.values()))
+        other = np.zeros(len(some.value), bool)
+        for link, length in self.lengths:
+            slack = EXACT * max(1.0, length)
+            other |= (links[link].low > length + slack) | (links[link].high < length - slack)
+        return other
 
     def _leaves_branch(self, moving: Enclosure, back: Enclosure) -> Flags:
         """Whether some position certainly has its coupler on one side of the rocker, and some on the other.

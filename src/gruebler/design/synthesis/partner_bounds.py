@@ -14,16 +14,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Flags, Reals
+from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, message
-from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, DyadFamily
-from gruebler.design.synthesis.dyad_planes import DyadPencil, DyadPlane, crank_family
+from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, DyadFamily, OneDyad
+from gruebler.design.synthesis.dyad_planes import crank_family
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, GuidingDyad
 from gruebler.design.synthesis.enclosures import Enclosure
 from gruebler.design.synthesis.family_bounds import MARGINS, NARROW, PairTests, Ranges, no_way, order_dropped
 from gruebler.design.synthesis.judging import Demands
-from gruebler.design.synthesis.pair_search import facts_of_pins, inside_region, pair_facts
+from gruebler.design.synthesis.length_search import PairFamily, dyad_numbers
+from gruebler.design.synthesis.pair_search import inside_region, pair_facts
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
 
@@ -33,7 +34,7 @@ _ON_A_CURVE = 20_000  # those of four positions
 _HALVINGS = 60  # of each parameter
 _TURNS = 6  # in which one dyad is held
 _WIDER = 10.0  # by what the margin grows where it was too narrow for a proof
-MARGIN = {2: radians(0.5), 3: radians(0.05)}
+MARGIN = {2: radians(0.5), 3: radians(0.05), 4: radians(0.05)}
 """Above the best transmission angle, by the number of positions: none beyond is proved."""
 _CRANKS = 4  # that are tried where none is known to meet the demands
 _SLACK = 1e-9  # of what is measured from the slide: far above the rounding of a dyad
@@ -88,28 +89,39 @@ class Partner(NamedTuple):
 
 Tests = Callable[[DyadCells, float], Flags]
 """Which cells may have linkages with such a transmission angle."""
-Angles = Callable[[DyadCells], Reals]
-"""The transmission angles of the linkages in the middle of cells; minus infinity where they fail."""
+
+
+class Tried(NamedTuple):
+    """Dyads in the middle of cells, or nearby with the lengths that are demanded."""
+
+    angles: Reals
+    """The transmission angles of their linkages; minus infinity where these fail."""
+    moving: Complexes
+    fixed: Complexes
+
+
+Tries = Callable[[DyadCells], Tried]
 
 
 def branch_and_bound(
-    family: DyadFamily, possible: Tests, angles: Angles | None, begin: float, margin: float, budget: int = _BUDGET
+    family: DyadFamily, possible: Tests, tries: Tries | None, begin: float, margin: float, budget: int = _BUDGET
 ) -> tuple[float, float, tuple[complex, complex] | None]:
     """Branch and bound over the cells of a family.
 
     Returns the part that is not excluded under a transmission angle that is a margin larger than the best one, that
-    best one, or `begin` if it is larger, and its pivots. Without `angles` nothing but `begin` is asked.
+    best one, or `begin` if it is larger, and its pivots. Without `tries` nothing but `begin` is asked.
     """
     cells = family.first_cells()
     whole, left, looked, best, place = _content(cells), 0.0, 0, begin, None
     for _ in range(_HALVINGS * (cells.shape[1] // 2 - 1)):
         looked += len(cells)
         seen = DyadCells(family, cells)
-        if angles is not None:
-            reached = np.where(seen.known & ~seen.far, angles(seen), -np.inf)
+        if tries is not None:
+            tried = tries(seen)
+            reached = np.where(seen.known & ~seen.far, tried.angles, -np.inf)
             if reached.max() > best:
                 k = int(np.argmax(reached))
-                best, place = float(reached[k]), (complex(seen.moving.value[k]), complex(seen.fixed.value[k]))
+                best, place = float(reached[k]), (complex(tried.moving[k]), complex(tried.fixed[k]))
         if best + margin >= pi / 2:
             return left / whole, best, place
         stays = ~seen.far & (possible(seen, best + margin) | ~seen.known)
@@ -147,7 +159,7 @@ class PartnerSearch:
         tests = PairTests(wanted, self.origin, self.size)
         drivers, others = tests.kept(seen)
         if self.held.slides:
-            return self.inside & drivers & ~_fails(seen, self.given, self.held, wanted)
+            return self.inside & drivers & ~_fails(seen, self.given, self.held, tests)
         varied, own = np.arange(len(seen.cells)), np.zeros(len(seen.cells), np.int64)
         fails = tests.fails(self.cell, own, varied, seen) if self.driven else tests.fails(seen, varied, own, self.cell)
         return np.asarray(self.inside & (others if self.driven else drivers) & ~fails)
@@ -155,31 +167,36 @@ class PartnerSearch:
     @cached_property
     def cell(self) -> DyadCells:
         """That of the dyad that is held."""
-        assert isinstance(self.family, DyadPlane | DyadPencil)
-        return DyadCells(self.family, self.family.cell_of(self.held))
+        assert self.family is not None
+        held = OneDyad(self.family, self.held)
+        return DyadCells(held, held.first_cells())
 
-    def angles(self, seen: DyadCells) -> Reals:
-        """The transmission angles of the linkages in the middle of cells; minus infinity where a demand fails."""
-        q, t = self.given.with_first
-        kind, moving, fixed = self.held.kind, seen.moving.value, seen.fixed.value
-        places = (moving[:, None] * q + t)[:, None], fixed[:, None]
-        own = (self.given.images(self.held.moving)[None, None], np.array([[self.held.fixed]]))
-        slides = self.held.direction * (np.ones_like(q) if kind == SLIDER else q)
-        driven, other = (own, places) if self.driven else (places, own)
-        inside = self.inside & inside_region(np.asarray(fixed * self.size + self.origin, np.complex128), self.demands)
-        size = 1.0 if np.ptp(self.task.origins) else np.inf
-        facts = facts_of_pins(
-            driven, other, slides[None, None], kind, inside=inside[:, None], size=size, ranks=self.task.order
-        )
-        good = np.logical_and.reduce([flags for _, flags in facts.met(self.demands)]) & facts.branch
-        return np.where(good, facts.transmission, -np.inf)[:, 0]
+    def tried(self, seen: DyadCells) -> Tried:
+        """The linkages in the middle of cells, or those with the given lengths nearby."""
+        kind = self.held.kind
+        family = PairFamily(task=self.task, kind=kind, lengths=self.demands.lengths)
+        side = 0 if self.driven else 4
+        row = dyad_numbers([self.held])
+        middle = np.stack([seen.moving.value, seen.fixed.value], axis=1).view(np.float64)
+        own = np.repeat(row, len(middle), axis=0)
+        rows = np.concatenate([own, middle] if self.driven else [middle, own], axis=1)
+        good = np.ones(len(rows), bool)
+        if self.demands.lengths:
+            held = np.zeros(rows.shape, bool)
+            held[:, side : side + row.shape[1]] = True
+            good = seen.known & ~seen.far
+            rows[good], good[good] = family.members(rows[good], held[good])
+        facts = family.facts(rows, self.demands)
+        good &= (np.logical_and.reduce([flags for _, flags in facts.met(self.demands)]) & facts.branch)[:, 0]
+        pivots = np.ascontiguousarray(rows[:, 4 - side : 8 - side]).view(np.complex128)
+        return Tried(np.where(good, facts.transmission[:, 0], -np.inf), pivots[:, 0], pivots[:, 1])
 
     def partner(self, begin: float, margin: float, budget: int = _BUDGET, *, improves: bool = True) -> Partner:
         """What is left of the family above the best transmission angle, or `begin`, and a margin."""
         if self.family is None or (isinstance(self.family, DyadCurve) and not self.family.fits):
             return Partner(left=1.0, angle=begin, dyad=None)
-        angles = self.angles if improves else None
-        left, best, place = branch_and_bound(self.family, self.possible, angles, begin, margin, budget)
+        tries = self.tried if improves else None
+        left, best, place = branch_and_bound(self.family, self.possible, tries, begin, margin, budget)
         dyad = None if place is None else GuidingDyad(CRANK, *place).moved(self.size, self.origin)
         return Partner(left=left, angle=best, dyad=dyad)
 
@@ -194,9 +211,10 @@ def left_of_cranks(task: PositionTask, demands: Demands, dyad: GuidingDyad, budg
     return search.partner(demands.transmission, 0.0, budget, improves=False).left
 
 
-def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, demands: Demands) -> Flags:
+def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, tests: PairTests) -> Flags:
     """Cells all of whose cranks certainly fail with the slide."""
     q, t = given.with_first
+    demands = tests.demands
     pins = seen.moving.column * q + t
     a, least = seen.length, cos(demands.transmission)
     if slide.kind == SLIDER:
@@ -204,6 +222,7 @@ def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, demands: D
         arms = _slack((pins - given.images(slide.moving)) * np.conj(slide.direction))
         across = _slack((slide.moving - seen.fixed) * np.conj(slide.direction))
         b, e = _first(arms).modulus, across.imaginary
+        links = {"crank": a, "coupler": b}
         flat = _beyond(arms.imaginary, least * b.column)
         at_zero, at_pi = _beyond(a - e, least * b), _beyond(a + e, least * b)
         to_zero, to_pi = b - a + e, b - a - e
@@ -213,6 +232,7 @@ def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, demands: D
         frame = slide.fixed - seen.fixed
         arms = _slack((slide.fixed - pins) * np.conj(slide.direction * q))
         d, e = frame.modulus, _first(arms).imaginary
+        links = {"crank": a, "frame": d}
         flat = _beyond(e.column, least * arms.modulus)
         at_zero, at_pi = _beyond(e, least * (a - d)) & _beyond(e, least * (d - a)), _beyond(e, least * (a + d))
         to_zero = (a - d) * (a - d) - e * e
@@ -220,7 +240,7 @@ def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, demands: D
         phi = seen.angle - frame.angle.column
     zero_free, zero_shut = to_zero.low > 0, to_zero.high <= 0
     along = arms.real
-    fails: Flags = np.zeros(len(seen.cells), bool)
+    fails = tests.have_other_lengths(links)
     if demands.crank:
         fails |= pi_shut | zero_shut
         if demands.one_branch and demands.in_order:
@@ -307,14 +327,14 @@ def improved_pair(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -
 def best_beside(
     task: PositionTask, demands: Demands, held: GuidingDyad, pairs: Sequence[Pair]
 ) -> tuple[list[Pair], list[Message]]:
-    """Four-bars with a dyad of three positions, better than pairs with it, and what is proved of all the others.
+    """Four-bars with a dyad of three or four positions, better than pairs with it, and what is proved of all others.
 
     Cost: 1 to 4 s.
     """
     begin = max((angle_of_pair(task, demands, pair) for pair in pairs), default=-np.inf)
     known, left = begin > -np.inf, 0.0
     better: list[Pair] = []
-    margin = MARGIN[3] if known else 0.0
+    margin = MARGIN[len(task)] if known else 0.0
     begin = max(begin, demands.transmission)
     for driven in (True, False):
         partner = PartnerSearch(task, demands, held, driven=driven).partner(begin, margin)

@@ -33,12 +33,19 @@ from gruebler.design.synthesis.dyads import (
     sliding_dyads,
 )
 from gruebler.design.synthesis.family_bounds import bound_notes
-from gruebler.design.synthesis.given_lengths import missing_length
 from gruebler.design.synthesis.given_pivots import notes_on_pivots
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design, order_notes
-from gruebler.design.synthesis.pair_search import IMPROVED, Nearby, best_pairs
+from gruebler.design.synthesis.length_search import best_linkages, has_lengths
+from gruebler.design.synthesis.pair_search import IMPROVED, Nearby
 from gruebler.design.synthesis.partner_bounds import Pair, angle_of_pair, best_beside, improved_pair, slide_notes
-from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of, ranked
+from gruebler.design.synthesis.results import (
+    Design,
+    Progress,
+    SolutionCount,
+    SynthesisResult,
+    in_order_of,
+    ranked,
+)
 from gruebler.design.synthesis.special_tasks import refuse_one_joint, refuse_parallelograms, solved_where_it_lies
 from gruebler.design.synthesis.targets import Targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PositionTask
@@ -63,14 +70,6 @@ _ENDS = 64
 _PLANE = 40.0  # sizes of the task: the plane in which pivots are sought counts as so long
 
 _FOUR_BAR = f"{CRANK.form}-{CRANK.form}"
-_NAMED = {
-    _FOUR_BAR: "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); frame=frame; drive=R(frame-crank)",
-    f"{CRANK.form}-{SLIDER.form}": (
-        "R(frame-crank) R(crank-coupler) R(coupler-slider) P(frame-slider); frame=frame; drive=R(frame-crank)"
-    ),
-}
-"""Linkages whose links may have given lengths, by their forms."""
-_LEAST_TOLERANCE = 2e-6  # with a smaller one structures are accepted that come near
 DYADS = message("dyads")
 _FAMILIES = {
     2: message(
@@ -236,8 +235,6 @@ def synthesise_positions(
         raise SynthesisError("four-bars have no pivots to choose for more than four positions; six-bars have some")
     refuse_one_joint(task)
     refuse_parallelograms(task)
-    if wanted.lengths and len(task) < 5 and not (task.moving_pivots or task.curve_parameters):
-        return _with_lengths(task, wanted, number, progress)
     chosen = len(task.moving_pivots) + len(task.fixed_pivots) + len(task.curve_parameters)
     searched = len(task) < 5 and chosen < 2
     given = _of_one_pivot(task) if searched and chosen else []
@@ -282,29 +279,8 @@ def _proved(
     for kind in (SLIDER, BLOCK):
         form, slides = f"{CRANK.form}-{kind.form}", [dyad for dyad in dyads if dyad.kind == kind]
         angles = [design.verdict.transmission for design in designs if design.form == form]
-        if slides:
+        if slides and has_lengths(kind, demands):
             yield from slide_notes(task, demands, slides, max(angles, default=None), form)
-
-
-def _with_lengths(task: PositionTask, demands: Demands, number: int, progress: Progress | None) -> SynthesisResult:
-    """Linkages with given lengths, which no member of a sample has: by least squares with these lengths held."""
-    from gruebler.design.synthesis.structures import synthesise_structures
-
-    forms = {_mechanism(text): form for form, text in _NAMED.items()}
-    some = [each for each in forms if missing_length(each, demands) is None]
-    exact = replace(demands, tolerance=max(demands.tolerance, _LEAST_TOLERANCE))
-    fitted = synthesise_structures(task, some, exact, starts=number, link="coupler", progress=progress)
-    designs, rejected = ranked(
-        replace(design, form=forms[design.linkage.mechanism]) for design in (*fitted.designs, *fitted.rejected)
-    )
-    note = message("Given lengths: linkages are sought by least squares, so that there may be others.")
-    return replace(
-        fitted,
-        designs=designs,
-        rejected=rejected,
-        count=SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs)),
-        notes=(note, *fitted.notes),
-    )
 
 
 def _judged_pairs(
@@ -350,11 +326,12 @@ def _judged_best(
     def sought(
         cranks: Sequence[GuidingDyad], second: Sequence[GuidingDyad], count: int, wished: Demands
     ) -> tuple[list[Pair], list[Message]]:
-        search = best_pairs(task, cranks, wished, near, second=second, given=given, orders=sort, number=count)
+        search = best_linkages(task, cranks, wished, near, second=second, given=given, orders=sort, number=count)
         turns = given and not given[0].slides
-        if not search.pairs or len(task) == 4 or (turns and (second or len(given) > 1)):
+        alone = turns and not second and len(given) == 1
+        if not alone and ((given[:1] and turns) or len(task) == 4 or not search.pairs):
             return [*search.pairs], [*search.notes]
-        if turns:
+        if alone:
             better, proved = best_beside(task, wished, given[0], search.pairs)
         else:
             improved, proved = improved_pair(task, wished, search.pairs)
@@ -391,7 +368,9 @@ def _judged_best(
             designs.append(judge_design(linkage, body_targets(task, linkage), demands, form))
         if progress is not None:
             progress(done, len(pairs))
-    return designs if given else designs + _judged_pairs(task, demands, list(combinations(sliding, 2)), None)
+    if given or demands.lengths:
+        return designs
+    return designs + _judged_pairs(task, demands, list(combinations(sliding, 2)), None)
 
 
 def sliding_sample(task: PositionTask, kind: DyadKind, demands: Demands) -> list[GuidingDyad]:

@@ -12,7 +12,7 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import message
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
 from gruebler.design.synthesis.judging import Demands, judge_design
-from gruebler.design.synthesis.pair_search import best_pairs
+from gruebler.design.synthesis.length_search import best_linkages
 from gruebler.design.synthesis.positions import (
     guiding_dyads,
     linkage_of_dyads,
@@ -55,7 +55,7 @@ def timed_positions(task: PathTask, demands: Demands, number: int) -> SynthesisR
     others = [dyad for dyad in guiding_dyads(positions, _TIMED_SAMPLE, region) if not dyad.slides]
     families = [[dyad for dyad in others if dyad != own]]
     families += [sliding_sample(positions, kind, demands) for kind in (SLIDER, BLOCK)]
-    searches = [best_pairs(positions, [own], demands, near, second=family, number=2 * number) for family in families]
+    searches = [best_linkages(positions, [own], demands, near, second=family, number=2 * number) for family in families]
     designs = [
         design
         for search in searches

@@ -1,0 +1,336 @@
+"""Linkages of two dyads with given lengths: members of the family that have them, the best made better among these.
+
+Guiding dyads and given lengths are equations of second degree in the pivots; from pairs of a sample the nearest pairs
+that satisfy all of them are found by Gauss and Newton. docs/theory/synthesis-positions.md, "Given lengths".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from gruebler.base.arrays import Complexes, Flags, Reals
+from gruebler.base.text import message
+from gruebler.design.synthesis.dyad_cells import FAR
+from gruebler.design.synthesis.dyads import (
+    BLOCK,
+    CRANK,
+    SLIDER,
+    Displacements,
+    DyadKind,
+    GuidingDyad,
+    guiding_conditions,
+    line_conditions,
+)
+from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.pair_search import (
+    FoundPairs,
+    Nearby,
+    PairFacts,
+    best_pairs,
+    facts_of_pins,
+    inside_region,
+    tightest,
+)
+from gruebler.design.synthesis.results import form_symbols
+from gruebler.design.synthesis.tasks import PositionTask
+
+_ENDS = {
+    CRANK: {"crank": (0, 1), "coupler": (0, 2), "rocker": (2, 3), "frame": (1, 3)},
+    SLIDER: {"crank": (0, 1), "coupler": (0, 2)},
+    BLOCK: {"crank": (0, 1), "frame": (1, 2)},
+}
+"""The links with two pins, and between which points of a row they lie, by the kind of the dyad that is not driven."""
+_STEPS = 25
+_LONGEST = 0.5  # sizes: of a step
+_REACHED = 1e-11  # of what is satisfied, by sizes
+_BEGUN = 8192  # pairs of a sample from which is begun, those first that need the smallest step
+_LOOKED_AT = 400  # members for each linkage that is wanted
+_APART = 0.2  # sizes: pivots of two members that are made better differ by more
+_ALIKE = 0.05  # sizes: those of two linkages that are listed
+_EXACT = 1e-14  # of the numbers: smaller steps end the search
+_NOTHING = 1e-13  # of the squares of slopes: below it they are dependent
+_RANK = 1e-7  # of the largest slope: an equation below it is none
+_TURNS = 4  # with each width
+_WIDTHS = tuple(0.16 * 0.4**k for k in range(9))  # sizes
+_FOUND = message(
+    "Linkages {form} with the given lengths: {pairs:,} were reached from pairs of a sample; {count:,} meet all demands."
+)
+_NONE = message("Linkages {form} with the given lengths: none was found.")
+_WITHOUT = message("Linkages {form} do not have all links whose lengths are given; they are left out.")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PairFamily:
+    """All linkages of a driven RR dyad and another one that guide a body, some of them with given lengths.
+
+    Rows are linkages in sizes of the task about its origin: both pivots of the crank, on the body first, then those of
+    the other dyad, or the one of a slide and the angle of its line.
+    """
+
+    task: PositionTask
+    kind: DyadKind
+    """Of the dyad that is not driven."""
+    lengths: tuple[tuple[str, float], ...]
+    """Links between two pins and their lengths, in the unit of the task."""
+
+    @property
+    def points(self) -> int:
+        """How many pivots a row has."""
+        return 3 if self.kind.slides else 4
+
+    def rows(self, first: Sequence[GuidingDyad], second: Sequence[GuidingDyad]) -> Reals:
+        """(first x second, numbers) each with each, the driven ones first."""
+        _, origin, size = Displacements.of(self.task.origins, self.task.turns)
+        driven, other = (
+            dyad_numbers([dyad.moved(1 / size, -origin / size) for dyad in some]) for some in (first, second)
+        )
+        return np.concatenate([np.repeat(driven, len(second), axis=0), np.tile(other, (len(first), 1))], axis=1)
+
+    def dyads(self, row: Reals) -> tuple[GuidingDyad, GuidingDyad]:
+        """The linkage of a row, in the unit of the task."""
+        _, origin, size = Displacements.of(self.task.origins, self.task.turns)
+        x, m, *other = map(complex, _places(row, self.points))
+        direction = complex(np.exp(1j * row[-1])) if self.kind.slides else 0j
+        pair = GuidingDyad(CRANK, x, m), GuidingDyad(self.kind, other[0], other[-1], direction)
+        return pair[0].moved(size, origin), pair[1].moved(size, origin)
+
+    def equations(self, rows: Reals) -> tuple[Reals, Reals]:
+        """(rows, equations) zero for linkages of the family with the lengths, and (rows, equations, numbers) slopes."""
+        given, _, size = Displacements.of(self.task.origins, self.task.turns)
+        places = _places(rows, self.points)
+        count = len(given.q)
+        values = np.zeros((len(rows), 2 * count + len(self.lengths)))
+        slopes = np.zeros((*values.shape, rows.shape[1]))
+        values[:, :count], slopes[:, :count, :4] = guiding_conditions(given, places[:, 0], places[:, 1])
+        if self.kind.seen is None:
+            values[:, count : 2 * count], slopes[:, count : 2 * count, 4:] = guiding_conditions(
+                given, places[:, 2], places[:, 3]
+            )
+        else:
+            values[:, count : 2 * count], slopes[:, count : 2 * count, 4:] = line_conditions(
+                self.kind.seen(given), places[:, 2], rows[:, -1]
+            )
+        for k, (link, length) in enumerate(self.lengths, 2 * count):
+            begin, end = _ENDS[self.kind][link]
+            arm = places[:, end] - places[:, begin]
+            values[:, k] = np.abs(arm) ** 2 - (length / size) ** 2
+            for end_of, sign in ((begin, -2), (end, 2)):
+                slopes[:, k, 2 * end_of], slopes[:, k, 2 * end_of + 1] = sign * arm.real, sign * arm.imag
+        return values, slopes
+
+    def step(self, rows: Reals, held: Flags) -> Reals:
+        """The shortest step of numbers that are not held to where the equations hold, as they are linear nearby."""
+        values, slopes = self.equations(rows)
+        slopes = np.where(held[:, None], 0.0, slopes)
+        squares = slopes @ slopes.transpose(0, 2, 1)
+        nothing = _NOTHING * np.trace(squares, axis1=1, axis2=2)[:, None, None] + np.finfo(float).tiny
+        solved = np.linalg.solve(squares + nothing * np.eye(squares.shape[1]), -values[:, :, None])
+        return np.asarray((slopes.transpose(0, 2, 1) @ solved)[:, :, 0])
+
+    def members(self, rows: Reals, held: Flags) -> tuple[Reals, Flags]:
+        """The linkages of the family near these, by Gauss and Newton, and whether there is one at hand.
+
+        Args:
+            rows: (linkages, numbers).
+            held: (linkages, numbers) which numbers do not change.
+        """
+        rows = rows.copy()
+        moving = np.arange(len(rows))
+        for _ in range(_STEPS):
+            step = self.step(rows[moving], held[moving])
+            length = np.linalg.norm(step, axis=1)
+            step *= np.minimum(1.0, _LONGEST / np.maximum(length, _LONGEST))[:, None]
+            rows[moving] += step
+            moving = moving[length > _EXACT * (1 + np.abs(rows[moving]).max(axis=1))]
+            if not len(moving):
+                break
+        far = np.abs(_places(rows, self.points)).max(axis=1)
+        misses = np.abs(self.equations(rows)[0]).max(axis=1)
+        return rows, np.asarray((misses <= _REACHED * (1 + far * far)) & (far < FAR))
+
+    def facts(self, rows: Reals, demands: Demands) -> PairFacts:
+        """(rows, 1) what these linkages do."""
+        given, origin, size = Displacements.of(self.task.origins, self.task.turns)
+        q, t = given.with_first
+        places = _places(rows, self.points)
+        driven, other = (
+            ((places[:, side, None] * q + t)[:, None], places[:, [last]]) for side, last in ((0, 1), (2, -1))
+        )
+        angle = rows[:, -1:] if self.kind.slides else np.zeros((len(rows), 1))
+        slides = np.exp(1j * angle) * (np.ones_like(q) if self.kind == SLIDER else q)
+        frame = [1] if self.kind == SLIDER else [1, -1]
+        inside = np.all([inside_region(places[:, k] * size + origin, demands) for k in frame], axis=0)
+        reach = 1.0 if np.ptp(self.task.origins) else np.inf
+        return facts_of_pins(
+            driven, other, slides[:, None], self.kind, inside=inside[:, None], size=reach, ranks=self.task.order
+        )
+
+    def about(self, row: Reals, held: Flags) -> Reals:
+        """(directions, numbers) in which linkages of the family lie about one: along, and between, all its freedoms."""
+        slopes = self.equations(row[None])[1][0]
+        matrix = np.concatenate([slopes, np.eye(len(row))[held]])
+        *_, sizes, turns = np.linalg.svd(matrix)
+        axes = turns[int(np.count_nonzero(sizes > _RANK * sizes[0])) :]
+        between = [(a + sign * b) / 2 for a, b in combinations(axes, 2) for sign in (1, -1)]
+        return np.array([sign * axis for axis in (*axes, *between) for sign in (1, -1)]).reshape(-1, len(row))
+
+
+def dyad_numbers(dyads: Sequence[GuidingDyad]) -> Reals:
+    """(dyads, numbers) of dyads of one kind: both pivots, or the one of a slide and the angle of its line."""
+    pivots = np.array([[dyad.moving, dyad.fixed] for dyad in dyads], np.complex128).view(np.float64)
+    if not dyads[0].slides:
+        return pivots
+    return np.concatenate([pivots[:, :2], np.angle([[dyad.direction] for dyad in dyads])], axis=1)
+
+
+def _places(rows: Reals, count: int) -> Complexes:
+    """The pivots of rows."""
+    return np.ascontiguousarray(rows[..., : 2 * count]).view(np.complex128)
+
+
+def has_lengths(kind: DyadKind, demands: Demands) -> bool:
+    """Whether linkages of a crank and such a dyad have all links whose lengths are demanded."""
+    return {link for link, _ in demands.lengths} <= set(_ENDS[kind])
+
+
+def best_linkages(
+    task: PositionTask,
+    dyads: Sequence[GuidingDyad],
+    demands: Demands,
+    near: Nearby,
+    *,
+    second: Sequence[GuidingDyad] = (),
+    given: Sequence[GuidingDyad] = (),
+    orders: Sequence[str] = (),
+    number: int = 16,
+) -> FoundPairs:
+    """As `best_pairs`; with given lengths, which no member of a sample has, the best of those that have them."""
+    kind = (second or dyads)[0].kind
+    if not demands.lengths:
+        return best_pairs(task, dyads, demands, near, second=second, given=given, orders=orders, number=number)
+    if has_lengths(kind, demands):
+        held = given or dyads if len(dyads) == 1 else given
+        return _with_lengths(task, dyads, second or dyads, demands, given=held, orders=orders, number=number)
+    return FoundPairs(pairs=(), notes=(_WITHOUT.filled(form=form_symbols(f"{CRANK.form}-{kind.form}")),))
+
+
+def _with_lengths(
+    task: PositionTask,
+    firsts: Sequence[GuidingDyad],
+    seconds: Sequence[GuidingDyad],
+    demands: Demands,
+    *,
+    given: Sequence[GuidingDyad],
+    orders: Sequence[str],
+    number: int,
+) -> FoundPairs:
+    """The best linkages of a family that have the lengths that are demanded; those that fail least if none meets all.
+
+    Args:
+        task: two to four positions.
+        firsts: a sample of the dyads that are driven, RR ones.
+        seconds: one of the other dyads, of one kind.
+        demands: what counts, the lengths among it.
+        given: dyads of which each linkage has one; of two positions their end that has several places is not held.
+        orders: what is best, by the names of `results.ORDERS`.
+        number: of linkages, at most.
+
+    Cost: 1 s.
+    """
+    family = PairFamily(task=task, kind=seconds[0].kind, lengths=demands.lengths)
+    rows, held = _begun(family, firsts, seconds, given)
+    if len(rows) > _BEGUN:
+        nearest = np.argsort(np.linalg.norm(family.step(rows, held), axis=1), kind="stable")[:_BEGUN]
+        rows, held = rows[nearest], held[nearest]
+    rows, good = family.members(rows, held)
+    rows, held = rows[good], held[good]
+    form = form_symbols(f"{CRANK.form}-{family.kind.form}")
+    if not len(rows):
+        return FoundPairs(pairs=(), notes=(_NONE.filled(form=form),))
+    facts = family.facts(rows, demands)
+    met = facts.met(demands)
+    fails = np.sum([~flags for _, flags in met], axis=0)
+    meets = (fails == 0).ravel()
+    notes = [_FOUND.filled(form=form, pairs=len(rows), count=int(np.count_nonzero(meets)))]
+    if demands.transmission > 0 and not meets.any():
+        orders = ("transmission", *orders)  # those that are nearly good come first
+    ranks = np.lexsort([cost.ravel() for cost in reversed([fails.astype(float), *facts.costs(orders)])])
+    ranks = ranks[: np.count_nonzero(meets) or len(ranks)][: _LOOKED_AT * number]
+    chosen = _different(family, rows[ranks], _APART, 2 * number)
+    rows, held = rows[ranks[chosen]], held[ranks[chosen]]
+    rows, meets = _improved(family, rows, held, demands, orders)
+    pairs = tuple(family.dyads(rows[k]) for k in _different(family, rows, _ALIKE, number))
+    return FoundPairs(pairs=pairs, notes=(*notes, *([] if meets.any() else tightest(met))))
+
+
+def _begun(
+    family: PairFamily,
+    firsts: Sequence[GuidingDyad],
+    seconds: Sequence[GuidingDyad],
+    given: Sequence[GuidingDyad],
+) -> tuple[Reals, Flags]:
+    """Rows of the sample, and which of their numbers are held: the pivots that all given dyads share."""
+    others = [[dyad for dyad in some if dyad not in given] for some in (firsts, seconds)]
+    if not given:
+        rows = family.rows(firsts, seconds)
+        return rows, np.zeros(rows.shape, bool)
+    groups = []
+    numbers = np.arange(2 * family.points + family.kind.slides)
+    ends = [len({dyad.moving for dyad in given}) == 1, len({dyad.fixed for dyad in given}) == 1]
+    for side, driven, other in ((0, given, others[1]), (1, others[0], given)):
+        if given[0].kind == (CRANK, family.kind)[side] and driven and other:
+            own = numbers[4:] if side else numbers[:4]
+            held = own if given[0].slides else own[np.repeat(ends, 2)]
+            rows = family.rows(driven, other)
+            groups.append((rows, np.broadcast_to(np.isin(numbers, held), rows.shape)))
+    rows = np.concatenate([some for some, _ in groups])
+    return rows, np.concatenate([held for _, held in groups])
+
+
+def _different(family: PairFamily, rows: Reals, apart: float, number: int) -> list[int]:
+    """The first rows whose pivots differ from those before by more than some sizes in sum, whichever dyad drives."""
+    places = _places(rows, family.points)
+    chosen: list[int] = []
+    close = np.zeros(len(rows), bool)
+    orders = [[0, 1, 2], [0, 1, 2]] if family.kind.slides else [[0, 1, 2, 3], [2, 3, 0, 1]]
+    while len(chosen) < number and not close.all():
+        chosen.append(int(np.argmin(close)))
+        for order in orders:
+            close |= np.abs(places - places[chosen[-1], order]).sum(axis=1) <= apart
+    return chosen
+
+
+def _improved(
+    family: PairFamily, rows: Reals, held: Flags, demands: Demands, orders: Sequence[str]
+) -> tuple[Reals, Flags]:
+    """Each linkage made better among its neighbours, on finer and finer stars; the best first, and which meet all."""
+
+    def judged(some: Reals) -> tuple[Reals, Flags]:
+        facts = family.facts(some, demands)
+        fails = np.sum([~flags for _, flags in facts.met(demands)], axis=0)
+        return np.concatenate([fails, *facts.costs(orders)], axis=1), (fails == 0).ravel()
+
+    costs, meets = judged(rows)
+    for width in _WIDTHS:
+        for _ in range(_TURNS):
+            changed = False
+            stars = [row + width * family.about(row, keeps) for row, keeps in zip(rows, held, strict=True)]
+            owner = np.repeat(np.arange(len(rows)), [len(star) for star in stars])
+            if not len(owner):
+                break
+            near, good = family.members(np.concatenate(stars), held[owner])
+            near, owner = near[good], owner[good]
+            near_costs, near_meets = judged(near)
+            for k in range(len(rows)):
+                neighbours = np.flatnonzero(owner == k)
+                best = min(neighbours, key=lambda n: tuple(near_costs[n]), default=None)
+                if best is not None and tuple(near_costs[best]) < tuple(costs[k]):
+                    rows[k], costs[k], meets[k], changed = near[best], near_costs[best], near_meets[best], True
+            if not changed:
+                break
+    order = np.lexsort(costs.T[::-1])
+    return rows[order], meets[order]
