@@ -1,15 +1,17 @@
 """One pivot is given for two to four positions: the best others beside it, simulated, and what is proved of them."""
 
 import re
+from itertools import product
 
 import numpy as np
 import pytest
 
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, PathTask, PositionTask, synthesise_path, synthesise_positions
-from gruebler.design.synthesis.dyads import CRANK, Displacements, GuidingDyad
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements, GuidingDyad
+from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.pair_search import pair_facts
-from gruebler.design.synthesis.positions import guiding_dyads
+from gruebler.design.synthesis.positions import body_targets, guiding_dyads, linkage_of_dyads, sliding_sample
 
 from .test_simulated_verdicts import passes, pivots_of, simulated
 
@@ -31,7 +33,8 @@ def test_others_are_sought_beside_a_single_pivot(count, kind):
     designs = found.designs
     four_bars = np.array([pivots_of(design) for design in designs if design.form == "RR-RR"])
     assert len(four_bars) >= 4
-    assert {design.form for design in designs} - {"RR-RR"}  # slides stand beside the pivot, too
+    # Slides stand beside the pivot, too; those of three positions only with a crank that is too long for their travel.
+    assert {design.form for design in (*designs, *found.rejected)} - {"RR-RR"}
     ends = four_bars[:, [0, 3]] if kind == "fixed_pivots" else four_bars[:, [1, 2]]
     nearest = min(ends[0], key=lambda end: np.abs(ends - end).min(axis=1).max())
     own = complex(*PIVOT) if count < 4 else nearest
@@ -197,6 +200,39 @@ def test_places_in_sentences_are_those_of_a_task_far_from_the_origin():
     turned = [(5003 + 2 * np.cos(a), 2002 + 2 * np.sin(a), a) for a in (0, 0.3, 0.8)]
     with pytest.raises(SynthesisError, match=r"turns about \(5003, 2002\)"):
         synthesise_positions(PositionTask(turned))
+
+
+def test_few_designs_are_the_first_of_many():
+    """The best beside the pivot is found however few designs are asked for, and with any order."""
+    task = given(3, "fixed_pivots")
+    found = [
+        synthesise_positions(task, number=number, sort=sort) for number, sort in ((1, ()), (6, ("size",)), (16, ()))
+    ]
+    best = [max(d.verdict.transmission for d in each.designs if d.form == "RR-RR") for each in found]
+    assert np.degrees(best) == pytest.approx(np.degrees(best[-1]), abs=0.06)
+
+
+@pytest.mark.parametrize("kind", [SLIDER, BLOCK])
+def test_the_size_of_what_slides_is_in_the_count_and_in_the_verdict(kind):
+    """By hand: the longest length, by the shortest or the size of the task, whichever is less."""
+    task = PositionTask(given(3, "fixed_pivots").positions)
+    cranks = guiding_dyads(task, 49)
+    seconds = sliding_sample(task, kind, Demands())[::8]
+    facts = pair_facts(task, cranks, seconds, Demands())
+    beyond = 0
+    for (i, first), (j, second) in product(enumerate(cranks[::5]), enumerate(seconds)):
+        if first.slides:
+            continue
+        other = second.moving if kind == SLIDER else first.fixed
+        lengths = [first.length, abs((first.moving if kind == SLIDER else second.fixed) - other)]
+        ratio = max(lengths) / min(*lengths, abs(complex(3.2, 1)))
+        assert facts.size_ratio[5 * i, j] == pytest.approx(ratio, rel=1e-9)
+        linkage = linkage_of_dyads(first, second, 0j, "mm")
+        verdict = judge_design(linkage, body_targets(task, linkage), Demands(), "").verdict
+        assert verdict.size_ratio == pytest.approx(ratio, rel=1e-9)
+        beyond += max(lengths) > 20 * abs(complex(3.2, 1))
+        assert any("differ too much" in str(reason) for reason in verdict.reasons) == (ratio > 20)
+    assert beyond
 
 
 def test_lengths_are_held_beside_the_crank_of_three_positions_with_crank_angles():

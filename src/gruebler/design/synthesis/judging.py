@@ -238,7 +238,7 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     >>> judge_design(bar, point_targets("P", motion.complex_point("P"), 1.0), Demands(), "four-bar").verdict.accepted
     True
     """
-    ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
+    ratio, inside = size_ratio(linkage, targets.travel), pivots_inside(linkage, demands.region)
     reasons, known = faults_of_size(linkage, ratio, inside, demands), DesignVerdict(size_ratio=ratio, inside=inside)
     if targets.in_any_order:
         demands = replace(demands, in_order=False)
@@ -474,10 +474,16 @@ def _in_another_order(error: float) -> Message:
     )
 
 
-def size_ratio(linkage: Linkage) -> float:
-    """The longest distance of two pins of a link by the shortest; points on slides do not count."""
+def size_ratio(linkage: Linkage, travel: float = np.inf) -> float:
+    """The longest distance of two pins of a link by the shortest; points on slides do not count.
+
+    Where something slides, and about how far is known, this travel counts as a length, too.
+    """
     lengths = [length for link in linkage.mechanism.chain.links for length in distances_of_pins(linkage, link)]
-    return max(lengths) / min(lengths) if lengths else 1.0
+    if not lengths:
+        return 1.0
+    slides = any(not element.is_pin for element in linkage.elements.values())
+    return max(lengths) / min(*lengths, travel if slides else np.inf)
 
 
 def distances_of_pins(linkage: Linkage, link: str) -> list[float]:

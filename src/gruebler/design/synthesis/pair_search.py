@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, DyadKind, GuidingDyad
-from gruebler.design.synthesis.judging import BUILDABLE, Demands
+from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.target_orders import Ranks, TargetOrder
 from gruebler.design.synthesis.tasks import PositionTask
@@ -52,8 +52,8 @@ class PairFacts:
     order, on the shortest way through all of them."""
     inside: Flags
     """Both fixed pivots lie in the region."""
-    most: float
-    """The largest length of a linkage that slides."""
+    travel: float
+    """The size of the task, which counts as a length of linkages that slide: they have few others."""
 
     @property
     def longest(self) -> Reals:
@@ -63,22 +63,16 @@ class PairFacts:
     @property
     def size_ratio(self) -> Reals:
         """(n, m) the longest length by the shortest."""
-        return np.asarray(self.longest / np.maximum(np.nanmin(self.lengths, axis=0), 1e-200), np.float64)
+        shortest = np.nanmin(self.lengths, axis=0)
+        shortest = np.where(np.isnan(self.lengths).any(axis=0), np.minimum(shortest, self.travel), shortest)
+        return np.asarray(self.longest / np.maximum(shortest, 1e-200), np.float64)
 
     def met(self, demands: Demands) -> list[tuple[Message, Flags]]:
         """The demands by their names, each with the pairs that meet it."""
         met = [(message("one branch"), self.branch if demands.one_branch else np.ones_like(self.branch))]
         if demands.one_branch and demands.in_order:
             met.append((message("the order of the targets"), self.moves))
-        met += demands_met(demands, self.turns, self.transmission, self.size_ratio, self.inside)
-        if np.isnan(self.lengths).any():  # two lengths say little of a linkage that slides
-            met.append(
-                (
-                    message("a size of at most {ratio:g} times that of the task", ratio=BUILDABLE),
-                    self.longest <= self.most,
-                )
-            )
-        return met
+        return met + demands_met(demands, self.turns, self.transmission, self.size_ratio, self.inside)
 
     def costs(self, orders: Sequence[str]) -> list[Reals]:
         """(n, m) what is to be small, the most important first."""
@@ -135,7 +129,7 @@ def facts_of_pins(
         turns=np.asarray(turns & usable),
         transmission=np.where(usable, transmission, 0.0),
         inside=inside,
-        most=BUILDABLE * size,
+        travel=size,
     )
 
 
@@ -357,12 +351,13 @@ def best_pairs(
     if demands.transmission > 0 and not good.any():
         orders = ("transmission", *orders)  # those that are nearly good come first
     ranks = np.lexsort([cost.ravel() for cost in reversed([fails.astype(float), *facts.costs(orders)])])
+    ranks = ranks[usable.ravel()[ranks]]
     chosen: list[tuple[int, int]] = []
     for rank in ranks[: _LOOKED_AT * number]:
         i, j = divmod(int(rank), len(others))
         same = [(i, j)] if second else [(i, j), (j, i)]
         apart = all(abs(p - k) + abs(q - m) > _APART for k, m in chosen for p, q in same)
-        if apart and usable[i, j] and (good[i, j] or not good.any()):
+        if apart and (good[i, j] or not good.any()):
             chosen.append((i, j))
         if len(chosen) == 2 * number:
             break

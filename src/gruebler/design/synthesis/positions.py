@@ -432,7 +432,7 @@ def body_targets(task: PositionTask, linkage: Linkage, link: str = "coupler") ->
     """The positions of the link that is the body, with its point P at the origin."""
     first = linkage.required_pose[link].angle
     targets = position_targets("P", link, task.origins, first + task.angles - task.angles[0], task.size)
-    return replace(targets, ranks=task.order)
+    return replace(targets, ranks=task.order, travel=task.size if np.ptp(task.origins) else np.inf)
 
 
 def four_bar_linkages(

@@ -77,6 +77,8 @@ class Targets:
     """(targets,) how far each may be missed, an unlimited one as the demands say; None if this holds for all."""
     ranks: Ranks = ()
     """The order in which they are to be passed, as of a task."""
+    travel: float = np.inf
+    """About how far slides go, which is compared with lengths; infinite where nothing is known of it."""
     there_and_back: bool = False
     """Whether the way back to the first target belongs to the task, as of dead centres."""
 
