@@ -125,7 +125,7 @@ def test_an_expression_and_its_minimax_optimum(capsys):
     assert "Minimax optimum 1: largest error 0.00367° (before: 0.01186°)" in out
     assert "0.00367°" in out.partition("\nMinimax")[0]  # the table, too, has the optimum
     assert "35.9° !" in out
-    assert "over the whole range of the drive as `analyse` gives it. !: below 40°." in out
+    assert "over the whole range of the drive, as `analyse` gives it. !: below 40°." in out
     assert "error at pairs" not in out
     assert main(words[:-1]) == 0  # five pairs exactly; of the largest error between them the optimum began
     heads, first = capsys.readouterr().out.partition("design  ")[2].splitlines()[:2]

@@ -24,7 +24,7 @@ from gruebler.structure.mechanism.inversion import family
 
 _REJECTED = 5  # rejected designs that are listed without --rejected, if no other is there
 _COLUMNS = (
-    *(message("design"), message("drive"), message("full turn"), message("µ at targets"), message("µ of range")),
+    *(message("design"), message("drive"), message("full turn"), message("µ on the way"), message("µ of range")),
     message("lengths"),
 )
 _ERROR, _SHIFTED = message("error"), message("shift")
@@ -38,11 +38,11 @@ _PLAY = message(
     "keeps its value."
 )
 _ANGLES = message(
-    "µ: the minimum transmission angle on the way through the targets, and over the whole range of the drive as "
-    "`analyse` gives it."
+    "µ on the way: the smallest transmission angle on the way through all targets, at them and between them; "
+    "µ of range: over the whole range of the drive, as `analyse` gives it."
 )
 _LOW = message("!: below 40°.")
-_PARETO = (message("µ at targets"), message("µ of range"))
+_PARETO = (message("µ on the way"), message("µ of range"))
 _LETTERS = {"crank": "a", "coupler": "b", "rocker": "c", "frame": "d"}
 """Lengths as the closed forms name them; those of other links have the names of their links."""
 

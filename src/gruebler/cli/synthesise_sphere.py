@@ -30,7 +30,7 @@ _DRAWN = 6
 _COLUMNS = (
     message("design"),
     message("full turn"),
-    message("µ at targets"),
+    message("µ on the way"),
     message("arcs"),
     message("error"),
     message("crank angles"),

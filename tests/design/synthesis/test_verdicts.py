@@ -363,3 +363,16 @@ def test_the_order_on_a_circuit_is_that_of_all_cognates_and_drives(order, expect
     verdict = judge_design(linkage, point_targets("P", z, 30.0), Demands(), "RR-RR").verdict
     assert verdict.in_order == expected
     assert expected or str(verdict.reasons[0]) == "the targets are met in another order"
+
+
+@pytest.mark.parametrize("sides", [(1, 2.31, 2.87, 3.13), (1, 3.2, 2.2, 3.9), (1, 3.62, 3.31, 2.17)])
+@pytest.mark.parametrize("ends", [(-23, 31), (-3.1, 40.7), (-51, 1.9)])
+def test_the_least_transmission_angle_lies_between_targets_too(sides, ends):
+    """It is where crank and frame are in line, by the law of cosines; poses of the circuit lay 0.007 degrees beside."""
+    a, b, c, d = sides
+    bar = FourBar(*sides).linkage({"P": (1.2, 0.8)})
+    motion = move(bar, np.radians([ends[0], 0.4 * ends[1], ends[1]]))
+    targets = point_targets("P", motion.complex_point("P"), 1.0)
+    verdict = judge_design(bar.with_reference_pose(motion.pose(0)), targets, Demands(), "four-bar").verdict
+    least = np.degrees(np.arccos(abs(b**2 + c**2 - (d - a) ** 2) / (2 * b * c)))
+    assert np.degrees(verdict.transmission) == pytest.approx(least, abs=1e-5)

@@ -532,7 +532,7 @@ def _carried(
         motion = move_quietly(linkage, part, order=2)
         if not motion.complete:
             return values, np.full(len(misses), np.inf), float("nan")
-        least = min(least, _least_transmission(motion))
+        least = min(least, _least_transmission(motion, part))
         misses = np.maximum(misses, _misses(motion, targets, rows, begin, forward=forward))
     return values, misses, least if np.isfinite(least) else np.nan
 
@@ -548,9 +548,23 @@ def _misses(motion: Motion, targets: Targets, rows: NDArray[np.int64], begin: in
     return misses
 
 
-def _least_transmission(motion: Motion) -> float:
+def _least_transmission(motion: Motion, drive: Reals) -> float:
+    """Over a motion, its ends included; NaN where there is none.
+
+    Between poses the cosine is followed by the parabola through the largest one and its neighbours.
+    """
     try:
         mu = transmission_angle(motion)
     except LinkageError:
         return float("nan")
-    return float(np.nanmin(mu)) if np.isfinite(mu).any() else float("nan")
+    if not np.isfinite(mu).any():
+        return float("nan")
+    k, cosines = int(np.nanargmin(mu)), np.cos(mu)
+    most = cosines[k]
+    if 0 < k < len(mu) - 1 and (drive[k] - drive[k - 1]) * (drive[k + 1] - drive[k]) > 0:
+        before, after = drive[[k - 1, k + 1]] - drive[k]
+        low, high = cosines[[k - 1, k + 1]] - most
+        slope, bend = low * after / before - high * before / after, (high / after - low / before) * (after - before)
+        if bend < 0:
+            most -= slope**2 / (4 * bend)
+    return float(np.arccos(min(most, 1.0)))
