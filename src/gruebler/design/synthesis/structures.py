@@ -70,6 +70,9 @@ _SAME = 1e-6  # of the size of a linkage: two that are drawn nearer to each othe
 _NEIGHBOURS = 80  # from the atlas for each design that is kept
 _RAISED, _STEEPEST = 3, 1.5  # times a transmission angle at the targets; radians
 ACCEPTED = 0.05
+_SEARCHED_AGAIN = message(
+    "No design meets all demands. A second search left them out; these are the numbers of its designs:"
+)
 
 
 @solved_where_it_lies
@@ -129,9 +132,9 @@ def synthesise_structures(
         limit=_limit(wanted),
     )
     search = partial(_candidates, link=link, jobs=jobs, executor=executor)
-    tight = () if accepted else _tightest(task, wanted, search)
+    tight = [] if accepted else _tightest(task, wanted, search)
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(candidates), real=len(candidates))
-    notes = (*left_out, note, *order_notes(candidates, wanted), *tight)
+    notes = (*left_out, note, *order_notes(candidates, wanted), *([_SEARCHED_AGAIN] if tight else []), *tight)
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=notes)
 
 
