@@ -80,6 +80,17 @@ def test_the_compiled_catalog_is_that_of_the_text(lang):
         assert texts(file) == texts(BytesIO(compiled(updated(read(lang), lang)))), "make messages"
 
 
+ONE_WORD = re.compile(r"\bViergelenk(e|en|s)?\b|Genaupunkt|\(Vorgabe: |\bGebiets?\b|(mit|nach) kleinsten Quadraten")
+"""Other words for what is called Viergelenkgetriebe, Genauigkeitspunkt, Standard, Bereich, Methode der kleinsten ..."""
+
+
+def test_one_german_word_stands_for_one_thing():
+    texts = [
+        text for entry in read("de") for text in ([entry.string] if isinstance(entry.string, str) else entry.string)
+    ]
+    assert [text for text in texts if ONE_WORD.search(text)] == []
+
+
 def test_errors_are_raised_with_plain_texts():
     assert [entry for entry in messages() if isinstance(entry, Unreadable)] == []
 

@@ -143,3 +143,11 @@ def test_a_pivot_of_the_body_that_turns_outside_the_region_is_named(said):
     out = said(3, "--moving-pivot 1 1 --region -1 -1 2 2")
     assert f"With the given pivot (1, 1) a pivot of the frame is at ({u:.6g}, {v:.6g}), outside the region" in out
     assert "outside the region: no" not in said(3, f"--moving-pivot 1 1 --region -1 {v - 1} {u + 1} 2")
+
+
+def test_german_names_of_demands_and_families(said):
+    out = said(3, "--moving-pivot 1 1 --region -1 -1 2 2", "de")
+    assert "Entwürfe, die nur eine Forderung nicht erfüllen (Bereich der Gestellpunkte): " in out
+    assert "Jeder Punkt des Körpers ist Gelenkpunkt eines Zweischlags, ebenso jeder Punkt des Gestells" in out
+    assert "im Umkreis der 30-fachen Aufgabengröße" in out
+    assert "ein Gestellpunkt liegt außerhalb des Bereichs" in out

@@ -47,12 +47,12 @@ def too_long():
         (
             lambda: synthesise(PositionTask(LINE[:3])),
             "inclined by 63.4349°: one slide there passes all positions",
-            "um 63,4349° geneigt ist: Ein Schieber auf ihr durchläuft alle Lagen",
+            "auf einer um 63,4349° geneigten Geraden: Ein Schieber auf ihr durchläuft alle Lagen",
         ),
         (
             lambda: synthesise(PositionTask(CIRCLE), six_bars=True),
             "turns about (0, 0): a link on one pivot there passes them",
-            "Drehungen um (0; 0): Ein Glied auf einem Lager dort durchläuft sie",
+            "Drehungen um (0; 0): Ein dort drehbar gelagertes Glied durchläuft sie",
         ),
         (
             lambda: synthesise(PositionTask(ON_A_CIRCLE)),
@@ -62,12 +62,12 @@ def too_long():
         (
             lambda: synthesise(PositionTask([*ON_A_CIRCLE, (0, 0, 0.4)])),
             "its places lie on no circle: no four-bar passes them",
-            "liegen seine Orte auf keinem Kreis: Kein Viergelenkgetriebe durchläuft sie",
+            "doch seine Orte liegen auf keinem Kreis: Kein Viergelenkgetriebe durchläuft sie",
         ),
         (
             lambda: synthesise(PositionTask([*ON_A_CIRCLE[:2], (0, 0, 1), ON_A_CIRCLE[2]])),
             "positions 1, 2 and 4 have the same angle",
-            "Die Lagen 1, 2 und 4 haben denselben Winkel",
+            "die Lagen 1, 2 und 4 haben denselben Winkel",
         ),
         (
             lambda: synthesise(PathTask([p[:2] for p in [*LINE, (5, 10, 0), (6, 12, 0), (7, 1, 0), (9, 2, 0)]])),
@@ -177,8 +177,8 @@ def test_a_region_without_solutions_gives_the_reason_in_each_language():
     assert not result.designs
     (design,) = result.rejected
     assert [reason.in_language("en") for reason in design.verdict.reasons] == ["a fixed pivot lies outside the region"]
-    assert said(result)["de"].endswith("ein Gestellgelenk liegt außerhalb des Gebiets")
-    reasons = {"en": "a fixed pivot lies outside the region", "de": "ein Gestellgelenk liegt außerhalb des Gebiets"}
+    assert said(result)["de"].endswith("ein Gestellpunkt liegt außerhalb des Bereichs")
+    reasons = {"en": "a fixed pivot lies outside the region", "de": "ein Gestellpunkt liegt außerhalb des Bereichs"}
     assert {lang: text.endswith(reasons[lang]) for lang, text in said(result).items()} == {"en": True, "de": True}
 
 
