@@ -64,7 +64,9 @@ export class InWords {
       this.#said.textContent = text;
     };
     this.#timer = setTimeout(() => {
-      const question = { document: documentOf(), source: linkage.model.source };
+      const { cycle, model } = linkage;
+      const between = model.span.between && !cycle.full ? [cycle.low, cycle.high] : []; // where the machine is used
+      const question = { document: documentOf(), source: model.source, between };
       this.page.ask<{ lines: string[] }>("measures", question).then(
         ({ lines }) => tell(lines.join(" ")),
         (error: Error) => tell(error.message),

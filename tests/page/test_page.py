@@ -329,6 +329,23 @@ def test_the_catalog_and_the_exercises(tab, server):
     assert marks == ["wrong"] + ["right"] * (len(keys) - 1)
 
 
+def test_what_is_said_in_words_holds_for_the_range_in_which_a_machine_is_used(tab, server):
+    """The crane is used from 60° to 80° (its entry), although it could turn from 54° to 115°."""
+    page = tab().open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-id="crane"]').click()
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'crane'")
+    page.page.locator('[data-panel="measures"] summary:text-is("In words")').click()
+    words = page.page.locator('[data-panel="measures"] .note')
+    words.filter(has_text="from 60° to 80°").wait_for()
+    facts = page.page.locator(".facts > div").evaluate_all(
+        "all => all.map((one) => ['dt', 'dd'].map((part) => one.querySelector(part).firstChild.textContent))"
+    )
+    said = words.first.inner_text()
+    for name in ("Swing", "Smallest μ"):  # as the page measures them by itself
+        assert f" {dict(facts)[name]}" in said
+
+
 def test_a_server_that_goes_and_comes_back(tab, server):
     page = tab().open(server.address)
     page.until("gruebler.model.socket !== null")

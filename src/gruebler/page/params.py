@@ -63,6 +63,12 @@ class OpenDocument(Params):
     source: Word = ""
 
 
+class MeasureLinkage(OpenDocument):
+    """A linkage as plain data, and the drive values between which it is measured; none for its whole range."""
+
+    between: Annotated[list[float], msgspec.Meta(max_length=2)] = []
+
+
 class DescribeStructure(Params):
     """A chain or mechanism as text."""
 

@@ -22,6 +22,7 @@ from gruebler.page.params import (
     ListModes,
     LoadedLinkage,
     MarkAnswers,
+    MeasureLinkage,
     Nothing,
     OpenDocument,
     OpenFile,
@@ -210,14 +211,19 @@ def _synthesise(asked: SynthesiseTask, lang: str, progress: Progress) -> dict[st
     return design_records(task, asked.crank, asked.transmission, lang, progress)
 
 
-def _measures(asked: OpenDocument, lang: str, _: Progress) -> dict[str, Any]:
+def _measures(asked: MeasureLinkage, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.files import linkage_from_json
-    from gruebler.mechanics.analysis.measuring import measures
+    from gruebler.mechanics.analysis.drive_cycles import drive_cycle, part_of_cycle
+    from gruebler.mechanics.analysis.measuring import measures_of
+    from gruebler.mechanics.analysis.outputs import find_output
     from gruebler.page.model import link_names
 
     linkage = linkage_from_json(asked.document)
     named = linkage.renamed(link_names(linkage, asked.source, lang))
-    return {"lines": measures(named).explain(lang).splitlines()}
+    cycle = drive_cycle(named)
+    if len(asked.between) == 2:
+        cycle = part_of_cycle(cycle, *asked.between)
+    return {"lines": measures_of(cycle, named, find_output(named, None)).explain(lang).splitlines()}
 
 
 def _forces(asked: LoadedLinkage, lang: str, _: Progress) -> dict[str, Any]:
@@ -309,7 +315,7 @@ REQUESTS: dict[str, tuple[type[Params], Callable[[Any, str, Progress], Any]]] = 
     "chains": (ListChains, _chains),
     "realise": (Realise, _realise),
     "synthesise": (SynthesiseTask, _synthesise),
-    "measures": (OpenDocument, _measures),
+    "measures": (MeasureLinkage, _measures),
     "forces": (LoadedLinkage, _forces),
     "fall": (LoadedLinkage, _fall),
     "export": (Export, _export),

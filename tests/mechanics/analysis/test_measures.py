@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from gruebler.base.errors import LinkageError
-from gruebler.mechanics.analysis.drive_cycles import drive_cycle
+from gruebler.mechanics.analysis.drive_cycles import drive_cycle, part_of_cycle
 from gruebler.mechanics.analysis.events import transfer_function
-from gruebler.mechanics.analysis.measuring import measures
+from gruebler.mechanics.analysis.measuring import measures, measures_of
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import transmission_angle
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
@@ -252,3 +252,29 @@ def test_change_points_that_are_not_known_are_not_told_as_none(monkeypatch):
     assert "Change points of larger groups are not known: this linkage has no drive" in found.explain()
     assert "nicht bekannt: dieses Getriebe hat keinen Antrieb" in found.explain("de")
     assert found.to_json()["change_points_note"] == "this linkage has no drive"
+
+
+def test_a_part_of_the_range_is_measured_between_its_ends():
+    """Crank 25, coupler 70, rocker 40, frame 70: the rocker by triangles, at both ends and at its dead centre."""
+
+    def rocker(crank: float) -> float:
+        gap = 25 * np.exp(1j * crank) - 70
+        return float(np.angle(gap) % (2 * np.pi) - math.acos((abs(gap) ** 2 + 40**2 - 70**2) / (2 * 40 * abs(gap))))
+
+    linkage = FourBar(25, 70, 40, 70).linkage()
+    cycle = drive_cycle(linkage)
+    output = find_output(linkage, None)
+    dead = math.acos((70**2 + 95**2 - 40**2) / (2 * 70 * 95))  # crank and coupler in line
+    part = measures_of(part_of_cycle(cycle, -0.5, 0.5), linkage, output)
+    assert [centre.drive for centre in part.dead_centres] == pytest.approx([dead], abs=1e-9)
+    assert part.travel == pytest.approx(rocker(-0.5) - rocker(dead), abs=1e-9)
+    assert part.transmission.smallest.mu == pytest.approx(math.acos((70**2 + 40**2 - 45**2) / (2 * 70 * 40)), abs=1e-9)
+    assert part.explain().startswith("The drive turns from -28.65° to 28.65°.")
+    part = measures_of(part_of_cycle(cycle, 1.0, 2.0), linkage, output)
+    assert part.dead_centres == ()
+    assert part.travel == pytest.approx(rocker(2.0) - rocker(1.0), abs=1e-9)
+    # of a limited range the end that is kept has its reason
+    linkage = FourBar(65, 70, 40, 70).linkage()
+    cycle = drive_cycle(linkage)
+    below, above = part_of_cycle(cycle, 0.0, 1.0).span.stops
+    assert (below, above) == (cycle.span.stops[0], None)

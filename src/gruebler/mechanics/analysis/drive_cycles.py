@@ -67,6 +67,28 @@ class DriveCycle(Course):
         return motion_rows(motion, rows[1 + np.argsort(order_of, kind="stable")])
 
 
+def part_of_cycle(cycle: DriveCycle, low: float, high: float) -> DriveCycle:
+    """The course between two drive values; where they lie within its range, nothing stops it.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> part = part_of_cycle(drive_cycle(FourBar(25, 70, 40, 70).linkage()), -0.5, 0.5)
+    >>> part.span.full, part.span.low, part.span.high, part.span.stops
+    (False, -0.5, 0.5, (None, None))
+    """
+    span = cycle.span
+    below, above = span.stops
+    if span.full or low > span.low:
+        below = None
+    else:
+        low = span.low
+    if span.full or high < span.high:
+        above = None
+    else:
+        high = span.high
+    part = replace(cycle, span=replace(span, low=low, high=high, full=False, turns=0, stops=(below, above)))
+    return replace(part, grid=course_grid(part))
+
+
 def drive_cycle(linkage: Linkage, *, branch: Branch = None) -> DriveCycle:
     """The course of a linkage with one drive.
 

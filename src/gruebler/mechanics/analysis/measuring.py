@@ -350,6 +350,11 @@ def measures(
     cycle = drive_cycle(linkage, branch=branch)
     if checked is not None and not cycle.turning_drive:
         raise LinkageError("a speed in rad/s needs a turning drive; this linkage has a sliding one")
+    return measures_of(cycle, linkage, looked_at, checked)
+
+
+def measures_of(cycle: DriveCycle, linkage: Linkage, looked_at: Output, speed: float | None = None) -> Measures:
+    """All measures of a linkage over a course of its drive, which may be a part of its range."""
     span = cycle.span
     ends = None
     if not span.full:
@@ -387,7 +392,7 @@ def measures(
         transfer=_transfer(cycle, looked_at),
         transmission=transmission,
         transmission_error=transmission_error,
-        speed=checked,
+        speed=speed,
     )
 
 
