@@ -63,9 +63,11 @@ class OpenDocument(Params):
     source: Word = ""
 
 
-class MeasureLinkage(OpenDocument):
+class MeasureLinkage(Params):
     """A linkage as plain data, and the drive values between which it is measured; none for its whole range."""
 
+    document: dict[str, Any]
+    source: Word = ""
     between: Annotated[list[float], msgspec.Meta(max_length=2)] = []
 
 
