@@ -1,40 +1,35 @@
 """Dimensions in exact form, such as ``5/2*sqrt(3)``: read safely and evaluated exactly.
 
 Numbers, ``+ - * / **``, parentheses, ``sqrt`` and ``pi``; whole exponents only. The value is known as a sum of square
-roots with rational factors wherever it is one (`surds`), and in any case to any number of digits
-(`interval_arithmetic`).
+roots with rational factors wherever it is one (`surds`), and in any case to more digits than a double can be small.
 """
 
 from __future__ import annotations
 
+import operator
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from decimal import Context, Decimal, localcontext
 from fractions import Fraction
+from functools import cache
 from typing import NamedTuple
 
 from gruebler.base.errors import LinkageError
 from gruebler.base.immutable import settle
 from gruebler.base.text import Message, message
-from gruebler.teaching.sheets import interval_arithmetic, surds
-from gruebler.teaching.sheets.interval_arithmetic import Bracket, PrecisionTooLowError
+from gruebler.teaching.sheets import surds
 from gruebler.teaching.sheets.surds import Surd
 
 _LONGEST = 300  # characters
 _DEEPEST = 30  # parentheses, signs and powers within one another
 _MOST_TIMES = 64  # exponent
-_RANGE = 900  # bits before the point, and behind it
-_PRECISIONS = (96, 256, 1024, 4096)  # bits behind the point
+_RANGE = 900  # bits before the point
+_DIGITS = 1300
+_NOTHING = Decimal("1e-600")  # a value that is not known exactly is zero if it is smaller
+_SAME = Decimal(2) ** -1000
 _TOKEN = re.compile(r"\s*(?:([0-9]+(?:\.[0-9]*)?|\.[0-9]+)|(\*\*|[-+*/()√π])|([^\W\d]\w*)|(\S))")
 _ALIKE = str.maketrans("−·×", "-**")
-
-
-class _Step(NamedTuple):
-    """A step of the calculation, with the last results as operands; ``at`` is its column in the text."""
-
-    kind: str
-    at: int
-    number: Fraction = Fraction(0)
 
 
 @dataclass(frozen=True)
@@ -53,11 +48,12 @@ class Expression:
     """
 
     text: str
-    steps: tuple[_Step, ...] = field(init=False, repr=False, compare=False)
     value: float = field(init=False, repr=False, compare=False)
     """The nearest double."""
     exact: Surd | None = field(init=False, repr=False, compare=False)
     """The value as a sum of roots, factors by radicand; None if it is not known as one."""
+    digits: Decimal = field(init=False, repr=False, compare=False)
+    """The value to 1300 digits, less what subtractions take."""
 
     def __post_init__(self) -> None:
         if not isinstance(self.text, str) or len(self.text) > _LONGEST:
@@ -67,9 +63,9 @@ class Expression:
                 longest=_LONGEST,
                 found=description,
             )
-        settle(self, steps=tuple(_Reader(self.text).whole()))
-        settle(self, value=_nearest(self.text, self.steps))
-        settle(self, exact=_exactly(self.steps))
+        with localcontext(Context(prec=_DIGITS)):
+            number = _Reader(self.text).whole()
+        settle(self, value=float(number.digits) + 0.0, exact=number.exact, digits=number.digits)  # no minus zero
 
     def __str__(self) -> str:
         return self.text
@@ -97,99 +93,42 @@ class Expression:
         """Whether the values are equal: exactly if both are known as sums of roots, else to 1000 binary places."""
         if self.exact is not None and other.exact is not None:
             return dict(self.exact) == dict(other.exact)
-        first, second = (_bracketed(expression.text, expression.steps, 4096) for expression in (self, other))
-        return first[0] - second[1] <= 1 << 3096 and second[0] - first[1] <= 1 << 3096
+        with localcontext(Context(prec=_DIGITS)):
+            return abs(self.digits - other.digits) <= _SAME
 
 
-def _wrong(text: str, at: int, problem: Message) -> LinkageError:
-    shown = text if len(text) <= 60 else f"{text[:57]}..."
-    return LinkageError("{expression!r}, column {column}: {problem}", expression=shown, column=at, problem=problem)
+class _Number(NamedTuple):
+    """A value that is read: its digits, and the sum of roots that it is, if it is known as one."""
+
+    digits: Decimal
+    exact: Surd | None
+
+    @property
+    def is_zero(self) -> bool:
+        return abs(self.digits) < _NOTHING if self.exact is None else not self.exact
 
 
-# --- values -----------------------------------------------------------------------------------------
+def _rational(value: Fraction) -> _Number:
+    return _Number(Decimal(value.numerator) / value.denominator, surds.rational_surd(value))
 
 
-def _nearest(text: str, steps: tuple[_Step, ...]) -> float:
-    """The nearest double, from narrower and narrower brackets; if none separates it from a midpoint of two, that."""
-    for p in _PRECISIONS:
-        try:
-            low, high = (Fraction(end, 1 << p) for end in _bracketed(text, steps, p))
-        except PrecisionTooLowError as stop:
-            if p == _PRECISIONS[-1]:
-                raise _wrong(text, stop.at, message("a division by zero")) from None
-            continue
-        if float(low) == float(high):
-            return float(low) + 0.0  # no minus zero
-    return float((low + high) / 2)
+@cache
+def _pi() -> Decimal:
+    """Machin's formula, 16 arctan(1/5) - 4 arctan(1/239), with ten digits to spare."""
+    unit: int = 10 ** (_DIGITS + 10)
+    return Decimal(16 * _arctan_of_inverse(5, unit) - 4 * _arctan_of_inverse(239, unit)) / unit
 
 
-def _bracketed(text: str, steps: tuple[_Step, ...], p: int) -> Bracket:
-    """The value between two bounds, p bits behind the point."""
-    stack: list[Bracket] = []
-    for step in steps:
-        try:
-            result = _bracket(step, stack, p)
-        except PrecisionTooLowError:
-            raise PrecisionTooLowError(step.at) from None
-        if result is None:
-            raise _wrong(text, step.at, message("the root of a negative number"))
-        if max(abs(result[0]), abs(result[1])) >> p + _RANGE:
-            raise _wrong(text, step.at, message("a number beyond 2^{power}", power=_RANGE))
-        stack.append(result)
-    return stack[0]
-
-
-def _bracket(step: _Step, stack: list[Bracket], p: int) -> Bracket | None:
-    """The result of a step, its operands taken from the stack; None for the root of a negative number."""
-    match step.kind:
-        case "number":
-            return interval_arithmetic.interval_of_fraction(step.number, p)
-        case "pi":
-            return interval_arithmetic.interval_pi(p)
-        case "negative":
-            low, high = stack.pop()
-            return -high, -low
-        case "**":
-            return interval_arithmetic.interval_power(stack.pop(), int(step.number), p)
-        case "sqrt":
-            under = stack.pop()
-            return None if under[1] < 0 else interval_arithmetic.interval_sqrt(under, p)
-    second, first = stack.pop(), stack.pop()
-    return interval_arithmetic.OPERATIONS[step.kind](first, second, p)
-
-
-def _exactly(steps: tuple[_Step, ...]) -> Surd | None:
-    """The value as a sum of roots; None if it is not one. Invalid steps have raised in `_nearest`."""
-    stack: list[Surd] = []
-    for step in steps:
-        result = _surd(step, stack)
-        if result is None:
-            return None
-        stack.append(result)
-    return stack[0]
-
-
-def _surd(step: _Step, stack: list[Surd]) -> Surd | None:
-    match step.kind:
-        case "number":
-            return surds.rational_surd(step.number)
-        case "pi":
-            return None
-        case "negative":
-            return {d: -q for d, q in stack.pop().items()}
-        case "**":
-            return surds.surd_power(stack.pop(), int(step.number))
-        case "sqrt":
-            return surds.surd_sqrt(stack.pop())
-    second, first = stack.pop(), stack.pop()
-    return surds.OPERATIONS[step.kind](first, second)
-
-
-# --- reading ----------------------------------------------------------------------------------------
+def _arctan_of_inverse(x: int, unit: int) -> int:
+    total, term, n, sign = 0, unit // x, 1, 1
+    while term:
+        total += sign * (term // n)
+        term, n, sign = term // (x * x), n + 2, -sign
+    return total
 
 
 class _Reader:
-    """From a text to steps, by recursive descent; powers bind more than signs, and to the right."""
+    """From a text to its value, by recursive descent; powers bind more than signs, and to the right."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -200,76 +139,77 @@ class _Reader:
         self.tokens.append(("", len(text) + 1))
         self.depth = 0
 
-    def whole(self) -> Iterator[_Step]:
-        yield from self.sum()
+    # --- reading -------------------------------------------------------------------------------------
+
+    def whole(self) -> _Number:
+        number = self.sum()
         if self.tokens[0][0]:
             raise self.unexpected(message("an operator"))
-
-    def sum(self) -> Iterator[_Step]:
-        yield from self.products("+-", lambda: self.products("*/", self.signed))
-
-    def products(self, signs: str, operand: Callable[[], Iterator[_Step]]) -> Iterator[_Step]:
-        """Operands with signs between them, from left to right."""
-        yield from operand()
-        while (sign := self.tokens[0][0]) and sign in signs:
-            at = self.taken()
-            yield from operand()
-            yield _Step(sign, at)
-
-    def signed(self) -> Iterator[_Step]:
-        if self.tokens[0][0] not in ("+", "-"):
-            yield from self.power()
-            return
-        sign, at = self.tokens[0][0], self.deeper()
-        yield from self.signed()
-        self.depth -= 1
-        if sign == "-":
-            yield _Step("negative", at)
-
-    def power(self) -> Iterator[_Step]:
-        yield from self.atom()
-        if self.tokens[0][0] == "**":
-            at = self.deeper()
-            exponent = tuple(self.signed())
-            self.depth -= 1
-            yield _Step("**", at, self.whole_number(exponent, at))
-
-    def whole_number(self, steps: tuple[_Step, ...], at: int) -> Fraction:
-        """An exponent, to be known exactly."""
-        _nearest(self.text, steps)
-        exact = _exactly(steps)
-        number = None if exact is None or not set(exact) <= {1} else exact.get(1, Fraction(0))
-        if number is None or number.denominator != 1 or abs(number) > _MOST_TIMES:
-            problem = message("an exponent is a whole number from -{limit} to {limit}", limit=_MOST_TIMES)
-            raise _wrong(self.text, at, problem)
         return number
 
-    def atom(self) -> Iterator[_Step]:
+    def sum(self) -> _Number:
+        return self.chained("+-", lambda: self.chained("*/", self.signed))
+
+    def chained(self, signs: str, operand: Callable[[], _Number]) -> _Number:
+        """Operands with signs between them, from left to right."""
+        number = operand()
+        while (sign := self.tokens[0][0]) and sign in signs:
+            at = self.taken()
+            number = self.combined(sign, number, operand(), at)
+        return number
+
+    def signed(self) -> _Number:
+        sign = self.tokens[0][0]
+        if sign not in ("+", "-"):
+            return self.power()
+        at = self.deeper()
+        number = self.signed()
+        self.depth -= 1
+        return self.combined("-", _rational(Fraction(0)), number, at) if sign == "-" else number
+
+    def power(self) -> _Number:
+        base = self.atom()
+        if self.tokens[0][0] != "**":
+            return base
+        at = self.deeper()
+        times = self.whole_number(self.signed(), at)
+        self.depth -= 1
+        return self.raised(base, times, at)
+
+    def whole_number(self, number: _Number, at: int) -> int:
+        """An exponent, to be known exactly."""
+        exact = number.exact
+        times = None if exact is None or not set(exact) <= {1} else exact.get(1, Fraction(0))
+        if times is None or times.denominator != 1 or abs(times) > _MOST_TIMES:
+            raise self.wrong(at, message("an exponent is a whole number from -{limit} to {limit}", limit=_MOST_TIMES))
+        return int(times)
+
+    def atom(self) -> _Number:
         token, at = self.tokens[0]
         if token[:1] in tuple("0123456789.") and token != ".":
             self.taken()
-            yield _Step("number", at, Fraction(token))
-        elif token in ("pi", "π"):
+            return self.checked(_rational(Fraction(token)), at)
+        if token in ("pi", "π"):
             self.taken()
-            yield _Step("pi", at)
-        elif token in ("sqrt", "√"):
+            return _Number(+_pi(), None)
+        if token in ("sqrt", "√"):
             self.deeper()
             if token == "sqrt" and self.tokens[0][0] != "(":
                 raise self.unexpected(message("a parenthesis"))
-            yield from self.atom()
+            number = self.atom()
             self.depth -= 1
-            yield _Step("sqrt", at)
-        elif token == "(":
+            return self.root(number, at)
+        if token == "(":
             self.deeper()
-            yield from self.sum()
+            number = self.sum()
             if self.tokens[0][0] != ")":
                 raise self.unexpected(message("a closing parenthesis"))
             self.taken()
             self.depth -= 1
-        elif token.isidentifier():
-            raise _wrong(self.text, at, message("unknown name {name!r}; known are sqrt and pi", name=token[:20]))
-        else:
-            raise self.unexpected(message("a number"))
+            return number
+        if token.isidentifier():
+            raise self.wrong(at, message("unknown name {name!r}; known are sqrt and pi", name=token[:20]))
+        raise self.unexpected(message("a number"))
 
     def taken(self) -> int:
         """Advance to the next token; returns the column of the previous one."""
@@ -278,9 +218,40 @@ class _Reader:
     def deeper(self) -> int:
         self.depth += 1
         if self.depth > _DEEPEST:
-            problem = message("more than {limit} nested levels", limit=_DEEPEST)
-            raise _wrong(self.text, self.tokens[0][1], problem)
+            raise self.wrong(self.tokens[0][1], message("more than {limit} nested levels", limit=_DEEPEST))
         return self.taken()
+
+    # --- values --------------------------------------------------------------------------------------
+
+    def combined(self, sign: str, first: _Number, second: _Number, at: int) -> _Number:
+        if sign == "/" and second.is_zero:
+            raise self.wrong(at, message("a division by zero"))
+        known, other = first.exact, second.exact
+        exact = None if known is None or other is None else surds.OPERATIONS[sign](known, other)
+        return self.checked(_Number(_OPERATIONS[sign](first.digits, second.digits), exact), at)
+
+    def raised(self, base: _Number, times: int, at: int) -> _Number:
+        if times < 0 and base.is_zero:
+            raise self.wrong(at, message("a division by zero"))
+        exact = None if base.exact is None else surds.surd_power(base.exact, times)
+        return self.checked(_Number(base.digits**times if times else Decimal(1), exact), at)
+
+    def root(self, under: _Number, at: int) -> _Number:
+        if under.digits < 0 and not under.is_zero:
+            raise self.wrong(at, message("the root of a negative number"))
+        exact = None if under.exact is None else surds.surd_sqrt(under.exact)
+        return _Number(max(under.digits, Decimal(0)).sqrt(), exact)
+
+    def checked(self, number: _Number, at: int) -> _Number:
+        if abs(number.digits) >= 1 << _RANGE:
+            raise self.wrong(at, message("a number beyond 2^{power}", power=_RANGE))
+        return number
+
+    # --- errors --------------------------------------------------------------------------------------
+
+    def wrong(self, at: int, problem: Message) -> LinkageError:
+        shown = self.text if len(self.text) <= 60 else f"{self.text[:57]}..."
+        return LinkageError("{expression!r}, column {column}: {problem}", expression=shown, column=at, problem=problem)
 
     def unexpected(self, expected: Message) -> LinkageError:
         token, at = self.tokens[0]
@@ -290,4 +261,12 @@ class _Reader:
             problem = message("expected {wanted}, but found {found!r}", wanted=expected, found=token[:20])
         else:
             problem = message("expected {wanted}, but the text ends", wanted=expected)
-        return _wrong(self.text, at, problem)
+        return self.wrong(at, problem)
+
+
+_OPERATIONS: dict[str, Callable[[Decimal, Decimal], Decimal]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+}
