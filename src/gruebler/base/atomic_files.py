@@ -86,6 +86,12 @@ def atomic_file(path: Path, *, durable: bool = True, tidy: bool = True) -> Itera
             temporary.unlink(missing_ok=True)
 
 
+def write_whole(path: Path, content: bytes | str) -> None:
+    """A file with this content, a text in UTF-8, that appears complete or not at all; `RunError` as `atomic_file`."""
+    with atomic_file(path, durable=False) as file:
+        file.write(content.encode("utf-8") if isinstance(content, str) else content)
+
+
 def _created(path: Path) -> tuple[Path, BinaryIO]:
     """A new locked temporary file beside a path."""
     while True:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
-from gruebler.base.atomic_files import atomic_file
+from gruebler.base.atomic_files import write_whole
 from gruebler.base.columns import Column, Table, as_csv
 from gruebler.base.errors import visible
 from gruebler.base.text import translate
@@ -82,8 +82,7 @@ def _is_utf8() -> bool:
 
 def write_file(path: Path, content: bytes, lang: str) -> None:
     """Write a file, complete or not at all, and say so on standard error; `RunError` if it cannot be written."""
-    with atomic_file(path, durable=False) as file:
-        file.write(content)
+    write_whole(path, content)
     say_written(path, lang)
 
 

@@ -14,7 +14,7 @@ from math import atan2
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gruebler.base.atomic_files import atomic_file
+from gruebler.base.atomic_files import write_whole
 from gruebler.base.documents import load_document
 from gruebler.base.errors import GrueblerError, naming
 from gruebler.base.text import Message, message, reason_of
@@ -132,7 +132,7 @@ def _write_own_document(value: Any, path: Path, left_out: list[Message]) -> None
         )
     elif suffix == ".json":
         document = value.to_json() if isinstance(value, Chain) else [chain.to_json() for chain in value]
-        _write_text(path, json.dumps(document, ensure_ascii=False, indent=1) + "\n")
+        write_whole(path, json.dumps(document, ensure_ascii=False, indent=1) + "\n")
     else:
         raise GrueblerError("{path}: chains go to .json, .txt or .g6, not {suffix!r}", path=path, suffix=suffix)
 
@@ -142,18 +142,18 @@ def _write_csv(value: Any, path: Path, left_out: list[Message]) -> None:
     if table is None:
         _write_task(value, path, left_out)
     else:
-        _write_text(path, table.csv())
+        write_whole(path, table.csv())
 
 
 def _write_spreadsheet(value: Any, path: Path, left_out: list[Message]) -> None:
     """With a byte order mark: without it spreadsheets take ° and ′ for other signs."""
     del left_out
-    _write_text(path, "\ufeff" + _required_table(value, path).csv(decimal_comma=True))
+    write_whole(path, "\ufeff" + _required_table(value, path).csv(decimal_comma=True))
 
 
 def _write_parquet(value: Any, path: Path, left_out: list[Message]) -> None:
     del left_out
-    _write_bytes(path, _required_table(value, path).parquet())
+    write_whole(path, _required_table(value, path).parquet())
 
 
 def _as_table(value: Any) -> Table | None:
@@ -204,15 +204,6 @@ def _write_task(value: Any, path: Path, left_out: list[Message]) -> None:
     if not isinstance(value, Task):
         raise GrueblerError("{path}: expected a synthesis task", path=path)
     write_task(path, value)
-
-
-def _write_text(path: Path, text: str) -> None:
-    _write_bytes(path, text.encode("utf-8"))
-
-
-def _write_bytes(path: Path, content: bytes) -> None:
-    with atomic_file(path, durable=False) as file:
-        file.write(content)
 
 
 def _linkage(path: Path, drawing: Callable[[], PinDrawing], left_out: list[Message]) -> Linkage:
@@ -273,7 +264,7 @@ def _drawn(
         from gruebler.files.pin_drawings import drawing_of
 
         drawing = drawing_of(_as_linkage(value), left_out)
-        _write_text(path, _function(module, f"{called}_from_drawing")(drawing, left_out))
+        write_whole(path, _function(module, f"{called}_from_drawing")(drawing, left_out))
 
     def loads(path: Path) -> Mapping[str, Any]:
         from gruebler.files.text_files import read_text
@@ -315,7 +306,7 @@ def _json_of_others(name: str, title: Message, carries: Message) -> Format:
         from gruebler.files.pin_drawings import drawing_of
 
         document = _function(name, f"{name}_from_drawing")(drawing_of(_as_linkage(value), left_out), left_out)
-        _write_text(path, json.dumps(document, indent=1) + "\n")
+        write_whole(path, json.dumps(document, indent=1) + "\n")
 
     return Format(name=name, suffixes=(), title=title, carries=carries, read=read, write=write, lengths=_AS_MILLIMETRES)
 
@@ -327,7 +318,7 @@ def _of_linkages(name: str, title: Message, carries: Message, lengths: Message, 
         from gruebler.mechanics.screws import SpatialLinkage
 
         linkage = value if in_space and isinstance(value, SpatialLinkage) else _as_linkage(value)
-        _write_text(path, _function(name, f"{name}_from_linkage")(linkage, left_out))
+        write_whole(path, _function(name, f"{name}_from_linkage")(linkage, left_out))
 
     return Format(name=name, suffixes=(f".{name}",), title=title, carries=carries, write=write, lengths=lengths)
 
@@ -337,10 +328,10 @@ def _write_dxf_of_links(value: Any, path: Path, left_out: list[Message]) -> None
     from gruebler.files.dxf import dxf_of_links
 
     texts = dxf_of_links(_as_linkage(value), left_out)
-    _write_in_folder(path, {f"{name}.dxf": text.encode("utf-8") for name, text in texts.items()})
+    _write_in_folder(path, {f"{name}.dxf": text for name, text in texts.items()})
 
 
-def _write_in_folder(path: Path, files: Mapping[str, bytes]) -> None:
+def _write_in_folder(path: Path, files: Mapping[str, bytes | str]) -> None:
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -348,13 +339,13 @@ def _write_in_folder(path: Path, files: Mapping[str, bytes]) -> None:
             "{path}: the folder cannot be made ({reason})", path=path, reason=reason_of(error)
         ) from None
     for name, content in files.items():
-        _write_bytes(path / name, content)
+        write_whole(path / name, content)
 
 
 def _write_glb(value: Any, path: Path, left_out: list[Message], between: tuple[float, float] | None = None) -> None:
     from gruebler.files.gltf import glb_from_linkage
 
-    _write_bytes(path, glb_from_linkage(_in_space(value), left_out, between))
+    write_whole(path, glb_from_linkage(_in_space(value), left_out, between))
 
 
 def _write_stl_of_links(value: Any, path: Path, left_out: list[Message]) -> None:
@@ -404,7 +395,7 @@ def _graph(name: str, suffixes: tuple[str, ...], title: Message, carries: Messag
         chains = list(_chains_of(value, left_out))
         if len(chains) != 1:
             raise GrueblerError("{path}: the format holds one chain, not {count}", path=path, count=len(chains))
-        _write_text(path, graph_text(chains[0], name, left_out))
+        write_whole(path, graph_text(chains[0], name, left_out))
 
     return Format(name=name, suffixes=suffixes, title=title, carries=carries, read=read, write=write)
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gruebler.base.atomic_files import atomic_file
+from gruebler.base.atomic_files import write_whole
 from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import LinkageError, naming
 from gruebler.files.element_records import write_element
@@ -47,9 +47,7 @@ def read_linkage(path: Path | str) -> Linkage:
     Raises `LinkageError` with file and key of the first thing that does not fit, and the nearest key that would.
     """
     path = Path(path)
-    if path.suffix.lower() not in (".toml", ".json"):
-        raise LinkageError("{path}: a linkage is in a .toml or .json file", path=path)
-    data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
+    data = linkage_document(path)
     if isinstance(data, Mapping) and "screws" in data:
         raise LinkageError(
             "{path}: has the screws of its joints in one position, not the dimensions of its links: `gruebler check "
@@ -59,6 +57,13 @@ def read_linkage(path: Path | str) -> Linkage:
     refuse_entry(data, path)
     with naming(path, LinkageError):
         return linkage_from_json(data)
+
+
+def linkage_document(path: Path) -> Any:
+    """The plain data in the file of a linkage; `LinkageError` for another file and for one that cannot be read."""
+    if path.suffix.lower() not in (".toml", ".json"):
+        raise LinkageError("{path}: a linkage is in a .toml or .json file", path=path)
+    return load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
 
 
 def refuse_entry(data: object, path: Path) -> None:
@@ -84,7 +89,7 @@ def read_loaded(path: Path | str) -> tuple[Linkage, Loads, float | None]:
     from gruebler.files.load_reading import loads_of_document
 
     linkage, path = read_linkage(path), Path(path)
-    data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
+    data = linkage_document(path)
     with naming(path, LinkageError):
         return linkage, *loads_of_document(data, linkage)
 
@@ -242,5 +247,4 @@ def write_linkage(
         text = linkage_to_toml(linkage, loads, speed)
     else:
         text = json.dumps(linkage_to_json(linkage, loads, speed), ensure_ascii=False, indent=2) + "\n"
-    with atomic_file(path, durable=False) as file:
-        file.write(text.encode("utf-8"))
+    write_whole(path, text)

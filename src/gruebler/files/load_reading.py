@@ -17,6 +17,8 @@ from gruebler.base.errors import GrueblerError, LinkageError, naming
 from gruebler.base.units import quantity_of
 from gruebler.files.element_records import in_short, read_numbers
 from gruebler.files.load_records import (
+    SPRING,
+    TORSION_SPRING,
     BodyRecord,
     LawRecord,
     LoadsRecord,
@@ -176,19 +178,9 @@ class _Reader:
             )
         elif record.law is not None:
             law = self.characteristic(f"{where}.law", record.law, "force")
-        stiffness = self.quantity(f"{where}.stiffness", record.stiffness, "stiffness", 0.0)
-        damping = self.quantity(f"{where}.damping", record.damping, "damping", 0.0)
-        preload = self.quantity(f"{where}.preload", record.preload, "force", 0.0)
+        numbers = self.numbers(where, record, SPRING)
         spring = _told(
-            where,
-            lambda: Spring(
-                (between[0], between[1]),
-                stiffness=stiffness,
-                free_length=record.free_length,
-                preload=preload,
-                damping=damping,
-                law=law,
-            ),
+            where, lambda: Spring((between[0], between[1]), free_length=record.free_length, law=law, **numbers)
         )
         check_between_links(self.linkage, spring, where)
         return spring
@@ -197,21 +189,15 @@ class _Reader:
         where = f"loads.torsion_springs[{number}]"
         between = tuple(self.link(f"{where}.between", link) for link in record.between)
         law = None if record.law is None else self.characteristic(f"{where}.law", record.law, "moment")
-        stiffness = self.quantity(f"{where}.stiffness", record.stiffness, "torsional stiffness", 0.0)
-        damping = self.quantity(f"{where}.damping", record.damping, "torsional damping", 0.0)
-        preload = self.quantity(f"{where}.preload", record.preload, "moment", 0.0)
+        numbers = self.numbers(where, record, TORSION_SPRING)
         angle = read_numbers([0, 0, record.free_angle], f"{where}.free_angle", (3,))[2]
-        return _told(
-            where,
-            lambda: TorsionSpring(
-                (between[0], between[1]),
-                stiffness=stiffness,
-                free_angle=angle,
-                preload=preload,
-                damping=damping,
-                law=law,
-            ),
-        )
+        return _told(where, lambda: TorsionSpring((between[0], between[1]), free_angle=angle, law=law, **numbers))
+
+    def numbers(
+        self, where: str, record: SpringRecord | TorsionSpringRecord, quantities: Mapping[str, str]
+    ) -> dict[str, float]:
+        """The numbers of a spring by their keys."""
+        return {key: self.quantity(f"{where}.{key}", getattr(record, key), of, 0.0) for key, of in quantities.items()}
 
     def characteristic(self, where: str, record: LawRecord, quantity: str) -> Curve:
         """The law of a spring: a curve of its length or angle."""

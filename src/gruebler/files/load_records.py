@@ -44,6 +44,11 @@ class GasRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only
     growth: float = 1.3
 
 
+SPRING = {"stiffness": "stiffness", "preload": "force", "damping": "damping"}
+"""What the numbers of a spring are."""
+TORSION_SPRING = {"stiffness": "torsional stiffness", "preload": "moment", "damping": "torsional damping"}
+
+
 class SpringRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """A spring or damper between two points."""
 

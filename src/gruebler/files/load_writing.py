@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -10,6 +10,7 @@ import numpy as np
 from gruebler.base.errors import LinkageError
 from gruebler.base.units import quantity_text
 from gruebler.files.angles import in_degrees
+from gruebler.files.load_records import SPRING, TORSION_SPRING
 from gruebler.mechanics.forces.bodies import RigidBody
 from gruebler.mechanics.forces.laws import Curve, LoadFormula, Motor
 from gruebler.mechanics.forces.loads import Loads
@@ -114,9 +115,7 @@ def _spring(spring: Spring, text: _Text) -> dict[str, Any]:
     table: dict[str, Any] = {"between": [_point(point) for point in spring.between]}
     if spring.free_length:
         table["free_length"] = float(spring.free_length)
-    for key, quantity in (("stiffness", "stiffness"), ("preload", "force"), ("damping", "damping")):
-        if getattr(spring, key):
-            table[key] = text(getattr(spring, key), quantity)
+    table |= _numbers(spring, SPRING, text)
     match spring.law:
         case Gas(force=force, extended=extended, stroke=stroke, growth=growth):
             sizes = {"extended": float(extended), "stroke": float(stroke), "growth": float(growth)}
@@ -130,14 +129,12 @@ def _torsion_spring(spring: TorsionSpring, text: _Text) -> dict[str, Any]:
     table: dict[str, Any] = {"between": list(spring.between)}
     if spring.free_angle:
         table["free_angle"] = in_degrees(float(spring.free_angle))
-    for key, quantity in (
-        ("stiffness", "torsional stiffness"),
-        ("preload", "moment"),
-        ("damping", "torsional damping"),
-    ):
-        if getattr(spring, key):
-            table[key] = text(getattr(spring, key), quantity)
-    return table | _law("torsion_springs", spring.law, "moment", text)
+    return table | _numbers(spring, TORSION_SPRING, text) | _law("torsion_springs", spring.law, "moment", text)
+
+
+def _numbers(spring: Spring | TorsionSpring, quantities: Mapping[str, str], text: _Text) -> dict[str, str]:
+    """Those that are not 0."""
+    return {key: text(number, kind) for key, kind in quantities.items() if (number := getattr(spring, key))}
 
 
 def _law(where: str, law: Any, quantity: str, text: _Text) -> dict[str, Any]:

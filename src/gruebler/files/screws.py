@@ -14,12 +14,19 @@ from typing import Any, Literal
 
 import msgspec
 
-from gruebler.base.atomic_files import atomic_file
-from gruebler.base.documents import convert_document, infinities_as_words, load_document
+from gruebler.base.atomic_files import write_whole
+from gruebler.base.documents import convert_document, infinities_as_words
 from gruebler.base.errors import LinkageError, naming
 from gruebler.base.text import message
 from gruebler.files.linkage_records import PointRecord
-from gruebler.files.linkages import check_linkage_path, linkage_from_json, refuse_entry, toml_key, toml_value
+from gruebler.files.linkages import (
+    check_linkage_path,
+    linkage_document,
+    linkage_from_json,
+    refuse_entry,
+    toml_key,
+    toml_value,
+)
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.screws import JointPlace, SpatialLinkage
 from gruebler.structure.chain import Chain
@@ -159,8 +166,7 @@ def write_screws(path: Path, linkage: SpatialLinkage) -> None:
             lines += ["", f"[screws.{name}]"]
             lines += [f"{toml_key(key)} = {toml_value(value)}" for key, value in screws[name].items()]
         text = "\n".join(lines) + "\n"
-    with atomic_file(path, durable=False) as file:
-        file.write(text.encode("utf-8"))
+    write_whole(path, text)
 
 
 def _bodies(linkage: SpatialLinkage) -> dict[str, dict[str, Any]]:
@@ -187,9 +193,7 @@ def read_any_linkage(path: Path | str) -> Linkage | SpatialLinkage:
     Raises `LinkageError` with file and key of the first thing that does not fit.
     """
     path = Path(path)
-    if path.suffix.lower() not in (".toml", ".json"):
-        raise LinkageError("{path}: a linkage is in a .toml or .json file", path=path)
-    data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
+    data = linkage_document(path)
     refuse_entry(data, path)
     with naming(path, LinkageError):
         if isinstance(data, Mapping) and "screws" in data:

@@ -17,7 +17,7 @@ from typing import Any
 
 import msgspec
 
-from gruebler.base.atomic_files import atomic_file
+from gruebler.base.atomic_files import write_whole
 from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import SynthesisError, UnitWarning, naming
 from gruebler.base.text import Message, joined
@@ -221,7 +221,7 @@ def task_to_json(task: Task) -> dict[str, Any]:
             more |= {"curve_parameters": list(task.curve_parameters), "order": list(task.order)}
         case PathTask():
             document["points"] = [None if point is None else list(point) for point in task.points]
-            more = {key: [None if a is None else in_degrees(a) for a in getattr(task, key)] for key in _TURNED}
+            more = {key: [_degrees(a) for a in getattr(task, key)] for key in _TURNED}
             more |= {
                 "fixed_pivots": [list(p) for p in task.fixed_pivots],
                 "closed": task.closed,
@@ -231,16 +231,16 @@ def task_to_json(task: Task) -> dict[str, Any]:
             }
         case FunctionTask(law=FunctionLaw() as law):
 
-            def output(value: float) -> float | str:
-                return in_degrees(value) if task.output == "angle" else value
+            def output(value: float | None) -> float | str | None:
+                return _degrees(value) if task.output == "angle" else value
 
             more = {
                 "function": law.function,
                 "interval": list(law.interval),
                 "input_swing": in_degrees(law.input_swing),
                 "output_swing": output(law.output_swing),
-                "input_start": None if law.input_start is None else in_degrees(law.input_start),
-                "output_start": None if law.output_start is None else output(law.output_start),
+                "input_start": _degrees(law.input_start),
+                "output_start": output(law.output_start),
                 "precision_points": len(task),
                 "output": task.output,
             }
@@ -252,17 +252,20 @@ def task_to_json(task: Task) -> dict[str, Any]:
             more = {}
         case DeadCentreTask():
             more = {
-                "swing": None if task.swing is None else in_degrees(task.swing),
+                "swing": _degrees(task.swing),
                 "stroke": task.stroke,
-                "crank_angle": None if task.crank_angle is None else in_degrees(task.crank_angle),
+                "crank_angle": _degrees(task.crank_angle),
                 "time_ratio": task.time_ratio,
             }
         case DwellTask():
-            swing = None if task.swing is None else in_degrees(task.swing)
-            more = {"dwell": in_degrees(task.dwell), "swing": swing, "stroke": task.stroke}
+            more = {"dwell": in_degrees(task.dwell), "swing": _degrees(task.swing), "stroke": task.stroke}
     return document | {
         key: value for key, value in more.items() if value is not None and value is not False and value != []
     }
+
+
+def _degrees(radians: float | None) -> float | str | None:
+    return None if radians is None else in_degrees(radians)
 
 
 _OF_OUTPUTS = {"swing", "crank_angle", "dwell"}
@@ -423,8 +426,7 @@ def write_task(path: Path | str, task: Task) -> None:
             raise SynthesisError("{path}: end the name with .toml, .json or .csv", path=path)
     if not path.parent.is_dir():
         raise SynthesisError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
-    with atomic_file(path, durable=False) as file:
-        file.write(text.encode("utf-8"))
+    write_whole(path, text)
 
 
 def _toml(value: Any) -> str:

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from gruebler.base.atomic_files import atomic_file, temporary_directory
+from gruebler.base.atomic_files import temporary_directory, write_whole
 from gruebler.base.documents import load_document
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, error_in_language, joined, translate
@@ -56,8 +56,7 @@ def opened_file(name: str, content: str, lang: str) -> dict[str, Any]:
     notes: list[Message] = []
     with temporary_directory() as folder:
         file = folder / (re.sub(r'[\x00-\x1f/\\:*?"<>|]', "_", name).strip(". ") or "file")
-        with atomic_file(file, durable=False) as stored:
-            stored.write(data)
+        write_whole(file, data)
         try:
             value: Any = read(file, left_out=notes)
         except GrueblerError as error:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from gruebler.base.atomic_files import atomic_file
+from gruebler.base.atomic_files import write_whole
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import LANGUAGES, message
 from gruebler.files.gltf import MovingSolids, link_colour, moving_solids, united
@@ -68,8 +68,7 @@ class SpacePage:
 
     def save(self, path: Path | str) -> Path:
         """Write it as one HTML file, or not at all; returns the path."""
-        with atomic_file(Path(path), durable=False) as file:
-            file.write(self.html.encode("utf-8"))
+        write_whole(Path(path), self.html)
         return Path(path)
 
     def __repr__(self) -> str:

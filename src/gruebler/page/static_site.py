@@ -17,7 +17,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from gruebler.base.atomic_files import atomic_file
+from gruebler.base.atomic_files import write_whole
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import LANGUAGES
 from gruebler.page.page import static_page
@@ -122,8 +122,7 @@ def _write_pack(folder: Path, name: str, content: Any) -> int:
 
 
 def _write(path: Path, content: bytes) -> int:
-    with atomic_file(path, durable=False) as stream:
-        stream.write(content)
+    write_whole(path, content)
     return len(content)
 
 

@@ -9,7 +9,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from gruebler.base.atomic_files import atomic_file
+from gruebler.base.atomic_files import write_whole
 from gruebler.base.doors import door
 from gruebler.base.errors import GrueblerError, to_be_read, unknown
 from gruebler.base.text import Message, message, translate
@@ -94,9 +94,7 @@ class Animation:
 
 
 def _saved(path: Path | str, content: Callable[[str], bytes], suffix: str) -> Path:
-    data = content(suffix)
-    with atomic_file(Path(path), durable=False) as file:
-        file.write(data)
+    write_whole(Path(path), content(suffix))
     return Path(path)
 
 
