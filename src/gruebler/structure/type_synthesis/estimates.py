@@ -25,28 +25,12 @@ def expected_seconds_of_variants(requirements: Requirements, *, mechanisms: bool
     >>> few < 1, many > 100
     (True, True)
     """
-    from gruebler.structure.enumeration.assortment import joint_count
-    from gruebler.structure.enumeration.estimates import expected_chains
-    from gruebler.structure.enumeration.request import Request
-
-    links = requirements.links + requirements.roll_slide
-    chains, _ = expected_chains(
-        Request(
-            links,
-            mobility=requirements.mobility,
-            fractionated="all",
-            assortment=None,
-            multiple_joints=requirements.multiple_joints,
-        )
-    )
-    simple = (joint_count(links, requirements.mobility) or 0) - 2 * (
-        requirements.multiple_joints + requirements.roll_slide
-    )
+    chains, simple = _chains_with_simple_joints(requirements, requirements.roll_slide)
     revolutes = max(0, simple - requirements.prismatic)
     typed = (
         chains
-        * comb(links, requirements.roll_slide)
-        * comb(max(0, simple), requirements.prismatic)
+        * comb(requirements.links + requirements.roll_slide, requirements.roll_slide)
+        * comb(simple, requirements.prismatic)
         * comb(revolutes, requirements.rolling)
     )
     seconds = chains * _CHAIN + typed * (_TYPED + _RANK * (requirements.prismatic > 0))
@@ -62,15 +46,16 @@ def expected_seconds_of_sliding(requirements: Requirements) -> float:
     >>> expected_seconds_of_sliding(Requirements(10)) < 15
     True
     """
+    chains, simple = _chains_with_simple_joints(requirements)
+    return float(chains * (_CHAIN + 2.0**simple * _CHOICE))
+
+
+def _chains_with_simple_joints(requirements: Requirements, replaced: int = 0) -> tuple[int, int]:
+    """About how many chains there are before links are replaced by contacts, and how many simple joints each has."""
     from gruebler.structure.enumeration.assortment import joint_count
     from gruebler.structure.enumeration.estimates import expected_chains
     from gruebler.structure.enumeration.request import Request
 
-    links, mobility = requirements.links, requirements.mobility
-    chains, _ = expected_chains(
-        Request(
-            links, mobility=mobility, fractionated="all", assortment=None, multiple_joints=requirements.multiple_joints
-        )
-    )
-    simple = (joint_count(links, mobility) or 0) - 2 * requirements.multiple_joints
-    return float(chains * (_CHAIN + 2.0 ** max(0, simple) * _CHOICE))
+    links, mobility, multiple = requirements.links + replaced, requirements.mobility, requirements.multiple_joints
+    chains, _ = expected_chains(Request(links, mobility=mobility, fractionated="all", multiple_joints=multiple))
+    return chains, max(0, (joint_count(links, mobility) or 0) - 2 * (multiple + replaced))
