@@ -292,6 +292,6 @@ def test_a_pose_fed_back_goes_on_alike(start: float, way: float) -> None:
     whole = move(six, path)
     assume(len(whole) >= 12)
     plan = whole.plan
-    again = run_rows(plan.program, plan, path[10:].reshape(-1, 1), None, 0, np.ones(0), whole.unknowns[10])
+    again = run_rows(plan, path[10:].reshape(-1, 1), None, np.ones(0), whole.unknowns[10])
     assert np.allclose(again.turns, whole.turns[10:], rtol=0, atol=1e-11)
     assert again.reached == len(whole) - 10

@@ -21,7 +21,7 @@ def golden_record(linkage: Linkage, rows: Reals, signs: Reals, unknowns: Reals) 
     plan = cached_plan(linkage)
     speeds = np.zeros((2, *rows.shape))
     speeds[0] = 1
-    solved = run_rows(plan.program, plan, rows, speeds, 2, signs, unknowns)
+    solved = run_rows(plan, rows, speeds, signs, unknowns)
     idle = np.tile(plan.held, (len(rows), 1))
     return {
         "program": program_record(plan),

@@ -80,7 +80,7 @@ def range_path(ranges: tuple[tuple[float, float], ...], *, full: bool, rows: int
 
 def _run(program: LayoutProgram, setting: KernelLayout, path: Reals) -> tuple[SolvedRows, Reals]:
     """The rows that are reached and their measures."""
-    rows = run_rows(setting.program, program.plan, path, None, 0, setting.signs, setting.unknowns)
+    rows = run_rows(program.plan, path, None, setting.signs, setting.unknowns, setting.program)
     return rows, conditioning(program.plan, setting.program, rows.places[0], rows.turns, rows.roots)
 
 
@@ -91,7 +91,7 @@ def returns_to_start(places: NDArray[np.complex128], turns: NDArray[np.complex12
 
 def closed_path_quality(program: LayoutProgram, setting: KernelLayout, path: Reals) -> float:
     """The smallest measure on a closed path; 0 if it cannot be followed to its end or does not close."""
-    rows = run_rows(setting.program, program.plan, path, None, 0, setting.signs, setting.unknowns)
+    rows = run_rows(program.plan, path, None, setting.signs, setting.unknowns, setting.program)
     if rows.reached < len(path) or not returns_to_start(rows.places[0], rows.turns, setting.program.size):
         return 0.0
     return float(conditioning(program.plan, setting.program, rows.places[0], rows.turns, rows.roots).min())

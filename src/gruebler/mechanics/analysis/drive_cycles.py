@@ -188,7 +188,7 @@ def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, 
     speeds = np.zeros((order, *path.shape))
     speeds[:1] = 1
     signs = np.where(start.roots[0] < 0, -1.0, 1.0)
-    motion = motion_from_rows(plan, path, follow_path(plan, path, speeds, order, signs, start.unknowns[0]))
+    motion = motion_from_rows(plan, path, follow_path(plan, path, speeds, signs, start.unknowns[0]))
     set_change_point_rows(plan, motion, path, speeds, lambda: ReferencePose(path[0], signs, start.unknowns[0]))
     return motion, rows
 

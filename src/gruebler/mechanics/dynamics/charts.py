@@ -181,7 +181,7 @@ class Charts:
         whole = np.concatenate([start.drives, path])[:, None]
         speeds = np.zeros((2, *whole.shape))
         speeds[0] = 1.0
-        rows = run_rows(self.plan.program, self.plan, whole, speeds, 2, start.signs.copy(), start.unknowns.copy())
+        rows = run_rows(self.plan, whole, speeds, start.signs.copy(), start.unknowns.copy())
         good = rows.reached == len(whole) and np.isfinite(rows.rates[:, 1:]).all()
         return rows if good and np.isfinite(rows.places[:, 1:]).all() else None
 

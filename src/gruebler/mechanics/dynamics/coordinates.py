@@ -65,7 +65,7 @@ class Coordinates:
         path = np.vstack([drives, np.repeat(q[None], len(speeds), 0)])
         fast = np.zeros((2, *path.shape))
         fast[0, 1:] = speeds
-        rows = run_rows(self.plan.program, self.plan, path, fast, 2, signs.copy(), unknowns.copy())
+        rows = run_rows(self.plan, path, fast, signs.copy(), unknowns.copy())
         if rows.reached < len(path) or not np.isfinite(rows.rates[:, 1:]).all():
             raise Blocked
         if np.abs(rows.roots[1, self._branching]).min(initial=1.0) > _SOUND:

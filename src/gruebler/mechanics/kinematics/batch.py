@@ -305,10 +305,7 @@ def move_many(
     plan, count = batch.plan, len(batch)
     path = drive_path(plan, drives)
     warn_of_path(plan, path)
-    upto = (0 if speed is None else 2) if order is None else order
-    if upto not in (0, 1, 2, 3):
-        raise LinkageError("the order is 0, 1, 2 or 3, not {order!r}", order=order)
-    speeds = drive_speeds(path, (1.0 if speed is None else speed, acceleration, jerk), upto)
+    speeds = drive_speeds(path, speed, acceleration, jerk, order)
     chain, frame = plan.lower.mechanism.chain, plan.lower.mechanism.frame
     kept = tuple(link for link in chain.links if link != frame) if links is None else tuple(links)
     if not kept:
@@ -321,9 +318,9 @@ def move_many(
     labels = branch_labels(branch)
     shape = (count, len(kept), len(path))
     poses = DesignPoses(
-        np.empty((upto + 1, *shape), np.complex128),
+        np.empty((len(speeds) + 1, *shape), np.complex128),
         np.empty(shape, np.complex128),
-        np.empty((upto, *shape)),
+        np.empty((len(speeds), *shape)),
         np.empty(count, np.int64),
     )
     _run(batch, path, speeds, _starts(batch, path, labels), np.array([chain.index(k) for k in kept]), poses, threads)

@@ -151,7 +151,7 @@ def pose_before(
 
     stop = next(k for k, operation in enumerate(plan.operations) if operation[:2] == (GROUP, part.number))
     program = plan.program._replace(operations=plan.program.operations[:stop])
-    rows = run_rows(program, plan, np.asarray(drives).reshape(1, -1), None, 0, signs, unknowns)
+    rows = run_rows(plan, np.asarray(drives).reshape(1, -1), None, signs, unknowns, program)
     if rows.reached == 0:
         raise Unassembled(part_at_fault(plan, rows.fault))
     return rows.places[0, 0], rows.turns[0]

@@ -125,5 +125,5 @@ def _rows_around(
     around = path[row] + side * _OFFSETS[:, None] * _STEP * velocity / length
     around = np.concatenate([start.drives[None] if towards.any() else around[:1], around])
     still = np.repeat(speeds[:, row : row + 1], len(around), axis=1)
-    rows = run_rows(plan.program, plan, around, still, len(speeds), start.signs, start.unknowns)
+    rows = run_rows(plan, around, still, start.signs, start.unknowns)
     return rows if rows.reached == len(around) else None

@@ -149,10 +149,16 @@ def warn_of_angles(mechanism: Mechanism, path: Reals) -> None:
             warn_of_degrees(mechanism.drive_names()[k], path[:, k], path=True)
 
 
-def drive_speeds(path: Reals, given: tuple[ArrayLike, ...], order: int) -> Reals:
-    """(order, rows, drives) rates, checked; one value may stand for all rows."""
+def drive_speeds(
+    path: Reals, speed: ArrayLike | None, acceleration: ArrayLike, jerk: ArrayLike, order: int | None
+) -> Reals:
+    """(order, rows, drives) rates, checked; one value may stand for all rows. The usual order is 2 with a speed."""
+    order = (0 if speed is None else 2) if order is None else order
+    if order not in (0, 1, 2, 3):
+        raise LinkageError("the order is 0, 1, 2 or 3, not {order!r}", order=order)
+    given = {"speed": 1.0 if speed is None else speed, "acceleration": acceleration, "jerk": jerk}
     speeds = np.zeros((order, *path.shape))
-    for k, (name, value) in enumerate(zip(("speed", "acceleration", "jerk"), given, strict=True)):
+    for k, (name, value) in enumerate(given.items()):
         numbers = real_numbers(value)
         if numbers is None or not np.isfinite(numbers).all():
             raise LinkageError("{name}: expected finite numbers, but found {value!r}", name=name, value=value)

@@ -31,31 +31,33 @@ class SolvedRows(NamedTuple):
     roots: Reals
     unknowns: Reals
 
+    def picked(self, rows: slice | Integers, reached: int, at: float) -> SolvedRows:
+        """Some of the rows, of which so many are reached, up to a place on their path."""
+        return self._replace(
+            reached=reached,
+            at=at,
+            places=self.places[:, rows],
+            turns=self.turns[rows],
+            rates=self.rates[:, rows],
+            whole=self.whole[rows],
+            roots=self.roots[rows],
+            unknowns=self.unknowns[rows],
+        )
+
 
 def without_first(rows: SolvedRows) -> SolvedRows:
     """All rows but the first."""
-    _, reached, at, fault, places, turns, rates, whole, roots, unknowns = rows
-    return SolvedRows(
-        rows.status,
-        max(reached - 1, 0),
-        max(at - 1, 0.0),
-        fault,
-        places[:, 1:],
-        turns[1:],
-        rates[:, 1:],
-        whole[1:] - whole[1:2],
-        roots[1:],
-        unknowns[1:],
-    )
+    later = rows.picked(slice(1, None), max(rows.reached - 1, 0), max(rows.at - 1, 0.0))
+    return later._replace(whole=later.whole - later.whole[:1])
 
 
-def follow_path(plan: Plan, path: Reals, speeds: Reals, order: int, signs: Reals, unknowns: Reals) -> SolvedRows:
+def follow_path(plan: Plan, path: Reals, speeds: Reals, signs: Reals, unknowns: Reals) -> SolvedRows:
     """Run the kernel so that a path that rests or turns back in a change point is retraced."""
-    rows = run_rows(plan.program, plan, path, speeds, order, signs, unknowns)
+    rows = run_rows(plan, path, speeds, signs, unknowns)
     if _lingers(plan, path, rows):
         kept, again = _without_rests(path)
-        rows = _there_and_back(plan, path[kept], speeds[:, kept], order, signs, unknowns)
-        rows = _with_rests(rows, kept, again, plan, path, speeds, order)
+        rows = _there_and_back(plan, path[kept], speeds[:, kept], signs, unknowns)
+        rows = _with_rests(rows, kept, again, plan, path, speeds)
     return rows
 
 
@@ -79,43 +81,26 @@ def _without_rests(path: Reals) -> tuple[Integers, Integers]:
 
 
 def _with_rests(
-    rows: SolvedRows, kept: Integers, again: Integers, plan: Plan, path: Reals, speeds: Reals, order: int
+    rows: SolvedRows, kept: Integers, again: Integers, plan: Plan, path: Reals, speeds: Reals
 ) -> SolvedRows:
     """The rows of a path whose rests were left out; rates there are solved with the speeds that are given for them."""
     count = int(np.searchsorted(again, rows.reached))
-    pick = again[:count]
-    places, rates = rows.places[:, pick], rows.rates[:, pick]
-    for row in np.setdiff1d(np.arange(count), kept) if order else ():
-        solved = run_rows(
-            plan.program,
-            plan,
-            path[row : row + 1],
-            np.ascontiguousarray(speeds[:, row : row + 1]),
-            order,
-            np.where(rows.roots[again[row]] < 0, -1.0, 1.0),
-            rows.unknowns[again[row]].copy(),
-        )
-        if solved.reached and np.isfinite(rows.rates[:, again[row]]).all():
-            places[1:, row], rates[:, row] = solved.places[1:, 0], solved.rates[:, 0]
     at = rows.at if rows.status == 0 else float(kept[min(int(rows.at), len(kept) - 1)]) + rows.at % 1
-    return rows._replace(
-        reached=count,
-        at=at,
-        places=places,
-        turns=rows.turns[pick],
-        rates=rates,
-        whole=rows.whole[pick],
-        roots=rows.roots[pick],
-        unknowns=rows.unknowns[pick],
-    )
+    every = rows.picked(again[:count], count, at)
+    for row in np.setdiff1d(np.arange(count), kept) if len(speeds) else ():
+        state = np.where(every.roots[row] < 0, -1.0, 1.0), every.unknowns[row].copy()
+        solved = run_rows(plan, path[row : row + 1], speeds[:, row : row + 1], *state)
+        if solved.reached and np.isfinite(rows.rates[:, again[row]]).all():
+            every.places[1:, row], every.rates[:, row] = solved.places[1:, 0], solved.rates[:, 0]
+    return every
 
 
-def _there_and_back(plan: Plan, path: Reals, speeds: Reals, order: int, signs: Reals, unknowns: Reals) -> SolvedRows:
+def _there_and_back(plan: Plan, path: Reals, speeds: Reals, signs: Reals, unknowns: Reals) -> SolvedRows:
     """Run the kernel; where one drive turns back in a change point, go on from before it, so that the path is retraced.
 
     In a change point a dyad's sign is that of the way onward; for the way back it is the one before.
     """
-    rows = run_rows(plan.program, plan, path, np.ascontiguousarray(speeds), order, signs, unknowns)
+    rows = run_rows(plan, path, speeds, signs, unknowns)
     branching = plan.branching
     if path.shape[1] > 1 or not branching or len(path) < 3:
         return rows
@@ -133,7 +118,7 @@ def _there_and_back(plan: Plan, path: Reals, speeds: Reals, order: int, signs: R
         rest = np.concatenate([path[before : before + 1], path[corner + 1 :]])
         rates = np.concatenate([speeds[:, before : before + 1], speeds[:, corner + 1 :]], axis=1)
         state = np.where(rows.roots[before] < 0, -1.0, 1.0)
-        back = run_rows(plan.program, plan, rest, rates, order, state, rows.unknowns[before].copy())
+        back = run_rows(plan, rest, rates, state, rows.unknowns[before].copy())
         rows = _joined(rows, corner + 1, back, rows.whole[before])
     return rows
 
@@ -155,18 +140,27 @@ def _joined(rows: SolvedRows, count: int, back: SolvedRows, whole: NDArray[np.in
 
 
 def run_rows(
-    program: Program, plan: Plan, path: Reals, speeds: Reals | None, order: int, signs: Reals, unknowns: Reals
+    plan: Plan, path: Reals, speeds: Reals | None, signs: Reals, unknowns: Reals, program: Program | None = None
 ) -> SolvedRows:
-    """Run the kernel, with a row more wherever a driven slide passes its `Plan.shortest`; idle rollers are held."""
-    idle = plan.held
+    """Run the kernel, with a row more wherever a driven slide passes its `Plan.shortest`; idle rollers are held.
+
+    Args:
+        plan: what is solved.
+        path: (rows, drives) values of the drives.
+        speeds: (order, rows, drives) their derivatives; None for poses alone.
+        signs: of the dyads at the first row.
+        unknowns: of larger groups there.
+        program: for the kernel; by default that of the plan.
+    """
+    program = plan.program if program is None else program
+    speeds, idle = np.zeros((0, *path.shape)) if speeds is None else speeds, plan.held
     if len(idle) and path.shape[1] < len(plan.lower.mechanism.drives):
         path = np.ascontiguousarray(np.concatenate([path, np.tile(idle, (len(path), 1))], axis=1))
-        if speeds is not None:
-            speeds = np.concatenate([speeds, np.zeros((*speeds.shape[:2], len(idle)))], axis=2)
+        speeds = np.concatenate([speeds, np.zeros((*speeds.shape[:2], len(idle)))], axis=2)
     extra = _passed(plan, path)
     if len(extra):
-        return _with_extra_rows(program, plan, path, speeds, order, signs, unknowns, extra)
-    rows, links = len(path), len(plan.lower.mechanism.chain.links)
+        return _with_extra_rows(program, plan, path, speeds, signs, unknowns, extra)
+    order, rows, links = len(speeds), len(path), len(plan.lower.mechanism.chain.links)
     poses = PoseBuffer(
         np.empty((order + 1, links, rows), np.complex128),
         np.empty((links, rows), np.complex128),
@@ -175,8 +169,6 @@ def run_rows(
         np.empty((len(signs), rows)),
         np.empty((len(unknowns), rows)),
     )
-    if speeds is None:
-        speeds = np.zeros((order, *path.shape))
     path, speeds, signs, unknowns = (np.ascontiguousarray(array) for array in (path, speeds, signs, unknowns))
     status, count, at, fault = _core.run_path(program, path, speeds, signs, unknowns, poses)
     arrays: list[Any] = [array[..., :count].swapaxes(-1, -2) for array in poses]
@@ -198,8 +190,7 @@ def _with_extra_rows(
     program: Program,
     plan: Plan,
     path: Reals,
-    speeds: Reals | None,
-    order: int,
+    speeds: Reals,
     signs: Reals,
     unknowns: Reals,
     extra: Reals,
@@ -213,23 +204,10 @@ def _with_extra_rows(
     for k, value in plan.shortest:  # exactly there, so that it is not passed once more
         near = ~asked & (np.abs(filled[:, k] - value) < _PASSED * plan.lower.size)
         filled[near, k] = value
-    fast = None
-    if speeds is not None:
-        fast = np.zeros((order, *filled.shape))
-        fast[:, asked] = speeds[:order]
-    rows = run_rows(program, plan, filled, fast, order, signs, unknowns)
+    fast = np.zeros((len(speeds), *filled.shape))
+    fast[:, asked] = speeds
+    rows = run_rows(plan, filled, fast, signs, unknowns, program)
     pick = np.flatnonzero(asked[: rows.reached])
     low = min(int(rows.at), len(at) - 1)
     high = min(low + 1, len(at) - 1)
-    return SolvedRows(
-        rows.status,
-        len(pick),
-        float(at[low] + (rows.at - low) * (at[high] - at[low])),
-        rows.fault,
-        rows.places[:, pick],
-        rows.turns[pick],
-        rows.rates[:, pick],
-        rows.whole[pick],
-        rows.roots[pick],
-        rows.unknowns[pick],
-    )
+    return rows.picked(pick, len(pick), float(at[low] + (rows.at - low) * (at[high] - at[low])))

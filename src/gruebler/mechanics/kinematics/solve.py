@@ -68,22 +68,19 @@ def move(
     plan = linkage if isinstance(linkage, Plan) else cached_plan(as_linkage(linkage))
     path = drive_path(plan, drives)
     warn_of_path(plan, path)
-    upto = (0 if speed is None else 2) if order is None else order
-    if upto not in (0, 1, 2, 3):
-        raise LinkageError("the order is 0, 1, 2 or 3, not {order!r}", order=order)
-    speeds = drive_speeds(path, (1.0 if speed is None else speed, acceleration, jerk), upto)
+    speeds = drive_speeds(path, speed, acceleration, jerk, order)
     try:
         signs, unknowns = starting_configuration(plan, path[0], branch)
     except Unassembled as found:
-        return _with_warning(_never(plan, path, upto, found))
+        return _with_warning(_never(plan, path, len(speeds), found))
     from_reference = branch is None and plan.lower.reference_pose is not None
-    rows = follow_path(plan, path, speeds, upto, signs, unknowns)
+    rows = follow_path(plan, path, speeds, signs, unknowns)
     if from_reference and _is_doubtful_start(plan, rows):
-        rows = max(_from_reference(plan, path, speeds, upto), rows, key=attrgetter("reached"))
+        rows = max(_from_reference(plan, path, speeds), rows, key=attrgetter("reached"))
     motion = motion_from_rows(plan, path, rows)
     if motion.stop is not None and motion.stop.reason == "open" and from_reference:
         # the start may be a change point of the independent part: the way from the reference pose tells the way on
-        motion = motion_from_rows(plan, path, _from_reference(plan, path, speeds, upto))
+        motion = motion_from_rows(plan, path, _from_reference(plan, path, speeds))
 
     def start() -> ReferencePose:
         return _way_to(plan, path[0])[0] if from_reference else ReferencePose(path[0], signs, unknowns)
@@ -124,7 +121,7 @@ def _way_to(plan: Plan, first: Reals, branch: Branch = None) -> tuple[ReferenceP
         begin = begin._replace(signs=_other_signs(plan, begin.signs, read_branch(plan, branch)))
 
     def gone(start: Reals) -> SolvedRows:
-        return run_rows(plan.program, plan, np.array([start, first]), None, 0, begin.signs, begin.unknowns)
+        return run_rows(plan, np.array([start, first]), None, begin.signs, begin.unknowns)
 
     rows = gone(begin.drives)
     if rows.reached < 2 and not plan.wheels:
@@ -166,11 +163,11 @@ def _is_doubtful_start(plan: Plan, rows: SolvedRows) -> bool:
     return stuck or bool((np.abs(rows.roots[0, branching]) < _DOUBTFUL).any())
 
 
-def _from_reference(plan: Plan, path: Reals, speeds: Reals, order: int) -> SolvedRows:
+def _from_reference(plan: Plan, path: Reals, speeds: Reals) -> SolvedRows:
     """A path that starts in a change point: what is placed there, and the way on, is known from the way to it."""
     begin, _ = _way_to(plan, path[0])
     path, speeds = np.concatenate([[begin.drives], path]), np.concatenate([speeds[:, :1], speeds], axis=1)
-    return without_first(follow_path(plan, path, speeds, order, begin.signs, begin.unknowns))
+    return without_first(follow_path(plan, path, speeds, begin.signs, begin.unknowns))
 
 
 def _never(plan: Plan, path: Reals, order: int, failure: Unassembled) -> Motion:

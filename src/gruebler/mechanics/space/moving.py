@@ -116,10 +116,7 @@ def move(
     path = path_of_values(drives, len(mechanism.drives))
     _check_ways(placed, path)
     warn_of_angles(mechanism, path)
-    upto = (0 if speed is None else 2) if order is None else order
-    if upto not in (0, 1, 2, 3):
-        raise LinkageError("the order is 0, 1, 2 or 3, not {order!r}", order=order)
-    speeds = drive_speeds(path, (1.0 if speed is None else speed, acceleration, jerk), upto)
+    speeds = drive_speeds(path, speed, acceleration, jerk, order)
     return moved(setting(placed), path, speeds)
 
 
