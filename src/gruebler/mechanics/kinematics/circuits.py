@@ -199,7 +199,7 @@ class Circuit:
         again = self.closed and abs(ends[1] - ends[0]) <= _AGAIN * np.abs(quantity(self.samples, 0)).max()
         samples = FunctionSamples(grid=self.arcs, period=self.length if again else None, ends=True)
         zeros = find_zeros(lambda s: np.stack([quantity(p := self.at(s), 0), quantity(p, 1)]), samples)
-        return tuple(sorted(self._wrapped(zero.at) if again else zero.at for zero in zeros))
+        return tuple(sorted(wrapped(zero.at, self.length) if again else zero.at for zero in zeros))
 
     def extremes(self, quantity: Quantity, *, natural: float = 1.0) -> tuple[Extremum, ...]:
         """All extremes of something along the curve, in order; values to rounding.
@@ -208,15 +208,10 @@ class Circuit:
         """
         samples = FunctionSamples(grid=self.arcs, period=self.length if self.closed else None)
         zeros = find_zeros(lambda s: quantity(self.at(s), 1)[None], samples, least=_CONSTANT * natural)
-        arcs = [self._wrapped(zero.at) if self.closed else zero.at for zero in zeros]
+        arcs = [wrapped(zero.at, self.length) if self.closed else zero.at for zero in zeros]
         values = quantity(self.at(arcs), 0)
         kinds = ["minimum" if zero.rises else "maximum" for zero in zeros]
         return tuple(sorted(map(Extremum, arcs, values.tolist(), kinds), key=lambda extremum: extremum.at))
-
-    def _wrapped(self, arc: float) -> float:
-        """The same place of a closed circuit, from 0 to its length."""
-        place = arc % self.length
-        return 0.0 if self.length - place < _ROUND * self.length else place
 
     def range(self, quantity: Quantity, *, natural: float = 1.0) -> tuple[float, float]:
         """The smallest and the largest value of something along the curve; ``natural`` as for `extremes`."""
@@ -233,16 +228,8 @@ class Circuit:
     @property
     def monotone_pieces(self) -> tuple[MonotonePiece, ...]:
         """The pieces between limits of the drive, in order; the first one contains the first sample."""
-        ends = [limit.at for limit in self.drive_limits]
-        if not self.closed:
-            ends = [0.0, *ends, self.length]
-        elif ends:
-            ends = [ends[-1] - self.length, *ends]
-        else:
-            ends = [0.0, self.length]
-        values = self.at(ends).drive().tolist()
-        pairs = itertools.pairwise(zip(ends, values, strict=True))
-        return tuple(MonotonePiece(first, second, (v, w)) for (first, v), (second, w) in pairs)
+        ends = ends_of_pieces(self.drive_limits, self.length, self.closed)
+        return monotone_pieces(ends, self.at(ends).drive())
 
     @cached_property
     def change_points(self) -> tuple[ChangePoint, ...]:
@@ -314,6 +301,26 @@ def circuit_lines(
     if change_points:
         lines.append(message("Change points: {count}.", count=change_points))
     return lines
+
+
+def ends_of_pieces(limits: Sequence[Extremum], length: float, closed: bool) -> list[float]:
+    """The arcs between which the drive of a circuit never turns back."""
+    ends = [limit.at for limit in limits]
+    if not closed:
+        return [0.0, *ends, length]
+    return [ends[-1] - length, *ends] if ends else [0.0, length]
+
+
+def monotone_pieces(ends: Sequence[float], drive: Reals) -> tuple[MonotonePiece, ...]:
+    """The pieces between arcs with these values of the drive."""
+    pairs = itertools.pairwise(zip(ends, drive.tolist(), strict=True))
+    return tuple(MonotonePiece(first, second, (v, w)) for (first, v), (second, w) in pairs)
+
+
+def wrapped(arc: float, length: float) -> float:
+    """The same place of a closed circuit, from 0 to its length."""
+    place = arc % length
+    return 0.0 if length - place < _ROUND * length else place
 
 
 def places_and_laps(arcs: ArrayLike, length: float, closed: bool) -> tuple[Reals, Reals]:

@@ -6,7 +6,6 @@ positions in which it turns back are points like any others. docs/theory/space.m
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -42,7 +41,6 @@ _NEAR_CHANGE = 1e-4  # radians and sizes: so near a change point positions are i
 _BESIDE = np.array([-3e-3, -1e-3, 1e-3, 3e-3])  # radians and sizes: where a change point is interpolated between
 _SHARES = np.array([-1, 9, 9, -1]) / 16
 _SHAKY = 1e-3  # radians and sizes: a shaky linkage moves less, within what counts as full rank
-_ROUND = 1e-12  # of the length: a place so near the end of a closed circuit is its beginning
 
 _CENTRES = message("Dead centres of the output {joint} at {centres}.")
 _NO_CENTRES = message("The output {joint} never turns back.")
@@ -176,7 +174,7 @@ class SpatialCircuit:
 
         samples = FunctionSamples(grid=self.arcs, period=self.length if self.closed else None)
         zeros = [zero for zero in find_zeros(rates, samples, least=_CONSTANT * natural) if zero.multiplicity != 2]
-        arcs = [self._wrapped(zero.at) if self.closed else zero.at for zero in zeros]
+        arcs = [plane.wrapped(zero.at, self.length) if self.closed else zero.at for zero in zeros]
         kinds = ["minimum" if zero.rises else "maximum" for zero in zeros]
         values = self._values(quantity, np.array(arcs)).tolist() if arcs else []
         return tuple(sorted(map(Extremum, arcs, values, kinds), key=lambda extremum: extremum.at))
@@ -186,10 +184,6 @@ class SpatialCircuit:
         values = quantity(self.at(arcs), 0)
         near = np.interp(arcs, self.arcs, quantity(self.samples, 0))
         return np.where(abs(values - near) < tau / 2, values, values + tau * np.round((near - values) / tau))
-
-    def _wrapped(self, arc: float) -> float:
-        place = arc % self.length
-        return 0.0 if self.length - place < _ROUND * self.length else place
 
     @cached_property
     def drive_limits(self) -> tuple[Extremum, ...]:
@@ -226,14 +220,8 @@ class SpatialCircuit:
     @property
     def monotone_pieces(self) -> tuple[MonotonePiece, ...]:
         """The pieces between limits of the drive, in order; the first one contains the first sample."""
-        ends = [limit.at for limit in self.drive_limits]
-        if not self.closed:
-            ends = [0.0, *ends, self.length]
-        else:
-            ends = [ends[-1] - self.length, *ends] if ends else [0.0, self.length]
-        values = self.at(ends).drives[:, 0].tolist()
-        pairs = itertools.pairwise(zip(ends, values, strict=True))
-        return tuple(MonotonePiece(first, second, (v, w)) for (first, v), (second, w) in pairs)
+        ends = plane.ends_of_pieces(self.drive_limits, self.length, self.closed)
+        return plane.monotone_pieces(ends, self.at(ends).drives[:, 0])
 
     @cached_property
     def change_points(self) -> tuple[ChangePoint, ...]:
