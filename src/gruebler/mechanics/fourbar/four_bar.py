@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
@@ -17,7 +16,6 @@ from gruebler.mechanics.fourbar.coupler_points import on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
     CrankRates,
-    crank_rates,
     determined_rates,
     points,
     rotation_derivative,
@@ -40,7 +38,6 @@ from gruebler.mechanics.fourbar.four_bar_types import (
     types_along,
 )
 from gruebler.mechanics.fourbar.lengths import Lengths
-from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.mechanics.linkages.quantities import as_finite, as_lengths, as_positive, given_and_missing
 from gruebler.structure.mechanism import Mechanism
@@ -250,48 +247,28 @@ class FourBar(Lengths):
             math.acos(clipped_cosine(right)),
         )
 
-    def motion(
-        self,
-        phi: npt.ArrayLike,
-        *,
-        omega: npt.ArrayLike = 1.0,
-        alpha: npt.ArrayLike = 0.0,
-        jerk: npt.ArrayLike = 0.0,
-        branch: Branch = None,
-    ) -> CrankMotion:
-        """Positions, velocities, accelerations and jerks over crank angles of any shape, in closed form.
-
-        ``omega``, ``alpha`` and ``jerk`` are the first three derivatives of phi. Poses that cannot be assembled are
-        NaN; ``message`` says where (``limits``). A gap of a few roundings counts as closed.
-
-        >>> motion = FourBar(a=25, b=70, c=40, d=70).motion(math.radians(55), omega=10)
-        >>> round(float(motion.output.velocity), 9), round(float(motion.coupler.acceleration), 9)
-        (4.785205278, 25.805259492)
-        """
+    def _moved(self, crank: CrankRates, side: int) -> CrankMotion:
         a, b, c, d = self.a, self.b, self.c, self.d
-        side = branch_side(branch)
-        crank = crank_rates(phi, omega, alpha, jerk)
-        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            to_b0 = d - a * np.exp(1j * crank.value)
-            f = np.abs(to_b0)
-            stretched, overlapping = b + c - f, f - abs(b - c)
-            slack = 64 * np.finfo(float).eps * (a + b + c + d)
-            undetermined = (f < slack) & (abs(b - c) < slack)
-            area = np.sqrt(
-                np.where(np.abs(stretched) < slack, 0, stretched)
-                * np.where(np.abs(overlapping) < slack, 0, overlapping)
-                * (b + c + f)
-                * (f + abs(b - c))
-            )
-            # Twice f times the coupler and the rocker, in the frame of the line from A to B0.
-            unit = np.where(undetermined, np.nan, to_b0 / f)
-            theta = [np.angle(unit * (b**2 - c**2 + f**2 + 1j * side * area))]
-            psi = [np.angle(unit * (b**2 - c**2 - f**2 + 1j * side * area))]
-            self._add_rates(crank, theta, psi, side * -area / (2 * b * c))
-            mu = np.where(undetermined, np.nan, np.arctan2(area, b**2 + c**2 - f**2))
-            coupler, output = determined_rates(theta), determined_rates(psi)
-            joint_a = [a * rotation_derivative(crank[: k + 1], k) for k in range(4)]
-            joint_b = [(d if k == 0 else 0) + c * rotation_derivative(output[: k + 1], k) for k in range(4)]
+        to_b0 = d - a * np.exp(1j * crank.value)
+        f = np.abs(to_b0)
+        stretched, overlapping = b + c - f, f - abs(b - c)
+        slack = 64 * np.finfo(float).eps * (a + b + c + d)
+        undetermined = (f < slack) & (abs(b - c) < slack)
+        area = np.sqrt(
+            np.where(np.abs(stretched) < slack, 0, stretched)
+            * np.where(np.abs(overlapping) < slack, 0, overlapping)
+            * (b + c + f)
+            * (f + abs(b - c))
+        )
+        # Twice f times the coupler and the rocker, in the frame of the line from A to B0.
+        unit = np.where(undetermined, np.nan, to_b0 / f)
+        theta = [np.angle(unit * (b**2 - c**2 + f**2 + 1j * side * area))]
+        psi = [np.angle(unit * (b**2 - c**2 - f**2 + 1j * side * area))]
+        self._add_rates(crank, theta, psi, side * -area / (2 * b * c))
+        mu = np.where(undetermined, np.nan, np.arctan2(area, b**2 + c**2 - f**2))
+        coupler, output = determined_rates(theta), determined_rates(psi)
+        joint_a = [a * rotation_derivative(crank[: k + 1], k) for k in range(4)]
+        joint_b = [(d if k == 0 else 0) + c * rotation_derivative(output[: k + 1], k) for k in range(4)]
         singular = np.isnan(output.velocity) & ~np.isnan(output.value)
         return CrankMotion(
             crank=crank,

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
@@ -18,7 +17,6 @@ from gruebler.mechanics.fourbar.coupler_points import on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
     CrankRates,
-    crank_rates,
     determined_rates,
     points,
     rotation_derivative,
@@ -35,7 +33,6 @@ from gruebler.mechanics.fourbar.extremes import (
 from gruebler.mechanics.fourbar.four_bar_types import LinkageType
 from gruebler.mechanics.fourbar.lengths import Lengths
 from gruebler.mechanics.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, offset_relation, offset_sentence
-from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.mechanics.linkages.quantities import as_eccentricity, as_finite, as_lengths, as_positive
 from gruebler.structure.mechanism import Mechanism
@@ -173,43 +170,21 @@ class InvertedSliderCrank(Lengths):
             (math.pi, math.acos(clipped_cosine(abs(self.e) / (self.d + self.a)))),
         )
 
-    def motion(
-        self,
-        phi: npt.ArrayLike,
-        *,
-        omega: npt.ArrayLike = 1.0,
-        alpha: npt.ArrayLike = 0.0,
-        jerk: npt.ArrayLike = 0.0,
-        branch: Branch = None,
-    ) -> CrankMotion:
-        """Positions, velocities, accelerations and jerks over crank angles of any shape, in closed form.
-
-        ``coupler`` is the guide's direction theta, ``output`` psi = theta + pi (for e = 0 the direction from B0 to A),
-        ``slide`` the way r. Poses that cannot be assembled are NaN; ``message`` says where (``limits``).
-
-        >>> shaper = InvertedSliderCrank(a=30, d=50).motion(math.radians(60), omega=2)
-        >>> round(float(shaper.displacement.value), 6), round(math.degrees(shaper.coupler.value), 6)
-        (43.588989, -36.586776)
-        >>> shaper.point(90).value.round(6)
-        array([ 87.265956, -27.662798])
-        """
+    def _moved(self, crank: CrankRates, side: int) -> CrankMotion:
         a, d, e = self.a, self.d, self.e
-        side = branch_side(branch)
-        crank = crank_rates(phi, omega, alpha, jerk)
         slack = 64 * np.finfo(float).eps * (a + d + abs(e))
-        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            to_b0 = d - a * np.exp(1j * crank.value)
-            f = np.abs(to_b0)
-            gap = f - abs(e)
-            slide = [side * np.sqrt(np.where(np.abs(gap) < slack, 0, gap) * (f + abs(e)))]
-            undetermined = (f < slack) & (abs(e) < slack)
-            theta = [np.where(undetermined, np.nan, np.angle(to_b0 / (slide[0] + 1j * e)))]
-            self._add_rates(crank, theta, slide)
-            mu = np.where(np.isnan(theta[0]), np.nan, np.arctan2(np.abs(slide[0]), abs(e)))
-            guide, block = determined_rates(theta), determined_rates(slide)
-            output = guide._replace(value=(guide.value + np.pi) % TURN)
-            foot = [points(1j * e * rotation_derivative(guide[: k + 1], k)) for k in range(4)]
-            joint_a = [a * rotation_derivative(crank[: k + 1], k) for k in range(4)]
+        to_b0 = d - a * np.exp(1j * crank.value)
+        f = np.abs(to_b0)
+        gap = f - abs(e)
+        slide = [side * np.sqrt(np.where(np.abs(gap) < slack, 0, gap) * (f + abs(e)))]
+        undetermined = (f < slack) & (abs(e) < slack)
+        theta = [np.where(undetermined, np.nan, np.angle(to_b0 / (slide[0] + 1j * e)))]
+        self._add_rates(crank, theta, slide)
+        mu = np.where(np.isnan(theta[0]), np.nan, np.arctan2(np.abs(slide[0]), abs(e)))
+        guide, block = determined_rates(theta), determined_rates(slide)
+        output = guide._replace(value=(guide.value + np.pi) % TURN)
+        foot = [points(1j * e * rotation_derivative(guide[: k + 1], k)) for k in range(4)]
+        joint_a = [a * rotation_derivative(crank[: k + 1], k) for k in range(4)]
         b0 = np.array([d, 0.0])
         singular = np.isnan(guide.velocity) & ~np.isnan(guide.value)
         return CrankMotion(

@@ -7,13 +7,17 @@ from collections.abc import Mapping
 from math import degrees
 from typing import ClassVar
 
+import numpy as np
+import numpy.typing as npt
+
 from gruebler.base import notebook
 from gruebler.base.events import TransmissionExtremes
 from gruebler.base.notebook import explained
 from gruebler.base.text import joined_by_or, message
-from gruebler.mechanics.fourbar.crank_motion import CrankMotion
+from gruebler.mechanics.fourbar.crank_motion import CrankMotion, CrankRates, crank_rates
 from gruebler.mechanics.fourbar.extremes import CrankRange, DeadCentres
 from gruebler.mechanics.fourbar.four_bar_types import NOT_ASSEMBLABLE, Grashof, LinkageType
+from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
 
 
@@ -74,6 +78,43 @@ class Lengths(ABC):
     @abstractmethod
     def transmission_angle(self) -> TransmissionExtremes:
         """The extremes of the transmission angle."""
+
+    def motion(
+        self,
+        phi: npt.ArrayLike,
+        *,
+        omega: npt.ArrayLike = 1.0,
+        alpha: npt.ArrayLike = 0.0,
+        jerk: npt.ArrayLike = 0.0,
+        branch: Branch = None,
+    ) -> CrankMotion:
+        """Positions, velocities, accelerations and jerks over crank angles of any shape, in closed form.
+
+        ``omega``, ``alpha`` and ``jerk`` are the first three derivatives of phi. ``output`` is the angle of the output,
+        or the slider's way s; of an inverted slider-crank ``coupler`` is the guide's direction theta, ``output``
+        psi = theta + pi (for e = 0 the direction from B0 to A), ``displacement`` the way r. Poses that cannot be
+        assembled are NaN; ``message`` says where (``limits``). A gap of a few roundings counts as closed.
+
+        >>> from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+        >>> motion = FourBar(a=25, b=70, c=40, d=70).motion(np.radians(55), omega=10)
+        >>> round(float(motion.output.velocity), 9), round(float(motion.coupler.acceleration), 9)
+        (4.785205278, 25.805259492)
+        >>> motion = SliderCrank(a=25, b=70).motion(np.radians(55), omega=10)
+        >>> round(float(motion.output.velocity), 6), round(float(motion.output.acceleration), 6)
+        (-248.657931, -1143.345966)
+        >>> shaper = InvertedSliderCrank(a=30, d=50).motion(np.radians(60), omega=2)
+        >>> round(float(shaper.displacement.value), 6), round(degrees(shaper.coupler.value), 6)
+        (43.588989, -36.586776)
+        >>> shaper.point(90).value.round(6)
+        array([ 87.265956, -27.662798])
+        """
+        side, crank = branch_side(branch), crank_rates(phi, omega, alpha, jerk)
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            return self._moved(crank, side)
+
+    @abstractmethod
+    def _moved(self, crank: CrankRates, side: int) -> CrankMotion:
+        """`motion` at rates of the crank, on the branch of a side."""
 
     @abstractmethod
     def output_place(self, pose: CrankMotion) -> tuple[float, float, float]:

@@ -17,7 +17,6 @@ from gruebler.mechanics.fourbar.coupler_points import on_coupler
 from gruebler.mechanics.fourbar.crank_motion import (
     CrankMotion,
     CrankRates,
-    crank_rates,
     determined_rates,
     points,
     rotation_derivative,
@@ -33,7 +32,6 @@ from gruebler.mechanics.fourbar.extremes import (
 from gruebler.mechanics.fourbar.four_bar_types import LinkageType
 from gruebler.mechanics.fourbar.lengths import Lengths
 from gruebler.mechanics.fourbar.slider_crank_types import SLIDER_CRANK_TYPES, offset_relation, offset_sentence
-from gruebler.mechanics.linkages.branch import Branch, branch_side
 from gruebler.mechanics.linkages.model import Linkage
 from gruebler.mechanics.linkages.quantities import (
     FloatArray,
@@ -300,43 +298,22 @@ class SliderCrank(Lengths):
         right = math.pi - math.asin(clipped_cosine(self.e / self.a))
         return transmission_extremes(first, second, right)
 
-    def motion(
-        self,
-        phi: npt.ArrayLike,
-        *,
-        omega: npt.ArrayLike = 1.0,
-        alpha: npt.ArrayLike = 0.0,
-        jerk: npt.ArrayLike = 0.0,
-        branch: Branch = None,
-    ) -> CrankMotion:
-        """Positions, velocities, accelerations and jerks over crank angles of any shape, in closed form.
-
-        ``output`` is the slider's way s. ``omega``, ``alpha`` and ``jerk`` are the first three derivatives of phi.
-        Poses that cannot be assembled are NaN; ``message`` says where (``limits``). A gap of a few roundings counts as
-        closed.
-
-        >>> motion = SliderCrank(a=25, b=70).motion(math.radians(55), omega=10)
-        >>> round(float(motion.output.velocity), 6), round(float(motion.output.acceleration), 6)
-        (-248.657931, -1143.345966)
-        """
+    def _moved(self, crank: CrankRates, side: int) -> CrankMotion:
         a, b, e = self.a, self.b, self.e
-        side = branch_side(branch)
-        crank = crank_rates(phi, omega, alpha, jerk)
         slack = 64 * np.finfo(float).eps * (a + b + abs(e))
-        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            rise = e - a * np.sin(crank.value)
-            gap = b - np.abs(rise)
-            along = side * np.sqrt(np.where(np.abs(gap) < slack, 0, gap) * (b + np.abs(rise)))
-            theta = [np.arctan2(rise, along)]
-            displacements = [a * np.cos(crank.value) + along]
-            for k in (1, 2, 3):
-                rest = a * rotation_derivative(crank[: k + 1], k) + b * rotation_derivative(theta, k)
-                theta_k = -np.imag(rest) / along
-                displacements.append(np.real(rest) - theta_k * rise)
-                theta.append(theta_k)
-            mu = np.arctan2(np.abs(along), -rise)
-            coupler, output = determined_rates(theta), determined_rates(displacements)
-            joint_a = [a * rotation_derivative(crank[: k + 1], k) for k in range(4)]
+        rise = e - a * np.sin(crank.value)
+        gap = b - np.abs(rise)
+        along = side * np.sqrt(np.where(np.abs(gap) < slack, 0, gap) * (b + np.abs(rise)))
+        theta = [np.arctan2(rise, along)]
+        displacements = [a * np.cos(crank.value) + along]
+        for k in (1, 2, 3):
+            rest = a * rotation_derivative(crank[: k + 1], k) + b * rotation_derivative(theta, k)
+            theta_k = -np.imag(rest) / along
+            displacements.append(np.real(rest) - theta_k * rise)
+            theta.append(theta_k)
+        mu = np.arctan2(np.abs(along), -rise)
+        coupler, output = determined_rates(theta), determined_rates(displacements)
+        joint_a = [a * rotation_derivative(crank[: k + 1], k) for k in range(4)]
         missing = np.isnan(along)
         return CrankMotion(
             crank=crank,
