@@ -260,15 +260,7 @@ class Linkage(Immutable):
         """Every length times a positive factor."""
         if not 0 < factor < 1e100:
             raise LinkageError("a scale is a positive number, not {factor!r}", factor=factor)
-
-        return self._changed(
-            elements=self._by_link(lambda e: e.scaled(factor)),
-            points={n: (p.link, p.x * factor, p.y * factor) for n, p in self.points.items()},
-            reference_pose=None
-            if self.reference_pose is None
-            else {k: (p.x * factor, p.y * factor, p.angle) for k, p in self.reference_pose.items()},
-            outlines={link: [outline.scaled(factor) for outline in of] for link, of in self.outlines.items()},
-        )
+        return self._mapped(lambda shape: shape.scaled(factor), lambda x, y: (x * factor, y * factor), 1.0)
 
     def shifted(self, x: float, y: float) -> Linkage:
         """The same linkage at another place of the plane.
@@ -296,13 +288,18 @@ class Linkage(Immutable):
 
     def mirrored(self) -> Linkage:
         """The mirror image in the x axis: every y and every angle with the other sign."""
+        return self._mapped(lambda shape: shape.mirrored(), lambda x, y: (x, -y), -1.0)
+
+    def _mapped(
+        self, shape: Callable[[Any], Any], place: Callable[[float, float], tuple[float, float]], turn: float
+    ) -> Linkage:
+        """All elements and outlines, places, and angles changed, in the frame and on all links alike."""
+        pose = self.reference_pose
         return self._changed(
-            elements=self._by_link(lambda e: e.mirrored()),
-            points={n: (p.link, p.x, -p.y) for n, p in self.points.items()},
-            reference_pose=None
-            if self.reference_pose is None
-            else {k: (p.x, -p.y, -p.angle) for k, p in self.reference_pose.items()},
-            outlines={link: [outline.mirrored() for outline in of] for link, of in self.outlines.items()},
+            elements=self._by_link(shape),
+            points={n: (p.link, *place(p.x, p.y)) for n, p in self.points.items()},
+            reference_pose=None if pose is None else {k: (*place(p.x, p.y), turn * p.angle) for k, p in pose.items()},
+            outlines={link: list(map(shape, of)) for link, of in self.outlines.items()},
         )
 
     def _by_link(self, change: Callable[[Element], Element] = lambda e: e) -> dict[str, dict[str | int, object]]:
