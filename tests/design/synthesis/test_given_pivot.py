@@ -246,3 +246,38 @@ def test_lengths_are_held_beside_the_crank_of_three_positions_with_crank_angles(
     moved = np.array([complex(*p) for p in points]) + (four_bars[:, 1, None] - 0) * np.exp(1j * np.array(body))
     arms = moved - four_bars[:, [0]]
     assert np.exp(1j * np.angle(arms / arms[:, [0]])) == pytest.approx(np.tile(np.exp(1j * angles), (len(arms), 1)))
+
+
+@pytest.mark.parametrize("lengths", [{}, {"crank": 3}])
+def test_two_positions_with_two_pivots_leave_the_other_ends_to_choose(lengths):
+    """As good as the best of a fine grid; each pivot of the body lies on a bisector, as the body sees it."""
+    pivots = (PIVOT, (4.0, -2.0))
+    task = PositionTask(given(2, "fixed_pivots").positions, fixed_pivots=pivots)
+    found = synthesise_positions(task, Demands(lengths=lengths), sort=["transmission"])
+    four_bars = np.array([pivots_of(design) for design in found.designs])
+    assert len(four_bars) >= 8
+    assert np.sort_complex(four_bars[:, [0, 3]]) == pytest.approx(
+        np.tile([complex(*p) for p in pivots], (len(four_bars), 1))
+    )
+    turns = np.exp(1j * (task.angles - task.angles[0]))
+    moved = task.origins + (four_bars[:, 1:3, None] - task.origins[0]) * turns
+    reached = zip(*simulated(four_bars.T, moved.transpose(1, 0, 2)), strict=True)
+    assert all(passes(*both, (0, 1)) for both in reached)
+
+    def dyads(m, length=None):
+        seen = task.origins[0] + (m - task.origins[1]) / turns[1]
+        middle, across = (m + seen) / 2, 1j * (seen - m) / abs(seen - m)
+        steps = np.linspace(-12, 12, 481 if length is None else 2)
+        if length is not None:
+            steps = np.array([-1, 1]) * np.sqrt(length**2 - abs(seen - m) ** 2 / 4)
+        return [GuidingDyad(CRANK, complex(middle + step * across), m) for step in steps]
+
+    first, second = (complex(*p) for p in pivots)
+    crank = lengths.get("crank")
+    roads = [(dyads(first, crank), dyads(second)), (dyads(second, crank), dyads(first))]
+    best = 0.0
+    for road in roads:
+        facts = pair_facts(task, *road, Demands())
+        good = np.logical_and.reduce([flags for _, flags in facts.met(Demands())])
+        best = max(best, np.degrees(facts.transmission[good].max()))
+    assert np.degrees(max(d.verdict.transmission for d in found.designs)) > best - 0.02

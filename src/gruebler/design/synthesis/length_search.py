@@ -59,6 +59,7 @@ _WIDTHS = tuple(0.16 * 0.4**k for k in range(9))  # sizes
 _FOUND = message(
     "Linkages {form} with the given lengths: {pairs:,} were reached from pairs of a sample; {count:,} meet all demands."
 )
+_WITH_PIVOTS = message("Linkages {form} with the given pivots: {count:,} of a sample of {pairs:,} meet all demands.")
 _NONE = message("Linkages {form} with the given lengths: none was found.")
 _WITHOUT = message("Linkages {form} do not have all links whose lengths are given; they are left out.")
 
@@ -129,7 +130,9 @@ class PairFamily:
         squares = slopes @ slopes.transpose(0, 2, 1)
         nothing = _NOTHING * np.trace(squares, axis1=1, axis2=2)[:, None, None] + np.finfo(float).tiny
         solved = np.linalg.solve(squares + nothing * np.eye(squares.shape[1]), -values[:, :, None])
-        return np.asarray((slopes.transpose(0, 2, 1) @ solved)[:, :, 0])
+        with np.errstate(invalid="ignore", over="ignore"):
+            shortest = (slopes.transpose(0, 2, 1) @ solved)[:, :, 0]
+        return np.where(np.isfinite(shortest).all(axis=1, keepdims=True), shortest, 0.0)
 
     def members(self, rows: Reals, held: Flags) -> tuple[Reals, Flags]:
         """The linkages of the family near these, by Gauss and Newton, and whether there is one at hand.
@@ -212,50 +215,55 @@ def best_linkages(
     kind = (second or dyads)[0].kind
     if not demands.lengths:
         return best_pairs(task, dyads, demands, near, second=second, given=given, orders=orders, number=number)
-    if has_lengths(kind, demands):
-        held = given or dyads if len(dyads) == 1 else given
-        return _with_lengths(task, dyads, second or dyads, demands, given=held, orders=orders, number=number)
-    return FoundPairs(pairs=(), notes=(_WITHOUT.filled(form=form_symbols(f"{CRANK.form}-{kind.form}")),))
+    if not has_lengths(kind, demands):
+        return FoundPairs(pairs=(), notes=(_WITHOUT.filled(form=form_symbols(f"{CRANK.form}-{kind.form}")),))
+    others = [[dyad for dyad in some if dyad not in given] for some in (dyads, second or dyads)]
+    groups = [(dyads, second or dyads)]
+    if given:
+        groups = [(given, others[1]), (others[0], given)]
+    groups = [row for row in groups if row[0] and row[1] and (row[0][0].kind, row[1][0].kind) == (CRANK, kind)]
+    return best_members(task, groups, demands, orders=orders, number=number)
 
 
-def _with_lengths(
+def best_members(
     task: PositionTask,
-    firsts: Sequence[GuidingDyad],
-    seconds: Sequence[GuidingDyad],
+    groups: Sequence[tuple[Sequence[GuidingDyad], Sequence[GuidingDyad]]],
     demands: Demands,
     *,
-    given: Sequence[GuidingDyad],
-    orders: Sequence[str],
-    number: int,
+    orders: Sequence[str] = (),
+    number: int = 16,
 ) -> FoundPairs:
-    """The best linkages of a family that have the lengths that are demanded; those that fail least if none meets all.
+    """The best linkages of a family with given lengths and pivots; those that fail least if none meets all demands.
 
     Args:
         task: two to four positions.
-        firsts: a sample of the dyads that are driven, RR ones.
-        seconds: one of the other dyads, of one kind.
+        groups: samples of the dyads that are driven, RR ones, with samples of the other ones, of one kind; a pivot that
+            all dyads of a sample share is held.
         demands: what counts, the lengths among it.
-        given: dyads of which each linkage has one; of two positions their end that has several places is not held.
         orders: what is best, by the names of `results.ORDERS`.
         number: of linkages, at most.
 
     Cost: 1 s.
     """
-    family = PairFamily(task=task, kind=seconds[0].kind, lengths=demands.lengths)
-    rows, held = _begun(family, firsts, seconds, given)
+    if not groups:
+        return FoundPairs(pairs=(), notes=())
+    kind = groups[0][1][0].kind
+    form = form_symbols(f"{CRANK.form}-{kind.form}")
+    family = PairFamily(task=task, kind=kind, lengths=demands.lengths)
+    rows, held = (np.concatenate(part) for part in zip(*(_begun(family, *group) for group in groups), strict=True))
     if len(rows) > _BEGUN:
         nearest = np.argsort(np.linalg.norm(family.step(rows, held), axis=1), kind="stable")[:_BEGUN]
         rows, held = rows[nearest], held[nearest]
     rows, good = family.members(rows, held)
     rows, held = rows[good], held[good]
-    form = form_symbols(f"{CRANK.form}-{family.kind.form}")
     if not len(rows):
         return FoundPairs(pairs=(), notes=(_NONE.filled(form=form),))
     facts = family.facts(rows, demands)
     met = facts.met(demands)
     fails = np.sum([~flags for _, flags in met], axis=0)
     meets = (fails == 0).ravel()
-    notes = [_FOUND.filled(form=form, pairs=len(rows), count=int(np.count_nonzero(meets)))]
+    said = _FOUND if demands.lengths else _WITH_PIVOTS
+    notes = [said.filled(form=form, pairs=len(rows), count=int(np.count_nonzero(meets)))]
     if demands.transmission > 0 and not meets.any():
         orders = ("transmission", *orders)  # those that are nearly good come first
     ranks = np.lexsort([cost.ravel() for cost in reversed([fails.astype(float), *facts.costs(orders)])])
@@ -267,28 +275,11 @@ def _with_lengths(
     return FoundPairs(pairs=pairs, notes=(*notes, *([] if meets.any() else tightest(met))))
 
 
-def _begun(
-    family: PairFamily,
-    firsts: Sequence[GuidingDyad],
-    seconds: Sequence[GuidingDyad],
-    given: Sequence[GuidingDyad],
-) -> tuple[Reals, Flags]:
-    """Rows of the sample, and which of their numbers are held: the pivots that all given dyads share."""
-    others = [[dyad for dyad in some if dyad not in given] for some in (firsts, seconds)]
-    if not given:
-        rows = family.rows(firsts, seconds)
-        return rows, np.zeros(rows.shape, bool)
-    groups = []
-    numbers = np.arange(2 * family.points + family.kind.slides)
-    ends = [len({dyad.moving for dyad in given}) == 1, len({dyad.fixed for dyad in given}) == 1]
-    for side, driven, other in ((0, given, others[1]), (1, others[0], given)):
-        if given[0].kind == (CRANK, family.kind)[side] and driven and other:
-            own = numbers[4:] if side else numbers[:4]
-            held = own if given[0].slides else own[np.repeat(ends, 2)]
-            rows = family.rows(driven, other)
-            groups.append((rows, np.broadcast_to(np.isin(numbers, held), rows.shape)))
-    rows = np.concatenate([some for some, _ in groups])
-    return rows, np.concatenate([held for _, held in groups])
+def _begun(family: PairFamily, firsts: Sequence[GuidingDyad], seconds: Sequence[GuidingDyad]) -> tuple[Reals, Flags]:
+    """Rows of samples, each with each, and which of their numbers are held."""
+    rows = family.rows(firsts, seconds)
+    held = np.concatenate([np.ptp(dyad_numbers(some), axis=0) == 0 for some in (firsts, seconds)])
+    return rows, np.broadcast_to(held, rows.shape)
 
 
 def _different(family: PairFamily, rows: Reals, apart: float, number: int) -> list[int]:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache, partial
-from itertools import combinations
+from itertools import combinations, permutations
 from math import comb
 
 import numpy as np
@@ -35,7 +35,7 @@ from gruebler.design.synthesis.dyads import (
 from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.given_pivots import notes_on_pivots
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design, order_notes
-from gruebler.design.synthesis.length_search import best_linkages, has_lengths
+from gruebler.design.synthesis.length_search import best_linkages, best_members, has_lengths
 from gruebler.design.synthesis.pair_search import IMPROVED, Nearby
 from gruebler.design.synthesis.partner_bounds import Pair, angle_of_pair, best_beside, improved_pair, slide_notes
 from gruebler.design.synthesis.results import (
@@ -245,6 +245,8 @@ def synthesise_positions(
     notes = [*notes_on_pivots(task, given or dyads, wanted)] if chosen and len(task) in (3, 4) else []
     if searched:
         candidates = _judged_best(free, wanted, dyads, given, number, sort, progress, notes)
+    elif len(task) == 2:
+        candidates = _judged_ends(task, wanted, number, sort, progress, notes)
     else:
         candidates = _judged_pairs(task, wanted, list(combinations(dyads, 2)), progress)
     complex_dyads = len(dyads)
@@ -360,17 +362,42 @@ def _judged_best(
         pairs += some
         notes += said
     notes += [IMPROVED] if asked else []
-    designs: list[Design] = []
-    for done, (first, second_dyad) in enumerate(pairs, 1):
-        with suppress(LinkageError):  # two dyads with a common pivot are no linkage
-            linkage = linkage_of_dyads(first, second_dyad, complex(task.origins[0]), task.unit)
-            form = f"{first.kind.form}-{second_dyad.kind.form}"
-            designs.append(judge_design(linkage, body_targets(task, linkage), demands, form))
-        if progress is not None:
-            progress(done, len(pairs))
+    designs = _judged_as_driven(task, demands, pairs, progress)
     if given or demands.lengths:
         return designs
     return designs + _judged_pairs(task, demands, list(combinations(sliding, 2)), None)
+
+
+def _judged_ends(
+    task: PositionTask,
+    demands: Demands,
+    number: int,
+    sort: Sequence[str],
+    progress: Progress | None,
+    notes: list[Message],
+) -> list[Design]:
+    """The designs of the best pairs of two positions with several given pivots, whose other ends lie along lines."""
+    alone = [replace(task, moving_pivots=(pivot,), fixed_pivots=()) for pivot in task.moving_pivots]
+    alone += [replace(task, moving_pivots=(), fixed_pivots=(pivot,)) for pivot in task.fixed_pivots]
+    ends = [[dyad for dyad in _of_one_pivot(each) if not dyad.slides] for each in alone]
+    search = best_members(task, list(permutations(ends, 2)), demands, orders=sort, number=number)
+    notes += search.notes
+    return _judged_as_driven(task, demands, search.pairs, progress)
+
+
+def _judged_as_driven(
+    task: PositionTask, demands: Demands, pairs: Sequence[Pair], progress: Progress | None
+) -> list[Design]:
+    """The designs of pairs, the driven dyad first."""
+    designs: list[Design] = []
+    for done, (first, second) in enumerate(pairs, 1):
+        with suppress(LinkageError):  # two dyads with a common pivot are no linkage
+            linkage = linkage_of_dyads(first, second, complex(task.origins[0]), task.unit)
+            form = f"{first.kind.form}-{second.kind.form}"
+            designs.append(judge_design(linkage, body_targets(task, linkage), demands, form))
+        if progress is not None:
+            progress(done, len(pairs))
+    return designs
 
 
 def sliding_sample(task: PositionTask, kind: DyadKind, demands: Demands) -> list[GuidingDyad]:
