@@ -61,9 +61,12 @@ export class MobilityPanel {
     const count = h("p.mobility", { "data-fact": "drawn" }, `F = ${counted(drawing)}`);
     const { frame } = drawing;
     this.element.classList.remove("asking");
-    if (frame === null || linksOf(drawing).length < 3) {
-      const text = frame === null ? t("Put a ground") : t("Draw links, at least three.");
-      return renew(this.element, ...(linksOf(drawing).length ? [count] : []), h("p.note", {}, text));
+    const all = linksOf(drawing);
+    const loose = all.find((link) => !jointsOf(drawing).some((k) => drawing.knots[k]!.links.includes(link)));
+    if (frame === null || all.length < 3 || loose) {
+      let text = frame === null ? t("Put a ground") : t("Draw links, at least three.");
+      if (frame !== null && all.length > 2) text = t("Link {link} has no joint yet.", { link: spaced(loose!) });
+      return renew(this.element, ...(all.length ? [count] : []), h("p.note", {}, text));
     }
     if (this.element.querySelector("[data-fact=freedoms]")) this.element.firstChild!.replaceWith(count);
     else renew(this.element, count, moment());

@@ -165,7 +165,7 @@ function lettersOf({ drawing, viewport }: Plane, hulls: readonly Pair[][]): { at
     if (here[0]! < k) return [];
     const has = (what: (one: Knot) => unknown) => here.some((one) => what(knots[one]!));
     const [x, y] = viewport.screen(...knot.at);
-    const [above, top, below, foot] = has(({ slide }) => slide !== undefined) ? [15, -9, 46, 14] : [17, 8, 4, 26];
+    const [above, top, below, foot] = has(({ slide }) => slide !== undefined) ? [15, -9, 46, 14] : [3, 4, 17, 24];
     const under = convexHull(
       [-1, 1].flatMap((side): Pair[] => [
         [x + side * above, y + top],
@@ -175,6 +175,7 @@ function lettersOf({ drawing, viewport }: Plane, hulls: readonly Pair[][]): { at
     const name = here.map((one) => knotName(drawing, one)).join(", ");
     const around = has(({ links }) => links.includes(frame!)) ? [...drawn, under] : drawn;
     const [u, v] = clearAbout([x, y], -20, around, halfOf(name) - 2);
+    drawn.push([[u, v]]); // others keep clear of it
     return [{ at: [u, v + 4], name }];
   });
 }

@@ -196,6 +196,21 @@ def test_a_plate_lies_below_bars(plane):
     assert view.evaluate(bodies) == ["1", "2", "3"]
 
 
+def test_a_link_without_a_joint_is_named_and_nothing_moves_before_it_has_one(plane):
+    view = plane.page
+    view.click('[data-begin="four-bar"]')
+    view.locator('[data-act="move"]').wait_for()
+    view.keyboard.press("l")
+    click(plane, (0, 45), (10, 58))  # beside the others: 3(5 - 1) - 2·4 = 4
+    assert view.locator('[data-fact="drawn"]').inner_text() == "F = 4"
+    assert view.locator('[data-place="mobility"]').inner_text().endswith("Link 4 has no joint yet.")
+    assert not view.locator('[data-act="move"]').count()
+    view.keyboard.press("Escape")
+    view.keyboard.press("g")
+    click(plane, (0, 45))
+    view.locator(FREEDOMS).wait_for()
+
+
 def test_what_is_done_with_the_chosen_takes_one_row_of_a_phone_and_leaves_it_in_sight(tab, server):
     page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
     view = page.page
