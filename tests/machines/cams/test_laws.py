@@ -9,7 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from gruebler.machines.cams import LAWS, Cam, CamError, Roller, boundary_law, motion_law, polynomial_law, read_lift
-from gruebler.machines.cams.extremes import extremes, roots
+from gruebler.machines.cams.extremes import extremes
 
 RESTING = ["3-4-5", "4-5-6-7", "5-6-7-8-9", "cycloidal", "modified-sine", "modified-trapezoid", "harmonic", "parabolic"]
 
@@ -112,9 +112,10 @@ def test_no_extreme_is_lost(waves):
     assert min(found) <= grid.min() + 1e-10 * size
 
 
-def test_roots_and_poles():
-    assert roots(lambda x: np.sin(30 * x), 0.01, 3.0) == pytest.approx(np.arange(1, 29) * math.pi / 30, abs=1e-12)
-    assert roots(np.ones_like, 0, 1) == []
+def test_extremes_between_samples_of_constants_and_at_poles():
+    inner = [x for x, _ in extremes(lambda x: np.cos(30 * x), 0.01, 3.0)[1:-1]]
+    assert inner == pytest.approx(np.arange(1, 29) * math.pi / 30, abs=1e-12)
+    assert extremes(np.ones_like, 0, 1) == [(0, 1), (1, 1)]
     assert max(y for _, y in extremes(lambda x: np.sqrt(np.abs(x)), -1, 1)) == pytest.approx(1)
 
 

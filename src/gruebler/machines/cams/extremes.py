@@ -40,15 +40,6 @@ def extremes(function: Function, a: float, b: float, scale: float = 0.0) -> list
     return list(zip(places.tolist(), np.asarray(function(places)).tolist(), strict=True))
 
 
-def roots(function: Function, a: float, b: float) -> list[float]:
-    """All places in [a, b] where a smooth function vanishes.
-
-    >>> [round(x, 9) for x in roots(np.cos, 0.0, 6.0)]
-    [1.570796327, 4.71238898]
-    """
-    return sorted(x for low, high, c in _proxies(function, a, b) for x in _real(c, low, high))
-
-
 def _proxies(
     function: Function, a: float, b: float, size: float = 0.0, halvings: int = _HALVINGS
 ) -> Iterator[tuple[float, float, NDArray[np.float64]]]:

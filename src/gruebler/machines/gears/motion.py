@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from gruebler.base.text import message
 from gruebler.machines.gears.mesh_kinds import Unit
-from gruebler.machines.gears.rational import Elimination, Row, reduce_row
+from gruebler.machines.gears.rational import Elimination, Row
 from gruebler.machines.gears.train import MIXED, GearError, Train, exact_number
 
 _GIVEN = ""  # the column of the constants: a drive is the row "link - speed * constant"; no link has an empty name
@@ -98,8 +98,8 @@ def influence(train: Train, drives: Iterable[str]) -> dict[str, Row[str]]:
     reduced = _relations(train, [*(link for link in train.links if link not in chosen), *names]).full()
     factors = {}
     for link in train.links:
-        remainder = reduce_row({link: Fraction(1)}, reduced)
-        factors[link] = {drive: remainder[drive] for drive in names if drive in remainder}
+        row = reduced.get(link, {link: Fraction(-1)})  # a drive is no pivot: it is itself
+        factors[link] = {drive: -row[drive] for drive in names if drive in row}
     return factors
 
 

@@ -72,14 +72,6 @@ def rational_echelon(rows: Iterable[Mapping[K, Fraction]], columns: Sequence[K])
     return form.full()
 
 
-def reduce_row(row: Mapping[K, Fraction], basis: Mapping[K, Row[K]]) -> Row[K]:
-    """The remainder of a row after reduction by a reduced echelon form; empty exactly if the row depends on it."""
-    remainder = {column: value for column, value in row.items() if value}
-    for pivot in [column for column in remainder if column in basis]:
-        _subtract(remainder, remainder[pivot], basis[pivot])
-    return remainder
-
-
 def _subtract(row: Row[K], factor: Fraction, other: Row[K]) -> None:
     """Subtract the factor times another row, in place."""
     for column, value in other.items():

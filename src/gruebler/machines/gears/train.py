@@ -12,10 +12,10 @@ from dataclasses import asdict, dataclass
 from fractions import Fraction
 from numbers import Rational
 
-from gruebler.base import notebook
 from gruebler.base.doors import door
 from gruebler.base.errors import GrueblerError, unknown
 from gruebler.base.immutable import settle
+from gruebler.base.notebook import Drawn
 from gruebler.base.text import Message, message
 from gruebler.machines.gears.mesh_kinds import KINDS, MeshKind, Unit
 from gruebler.machines.gears.rational import Elimination, Row, rational_echelon
@@ -126,7 +126,7 @@ class Mesh:
 
 @door
 @dataclass(frozen=True, slots=True)
-class Train:
+class Train(Drawn):
     """Links and meshes; the link ``frame`` is fixed.
 
     >>> inner = Mesh(a="sun", b="planet", size_a=24, size_b=18, carrier="arm")
@@ -246,10 +246,6 @@ class Train:
         if not self.comparable(relations[0]):
             raise GearError("{links}: {mixed}", links=", ".join(relations[0]), mixed=MIXED)
         return relations[0]
-
-    def _repr_svg_(self) -> str | None:
-        """Its wheels to scale, for notebooks."""
-        return notebook.svg_of(self) if notebook.svg_of else None
 
 
 def comparable(units: Iterable[Unit]) -> bool:
