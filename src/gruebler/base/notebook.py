@@ -20,6 +20,15 @@ table_of: Callable[..., Any] | None = None
 """Makes the table of a motion, or of forces in it; None until the front door has set it."""
 
 
+class Drawn:
+    """A value that a notebook shows as its picture."""
+
+    __slots__ = ()
+
+    def _repr_svg_(self) -> str | None:
+        return svg_of(self) if svg_of else None
+
+
 def brief(cls: _Class) -> _Class:
     """A dataclass (with ``repr=False``) of many values, whose `repr` is one line: arrays as their shapes and ends.
 

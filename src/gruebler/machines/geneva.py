@@ -14,11 +14,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gruebler.base import notebook
 from gruebler.base.angles import warn_of_degrees
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.errors import GrueblerError
-from gruebler.base.notebook import explained
+from gruebler.base.notebook import Drawn, explained
 from gruebler.base.text import message, plural
 
 _MOST = 2_000
@@ -67,7 +66,7 @@ _FASTEST = message("The wheel turns at most {ratio:n} times as fast as the drive
 
 @explained
 @dataclass(frozen=True, slots=True)
-class Geneva:
+class Geneva(Drawn):
     """A Geneva drive whose pins enter and leave the slots without a jump of speed.
 
     >>> cross = Geneva(4)
@@ -248,10 +247,6 @@ class Geneva:
         return GenevaMotion(
             angle=side * (index * self.step + moved), ratio=ratio, acceleration=acceleration, jerk=jerk, dwell=dwell
         )
-
-    def _repr_svg_(self) -> str | None:
-        """The drive to scale, a pin on the line of centres, for notebooks."""
-        return notebook.svg_of(self) if notebook.svg_of else None
 
     @property
     def _side(self) -> int:

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gruebler.base import notebook
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.doors import door_that_raises
 from gruebler.base.events import Extremum
-from gruebler.base.notebook import brief
+from gruebler.base.notebook import Drawn, brief
 from gruebler.base.text import message
 from gruebler.machines.cams.extremes import extremes
 from gruebler.machines.cams.follower import Flat, Follower, Roller
@@ -60,7 +59,7 @@ class CamReport:
 @door_that_raises(CamError)
 @brief
 @dataclass(frozen=True, slots=True, repr=False)
-class Cam:
+class Cam(Drawn):
     """A disc cam for a lift of a follower; the lift is a length, or radians for a swinging follower.
 
     >>> from gruebler.machines.cams import read_lift
@@ -152,10 +151,6 @@ class Cam:
             room=room,
             face=both(lambda contact: contact.face),
         )
-
-    def _repr_svg_(self) -> str | None:
-        """The cam with its follower, to scale, for notebooks."""
-        return notebook.svg_of(self) if notebook.svg_of else None
 
     def _at(self, angle: ArrayLike) -> _Contact:
         phi = finite_array(angle, message("the cam's angles"))

@@ -10,9 +10,8 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from gruebler.base import notebook
 from gruebler.base.events import TransmissionExtremes
-from gruebler.base.notebook import explained
+from gruebler.base.notebook import Drawn, explained
 from gruebler.base.text import joined_by_or, message
 from gruebler.mechanics.fourbar.crank_motion import CrankMotion, CrankRates, crank_rates
 from gruebler.mechanics.fourbar.extremes import CrankRange, DeadCentres
@@ -22,7 +21,7 @@ from gruebler.mechanics.linkages.model import Linkage
 
 
 @explained
-class Lengths(ABC):
+class Lengths(ABC, Drawn):
     """A linkage of one crank that is given by its lengths."""
 
     __slots__ = ()
@@ -141,10 +140,6 @@ class Lengths(ABC):
             smallest = degrees(self.transmission_angle.smallest.mu)
             lines.append(message("smallest transmission angle: {angle:n}°", angle=smallest))
         return "\n".join([self.condition(lang), *(line.in_language(lang) for line in lines)])
-
-    def _repr_svg_(self) -> str | None:
-        """The linkage to scale, for notebooks."""
-        return notebook.svg_of(self) if notebook.svg_of else None
 
 
 _STROKE = message("stroke of the output: {length:n}")

@@ -14,7 +14,7 @@ from gruebler.base import notebook
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.columns import Table
 from gruebler.base.errors import LinkageError
-from gruebler.base.notebook import brief, explained
+from gruebler.base.notebook import Drawn, brief, explained
 from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.kinematics.link_poses import LinkPoses
 from gruebler.mechanics.kinematics.messages import (
@@ -70,7 +70,7 @@ _POSITIONS = message("Positions: {count}, from {first} to {last}; derivatives up
 @compared_by_value
 @brief
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Motion(LinkPoses):
+class Motion(LinkPoses, Drawn):
     """Poses of a linkage along a path of its drives, with derivatives.
 
     Points are returned as (rows, 2), angles as (rows,) in radians without jumps. Rows after a `stop` are missing:
@@ -225,10 +225,6 @@ class Motion(LinkPoses):
         assert notebook.table_of is not None  # set by the front door
         table: Table = notebook.table_of(self, outputs, points, transmission=transmission, lang=lang)
         return table
-
-    def _repr_svg_(self) -> str | None:
-        """The first pose with some others thinly, for notebooks."""
-        return notebook.svg_of(self) if notebook.svg_of else None
 
     def check_order(self, order: int) -> None:
         """`LinkageError` for an order beyond that to which the motion was solved."""

@@ -9,11 +9,10 @@ from math import hypot
 from types import MappingProxyType
 from typing import Any
 
-from gruebler.base import notebook
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.immutable import Immutable, settle
-from gruebler.base.notebook import explained
+from gruebler.base.notebook import Drawn, explained
 from gruebler.mechanics.linkages.description import linkage_lines, sizes_in_a_line
 from gruebler.mechanics.linkages.drawing import taken_apart
 from gruebler.mechanics.linkages.elements import Element, LinkPoint, Outline, Pose2D
@@ -34,7 +33,7 @@ NEAR_REFERENCE = 0.05
 
 @explained
 @dataclass(frozen=True, init=False, eq=False, repr=False)
-class Linkage(Immutable):
+class Linkage(Immutable, Drawn):
     """A planar mechanism with the dimensions of its links. Immutable, and checked when it is constructed.
 
     Every link has coordinates of its own; those of the frame are the coordinates of the plane. The drive value of a
@@ -328,10 +327,6 @@ class Linkage(Immutable):
         elements = tuple(sorted(self.elements.items()))
         outlines = tuple(sorted((link, *((o.places, o.radius) for o in of)) for link, of in self.outlines.items()))
         return self.mechanism.written_form, elements, points, self.unit, reference, self.outputs, outlines
-
-    def _repr_svg_(self) -> str | None:
-        """The linkage to scale, for notebooks."""
-        return notebook.svg_of(self) if notebook.svg_of else None
 
     def explain(self, lang: str = "en") -> str:
         """The mechanism and the size of each link, in English or German (``de``); coordinates are those of the link.

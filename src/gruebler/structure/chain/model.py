@@ -14,10 +14,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from gruebler.base import notebook
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import ChainError, GrueblerError, NotationError, expect, unknown
 from gruebler.base.immutable import Immutable, settle
+from gruebler.base.notebook import Drawn
 from gruebler.base.text import message
 from gruebler.structure.chain import graphs, notation
 from gruebler.structure.chain.documents import read_document, read_graph6
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
-class Chain(Immutable):
+class Chain(Immutable, Drawn):
     """Links and joints in one space.
 
     Args:
@@ -157,10 +157,6 @@ class Chain(Immutable):
         return f"Chain.parse({self.text()!r})"
 
     # --- a value -----------------------------------------------------------------------------------
-
-    def _repr_svg_(self) -> str | None:
-        """The structure picture, for notebooks."""
-        return notebook.svg_of(self) if notebook.svg_of else None
 
     def _identity(self) -> tuple[object, ...]:
         return self.space, tuple(sorted(self.links)), tuple(sorted(j.key for j in self.joints))

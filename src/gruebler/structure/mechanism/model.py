@@ -8,10 +8,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from gruebler.base import notebook
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import ChainError, NotationError
 from gruebler.base.immutable import Immutable, settle
+from gruebler.base.notebook import Drawn
 from gruebler.base.text import joined_by_and
 from gruebler.structure.chain import Chain, graphs, notation
 from gruebler.structure.chain.pairs import Alphabet
@@ -37,7 +37,7 @@ class Drive:
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
-class Mechanism(Immutable):
+class Mechanism(Immutable, Drawn):
     """A chain, its frame and its drives: an immutable value, checked when it is constructed.
 
     Args:
@@ -223,10 +223,6 @@ class Mechanism(Immutable):
         (True, False)
         """
         return self.chain.space, self.chain.links, self.chain.joints, self.frame, self.drives
-
-    def _repr_svg_(self) -> str | None:
-        """The structure picture, for notebooks."""
-        return notebook.svg_of(self) if notebook.svg_of else None
 
     def _identity(self) -> tuple[object, ...]:
         at_joint: dict[int, set[tuple[str, frozenset[str]]]] = {}

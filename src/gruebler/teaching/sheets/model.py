@@ -10,9 +10,8 @@ from functools import cached_property
 
 import numpy as np
 
-from gruebler.base import notebook
 from gruebler.base.errors import CatalogError
-from gruebler.base.notebook import brief
+from gruebler.base.notebook import Drawn, brief
 from gruebler.base.text import Readable, Text, message
 from gruebler.files import Entry
 from gruebler.mechanics.fourbar import FourBar
@@ -105,7 +104,7 @@ class SizedMechanism:
 
 @brief
 @dataclass(frozen=True, repr=False)
-class Sheet:
+class Sheet(Drawn):
     """A mechanism on one page.
 
     >>> from gruebler.teaching.sheets import sheet
@@ -115,10 +114,6 @@ class Sheet:
     """
 
     record: SheetRecord
-
-    def _repr_svg_(self) -> str | None:
-        """Its page, for notebooks."""
-        return notebook.svg_of(self) if notebook.svg_of else None
 
     @property
     def id(self) -> str:
