@@ -59,40 +59,23 @@ UNITS = {
 }
 """Units by their names; those of an angle are numbers."""
 
-QUANTITIES: dict[str, tuple[DerivedUnit, int, str]] = {
-    "mass": (DerivedUnit(1.0, 1), 0, "250 g"),
-    "inertia": (DerivedUnit(1.0, 1, 2), 2, "800 kg mm2"),
-    "density": (DerivedUnit(1.0, 1, -3), -3, "7.85 g/cm3"),
-    "length": (DerivedUnit(1.0, 0, 1), 1, "35 mm"),
-    "force": (DerivedUnit(1.0, 1, 1, -2), 0, "20 N"),
-    "moment": (DerivedUnit(1.0, 1, 2, -2), 1, "3 N m"),
-    "stiffness": (DerivedUnit(1.0, 1, 0, -2), -1, "2 N/mm"),
-    "damping": (DerivedUnit(1.0, 1, 0, -1), -1, "0.1 N s/mm"),
-    "torsional stiffness": (DerivedUnit(1.0, 1, 2, -2), 1, "5 N m/rad"),
-    "torsional damping": (DerivedUnit(1.0, 1, 2, -1), 1, "0.2 N m s"),
-    "speed": (DerivedUnit(1.0, 0, 0, -1), 0, "3000 rpm"),
-    "angle": (DerivedUnit(1.0), 0, "30 deg"),
-    "velocity": (DerivedUnit(1.0, 0, 1, -1), 1, "0.2 m/s"),
-    "acceleration": (DerivedUnit(1.0, 0, 1, -2), 0, "9.81 m/s2"),
+QUANTITIES = {
+    "mass": ("kg", "250 g"),
+    "inertia": ("kg {unit}2", "800 kg mm2"),
+    "density": ("kg/{unit}3", "7.85 g/cm3"),
+    "length": ("{unit}", "35 mm"),
+    "force": ("N", "20 N"),
+    "moment": ("N {unit}", "3 N m"),
+    "stiffness": ("N/{unit}", "2 N/mm"),
+    "damping": ("N s/{unit}", "0.1 N s/mm"),
+    "torsional stiffness": ("N {unit}/rad", "5 N m/rad"),
+    "torsional damping": ("N {unit} s", "0.2 N m s"),
+    "speed": ("rad/s", "3000 rpm"),
+    "angle": ("rad", "30 deg"),
+    "velocity": ("{unit}/s", "0.2 m/s"),
+    "acceleration": ("m/s2", "9.81 m/s2"),
 }
-"""Of each quantity: its unit, its power of the linkage's unit of length (forces stay newtons), an example."""
-_WRITTEN = {
-    "mass": "kg",
-    "inertia": "kg {unit}2",
-    "density": "kg/{unit}3",
-    "length": "{unit}",
-    "force": "N",
-    "moment": "N {unit}",
-    "stiffness": "N/{unit}",
-    "damping": "N s/{unit}",
-    "torsional stiffness": "N {unit}/rad",
-    "torsional damping": "N {unit} s",
-    "speed": "rad/s",
-    "angle": "rad",
-    "velocity": "{unit}/s",
-    "acceleration": "m/s2",
-}
-"""The unit in which each quantity is kept in a linkage whose unit of length is ``unit``."""
+"""In what each quantity is kept in a linkage whose unit of length is ``unit`` (forces in newtons), and an example."""
 _FORM = re.compile(r"\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?)\s*(.*?)\s*")
 _FACTOR = re.compile(r"([/*·]?)\s*(°|[A-Za-z]+)(?:\^?([0-9]|[²³]))?\s*")
 _SMALL = {"²": 2, "³": 3, None: 1}
@@ -140,7 +123,7 @@ def quantity_of(name: str, word: str, quantity: str, unit: str) -> float:
     >>> quantity_of("mass", "250 g", "mass", "mm"), quantity_of("c", "2 kN/m", "stiffness", "mm")
     (0.25, 2.0)
     """
-    wanted, lengths, example = QUANTITIES[quantity]
+    kept_in, example = QUANTITIES[quantity]
     form = _FORM.fullmatch(word)
     if form is None or not form[2]:
         raise GrueblerError(
@@ -150,14 +133,14 @@ def quantity_of(name: str, word: str, quantity: str, unit: str) -> float:
             found=word,
         )
     written = _unit_of(name, form[2], word)
-    if written[1:] != wanted[1:]:
+    if written[1:] != _unit_of(name, kept_in.format(unit="m"), word)[1:]:
         raise GrueblerError(
             "{name}: {found!r} has the unit of another quantity; expected one such as {example!r}",
             name=name,
             example=example,
             found=word,
         )
-    scale = written.factor / (metres_of(unit) ** lengths if lengths else 1.0)
+    scale = written.factor / _unit_of(name, _kept_in(quantity, unit), word).factor
     number = float(form[1])
     return number if scale == 1.0 else float(f"{number * scale:.15g}")  # what `quantity_text` writes comes back exactly
 
@@ -168,9 +151,15 @@ def quantity_text(value: float, quantity: str, unit: str) -> str:
     >>> quantity_text(2.0, "stiffness", "mm"), quantity_text(0.25, "mass", "mm"), quantity_text(600.0, "inertia", "mm")
     ('2.0 N/mm', '0.25 kg', '600.0 kg mm2')
     """
-    if QUANTITIES[quantity][1]:
+    return f"{float(value)!r} {_kept_in(quantity, unit)}"
+
+
+def _kept_in(quantity: str, unit: str) -> str:
+    """The unit of a quantity in a linkage with this unit of length, which is known."""
+    kept_in, _ = QUANTITIES[quantity]
+    if "{unit}" in kept_in:
         metres_of(unit)
-    return f"{float(value)!r} {_WRITTEN[quantity].format(unit=unit)}"
+    return kept_in.format(unit=unit)
 
 
 def _unit_of(name: str, text: str, word: str) -> DerivedUnit:
