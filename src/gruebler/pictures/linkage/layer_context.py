@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
+from gruebler.base.text import Message
 from gruebler.pictures.canvas.shapes import Shape
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
 
@@ -20,4 +21,8 @@ class LayerContext(NamedTuple):
     lang: str = "en"
 
 
-Layer = Callable[[LayerContext], list[Shape]]
+class Layer(NamedTuple):
+    """What can be shown in addition."""
+
+    title: Message
+    shapes: Callable[[LayerContext], list[Shape]]

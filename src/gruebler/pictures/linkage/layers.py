@@ -295,19 +295,19 @@ def _later(_: LayerContext) -> list[Shape]:
 
 
 LAYERS: Mapping[str, Layer] = {
-    "dead-centres": _dead_centres,
-    "centrodes": centrode_lines,
-    "inflection": inflection_lines,
-    "transmission": _transmission,
-    "velocities": velocity_arrows,
-    "accelerations": acceleration_arrows,
-    "poles": pole_marks,
-    "planes": _planes,
-    "dimensions": dimension_lines,
-    "scale": _later,
-    "joints": joint_names,
-    "angles": angle_marks,
-    "lengths": length_letters,
+    "dead-centres": Layer(message("dead centres"), _dead_centres),
+    "centrodes": Layer(message("fixed centrode p, moving centrode q"), centrode_lines),
+    "inflection": Layer(message("inflection circle"), inflection_lines),
+    "transmission": Layer(message("transmission angle"), _transmission),
+    "velocities": Layer(message("velocities"), velocity_arrows),
+    "accelerations": Layer(message("accelerations"), acceleration_arrows),
+    "poles": Layer(message("instant centres"), pole_marks),
+    "planes": Layer(message("planes of the links"), _planes),
+    "dimensions": Layer(message("dimensions"), dimension_lines),
+    "scale": Layer(message("scale"), _later),
+    "joints": Layer(message("letters of the joints"), joint_names),
+    "angles": Layer(message("angles of drive and output"), angle_marks),
+    "lengths": Layer(message("letters of the lengths"), length_letters),
 }
 BELOW = ("dead-centres", "centrodes", "inflection")
 """Layers below the bodies, except their marks and texts."""

@@ -55,21 +55,6 @@ _AROUND = 17.0  # pixels from the middle of a block to its name
 _SQUARE = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 _WHEEL, _ROUND = 12.0, 24  # pixels of the radius of a wheel, at least; points around it
 _PLAIN = 95.0  # pixels: a smaller perimeter is that of a block between rails, with its name outside of these
-_LAYER_NAMES = {
-    "dead-centres": message("dead centres"),
-    "centrodes": message("fixed centrode p, moving centrode q"),
-    "inflection": message("inflection circle"),
-    "transmission": message("transmission angle"),
-    "velocities": message("velocities"),
-    "accelerations": message("accelerations"),
-    "poles": message("instant centres"),
-    "planes": message("planes of the links"),
-    "dimensions": message("dimensions"),
-    "scale": message("scale"),
-    "joints": message("letters of the joints"),
-    "angles": message("angles of drive and output"),
-    "lengths": message("letters of the lengths"),
-}
 _MARKS = ("edge", "dot", "value")  # crosses, points and texts of layers below
 _LAST = ("dimensions", "joints")
 """Layers that give way to all others, and letters of joints to the lines of dimensions."""
@@ -118,14 +103,14 @@ def draw_linkage(
     posed = room_for(posed_linkage(linkage, at, branch=branch, between=between), outlines)
     layers = {key: layer(key) for key in dict.fromkeys(show)}
     if "joints" in layers:
-        layers["joints"] = partial(joint_names, letters=tuple(letters))
+        layers["joints"] = layers["joints"]._replace(shapes=partial(joint_names, letters=tuple(letters)))
     curve = [shape for point in each_point(curves).values() for shape in coupler_curve_lines(posed, point)]
     pieces = (*body_parts(posed), *outline_parts(posed, outlines))
     frame = layered(posed, pieces, FRAME, FRAME)
     pins = layered(posed, pieces, PINS, PINS)
     bodies = layered(posed, pieces, BODIES, PINS - 1)
     context = LayerContext(posed, output, [*frame, *bodies, *pins], lang)
-    layer_shapes = {key: layers[key](context) for key in layers if key in BELOW}
+    layer_shapes = {key: layers[key].shapes(context) for key in layers if key in BELOW}
     below = [shape for shapes in layer_shapes.values() for shape in shapes]
     shapes = [
         *frame,
@@ -139,13 +124,13 @@ def draw_linkage(
         *_of_loads(posed, loads, speed),
     ]
     for key in sorted((key for key in layers if key not in BELOW and key not in _LAST), key="poles".__eq__):
-        layer_shapes[key] = layers[key](context._replace(drawn=shapes))
+        layer_shapes[key] = layers[key].shapes(context._replace(drawn=shapes))
         shapes += layer_shapes[key]
     shapes += point_names(posed, shapes)
     texts, rows = _named(posed, pieces, shapes, names) if labels else ([], {})
     shapes += texts
     for key in (key for key in _LAST if key in layers):
-        layer_shapes[key] = layers[key](context._replace(drawn=shapes))
+        layer_shapes[key] = layers[key].shapes(context._replace(drawn=shapes))
         shapes += layer_shapes[key]
     shapes += scale_bars(context._replace(drawn=shapes), tuple(layers))
     if "poles" in layers:
@@ -291,7 +276,7 @@ def picture_notes(
 
 def _layer_name(key: str, shapes: Sequence[Shape], lang: str) -> str:
     """The name of a layer; for an inflection circle with its poles that lie in the picture."""
-    name = _LAYER_NAMES[key].in_language(lang)
+    name = layer(key).title.in_language(lang)
     text = {shape.text for shape in shapes if isinstance(shape, TextShape)}
     poles = [pole.in_language(lang) for letter, pole in _POLES.items() if key == "inflection" and letter in text]
     return f"{name} ({', '.join(poles)})" if poles else name
