@@ -10,14 +10,16 @@ import pytest
 import gruebler as gr
 from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
-from gruebler.files.screws import spatial_from_json
+from gruebler.files.screws import screws_to_json, spatial_from_json
 from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.mechanics.screws.link_sizes import link_sizes
+from gruebler.mechanics.screws.resizing import resized
 from gruebler.mechanics.space import RSSR, Bennett, drive_range, move
 from gruebler.page.requests import answer
 from gruebler.page.space_page import machine_model, space_file, space_model
 from gruebler.page.static_site import FileGroup, write_site
 from gruebler.structure.mechanism import Mechanism
-from gruebler.teaching.catalog import entry
+from gruebler.teaching.catalog import entries, entry
 from tests.page.test_access import AXE
 
 
@@ -414,6 +416,138 @@ def test_several_drives_have_short_names_and_the_bar_one_row(tmp_path, chromium)
     )
     assert len(middles) == 5
     assert max(middles) - min(middles) < 5
+    assert errors == []
+    browser.close()
+
+
+IN_SPACE = [id for id, record in entries().items() if record.in_space]
+
+
+@pytest.mark.parametrize("id", IN_SPACE)
+def test_the_arrow_of_a_drive_goes_the_way_that_it_grows(id):
+    """Against the poses of its motion: a turn about the arrow's direction, or a shift along it."""
+    linkage = entry(id).placed()
+    chain, drives = linkage.mechanism.chain, linkage.mechanism.drives
+    ways = []
+    motions = space_model(linkage)["motions"]
+    for motion in motions:
+        still, along = motion["arrow"]["link"], np.array(motion["arrow"]["along"])
+        (moved,) = {chain.index(link) for link in chain.joints[drives[motion["drive"]].joint].links} - {still}
+        values = np.zeros((2, len(drives)))
+        values[1, motion["drive"]] = 0.01
+        poses = move(linkage, values).poses[0, -1]
+        seen = np.linalg.inv(poses[still]) @ poses[moved]
+        turn = np.array([seen[2, 1] - seen[1, 2], seen[0, 2] - seen[2, 0], seen[1, 0] - seen[0, 1]]) / 2
+        ways.append(((turn if motion["unit"] == "°" else seen[:3, 3]) / 0.01) @ along)
+    assert ways == pytest.approx([1.0] * len(motions), rel=1e-3)
+
+
+TYPED = "document.querySelector('.gruebler-explorer').shadowRoot.querySelectorAll('[data-panel=sizes] input')"
+
+
+def test_sizes_are_typed_undone_and_refused_with_the_reason(server, chromium):
+    """A longer crank of the wiper, against the library; a rod that is too short; three of four sizes of Bennett's."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/wiper_rssr.html#de")
+    page.get_by_role("button", name="Anhalten").click()
+    undo, redo = (page.locator(f'[data-icon="{name}"]') for name in ("undo", "redo"))
+    crank = page.locator("#size-1-0")
+    assert crank.input_value() == "45"
+    assert undo.is_disabled()
+    crank.fill("50,5")
+    crank.press("Enter")
+    page.locator("header small", has_text="geändert").wait_for(state="attached")
+    changed = resized(entry("wiper_rssr").placed(), {"crank": (50.5, None)})
+    swing = np.degrees(gr.measures(changed).travel)
+    told = page.locator('[data-panel="measures"] dt:text-is("Schwingwinkel Wischerhebel") + dd')
+    assert float(told.inner_text().rstrip("°").replace(",", ".")) == pytest.approx(swing, rel=1e-3)
+    with page.expect_download() as taken:
+        page.keyboard.press("Control+s")
+    saved = spatial_from_json(json.loads(taken.value.path().read_text(encoding="utf-8")))
+    assert {size.link: size.distance for size in link_sizes(saved)}["crank"] == pytest.approx(50.5)
+    rod = page.locator("#size-2-0")
+    rod.fill("100")
+    rod.press("Enter")
+    page.locator('[data-panel="sizes"] [role="alert"]', has_text="Schubstange: Die Gelenke lassen sich bis").wait_for()
+    assert page.locator("#size-2-0").get_attribute("aria-invalid") == "true"
+    undo.click()  # what was typed
+    assert page.locator("#size-2-0").input_value() == "302,572"
+    undo.click()
+    assert page.locator("#size-1-0").input_value() == "45"
+    assert undo.is_disabled()
+    page.locator(".stage > svg").focus()
+    page.keyboard.press("Control+y")
+    assert page.locator("#size-1-0").input_value() == "50,5"
+    assert redo.is_disabled()
+    page.goto(server.address + "space/bennett.html#en")
+    page.get_by_role("button", name="Pause").click()
+    alert = page.locator('[data-panel="sizes"] [role="alert"]')
+    wanted = {
+        0: ("100", "unless other sizes change"),
+        2: ("100", "no drive moves it"),
+        1: ("50", "closed"),
+        3: ("50", ""),
+    }
+    for link, (size, reason) in wanted.items():
+        field = page.locator(f"#size-{link}-0")
+        field.fill(size)
+        with page.expect_response("**/space/resize"):
+            field.press("Enter")
+        if reason:
+            page.locator('[data-panel="sizes"] [role="alert"]', has_text=reason).wait_for()
+    page.locator("header small", has_text="changed").wait_for(state="attached")
+    assert alert.inner_text() == ""
+    assert page.evaluate(f"[...{TYPED}].map((field) => field.value)") == ["100", "90", "50", "30"] * 2
+    assert errors == []
+    browser.close()
+
+
+def test_a_page_without_the_server_has_sizes_to_read(tmp_path, chromium):
+    path = tmp_path / "machine.html"
+    assert main(["explore", "wiper_rssr", "-o", str(path)]) == 0
+    assert "connect-src" not in path.read_text(encoding="utf-8")
+    browser, page, errors = browsed(chromium, path)
+    assert page.locator('[data-panel="sizes"] dd').count() == 4
+    assert page.locator('[data-panel="sizes"] input').count() == 0
+    assert errors == []
+    browser.close()
+
+
+def test_other_sizes_are_made_for_pages_of_this_server_only(server):
+    def ask(content, origin):
+        asked = Request(server.address + "space/resize", data=content, headers={"Origin": origin})
+        with urlopen(asked, timeout=60) as told:
+            return json.loads(told.read())
+
+    own = server.address.split("/", 3)
+    own = f"{own[0]}//{own[2]}"
+    document = screws_to_json(entry("universal_joint").placed())
+    params = {"document": document, "sizes": {"frame": [None, 40]}}
+    question = json.dumps({"id": 1, "lang": "de", "params": params}).encode()
+    angles = [size["angle"] for size in ask(question, own)["result"]["sizes"]]
+    assert angles == pytest.approx([40, 90, 90, 90])
+    with pytest.raises(HTTPError, match="404"):
+        ask(question, "http://example.org")
+    assert "not a message" in ask(b"{", own)["error"]
+    assert "at most 400,000" in ask(b"x" * 500_000, own)["error"]
+    assert "resize" in ask(b'{"id": 1, "params": {"sizes": 1}}', own)["error"]
+
+
+def test_a_view_that_is_turned_by_hand_has_no_name(tmp_path, chromium):
+    path = tmp_path / "bennett.html"
+    assert main(["explore", "bennett", "-o", str(path)]) == 0
+    browser, page, errors = browsed(chromium, path)
+    page.get_by_role("button", name="Pause").click()
+    views = page.locator('[aria-label="View"] button')
+    pressed = "all => all.map((one) => one.ariaPressed)"
+    assert views.evaluate_all(pressed) == ["true", "false", "false", "false"]
+    assert page.locator(".stage path.driven").count() == 1
+    page.locator(".stage > svg").focus()
+    page.keyboard.press("ArrowLeft")
+    assert views.evaluate_all(pressed) == ["false"] * 4
+    views.nth(2).click()
+    assert views.evaluate_all(pressed) == ["false", "false", "true", "false"]
+    page.get_by_label("Language").select_option("de")
+    assert page.locator('[aria-label="Ansicht"] button').evaluate_all(pressed) == ["false", "false", "true", "false"]
     assert errors == []
     browser.close()
 

@@ -26,6 +26,8 @@ export interface Motion {
   values: number[];
   /** (rows, links, 12). */
   poses: number[][][];
+  /** A place and a direction of a link, about or along which another one is driven. */
+  arrow: { link: number; at: Vector; along: Vector };
 }
 
 interface Texts {
@@ -39,7 +41,11 @@ interface Texts {
 export interface Model {
   /** Whether the page with the other views lies above it. */
   home: boolean;
+  /** Whether there is a server that makes other sizes. */
+  resizable: boolean;
   texts: Record<Language, Texts>;
+  /** Of the links, in the document. */
+  names: string[];
   unit: string;
   middle: Vector;
   size: number;

@@ -37,7 +37,7 @@ export interface Drawn {
 export class Painter {
   readonly #gl: WebGL2RenderingContext;
   readonly #at: (name: string) => WebGLUniformLocation | null;
-  readonly #buffers: { link: number; places: WebGLBuffer; count: number; colour: Vector; alpha: number }[];
+  #buffers: { link: number; places: WebGLBuffer; count: number; colour: Vector; alpha: number }[] = [];
   readonly #line: WebGLBuffer;
 
   /** Throws where the browser has no WebGL 2. */
@@ -67,6 +67,14 @@ export class Painter {
       if (!places.has(name)) places.set(name, gl.getUniformLocation(program, name));
       return places.get(name)!;
     };
+    this.#line = gl.createBuffer();
+    this.load(bodies, glass);
+  }
+
+  /** Other bodies. */
+  load(bodies: Body[], glass: (Body & { link: number })[]): void {
+    const gl = this.#gl;
+    for (const { places } of this.#buffers) gl.deleteBuffer(places);
     const solid = bodies.map((body, link) => ({ ...body, link, alpha: 1 }));
     this.#buffers = [...solid, ...glass.map((body) => ({ ...body, alpha: GLASS }))].map((body) => {
       const corners = cornersOf(body);
@@ -76,7 +84,6 @@ export class Painter {
       const { alpha, colour, link } = body;
       return { link, places: buffer, count: corners.length / 9, colour, alpha };
     });
-    this.#line = gl.createBuffer();
   }
 
   /** Everything at the poses of the links, (links, 12), over lines; the marked link stands out. */

@@ -3,8 +3,10 @@
 import { h, lowered, svg } from "../dom";
 import { gridStep } from "../grid";
 import { number } from "../language";
+import type { Pair } from "../rows";
 import { zoomButtons } from "../shell";
 import { axes, before, type Camera, fitted, meeting, moved, projection, ray, seen, type Vector } from "./algebra";
+import { arrowsOf, headed } from "./arrows";
 import type { Machine } from "./machine";
 import type { Spot } from "./model";
 import { type Drawn, Painter } from "./painter";
@@ -16,6 +18,8 @@ export interface SceneEvents {
   /** A link is taken, or one that was taken has moved. */
   taken(): void;
   pulled(): void;
+  /** The view was turned by hand. */
+  turned(): void;
   /** The mouse is over a link, or over none. */
   pointed(link: number | null): void;
 }
@@ -33,14 +37,17 @@ export class Scene {
   #camera: Camera;
   #whole = true;
   /** The lowest and the highest coordinates of what stands on the floor. */
-  readonly #extent: [Vector, Vector];
+  #extent: [Vector, Vector] = [
+    [0, 0, 0],
+    [0, 0, 0],
+  ];
   #step = 1;
   readonly #colours = new Map<string, Vector>();
   readonly #fingers = new Map<number, PointerEvent>();
   #pulling = false;
 
   constructor(
-    private readonly machine: Machine,
+    private machine: Machine,
     private readonly events: SceneEvents,
   ) {
     const { bodies, glass, middle, size } = machine.data;
@@ -50,11 +57,7 @@ export class Scene {
     } catch {
       // it is said when the page is arranged
     }
-    this.#step = gridStep(size / 6);
-    const corners = this.#corners();
-    const ends = (least: typeof Math.min) =>
-      [0, 1, 2].map((k) => corners.reduce((a, at) => least(a, at[k]!), corners[0]![k]!));
-    this.#extent = [ends(Math.min) as Vector, ends(Math.max) as Vector];
+    this.#measure();
     const { root } = this;
     root.addEventListener("pointerdown", (event) => this.#down(event));
     root.addEventListener("pointermove", (event) => this.#move(event));
@@ -75,6 +78,24 @@ export class Scene {
     root.addEventListener("keydown", (event) => this.#key(event));
     new ResizeObserver(() => (this.#whole ? this.fit() : this.draw())).observe(this.element);
     lowered(this.element);
+  }
+
+  /** Show another machine in place of this one, from the same side. */
+  take(machine: Machine): void {
+    this.machine = machine;
+    this.#painter?.load(machine.data.bodies, machine.data.glass);
+    this.marked = null;
+    this.#measure();
+    if (this.#whole) this.fit();
+  }
+
+  /** How large it is, and what its grid shows. */
+  #measure(): void {
+    this.#step = gridStep(this.machine.data.size / 6);
+    const corners = this.#corners();
+    const ends = (least: typeof Math.min) =>
+      [0, 1, 2].map((k) => corners.reduce((a, at) => least(a, at[k]!), corners[0]![k]!));
+    this.#extent = [ends(Math.min) as Vector, ends(Math.max) as Vector];
   }
 
   /** Lay it out anew, in the language of the page. */
@@ -124,6 +145,7 @@ export class Scene {
   #round(turn: number, lift: number): void {
     this.#camera.turn += turn;
     this.#camera.lift = Math.min(Math.max(this.#camera.lift + lift, -STEEP), STEEP);
+    this.events.turned();
     this.draw();
   }
 
@@ -155,14 +177,17 @@ export class Scene {
     this.#over(view, poses, [right, up]);
   }
 
-  /** Names of points, and the axes in the corner. */
+  /** Arrows of the drives, names of points, and the axes in the corner. */
   #over(view: Float32Array, poses: ArrayLike<number>[], [right, up]: [Vector, Vector]): void {
     const { clientWidth, clientHeight } = this.element;
     this.root.setAttribute("viewBox", `0 0 ${clientWidth} ${clientHeight}`);
-    const parts: SVGElement[] = [];
+    const pixel = (at: Vector): Pair => {
+      const [x, y] = seen(view, at);
+      return [((x + 1) * clientWidth) / 2, ((1 - y) * clientHeight) / 2];
+    };
+    const parts: SVGElement[] = arrowsOf(this.machine, poses).map((places) => headed(places.map(pixel)));
     for (const { name, link, at } of this.machine.spots) {
-      const [x, y] = seen(view, moved(poses[link]!, at));
-      const [px, py] = [((x + 1) * clientWidth) / 2, ((1 - y) * clientHeight) / 2];
+      const [px, py] = pixel(moved(poses[link]!, at));
       parts.push(svg("circle.spot", { cx: px, cy: py, r: 4.5 }));
       if (name && this.shown.names) parts.push(svg("text.mark", { x: px + 9, y: py - 7 }, name));
     }

@@ -15,6 +15,7 @@ import { moved } from "./algebra";
 import { endsOf, Machine, TURNED, turnOf } from "./machine";
 import type { Model } from "./model";
 import { OutputPlots } from "./outputs";
+import { Resizing } from "./resizing";
 import { Scene } from "./scene";
 import { stlOf } from "./solids";
 
@@ -28,7 +29,7 @@ const VIEWS: Record<string, [number, number]> = {
 const DIGITS = 4;
 
 export class SpaceView implements Driven {
-  readonly linkage: Machine;
+  linkage: Machine;
   readonly scene: Scene;
   readonly transport = new Transport(this);
   readonly #host: HTMLElement;
@@ -40,11 +41,18 @@ export class SpaceView implements Driven {
   readonly #sizes = new FactList();
   #plots: OutputPlots | null = null;
   #sliders: { input: HTMLInputElement; output: HTMLElement }[] = [];
+  /** The view that is shown, if it is one with a name. */
   #view = "oblique";
+  #views: HTMLElement | null = null;
+  readonly #resizing = new Resizing({
+    shown: () => this.data,
+    take: (data) => this.#take(data),
+    told: () => this.#arrangeHeader(),
+  });
 
   constructor(
     parent: HTMLElement,
-    private readonly data: Model,
+    private data: Model,
   ) {
     const { host, shadow } = shell(parent, "100%");
     this.#host = host;
@@ -52,6 +60,10 @@ export class SpaceView implements Driven {
     this.scene = new Scene(this.linkage, {
       taken: () => this.transport.pause(),
       pulled: () => this.posed(),
+      turned: () => {
+        this.#view = "";
+        for (const button of this.#views?.children ?? []) button.setAttribute("aria-pressed", "false");
+      },
       pointed: (link) => this.#pointed(link),
     });
     const view = h("div.view.motion.shown", {}, this.scene.element, this.transport.element, this.#side);
@@ -75,10 +87,20 @@ export class SpaceView implements Driven {
 
   /** Everything anew, in another language. */
   #arrange(): void {
-    const { title } = this.#texts;
-    document.title = `${title} – gruebler`;
     document.documentElement.lang = currentLanguage();
     this.#host.lang = currentLanguage();
+    this.#arrangeHeader();
+    this.scene.arrange(this.#texts.title, this.#words, this.data.unit);
+    this.transport.arrange();
+    renew(this.#side, ...this.#panels());
+    this.#say("");
+    this.chosen();
+  }
+
+  #arrangeHeader(): void {
+    const { title: name } = this.#texts;
+    const title = this.#resizing.changed ? t("{name}, changed", { name }) : name;
+    document.title = `${title} – gruebler`;
     renew(
       this.#header,
       h("h1", {}, "gruebler ", h("small", {}, title)),
@@ -95,11 +117,18 @@ export class SpaceView implements Driven {
         this.#arrange();
       }),
     );
-    this.scene.arrange(title, this.#words, this.data.unit);
-    this.transport.arrange();
-    renew(this.#side, ...this.#panels());
-    this.#say("");
-    this.chosen();
+  }
+
+  /** Show the machine with other sizes, where the drive stands. */
+  #take(data: Model): void {
+    const { active, drives } = this.linkage;
+    this.transport.pause();
+    this.data = data;
+    this.linkage = new Machine(data);
+    this.scene.take(this.linkage);
+    this.linkage.choose(active < data.motions.length ? active : 0);
+    this.#arrange();
+    if (this.linkage.drive) this.transport.pick(drives[this.linkage.active]!);
   }
 
   /** The ways to the other views, which are on the page above. */
@@ -119,10 +148,14 @@ export class SpaceView implements Driven {
   #tools(): HTMLElement[] {
     const save = saving(() => this.#showExport());
     if (!this.data.home) return [save];
-    const away = [tool("undo", "", () => {}), tool("redo", "", () => {})];
-    for (const one of away) one.classList.add("away");
+    const { redoable, undoable } = this.#resizing;
+    const steps = [
+      tool("undo", t("Undo"), () => this.#resizing.undo(), !undoable),
+      tool("redo", t("Redo"), () => this.#resizing.redo(), !redoable),
+    ];
+    if (!this.data.resizable) for (const one of steps) one.classList.add("away");
     const open = tool("open", t("Open a file"), () => location.assign(this.#above("motion")));
-    return [...away, open, save, tool("link", t("Copy the link"), () => void this.#share())];
+    return [...steps, open, save, tool("link", t("Copy the link"), () => void this.#share())];
   }
 
   /** What can be taken away: the picture, bodies, the linkage as the library reads it. */
@@ -189,8 +222,10 @@ export class SpaceView implements Driven {
         text: [size(distance), crossed !== null && `${number(crossed, DIGITS)}°`].filter(Boolean).join(" · "),
       }));
       this.#sizes.show(sizes);
+      const shown = data.resizable ? this.#resizing.element : this.#sizes.element;
       const said = data.unit ? [h("p.note", {}, words.axes)] : []; // on a sphere there are angles alone
-      panels.push(panelOf("sizes", t("Sizes"), true, this.#sizes.element, ...said));
+      panels.push(panelOf("sizes", t("Sizes"), true, shown, ...said));
+      this.#resizing.arrange();
     }
     this.#plots = new OutputPlots(linkage, texts.links, (value) => this.transport.pick(value));
     const { elements } = this.#plots;
@@ -217,7 +252,7 @@ export class SpaceView implements Driven {
       this.#view = name;
       scene.look(...VIEWS[name]!);
     };
-    const views = choice(
+    this.#views = choice(
       words.view!,
       Object.keys(VIEWS).map((key) => [key, words[key]!]),
       this.#view,
@@ -230,7 +265,7 @@ export class SpaceView implements Driven {
       option("paths", words.paths!),
       option("names", t("Names")),
     );
-    panels.push(panelOf("show", t("Show"), true, views, options));
+    panels.push(panelOf("show", t("Show"), true, this.#views, options));
     return panels;
   }
 
@@ -359,8 +394,10 @@ export class SpaceView implements Driven {
   #key(event: KeyboardEvent): void {
     const target = event.composedPath()[0] as HTMLElement;
     const ctrl = event.ctrlKey || event.metaKey;
-    if (ctrl ? event.key !== "s" : /^(INPUT|SELECT)$/.test(target.tagName)) return;
-    if (ctrl) this.#download("json", this.#document());
+    const typing = /^(INPUT|SELECT)$/.test(target.tagName);
+    if (ctrl ? !/[syz]/.test(event.key) || (typing && event.key !== "s") : typing) return;
+    if (ctrl && event.key === "s") this.#download("json", this.#document());
+    else if (ctrl) this.#resizing[event.key === "z" ? "undo" : "redo"]();
     else if (event.key === "?") this.#help();
     else if (!drivenBy(event, target, this.transport, this.scene)) return;
     event.preventDefault();

@@ -71,6 +71,17 @@ class MeasureLinkage(Params):
     between: Annotated[list[float], msgspec.Meta(max_length=2)] = []
 
 
+class ResizeLinks(Params):
+    """A linkage in space that is to have other sizes, and how its page calls it, its drives and links by language."""
+
+    document: dict[str, Any]
+    sizes: dict[Word, tuple[float | None, float | None]]
+    """Distance and angle in degrees of a link, as far as they change."""
+    titles: dict[str, Word] = {}
+    drives: dict[str, list[Word]] = {}
+    links: dict[str, list[Word]] = {}
+
+
 class DescribeStructure(Params):
     """A chain or mechanism as text."""
 

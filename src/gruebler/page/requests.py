@@ -10,7 +10,7 @@ from typing import Any
 
 import msgspec
 
-from gruebler.base.errors import GrueblerError
+from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import LANGUAGES, error_in_language, translate
 from gruebler.page.params import (
     CatalogId,
@@ -28,6 +28,7 @@ from gruebler.page.params import (
     OpenFile,
     Params,
     Realise,
+    ResizeLinks,
     SynthesiseTask,
     TryExercise,
 )
@@ -132,7 +133,25 @@ def _moving(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
 def _in_space(asked: CatalogId, lang: str, _: Progress) -> str:
     from gruebler.page.space_page import machine_model, space_file
 
-    return space_file(machine_model(asked.id, home=True), lang)
+    return space_file(machine_model(asked.id, home=True, resizable=True), lang)
+
+
+def _resized(asked: ResizeLinks, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.files.screws import spatial_from_json
+    from gruebler.mechanics.screws.resizing import resized
+    from gruebler.page.space_page import space_model
+
+    linkage = spatial_from_json(asked.document)
+    called = dict(zip(linkage.mechanism.chain.links, asked.links.get(lang, ()), strict=False))
+    try:
+        changed = resized(linkage, asked.sizes)
+    except LinkageError as error:
+        link = error.values.get("link")
+        raise LinkageError(error, **({} if link is None else {"link": called.get(link, link)})) from None
+    model = space_model(changed, titles=asked.titles, drives=asked.drives, links=asked.links, home=True, resizable=True)
+    if not model["motions"]:
+        raise LinkageError("with these sizes the joints can be closed, but no drive moves it; change others as well")
+    return model
 
 
 def _open(asked: CatalogId, _: str, __: Progress) -> dict[str, Any]:
@@ -306,6 +325,7 @@ REQUESTS: dict[str, tuple[type[Params], Callable[[Any, str, Progress], Any]]] = 
     "catalog": (ListCatalog, _list_catalog),
     "picture": (CatalogId, _catalog_picture),
     "space": (CatalogId, _in_space),
+    "resize": (ResizeLinks, _resized),
     "moving": (CatalogId, _moving),
     "open": (CatalogId, _open),
     "open_document": (OpenDocument, _open_document),

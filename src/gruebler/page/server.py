@@ -94,6 +94,7 @@ class ExplorerServer:
                 Route("/{token}/", self._page),
                 Route("/{token}/explorer.js", self._module),
                 Route("/{token}/space/{id}.html", self._machine_in_space),
+                Route("/{token}/space/resize", self._resized, methods=["POST"]),
                 WebSocketRoute("/{token}/ws", self._socket),
                 Route("/{path:path}", self._nothing),
             ],
@@ -145,6 +146,21 @@ class ExplorerServer:
         headers = _HEADERS | {"Content-Security-Policy": "frame-ancestors 'none'"}
         return Response(text, media_type="text/html", headers=headers) if text else self._refusal()
 
+    async def _resized(self, request: Request) -> Response:
+        """A machine in space with other sizes, or why there is none: what such a page asks, which has no WebSocket."""
+        if not self._known(request) or not _from_here(request):
+            return self._refusal()
+        assert self._workers is not None
+        lang = "en"
+        try:
+            asked = _read(await _text_of(request))
+            lang = asked.lang
+            result = await self._workers.ask("resize", asked.params, lang, lambda _: None, asyncio.Event())
+            content = {"result": result}
+        except GrueblerError as error:
+            content = {"error": error_in_language(error, lang)}
+        return Response(msgspec.json.encode(content), media_type="application/json", headers=_HEADERS)
+
     async def _nothing(self, _: Request) -> Response:
         return self._refusal()
 
@@ -156,14 +172,28 @@ class ExplorerServer:
         return PlainTextResponse(text, status_code=404, headers=_HEADERS)
 
     async def _socket(self, socket: WebSocket) -> None:
-        origin = socket.headers.get("origin", "")
-        own = {f"{scheme}://{socket.headers.get('host', '')}" for scheme in ("http", "https")}
-        if not self._known(socket) or origin not in own:
+        if not self._known(socket) or not _from_here(socket):
             await socket.close(4403)
             return
         await socket.accept()
         assert self._workers is not None
         await _Conversation(socket, self._workers).run()
+
+
+def _from_here(request: Request | WebSocket) -> bool:
+    """Whether a page of this server asks."""
+    host = request.headers.get("host", "")
+    return request.headers.get("origin", "") in {f"{scheme}://{host}" for scheme in ("http", "https")}
+
+
+async def _text_of(request: Request) -> str:
+    """What a request sends, as far as a message may be long, and one byte more."""
+    content = b""
+    async for part in request.stream():
+        content += part
+        if len(content) > LARGEST:
+            break
+    return content.decode("utf-8", "replace")
 
 
 def _language(request: Request) -> str:

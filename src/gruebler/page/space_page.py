@@ -19,6 +19,7 @@ from gruebler.files.link_solids import Solid, round_solid
 from gruebler.files.screws import screws_to_json
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.link_sizes import link_sizes
+from gruebler.mechanics.screws.resizing import can_be_resized
 from gruebler.mechanics.screws.wheels import gear_rows
 from gruebler.mechanics.space.outputs import against_frame
 from gruebler.page.page import WHOLE_WINDOW, data_page, module_text, page_styles, shadow_tree
@@ -50,6 +51,8 @@ _WORDS = {
     "top": message("Top"),
     "none": message("No drive moves this linkage."),
     "end": message("{drive} goes no farther while the other drives stand here."),
+    "angle": message("Angle"),
+    "lost": message("The connection to gruebler is lost."),
     "axes": message("Between two axes their distance and angle; to a ball the distance alone."),
     "stl": message("STL: bodies in the position that is shown"),
     "convert": message("With its motion, as glTF, and for other programs: gruebler convert FILE OUT"),
@@ -87,6 +90,7 @@ def space_model(
     links: Mapping[str, Sequence[str]] | None = None,
     between: tuple[float, float] | None = None,
     home: bool = False,
+    resizable: bool = False,
 ) -> dict[str, Any]:
     """What the page shows: bodies, named points, and the poses of all links over the range of the one drive.
 
@@ -94,7 +98,8 @@ def space_model(
     are values of the drives in place of all that they can reach.
 
     ``titles`` and names of ``drives`` and ``links`` by language are those of the linkage unless they are given; with
-    ``home`` the page with the other views lies above this one, in a server or a site.
+    ``home`` the page with the other views lies above this one, in a server or a site. A ``resizable`` page asks
+    the server for other sizes.
     """
     moving = moving_solids(linkage, between=between)
     live = _live(moving)
@@ -129,6 +134,8 @@ def space_model(
             for names in [[name.replace("_", " ") for name in (links or {}).get(lang, chain.links)]]
         },
         "home": home,
+        "resizable": resizable and can_be_resized(linkage),
+        "names": list(chain.links),
         "unit": "" if spherical else linkage.unit,
         "document": screws_to_json(linkage),
         "sizes": [
@@ -148,6 +155,7 @@ def space_model(
         "motions": [
             {
                 "drive": k,
+                "arrow": _arrow(linkage, k),
                 "round": full,
                 "unit": "°" if turning[k] else f" {linkage.unit}",
                 "values": _numbers(np.degrees(motion.drives[:, k]) if turning[k] else motion.drives[:, k]),
@@ -156,6 +164,19 @@ def space_model(
             for _, k, motion, full in moving.named()
         ],
         "live": live,
+    }
+
+
+def _arrow(linkage: SpatialLinkage, drive: int) -> dict[str, Any]:
+    """Where the arrow of a drive stands: a place and a direction of a link, about or along which another one moves."""
+    driven, chain = linkage.mechanism.drives[drive], linkage.mechanism.chain
+    frame, links = linkage.mechanism.frame, chain.joints[driven.joint].links
+    place = linkage.frames[driven.joint]
+    along = place[:3, "xyz".index(driven.direction[-1])]
+    return {
+        "link": chain.index(frame if frame in links else links[0]),
+        "at": _numbers(along if chain.space is Space.SPHERICAL else place[:3, 3]),
+        "along": _numbers(along),
     }
 
 
@@ -225,7 +246,7 @@ def _short(mechanism: Mechanism, names: Sequence[str]) -> list[str]:
     return [names[mechanism.chain.index(link)] for link in moved] if apart else []
 
 
-def machine_model(id: str, *, home: bool = False) -> dict[str, Any]:
+def machine_model(id: str, *, home: bool = False, resizable: bool = False) -> dict[str, Any]:
     """The model of a machine of the catalog in space; `GrueblerError` for another one."""
     record = entry(id)
     if not record.in_space:
@@ -244,6 +265,7 @@ def machine_model(id: str, *, home: bool = False) -> dict[str, Any]:
         links={lang: list(record.link_names(lang).values()) for lang in LANGUAGES},
         between=record.between,
         home=home,
+        resizable=resizable,
     )
 
 
@@ -262,6 +284,6 @@ def space_file(model: dict[str, Any], lang: str = "en") -> str:
     It opens in the language, or in the one that an address names behind ``#``.
     """
     script, sheet = module_text("space"), page_styles("space")
-    policy = policy_element(script, sheets=(WHOLE_WINDOW, sheet))
+    policy = policy_element(script, sheets=(WHOLE_WINDOW, sheet), asks=model["resizable"])
     name = str(model["texts"][lang]["title"])
     return data_page(name, lang, model, script_element(script, "module"), policy, shadow_tree(sheet))

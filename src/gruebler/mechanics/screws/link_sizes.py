@@ -33,26 +33,34 @@ def link_sizes(linkage: SpatialLinkage) -> list[LinkSize]:
     >>> [(size.link, round(size.distance), round(size.angle)) for size in link_sizes(bennett)[:2]]
     [('frame', 120, 90), ('driver', 60, 30)]
     """
-    chain = linkage.mechanism.chain
     sizes = []
-    for link in chain.links:
-        joints = [k for k, joint in enumerate(chain.joints) if link in joint.links]
-        pairs = [chain.joints[k].pair for k in joints]
-        if len(joints) == 2 and all(_has_axis(pair) or pair.is_ball or pair.is_cross for pair in pairs):
-            distance, angle = _between(linkage, *joints)
-            sizes.append(LinkSize(link, distance if distance > _NONE * linkage.size else 0.0, angle))
+    for link, joints in sized_links(linkage).items():
+        distance, angle = _between(linkage, *joints)
+        sizes.append(LinkSize(link, distance if distance > _NONE * linkage.size else 0.0, angle))
     return sizes
 
 
-def _has_axis(pair: Pair) -> bool:
-    """Whether all that a pair lets go is about and along one axis of the joint."""
+def sized_links(linkage: SpatialLinkage) -> dict[str, tuple[int, int]]:
+    """The two joints of each link that has sizes."""
+    chain = linkage.mechanism.chain
+    ends = {}
+    for link in chain.links:
+        joints = [k for k, joint in enumerate(chain.joints) if link in joint.links]
+        pairs = [chain.joints[k].pair for k in joints]
+        if len(joints) == 2 and all(has_axis(pair) or pair.is_ball or pair.is_cross for pair in pairs):
+            ends[link] = joints[0], joints[1]
+    return ends
+
+
+def has_axis(pair: Pair) -> bool:
+    """Whether all that a pair lets go is about and along one axis of the joint, its z axis."""
     return pair.is_lower and {freedom.axis for freedom in pair.motion} == {"z"}
 
 
 def _between(linkage: SpatialLinkage, first: int, second: int) -> tuple[float, float | None]:
     gap = linkage.frames[second, :3, 3] - linkage.frames[first, :3, 3]
-    has_axis = [_has_axis(linkage.mechanism.chain.joints[k].pair) for k in (first, second)]
-    axes = [linkage.frames[k, :3, 2] for k, has in zip((first, second), has_axis, strict=True) if has]
+    straight = [has_axis(linkage.mechanism.chain.joints[k].pair) for k in (first, second)]
+    axes = [linkage.frames[k, :3, 2] for k, has in zip((first, second), straight, strict=True) if has]
     if not axes:
         return float(np.linalg.norm(gap)), None
     off = float(np.linalg.norm(gap - (gap @ axes[0]) * axes[0]))

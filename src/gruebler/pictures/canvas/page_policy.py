@@ -27,6 +27,7 @@ def policy_element(
     sheets: Iterable[str] | None = None,
     webassembly: bool = False,
     beside: bool = False,
+    asks: bool = False,
     workers: bool = False,
 ) -> str:
     r"""The element of a page's head that lets it run these scripts, by their digests, and load nothing at all.
@@ -35,6 +36,7 @@ def policy_element(
         scripts: as given to `script_element`.
         sheets: its style sheets; any, and styles of elements, if None.
         beside: whether it loads scripts from its own folder.
+        asks: whether its scripts ask its own server.
         workers: whether its scripts start workers from texts that they hold.
         webassembly: whether its scripts compile WebAssembly that they hold; texts as code stay forbidden.
 
@@ -50,6 +52,7 @@ def policy_element(
         "default-src 'none'",
         *([f"script-src {' '.join(allowed)}"] if allowed else []),
         "style-src 'unsafe-inline'" if sheets is None else style_rule(sheets),
+        *(["connect-src 'self'"] if asks else []),
         *(["worker-src blob:"] if workers else []),
         "img-src data: blob:",
         "base-uri 'none'",
