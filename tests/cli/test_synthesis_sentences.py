@@ -8,6 +8,7 @@ import pytest
 
 from gruebler.cli import main
 from gruebler.files import linkage_from_json
+from gruebler.files.tasks import read_task
 
 LINKS = ("crank", 0, 1), ("coupler", 1, 2), ("rocker", 2, 3), ("frame", 0, 3)
 ROWS = ("0,0,0", "2.1,0.9,20", "3.2,1,46", "4,0.2,86")
@@ -151,3 +152,71 @@ def test_german_names_of_demands_and_families(said):
     assert "Jeder Punkt des Körpers ist Gelenkpunkt eines Zweischlags, ebenso jeder Punkt des Gestells" in out
     assert "im Umkreis der 30-fachen Aufgabengröße" in out
     assert "ein Gestellpunkt liegt außerhalb des Bereichs" in out
+
+
+HINGE = "2,0,0", "1.7320508075688772,1,30", "0,2,90"
+
+
+def test_a_hinge_outside_the_region_is_no_answer(said):
+    """Three pure turns about the origin: every crank has its pivot there."""
+    assert "turns about (0, 0): a link on one pivot there passes them" in said(HINGE)
+    assert "turns about (0, 0): a link" in said(HINGE, "--region -1 -1 1 1")
+    assert "turns about (0, 0), outside the region: a link" in said(HINGE, "--region 3 3 5 5")
+    assert "sind Drehungen um (0; 0), außerhalb des Bereichs" in said(HINGE, "--region 3 3 5 5", "de")
+
+
+def test_positions_that_are_nearly_those_of_one_joint_are_named(said):
+    """(2 cos 30°, 1) with four digits is 5.1e-5 beside it, by 2.83; (3, 6.001) 0.00045 beside a line of 8.94."""
+    out = said((HINGE[0], "1.732,1,30", HINGE[2]))
+    assert "All positions are turns about (0, 0) to within 1.8e-05 of the size: a link on one pivot" in out
+    out = said(("0,0,5", "1,2,5", "3,6.001,5", "4,8,5"))
+    assert "keeps its angle on a straight line, inclined by 63.4349°, to within 5e-05 of the size" in out
+
+
+def test_six_bars_are_tried_where_no_four_bar_has_its_pivots_in_the_region(tmp_path, capsys):
+    """One of them carries the body through the turns, each kind from one start."""
+    task = tmp_path / "task.toml"
+    rows = [[float(v) for v in row.split(",")] for row in HINGE]
+    task.write_text(f"positions = {rows}\n[demands]\nregion = [3, 3, 9, 9]\ntransmission = 0\n", encoding="utf-8")
+    assert main(["design", str(task), "--initial-designs", "1", "--links", "4"]) == 1
+    assert re.search(r"slider-cranks +4 +0  all positions are turns about \(0, 0\), outside", capsys.readouterr().out)
+
+
+@pytest.mark.parametrize(
+    ("positions", "words", "sentence"),
+    [
+        (4, "--moving-pivot 1 1 --moving-pivot 1 1", "--moving-pivot: the two pivots coincide"),
+        (3, "--fixed-pivot 1 1 --fixed-pivot 0 0 --fixed-pivot 1 1", "--fixed-pivot: the two pivots coincide"),
+        (4, "--length crank 3 --length crank 4", "--length: the length of 'crank' is given twice"),
+        (4, "--length crank -3", "--length: expected a length above 0 for each link, but found crank = -3"),
+        (4, "--number 10001", "--number: expected a whole number from 1 to 10,000, but found 10001"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused_in_a_sentence(said, positions, words, sentence):
+    assert said(positions, words) == f"gruebler synthesise: {sentence}\n"
+
+
+def test_pivots_whose_nearest_points_of_the_curve_are_one_are_no_linkage(said):
+    assert "Designs: 0 accepted" in said(4, "--moving-pivot 1 1 --moving-pivot 1 1.0000001")
+
+
+def test_angles_beyond_a_turn_are_degrees_without_a_warning(said):
+    """The same positions as with 40 and 80 degrees."""
+    rows = "0,0,0", "2.1,0.9,{}", "3,1,{}"
+    once, more = (
+        said(
+            [row.format(*angles) for row, angles in zip(rows, ((), pair[:1], pair[1:]), strict=True)],
+            "--fixed-pivot 0 -3",
+        )
+        for pair in ((40, 80), (400, 800))
+    )
+    assert "Warning" not in more
+    assert [line for line in more.splitlines() if "meet all" in line] == [
+        line for line in once.splitlines() if "meet all" in line
+    ]
+
+
+def test_tabs_stand_between_columns_too(tmp_path):
+    path = tmp_path / "task.csv"
+    path.write_text("x\ty\tangle\n0\t0\t0\n2,5\t1.5\t90\n", encoding="utf-8")
+    assert read_task(path).positions[1] == pytest.approx((2.5, 1.5, np.pi / 2))

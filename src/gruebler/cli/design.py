@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import warnings
 from dataclasses import replace
 from typing import Any
 
+from gruebler.base.errors import UnitWarning
 from gruebler.base.text import Message, message, translate
 from gruebler.cli.design_files import check_picture, design_to_write, draw_designs
 from gruebler.cli.design_tables import print_notes, print_pareto
@@ -55,6 +57,11 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Try all types, print what came of them, write and draw the best. Status 1: no design was accepted."""
+    with warnings.catch_warnings(action="ignore", category=UnitWarning):  # angles of files are degrees
+        return _run(arguments)
+
+
+def _run(arguments: argparse.Namespace) -> int:
     if arguments.draw is not None:
         check_picture(arguments.draw)
     specification = read_specification(arguments.task)

@@ -10,6 +10,7 @@ from typing import TypeVar
 from gruebler.base.errors import SynthesisError
 from gruebler.cli.output import write_file
 from gruebler.design.synthesis import Design, SynthesisResult
+from gruebler.design.synthesis.results import MOST_DESIGNS
 from gruebler.design.synthesis.specification import Clearance
 from gruebler.pictures.canvas.files import SUFFIXES, picture_bytes, suffix_of
 
@@ -48,6 +49,13 @@ def check_demands(arguments: argparse.Namespace) -> None:
         count = getattr(arguments, option.removeprefix("--").replace("-", "_"), None)
         if count is not None and count < 1:
             raise SynthesisError("{option}: expected at least 1, but found {count}", option=option, count=count)
+    if (getattr(arguments, "number", None) or 0) > MOST_DESIGNS:
+        raise SynthesisError(
+            "{key}: expected a whole number from 1 to {most:,}, but found {found}",
+            key="--number",
+            most=MOST_DESIGNS,
+            found=arguments.number,
+        )
 
 
 def check_picture(path: Path, suffixes: Sequence[str] = (*SUFFIXES, "html")) -> None:

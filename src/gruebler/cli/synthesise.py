@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import cmath
 import math
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -12,7 +13,7 @@ from math import radians
 from pathlib import Path
 from typing import Any
 
-from gruebler.base.errors import SynthesisError
+from gruebler.base.errors import SynthesisError, UnitWarning
 from gruebler.base.text import Message, joined_by_and, message, translate
 from gruebler.cli import synthesise_sphere
 from gruebler.cli.design_files import check_demands, check_picture, design_to_write, draw_designs
@@ -286,6 +287,11 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Solve the task, print designs, write and draw the best. Status 1: no design was accepted."""
+    with warnings.catch_warnings(action="ignore", category=UnitWarning):  # angles of files and options are degrees
+        return _run(arguments)
+
+
+def _run(arguments: argparse.Namespace) -> int:
     if arguments.action == "orientations":
         return synthesise_sphere.turn_body(arguments)
     if arguments.action == "spherical-function":

@@ -10,7 +10,7 @@ import io
 import json
 import re
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterator, Mapping
 from itertools import compress
 from pathlib import Path
 from typing import Any
@@ -289,7 +289,7 @@ def read_task(path: Path | str) -> Task:
     points, perhaps with ``angle``, ``crank``, ``output``, ``tolerance``, ``weight`` (empty cells are free), both
     perhaps with ``order``, ``input,output`` or ``input,travel`` a function, ``swing`` or ``stroke`` with
     ``crank_angle`` or ``time_ratio`` dead centres, with ``dwell`` a rest. Without a header two columns are points,
-    three positions. With semicolons between the columns a comma is the decimal sign.
+    three positions. With semicolons or tabs between the columns a comma is the decimal sign.
 
     Raises `SynthesisError` with file and key or line of the first thing that does not fit.
     """
@@ -304,12 +304,17 @@ def read_task(path: Path | str) -> Task:
         return task_from_json(load_document(path, SynthesisError))
 
 
+def _rows(text: str) -> Iterator[list[str]]:
+    """Between commas, else semicolons or tabs, as spreadsheets write and copy where the comma is the decimal sign."""
+    first_line = text.partition("\n")[0]
+    other = next((sign for sign in (";", "\t") if sign in first_line), None)
+    for row in csv.reader(io.StringIO(text), delimiter=other or ","):
+        yield row if other is None else [cell.replace(",", ".") for cell in row]
+
+
 def _from_csv(text: str) -> Task:
-    rows: Iterable[list[str]] = csv.reader(io.StringIO(text))
-    if ";" in text.partition("\n")[0]:  # as spreadsheets write where the comma is the decimal sign
-        rows = ([cell.replace(",", ".") for cell in row] for row in csv.reader(io.StringIO(text), delimiter=";"))
     try:
-        lines = [row for row in rows if any(cell.strip() for cell in row)]
+        lines = [row for row in _rows(text) if any(cell.strip() for cell in row)]
     except csv.Error as error:
         raise SynthesisError("is not a table: {reason}", reason=error) from None
     if not lines:

@@ -152,9 +152,11 @@ def _given_lengths(value: object) -> tuple[tuple[str, float], ...]:
                 "{name}: expected links with their lengths, but found {value!r}", name="lengths", value=row
             )
         link, length = row
-        if not (_is_number(length) and 0 < length < np.inf) or link in pairs:
+        if link in pairs:
+            raise SynthesisError("{name}: the length of {link!r} is given twice", name="lengths", link=link)
+        if not (_is_number(length) and 0 < length < np.inf):
             raise SynthesisError(
-                "{name}: expected one length above 0 for each link, but found {link} = {value}",
+                "{name}: expected a length above 0 for each link, but found {link} = {value!r}",
                 name="lengths",
                 link=link,
                 value=length,

@@ -46,7 +46,12 @@ from gruebler.design.synthesis.results import (
     in_order_of,
     ranked,
 )
-from gruebler.design.synthesis.special_tasks import refuse_one_joint, refuse_parallelograms, solved_where_it_lies
+from gruebler.design.synthesis.special_tasks import (
+    nearly_one_joint,
+    refuse_one_joint,
+    refuse_parallelograms,
+    solved_where_it_lies,
+)
 from gruebler.design.synthesis.targets import Targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PositionTask
 from gruebler.mechanics.fourbar import grashof
@@ -233,7 +238,7 @@ def synthesise_positions(
     wanted = (demands or Demands()).of_task(task)
     if len(task) > 4 and task.fixed_pivots:
         raise SynthesisError("four-bars have no pivots to choose for more than four positions; six-bars have some")
-    refuse_one_joint(task)
+    refuse_one_joint(task, wanted)
     refuse_parallelograms(task)
     chosen = len(task.moving_pivots) + len(task.fixed_pivots) + len(task.curve_parameters)
     searched = len(task) < 5 and chosen < 2
@@ -242,7 +247,8 @@ def synthesise_positions(
     dyads = (*given, *guiding_dyads(free, _SAMPLE[len(task)] if searched else number, wanted.region))
     if len(task) > 5:
         return _approximate(task, wanted, dyads, progress)
-    notes = [*notes_on_pivots(task, given or dyads, wanted)] if chosen and len(task) in (3, 4) else []
+    notes = [*nearly_one_joint(task)]
+    notes += [*notes_on_pivots(task, given or dyads, wanted)] if chosen and len(task) in (3, 4) else []
     if searched:
         candidates = _judged_best(free, wanted, dyads, given, number, sort, progress, notes)
     elif len(task) == 2:
@@ -296,8 +302,8 @@ def _judged_pairs(
         if progress is not None:
             progress(done, len(pairs))
         form = f"{guiding_dyad.kind.form}-{two.kind.form}"
-        linkages = four_bar_linkages(guiding_dyad, two, complex(task.origins[0]), unit=task.unit)
         try:
+            linkages = four_bar_linkages(guiding_dyad, two, complex(task.origins[0]), unit=task.unit)
             designs.append(best_of(linkages, partial(body_targets, task), demands, form))
         except LinkageError:
             continue  # two dyads with a common pivot are no linkage

@@ -19,6 +19,7 @@ from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.pair_search import WITHOUT
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.results import Design, ParetoRow, Progress, SolutionCount, SynthesisResult, pareto
+from gruebler.design.synthesis.special_tasks import NoFourBarError
 from gruebler.design.synthesis.specification import COMMON_LINKS, Specification
 from gruebler.design.synthesis.structures import synthesise_structures, unheld_pivots
 from gruebler.design.synthesis.synthesising import synthesise
@@ -180,12 +181,16 @@ def _made(
     executor: Executor | Callable[[], Executor] | None,
 ) -> Iterator[tuple[Mechanism | None, SynthesisResult]]:
     task, demands = specification.task, specification.demands
-    if isinstance(task, PathTask):
-        four_links = synthesise_path(task, demands, sliders=specification.slides > 0)
-    else:
-        four_links = synthesise(task, demands=demands)
-    yield None, _with_so_many_slides(four_links, specification)
     none = SolutionCount(what=message("linkages"), theorem=0, found=0, real=0)
+    try:
+        if isinstance(task, PathTask):
+            four_links = synthesise_path(task, demands, sliders=specification.slides > 0)
+        else:
+            four_links = synthesise(task, demands=demands)
+    except NoFourBarError as error:
+        reason = Message(error.text, error.values)
+        four_links = SynthesisResult(task=task, designs=(), rejected=(), count=none, notes=(reason,))
+    yield None, _with_so_many_slides(four_links, specification)
     for mechanism in types:
         own = _by_own_names(demands, mechanism)
         unheld = unheld_pivots(task) or missing_length(mechanism, own)

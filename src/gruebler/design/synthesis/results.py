@@ -94,6 +94,8 @@ _TRANSMISSION = message("Smallest transmission angle on the way: {angle:.4g}°."
 TOO_SLENDER = message("its lengths differ too much (ratio {ratio:.3g})")
 Progress = Callable[[int, int], None]
 """Called with how much is done, and of how much."""
+MOST_DESIGNS = 10_000
+"""Of a family: more are no choice."""
 FITTED = "fitted structure"
 """The form of a design whose structure is neither that of a four-bar nor of a slider-crank."""
 _FORMS = {

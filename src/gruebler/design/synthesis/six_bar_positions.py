@@ -84,7 +84,7 @@ def synthesise_guiding_six_bars(
     >>> found.count.found, found.count.real
     (108, 34)
     """
-    refuse_one_joint(task)
+    refuse_one_joint(task, demands)
     if PIVOTS_OF_SIX_BARS.get(len(task)) != (len(task.fixed_pivots), len(task.moving_pivots)):
         raise SynthesisError(
             "six-bars carry a body through five positions with both fixed pivots and the pin of the body on the "

@@ -5,7 +5,7 @@ docs/theory/synthesis-positions.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import wraps
 from inspect import signature
@@ -15,8 +15,9 @@ from typing import Any, ParamSpec
 import numpy as np
 
 from gruebler.base.errors import SynthesisError
-from gruebler.base.text import joined_by_and
+from gruebler.base.text import Message, joined_by_and, message
 from gruebler.design.synthesis.dyads import Displacements, circle_centre
+from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.results import Design, SynthesisResult
 from gruebler.design.synthesis.tasks import PathTask, PositionTask
 
@@ -24,7 +25,13 @@ _FAR = 100.0
 """Sizes of a task: farther from the origin coordinates lack digits that a verdict needs."""
 _ALIKE = 1e-9
 """Sizes and radians: what a position may be off a common turn or shift."""
+_ROUNDED = 1e-3
+"""Sizes: what is nearer to one joint is said to be nearly its motion, as of coordinates with three digits."""
 _P = ParamSpec("_P")
+
+
+class NoFourBarError(SynthesisError):
+    """No four-bar passes the positions; mechanisms with more links may."""
 
 
 def solved_where_it_lies(method: Callable[_P, SynthesisResult]) -> Callable[_P, SynthesisResult]:
@@ -51,7 +58,7 @@ def solved_where_it_lies(method: Callable[_P, SynthesisResult]) -> Callable[_P, 
         try:
             result = method(*given.args, **given.kwargs)
         except SynthesisError as error:
-            raise SynthesisError(error.text, **_places_shifted(error.values, x, y)) from None
+            raise type(error)(error.text, **_places_shifted(error.values, x, y)) from None
         designs, rejected = (tuple(_shifted(each, x, y) for each in row) for row in (result.designs, result.rejected))
         notes = tuple(replace(note, values=_places_shifted(note.values, x, y)) for note in result.notes)
         return replace(result, task=task, designs=designs, rejected=rejected, notes=notes)
@@ -74,34 +81,80 @@ def _shifted(design: Design, x: float, y: float) -> Design:
     return replace(design, **changed)
 
 
-def refuse_one_joint(task: PositionTask) -> None:
+def refuse_one_joint(task: PositionTask, demands: Demands | None = None) -> None:
     """Raises `SynthesisError` for three positions or more that one joint passes, and says where it lies.
+
+    A pivot outside the region that is demanded is no answer; no other four-bar passes the positions either.
 
     >>> refuse_one_joint(PositionTask([(2, 0, 0), (0, 2, 1.5707963267948966), (-2, 0, 3.141592653589793)]))
     Traceback (most recent call last):
     gruebler.base.errors.SynthesisError: all positions are turns about (0, 0): a link on one pivot there passes them
     """
-    (q, t), origin, size = Displacements.of(task.origins, task.turns)
     if len(task) < 3:
         return
+    missed, joint = _one_joint(task)
+    if missed > _ALIKE:
+        return
+    if isinstance(joint, float):
+        raise SynthesisError(
+            "the body keeps its angle on a straight line, inclined by {angle:.6g}°: one slide there passes all "
+            "positions",
+            angle=joint,
+        )
+    place = {"x": joint.real, "y": joint.imag}
+    region = None if demands is None else demands.region
+    if region is not None and not (region[0] <= joint.real <= region[2] and region[1] <= joint.imag <= region[3]):
+        raise NoFourBarError(
+            "all positions are turns about ({x:.6g}, {y:.6g}), outside the region: a link on one pivot there would "
+            "pass them; no four-bar does, but a structure with more links may",
+            **place,
+        )
+    raise SynthesisError(
+        "all positions are turns about ({x:.6g}, {y:.6g}): a link on one pivot there passes them", **place
+    )
+
+
+def _one_joint(task: PositionTask) -> tuple[float, complex | float]:
+    """By how much one joint misses three positions or more at least, by their size; its pivot, or the angle of a slide.
+
+    The angle is in degrees.
+    """
+    (q, t), origin, size = Displacements.of(task.origins, task.turns)
     turned = np.abs(q - 1)
     if turned.max() <= _ALIKE:
         far = t[np.abs(t).argmax()]
-        if np.abs(np.imag(np.conj(far) * t)).max() <= _ALIKE:
-            raise SynthesisError(
-                "the body keeps its angle on a straight line, inclined by {angle:.6g}°: one slide there passes all "
-                "positions",
-                angle=degrees(np.angle(far)) % 180,
-            )
-        return
+        return float(np.abs(np.imag(np.conj(far) * t)).max() / abs(far)), float(degrees(np.angle(far)) % 180)
     pole = t[turned.argmax()] / (1 - q[turned.argmax()])
-    if np.abs(t - (1 - q) * pole).max() <= _ALIKE:
-        pole = origin + size * pole
-        limit = _ALIKE * size
-        raise SynthesisError(
-            "all positions are turns about ({x:.6g}, {y:.6g}): a link on one pivot there passes them",
-            x=pole.real if abs(pole.real) > limit else 0.0,
-            y=pole.imag if abs(pole.imag) > limit else 0.0,
+    missed, place = float(np.abs(t - (1 - q) * pole).max()), complex(origin + size * pole)
+    limit = max(_ALIKE, missed) * size
+    x, y = (part if abs(part) > limit else 0.0 for part in (place.real, place.imag))
+    return missed, complex(x, y)
+
+
+def nearly_one_joint(task: PositionTask) -> Iterator[Message]:
+    """That three positions or more are what one joint does but for rounding, such as of their coordinates.
+
+    >>> print(*nearly_one_joint(PositionTask([(2, 0, 0), (1.732, 1, np.pi / 6), (0, 2, np.pi / 2)])))
+    All positions are turns about (0, 0) to within 1.8e-05 of the size: a link on one pivot there passes them that
+    closely.
+    """
+    missed, joint = _one_joint(task) if len(task) > 2 else (np.inf, 0j)
+    if not _ALIKE < missed <= _ROUNDED:
+        return
+    if isinstance(joint, float):
+        yield message(
+            "The body keeps its angle on a straight line, inclined by {angle:.6g}°, to within {missed:.2g} of the "
+            "size: one slide there passes the positions that closely.",
+            missed=missed,
+            angle=joint,
+        )
+    else:
+        yield message(
+            "All positions are turns about ({x:.6g}, {y:.6g}) to within {missed:.2g} of the size: a link on one pivot "
+            "there passes them that closely.",
+            missed=missed,
+            x=joint.real,
+            y=joint.imag,
         )
 
 
@@ -118,16 +171,18 @@ def refuse_parallelograms(task: PositionTask) -> None:
     if len(some) < 3:
         return
     if len(some) < len(task):
-        raise SynthesisError(
+        raise NoFourBarError(
             "positions {some} have the same angle: a four-bar that passes them is a parallelogram, which does not "
             "turn its coupler",
             some=joined_by_and([str(k + 1) for k in some]),
         )
+    for said in nearly_one_joint(task):
+        raise SynthesisError(said)
     places = task.origins - task.origins[0]
     centre = circle_centre(places[:3])
     radii = np.abs(places - centre)
     if not np.ptp(radii) <= _ALIKE * max(task.size, radii[0]):
-        raise SynthesisError("the body keeps its angle, but its places lie on no circle: no four-bar passes them")
+        raise NoFourBarError("the body keeps its angle, but its places lie on no circle: no four-bar passes them")
     centre += task.origins[0]
     raise SynthesisError(
         "the body keeps its angle on a circle about ({x:.6g}, {y:.6g}): every parallelogram with cranks of length "

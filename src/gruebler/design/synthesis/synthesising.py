@@ -17,14 +17,12 @@ from gruebler.design.synthesis.functions import synthesise_function
 from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions
-from gruebler.design.synthesis.results import Progress, SynthesisResult, in_order_of
+from gruebler.design.synthesis.results import MOST_DESIGNS, Progress, SynthesisResult, in_order_of
 from gruebler.design.synthesis.six_bar_functions import SixBarType, synthesise_six_bars
 from gruebler.design.synthesis.six_bar_positions import synthesise_guiding_six_bars
 from gruebler.design.synthesis.structures import synthesise_structures
 from gruebler.design.synthesis.tasks import DeadCentreTask, DwellTask, FunctionTask, PathTask, PositionTask, Task
 from gruebler.structure.mechanism import Mechanism
-
-_MOST = 10_000  # designs of a family: more are no choice
 
 
 @door_that_raises(SynthesisError)
@@ -92,9 +90,12 @@ def synthesise(
     """
     orders = (sort,) if isinstance(sort, str) else tuple(sort)
     in_order_of((), orders)  # a wrong name is refused before the work
-    if number is not None and not 1 <= number <= _MOST:
+    if number is not None and not 1 <= number <= MOST_DESIGNS:
         raise SynthesisError(
-            "number: expected a whole number from 1 to {most:,}, but found {found}", most=_MOST, found=number
+            "{key}: expected a whole number from 1 to {most:,}, but found {found}",
+            key="number",
+            most=MOST_DESIGNS,
+            found=number,
         )
     options = {
         "number": number,

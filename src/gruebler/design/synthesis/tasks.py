@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
+from itertools import combinations
 from math import isfinite, pi
 from typing import Any
 
@@ -151,10 +152,10 @@ class PositionTask:
                 "these for {count}",
                 count=len(rows),
             )
-        if len(self.fixed_pivots) == 2:
-            crank, rocker = (complex(*pivot) for pivot in self.fixed_pivots)
-            if abs(crank - rocker) <= SAME * self.size:
-                raise SynthesisError("{key}: the two pivots coincide", key="fixed_pivots")
+        for key in ("fixed_pivots", "moving_pivots"):
+            for first, other in combinations(getattr(self, key), 2):
+                if abs(complex(*first) - complex(*other)) <= SAME * self.size:
+                    raise SynthesisError("{key}: the two pivots coincide", key=key)
         places = _numbers(self, "curve_parameters")
         settle(self, curve_parameters=places)
         if places and len(rows) != 4:
