@@ -10,6 +10,7 @@ import pytest
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis import Demands, PathTask, PositionTask, synthesise
 from gruebler.design.synthesis.closure import DesignClosure
+from gruebler.design.synthesis.curve_matching import PLACES, Anchors, best_matches, resampled
 from gruebler.design.synthesis.drawing_limits import limits_of_drawings
 from gruebler.design.synthesis.leg_angles import LegAngles
 from gruebler.design.synthesis.structure_atlas import dyad_structure, structure_atlas
@@ -83,6 +84,28 @@ def test_slopes_of_limits_against_differences():
             ends = [limits.values(rows + sign * step, phi) for sign in (1, -1)]
             # A top between places is found by a parabola, to a hundredth of a radian.
             assert exact[:, k] == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=0.02 if crank else 1e-6)
+
+
+def test_curves_are_compared_with_their_anchors_as_linear_least_squares_does():
+    """Second method: turn and shift by `lstsq`, an equation for each point and, heavier, for each anchor."""
+    rng = np.random.default_rng(4)
+    book, z = (np.cumsum(rng.normal(size=shape) + 1j * rng.normal(size=shape), axis=-1) for shape in ((3, PLACES), 30))
+    anchors = Anchors(*(rng.normal(size=shape) + 1j * rng.normal(size=shape) for shape in ((3, 2), 2)))
+    (best,) = best_matches(book, z, 1, closed=True, anchors=anchors)
+    weights = np.sqrt(np.append(np.ones(PLACES), [PLACES / 4] * 2))  # both anchors: half of all points
+    misses = []
+    for mirrored in (False, True):
+        target = np.append(resampled(np.conj(z) if mirrored else z, PLACES, closed=True)[0], anchors.places)
+        target[PLACES:] = np.conj(anchors.places) if mirrored else anchors.places
+        free = target - np.average(target, weights=weights**2)
+        for curve, points in zip(book, anchors.points, strict=True):
+            for sense in (1, -1):
+                for begin in range(PLACES):
+                    own = np.append(np.roll(curve[::sense], begin), points)
+                    columns = weights[:, None] * np.stack([own, np.ones(len(own))], axis=1)
+                    (rest,) = np.linalg.lstsq(columns, weights * target)[1]
+                    misses.append(float(rest) / np.sum(weights**2 * np.abs(free) ** 2))
+    assert best.gap == pytest.approx(min(misses), abs=1e-12)
 
 
 def checked(design, task, demands, angle, frame_pins=2):

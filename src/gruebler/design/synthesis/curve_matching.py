@@ -6,8 +6,8 @@ Every curve of a book has the same number of places, evenly along it. docs/theor
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from enum import Enum
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,16 +15,17 @@ from gruebler.base.arrays import Complexes, Reals, compared_by_value
 
 PLACES = 64
 """Places on each curve of a book."""
+_PULL = 0.5  # of the weight of all points of the target: that of all anchors
 _WINDOWS = (8, 12, 16, 24, 32, 48)  # pieces of a curve, in such places, for open targets
 
 
-class Held(Enum):
-    """What a similarity that puts curves onto a target may not move."""
+class Anchors(NamedTuple):
+    """Points beside a curve that a similarity brings near given places, as the curve to its target."""
 
-    NOTHING = "nothing"
-    ORIGIN = "origin"
-    ALL = "all"
-    """Only the mirror image in the x axis is left."""
+    points: Complexes
+    """(curves, anchors)"""
+    places: Complexes
+    """(anchors,)"""
 
 
 @compared_by_value
@@ -80,7 +81,8 @@ def best_matches(
     number: int,
     *,
     closed: bool,
-    held: Held = Held.NOTHING,
+    about_origin: bool = False,
+    anchors: Anchors | None = None,
     passed: Callable[[], object] | None = None,
 ) -> list[CurveMatch]:
     """The curves (or pieces of them, for an open target) most like a target, the best first.
@@ -90,13 +92,15 @@ def best_matches(
         z: (points,) the target.
         number: how many are returned.
         closed: whether the target is closed.
-        held: what the similarity may not move.
+        about_origin: whether the similarity leaves the origin where it is.
+        anchors: what else is compared.
         passed: called each time that it has gone through all curves.
     """
     spectrum = np.fft.fft(book, axis=1)
+    points, places = anchors or Anchors(np.zeros((len(book), 0), np.complex128), np.zeros(0, np.complex128))
     matches: list[CurveMatch] = []
     for mirrored in (False, True):
-        wanted = np.conj(z) if mirrored else z
+        wanted, near = (np.conj(z), np.conj(places)) if mirrored else (z, places)
         for length in (PLACES,) if closed else _WINDOWS:
             target, parts = resampled(wanted, length if closed else length + 1, closed=closed)
             for back in (False, True):
@@ -105,7 +109,10 @@ def best_matches(
                     rows, along = np.roll(target[::-1], 1), (-parts) % 1.0
                 elif back:
                     rows, along = target[::-1], 1 - parts
-                matches += _matched(book, spectrum, rows, along * length, number, mirrored=mirrored, held=held)
+                alike = _matched(
+                    book, spectrum, rows, along * length, number, Anchors(points, near), about_origin=about_origin
+                )
+                matches += (replace(match, mirrored=mirrored) for match in alike)
                 if passed is not None:
                     passed()
     matches.sort(key=lambda match: match.gap)
@@ -113,41 +120,51 @@ def best_matches(
 
 
 def _matched(
-    book: Complexes, spectrum: Complexes, target: Complexes, along: Reals, number: int, *, mirrored: bool, held: Held
+    book: Complexes,
+    spectrum: Complexes,
+    target: Complexes,
+    along: Reals,
+    number: int,
+    anchors: Anchors,
+    *,
+    about_origin: bool,
 ) -> list[CurveMatch]:
-    count = len(target)
-    middle = complex(target.mean()) if held is Held.NOTHING else 0j
-    centred = target - middle
-    energy = float(np.sum(np.abs(centred) ** 2))
+    """Those of curves as they are, for one sense."""
+    count, (points, places) = len(target), anchors
+    weight = _PULL * count / max(1, len(places))
+    whole = count + weight * len(places)
+    middle = 0j if about_origin else complex((target.sum() + weight * places.sum()) / whole)
+    centred, near = target - middle, places - middle
+    energy = float(np.sum(np.abs(centred) ** 2) + weight * np.sum(np.abs(near) ** 2))
     padded = np.zeros(PLACES, np.complex128)
     padded[:count] = centred[:PLACES]
     # inner[begin] = sum over j of conj(curve[begin + j]) * target[j], by the theorem of convolution.
     inner = np.conj(np.fft.ifft(spectrum * np.conj(np.fft.fft(padded)), axis=1))
+    inner = inner + weight * (np.conj(points) @ near)[:, None]
     around = np.concatenate([book, book[:, :count]], axis=1)
     sums = np.cumsum(np.concatenate([np.zeros((len(around), 1)), around], axis=1), axis=1)
     squares = np.cumsum(np.concatenate([np.zeros((len(around), 1)), np.abs(around) ** 2], axis=1), axis=1)
     begins = np.arange(PLACES)
-    mean = (sums[:, begins + count] - sums[:, begins]) / count * (held is Held.NOTHING)
-    spread = (squares[:, begins + count] - squares[:, begins]).real - count * np.abs(mean) ** 2
+    total = sums[:, begins + count] - sums[:, begins] + weight * points.sum(axis=1, keepdims=True)
+    mean = total / whole * (not about_origin)
+    spread = (squares[:, begins + count] - squares[:, begins]).real - whole * np.abs(mean) ** 2
+    spread += weight * np.sum(np.abs(points) ** 2, axis=1, keepdims=True)
     with np.errstate(invalid="ignore", divide="ignore"):
         likeness = np.abs(inner) ** 2 / (np.maximum(spread, 1e-12) * energy)
-        if held is Held.ALL:
-            likeness = (2 * inner.real - spread) / energy
     best = np.argmax(likeness, axis=1)
     rows = np.arange(len(best))
     matches = []
     for n in np.argsort(-likeness[rows, best])[:number]:
         begin = best[n]
-        turn = 1 + 0j if held is Held.ALL else complex(inner[n, begin] / spread[n, begin])
-        shift = middle - turn * complex(mean[n, begin])
+        turn = complex(inner[n, begin] / spread[n, begin])
         matches.append(
             CurveMatch(
                 gap=1 - float(likeness[n, begin]),
                 number=int(n),
                 at=begin + along,
                 turn=turn,
-                shift=shift,
-                mirrored=mirrored,
+                shift=middle - turn * complex(mean[n, begin]),
+                mirrored=False,
             )
         )
     return matches

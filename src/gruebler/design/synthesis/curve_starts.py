@@ -16,7 +16,6 @@ from gruebler.base.arrays import Complexes, Reals
 from gruebler.design.synthesis.curve_matching import (
     PLACES,
     CurveMatch,
-    Held,
     best_matches,
     drive_angles,
     evenly_along,
@@ -126,7 +125,7 @@ def _similar(
         z - shift,
         number,
         closed=closed,
-        held=Held.NOTHING if own is None and far is None else Held.ORIGIN,
+        about_origin=own is not None or far is not None,
         passed=passed,
     )[:_CANDIDATES]
     placed = (replace(each, shift=each.shift - each.turn * float(origin[each.number])) for each in matches)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, Reals
-from gruebler.design.synthesis.curve_matching import Held, best_matches, drive_angles
+from gruebler.design.synthesis.curve_matching import Anchors, best_matches, drive_angles
 from gruebler.design.synthesis.drawing_limits import DrawingLimits
 from gruebler.design.synthesis.structure_atlas import (
     DyadStructure,
@@ -24,7 +24,7 @@ from gruebler.design.synthesis.structure_atlas import (
 
 _FIRST, _SECOND, _LAST = (1, 10), (3, 30), (16, 300)
 """Of the neighbours each so many-th is improved, by so many steps; the first two at some points of the target."""
-_BRED = 4  # times: new linkages from those that there are
+_BRED, _BRED_ON_PIVOTS = 4, 8  # times: new linkages from those that there are; those of the atlas have other pivots
 _CHILDREN, _POOL = 400, 100  # at most, and no more than there are neighbours; those that have descendants
 _APART = 0.03  # of the size: those of the pool differ by more
 _FAVOUR = 1.5  # the better half of the pool has 63 % of the descendants
@@ -88,7 +88,7 @@ def fit_drawings(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool
     if not len(first.cost):
         return first
     chance = np.random.default_rng(1)
-    for _ in range(_BRED):
+    for _ in range(_BRED_ON_PIVOTS if limits.pivots else _BRED):
         pool = _chosen(structure, pool, _POOL, closed=closed)
         both = [pool, improved(_bred(limits, pool, min(number, _CHILDREN), chance))]
         pool = _each_once(together(both), _APART * fit.size)
@@ -118,33 +118,27 @@ def _bred(limits: DrawingLimits, pool: DrawnCurves, count: int, chance: np.rando
 def _neighbours(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool, number: int) -> DrawnCurves:
     """The curves of the atlas that are most like the target, placed on it, no drawing twice.
 
-    Given pivots stay where they are: curves are compared in a plane that has the first as its origin, and a second one
-    at 1. Where limits are narrow, those come first that are both alike and hardly beyond.
+    Given pivots are compared as well as the curve, then the joints lie there. Where limits are narrow, those come first
+    that are both alike and hardly beyond.
     """
-    structure, places_of = limits.structure, limits.pivots
+    structure = limits.structure
     book = structure_atlas(structure)
     own = np.flatnonzero(book.link == structure.coupler_links.index(link))
-    joints, given = [*places_of], [*places_of.values()]
-    held = (Held.NOTHING, Held.ORIGIN, Held.ALL)[min(2, len(joints))]
+    joints, pivots = [*limits.pivots], np.array([*limits.pivots.values()], np.complex128)
     drawn = np.concatenate([book.drawn[own], book.point[own, None]], axis=1)
-    origin = drawn[:, joints[0]] if joints else np.zeros(len(own))
-    unit = drawn[:, joints[1]] - origin if len(joints) > 1 else np.ones(len(own))
-    shift, turn = (given[0] if joints else 0j), (given[1] - given[0] if len(joints) > 1 else 1 + 0j)
-    drawn = (drawn - origin[:, None]) / unit[:, None]
-    traced = np.asarray((book.z[own] - origin[:, None]) / unit[:, None], np.complex128)
-    wanted = (z - shift) / turn
+    anchors = Anchors(drawn[:, joints], pivots)
     places, turned, gaps = [], [], []
     seen: set[tuple[bytes, bool]] = set()
     most = max(number, _CANDIDATES) if limits.narrow else number
-    for match in best_matches(traced, wanted, 2 * most, closed=closed, held=held):
+    for match in best_matches(book.z[own], z, 2 * most, closed=closed, anchors=anchors):
         n = int(own[match.number])
         if (name := (book.drawn[n].tobytes(), match.mirrored)) in seen or len(seen) == most:
             continue
         seen.add(name)
         at = match.turn * drawn[match.number] + match.shift
         angles = drive_angles(book.turned[n], match.at)
-        placed = turn * (np.conj(at) if match.mirrored else at) + shift
-        placed[joints] = given
+        placed = np.conj(at) if match.mirrored else at
+        placed[joints] = pivots
         places.append(placed)
         turned.append(-angles if match.mirrored else angles)
         gaps.append(match.gap)
