@@ -52,9 +52,9 @@ class _Path(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
     points: list[list[float] | None]
     angles: list[Any] = []
     crank_angles: list[Any] = []
+    output_angles: list[Any] = []
     fixed_pivots: list[list[float]] = []
     closed: bool = False
-    output_angles: list[Any] = []
     tolerances: list[float | None] = []
     weights: list[float] = []
     order: list[Any] = []
@@ -102,6 +102,8 @@ _KINDS: dict[str, type[_Record]] = {
     "stroke": _DeadCentres,
 }
 """The key that every task of a kind has."""
+_RECORDS = {PositionTask: _Positions, PathTask: _Path, DeadCentreTask: _DeadCentres, DwellTask: _Dwell}
+"""The record of a task that has the same keys."""
 
 
 def _radians(value: Any, where: Message | str) -> float:
@@ -215,26 +217,12 @@ def task_to_json(task: Task) -> dict[str, Any]:
     """Plain data for `json.dumps`; `task_from_json` takes it back exactly."""
     document: dict[str, Any] = {"unit": task.unit}
     match task:
-        case PositionTask():
-            document["positions"] = [[x, y, in_degrees(angle)] for x, y, angle in task.positions]
-            more: dict[str, Any] = {name: [list(p) for p in getattr(task, name)] for name in _PIVOTS}
-            more |= {"curve_parameters": list(task.curve_parameters), "order": list(task.order)}
-        case PathTask():
-            document["points"] = [None if point is None else list(point) for point in task.points]
-            more = {key: [_degrees(a) for a in getattr(task, key)] for key in _TURNED}
-            more |= {
-                "fixed_pivots": [list(p) for p in task.fixed_pivots],
-                "closed": task.closed,
-                "tolerances": list(task.tolerances),
-                "weights": list(task.weights),
-                "order": list(task.order),
-            }
         case FunctionTask(law=FunctionLaw() as law):
 
             def output(value: float | None) -> float | str | None:
                 return _degrees(value) if task.output == "angle" else value
 
-            more = {
+            more: dict[str, Any] = {
                 "function": law.function,
                 "interval": list(law.interval),
                 "input_swing": in_degrees(law.input_swing),
@@ -250,18 +238,20 @@ def task_to_json(task: Task) -> dict[str, Any]:
             document["outputs"] = [in_degrees(a) if turning else a for a in task.outputs]
             document |= {"output": task.output, "start_input": task.start_input, "start_output": task.start_output}
             more = {}
-        case DeadCentreTask():
-            more = {
-                "swing": _degrees(task.swing),
-                "stroke": task.stroke,
-                "crank_angle": _degrees(task.crank_angle),
-                "time_ratio": task.time_ratio,
-            }
-        case DwellTask():
-            more = {"dwell": in_degrees(task.dwell), "swing": _degrees(task.swing), "stroke": task.stroke}
+        case _:
+            more = {key: _plain(key, getattr(task, key)) for key in _RECORDS[type(task)].__struct_fields__}
     return document | {
         key: value for key, value in more.items() if value is not None and value is not False and value != []
     }
+
+
+def _plain(key: str, value: Any) -> Any:
+    """What a task has under a key: tuples as lists, angles in degrees."""
+    if key == "positions":
+        return [[x, y, in_degrees(angle)] for x, y, angle in value]
+    if isinstance(value, tuple):
+        return [_plain(key, part) for part in value]
+    return _degrees(value) if key in _TURNED or key in _OF_OUTPUTS else value
 
 
 def _degrees(radians: float | None) -> float | str | None:
@@ -271,7 +261,6 @@ def _degrees(radians: float | None) -> float | str | None:
 _OF_OUTPUTS = {"swing", "crank_angle", "dwell"}
 _OF_ONE_ROW = ("swing", "stroke", "crank_angle", "time_ratio", "dwell")
 """The columns of a CSV file that has dead centres or a rest."""
-_PIVOTS = ("moving_pivots", "fixed_pivots")
 _TURNED = ("angles", "crank_angles", "output_angles")
 """The angles that a path gives for its targets."""
 _COLUMNS_OF = {"angles": "angle", "crank_angles": "crank", "output_angles": "output"} | {
@@ -446,20 +435,12 @@ def _to_csv(document: Mapping[str, Any]) -> str:
     keys = {key for key in document if key != "unit"}
     rows: list[list[Any]]
     match keys:
-        case _ if keys - {"order"} == {"positions"}:
-            own = [[rank] for rank in document.get("order", [])] or [[] for _ in document["positions"]]
-            header = ["x", "y", "angle", *(["order"] if "order" in keys else [])]
-            rows = [
-                [*row, *("" if v is None else v for v in rank)]
-                for row, rank in zip(document["positions"], own, strict=True)
-            ]
-        case _ if keys == {"points"}:
-            header, rows = ["x", "y"], document["points"]
-        case _ if {"points"} < keys <= {"points", *_COLUMNS_OF}:
+        case _ if keys - {"order"} == {"positions"} or {"points"} <= keys <= {"points", *_COLUMNS_OF}:
+            targets, places = ("points", ["x", "y"]) if "points" in keys else ("positions", ["x", "y", "angle"])
             more = [key for key in _COLUMNS_OF if key in keys]
-            header = ["x", "y", *(_COLUMNS_OF[key] for key in more)]
-            lists = [[p or ["", ""] for p in document["points"]], *(document[key] for key in more)]
-            rows = [[*p, *("" if v is None else v for v in rest)] for p, *rest in zip(*lists, strict=True)]
+            header = [*places, *(_COLUMNS_OF[key] for key in more)]
+            lists = [[each or ["", ""] for each in document[targets]], *(document[key] for key in more)]
+            rows = [[*each, *("" if v is None else v for v in rest)] for each, *rest in zip(*lists, strict=True)]
         case _ if keys == {"inputs", "outputs", "output", "start_input", "start_output"} and (
             document["start_input"] and document["start_output"]
         ):
