@@ -56,7 +56,7 @@ export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap:
       const place = driveText(linkage, placeOf(linkage, least.value), 4);
       // of four links it is no question which one pushes
       const link = least.link !== null && model.own > 4 && linkage.linkName(least.link);
-      const note = link ? t("at {place} (leg {link})", { place, link }) : t("at {place}", { place });
+      const note = link ? t("at {place}, link {link}", { place, link }) : t("at {place}", { place });
       facts.push({ name: t("Smallest μ"), text: angle(least.mu), note, style: least.mu < GOOD ? "bad" : "good" });
     }
   }

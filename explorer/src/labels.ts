@@ -24,6 +24,8 @@ export interface Label {
   /** Half its width, in pixels, and whether it begins at its place instead of having its middle there. */
   half: number;
   begins: boolean;
+  /** Whether it has so many places that others have theirs before. */
+  many?: boolean;
 }
 
 /** The names of links, in or beside their bodies, and of points. */
@@ -52,7 +54,17 @@ export function labelsOf(linkage: Linkage): Label[] {
         ].map((at) => viewport.screen(...at)),
       );
     const element = svg("text.name", { "text-anchor": "middle" }, name);
-    return { element, name, sized, spots, taken: 0, hull, half: halfOf(name), begins: false };
+    return {
+      element,
+      name,
+      sized,
+      spots,
+      taken: 0,
+      hull,
+      half: halfOf(name),
+      begins: false,
+      many: convexHull(joints()).length > 1,
+    };
   });
   const marks = sizes.points.map(
     (point): Label => ({

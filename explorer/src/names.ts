@@ -94,9 +94,11 @@ export function clearSpot(
   const best = spots.findIndex(good);
   if (best >= 0) return best;
   const worths = spots.map(worth);
-  const fair = worths.findIndex((value) => value > 0);
-  if (fair >= 0) return fair;
   const clearer = worths.map((value, k) => value - (clear(spots[k]!) ? 0 : 99));
+  for (const values of [clearer, worths]) {
+    const fair = values.findIndex((value) => value > 1);
+    if (fair >= 0) return fair;
+  }
   const most = Math.max(...clearer);
   return clearer[before]! > most - INK ? before : clearer.indexOf(most);
 }

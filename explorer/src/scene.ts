@@ -23,6 +23,7 @@ export const DRIVEN = "M9.5 -9.5 A13.4 13.4 0 0 0 -12.5 -5 M-12.5 -5 l6 -1.5 M-1
 const LONGEST_ARROW = 90; // pixels
 const LINE = 15; // pixels that names are apart
 const MOST_CLEAR = 40; // names that look for a place of their own in every picture
+const TOOLS = 206; // down to the lower edge of the buttons over the picture
 const RAIL = 6; // half the width of a rail with its hatching, and some room
 
 export class Scene {
@@ -221,11 +222,15 @@ export class Scene {
     const grounds = this.#pins
       .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
       .map(({ joint }) => standing(viewport.screen(...linkage.jointAt(joint))));
-    const buttons: Pair[] = [
-      [viewport.width, 60],
-      [viewport.width - 54, 60],
-      [viewport.width - 54, 0],
+    const { height, width } = viewport;
+    const low = height < 2 * TOOLS ? 60 : TOOLS; // a low picture has one button only
+    const box = (left: number, right: number, foot: number): Pair[] => [
+      [left, 0],
+      [right, 0],
+      [right, foot],
+      [left, foot],
     ];
+    grounds.push(box(width - 54, width, low), box(-width, 0, height), box(width, 2 * width, height));
     const [c, s] = turn(pose, 0, model.frame);
     const [ox, oy] = viewport.screen(...origin(pose, 0, model.frame));
     const placed = (x: number, y: number): Pair => [ox + c * x + s * y, oy - s * x + c * y];
@@ -235,8 +240,9 @@ export class Scene {
           ends.flatMap(([x, y]) => [-RAIL, RAIL].flatMap((d) => [placed(x + d, y + d), placed(x + d, y - d)])),
         ),
       );
-    const drawn = [...hulls.filter((hull) => hull.length), ...arrows, ...grounds, buttons];
-    for (const [k, label] of this.#labels.entries()) {
+    const drawn = [...hulls.filter((hull) => hull.length), ...arrows, ...grounds];
+    const order = [...this.#labels.entries()].sort(([, one], [, other]) => +!!one.many - +!!other.many);
+    for (const [k, label] of order) {
       const { element, half, begins, name, spots } = label;
       const places = spots(viewport);
       const touching = (at: Pair) =>
@@ -248,7 +254,8 @@ export class Scene {
         label.taken = clearSpot(places, name, [hulls[k]!, others], free, label.taken, clear(grounds));
       } else if (!free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
       const [left, top] = places[label.taken]!;
-      const x = left + (begins ? half : 0);
+      const aside = begins ? half : 0;
+      const x = Math.max(half + 2, Math.min(width - half - 2, left + aside)); // it is not cut
       let y = top;
       const way = y < (touching([x, y])?.y ?? 0) ? -1 : 1;
       for (let other = touching([x, y]); other; other = touching([x, y])) y = other.y + way * LINE;
@@ -257,7 +264,7 @@ export class Scene {
         [x - half, y - 4],
         [x + half, y - 4],
       ]);
-      move(element, [left, y]);
+      move(element, [x - aside, y]);
     }
     kinds.forEach(([all, unit], k) => {
       put(this.#arrows[k]!, { d: all.map((vector) => arrow(...vector)).join("") });

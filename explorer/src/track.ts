@@ -95,16 +95,8 @@ export class Track {
         "M0 26 L-4.5 33 H4.5 Z",
         t("Smallest transmission angle at {value}", { value: shown(least) }),
       );
-    const part = least === null ? NaN : wrap(least);
     const label = (value: number, anchor: string, told = value) => {
-      // beside the mark that stands there
-      const covered = Math.abs(part - value) < 0.03 * (this.#to - this.#from);
-      const dx = (anchor === "middle" ? 24 : 8) * (value === low ? 1 : -1);
-      const text = svg(
-        "text",
-        { x: x(value), y: 39, "text-anchor": anchor, dx: covered && dx },
-        turning ? angle(told) : number(told, 4),
-      );
+      const text = svg("text", { x: x(value), y: 43, "text-anchor": anchor }, turning ? angle(told) : number(told, 4));
       parts.push(text);
     };
     label(low, full ? "start" : "middle", full ? low : from);

@@ -138,7 +138,7 @@ test("what is read off a four-bar", () => {
   found.least.link = COUPLER;
   assert.equal(where(), "at 0°");
   linkage.model.own = 6;
-  assert.equal(where(), "at 0° (leg coupler)");
+  assert.equal(where(), "at 0°, link coupler");
   inGerman(() => assert.equal(facts()[0]![0], "Abtrieb Schwinge"));
 });
 

@@ -269,6 +269,29 @@ def test_no_name_lies_on_the_hatching_of_a_rail(tab, server):
         assert min(page.page.evaluate(gaps)) > 0, drive
 
 
+@pytest.mark.parametrize("id_", ["crankrocker", "crane"])
+def test_names_of_a_phone_are_not_cut_and_not_under_buttons(tab, server, id_):
+    page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator(f'[data-id="{id_}"]').click()
+    page.until(f"gruebler.view === 'motion' && gruebler.motion.linkage.model.source === '{id_}'")
+    page.page.evaluate("gruebler.motion.transport.pause()")
+    page.page.evaluate("scrollTo(0, 0)")
+    hidden = """(() => {
+        const box = (one) => one.getBoundingClientRect();
+        const buttons = [...gruebler.root.querySelectorAll(".motion .stage .tools button")].map(box);
+        return [...gruebler.root.querySelectorAll(".motion text.name")].filter((one) => {
+            const { left, right, top, bottom } = box(one);
+            return left < 0 || right > 390 || buttons.some((other) => other.left < right && other.right > left
+                && other.top < bottom && other.bottom > top);
+        }).map((one) => one.textContent);
+    })()"""
+    low, high = page.page.evaluate("[gruebler.motion.linkage.cycle.low, gruebler.motion.linkage.cycle.high]")
+    for drive in np.linspace(low, high, 13):
+        page.page.evaluate(f"gruebler.motion.transport.pick({drive})")
+        assert page.page.evaluate(hidden) == [], drive
+
+
 def test_no_name_lies_on_the_edge_of_its_link(tab, server):
     """Klann's leg has links with three joints in a thin triangle: names stand within their link, or beside it."""
     page = tab(width=1024, height=768).open(server.address)
