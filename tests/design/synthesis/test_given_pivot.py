@@ -1,13 +1,13 @@
 """One pivot is given for two to four positions: the best others beside it, simulated, and what is proved of them."""
 
 import re
-from itertools import product
+from itertools import permutations, product
 
 import numpy as np
 import pytest
 
 from gruebler.base.errors import SynthesisError
-from gruebler.design.synthesis import Demands, PathTask, PositionTask, synthesise_path, synthesise_positions
+from gruebler.design.synthesis import Demands, PathTask, PositionTask, synthesise, synthesise_path, synthesise_positions
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements, GuidingDyad
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.pair_search import pair_facts
@@ -281,3 +281,70 @@ def test_two_positions_with_two_pivots_leave_the_other_ends_to_choose(lengths):
         good = np.logical_and.reduce([flags for _, flags in facts.met(Demands())])
         best = max(best, np.degrees(facts.transmission[good].max()))
     assert np.degrees(max(d.verdict.transmission for d in found.designs)) > best - 0.02
+
+
+@pytest.mark.parametrize(
+    ("pivots", "demands"),
+    [
+        ([(5, -6), (-2, -4)], Demands()),
+        ([(5, -6), (-2, -4)], Demands(transmission=np.radians(50))),
+        ([(5, 4), (1, -4)], Demands(transmission=np.radians(15), size_ratio=30)),
+        ([(5, 4), (1, -4)], Demands(lengths={"crank": 8.704404466}, size_ratio=30)),
+    ],
+)
+def test_a_linkage_of_two_given_pivots_is_driven_at_either(pivots, demands):
+    """Whichever link turns fully: both drives, whose transmission angles are those of the closed forms, are judged."""
+    task = PositionTask(given(3, "fixed_pivots").positions, fixed_pivots=pivots)
+    found = synthesise_positions(task, demands)
+    judged = {
+        round(np.degrees(d.verdict.transmission), 1): d.verdict.accepted for d in (*found.designs, *found.rejected)
+    }
+    expected = {}
+    for first, second in permutations(guiding_dyads(task)):
+        facts = pair_facts(task, [first], [second], demands)
+        good = all(flags.all() for _, flags in facts.met(demands))
+        wrong = any(abs(first.length - length) > 1e-6 for _, length in demands.lengths)
+        expected[round(np.degrees(facts.transmission[0, 0]), 1)] = good and not wrong
+    assert judged == expected
+    assert any(expected.values())
+
+
+@pytest.mark.parametrize("options", [{}, {"demands": Demands(transmission=np.radians(84))}])
+def test_the_best_beside_the_crank_of_three_positions_with_crank_angles(options):
+    """Other code found 89.2 degrees 3.7 sizes away by sampling; the sample of dyads alone had 83.1."""
+    points = [
+        (6.799230466197427, 8.586570107288809),
+        (5.6452592592612305, 9.548966150981325),
+        (5.260836978348271, 9.775929632684408),
+    ]
+    body, crank = (
+        np.radians([0, 12.0525935764996, 15.452746667162618]),
+        np.radians([0, 19.585621318128112, 25.2606068406261]),
+    )
+    task = PathTask(points, angles=body, crank_angles=crank)
+    for number in (6, 16):
+        found = synthesise(task, sort="transmission", number=number, **options)
+        best = max(design.verdict.transmission for design in found.designs if design.form == "RR-RR")
+        assert np.degrees(best) > 89.2
+
+
+def test_few_linkages_with_four_given_lengths_are_all_found():
+    """Newton's method in other code from 6,000 random starts found these three that turn fully, the first 148 times.
+
+    Eight equations in eight numbers: all pairs of the sample with the shortest first step lie near the other two.
+    """
+    rows = [
+        (0.792326971759129, 0.6533461986729301, 0),
+        (0.43195751690893647, 1.2921239875404412, 13.833377684690614),
+        (0.16488552713392868, 1.6775447773765637, 20.48781792147322),
+    ]
+    task = PositionTask([(x, y, np.radians(angle)) for x, y, angle in rows])
+    lengths = {
+        "crank": 0.976361016090449,
+        "coupler": 2.787974677044609,
+        "rocker": 5.336972049817427,
+        "frame": 5.362856851607424,
+    }
+    found = synthesise_positions(task, Demands(lengths=lengths, crank=True, transmission=np.radians(70.59)))
+    angles = [np.degrees(design.verdict.transmission) for design in found.designs]
+    assert sorted(angles, reverse=True) == pytest.approx([77.04, 74.68, 71.10], abs=0.006)

@@ -356,4 +356,5 @@ def _function_targets(task: FunctionTask, linkage: Linkage, side: str) -> Target
         return Targets((Probe(link="crank"), Probe(link="rocker")), np.stack([crank, rocker], axis=1), 1.0)
     size = float(np.ptp(output)) or 1.0
     probes = (Probe(link="crank", length=size), Probe(joint=3))
-    return Targets(probes, np.stack([size * crank, output.astype(np.complex128)], axis=1), size)
+    values = np.stack([size * crank, output.astype(np.complex128)], axis=1)
+    return Targets(probes, values, size, travel=float(np.ptp(output)) or np.inf)

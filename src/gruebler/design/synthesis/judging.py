@@ -176,19 +176,26 @@ def _is_rectangle(value: object) -> bool:
 
 
 def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], demands: Demands, form: str) -> Design:
-    """The first accepted one of linkages that differ in their drive, else the one with the fewest faults.
-
-    Their circuits are the same: where that of the first decides, it does for all.
-    """
+    """The first accepted one of linkages that differ in their drive, else the one with the fewest faults."""
     best: Design | None = None
-    for linkage in linkages:
-        design = judge_design(linkage, targets(linkage), demands, form)
-        if design.verdict.accepted or decided_by_path(design.verdict, demands):
+    for design in judged_by_drive(linkages, targets, demands, form):
+        if design.verdict.accepted:
             return design
         if best is None or len(design.verdict.reasons) < len(best.verdict.reasons):
             best = design
     assert best is not None
     return best
+
+
+def judged_by_drive(
+    linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], demands: Demands, form: str
+) -> Iterator[Design]:
+    """The designs of linkages that differ in their drive; of those whose circuit decides, the first one."""
+    for linkage in linkages:
+        design = judge_design(linkage, targets(linkage), demands, form)
+        yield design
+        if decided_by_path(design.verdict, demands):
+            break
 
 
 def decided_by_path(verdict: DesignVerdict, demands: Demands) -> bool:
@@ -256,7 +263,11 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
             reasons.append(_in_another_order(np.nan))
             verdict = replace(known, assembles=True, one_circuit=True, error=met.error, reasons=tuple(reasons))
             return Design(linkage=linkage, verdict=verdict, form=form, targets=targets)
-        path = path_through(course, met, limit, in_order=demands.in_order)
+        # Of two targets each way is in order.
+        both_ways = len(targets.values) == 2 and not targets.there_and_back
+        any_order = targets.curve is GuidedCurve.NONE and (both_ways or not demands.in_order)
+        shortest = targets.order if any_order else None
+        path = path_through(course, met, limit, in_order=demands.in_order, shortest=shortest)
         full = _turns_fully(course)
         drives: tuple[float, ...] = ()
         missed_by, transmission = met.error if path.in_order else path.error, np.nan

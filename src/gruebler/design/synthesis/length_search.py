@@ -25,7 +25,7 @@ from gruebler.design.synthesis.dyads import (
     guiding_conditions,
     line_conditions,
 )
-from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.judging import Demands, sought_order
 from gruebler.design.synthesis.pair_search import (
     FoundPairs,
     Nearby,
@@ -44,6 +44,7 @@ _ENDS = {
     BLOCK: {"crank": (0, 1), "frame": (1, 2)},
 }
 """The links with two pins, and between which points of a row they lie, by the kind of the dyad that is not driven."""
+_SAME = 1e-6  # sizes: two linkages that differ by less are one
 _STEPS = 25
 _LONGEST = 0.5  # sizes: of a step
 _REACHED = 1e-11  # of what is satisfied, by sizes
@@ -167,10 +168,9 @@ class PairFamily:
         slides = np.exp(1j * angle) * (np.ones_like(q) if self.kind == SLIDER else q)
         frame = [1] if self.kind == SLIDER else [1, -1]
         inside = np.all([inside_region(places[:, k] * size + origin, demands) for k in frame], axis=0)
+        order = sought_order(self.task, demands)
         reach = 1.0 if np.ptp(self.task.origins) else np.inf
-        return facts_of_pins(
-            driven, other, slides[:, None], self.kind, inside=inside[:, None], size=reach, ranks=self.task.order
-        )
+        return facts_of_pins(driven, other, slides[:, None], self.kind, inside=inside[:, None], size=reach, order=order)
 
     def about(self, row: Reals, held: Flags) -> Reals:
         """(directions, numbers) in which linkages of the family lie about one: along, and between, all its freedoms."""
@@ -252,10 +252,14 @@ def best_members(
     family = PairFamily(task=task, kind=kind, lengths=demands.lengths)
     rows, held = (np.concatenate(part) for part in zip(*(_begun(family, *group) for group in groups), strict=True))
     if len(rows) > _BEGUN:
-        nearest = np.argsort(np.linalg.norm(family.step(rows, held), axis=1), kind="stable")[:_BEGUN]
-        rows, held = rows[nearest], held[nearest]
+        order = np.argsort(np.linalg.norm(family.step(rows, held), axis=1), kind="stable")
+        # Half of them nearest to linkages with the lengths, half spread over all others: few linkages may all lie far.
+        near, rest = order[: _BEGUN // 2], np.sort(order[_BEGUN // 2 :])
+        begun = np.concatenate([near, rest[np.linspace(0, len(rest) - 1, _BEGUN // 2).astype(int)]])
+        rows, held = rows[begun], held[begun]
     rows, good = family.members(rows, held)
-    rows, held = rows[good], held[good]
+    _, first = np.unique(np.round(rows[good] / _SAME).astype(np.int64), axis=0, return_index=True)
+    rows, held = rows[good][np.sort(first)], held[good][np.sort(first)]
     if not len(rows):
         return FoundPairs(pairs=(), notes=(_NONE.filled(form=form),))
     facts = family.facts(rows, demands)

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, DyadKind, GuidingDyad
-from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.judging import Demands, sought_order
 from gruebler.design.synthesis.results import form_symbols
-from gruebler.design.synthesis.target_orders import Ranks, TargetOrder
+from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.tasks import PositionTask
 
 Flags = NDArray[np.bool_]
@@ -102,7 +102,9 @@ def pair_facts(
     reached = np.ones(len(far), bool) if second[0].kind.pairs[0].is_sliding else inside_region(far, demands)
     inside = np.asarray(inside_region(own, demands)[:, None] & reached[None, :])
     size = task.size if np.ptp(task.origins) else np.inf
-    return facts_of_pins(driven, other, slides, second[0].kind, inside=inside, size=size, ranks=task.order)
+    return facts_of_pins(
+        driven, other, slides, second[0].kind, inside=inside, size=size, order=sought_order(task, demands)
+    )
 
 
 def facts_of_pins(
@@ -113,12 +115,12 @@ def facts_of_pins(
     *,
     inside: Flags,
     size: float,
-    ranks: Ranks = (),
+    order: TargetOrder | None = None,
 ) -> PairFacts:
     """What cranks do with rockers, sliders or blocks, from the pins of both in all positions and their pivots."""
     with np.errstate(divide="ignore", invalid="ignore"):
         closure = _CLOSURES[kind](driven, other, slides)
-        branch, moves, turns, transmission = motion_of_pairs(closure, ranks)
+        branch, moves, turns, transmission = motion_of_pairs(closure, order)
     # Two dyads with a common pivot are no linkage.
     lengths = closure.lengths
     usable = np.isfinite(transmission) & (np.nanmin(lengths, axis=0) > 1e-9 * np.nanmax(lengths, axis=0))
@@ -142,7 +144,7 @@ class PairMotion(NamedTuple):
     transmission: Reals
 
 
-def motion_of_pairs(closure: PairClosure, ranks: Ranks = ()) -> PairMotion:
+def motion_of_pairs(closure: PairClosure, order: TargetOrder | None = None) -> PairMotion:
     """Whether all targets lie on one branch, and in order on it; whether the crank turns; its transmission angle.
 
     The last is at most a right angle and only meant for linkages that meet the targets; that of the shortest way which
@@ -154,9 +156,10 @@ def motion_of_pairs(closure: PairClosure, ranks: Ranks = ()) -> PairMotion:
     passes_back = (low < -1) & ~turns
     angle = np.where(passes_back[..., None], angle % (2 * np.pi), angle)
     begin, travel = shortest_arc(angle, closed=turns)
-    ordered, shortest = np.zeros(turns.shape, bool), np.full(turns.shape, np.inf)
-    for sequence in _sequences(ranks, angle.shape[-1]):
-        along = angle[..., sequence]
+    order = order or TargetOrder.of((), angle.shape[-1])
+    ordered, shortest = np.full(turns.shape, order.demands_nothing), np.full(turns.shape, np.inf)
+    for sequence in () if order.demands_nothing else order.sequences():
+        along = angle[..., list(sequence)]
         gone = _way(along, turns)
         better = np.abs(gone) < shortest - _SAME_WAY
         ordered |= np.isfinite(gone)
@@ -167,11 +170,6 @@ def motion_of_pairs(closure: PairClosure, ranks: Ranks = ()) -> PairMotion:
     cosines = [closure.cosine(_extreme(begin, travel, at)) for at in (0.0, np.pi)]
     transmission = np.arccos(np.clip(np.maximum(*map(np.abs, cosines)), 0, 1))
     return PairMotion(*map(np.asarray, (branch, branch & ordered, turns, transmission)))
-
-
-def _sequences(ranks: Ranks, count: int) -> list[list[int]]:
-    """Those that keep an order, one of each and its reverse."""
-    return [list(sequence) for sequence in TargetOrder.of(ranks, count).sequences()] if ranks else [list(range(count))]
 
 
 def _way(angle: Reals, turns: Flags) -> Reals:

@@ -59,19 +59,20 @@ _BESIDE_NONE = message(
     "Proved: the {count} cranks that came nearest to the demands meet them with no other dyad whose pivots lie within "
     "{far:g} sizes of the task. Other cranks were sampled."
 )
+_GIVEN_PIVOT, _GIVEN_CRANK = message("the given pivot"), message("this crank")
 _NONE_BESIDE = message(
-    "Proved: no four-bar with the given pivot and the other pivots within {far:g} sizes of the task meets all demands."
+    "Proved: no four-bar with {held} and the other pivots within {far:g} sizes of the task meets all demands."
 )
 _MOST_BESIDE = message(
-    "Proved: no four-bar with the given pivot and the other pivots within {far:g} sizes of the task meets all demands "
-    "with a transmission angle above {angle:.1f}°."
+    "Proved: no four-bar with {held} and the other pivots within {far:g} sizes of the task meets all demands with a "
+    "transmission angle above {angle:.1f}°."
 )
 _BESIDE_UNKNOWN = message(
     "Not decided for linkages {form}: whether exchanging one dyad of the best one gives a larger transmission angle."
 )
 _GIVEN_UNKNOWN = (
-    message("Not decided: whether a four-bar with the given pivot meets all demands."),
-    message("Not decided: whether a four-bar with the given pivot has a larger transmission angle than the best here."),
+    message("Not decided: whether a four-bar with {held} meets all demands."),
+    message("Not decided: whether a four-bar with {held} has a larger transmission angle than the best here."),
 )
 """By whether one that meets the demands is known."""
 
@@ -325,33 +326,34 @@ def improved_pair(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -
 
 
 def best_beside(
-    task: PositionTask, demands: Demands, held: GuidingDyad, pairs: Sequence[Pair]
+    task: PositionTask, demands: Demands, held: GuidingDyad, pairs: Sequence[Pair], *, drives: bool = False
 ) -> tuple[list[Pair], list[Message]]:
     """Four-bars with a dyad of three or four positions, better than pairs with it, and what is proved of all others.
 
-    Cost: 1 to 4 s.
+    The dyad drives or is driven, or it only drives. Cost: 1 to 4 s.
     """
+    said = _GIVEN_CRANK if drives else _GIVEN_PIVOT
     begin = max((angle_of_pair(task, demands, pair) for pair in pairs), default=-np.inf)
     known, left = begin > -np.inf, 0.0
     better: list[Pair] = []
     margin = MARGIN[len(task)] if known else 0.0
     begin = max(begin, demands.transmission)
-    for driven in (True, False):
+    for driven in (True,) if drives else (True, False):
         partner = PartnerSearch(task, demands, held, driven=driven).partner(begin, margin)
         left += partner.left
         begin = max(begin, partner.angle)
         if partner.dyad is not None:
             better.insert(0, (held, partner.dyad) if driven else (partner.dyad, held))
     if better and not known:
-        others, notes = best_beside(task, demands, held, better)
+        others, notes = best_beside(task, demands, held, better, drives=drives)
         return others + better, notes
     if left:
-        return better, [_GIVEN_UNKNOWN[known]]
+        return better, [_GIVEN_UNKNOWN[known].filled(held=said)]
     if not known:
-        return [], [_NONE_BESIDE.filled(far=FAR)]
+        return [], [_NONE_BESIDE.filled(held=said, far=FAR)]
     if begin + margin >= pi / 2:
         return better, []  # no angle is larger
-    return better, [_MOST_BESIDE.filled(far=FAR, angle=_upward(begin + margin))]
+    return better, [_MOST_BESIDE.filled(held=said, far=FAR, angle=_upward(begin + margin))]
 
 
 def _first_found(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -> tuple[Pair | None, list[Message]]:

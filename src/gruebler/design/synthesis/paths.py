@@ -45,6 +45,7 @@ def synthesise_path(
     *,
     number: int = 6,
     sliders: bool = True,
+    sort: Sequence[str] = (),
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> SynthesisResult:
@@ -63,6 +64,7 @@ def synthesise_path(
         demands: what a design has to do besides.
         number: of dyads taken from an infinite family (crank angles), or of designs for a whole curve.
         sliders: whether slider-cranks are looked for, too, where least squares find the designs.
+        sort: by what the best of a family of dyads are sought: names as for `SynthesisResult.sorted_by`.
         threads: how many follow paths; as many as there are processors if None.
         progress: called with the paths, or the passes through an atlas, that are done, and their number, then with the
             verdicts.
@@ -76,7 +78,7 @@ def synthesise_path(
     ('four-bars', 36, 36, 14)
     """
     wanted = (demands or Demands()).of_task(task)
-    run = _Run(task=task, demands=wanted, number=number, sliders=sliders, threads=threads, progress=progress)
+    run = _Run(task=task, demands=wanted, number=number, sliders=sliders, sort=sort, threads=threads, progress=progress)
     return next((method.solve for method in _METHODS if method.suits(run)), _finite)(run)
 
 
@@ -88,6 +90,7 @@ class _Run:
     demands: Demands
     number: int
     sliders: bool
+    sort: Sequence[str]
     threads: int | None
     progress: Progress | None
 
@@ -123,7 +126,7 @@ class _Run:
 
 def _with_crank_angles(run: _Run) -> SynthesisResult:
     if len(run.oriented) == len(run.task) == TIMED_POSITIONS and not run.task.fixed_pivots:
-        return timed_positions(run.task, run.demands, run.number)
+        return timed_positions(run.task, run.demands, run.number, run.sort)
     return timed_points(run.task, run.demands, run.number)
 
 
@@ -186,7 +189,7 @@ def _as_positions(run: _Run) -> SynthesisResult:
     task = run.task
     rows = [(p.real, p.imag, a) for p, a in zip(task.z, task.angles, strict=True) if a is not None]
     result = synthesise_positions(
-        PositionTask(tuple(rows), unit=task.unit, order=task.order), run.demands, progress=run.progress
+        PositionTask(tuple(rows), unit=task.unit, order=task.order), run.demands, sort=run.sort, progress=run.progress
     )
     return SynthesisResult(
         task=task, designs=result.designs, rejected=result.rejected, count=result.count, notes=result.notes

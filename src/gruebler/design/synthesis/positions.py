@@ -34,7 +34,7 @@ from gruebler.design.synthesis.dyads import (
 )
 from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.given_pivots import notes_on_pivots
-from gruebler.design.synthesis.judging import Demands, best_of, judge_design, order_notes
+from gruebler.design.synthesis.judging import Demands, best_of, judge_design, judged_by_drive, order_notes
 from gruebler.design.synthesis.length_search import best_linkages, best_members, has_lengths
 from gruebler.design.synthesis.pair_search import IMPROVED, Nearby
 from gruebler.design.synthesis.partner_bounds import Pair, angle_of_pair, best_beside, improved_pair, slide_notes
@@ -254,7 +254,8 @@ def synthesise_positions(
     elif len(task) == 2:
         candidates = _judged_ends(task, wanted, number, sort, progress, notes)
     else:
-        candidates = _judged_pairs(task, wanted, list(combinations(dyads, 2)), progress)
+        pairs = list(combinations(dyads, 2))
+        candidates = _judged_pairs(task, wanted, pairs, progress, each_drive=len(task) < 5)
     complex_dyads = len(dyads)
     if len(task) == 5:
         displacements, *_ = Displacements.of(task.origins, task.turns)
@@ -294,19 +295,23 @@ def _proved(
 def _judged_pairs(
     task: PositionTask,
     demands: Demands,
-    pairs: Sequence[tuple[GuidingDyad, GuidingDyad]],
+    pairs: Sequence[Pair],
     progress: Progress | None,
+    *,
+    each_drive: bool = False,
 ) -> list[Design]:
-    designs = []
+    """The designs of pairs, driven where it does best; or at each side, as where pivots were chosen."""
+    designs: list[Design] = []
     for done, (guiding_dyad, two) in enumerate(pairs, 1):
         if progress is not None:
             progress(done, len(pairs))
         form = f"{guiding_dyad.kind.form}-{two.kind.form}"
-        try:
+        with suppress(LinkageError):  # two dyads with a common pivot are no linkage
             linkages = four_bar_linkages(guiding_dyad, two, complex(task.origins[0]), unit=task.unit)
-            designs.append(best_of(linkages, partial(body_targets, task), demands, form))
-        except LinkageError:
-            continue  # two dyads with a common pivot are no linkage
+            if each_drive and form == _FOUR_BAR:
+                designs += judged_by_drive(linkages, partial(body_targets, task), demands, form)
+            else:
+                designs.append(best_of(linkages, partial(body_targets, task), demands, form))
     return designs
 
 
@@ -473,8 +478,7 @@ def four_bar_linkages(
 ) -> Iterator[Linkage]:
     """The linkage of two dyads in its first position with a coupler point P, driven at each side: the better first.
 
-    The side that turns fully drives; of two that do not, each is tried. Each is built when it is asked for. Raises
-    `LinkageError` if pivots coincide.
+    A side that turns fully drives first. Each is built when it is asked for. Raises `LinkageError` if pivots coincide.
     """
     orders = [(first_dyad, second_dyad), (second_dyad, first_dyad)]
     if not (first_dyad.slides or second_dyad.slides):
@@ -486,8 +490,6 @@ def four_bar_linkages(
         ).turning
         if "c" in turning and "a" not in turning:
             orders.reverse()
-        if turning and "b" not in turning:
-            orders = orders[:1]
     elif first_dyad.kind.pairs[0].is_sliding and not second_dyad.kind.pairs[0].is_sliding:
         orders.reverse()
     return (linkage_of_dyads(first, second, point, unit) for first, second in orders)

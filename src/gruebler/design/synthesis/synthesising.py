@@ -114,7 +114,7 @@ def synthesise(
             given["kind"] = six_bars
         method = synthesise_six_bars if isinstance(task, FunctionTask) else synthesise_guiding_six_bars
         return _sorted(_called(method, task, message("with six_bars"), demands, given), orders)
-    if orders and structures is None and not isinstance(task, PathTask):
+    if orders and structures is None:
         given["sort"] = orders
     result = _solved(task, structures, demands, given)
     return _sorted(result, orders)

@@ -8,8 +8,12 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.design.synthesis.ordered_matching import Places, preferred
+from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.target_places import Piece, TargetPlaces
 from gruebler.mechanics.kinematics import Circuit
+
+_LONGER = 1 + 1e-6
+"""Times: a way is longer than another one, and not just found less exactly."""
 
 
 class TargetPath(NamedTuple):
@@ -23,14 +27,24 @@ class TargetPath(NamedTuple):
     """How far the farthest target is missed in order, relative to the size; NaN if no way in order is known."""
 
 
-def path_through(course: Circuit, met: TargetPlaces, limit: float, *, in_order: bool = True) -> TargetPath:
+def path_through(
+    course: Circuit, met: TargetPlaces, limit: float, *, in_order: bool = True, shortest: TargetOrder | None = None
+) -> TargetPath:
     """The best way through the targets: in order and without a limit of the drive if there is one within a limit.
 
-    Where there is none and the order is free, a way in another order without a limit of the drive is better.
+    Where there is none and the order is free, a way in another order without a limit of the drive is better. Where the
+    shortest way is wanted, it is the best in any case; of it is told whether it keeps that order.
     """
     branches, whole = _branches(course), None if course.closed else (0.0, course.length)
     ways = [match for branch in branches if (match := met.in_order(branch)) is not None]
-    if ways and (best := preferred(ways, 1.0)).error <= limit:
+    best = preferred(ways, 1.0) if ways else None
+    best = None if best is None or best.error > limit else best
+    if shortest is not None and (free := _unordered(course, met.places, np.nan)).one_branch:
+        lap = course.length if course.closed else np.inf
+        free = free._replace(in_order=bool(shortest.kept_along(free.arcs[None], lap)[0]))
+        if best is None or _travel(course, best.arcs) > _LONGER * _travel(course, free.arcs):
+            return free
+    if best is not None:
         return TargetPath(best.arcs, True, True, best.error)
     match = met.in_order(whole) if branches != [whole] else ways[0] if ways else None
     through = None
@@ -79,12 +93,17 @@ def _unordered(course: Circuit, places: Places, error: float) -> TargetPath:
     starts, low, high, arcs = (part[..., np.isfinite(high)] for part in (starts, low, high, arcs))
     limits = np.array([extreme.at + lap for extreme in course.drive_limits for lap in laps])
     crosses = np.asarray(((limits[:, None] > low) & (limits[:, None] < high)).any(axis=0))
-    travel = np.where(crosses, high - low, np.abs(_drive_at(course, high) - _drive_at(course, low)))
+    travel = np.where(crosses, high - low, _travel(course, np.stack([low, high])))
     best = np.lexsort([np.round(travel, 9), crosses])[0]
     chosen = arcs[:, best]
     return TargetPath(
         chosen - (chosen[0] // course.length) * course.length * course.closed, False, not crosses[best], error
     )
+
+
+def _travel(course: Circuit, arcs: Reals) -> Reals:
+    """How far the drive goes between the first and the last of arcs, (targets, ...), without a limit of it between."""
+    return np.abs(_drive_at(course, arcs.max(axis=0)) - _drive_at(course, arcs.min(axis=0)))
 
 
 def _drive_at(course: Circuit, arcs: Reals) -> Reals:

@@ -5,6 +5,8 @@ docs/theory/synthesis-points.md has the equations and the counts.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from gruebler.base.arrays import Reals
@@ -13,6 +15,7 @@ from gruebler.base.text import message
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
 from gruebler.design.synthesis.judging import Demands, judge_design
 from gruebler.design.synthesis.length_search import best_linkages
+from gruebler.design.synthesis.partner_bounds import best_beside
 from gruebler.design.synthesis.positions import (
     guiding_dyads,
     linkage_of_dyads,
@@ -30,7 +33,7 @@ _TIMED_SAMPLE = 1600
 """Dyads that are tried with the one crank of three positions with crank angles."""
 
 
-def timed_positions(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
+def timed_positions(task: PathTask, demands: Demands, number: int, sort: Sequence[str] = ()) -> SynthesisResult:
     """Three positions with crank angles: one crank does it, with any other dyad of the positions; the best are sought.
 
     With w from the crank's pivot to its pin and v on to the point, w e^(i phi) + v e^(i theta) moves as the point does.
@@ -55,15 +58,17 @@ def timed_positions(task: PathTask, demands: Demands, number: int) -> SynthesisR
     others = [dyad for dyad in guiding_dyads(positions, _TIMED_SAMPLE, region) if not dyad.slides]
     families = [[dyad for dyad in others if dyad != own]]
     families += [sliding_sample(positions, kind, demands) for kind in (SLIDER, BLOCK)]
-    searches = [best_linkages(positions, [own], demands, near, second=family, number=2 * number) for family in families]
+    turning, *sliding = (
+        best_linkages(positions, [own], demands, near, second=family, orders=sort, number=2 * number)
+        for family in families
+    )
+    better, proved = best_beside(positions, demands, own, turning.pairs, drives=True)
+    pairs = [*better, *turning.pairs, *(pair for search in sliding for pair in search.pairs)]
     designs = [
-        design
-        for search in searches
-        for _, other in search.pairs
-        for design in _judged_timed(task, np.array(task.crank_angles), demands, own, other)
+        design for _, other in pairs for design in _judged_timed(task, np.array(task.crank_angles), demands, own, other)
     ]
     accepted, rejected = ranked(designs)
-    notes = [note for search in searches for note in search.notes]
+    notes = [*turning.notes, *proved, *(note for search in sliding for note in search.notes)]
     notes.append(message("Three positions with crank angles have one crank; the other dyad is any of the positions."))
     count = SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs))
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
@@ -124,5 +129,6 @@ def _judged_timed(
         angles = [first + (a or 0.0) - (task.angles[0] or 0.0) for a in task.angles]
     placed = position_targets("P", "coupler", task.z, angles, task.size)
     probes = (*placed.probes, Probe(link="crank", length=task.size))
-    targets = Targets(probes, np.concatenate([placed.values, crank[:, None]], axis=1), task.size, ranks=task.order)
+    values = np.concatenate([placed.values, crank[:, None]], axis=1)
+    targets = Targets(probes, values, task.size, ranks=task.order, travel=task.size)
     return [judge_design(linkage, targets, demands, f"{own.kind.form}-{other.kind.form}")]
