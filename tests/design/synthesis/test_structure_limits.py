@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 
 from gruebler.design.realisation import realise
-from gruebler.design.synthesis import Demands, PathTask, PositionTask, synthesise
+from gruebler.design.synthesis import Demands, FunctionTask, PathTask, PositionTask, synthesise
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.curve_matching import PLACES, Anchors, best_matches, resampled
 from gruebler.design.synthesis.drawing_limits import limits_of_drawings
 from gruebler.design.synthesis.leg_angles import LegAngles
+from gruebler.design.synthesis.size_limits import limits_of_sizes
 from gruebler.design.synthesis.structure_atlas import dyad_structure, structure_atlas
+from gruebler.design.synthesis.structures import fit_structure
 from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.kinematics import circuit, move
 from gruebler.mechanics.linkages import Linkage
@@ -84,6 +86,53 @@ def test_slopes_of_limits_against_differences():
             ends = [limits.values(rows + sign * step, phi) for sign in (1, -1)]
             # A top between places is found by a parabola, to a hundredth of a radian.
             assert exact[:, k] == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=0.02 if crank else 1e-6)
+
+
+@pytest.mark.parametrize("mechanism", [WATT, STEPHENSON], ids=["Watt I", "Stephenson III"])
+def test_a_crank_turns_as_far_as_its_dyads_say(mechanism):
+    """Second method: cosines at the inner joints over a whole turn by `move`; slopes by differences of all."""
+    linkage = realise(mechanism, seed=1).linkage
+    closure, course, structure = DesignClosure(linkage), circuit(linkage), dyad_structure(mechanism)
+    pose = closure.poses(course.at(np.array([0.3 * course.length])))[0]
+    wanted, held = Demands(crank=True, size_ratio=np.inf), frozenset([0])
+    limits = limits_of_sizes(closure, wanted, pose, closure.sizes, held=held, unit=linkage.size)
+    rows, at_rest = closure.sizes[:, None], np.zeros((1, 0))
+    values, slopes = limits.linearised(rows, at_rest)
+    motion = move(linkage, course.drive[0] + np.linspace(0, 2 * np.pi, 2001))
+    expected = []
+    for dyad in structure.dyads:
+        arms = []
+        for link, outer in zip(dyad.links, dyad.outer, strict=True):
+            ends = (linkage.elements[joint, link] for joint in (dyad.inner, outer))
+            inner, far = (motion.complex_point((link, e.x, e.y)) for e in ends)
+            arms.append((inner - far) / abs(inner - far))
+        cosines = np.real(arms[0] * np.conj(arms[1]))
+        expected += [cosines.max() - 1, -cosines.min() - 1]
+    assert values[:, 0] == pytest.approx(expected, abs=1e-3)
+    assert not slopes[:, 0].any()  # it is held
+    for k in range(1, len(rows)):
+        step = np.zeros((len(rows), 1))
+        step[k] = 1e-5 * linkage.size
+        ends = [limits.values(rows + sign * step, at_rest) for sign in (1, -1)]
+        assert slopes[:, k] == pytest.approx((ends[0] - ends[1]) / (2e-5 * linkage.size), abs=0.03 / linkage.size)
+
+
+@pytest.mark.parametrize(
+    "task",
+    [
+        FunctionTask(inputs=(0.3, 0.4, 0.86, 1.35, 1.8), outputs=(0.01, -0.07, -0.07, 0, 0.13)),
+        PositionTask([(0.4, -0.5, 0.2), (-0.7, -1.2, 0.4), (-1.9, -1.5, 0.4), (-0.8, 0, 0.9)]),
+    ],
+    ids=["function", "positions"],
+)
+def test_a_crank_turns_fully_outside_curves_too(task):
+    """Both were met by six-bars whose crank swings; `move` turns those that are found now."""
+    demands = Demands(crank=True, tolerance=1e-3)
+    designs = [fit_structure(task, STEPHENSON, demands, seed=seed) for seed in (1, 2)]
+    turning = [design.linkage for design in designs if design.verdict.accepted]
+    assert turning
+    for linkage in turning:
+        assert move(linkage, circuit(linkage).drive[0] + np.linspace(0, 2 * np.pi, 721)).complete
 
 
 def test_curves_are_compared_with_their_anchors_as_linear_least_squares_does():

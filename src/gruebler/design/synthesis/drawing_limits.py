@@ -16,11 +16,20 @@ from gruebler.base.arrays import Complexes, Reals
 from gruebler.design.synthesis.fit_limits import MARGIN, FitLimits
 from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.place_limits import PlaceLimits
-from gruebler.design.synthesis.structure_atlas import DrawnDyad, DyadStructure, LinkMotions, link_motions, link_slopes
+from gruebler.design.synthesis.structure_atlas import (
+    DrawnDyad,
+    DyadStructure,
+    LinkMotions,
+    PinPlaces,
+    dyad_arms,
+    link_motions,
+    link_slopes,
+    pins_of_drawing,
+)
 
 _ROUND = np.linspace(0, 2 * np.pi, 40, endpoint=False)  # of the crank
-_SIGNS = np.array([1.0, -1.0])  # of a cosine, for an angle that is too small and one that is too large
-_SAFE = 1e-4  # of a cosine: so far from where a dyad is stretched
+SIGNS = np.array([1.0, -1.0])  # of a cosine, for an angle that is too small and one that is too large
+SAFE = 1e-4  # of a cosine: so far from where a dyad is stretched
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +58,7 @@ class DrawingLimits(FitLimits):
         """The dyads whose angle is limited, with the largest cosine of it."""
         output, angle = self.structure.output, self.places.demands.transmission
         least = [(dyad, angle if output in dyad.links else 0.0) for dyad in self.structure.dyads]
-        return [(dyad, min(float(np.cos(mu)), 1 - _SAFE)) for dyad, mu in least if self.turning or mu > 0]
+        return [(dyad, min(float(np.cos(mu)), 1 - SAFE)) for dyad, mu in least if self.turning or mu > 0]
 
     def values(self, rows: Reals, phi: Reals) -> Reals:
         """Of a crank that turns fully all round, to the top between places; else at the targets."""
@@ -70,21 +79,14 @@ class DrawingLimits(FitLimits):
     def _beyond(self, rows: Reals, motions: LinkMotions) -> Iterator[Reals]:
         """(2, starts) of each dyad, by how much its cosine passes both limits at their tops."""
         for n, (dyad, most) in enumerate(self._bounds):
-            cosines = _cosine(dyad, _drawn(rows)[..., None], _at_tops(motions, n))
-            yield (np.nan_to_num(_SIGNS * cosines, nan=-1.0) - most + MARGIN).T
+            yield beyond_cosine(cosine(dyad, _pins(rows), at_tops(motions, n)), most)
 
     def _tops(self, rows: Reals, phi: Reals) -> Reals:
         """(starts, tops) the crank angles where the cosine of each dyad is largest, and where it is least."""
         angles = np.broadcast_to(_ROUND, (rows.shape[1], len(_ROUND))) if self.turning else phi
         motions, tops = link_motions(self.structure, _drawn(rows), angles), []
         for dyad, _ in self._bounds:
-            cosines = _cosine(dyad, _drawn(rows)[..., None], motions)
-            for sign in _SIGNS:
-                at = np.nan_to_num(sign * cosines, nan=-np.inf).argmax(axis=1)
-                top = np.take_along_axis(angles, at[:, None], axis=1)
-                if self.turning:
-                    top = top + _beside(sign * cosines, at)[:, None] * (_ROUND[1] - _ROUND[0])
-                tops.append(top)
+            tops += top_angles(cosine(dyad, _pins(rows), motions), angles, between=self.turning)
         return np.concatenate(tops, axis=1)
 
     def _cosine_slopes(self, rows: Reals, motions: LinkMotions) -> Iterator[Reals]:
@@ -94,30 +96,30 @@ class DrawingLimits(FitLimits):
             slopes = link_slopes(self.structure, columns, motions, by_places=True)
         count = len(rows)
         for n, (dyad, _) in enumerate(self._bounds):
-            moved, changed = _at_tops(motions, n), _at_tops(slopes, n)
-            gap_slopes = np.zeros((count - 2, rows.shape[1], len(_SIGNS)), np.complex128)
+            moved, changed = at_tops(motions, n), at_tops(slopes, n)
+            gap_slopes = np.zeros((count - 2, rows.shape[1], len(SIGNS)), np.complex128)
             for sign, joint, base in zip((-1, 1), dyad.outer, dyad.base, strict=True):
                 by_turn, by_shift = changed[base]
                 gap_slopes += sign * (by_turn * columns[joint] + by_shift)[:-1]
                 gap_slopes[2 * joint] += sign * moved[base][0]
                 gap_slopes[2 * joint + 1] += sign * 1j * moved[base][0]
-            gap = _gap(dyad, columns, moved)
-            arms = [columns[dyad.inner] - columns[joint] for joint in dyad.outer]
+            pin = pins_of_drawing(columns)
+            gap, arms = _gap(dyad, pin, moved), dyad_arms(dyad, pin)
             first, second = np.abs(arms)
-            product, cosine = first * second, _cosine(dyad, columns, moved)
+            product, own_cosine = first * second, cosine(dyad, pin, moved)
             by_number = np.zeros((count, *gap.shape))
             by_number[:-2] = -np.real(np.conj(gap) * gap_slopes) / product
             for arm, own, joint in zip(arms, (first, second), dyad.outer, strict=True):
-                by_length = own / product - cosine / own
+                by_length = own / product - own_cosine / own
                 for k, part in enumerate((arm.real, arm.imag)):
                     by_number[2 * dyad.inner + k] += by_length * part / own
                     by_number[2 * joint + k] -= by_length * part / own
-            yield np.moveaxis(_SIGNS * np.nan_to_num(by_number), 2, 0)
+            yield np.moveaxis(SIGNS * np.nan_to_num(by_number), 2, 0)
 
 
-def _at_tops(motions: LinkMotions, dyad: int) -> LinkMotions:
+def at_tops(motions: LinkMotions, dyad: int) -> LinkMotions:
     """Motions, or how they change, at both tops of a dyad by its number."""
-    own = slice(len(_SIGNS) * dyad, len(_SIGNS) * (dyad + 1))
+    own = slice(len(SIGNS) * dyad, len(SIGNS) * (dyad + 1))
     return {link: (turn[..., own], shift[..., own]) for link, (turn, shift) in motions.items()}
 
 
@@ -126,19 +128,38 @@ def _drawn(rows: Reals) -> Complexes:
     return np.asarray(rows[:-2:2] + 1j * rows[1:-2:2])
 
 
-def _gap(dyad: DrawnDyad, places: Complexes, motions: LinkMotions) -> Complexes:
+def _pins(rows: Reals) -> PinPlaces:
+    return pins_of_drawing(_drawn(rows)[..., None])
+
+
+def _gap(dyad: DrawnDyad, pin: PinPlaces, motions: LinkMotions) -> Complexes:
     """From the outer joint of the first link to that of the second."""
     own, far = (
-        motions[base][0] * places[joint] + motions[base][1] for joint, base in zip(dyad.outer, dyad.base, strict=True)
+        motions[base][0] * pin(joint, base) + motions[base][1]
+        for joint, base in zip(dyad.outer, dyad.base, strict=True)
     )
     return np.asarray(far - own)
 
 
-def _cosine(dyad: DrawnDyad, places: Complexes, motions: LinkMotions) -> Reals:
+def cosine(dyad: DrawnDyad, pin: PinPlaces, motions: LinkMotions) -> Reals:
     """Of the angle between the links of a dyad; beyond 1 where it cannot be assembled."""
-    first, second = (np.abs(places[dyad.inner] - places[joint]) for joint in dyad.outer)
-    gap = _gap(dyad, places, motions)
-    return np.asarray((first**2 + second**2 - np.abs(gap) ** 2) / (2 * first * second))
+    first, second = (np.abs(arm) for arm in dyad_arms(dyad, pin))
+    return np.asarray((first**2 + second**2 - np.abs(_gap(dyad, pin, motions)) ** 2) / (2 * first * second))
+
+
+def beyond_cosine(cosines: Reals, most: float) -> Reals:
+    """(2, ...) by how much cosines (..., 2) at the tops of both signs pass a limit."""
+    return np.moveaxis(np.nan_to_num(SIGNS * cosines, nan=-1.0) - most + MARGIN, -1, 0)
+
+
+def top_angles(cosines: Reals, angles: Reals, *, between: bool) -> list[Reals]:
+    """(starts, 1) crank angles where cosines (starts, angles) are largest, and where least; between angles, too."""
+    tops = []
+    for sign in SIGNS:
+        at = np.nan_to_num(sign * cosines, nan=-np.inf).argmax(axis=1)
+        top = np.take_along_axis(angles, at[:, None], axis=1)
+        tops.append(top + _beside(sign * cosines, at)[:, None] * (angles[:, 1:2] - angles[:, :1]) if between else top)
+    return tops
 
 
 def _beside(values: Reals, at: NDArray[np.intp]) -> Reals:

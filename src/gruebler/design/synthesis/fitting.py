@@ -17,7 +17,7 @@ from gruebler.design.synthesis.closure import DesignClosure, PoseDerivatives
 from gruebler.design.synthesis.fit_limits import HELD
 from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.leg_angles import LegAngles
-from gruebler.design.synthesis.place_limits import PlaceLimits
+from gruebler.design.synthesis.size_limits import SizeLimits, limits_of_sizes
 from gruebler.design.synthesis.target_bands import STAGES, TargetBands, numbers_or
 from gruebler.design.synthesis.target_orders import Ranks
 from gruebler.design.synthesis.targets import GuidedCurve
@@ -313,7 +313,8 @@ def improved(
     if not good.all():
         return state
     units = _units(closure, targets, state, size)
-    limits = _limits(closure, demands, state, size)
+    wanted = demands or Demands(size_ratio=np.inf)
+    limits = limits_of_sizes(closure, wanted, q[0], state.p, held=state.held, unit=size)
     if demands is not None and demands.transmission > 0 and len(closure.linkage.mechanism.drives) < 2:
         outputs = (state.output,) if state.output else closure.linkage.outputs
         targets = replace(targets, legs=LegAngles.of(closure, outputs, demands.transmission))
@@ -330,25 +331,8 @@ def improved(
     return start.state
 
 
-def _limits(closure: DesignClosure, demands: Demands | None, state: FitState, size: float) -> PlaceLimits:
-    """What the dimensions keep to."""
-    links = closure.linkage.mechanism.chain.links
-    return PlaceLimits(
-        pins={
-            link: tuple(
-                closure.start[key] for key in closure.keys if key[1] == link and closure.linkage.elements[key].is_pin
-            )
-            for link in links
-        },
-        frame=closure.linkage.mechanism.frame,
-        demands=demands or Demands(size_ratio=np.inf),
-        unit=size,
-        held=state.held,
-    )
-
-
 def _met(
-    closure: DesignClosure, targets: FitTargets, now: _Nearest, limits: PlaceLimits, units: Reals
+    closure: DesignClosure, targets: FitTargets, now: _Nearest, limits: SizeLimits, units: Reals
 ) -> _Nearest | None:
     """The state nearby that meets all targets, by Newton's method with least steps; None if it is not reached.
 
@@ -406,7 +390,7 @@ def _changed(
 
 
 def _least_squares(
-    closure: DesignClosure, targets: FitTargets, start: _Nearest, limits: PlaceLimits, units: Reals, steps: int
+    closure: DesignClosure, targets: FitTargets, start: _Nearest, limits: SizeLimits, units: Reals, steps: int
 ) -> _Nearest:
     """Levenberg and Marquardt's method, within the limits if the start is, else first back to them.
 
@@ -477,11 +461,11 @@ class _Nearest:
         by_sizes[:, :, [*self.state.held]] = 0
         return np.asarray(np.concatenate([by_sizes, self.own.by_free], axis=2) * units)
 
-    def beyond(self, limits: PlaceLimits) -> Reals:
+    def beyond(self, limits: SizeLimits) -> Reals:
         """(limits,) by how much the dimensions pass each; 0 inside."""
         return np.asarray(np.maximum(limits.values(self.state.p[:, None], _AT_REST)[:, 0], 0.0))
 
-    def passed(self, limits: PlaceLimits) -> float:
+    def passed(self, limits: SizeLimits) -> float:
         """By how much the dimensions pass the limit that they pass most; 0 inside."""
         return float(limits.passed(self.state.p[:, None], _AT_REST)[0])
 

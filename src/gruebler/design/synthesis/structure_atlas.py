@@ -6,7 +6,7 @@ docs/theory/synthesis-any.md.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import NamedTuple
@@ -99,6 +99,8 @@ def dyad_structure(mechanism: Mechanism) -> DyadStructure | None:
 
 LinkMotions = dict[str, tuple[Complexes, Complexes]]
 """Of each link how its plane has moved: rotation and shift."""
+PinPlaces = Callable[[int, str], Complexes]
+"""(..., 1) where a joint, by its number, lies in the plane of a link."""
 
 
 def assembled_sides(structure: DyadStructure, drawn: Complexes) -> Reals:
@@ -123,20 +125,29 @@ def link_motions(structure: DyadStructure, drawn: Complexes, turned: Reals, side
 
     Returns (..., angles) each; NaN where a dyad cannot be assembled. Cost: 0.1 us for each dyad and angle.
     """
-    places = drawn[..., None]
-    ones = np.ones(np.broadcast_shapes(places.shape[1:], turned.shape), np.complex128)
-    spin = np.exp(1j * turned) * ones
-    motions = {
-        structure.mechanism.frame: (ones, 0 * ones),
-        structure.crank: (spin, places[structure.pivot] * (1 - spin)),
-    }
     sides = assembled_sides(structure, drawn) if sides is None else sides
+    return plane_motions(structure, pins_of_drawing(drawn[..., None]), turned, sides)
+
+
+def pins_of_drawing(places: Complexes) -> PinPlaces:
+    """All links have the plane of the drawing."""
+    return lambda joint, _: places[joint]
+
+
+def plane_motions(structure: DyadStructure, pin: PinPlaces, turned: Reals, sides: Reals) -> LinkMotions:
+    """How the plane of each link moves, which may have coordinates of its own, as `link_motions`."""
+    frame, crank = structure.mechanism.frame, structure.crank
+    own, far = pin(structure.pivot, frame), pin(structure.pivot, crank)
+    ones = np.ones(np.broadcast_shapes(own.shape, turned.shape), np.complex128)
+    spin = np.exp(1j * turned) * ones
+    motions = {frame: (ones, 0 * ones), crank: (spin, own * (1 - spin) + spin * (own - far))}
     for dyad, side in zip(structure.dyads, sides[..., None], strict=True):
         ends = [
-            rotation * places[joint] + shift
-            for joint, (rotation, shift) in zip(dyad.outer, (motions[base] for base in dyad.base), strict=True)
+            rotation * pin(joint, base) + shift
+            for joint, base in zip(dyad.outer, dyad.base, strict=True)
+            for rotation, shift in (motions[base],)
         ]
-        arms = [places[dyad.inner] - places[joint] for joint in dyad.outer]
+        arms = dyad_arms(dyad, pin)
         gap = ends[1] - ends[0]
         with np.errstate(invalid="ignore", divide="ignore"):
             distance = np.abs(gap)
@@ -145,8 +156,13 @@ def link_motions(structure: DyadStructure, drawn: Complexes, turned: Reals, side
             inner = ends[0] + gap / distance * (along + 1j * across)
             for link, end, joint, arm in zip(dyad.links, ends, dyad.outer, arms, strict=True):
                 rotation = (inner - end) / arm
-                motions[link] = rotation, end - rotation * places[joint]
+                motions[link] = rotation, end - rotation * pin(joint, link)
     return motions
+
+
+def dyad_arms(dyad: DrawnDyad, pin: PinPlaces) -> list[Complexes]:
+    """From the outer joint of each link of a dyad to the inner one, in the plane of the link."""
+    return [pin(dyad.inner, link) - pin(joint, link) for link, joint in zip(dyad.links, dyad.outer, strict=True)]
 
 
 def link_slopes(
