@@ -66,7 +66,7 @@ def test_a_bound_that_is_not_proved_beside_a_given_pivot_is_not_that_of_a_dyad(s
 def test_a_slider_crank_has_no_length_of_the_frame_and_is_not_sought(said):
     out = said(4, "--length frame 5 --rejected")
     assert [line.split()[0] for line in out.splitlines() if "RR-PR" in line] == ["Linkages"]
-    assert "Linkages RR-PR do not have all links whose lengths are given; they are left out." in out
+    assert "Linkages RR-PR are left out: a link whose length is given has fewer than two pins there." in out
     assert "RR-RR" in out
     slider = ["--structure", "slider-crank", "--initial-designs", "1", "--length", "0", "5"]
     assert "the length of a link '0' is given, but only 1 and 2 have one" in said(3, slider)
@@ -220,3 +220,23 @@ def test_tabs_stand_between_columns_too(tmp_path):
     path = tmp_path / "task.csv"
     path.write_text("x\ty\tangle\n0\t0\t0\n2,5\t1.5\t90\n", encoding="utf-8")
     assert read_task(path).positions[1] == pytest.approx((2.5, 1.5, np.pi / 2))
+
+
+def test_points_that_are_not_passed_within_the_demands_are_not_counted_as_solutions(tmp_path, capsys):
+    path = tmp_path / "task.csv"
+    path.write_text("x,y\n0,0\n10,5\n20,6\n30,0\n", encoding="utf-8")
+    assert main(["synthesise", "path", str(path), "--transmission", "90", "--number", "1"]) == 1
+    assert "led to none that passes the points within the demands" in capsys.readouterr().out
+    assert main(["synthesise", "path", str(path), *["--fixed-pivot", "0", "0", "--fixed-pivot", "9", "0"] * 2]) == 2
+    assert "--fixed-pivot: expected one or two, but found 4" in capsys.readouterr().err
+    path.write_text("x,y,weight\n0,0,0\n10,5,0\n20,6,0\n", encoding="utf-8")
+    assert main(["synthesise", "path", str(path)]) == 2
+    assert "weights: expected one above 0 at least" in capsys.readouterr().err
+
+
+def test_lengths_that_no_crank_rocker_has_are_said_so_alone(capsys):
+    words = "dead-centres --swing 60 --crank-angle 180 --length crank 3 --length rocker 3"
+    assert main(["synthesise", *words.split()]) == 1
+    out = capsys.readouterr().out
+    assert "No member has the given lengths." in out
+    assert "Of 0 members" not in out

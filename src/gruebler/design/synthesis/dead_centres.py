@@ -242,13 +242,13 @@ def _searched(
     members = [*family.members, family.best] if of_lengths is None else of_lengths
     designs = [_design(task, member, demands) for member in members]
     good = [k for k, design in enumerate(designs) if design.verdict.accepted]
+    if of_lengths == []:
+        notes.append(message("No member has the given lengths."))
+        return _spread(family.members, family.best, number)
     notes.append(
         message("Of {members} members that were tried {count} meet all demands.", members=len(members), count=len(good))
     )
     if not good:
-        if of_lengths == []:
-            notes.append(message("No member has the given lengths."))
-            return _spread(family.members, family.best, number)
         notes += tightest(_met(designs, demands))
         return _spread(members, max(members, key=lambda member: member.transmission), number)
     if of_lengths is not None:

@@ -62,7 +62,7 @@ _FOUND = message(
 )
 _WITH_PIVOTS = message("Linkages {form} with the given pivots: {count:,} of a sample of {pairs:,} meet all demands.")
 _NONE = message("Linkages {form} with the given lengths: none was found.")
-_WITHOUT = message("Linkages {form} do not have all links whose lengths are given; they are left out.")
+_WITHOUT = message("Linkages {form} are left out: a link whose length is given has fewer than two pins there.")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -252,7 +252,8 @@ def _check(mechanism: Mechanism, targets: FitTargets, link: str, pivots: int) ->
     own = sum(frame in joint.links and joint.pair.is_turning for joint in chain.joints)
     if pivots > own:
         raise SynthesisError(
-            "fixed_pivots: {count} are given, but {mechanism!r} has {own}",
+            "{key}: {count} are given, but {mechanism!r} has {own}",
+            key="fixed_pivots",
             count=pivots,
             mechanism=mechanism.text(),
             own=own,

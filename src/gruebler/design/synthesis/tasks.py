@@ -268,7 +268,7 @@ class PathTask:
                     count=len(values),
                 )
         if len(pivots) > 2:
-            raise SynthesisError("fixed_pivots: expected one or two, but found {count}", count=len(pivots))
+            raise SynthesisError("{key}: expected one or two, but found {count}", key="fixed_pivots", count=len(pivots))
         if len(pivots) == 2 and abs(complex(*pivots[0]) - complex(*pivots[1])) <= SAME * self.size:
             raise SynthesisError("{key}: the two pivots coincide", key="fixed_pivots")
         for name in ("tolerances", "weights"):
@@ -277,6 +277,8 @@ class PathTask:
                     raise SynthesisError(
                         "{where}: expected at least 0, but found {value:g}", where=numbered_entry(name, k), value=value
                     )
+        if self.weights and not any(self.weights):
+            raise SynthesisError("{key}: expected one above 0 at least", key="weights")
         _check_order(self, curve=self.closed or len(rows) > MOST_POINTS)
         self._check_distinct()
         self._check_timing()
