@@ -23,7 +23,8 @@ export const DRIVEN = "M9.5 -9.5 A13.4 13.4 0 0 0 -12.5 -5 M-12.5 -5 l6 -1.5 M-1
 const LONGEST_ARROW = 90; // pixels
 const LINE = 15; // pixels that names are apart
 const MOST_CLEAR = 40; // names that look for a place of their own in every picture
-const TOOLS = 206; // down to the lower edge of the buttons over the picture
+const TOOLS = 218; // down to where names are clear of the buttons over the picture
+const BESIDE = 56; // from the right edge of the picture to the left one of these
 const RAIL = 6; // half the width of a rail with its hatching, and some room
 
 export class Scene {
@@ -223,14 +224,12 @@ export class Scene {
       .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
       .map(({ joint }) => standing(viewport.screen(...linkage.jointAt(joint))));
     const { height, width } = viewport;
-    const low = height < 2 * TOOLS ? 60 : TOOLS; // a low picture has one button only
-    const box = (left: number, right: number, foot: number): Pair[] => [
-      [left, 0],
-      [right, 0],
-      [right, foot],
-      [left, foot],
+    const low = height < 2 * TOOLS ? 72 : TOOLS; // a low picture has one button only
+    const buttons: Pair[] = [
+      [width, 60],
+      [width - 54, 60],
+      [width - 54, 0],
     ];
-    grounds.push(box(width - 54, width, low), box(-width, 0, height), box(width, 2 * width, height));
     const [c, s] = turn(pose, 0, model.frame);
     const [ox, oy] = viewport.screen(...origin(pose, 0, model.frame));
     const placed = (x: number, y: number): Pair => [ox + c * x + s * y, oy - s * x + c * y];
@@ -240,7 +239,7 @@ export class Scene {
           ends.flatMap(([x, y]) => [-RAIL, RAIL].flatMap((d) => [placed(x + d, y + d), placed(x + d, y - d)])),
         ),
       );
-    const drawn = [...hulls.filter((hull) => hull.length), ...arrows, ...grounds];
+    const drawn = [...hulls.filter((hull) => hull.length), ...arrows, ...grounds, buttons];
     const order = [...this.#labels.entries()].sort(([, one], [, other]) => +!!one.many - +!!other.many);
     for (const [k, label] of order) {
       const { element, half, begins, name, spots } = label;
@@ -248,10 +247,18 @@ export class Scene {
       const touching = (at: Pair) =>
         taken.find((other) => half + other.half > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01);
       const clear = (of: Pair[][]) => (at: Pair) => !touching(at) && of.every((one) => clearOf(one, half, at));
+      const seen = ([u, v]: Pair) => u > half && u + half < width - (v < low ? BESIDE : 0);
       const free = clear(hulls[k]!.length ? arrows : drawn);
       if (hulls[k]!.length) {
         const others = hulls.filter((one, other) => other !== k && one.length);
-        label.taken = clearSpot(places, name, [hulls[k]!, others], free, label.taken, clear(grounds));
+        label.taken = clearSpot(
+          places,
+          name,
+          [hulls[k]!, others],
+          free,
+          label.taken,
+          (at) => seen(at) && clear(grounds)(at),
+        );
       } else if (!free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
       const [left, top] = places[label.taken]!;
       const aside = begins ? half : 0;
