@@ -55,7 +55,8 @@ class LawPiece:
         return np.asarray(np.polynomial.polynomial.polyval(t, _derived(self.polynomial, order)) + wave)
 
 
-def _derived(polynomial: Sequence[float], order: int) -> Reals:
+@lru_cache(maxsize=1024)
+def _derived(polynomial: tuple[float, ...], order: int) -> Reals:
     return np.asarray(np.polynomial.polynomial.polyder(polynomial, order), dtype=np.float64)
 
 

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -118,27 +119,16 @@ class Lift:
         angles = np.cumsum([0.0, *(segment.angle for segment in self.segments[:-1])])
         return tuple(map(float, angles))
 
-    def spans(self) -> Iterator[SmoothSpan]:
+    def spans(self) -> tuple[SmoothSpan, ...]:
         """The intervals on which the lift is smooth, with lift, velocity, acceleration, jerk per radian."""
-        lift = 0.0
-        for k, (segment, start) in enumerate(zip(self.segments, self.starts, strict=True)):
-            if segment.law is None:
-                yield SmoothSpan(
-                    start, start + segment.angle, k, tuple(_constant(lift if n == 0 else 0.0) for n in range(4))
-                )
-                continue
-            base = lift - segment.scale * float(segment.law.at(0.0))
-            for piece, a, b in zip(segment.law.pieces, segment.law.joints, segment.law.joints[1:], strict=False):
-                orders = tuple(_scaled(piece.at, n, segment, start, base if n == 0 else 0.0) for n in range(4))
-                yield SmoothSpan(start + a * segment.angle, start + b * segment.angle, k, orders)
-            lift += segment.change
+        return _spans(self)
 
     def at(self, angle: ArrayLike, order: int = 0) -> Reals:
         """The lift, or its derivative (1 to 3) by the cam's angle, at any angles; at a jump the value after it."""
         if order not in range(4):
             raise CamError("a lift has derivatives 0 to 3 here, not {order!r}", order=order)
         phi = np.mod(finite_array(angle, message("the cam's angles")), math.tau)
-        spans = list(self.spans())
+        spans = self.spans()
         index = np.searchsorted([span.start for span in spans[1:]], phi, side="right")
         values = np.zeros(phi.shape)
         for k, span in enumerate(spans):
@@ -147,7 +137,7 @@ class Lift:
 
     def jumps(self) -> list[DerivativeJump]:
         """The jumps of velocity or acceleration; at each angle only the one of the lowest order."""
-        spans = list(self.spans())
+        spans = self.spans()
         scales = [max(abs(value) for span in spans for _, value in extremes(span.orders[n], *span[:2])) for n in (1, 2)]
         jumps = []
         for before, after in zip(spans[-1:] + spans[:-1], spans, strict=True):
@@ -161,6 +151,25 @@ class Lift:
     def extremes(self, order: int) -> list[tuple[float, float]]:
         """All places (angle, value) of extremes of the lift or a derivative, one-sided values at jumps included."""
         return [extremum for span in self.spans() for extremum in extremes(span.orders[order], span.start, span.end)]
+
+
+@lru_cache(maxsize=64)
+def _spans(lift: Lift) -> tuple[SmoothSpan, ...]:
+    return tuple(_smooth_spans(lift))
+
+
+def _smooth_spans(lift: Lift) -> Iterator[SmoothSpan]:
+    height = 0.0
+    for k, (segment, start) in enumerate(zip(lift.segments, lift.starts, strict=True)):
+        if segment.law is None:
+            orders = tuple(_constant(height if n == 0 else 0.0) for n in range(4))
+            yield SmoothSpan(start, start + segment.angle, k, orders)
+            continue
+        base = height - segment.scale * float(segment.law.at(0.0))
+        for piece, a, b in zip(segment.law.pieces, segment.law.joints, segment.law.joints[1:], strict=False):
+            orders = tuple(_scaled(piece.at, n, segment, start, base if n == 0 else 0.0) for n in range(4))
+            yield SmoothSpan(start + a * segment.angle, start + b * segment.angle, k, orders)
+        height += segment.change
 
 
 def _constant(value: float) -> Function:
