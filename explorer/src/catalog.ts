@@ -65,6 +65,7 @@ export class CatalogView implements View {
     const field = (label: string, value: string, set: (text: string) => void, hint: string, key: string) => {
       const input = h("input", {
         value,
+        "aria-label": label,
         placeholder: hint,
         "data-field": key,
         oninput: () => {
@@ -121,8 +122,16 @@ export class CatalogView implements View {
       ["straight", t("Straight lines")],
       ["guide mechanism", t("Guide mechanisms")],
     ];
-    const choose = (words: string) => {
-      this.#words = words;
+    const words = field(
+      t("Words"),
+      this.#words,
+      (text) => (this.#words = text),
+      t("Search: crank, six-bar, …"),
+      "words",
+    );
+    words.firstChild!.remove(); // what stands in it says what it is
+    const choose = (kind: string) => {
+      this.#words = kind;
       this.arrange();
       void this.#search();
     };
@@ -133,12 +142,7 @@ export class CatalogView implements View {
         {},
         h("div.form", {}, h("h2", {}, t("Catalog")), this.#note),
         choice(t("Kinds of machines"), kinds, this.#words, choose, { class: "choice palette" }),
-        h(
-          "div.form.search",
-          {},
-          field(t("Words"), this.#words, (text) => (this.#words = text), t("crank, six-bar, …"), "words"),
-          order,
-        ),
+        h("div.form.search", {}, words, order),
         more,
         this.#cards,
       ),

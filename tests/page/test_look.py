@@ -464,3 +464,21 @@ def test_what_is_chosen_among_drives_stays_where_it_is(tab, server):
     page.page.locator('[data-list="driven"] .card[aria-pressed="true"]').wait_for()
     assert page.page.locator(".said").count() > said
     assert abs(card.bounding_box()["y"] - before["y"]) < 1
+
+
+@pytest.mark.parametrize("locale", ["en-US", "de-DE"])
+def test_on_a_phone_a_finger_meets_the_search_of_the_catalog_which_says_what_it_is(tab, server, locale):
+    """Beside the order; its words stand in it, not before it, and need less room than it has."""
+    page = tab(width=390, height=844, touch=True, locale=locale).open(server.address)
+    page.page.locator('[data-view="catalog"]').tap()
+    field = page.page.locator('[data-field="words"]')
+    page.page.locator('[data-page="catalog"] [data-id]').first.wait_for()
+    box, order = (one.bounding_box() for one in (field, page.page.locator('[data-field="order"]')))
+    assert box["height"] >= 44
+    assert box["y"] == pytest.approx(order["y"], abs=1)
+    assert field.get_attribute("aria-label") == ("Wörter" if locale == "de-DE" else "Words")
+    words = """field => { const pen = document.createElement("canvas").getContext("2d");
+        pen.font = getComputedStyle(field).font;
+        return pen.measureText(field.placeholder).width; }"""
+    assert field.evaluate(words) <= box["width"] - 20
+    assert page.page.evaluate("document.documentElement.scrollWidth") == 390
