@@ -446,7 +446,7 @@ TYPED = "document.querySelector('.gruebler-explorer').shadowRoot.querySelectorAl
 
 
 def test_sizes_are_typed_undone_and_refused_with_the_reason(server, chromium):
-    """A longer crank of the wiper, against the library; a rod that is too short; three of four sizes of Bennett's."""
+    """A longer crank of the wiper, against the library; a rod that is too short."""
     browser, page, errors = browsed_at(chromium, server.address + "space/wiper_rssr.html#de")
     page.get_by_role("button", name="Anhalten").click()
     undo, redo = (page.locator(f'[data-icon="{name}"]') for name in ("undo", "redo"))
@@ -478,7 +478,29 @@ def test_sizes_are_typed_undone_and_refused_with_the_reason(server, chromium):
     page.keyboard.press("Control+y")
     assert page.locator("#size-1-0").input_value() == "50,5"
     assert redo.is_disabled()
-    page.goto(server.address + "space/bennett.html#en")
+    assert errors == []
+    browser.close()
+
+
+def test_the_drive_stands_where_it_can_with_other_sizes(server, chromium):
+    """With a crank of 80 mm the wiper's turns fully no more."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/wiper_rssr.html#en")
+    page.get_by_role("button", name="Pause").click()
+    drive_to(page, "180")
+    crank = page.locator("#size-1-0")
+    crank.fill("80")
+    crank.press("Enter")
+    page.locator('[data-panel="measures"]', has_text="…").wait_for()
+    low, high = page.evaluate("[gruebler.linkage.cycle.low, gruebler.linkage.cycle.high]")
+    assert high < np.pi
+    assert low <= page.evaluate("gruebler.linkage.drives[0]") <= high
+    assert errors == []
+    browser.close()
+
+
+def test_sizes_that_go_together_are_taken_together(server, chromium):
+    """Lengths of Bennett's linkage are as the sines of its twists: 100 to 50 mm with 90 and 30 degrees."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/bennett.html#en")
     page.get_by_role("button", name="Pause").click()
     alert = page.locator('[data-panel="sizes"] [role="alert"]')
     wanted = {

@@ -108,6 +108,7 @@ export class Resizing {
   }
 
   undo(): void {
+    this.#asked += 1; // what is under way is not wanted any more
     this.#said.textContent = "";
     if (this.#typed.size) {
       this.#typed = new Map();

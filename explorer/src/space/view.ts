@@ -128,7 +128,9 @@ export class SpaceView implements Driven {
     this.scene.take(this.linkage);
     this.linkage.choose(active < data.motions.length ? active : 0);
     this.#arrange();
-    if (this.linkage.drive) this.transport.pick(drives[this.linkage.active]!);
+    const { full, high, low } = this.linkage.cycle;
+    const value = drives[this.linkage.active]!;
+    if (this.linkage.drive) this.transport.pick(full ? value : Math.min(Math.max(value, low), high));
   }
 
   /** The ways to the other views, which are on the page above. */
