@@ -309,6 +309,25 @@ def test_a_linkage_of_two_given_pivots_is_driven_at_either(pivots, demands):
     assert any(expected.values())
 
 
+@pytest.mark.parametrize(
+    ("rows", "pivot", "lengths", "known"),
+    [
+        ([(1.16, 4.34, 0), (0.63, 5.05, 0.4)], (-2.03, 0.44), {}, 85),
+        (ROWS[:2], (0.5, 0.9), {"crank": 1.4}, 70),
+    ],
+)
+def test_the_best_of_two_positions_beside_a_pivot_of_the_body(rows, pivot, lengths, known):
+    """Of a body that hardly turns the best pivots lie some sizes away; other code found 88.9 degrees for the first."""
+    task = PositionTask([(x, y, np.radians(angle)) for x, y, angle in rows], moving_pivots=[pivot])
+    found = synthesise_positions(task, Demands(lengths=lengths), sort=["transmission"])
+    four_bars = [design for design in found.designs if design.form == "RR-RR"]
+    assert np.degrees(max(design.verdict.transmission for design in four_bars)) > known
+    assert all(np.abs(np.array(pivots_of(design)[1:3]) - complex(*pivot)).min() < 1e-9 for design in four_bars)
+    for link, length in lengths.items():
+        assert link == "crank"
+        assert all(abs(abs(np.subtract(*pivots_of(design)[:2])) - length) < 1e-8 for design in four_bars)
+
+
 @pytest.mark.parametrize("options", [{}, {"demands": Demands(transmission=np.radians(84))}])
 def test_the_best_beside_the_crank_of_three_positions_with_crank_angles(options):
     """Other code found 89.2 degrees 3.7 sizes away by sampling; the sample of dyads alone had 83.1."""

@@ -213,7 +213,7 @@ def best_linkages(
 ) -> FoundPairs:
     """As `best_pairs`; with given lengths, which no member of a sample has, the best of those that have them."""
     kind = (second or dyads)[0].kind
-    if not demands.lengths:
+    if not (demands.lengths or (given and len(task) == 2)):  # of two positions a given dyad has an end to choose
         return best_pairs(task, dyads, demands, near, second=second, given=given, orders=orders, number=number)
     if not has_lengths(kind, demands):
         return FoundPairs(pairs=(), notes=(_WITHOUT.filled(form=form_symbols(f"{CRANK.form}-{kind.form}")),))

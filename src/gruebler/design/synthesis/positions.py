@@ -37,7 +37,14 @@ from gruebler.design.synthesis.given_pivots import notes_on_pivots
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design, judged_by_drive, order_notes
 from gruebler.design.synthesis.length_search import best_linkages, best_members, has_lengths
 from gruebler.design.synthesis.pair_search import IMPROVED, Nearby
-from gruebler.design.synthesis.partner_bounds import Pair, angle_of_pair, best_beside, improved_pair, slide_notes
+from gruebler.design.synthesis.partner_bounds import (
+    Pair,
+    angle_of_pair,
+    best_beside,
+    best_beside_ends,
+    improved_pair,
+    slide_notes,
+)
 from gruebler.design.synthesis.results import (
     Design,
     Progress,
@@ -68,6 +75,8 @@ _SAMPLE = {2: 256, 3: 256, 4: 300}
 """Dyads of a family that are taken, by the number of positions: each is tried with each."""
 _SLIDES = 64
 """Sliding dyads of each kind that are taken of two or three positions."""
+_REACH = 1.5  # sizes of the task, in which pivots of the body are taken
+_FARTHER = (6.0, 20.0)  # likewise, of two positions with a given pivot
 _BULGES = (0.25, -0.25, 1.0, -1.0)
 """How far a third position between two lies beside them, by their distance: four pivots for a point of the plane."""
 _ENDS = 64
@@ -100,12 +109,17 @@ THEOREM = {2: None, 3: None, 4: None, 5: 4}
 
 
 def guiding_dyads(
-    task: PositionTask, number: int = 24, region: tuple[float, float, float, float] | None = None
+    task: PositionTask,
+    number: int = 24,
+    region: tuple[float, float, float, float] | None = None,
+    *,
+    reach: float = _REACH,
 ) -> tuple[GuidingDyad, ...]:
     """The dyads that guide the body: all four of five positions, else those chosen or so many of infinitely many.
 
     Of infinitely many only those are taken whose fixed pivots lie in the region, where one is given; of four positions
-    all, if the curve does not pass through it.
+    all, if the curve does not pass through it. Without a region those of two and three positions have their pivots on
+    the body within so many sizes of the task.
 
     Raises `SynthesisError` where a chosen pivot serves no dyad or any.
     """
@@ -128,7 +142,7 @@ def guiding_dyads(
     chosen += [(dyad_of_fixed_pivot, complex(*p)) for p in task.fixed_pivots]
     if not chosen:
         construct = dyad_of_moving_pivot if region is None else dyad_of_fixed_pivot
-        chosen = [(construct, pivot) for pivot in _grid(task, number, region)]
+        chosen = [(construct, pivot) for pivot in _grid(task, number, region, reach)]
     given = [displacements]
     if count == 2:
         bulges = _BULGES[:1] if task.moving_pivots or task.fixed_pivots else _BULGES
@@ -169,11 +183,13 @@ def _with_third(given: Displacements, bulge: float) -> Displacements:
     return Displacements(np.append(q, np.exp(0.5j * np.angle(q[0]))), np.append(t, third))
 
 
-def _grid(task: PositionTask, number: int, region: tuple[float, float, float, float] | None) -> list[complex]:
+def _grid(
+    task: PositionTask, number: int, region: tuple[float, float, float, float] | None, reach: float = _REACH
+) -> list[complex]:
     """So many places about the positions, or in the region."""
     side = max(2, round(number**0.5))
     if region is None:
-        centre, reach = task.origins.mean(), 1.5 * task.size
+        centre, reach = task.origins.mean(), reach * task.size
         steps = np.linspace(-1, 1, side)
         return [complex(centre + reach * complex(a, b)) for a in steps for b in steps]
     # The middles of its fields: a pivot on the edge could fall outside by the last bit.
@@ -245,6 +261,8 @@ def synthesise_positions(
     given = _of_one_pivot(task) if searched and chosen else []
     free = replace(task, moving_pivots=(), fixed_pivots=(), curve_parameters=()) if searched else task
     dyads = (*given, *guiding_dyads(free, _SAMPLE[len(task)] if searched else number, wanted.region))
+    if given and len(task) == 2 and wanted.region is None:
+        dyads += tuple(dyad for reach in _FARTHER for dyad in guiding_dyads(free, _SAMPLE[2], reach=reach))
     if len(task) > 5:
         return _approximate(task, wanted, dyads, progress)
     notes = [*nearly_one_joint(task)]
@@ -341,10 +359,11 @@ def _judged_best(
     ) -> tuple[list[Pair], list[Message]]:
         search = best_linkages(task, cranks, wished, near, second=second, given=given, orders=sort, number=count)
         turns = given and not given[0].slides
-        alone = turns and not second and len(given) == 1
-        if not alone and ((given[:1] and turns) or len(task) == 4 or not search.pairs):
+        if (turns and second) or (not turns and (len(task) == 4 or not search.pairs)):
             return [*search.pairs], [*search.notes]
-        if alone:
+        if turns and len(task) == 2:
+            better, proved = best_beside_ends(task, wished, given, search.pairs)
+        elif turns:
             better, proved = best_beside(task, wished, given[0], search.pairs)
         else:
             improved, proved = improved_pair(task, wished, search.pairs)
