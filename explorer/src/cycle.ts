@@ -80,17 +80,19 @@ export function findCycle(moved: Moved): Cycle {
     home: 0,
   };
   if (!drive) return still;
-  const round = drive.turning ? fullTurns(moved, start) : null;
+  const { between } = sizes.model.span;
+  const part = between && between[1] - between[0] < TURN - BACK; // it may turn fully, but is not used so
+  const round = drive.turning && !part ? fullTurns(moved, start) : null;
   if (round && "rows" in round) {
     return { ...still, ...round, full: true, high: start + round.turns * TURN };
   }
-  let [high, above] = round?.end ?? search(moved, start, 1);
-  let [low, below] = search(moved, start, -1);
+  const turns = part ? 1 : MOST_TURNS;
+  let [high, above] = round?.end ?? search(moved, start, 1, turns);
+  let [low, below] = search(moved, start, -1, turns);
   if (!drive.turning) {
     if (!above) high = Math.min(high, start + ENDLESS * sizes.unit);
     if (!below) low = Math.max(low, start - ENDLESS * sizes.unit);
   }
-  const { between } = sizes.model.span;
   if (between) {
     const shift = drive.turning ? TURN * Math.round((low + high - between[0] - between[1]) / 2 / TURN) : 0;
     const [from, to] = [Math.min(start, between[0] + shift), Math.max(start, between[1] + shift)];
@@ -151,9 +153,9 @@ function fullTurns(
 }
 
 /** Where the motion ends in one direction. */
-function search(moved: Moved, start: number, way: number): End {
+function search(moved: Moved, start: number, way: number, turns: number): End {
   const turning = moved.drive?.turning ?? true;
-  const far = turning ? MOST_TURNS * TURN : 3 * moved.sizes.unit;
+  const far = turning ? turns * TURN : 3 * moved.sizes.unit;
   const step = turning ? TURN / 180 : moved.sizes.unit / 40;
   // by parts, so that a near limit is not looked for far away
   let from = start;

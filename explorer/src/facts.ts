@@ -38,7 +38,7 @@ export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap:
     facts.push({ name: t("Output {name}", { name: linkage.linkName(record.link) }), text });
     facts.push({
       name: t("Velocity by the drive"),
-      text: number(output(linkage, pose, 0, 1), 4),
+      text: number(Math.round(1e12 * output(linkage, pose, 0, 1)) / 1e12, 4), // below is rounding
       note: rateUnit(linkage, 1),
     });
     const [one, two] = dead;

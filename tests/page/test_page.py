@@ -329,19 +329,21 @@ def test_the_catalog_and_the_exercises(tab, server):
     assert marks == ["wrong"] + ["right"] * (len(keys) - 1)
 
 
-def test_what_is_said_in_words_holds_for_the_range_in_which_a_machine_is_used(tab, server):
-    """The crane is used from 60° to 80° (its entry), although it could turn from 54° to 115°."""
+@pytest.mark.parametrize(("id_", "range_"), [("crane", "from 60° to 80°"), ("bolt_cutter", "from 46° to 82°")])
+def test_what_is_said_in_words_holds_for_the_range_in_which_a_machine_is_used(tab, server, id_, range_):
+    """As their entries have it, although the crane could turn from 54° to 115°, the handle of the cutter fully."""
     page = tab().open(server.address)
     page.page.click('[data-view="catalog"]')
-    page.page.locator('[data-id="crane"]').click()
-    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'crane'")
+    page.page.locator(f'[data-id="{id_}"]').click()
+    page.until(f"gruebler.view === 'motion' && gruebler.motion.linkage.model.source === '{id_}'")
     page.page.locator('[data-panel="measures"] summary:text-is("In words")').click()
     words = page.page.locator('[data-panel="measures"] .note')
-    words.filter(has_text="from 60° to 80°").wait_for()
+    words.filter(has_text=range_).wait_for()
     facts = page.page.locator(".facts > div").evaluate_all(
         "all => all.map((one) => ['dt', 'dd'].map((part) => one.querySelector(part).firstChild.textContent))"
     )
     said = words.first.inner_text()
+    assert " ".join(dict(facts)["Range of the drive"].split(" … ")) == range_[5:].replace(" to", "")
     for name in ("Swing", "Smallest μ"):  # as the page measures them by itself
         assert f" {dict(facts)[name]}" in said
 
