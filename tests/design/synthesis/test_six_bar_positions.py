@@ -109,6 +109,22 @@ def test_six_positions_of_a_six_bar_find_it_again(monkeypatch):
             assert np.array(positions_of(pins, turned)) == pytest.approx(np.array(wanted.positions), abs=1e-7)
 
 
+@pytest.mark.parametrize("angle", [0.0, 1.1])
+def test_six_positions_of_one_angle_are_passed_without_any_turn(angle):
+    """They took 77 s for one design. `move` carries the body, which keeps its angle between them, too."""
+    places = [(-1.14, 0.54), (-0.68, 0.31), (-0.23, -0.01), (0.23, -0.33), (0.68, -0.55), (1.14, -0.59)]
+    task = PositionTask([(*place, angle) for place in places], fixed_pivots=[(-1.5, -1), (1, -0.5)])
+    found = synthesise(task, six_bars=True)
+    assert len(found.designs) > 10
+    for design in found.designs[:10]:
+        motion = move(design.linkage, np.linspace(design.drives[0], design.drives[-1], 200))
+        assert motion.complete
+        assert np.ptp(motion.angle("body")) < 1e-9
+        assert move(design.linkage, design.drives).point("P") == pytest.approx(np.array(places), abs=1e-9)
+        pivots = [(e.x, e.y) for (_, link), e in design.linkage.elements.items() if link == "frame"]
+        assert np.array(pivots) == pytest.approx(np.array(task.fixed_pivots), abs=1e-12)
+
+
 def test_five_positions_have_as_many_as_two_theorems_say():
     """36 four-bars lead the pin through five points; each rocker carries four dyads of Burmester's, one the pin's own.
 

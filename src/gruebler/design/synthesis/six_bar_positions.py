@@ -30,7 +30,8 @@ from gruebler.design.synthesis.six_bar_census import (
 )
 from gruebler.design.synthesis.six_bar_functions import FORM, how_followed, how_many, real_solutions, six_bar_solutions
 from gruebler.design.synthesis.six_bar_guidance import unknowns_of_guides
-from gruebler.design.synthesis.special_tasks import refuse_one_joint, solved_where_it_lies
+from gruebler.design.synthesis.six_bar_shifts import shifting_six_bars
+from gruebler.design.synthesis.special_tasks import ALIKE, refuse_one_joint, solved_where_it_lies
 from gruebler.design.synthesis.tasks import PIVOTS_OF_SIX_BARS, PositionTask
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
@@ -41,6 +42,7 @@ SIX_POSITIONS = Problem(name="six positions", poses=5, points=0, classes=5754, m
 """Both pivots of the frame are given."""
 _SENSITIVE = 0.2
 """Of the paths: positions near to each other leave so many solutions that depend on them a billion times."""
+_SHIFTING, _JUDGED = 400, 40  # six-bars that shift a body: how many are looked at, and judged at most
 DRIVES = ("R(frame-crank)", "R(frame-rocker)")
 _BODY = str(message("body"))  # its name, which is translated where it is shown
 _JOINTS = (
@@ -73,7 +75,8 @@ def synthesise_guiding_six_bars(
 
     Returns:
         `SynthesisResult`: the designs that keep their assembly mode through all positions, driven at one pivot or the
-        other, judged by their motion. The notes say how many there are besides.
+        other, judged by their motion. The notes say how many there are besides. Six positions of one angle have
+        infinitely many that keep it on the whole way: some of these, if any is accepted.
 
     Raises `SynthesisError` for other tasks. Cost: 0.2 s of processor time, of six positions 10 s, and 10 to 60 ms for
     each verdict; of seven and eight 5 ms for each start solution, at first 5 ms more.
@@ -96,22 +99,48 @@ def synthesise_guiding_six_bars(
         )
     wanted = (demands or Demands()).of_task(task, _mechanism(DRIVES[0]).chain.links)
     place = _Place.of(task)
+    if len(task) == 6 and np.abs(place.turns - 1).max() <= ALIKE and (shifted := _shifted(task, place, wanted)).designs:
+        return shifted
     generic = _generic(len(task), starts, threads, progress)
     z = six_bar_solutions(
         generic.problem, generic.base, place.parameters, special=_SENSITIVE, threads=threads, progress=progress
     )
     pins = place.pins(real_solutions(z))
-    kept = keeps_sides(pins, place.turns, place.shifts) if wanted.one_branch else np.ones((len(pins), 2), bool)
+    kept = _kept(place, pins, wanted)
+    accepted, rejected = ranked(_judged(task, place, pins, kept, wanted))
+    notes = [generic.known, *how_followed(len(generic.base.z), len(z), np.any(kept, axis=1), generic.damaged)]
+    count = SolutionCount(what=message("linkages"), theorem=0, found=len(z), real=len(pins))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
+
+
+def _shifted(task: PositionTask, place: _Place, wanted: Demands) -> SynthesisResult:
+    """Six-bars that keep the angle of the body on the whole way."""
+    pins = shifting_six_bars(-complex(place.given[-2]), 0j, place.shifts, _SHIFTING)
+    kept = _kept(place, pins, wanted)
+    some = np.flatnonzero(kept.any(axis=1))[:_JUDGED]
+    accepted, rejected = ranked(_judged(task, place, pins[some], kept[some], wanted))
+    note = message(
+        "The body keeps its angle on the whole way: infinitely many six-bars shift it along the coupler curve of a "
+        "four-bar on these pivots. Those here are from random starts."
+    )
+    count = SolutionCount(what=message("linkages"), theorem=0, found=len(pins), real=len(pins))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
+
+
+def _kept(place: _Place, pins: Complexes, wanted: Demands) -> Flags:
+    """(six-bars, drives) which of them may keep one branch, if that is wanted."""
+    return keeps_sides(pins, place.turns, place.shifts) if wanted.one_branch else np.ones((len(pins), 2), bool)
+
+
+def _judged(task: PositionTask, place: _Place, pins: Complexes, kept: Flags, wanted: Demands) -> list[Design]:
+    """Of each six-bar the better one of the drives that are kept."""
     designs: list[Design] = []
     for row, drives in zip(pins * place.size + place.origin, kept, strict=True):
         linkages = (drawn_guide(task, row, drive) for drive, keeps in zip(DRIVES, drives, strict=True) if keeps)
         if drives.any():
             with suppress(LinkageError):  # pins of a link coincide
                 designs.append(best_of(linkages, partial(body_targets, task, link=_BODY), wanted, FORM))
-    accepted, rejected = ranked(designs)
-    notes = [generic.known, *how_followed(len(generic.base.z), len(z), np.any(kept, axis=1), generic.damaged)]
-    count = SolutionCount(what=message("linkages"), theorem=0, found=len(z), real=len(pins))
-    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
+    return designs
 
 
 class _Generic(NamedTuple):

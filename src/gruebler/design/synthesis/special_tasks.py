@@ -23,7 +23,7 @@ from gruebler.design.synthesis.tasks import PathTask, PositionTask
 
 _FAR = 100.0
 """Sizes of a task: farther from the origin coordinates lack digits that a verdict needs."""
-_ALIKE = 1e-9
+ALIKE = 1e-9
 """Sizes and radians: what a position may be off a common turn or shift."""
 _ROUNDED = 1e-3
 """Sizes: what is nearer to one joint is said to be nearly its motion, as of coordinates with three digits."""
@@ -93,7 +93,7 @@ def refuse_one_joint(task: PositionTask, demands: Demands | None = None) -> None
     if len(task) < 3:
         return
     missed, joint = _one_joint(task)
-    if missed > _ALIKE:
+    if missed > ALIKE:
         return
     if isinstance(joint, float):
         raise SynthesisError(
@@ -121,12 +121,12 @@ def _one_joint(task: PositionTask) -> tuple[float, complex | float]:
     """
     (q, t), origin, size = Displacements.of(task.origins, task.turns)
     turned = np.abs(q - 1)
-    if turned.max() <= _ALIKE:
+    if turned.max() <= ALIKE:
         far = t[np.abs(t).argmax()]
         return float(np.abs(np.imag(np.conj(far) * t)).max() / abs(far)), float(degrees(np.angle(far)) % 180)
     pole = t[turned.argmax()] / (1 - q[turned.argmax()])
     missed, place = float(np.abs(t - (1 - q) * pole).max()), complex(origin + size * pole)
-    limit = max(_ALIKE, missed) * size
+    limit = max(ALIKE, missed) * size
     x, y = (part if abs(part) > limit else 0.0 for part in (place.real, place.imag))
     return missed, complex(x, y)
 
@@ -139,7 +139,7 @@ def nearly_one_joint(task: PositionTask) -> Iterator[Message]:
     closely.
     """
     missed, joint = _one_joint(task) if len(task) > 2 else (np.inf, 0j)
-    if not _ALIKE < missed <= _ROUNDED:
+    if not ALIKE < missed <= _ROUNDED:
         return
     if isinstance(joint, float):
         yield message(
@@ -166,7 +166,7 @@ def refuse_parallelograms(task: PositionTask) -> None:
     if len(task) not in (4, 5):
         return
     turns = task.turns / task.turns[0]
-    alike = np.abs(turns[:, None] - turns) <= _ALIKE
+    alike = np.abs(turns[:, None] - turns) <= ALIKE
     some = np.flatnonzero(alike[alike.sum(axis=1).argmax()])
     if len(some) < 3:
         return
@@ -181,7 +181,7 @@ def refuse_parallelograms(task: PositionTask) -> None:
     places = task.origins - task.origins[0]
     centre = circle_centre(places[:3])
     radii = np.abs(places - centre)
-    if not np.ptp(radii) <= _ALIKE * max(task.size, radii[0]):
+    if not np.ptp(radii) <= ALIKE * max(task.size, radii[0]):
         raise NoFourBarError("the body keeps its angle, but its places lie on no circle: no four-bar passes them")
     centre += task.origins[0]
     raise SynthesisError(
