@@ -118,26 +118,29 @@ def _bred(limits: DrawingLimits, pool: DrawnCurves, count: int, chance: np.rando
 def _neighbours(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool, number: int) -> DrawnCurves:
     """The curves of the atlas that are most like the target, placed on it, no drawing twice.
 
-    Given pivots are compared as well as the curve, then the joints lie there. Where limits are narrow, those come first
-    that are both alike and hardly beyond.
+    A given pivot is the origin of the comparison; several are compared as well as the curve, then the joints lie there.
+    Where limits are narrow, those come first that are both alike and hardly beyond.
     """
     structure = limits.structure
     book = structure_atlas(structure)
     own = np.flatnonzero(book.link == structure.coupler_links.index(link))
     joints, pivots = [*limits.pivots], np.array([*limits.pivots.values()], np.complex128)
     drawn = np.concatenate([book.drawn[own], book.point[own, None]], axis=1)
-    anchors = Anchors(drawn[:, joints], pivots)
+    single = len(joints) == 1
+    origin, given = (drawn[:, joints], pivots[0]) if single else (np.zeros((len(own), 1)), 0j)
+    drawn, traced = drawn - origin, np.asarray(book.z[own] - origin, np.complex128)
+    anchors = None if single else Anchors(drawn[:, joints], pivots)
     places, turned, gaps = [], [], []
     seen: set[tuple[bytes, bool]] = set()
     most = max(number, _CANDIDATES) if limits.narrow else number
-    for match in best_matches(book.z[own], z, 2 * most, closed=closed, anchors=anchors):
+    for match in best_matches(traced, z - given, 2 * most, closed=closed, about_origin=single, anchors=anchors):
         n = int(own[match.number])
         if (name := (book.drawn[n].tobytes(), match.mirrored)) in seen or len(seen) == most:
             continue
         seen.add(name)
         at = match.turn * drawn[match.number] + match.shift
         angles = drive_angles(book.turned[n], match.at)
-        placed = np.conj(at) if match.mirrored else at
+        placed = (np.conj(at) if match.mirrored else at) + given
         placed[joints] = pivots
         places.append(placed)
         turned.append(-angles if match.mirrored else angles)
