@@ -83,9 +83,10 @@ RECORDS = {
     "gruebler.files.linkage_records.Dimensions": "the sizes that files of linkages and entries of the catalog have",
     "gruebler.files.tasks._Record": "the unit that every kind of task has",
     "gruebler.page.params.Params": "what all parameters refuse",
+    "gruebler.base.notebook.Drawn": "how values draw themselves in notebooks",
 }
-"""Records of files that are never made themselves, only those that have their fields, too. Their metaclass is none
-of an ABC."""
+"""Records of files, and what values have in common, that are never made themselves, only those that have their fields,
+too. Their metaclass is none of an ABC."""
 
 
 def abstract(each: type) -> bool:

@@ -96,12 +96,14 @@ def test_pivots_of_four_positions_are_picked_and_designs_sorted(tmp_path, capsys
     by_parameter = json.loads(capsys.readouterr().out)
     assert by_parameter["task"]["curve_parameters"] == [0.21, 0.4]
     assert by_parameter["count"]["found"] == 2
-    (design,) = [*by_parameter["designs"], *by_parameter["rejected"]]
+    design, *driven_there = [*by_parameter["designs"], *by_parameter["rejected"]]
+    assert all(other["size"] == pytest.approx(design["size"], rel=1e-9) for other in driven_there)
     one, two = guiding_dyads(task_from_json(by_parameter["task"]))
     places = [f"{v:.12f}" for v in (one.moving.real, one.moving.imag, two.fixed.real, two.fixed.imag)]
     main([*words, "--moving-pivot", *places[:2], "--fixed-pivot", *places[2:]])
     by_pivot = json.loads(capsys.readouterr().out)
-    (again,) = [*by_pivot["designs"], *by_pivot["rejected"]]
+    again, *others = [*by_pivot["designs"], *by_pivot["rejected"]]
+    assert len(others) == len(driven_there)
     assert again["size"] == pytest.approx(design["size"], rel=1e-9)
     assert again["size_ratio"] == pytest.approx(design["size_ratio"], rel=1e-9)
 

@@ -8,6 +8,7 @@ import pytest
 
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, PathTask, PositionTask, synthesise, synthesise_path, synthesise_positions
+from gruebler.design.synthesis.burmester import burmester_curves
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements, GuidingDyad
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.pair_search import pair_facts
@@ -347,23 +348,50 @@ def test_the_best_beside_the_crank_of_three_positions_with_crank_angles(options)
         assert np.degrees(best) > 89.2
 
 
-def test_few_linkages_with_four_given_lengths_are_all_found():
-    """Newton's method in other code from 6,000 random starts found these three that turn fully, the first 148 times.
+FEW = [
+    (
+        [
+            (0.792326971759129, 0.6533461986729301, 0),
+            (0.43195751690893647, 1.2921239875404412, 13.833377684690614),
+            (0.16488552713392868, 1.6775447773765637, 20.48781792147322),
+        ],
+        (0.976361016090449, 2.787974677044609, 5.336972049817427, 5.362856851607424),
+        [77.04, 74.68, 71.10],
+    ),
+    (
+        [
+            (-1.7915796066136398, -1.940623905281583, 0),
+            (-1.841458261184688, -2.271475693115557, 3.9472120079792794),
+            (-1.841990588158338, -2.390331480335802, 5.364274767249711),
+        ],
+        (0.44668982317777883, 3.324100258956776, 4.417491821195537, 2.748772942620582),
+        [43.38, 42.95, 40.52, 39.94],
+    ),
+]
 
-    Eight equations in eight numbers: all pairs of the sample with the shortest first step lie near the other two.
+
+@pytest.mark.parametrize(("rows", "lengths", "expected"), FEW)
+def test_few_linkages_with_four_given_lengths_are_all_found(rows, lengths, expected):
+    """Newton's method in other code from 6,000 random starts found these that turn fully, and no others.
+
+    Eight equations in eight numbers: all pairs of the sample with the shortest first step lie near some of them.
     """
-    rows = [
-        (0.792326971759129, 0.6533461986729301, 0),
-        (0.43195751690893647, 1.2921239875404412, 13.833377684690614),
-        (0.16488552713392868, 1.6775447773765637, 20.48781792147322),
-    ]
     task = PositionTask([(x, y, np.radians(angle)) for x, y, angle in rows])
-    lengths = {
-        "crank": 0.976361016090449,
-        "coupler": 2.787974677044609,
-        "rocker": 5.336972049817427,
-        "frame": 5.362856851607424,
-    }
-    found = synthesise_positions(task, Demands(lengths=lengths, crank=True, transmission=np.radians(70.59)))
-    angles = [np.degrees(design.verdict.transmission) for design in found.designs]
-    assert sorted(angles, reverse=True) == pytest.approx([77.04, 74.68, 71.10], abs=0.006)
+    named = dict(zip(("crank", "coupler", "rocker", "frame"), lengths, strict=True))
+    found = synthesise_positions(task, Demands(lengths=named, crank=True))
+    angles = sorted((np.degrees(design.verdict.transmission) for design in found.designs), reverse=True)
+    assert angles[: len(expected)] == pytest.approx(expected, abs=0.006)
+
+
+def test_the_nearest_point_of_a_curve_is_not_farther_than_its_samples():
+    """Other code found a point at a distance of 2.2995 where a whole step along the tangent had led to one at 2.309."""
+    rng = np.random.default_rng(0)
+    for _ in range(6):
+        angles, places = np.cumsum(rng.uniform(0.1, 0.6, 4)), rng.normal(size=(4, 2))
+        curves = burmester_curves(PositionTask([(*place, angle) for place, angle in zip(places, angles, strict=True)]))
+        for pivot in (complex(*p) for p in 3 * rng.normal(size=(12, 2))):
+            for fixed in (False, True):
+                taken = curves.nearest(pivot, fixed=fixed)
+                points = np.concatenate([piece[int(fixed)] for piece in curves.pieces])
+                distance = abs((taken.fixed if fixed else taken.moving) - pivot)
+                assert distance <= np.abs(points - pivot).min() * (1 + 1e-9)

@@ -30,6 +30,7 @@ from gruebler.design.synthesis.polar_cubics import PolarCubic
 from gruebler.design.synthesis.tasks import PositionTask
 
 _STEPS = 30  # along a curve to the point nearest to a place
+_HALVINGS = 40  # of a step that leads away from it
 _LONGEST = 0.05  # of the pivots' distances: the longest of these steps
 _NOTHING = 1e-13  # a cubic whose coefficients are all smaller is no condition
 
@@ -232,7 +233,11 @@ def _nearest_dyad(given: Displacements, x: complex, m: complex, target: complex,
         along = float(np.real(np.conj(own) * (target - (x, m)[side]))) / max(abs(own) ** 2, 1e-12)
         longest = _LONGEST * (1 + abs(x) + abs(m))
         along = float(np.clip(along, -longest, longest))
-        dyad = _sharpened(given, x + along * complex(*tangent[:2]), m + along * complex(*tangent[2:]))
+        for _ in range(_HALVINGS):  # where the curve bends about the place, a whole step leads past the nearest point
+            dyad = _sharpened(given, x + along * complex(*tangent[:2]), m + along * complex(*tangent[2:]))
+            if abs((dyad.moving, dyad.fixed)[side] - target) <= abs((x, m)[side] - target):
+                break
+            along /= 2
         moved = abs(dyad.moving - x) + abs(dyad.fixed - m)
         x, m = dyad.moving, dyad.fixed
         if moved < 1e-13 * (1 + abs(x) + abs(m)):

@@ -45,10 +45,11 @@ _ENDS = {
 }
 """The links with two pins, and between which points of a row they lie, by the kind of the dyad that is not driven."""
 _SAME = 1e-6  # sizes: two linkages that differ by less are one
-_STEPS = 25
-_LONGEST = 0.5  # sizes: of a step
+_STEPS = 40
+_LONGEST = 0.5  # of a step, in sizes, or by the largest number of a linkage
 _REACHED = 1e-11  # of what is satisfied, by sizes
 _BEGUN = 8192  # pairs of a sample from which is begun, those first that need the smallest step
+_SPREAD, _WIDE = 2.5, 1.5  # degrees of freedom, and sizes: Student's distribution of other starts
 _LOOKED_AT = 400  # members for each linkage that is wanted
 _APART = 0.2  # sizes: pivots of two members that are made better differ by more
 _ALIKE = 0.05  # sizes: those of two linkages that are listed
@@ -147,7 +148,8 @@ class PairFamily:
         for _ in range(_STEPS):
             step = self.step(rows[moving], held[moving])
             length = np.linalg.norm(step, axis=1)
-            step *= np.minimum(1.0, _LONGEST / np.maximum(length, _LONGEST))[:, None]
+            longest = _LONGEST * (1 + np.abs(rows[moving]).max(axis=1))
+            step *= np.minimum(1.0, longest / np.maximum(length, longest))[:, None]
             rows[moving] += step
             moving = moving[length > _EXACT * (1 + np.abs(rows[moving]).max(axis=1))]
             if not len(moving):
@@ -251,12 +253,19 @@ def best_members(
     form = form_symbols(f"{CRANK.form}-{kind.form}")
     family = PairFamily(task=task, kind=kind, lengths=demands.lengths)
     rows, held = (np.concatenate(part) for part in zip(*(_begun(family, *group) for group in groups), strict=True))
+    free = np.count_nonzero(~held[0])
+    determined = family.equations(rows[:1])[0].shape[1] >= free
     if len(rows) > _BEGUN:
         order = np.argsort(np.linalg.norm(family.step(rows, held), axis=1), kind="stable")
         # Half of them nearest to linkages with the lengths, half spread over all others: few linkages may all lie far.
         near, rest = order[: _BEGUN // 2], np.sort(order[_BEGUN // 2 :])
         begun = np.concatenate([near, rest[np.linspace(0, len(rest) - 1, _BEGUN // 2).astype(int)]])
         rows, held = rows[begun], held[begun]
+    if determined:  # few linkages are found from places that the family does not fill
+        wide = max([_WIDE, *(length / task.size for _, length in demands.lengths)])
+        anywhere = wide * np.random.default_rng(0).standard_t(_SPREAD, (len(rows), rows.shape[1]))
+        rows = np.concatenate([rows, np.where(held, rows, anywhere)])
+        held = np.concatenate([held, held])
     rows, good = family.members(rows, held)
     _, first = np.unique(np.round(rows[good] / _SAME).astype(np.int64), axis=0, return_index=True)
     rows, held = rows[good][np.sort(first)], held[good][np.sort(first)]

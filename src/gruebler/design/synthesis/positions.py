@@ -391,7 +391,7 @@ def _judged_best(
             some = [pair for pair in freed if angle_of_pair(task, demands, pair) > -np.inf] + some
         pairs += some
         notes += said
-    notes += [IMPROVED] if asked else []
+    notes += [IMPROVED] if pairs else []
     designs = _judged_as_driven(task, demands, pairs, progress)
     if given or demands.lengths:
         return designs
