@@ -68,11 +68,11 @@ def test_a_slider_crank_has_no_length_of_the_frame_and_is_not_sought(said):
     assert [line.split()[0] for line in out.splitlines() if "RR-PR" in line] == ["Linkages"]
     assert "Linkages RR-PR are left out: a link whose length is given has fewer than two pins there." in out
     assert "RR-RR" in out
-    slider = ["--structure", "slider-crank", "--initial-designs", "1", "--length", "0", "5"]
+    slider = ["--structure", "slider-crank", "--initial-designs", "4", "--length", "0", "5"]
     assert "the length of a link '0' is given, but only 1 and 2 have one" in said(3, slider)
     both = said(3, [*slider, "--structure", "four-bar linkage"])
     assert "P(3-0); frame=0; drive=R(0-1) – 0: no length, since this link has fewer than two pins" in both
-    assert "Designs: 1 accepted, 0 rejected." in both
+    assert re.search(r"Designs: [1-9]\d* accepted", both)
 
 
 @pytest.mark.parametrize(

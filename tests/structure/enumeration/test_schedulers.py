@@ -58,7 +58,7 @@ def test_lost_workers_lose_nothing(tmp_path, capsys):
             stop.set()
             killer.join()
         assert main(["enumerate", "--links", "12", "--count", "--scheduler", cluster.scheduler_address]) == 0
-    assert "chains: 6856" in capsys.readouterr().out
+    assert "chains: 6,856" in capsys.readouterr().out
     files = {
         str(p.relative_to(tmp_path / "here")): p.read_bytes() for p in (tmp_path / "here").rglob("*") if p.is_file()
     }
