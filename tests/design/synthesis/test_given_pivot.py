@@ -395,3 +395,20 @@ def test_the_nearest_point_of_a_curve_is_not_farther_than_its_samples():
                 points = np.concatenate([piece[int(fixed)] for piece in curves.pieces])
                 distance = abs((taken.fixed if fixed else taken.moving) - pivot)
                 assert distance <= np.abs(points - pivot).min() * (1 + 1e-9)
+
+
+@pytest.mark.parametrize(("seed", "kind"), [(4, BLOCK), (4, SLIDER), (5, BLOCK), (17, SLIDER)])
+def test_no_narrow_range_of_slides_beside_a_pivot_is_missed(seed, kind):
+    """Of 20,000 directions few make a good linkage with the one crank; of 64 none did, or the best was missed."""
+    rng = np.random.default_rng(seed)
+    angles, places = np.cumsum(rng.uniform(-0.9, 0.9, 3)), rng.normal(size=(3, 2))
+    rows = [(*place, angle) for place, angle in zip(places, angles, strict=True)]
+    task = PositionTask(rows, fixed_pivots=[tuple(1.5 * rng.normal(size=2))])
+    demands = Demands(transmission=np.radians(40))
+    found = synthesise_positions(task, demands)
+    best = max(d.verdict.transmission for d in found.designs if d.form == f"RR-{kind.form}")
+    (held,) = guiding_dyads(task)
+    facts = pair_facts(task, [held], sliding_sample(task, kind, demands, 20_000), demands)
+    good = np.logical_and.reduce([flags for _, flags in facts.met(demands)])
+    assert 0 < np.count_nonzero(good) < 200
+    assert np.degrees(best) > np.degrees(facts.transmission[good].max()) - 0.7

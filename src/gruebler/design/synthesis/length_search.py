@@ -1,4 +1,4 @@
-"""Linkages of two dyads with given lengths: members of the family that have them, the best made better among these.
+"""Linkages of two dyads with given lengths or pivots: the best members of their family, made better among these.
 
 Guiding dyads and given lengths are equations of second degree in the pivots; from pairs of a sample the nearest pairs
 that satisfy all of them are found by Gauss and Newton. docs/theory/synthesis-positions.md, "Given lengths".

@@ -75,6 +75,8 @@ _SAMPLE = {2: 256, 3: 256, 4: 300}
 """Dyads of a family that are taken, by the number of positions: each is tried with each."""
 _SLIDES = 64
 """Sliding dyads of each kind that are taken of two or three positions."""
+SLIDES_BESIDE = 1024
+"""Those of three positions that are tried with one given crank."""
 _REACH = 1.5  # sizes of the task, in which pivots of the body are taken
 _FARTHER = (6.0, 20.0)  # likewise, of two positions with a given pivot
 _BULGES = (0.25, -0.25, 1.0, -1.0)
@@ -377,7 +379,9 @@ def _judged_best(
         asked.append((turning, (), number))
     for kind in () if given and given[0].slides else (SLIDER, BLOCK):
         second = (
-            [dyad for dyad in dyads if dyad.kind == kind] if len(task) == 4 else sliding_sample(task, kind, demands)
+            [dyad for dyad in dyads if dyad.kind == kind]
+            if len(task) == 4
+            else sliding_sample(task, kind, demands, SLIDES_BESIDE if len(given) == 1 else _SLIDES)
         )
         sliding += second[:: max(1, len(second) // 2)]
         if second and (cranks := list(given or turning)):
@@ -430,12 +434,12 @@ def _judged_as_driven(
     return designs
 
 
-def sliding_sample(task: PositionTask, kind: DyadKind, demands: Demands) -> list[GuidingDyad]:
+def sliding_sample(task: PositionTask, kind: DyadKind, demands: Demands, number: int = _SLIDES) -> list[GuidingDyad]:
     """A sample of the sliding dyads of two or three positions, in the order of their family."""
     if len(task) == 2:
-        places = _grid(task, _SLIDES, demands.region if kind == BLOCK else None)
+        places = _grid(task, number, demands.region if kind == BLOCK else None)
     else:
-        places = [complex(np.exp(1j * np.pi * k / _SLIDES)) for k in range(_SLIDES)]
+        places = [complex(np.exp(1j * np.pi * k / number)) for k in range(number)]
     return sliding_family(task, kind, places)
 
 

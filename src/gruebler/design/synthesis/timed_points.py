@@ -17,6 +17,7 @@ from gruebler.design.synthesis.judging import Demands, judge_design
 from gruebler.design.synthesis.length_search import best_linkages
 from gruebler.design.synthesis.partner_bounds import best_beside
 from gruebler.design.synthesis.positions import (
+    SLIDES_BESIDE,
     guiding_dyads,
     linkage_of_dyads,
     near_in_plane,
@@ -57,7 +58,7 @@ def timed_positions(task: PathTask, demands: Demands, number: int, sort: Sequenc
     region = demands.region or (x - far, y - far, x + far, y + far)
     others = [dyad for dyad in guiding_dyads(positions, _TIMED_SAMPLE, region) if not dyad.slides]
     families = [[dyad for dyad in others if dyad != own]]
-    families += [sliding_sample(positions, kind, demands) for kind in (SLIDER, BLOCK)]
+    families += [sliding_sample(positions, kind, demands, SLIDES_BESIDE) for kind in (SLIDER, BLOCK)]
     turning, *sliding = (
         best_linkages(positions, [own], demands, near, second=family, orders=sort, number=2 * number)
         for family in families
