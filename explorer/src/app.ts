@@ -8,11 +8,12 @@ import { saveDocument, showExport } from "./export";
 import { languageMenu, saving, sayIn, tabs, viewNames } from "./header";
 import { showKeys } from "./help";
 import { Backend, type HostModel } from "./host";
+import { keptLink } from "./kept";
 import { missing } from "./kernel";
 import { type Keyed, listenToKeys } from "./keys";
 import { currentLanguage, firstLanguage, type Language, setLanguage, t } from "./language";
 import { LibraryView } from "./library";
-import { BadLink, packed } from "./link";
+import { packed } from "./link";
 import type { Model } from "./model";
 import { MotionView } from "./motion";
 import { contentOf } from "./opening";
@@ -23,6 +24,12 @@ import { SynthesisView } from "./synthesis";
 import type { Page, View } from "./view";
 import { drawn } from "./waiting";
 
+/** A place in the history of the browser. */
+interface Place {
+  view?: string;
+  space?: string;
+}
+
 export class App implements Page {
   readonly backend: Backend;
   readonly motion: MotionView;
@@ -30,6 +37,8 @@ export class App implements Page {
   private readonly views: Record<string, View>;
   readonly #makers: Record<string, () => View>;
   private view = "motion";
+  /** The machine in space that Motion shows, on a page of its own, in place of the linkage at hand. */
+  #space = "";
   /** The views that were shown: others are laid out when they are. */
   readonly #laid = new Set(["motion"]);
   /** How far each view was scrolled when it was left. */
@@ -41,7 +50,8 @@ export class App implements Page {
   readonly #place: HTMLElement;
   private readonly host: HTMLElement;
   readonly #shadow: ShadowRoot;
-  /** Whether the address is that of a link that could not be read: it stays until something is changed. */
+  /** Whether the address is that of a link that could not be read, or tells view and language: it stays until something
+   * is changed. */
   #unread = false;
   #writing = 0;
   private hash = "";
@@ -102,9 +112,9 @@ export class App implements Page {
     }
     if (this.shown.plays && !(location.hash.length > 1)) this.motion.run();
     if (this.#linkable) {
-      const { view } = (history.state ?? {}) as { view?: string }; // that of a page which is loaded again
+      const place = history.state as Place | null; // that of a page which is loaded again
       await this.#read();
-      if (view && view in this.#makers) this.show(view);
+      this.#returnTo(place);
       this.motion.forget();
       if (location.hash.length > 1) this.motion.recall();
       this.#arrangeHeader();
@@ -163,7 +173,8 @@ export class App implements Page {
     this.view = name;
     const view = this.#viewOf(name);
     for (const [key, { element }] of Object.entries(this.views)) element.classList.toggle("shown", key === name);
-    if (name !== "motion") this.motion.transport.pause();
+    if (name === "motion") this.#space = "";
+    else this.motion.transport.pause();
     this.#arrangeHeader();
     if (!this.#laid.has(name)) view.arrange();
     this.#laid.add(name);
@@ -181,30 +192,48 @@ export class App implements Page {
 
   /** Show another view, to which the browser's way back leads from the next one. */
   #turnTo(name: string): void {
-    if (name === "motion" && this.views[this.view]!.moves?.()) return;
+    if (name === "motion") {
+      if (this.views[this.view]!.moves?.()) return;
+      if (this.#space) return location.assign(`space/${this.#space}.html#${currentLanguage()}/again`);
+    }
+    this.#goTo(name);
+  }
+
+  #goTo(name: string): void {
     if (name !== this.view) this.#remember(name);
     this.show(name);
   }
 
-  /** The view whose changes are undone: one that draws, else the motion. */
-  get #undoing(): View {
-    const view = this.views[this.view];
-    return view?.undoable ? view : this.motion;
+  /** Whose changes are undone: a view that draws, else the motion, to which it leads back from a machine in space. */
+  get #undoing(): Keyed["undoing"] {
+    const view = this.views[this.view]!;
+    if (view.undoable) return view;
+    return this.#space ? { undoable: [true, false], undo: () => this.#goTo("motion") } : this.motion;
   }
 
   /** A new place in the history of the browser; the one before keeps its view and its linkage. */
   #remember(view: string): void {
     if (!this.#linkable) return;
     clearTimeout(this.#writing);
-    history.replaceState({ view: this.view }, "", this.hash || null);
-    history.pushState({ view }, "", this.hash || null);
+    history.replaceState(this.#placed(this.view), "", this.hash || null);
+    history.pushState(this.#placed(view), "", this.hash || null);
+  }
+
+  #placed(view: string): Place {
+    return { view, space: this.#space };
   }
 
   /** Back, or forth: the view, and the linkage if it was another one. */
   async #goneBack(event: PopStateEvent): Promise<void> {
     if (location.hash !== this.hash) await this.#read();
-    const view = (event.state as { view?: string } | null)?.view;
-    if (view && view in this.#makers) this.show(view);
+    this.#returnTo(event.state as Place | null);
+  }
+
+  #returnTo(place: Place | null): void {
+    const { view = "", space = "" } = place ?? {};
+    if (!(view in this.#makers)) return;
+    this.#space = space;
+    this.show(view);
   }
 
   /** The name of the mechanism in the language of the page. */
@@ -317,32 +346,34 @@ export class App implements Page {
     this.model.set("document", shared.document);
     this.model.save_changes();
     if (!this.#linkable) return;
-    this.motion.keep();
     this.hash = `#${await packed(shared)}`;
-    history.replaceState({ view: this.view }, "", this.hash);
+    this.motion.keep(this.hash);
+    history.replaceState(this.#placed(this.view), "", this.hash);
   }
 
   async #read(): Promise<void> {
-    const text = location.hash.slice(1);
+    let text = location.hash.slice(1);
     if (!text) return;
     this.hash = location.hash;
-    const [lang, name] = text.split("/");
-    if (name && name in this.#makers) {
-      // from the page of a machine in space
-      this.#unread = false;
+    const [lang, view = "", space] = text.split("/");
+    const below = view in this.#makers; // from the page of a machine in space
+    if (below) {
       setLanguage(lang as Language);
-      this.show(name);
-      return this.arrange();
+      text = keptLink().slice(1);
     }
     try {
-      await this.#openShared(await unshared(text));
+      if (text) await this.#openShared(await unshared(text));
       this.#unread = false;
       this.changed();
     } catch (error) {
       this.#unread = true;
-      if (error instanceof BadLink) this.say(t(error.message));
-      else this.say(error instanceof Error ? error.message : String(error));
+      this.say((error as Error).message);
     }
+    if (!below) return;
+    clearTimeout(this.#writing);
+    this.#unread = true;
+    this.#returnTo({ view, space });
+    this.arrange();
   }
 
   async #openShared(shared: Shared): Promise<void> {

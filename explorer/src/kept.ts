@@ -15,22 +15,38 @@ function structureOf(model: Model): string {
   return JSON.stringify([chainText(model), model.elements.map(({ joint, kind, link }) => [joint, kind, link])]);
 }
 
-export function keepSizes(model: Model, past: readonly Snapshot[]): void {
+/** What is kept of a linkage: the part of the address that holds it, and its sizes before. */
+interface Kept {
+  link?: string;
+  of?: string;
+  past?: Snapshot[];
+}
+
+export function keepSizes(model: Model, past: readonly Snapshot[], link: string): void {
   try {
-    sessionStorage.setItem(KEPT, JSON.stringify({ of: structureOf(model), past: past.slice(-MOST) }));
+    sessionStorage.setItem(KEPT, JSON.stringify({ link, of: structureOf(model), past: past.slice(-MOST) }));
   } catch {
     // what cannot be kept lasts as long as the page
   }
 }
 
+function kept(): Kept {
+  try {
+    return JSON.parse(sessionStorage.getItem(KEPT) ?? "{}") as Kept;
+  } catch {
+    return {};
+  }
+}
+
 /** The sizes that were kept of the same structure, the oldest first. */
 export function keptSizes(model: Model): Snapshot[] {
-  try {
-    const kept = JSON.parse(sessionStorage.getItem(KEPT) ?? "{}") as { of?: string; past?: Snapshot[] };
-    return kept.of === structureOf(model) ? kept.past! : [];
-  } catch {
-    return [];
-  }
+  const { of, past } = kept();
+  return of === structureOf(model) ? past! : [];
+}
+
+/** The part of the address that held the linkage when the page was left. */
+export function keptLink(): string {
+  return kept().link ?? "";
 }
 
 const DRAWING = "gruebler-drawing";

@@ -8,8 +8,8 @@ export interface Keyed {
   readonly motion: MotionView;
   /** The view that is shown. */
   readonly here: View;
-  /** The view whose changes are undone. */
-  readonly undoing: View;
+  /** Whose changes are undone. */
+  readonly undoing: Pick<View, "undoable" | "undo" | "redo">;
   save(): void;
   showKeys(): void;
 }

@@ -1,5 +1,6 @@
 /** A linkage as the part of an address behind #: version, packed document, checksum. */
 
+import { t } from "./language";
 import { base64Of, fromBase64, through } from "./packed";
 
 const VERSION = "1";
@@ -28,13 +29,13 @@ export class BadLink extends Error {}
 export async function unpacked(text: string): Promise<unknown> {
   const [version, data, sum] = text.split(".");
   if (version !== VERSION && /^\d+$/.test(version ?? ""))
-    throw new BadLink("This link was made by a newer version of this page.");
-  if (!data || !sum || text.length > LONGEST) throw new BadLink("This link is not complete.");
+    throw new BadLink(t("This link was made by a newer version of this page."));
+  if (!data || !sum || text.length > LONGEST) throw new BadLink(t("This link is not complete."));
   try {
     const bytes = fromBase64(data.replace(/-/g, "+").replace(/_/g, "/"));
     if (checksum(bytes) === sum) return await through(new DecompressionStream("deflate-raw"), bytes).json();
   } catch {
     // said below
   }
-  throw new BadLink("This link is damaged: its checksum does not match.");
+  throw new BadLink(t("This link is damaged: its checksum does not match."));
 }

@@ -123,10 +123,10 @@ export class MotionView implements View, Editor, Driven {
     this.#history.clear();
   }
 
-  /** Keep what can be undone for the same page when it is loaded again. */
-  keep(): void {
+  /** Keep what can be undone for the same page when it is loaded again, with the part of the address that holds it. */
+  keep(link: string): void {
     const past = this.#history.all.flatMap(({ linkage, sizes }) => (linkage === this.linkage ? [sizes] : []));
-    keepSizes(this.linkage.model, past);
+    keepSizes(this.linkage.model, past, link);
   }
 
   /** What could be undone before the page was loaded again. */

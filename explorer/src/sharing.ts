@@ -20,7 +20,7 @@ export interface Shared {
 
 /** That a link is of another mechanism than can be shown here. */
 export function another(): BadLink {
-  return new BadLink("This link holds another mechanism. Open it with: gruebler explore LINK");
+  return new BadLink(t("This link holds another mechanism. Open it with: gruebler explore LINK"));
 }
 
 /** Whether a document is of the mechanism of a model, with whatever sizes. */
@@ -40,7 +40,7 @@ export function sharedOf(motion: MotionView, withModel: boolean): Shared {
 /** What the text behind # carries; BadLink if it is none. */
 export async function unshared(text: string): Promise<Shared> {
   const shared = (await unpacked(text)) as Shared;
-  if (typeof shared?.document?.joints !== "string") throw new BadLink("This link holds no mechanism.");
+  if (typeof shared?.document?.joints !== "string") throw new BadLink(t("This link holds no mechanism."));
   return shared;
 }
 

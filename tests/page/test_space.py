@@ -594,6 +594,40 @@ def test_the_way_back_leads_to_the_other_views(server, chromium):
     browser.close()
 
 
+def test_a_machine_in_space_stays_in_motion_and_the_one_before_is_not_lost(server, chromium):
+    """Over another view and back, with the sizes that were typed; undoing leads to the machine in the plane."""
+    browser, page, errors = browsed_at(chromium, server.address, wanted=".motion.shown")
+    structure = page.locator('[data-view="structure"][aria-selected="true"]')
+    title = page.locator("header small")
+    plane, wiper = (entry(id).name.in_language("en") for id in ("quad", "wiper_rssr"))
+    for id, name in (("quad", plane), ("wiper_rssr", wiper)):
+        page.get_by_role("tab", name="Catalog").click()
+        page.locator(f'[data-id="{id}"]').click()
+        title.get_by_text(name).wait_for(state="attached")
+    crank = page.locator("#size-1-0")
+    crank.fill("50")
+    crank.press("Enter")
+    changed = title.get_by_text(f"{wiper}, changed")
+    changed.wait_for(state="attached")
+    assert page.get_by_role("button", name="Pause").count() == 1  # it plays on
+    page.get_by_role("link", name="Structure").click()
+    structure.wait_for()
+    page.get_by_role("tab", name="Motion").click()
+    changed.wait_for(state="attached")
+    assert crank.input_value() == "50"
+    assert page.locator('[data-icon="undo"]').is_enabled()
+    page.go_back()
+    structure.wait_for()
+    page.locator('[data-icon="undo"]').click()
+    page.locator(".motion.shown").wait_for()
+    assert title.text_content() == plane
+    page.go_back()
+    page.get_by_role("tab", name="Motion").click()
+    changed.wait_for(state="attached")
+    assert errors == []
+    browser.close()
+
+
 def test_a_browser_that_cannot_draw_in_space_says_so(tmp_path, chromium):
     path = tmp_path / "bennett.html"
     assert main(["explore", "bennett", "-o", str(path)]) == 0

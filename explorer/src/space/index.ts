@@ -5,7 +5,8 @@ import type { Model } from "./model";
 import { SpaceView } from "./view";
 
 const model: Model = JSON.parse(document.getElementById("gruebler-model")!.textContent!);
-const asked = location.hash.slice(1);
+const [asked = "", back] = location.hash.slice(1).split("/");
 setLanguage((asked in model.texts ? asked : document.documentElement.lang) as keyof Model["texts"]);
-const view = new SpaceView(document.body, model);
+const [entry] = performance.getEntriesByType("navigation") as PerformanceNavigationTiming[];
+const view = new SpaceView(document.body, model, back !== undefined || entry?.type !== "navigate");
 Object.assign(window, { gruebler: view });

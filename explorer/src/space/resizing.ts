@@ -17,17 +17,42 @@ interface Owner {
 }
 
 const DIGITS = 6;
+const KEPT = "gruebler-space";
+const MOST = 10; // changes
 
 export class Resizing {
   readonly element = h("div", {});
   readonly #said = h("p.error", { role: "alert" });
-  readonly #past: Model[] = [];
+  #past: Model[] = [];
   readonly #future: Model[] = [];
   /** What was typed and does not fit yet, by the numbers of the links. */
   #typed = new Map<number, Size>();
   #asked = 0;
 
   constructor(private readonly owner: Owner) {}
+
+  /** The machine with the sizes that it had when the page was left, which can be undone. */
+  recalled(data: Model): Model {
+    try {
+      const kept = JSON.parse(sessionStorage.getItem(KEPT) ?? "{}") as { of?: string; past?: Model[]; shown?: Model };
+      if (kept.of !== location.pathname) return data;
+      this.#past = kept.past!;
+      return kept.shown!;
+    } catch {
+      return data;
+    }
+  }
+
+  /** Show it with other sizes, and keep it for when the page is opened again. */
+  #take(shown: Model): void {
+    this.owner.take(shown);
+    try {
+      const kept = { of: location.pathname, past: this.#past.slice(-MOST), shown };
+      sessionStorage.setItem(KEPT, JSON.stringify(kept));
+    } catch {
+      // what cannot be kept lasts as long as the page
+    }
+  }
 
   get changed(): boolean {
     return this.#past.length > 0;
@@ -94,7 +119,7 @@ export class Resizing {
       this.#typed = new Map();
       this.#past.push(before);
       this.#future.length = 0;
-      this.owner.take(result);
+      this.#take(result);
     } catch {
       this.#said.textContent = texts[lang].words.lost!;
     }
@@ -125,6 +150,6 @@ export class Resizing {
     const data = from.pop();
     if (!data) return;
     to.push(this.owner.shown());
-    this.owner.take(data);
+    this.#take(data);
   }
 }

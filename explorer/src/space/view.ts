@@ -53,10 +53,13 @@ export class SpaceView implements Driven {
   constructor(
     parent: HTMLElement,
     private data: Model,
+    /** Whether it comes back with the sizes that it had. */
+    again: boolean,
   ) {
+    if (again) this.data = this.#resizing.recalled(data);
     const { host, shadow } = shell(parent, "100%");
     this.#host = host;
-    this.linkage = new Machine(data);
+    this.linkage = new Machine(this.data);
     this.scene = new Scene(this.linkage, {
       taken: () => this.transport.pause(),
       pulled: () => this.posed(),
@@ -122,6 +125,7 @@ export class SpaceView implements Driven {
   /** Show the machine with other sizes, where the drive stands. */
   #take(data: Model): void {
     const { active, drives } = this.linkage;
+    const { playing } = this.transport.player;
     this.transport.pause();
     this.data = data;
     this.linkage = new Machine(data);
@@ -130,7 +134,9 @@ export class SpaceView implements Driven {
     this.#arrange();
     const { full, high, low } = this.linkage.cycle;
     const value = drives[this.linkage.active]!;
-    if (this.linkage.drive) this.transport.pick(full ? value : Math.min(Math.max(value, low), high));
+    if (!this.linkage.drive) return;
+    this.transport.pick(full ? value : Math.min(Math.max(value, low), high));
+    if (playing) this.transport.toggle();
   }
 
   /** The ways to the other views, which are on the page above. */
@@ -142,8 +148,10 @@ export class SpaceView implements Driven {
     return centred(h("nav", {}, ...Object.entries(viewNames()).map(way)));
   }
 
+  /** The address of another view, to which this page is what Motion shows. */
   #above(view: string): string {
-    return `${location.protocol === "file:" ? "../index.html" : "../"}#${currentLanguage()}/${view}`;
+    const [, own] = location.pathname.match(/([^/]*)\.html$/) ?? [];
+    return `${location.protocol === "file:" ? "../index.html" : "../"}#${currentLanguage()}/${view}/${own}`;
   }
 
   /** As in the other views: files are opened on the page above, and what this one lacks keeps its room. */
