@@ -207,6 +207,9 @@ def test_a_platform_that_only_shifts_is_said_to_shift(tmp_path, chromium):
     path = tmp_path / "delta.html"
     assert main(["explore", "delta", "-o", str(path)]) == 0
     browser, page, errors = browsed(chromium, path)
+    named = len(entry("delta").placed().points)
+    assert page.locator("text.mark").count() == named
+    assert page.get_by_label("Names").count() == min(named, 1)
     page.get_by_role("button", name="Pause").click()
     for slider in page.locator(".rows input").all():
         slider.fill("0.2")
@@ -563,6 +566,7 @@ def test_a_view_that_is_turned_by_hand_has_no_name(tmp_path, chromium):
     pressed = "all => all.map((one) => one.ariaPressed)"
     assert views.evaluate_all(pressed) == ["true", "false", "false", "false"]
     assert page.locator(".stage path.driven").count() == 1
+    assert page.get_by_label("Names").count() == 0  # no point has one
     page.locator(".stage > svg").focus()
     page.keyboard.press("ArrowLeft")
     assert views.evaluate_all(pressed) == ["false"] * 4

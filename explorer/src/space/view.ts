@@ -273,7 +273,7 @@ export class SpaceView implements Driven {
       {},
       option("floor", t("Grid")),
       option("paths", words.paths!),
-      option("names", t("Names")),
+      ...(data.points.some(({ name }) => name) ? [option("names", t("Names"))] : []),
     );
     panels.push(panelOf("show", t("Show"), true, this.#views, options));
     return panels;
