@@ -34,6 +34,7 @@ from gruebler.teaching.catalog import entries
 
 _NUMBERED = re.compile(r"(frame|crank|coupler|rocker|slider|block|wheel)(\d*)")  # of four-bars and by roles
 
+_FOUR = 4  # bars
 _SAME = 1e-12  # sizes: elements of the plan are copies of the linkage's, but for rounding of turned ones
 
 
@@ -152,13 +153,27 @@ def link_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
     >>> from gruebler.mechanics.fourbar import FourBar
     >>> link_names(FourBar(25, 70, 40, 70).linkage(), "", "de")["rocker"]
     'Schwinge'
+    >>> link_names(FourBar(86, 100, 90.6, 55.8).linkage(), "", "de")["rocker"]  # a double crank
+    'Kurbel2'
     """
     links = linkage.mechanism.chain.links
     record = entries().get(source)
     if record is not None and record.chain().links == links:
         return dict(zip(links, record.in_language(lang).chain().links, strict=True))
-    parts = {link: _NUMBERED.fullmatch(link) for link in links}
+    second = {"rocker": "crank2"} if _is_double_crank(linkage) else {}
+    parts = {link: _NUMBERED.fullmatch(second.get(link, link)) for link in links}
     return {link: translate(part[1], lang) + part[2] if part else link for link, part in parts.items()}
+
+
+def _is_double_crank(linkage: Linkage) -> bool:
+    """Whether it is a four-bar by whose shortest link, the frame, both links beside it turn fully (Grashof)."""
+    chain, elements = linkage.mechanism.chain, linkage.elements
+    ends = {link: [complex(e.x, e.y) for (_, own), e in elements.items() if own == link] for link in chain.links}
+    single_loop = all(len(own) == 2 for own in ends.values())
+    if chain.n != _FOUR or not single_loop or not all(joint.pair.is_turning for joint in chain.joints):
+        return False
+    lengths = {link: abs(own[0] - own[1]) for link, own in ends.items()}
+    return 2 * (lengths[linkage.mechanism.frame] + max(lengths.values())) < sum(lengths.values())
 
 
 def names_of_points(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
