@@ -345,3 +345,16 @@ def test_a_slide_of_a_design_has_its_block_on_its_guide():
             assert part.real.min() > -1e-3
             assert part.real.max() < 1 + 1e-3
         assert np.abs(z[:, start] + z[:, end] - 2 * pin[:, 0]).max() < 1e-3 * design["size"]
+
+
+def test_after_all_four_bars_are_followed_it_is_said_that_they_are_judged():
+    """Not that all of all were looked for, as long as the answer is not there."""
+    from gruebler.page.requests import answer
+
+    told = []
+    rows = [[0, 0, 0], [40, 20, 20], [60, 50, 40]]
+    answer("synthesise", {"kind": "positions", "rows": rows, "crank": True, "transmission": 30}, "en", told.append)
+    counted = [text.split(": ")[1].split(" of ") for text in told if text.startswith("Looking for four-bars: ")]
+    assert counted
+    assert all(int(done) < int(total) for done, total in counted)
+    assert "Judging the linkages found" in told

@@ -97,7 +97,10 @@ def design_records(
     sort = ("range-transmission",) if crank and isinstance(task, PositionTask) else ()
 
     def counted(done: int, total: int) -> None:
-        progress(translate("Looking for four-bars: {number} of {total}", lang, number=done, total=total))
+        if done < total:
+            progress(translate("Looking for four-bars: {number} of {total}", lang, number=done, total=total))
+        else:
+            progress(translate("Judging the linkages found", lang))
 
     result = synthesise(
         task,
