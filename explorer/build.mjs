@@ -88,7 +88,7 @@ const packed = {
 /** Long names of methods and fields of the page's own, which get short ones; nobody outside, neither tests nor the
  * library, calls them. */
 const own = `
-  adding addPoint appeared arrange atFrame cancelDrag changeSlowly dragCancel
+  measuring showRange showPose showValue adding addPoint appeared arrange atFrame cancelDrag changeSlowly dragCancel
   dragEnd dragPoint dragStart editor element elementAt elementsOf elementsOn falling forget holdJoint knot
   jointName leftOf lineFirst linkList linkName moveJointBy movePointBy openDocument openFile
   pan paused picked playAt plottedAngle pointed pointName poleAside possible present recoloured runAlong
@@ -100,6 +100,7 @@ const own = `
 
 /** Long names that others call, too, above all the browser's own, and that stand in a module again and again. */
 const often = `
+  activeElement fromCharCode getAttribute members offsetHeight replaceState splice
   accelerations active addEventListener angles append appendChild arrayBuffer ArrowRight attempt
   backend beginPath beside between bodies bottom button cancel canvas catalog chains change changed
   charCodeAt checked childElementCount children choose chosen circle class classList clientWidth

@@ -2,7 +2,7 @@
 
 import { gripAt, gripped } from "./backdrop";
 import { choiceOf, isLow, removeChosen } from "./choice";
-import { h, renew, svg } from "./dom";
+import { h, lowered, renew, svg } from "./dom";
 import {
   type Drawing,
   documentOfDrawing,
@@ -80,6 +80,7 @@ export class BuildView implements View, Plane, Drawn {
     this.element.append(stage, this.#tools, this.#side);
     wheelZooms(this.root, (...about) => this.zoom(...about));
     new ResizeObserver(() => this.#resize()).observe(stage);
+    lowered(stage);
   }
 
   #resize(): void {

@@ -1,6 +1,6 @@
 /** The measures beside the stage, and what the library says of them in words. */
 
-import { h, renew } from "./dom";
+import { h, renew, withMinus } from "./dom";
 import type { Fact } from "./facts";
 import { t } from "./language";
 import type { Linkage } from "./linkage";
@@ -44,24 +44,32 @@ export class InWords {
 
   constructor(private readonly page: Page) {}
 
-  arrange(): void {
+  /** Of another linkage nothing is said yet. */
+  arrange(linkage: Linkage): void {
+    if (linkage !== this.#asked) this.#said.textContent = "…";
+    this.#asked = linkage;
     renew(this.element, h("summary", {}, t("In words")), this.#said);
     this.element.hidden = !this.page.served;
   }
 
-  /** Ask for it after a while without a change; meanwhile what was said keeps its room. */
+  /** After a change what was said holds no more; it keeps its room until there is an answer. */
+  wait(): void {
+    this.#said.classList.add("waiting");
+  }
+
+  /** Ask for it after a while without a change. */
   ask(linkage: Linkage, documentOf: () => LinkageDocument): void {
     this.#asked = linkage;
     if (!this.page.served || !linkage.drive || linkage.model.drives.length > 1) {
       this.#said.textContent = "";
       return;
     }
-    this.#said.classList.add("waiting");
+    this.wait();
     clearTimeout(this.#timer);
     const tell = (text: string) => {
       if (linkage !== this.#asked) return;
       this.#said.classList.remove("waiting");
-      this.#said.textContent = text;
+      this.#said.textContent = withMinus(text);
     };
     this.#timer = setTimeout(() => {
       const { cycle, model } = linkage;

@@ -44,7 +44,7 @@ export class Side {
   /** Lay them out; what is measured is put into them afterwards. */
   arrange(): void {
     const { element, view } = this;
-    this.#words.arrange();
+    this.#words.arrange(view.linkage);
     const { scrollTop } = element; // before its parts leave it for new panels
     renew(
       element,
@@ -120,6 +120,7 @@ export class Side {
    * texts and plots do in steps without one. All of them follow where it rests. */
   follow(): void {
     const { linkage, transport } = this.view;
+    this.#words.wait();
     const alone = linkage.program.roots.length && !linkage.late;
     if (!alone) {
       const turn = (this.#turn + 1) % 4;

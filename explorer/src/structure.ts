@@ -213,7 +213,8 @@ export class StructureView implements View {
         { "data-text": text, "aria-pressed": String(pressed), onclick: () => void this.describe(text) },
         thumbnail(picture, text),
         h("b", {}, name),
-        family ? h("span", {}, family) : null,
+        // Viergelenk-getriebe, for a browser without a German dictionary
+        family ? h("span", {}, family.replace("kg", "k\u00adg")) : null,
       );
     };
     return h("div.cards.few", { "data-list": key }, ...list.map(card));

@@ -27,6 +27,7 @@ export async function awaited<Result>(
     said.textContent = text;
     const [done, all, more] = text.match(/\d+/g) ?? [];
     if (all && !more) Object.assign(bar, { max: all, value: done });
+    else bar.removeAttribute("value");
   });
   const cancel = h("button.plain", { "data-act": "cancel", onclick: () => request.cancel() }, t("Cancel"));
   renew(place, bar, said, cancel);

@@ -489,3 +489,17 @@ def test_the_machine_at_hand_is_taken_over(plane, machine):
         paths.append((joints, turns, motion.point("tip")))
     for one, other in zip(*paths, strict=True):
         np.testing.assert_allclose(one, other, atol=1e-8)
+
+
+def test_beside_its_table_a_drawing_is_low_on_a_phone_and_not_covered_by_the_tools(tab, server):
+    page = tab(width=390, height=844, touch=True).open(server.address)
+    page.page.click('[data-view="build"]')
+    page.page.locator(".starters button").first.click()
+    page.until("document.documentElement.scrollHeight > 1100")
+    page.page.evaluate("scrollTo(0, 9999)")
+    stage = "gruebler.root.querySelector('[data-page=build] > .stage')"
+    page.until(f"scrollY > 99 && {stage}.style.getPropertyValue('--scrolled')")
+    page.page.wait_for_timeout(100)
+    stage, tools = (page.page.locator(f"[data-page=build] > {part}").bounding_box() for part in (".stage", ".palette"))
+    assert 0 <= stage["y"] < 1
+    assert stage["y"] + stage["height"] <= tools["y"] + 1

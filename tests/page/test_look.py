@@ -482,3 +482,21 @@ def test_on_a_phone_a_finger_meets_the_search_of_the_catalog_which_says_what_it_
         return pen.measureText(field.placeholder).width; }"""
     assert field.evaluate(words) <= box["width"] - 20
     assert page.page.evaluate("document.documentElement.scrollWidth") == 390
+
+
+def test_the_value_of_each_plot_stands_beside_its_title_in_english(tab, server):
+    """Where the curve is not, and with some room between them."""
+    page = tab(locale="en-US").open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-id="slidercrank"]').click()
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'slidercrank'")
+    page.until("gruebler.root.querySelectorAll('.plot .read').length > 2")
+    page.until("[...gruebler.root.querySelectorAll('.plot .read')].every((one) => one.textContent)")
+    boxes = page.page.locator(".side .plot:not(.polar)").evaluate_all(
+        """all => all.map((one) => [".title", ".read"].map((name) => one.querySelector(name).getBBox()))
+            .map(([title, read]) => [title.x + title.width, title.y + title.height, read.x, read.y])"""
+    )
+    assert len(boxes) > 2
+    for right, bottom, left, top in boxes:
+        assert top < bottom
+        assert right + 3 < left

@@ -348,6 +348,33 @@ def test_what_is_said_in_words_holds_for_the_range_in_which_a_machine_is_used(ta
         assert f" {dict(facts)[name]}" in said
 
 
+def test_words_of_another_machine_or_size_do_not_stand_as_if_they_held(tab, server):
+    page = tab().open(server.address)
+    page.page.locator('[data-panel="measures"] summary:text-is("In words")').click()
+    words = page.page.locator('[data-panel="measures"] .words .note')
+    words.filter(has_text="output").wait_for()
+    page.until("!gruebler.root.querySelector('[data-panel=\"measures\"] .words .waiting')")
+    page.page.evaluate(  # from now on there is no answer
+        """() => {
+            const { page } = gruebler.motion;
+            const ask = page.ask.bind(page);
+            page.ask = (method, ...more) => (method === "measures" ? new Promise(() => {}) : ask(method, ...more));
+        }"""
+    )
+    page.page.evaluate("gruebler.motion.transport.pause()")
+    x, y = page.middle('[data-joint="R(coupler-rocker)"] .joint')
+    page.page.mouse.move(x, y)
+    page.page.mouse.down()
+    page.page.mouse.move(x + 10, y + 5, steps=4)
+    page.until("gruebler.root.querySelector('[data-panel=\"measures\"] .words .waiting')")
+    assert "output" in words.inner_text()  # it keeps its room
+    page.page.mouse.up()
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-id="crane"]').click()
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'crane'")
+    page.until("gruebler.root.querySelector('[data-panel=\"measures\"] .words .note')?.textContent === '…'")
+
+
 def test_a_server_that_goes_and_comes_back(tab, server):
     page = tab().open(server.address)
     page.until("gruebler.model.socket !== null")

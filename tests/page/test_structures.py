@@ -138,3 +138,16 @@ def test_links_are_called_by_the_names_of_the_machine():
 def test_names_of_another_chain_say_nothing():
     names = {"frame": "Gestell", "crank": "Kurbel"}
     assert structure_record("R(0-1) R(1-2) R(2-0)", "de", names=names)["frame"] == "0"
+
+
+def test_a_long_german_name_of_a_machine_is_broken_between_its_parts(tab, server):
+    """Viergelenk-getriebe: a browser without a German dictionary would break it at the last letter with room."""
+    view = tab(width=1440, height=900, locale="de").open(server.address).page
+    view.click('[data-view="structure"]')
+    names = view.locator('[data-list="inversions"] .card span', has_text="gelenkgetriebe")
+    names.first.wait_for()
+    lines = """all => all.map((span) => { const range = document.createRange(), text = span.firstChild;
+        const from = text.data.indexOf("etriebe");
+        range.setStart(text, from); range.setEnd(text, from + 7);
+        return range.getClientRects().length; })"""
+    assert set(names.evaluate_all(lines)) == {1}
