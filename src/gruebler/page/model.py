@@ -22,6 +22,7 @@ from gruebler.files.load_reading import loads_of_document
 from gruebler.files.load_writing import loads_to_json
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
+from gruebler.mechanics.fourbar import grashof
 from gruebler.mechanics.kinematics.branches import labelled_groups
 from gruebler.mechanics.kinematics.plan import Dyad, Plan
 from gruebler.mechanics.linkages import Linkage
@@ -34,7 +35,7 @@ from gruebler.teaching.catalog import entries
 
 _NUMBERED = re.compile(r"(frame|crank|coupler|rocker|slider|block|wheel)(\d*)")  # of four-bars and by roles
 
-_FOUR = 4  # bars
+_FOUR_BAR = ("crank", "coupler", "rocker", "frame")  # its links, in the order of their lengths
 _SAME = 1e-12  # sizes: elements of the plan are copies of the linkage's, but for rounding of turned ones
 
 
@@ -166,14 +167,14 @@ def link_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
 
 
 def _is_double_crank(linkage: Linkage) -> bool:
-    """Whether it is a four-bar by whose shortest link, the frame, both links beside it turn fully (Grashof)."""
+    """Whether it is a four-bar by the names of its links, of which crank and rocker both turn fully."""
     chain, elements = linkage.mechanism.chain, linkage.elements
-    ends = {link: [complex(e.x, e.y) for (_, own), e in elements.items() if own == link] for link in chain.links}
-    single_loop = all(len(own) == 2 for own in ends.values())
-    if chain.n != _FOUR or not single_loop or not all(joint.pair.is_turning for joint in chain.joints):
+    ends = {link: [complex(e.x, e.y) for (_, own), e in elements.items() if own == link] for link in _FOUR_BAR}
+    if set(chain.links) != set(_FOUR_BAR) or not all(joint.pair.is_turning for joint in chain.joints):
         return False
-    lengths = {link: abs(own[0] - own[1]) for link, own in ends.items()}
-    return 2 * (lengths[linkage.mechanism.frame] + max(lengths.values())) < sum(lengths.values())
+    if not all(len(own) == 2 for own in ends.values()):
+        return False
+    return grashof(*(abs(own[0] - own[1]) for own in ends.values())).type.key == "double_crank"
 
 
 def names_of_points(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
