@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 import gruebler as gr
 from gruebler.cli import main
 from gruebler.cli.design_tables import _lengths
-from gruebler.design.synthesis.positions import guiding_dyads
+from gruebler.design.synthesis.dyad_families import guiding_dyads
 from gruebler.files import linkage_from_json, read_linkage
 from gruebler.files.tasks import task_from_json
 from gruebler.mechanics.kinematics import move

@@ -13,9 +13,9 @@ import numpy as np
 
 from gruebler.base.text import LANGUAGES, Message, message
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, stored_solutions
+from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.finite_points import ON_CIRCLE, ON_LINE, UNRESOLVED
-from gruebler.design.synthesis.positions import linkage_of_dyads
 from gruebler.design.synthesis.tasks import EQUAL_POINTS
 from gruebler.page.designs import capitalised
 from gruebler.page.model import model_of

@@ -9,10 +9,12 @@ import pytest
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, PathTask, PositionTask, synthesise, synthesise_path, synthesise_positions
 from gruebler.design.synthesis.burmester import burmester_curves
+from gruebler.design.synthesis.dyad_families import guiding_dyads, sliding_sample
+from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements, GuidingDyad
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.pair_search import pair_facts
-from gruebler.design.synthesis.positions import body_targets, guiding_dyads, linkage_of_dyads, sliding_sample
+from gruebler.design.synthesis.targets import body_targets
 
 from .test_simulated_verdicts import passes, pivots_of, simulated
 

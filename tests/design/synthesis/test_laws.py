@@ -14,8 +14,8 @@ from gruebler.design.synthesis import (
     synthesise,
 )
 from gruebler.design.synthesis.dead_centres import dead_centre_family
+from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements, GuidingDyad, all_dyads
-from gruebler.design.synthesis.positions import linkage_of_dyads
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics import circuit, move

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, PositionTask, synthesise_positions
 from gruebler.design.synthesis.burmester import burmester_curves
+from gruebler.design.synthesis.dyad_families import guiding_dyads
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, all_dyads, misfit
-from gruebler.design.synthesis.positions import guiding_dyads
 from gruebler.design.synthesis.six_bar_positions import synthesise_guiding_six_bars
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics import move

@@ -19,9 +19,9 @@ from gruebler.design.synthesis import (
     synthesise,
     synthesise_path,
 )
+from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.judging import judge_design
-from gruebler.design.synthesis.positions import linkage_of_dyads
 from gruebler.design.synthesis.results import Design, DesignVerdict
 from gruebler.design.synthesis.targets import GuidedCurve, point_targets
 from gruebler.mechanics.analysis.transmission import transmission_angle

@@ -19,7 +19,6 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.alt_burmester import GenericSolutions, Problem, load_generic_solutions
 from gruebler.design.synthesis.judging import Demands, best_of
-from gruebler.design.synthesis.positions import body_targets
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, ranked
 from gruebler.design.synthesis.six_bar_census import (
     EIGHT_POSITIONS,
@@ -32,6 +31,7 @@ from gruebler.design.synthesis.six_bar_functions import FORM, how_followed, how_
 from gruebler.design.synthesis.six_bar_guidance import unknowns_of_guides
 from gruebler.design.synthesis.six_bar_shifts import shifting_six_bars
 from gruebler.design.synthesis.special_tasks import ALIKE, refuse_one_joint, solved_where_it_lies
+from gruebler.design.synthesis.targets import body_targets
 from gruebler.design.synthesis.tasks import PIVOTS_OF_SIX_BARS, PositionTask
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, replace
 from enum import Enum
 
 import numpy as np
@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.design.synthesis.target_orders import Ranks, TargetOrder
-from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask
+from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask, PositionTask
 from gruebler.mechanics.kinematics import Poses
 from gruebler.mechanics.kinematics.motion import Motion
+from gruebler.mechanics.linkages import Linkage
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +110,13 @@ def position_targets(point: str, link: str, origins: Complexes, angles: Iterable
     """Positions of a link: the places of one of its points, and its angles where they are given."""
     turned = np.array([np.nan if a is None else size * np.exp(1j * a) for a in angles], np.complex128)
     return Targets((Probe(point), Probe(link=link, length=size)), np.stack([origins, turned], axis=1), size)
+
+
+def body_targets(task: PositionTask, linkage: Linkage, link: str = "coupler") -> Targets:
+    """The positions of the link that is the body, with its point P at the origin."""
+    first = linkage.required_pose[link].angle
+    targets = position_targets("P", link, task.origins, first + task.angles - task.angles[0], task.size)
+    return replace(targets, ranks=task.order, travel=task.size if np.ptp(task.origins) else np.inf)
 
 
 def point_targets(point: str, z: Complexes, size: float) -> Targets:
