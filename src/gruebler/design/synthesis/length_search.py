@@ -28,8 +28,8 @@ from gruebler.design.synthesis.dyads import (
 from gruebler.design.synthesis.judging import Demands, sought_order
 from gruebler.design.synthesis.pair_search import (
     FoundPairs,
-    Nearby,
     PairFacts,
+    SoughtPairs,
     best_pairs,
     facts_of_pins,
     inside_region,
@@ -202,29 +202,17 @@ def has_lengths(kind: DyadKind, demands: Demands) -> bool:
     return {link for link, _ in demands.lengths} <= set(_ENDS[kind])
 
 
-def best_linkages(
-    task: PositionTask,
-    dyads: Sequence[GuidingDyad],
-    demands: Demands,
-    near: Nearby,
-    *,
-    second: Sequence[GuidingDyad] = (),
-    given: Sequence[GuidingDyad] = (),
-    orders: Sequence[str] = (),
-    number: int = 16,
-) -> FoundPairs:
+def best_linkages(sought: SoughtPairs) -> FoundPairs:
     """As `best_pairs`; with given lengths, which no member of a sample has, the best of those that have them."""
-    kind = (second or dyads)[0].kind
-    if not (demands.lengths or (given and len(task) == 2)):  # of two positions a given dyad has an end to choose
-        return best_pairs(task, dyads, demands, near, second=second, given=given, orders=orders, number=number)
+    demands, given, kind = sought.demands, sought.given, sought.others[0].kind
+    if not (demands.lengths or (given and len(sought.task) == 2)):  # of two positions a given dyad has an end to choose
+        return best_pairs(sought)
     if not has_lengths(kind, demands):
         return FoundPairs(pairs=(), notes=(_WITHOUT.filled(form=form_symbols(f"{CRANK.form}-{kind.form}")),))
-    others = [[dyad for dyad in some if dyad not in given] for some in (dyads, second or dyads)]
-    groups = [(dyads, second or dyads)]
-    if given:
-        groups = [(given, others[1]), (others[0], given)]
+    firsts, seconds = ([dyad for dyad in some if dyad not in given] for some in (sought.dyads, sought.others))
+    groups = [(given, seconds), (firsts, given)] if given else [(sought.dyads, sought.others)]
     groups = [row for row in groups if row[0] and row[1] and (row[0][0].kind, row[1][0].kind) == (CRANK, kind)]
-    return best_members(task, groups, demands, orders=orders, number=number)
+    return best_members(sought.task, groups, demands, orders=sought.orders, number=sought.number)
 
 
 def best_members(

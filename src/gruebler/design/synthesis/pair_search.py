@@ -7,7 +7,7 @@ transmission angle of each pair follow from its lengths and crank angles. docs/t
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import degrees
 from typing import NamedTuple
 
@@ -301,45 +301,50 @@ class FoundPairs:
     notes: tuple[Message, ...]
 
 
-def best_pairs(
-    task: PositionTask,
-    dyads: Sequence[GuidingDyad],
-    demands: Demands,
-    near: Nearby,
-    *,
-    second: Sequence[GuidingDyad] = (),
-    given: Sequence[GuidingDyad] = (),
-    orders: Sequence[str] = (),
-    number: int = 16,
-) -> FoundPairs:
-    """The best pairs of a sample of a family, each made better within it; those that fail least if none meets all.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SoughtPairs:
+    """Which pairs of a family are sought."""
 
-    Args:
-        task: two to four positions.
-        dyads: a sample of the family in the order of the family, RR ones: those that are driven.
-        demands: what counts besides.
-        near: dyads of the family near one of them.
-        second: a sample of sliding dyads of one kind, in the order of their family, instead of the first ones again.
-        given: some of the first ones, all where there are second ones: each pair has just one of them.
-        orders: what is best, by the names of `results.ORDERS`.
-        number: of pairs, at most.
+    task: PositionTask
+    """Two to four positions."""
+    dyads: Sequence[GuidingDyad]
+    """A sample of the family in the order of the family, RR ones: those that are driven."""
+    demands: Demands
+    near: Nearby
+    second: Sequence[GuidingDyad] = ()
+    """A sample of sliding dyads of one kind, in the order of their family, instead of the first ones again."""
+    given: Sequence[GuidingDyad] = ()
+    """Some of the first ones, all where there are second ones: each pair has just one of them."""
+    orders: Sequence[str] = ()
+    """What is best, by the names of `results.ORDERS`."""
+    number: int = 16
+    """Of pairs, at most."""
+
+    @property
+    def others(self) -> Sequence[GuidingDyad]:
+        """Those that are not driven."""
+        return self.second or self.dyads
+
+
+def best_pairs(sought: SoughtPairs) -> FoundPairs:
+    """The best pairs of a sample of a family, each made better within it; those that fail least if none meets all.
 
     Cost: 2 us for each pair of the sample, 10 ms for each one that is made better.
     """
-    others = second or dyads
-    facts = pair_facts(task, dyads, others, demands)
+    dyads, others, demands = sought.dyads, sought.others, sought.demands
+    facts = pair_facts(sought.task, dyads, others, demands)
     usable = np.ones((len(dyads), len(others)), bool)
-    if given and not second:
-        is_given = np.array([dyad in given for dyad in dyads])
+    if sought.given and not sought.second:
+        is_given = np.array([dyad in sought.given for dyad in dyads])
         usable = is_given[:, None] != is_given
-    elif not second:
+    elif not sought.second:
         np.fill_diagonal(usable, False)
     (name, first), *rest = facts.met(demands)
     met = [(name, first & usable), *rest]
     fails = np.sum([~flags for _, flags in met], axis=0)
     good = fails == 0
     notes = [
-        _SEARCHED[bool(given), bool(second)].filled(
+        _SEARCHED[bool(sought.given), bool(sought.second)].filled(
             dyads=len(dyads),
             form=form_symbols(others[0].kind.form),
             pairs=int(np.count_nonzero(usable)),
@@ -347,26 +352,26 @@ def best_pairs(
         )
     ]
     if demands.transmission > 0 and not good.any():
-        orders = ("transmission", *orders)  # those that are nearly good come first
-    ranks = np.lexsort([cost.ravel() for cost in reversed([fails.astype(float), *facts.costs(orders)])])
+        sought = replace(sought, orders=("transmission", *sought.orders))  # those that are nearly good come first
+    ranks = np.lexsort([cost.ravel() for cost in reversed([fails.astype(float), *facts.costs(sought.orders)])])
     ranks = ranks[usable.ravel()[ranks]]
     chosen: list[tuple[int, int]] = []
-    for rank in ranks[: _LOOKED_AT * number]:
+    for rank in ranks[: _LOOKED_AT * sought.number]:
         i, j = divmod(int(rank), len(others))
-        same = [(i, j)] if second else [(i, j), (j, i)]
+        same = [(i, j)] if sought.second else [(i, j), (j, i)]
         apart = all(abs(p - k) + abs(q - m) > _APART for k, m in chosen for p, q in same)
         if apart and (good[i, j] or not good.any()):
             chosen.append((i, j))
-        if len(chosen) == 2 * number:
+        if len(chosen) == 2 * sought.number:
             break
     pairs: list[tuple[GuidingDyad, GuidingDyad]] = []
     known = bool(good.any())
     for i, j in chosen:  # where none of the sample is good, one beside it may be
-        pair, meets = _improved(task, (dyads[i], others[j]), demands, near, orders)
+        pair, meets = _improved(sought, (dyads[i], others[j]))
         known |= meets
-        if all(_gap(pair, other) > _ALIKE * task.size for other in pairs):
+        if all(_gap(pair, other) > _ALIKE * sought.task.size for other in pairs):
             pairs.append(pair)
-        if len(pairs) == number:
+        if len(pairs) == sought.number:
             break
     return FoundPairs(pairs=tuple(pairs), notes=(*notes, *([] if known else tightest(met))))
 
@@ -466,19 +471,15 @@ def tightest(met: Sequence[tuple[Message, Flags]]) -> list[Message]:
 
 
 def _improved(
-    task: PositionTask,
-    pair: tuple[GuidingDyad, GuidingDyad],
-    demands: Demands,
-    near: Nearby,
-    orders: Sequence[str],
+    sought: SoughtPairs, pair: tuple[GuidingDyad, GuidingDyad]
 ) -> tuple[tuple[GuidingDyad, GuidingDyad], bool]:
     """The best pair nearby, on finer and finer grids about the best so far, and whether it meets all demands."""
     meets = False
     for width in _WIDTHS:
-        first, second = ([dyad, *near(dyad, width)] for dyad in pair)
-        facts = pair_facts(task, first, second, demands)
-        fails = np.sum([~flags for _, flags in facts.met(demands)], axis=0).astype(float)
-        best = np.lexsort([cost.ravel() for cost in reversed([fails, *facts.costs(orders)])])[0]
+        first, second = ([dyad, *sought.near(dyad, width)] for dyad in pair)
+        facts = pair_facts(sought.task, first, second, sought.demands)
+        fails = np.sum([~flags for _, flags in facts.met(sought.demands)], axis=0).astype(float)
+        best = np.lexsort([cost.ravel() for cost in reversed([fails, *facts.costs(sought.orders)])])[0]
         i, j = divmod(int(best), len(second))
         pair, meets = (first[i], second[j]), fails[i, j] == 0
     return pair, meets

@@ -39,7 +39,7 @@ from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.given_pivots import notes_on_pivots
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design, judged_by_drive, order_notes
 from gruebler.design.synthesis.length_search import best_linkages, best_members, has_lengths
-from gruebler.design.synthesis.pair_search import IMPROVED
+from gruebler.design.synthesis.pair_search import IMPROVED, SoughtPairs
 from gruebler.design.synthesis.partner_bounds import (
     Pair,
     angle_of_pair,
@@ -225,27 +225,12 @@ def _judged_best(
     def near(dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
         return [] if dyad in given else of_family(dyad, width)
 
-    def sought(
-        cranks: Sequence[GuidingDyad], second: Sequence[GuidingDyad], count: int, wished: Demands
-    ) -> tuple[list[Pair], list[Message]]:
-        search = best_linkages(task, cranks, wished, near, second=second, given=given, orders=sort, number=count)
-        turns = given and not given[0].slides
-        if (turns and second) or (not turns and (len(task) == 4 or not search.pairs)):
-            return [*search.pairs], [*search.notes]
-        if turns and len(task) == 2:
-            better, proved = best_beside_ends(task, wished, given, search.pairs)
-        elif turns:
-            better, proved = best_beside(task, wished, given[0], search.pairs)
-        else:
-            improved, proved = improved_pair(task, wished, search.pairs)
-            better = [improved] if improved else []
-        return [*better, *search.pairs], [*search.notes, *proved]
-
-    asked: list[tuple[Sequence[GuidingDyad], Sequence[GuidingDyad], int]] = []
+    family = SoughtPairs(task=task, dyads=turning, demands=demands, near=near, given=given, orders=sort, number=number)
+    asked: list[SoughtPairs] = []
     if given and given[0].slides:
-        asked.append((turning, given, number))
+        asked.append(replace(family, second=given))
     elif len(turning) > 1:
-        asked.append((turning, (), number))
+        asked.append(family)
     for kind in () if given and given[0].slides else (SLIDER, BLOCK):
         second = (
             [dyad for dyad in dyads if dyad.kind == kind]
@@ -254,13 +239,13 @@ def _judged_best(
         )
         sliding += second[:: max(1, len(second) // 2)]
         if second and (cranks := list(given or turning)):
-            asked.append((cranks, second, max(1, number // 4)))
+            asked.append(replace(family, dyads=cranks, second=second, number=max(1, number // 4)))
     pairs: list[Pair] = []
-    for drivers, partners, count in asked:
-        some, said = sought(drivers, partners, count, demands)
+    for sought in asked:
+        some, said = _best_pairs(sought)
         if demands.transmission > 0 and not any(angle_of_pair(task, demands, pair) > -np.inf for pair in some):
             # Where none of the sample has the angle, the best without the demand may have it.
-            freed, _ = sought(drivers, partners, count, replace(demands, transmission=0.0))
+            freed, _ = _best_pairs(replace(sought, demands=replace(demands, transmission=0.0)))
             some = [pair for pair in freed if angle_of_pair(task, demands, pair) > -np.inf] + some
         pairs += some
         notes += said
@@ -269,6 +254,23 @@ def _judged_best(
     if given or demands.lengths:
         return designs
     return designs + _judged_pairs(task, demands, list(combinations(sliding, 2)), None)
+
+
+def _best_pairs(sought: SoughtPairs) -> tuple[list[Pair], list[Message]]:
+    """The best of a sample, before them better ones that follow from the proof that none is better by much."""
+    task, demands, given = sought.task, sought.demands, sought.given
+    search = best_linkages(sought)
+    turns = given and not given[0].slides
+    if (turns and sought.second) or (not turns and (len(task) == 4 or not search.pairs)):
+        return [*search.pairs], [*search.notes]
+    if turns and len(task) == 2:
+        better, proved = best_beside_ends(task, demands, given, search.pairs)
+    elif turns:
+        better, proved = best_beside(task, demands, given[0], search.pairs)
+    else:
+        improved, proved = improved_pair(task, demands, search.pairs)
+        better = [improved] if improved else []
+    return [*better, *search.pairs], [*search.notes, *proved]
 
 
 def _judged_ends(

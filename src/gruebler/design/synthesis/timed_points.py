@@ -17,6 +17,7 @@ from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
 from gruebler.design.synthesis.judging import Demands, judge_design
 from gruebler.design.synthesis.length_search import best_linkages
+from gruebler.design.synthesis.pair_search import SoughtPairs
 from gruebler.design.synthesis.partner_bounds import best_beside
 from gruebler.design.synthesis.results import Design, SolutionCount, SynthesisResult, ranked
 from gruebler.design.synthesis.targets import Probe, Targets, position_targets
@@ -55,7 +56,11 @@ def timed_positions(task: PathTask, demands: Demands, number: int, sort: Sequenc
     families = [[dyad for dyad in others if dyad != own]]
     families += [sliding_sample(positions, kind, demands, SLIDES_BESIDE) for kind in (SLIDER, BLOCK)]
     turning, *sliding = (
-        best_linkages(positions, [own], demands, near, second=family, orders=sort, number=2 * number)
+        best_linkages(
+            SoughtPairs(
+                task=positions, dyads=[own], demands=demands, near=near, second=family, orders=sort, number=2 * number
+            )
+        )
         for family in families
     )
     better, proved = best_beside(positions, demands, own, turning.pairs, drives=True)
