@@ -12,7 +12,7 @@ from gruebler.design.synthesis.dyad_families import guiding_dyads
 from gruebler.design.synthesis.dyads import SLIDER, Displacements
 from gruebler.design.synthesis.enclosures import Enclosure
 from gruebler.design.synthesis.family_bounds import bound_notes, excluded
-from gruebler.design.synthesis.pair_search import pair_facts
+from gruebler.design.synthesis.pair_facts import pair_facts
 from gruebler.design.synthesis.partner_bounds import left_of_cranks
 
 FOUR = [(2.071235, -0.032527, 19.8126), (2.036152, 1.429641, 44.4843), (0.706012, 1.606846, 68.1715)]

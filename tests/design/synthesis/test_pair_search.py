@@ -10,7 +10,7 @@ from gruebler.design.synthesis.dyad_families import guiding_dyads, sliding_sampl
 from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements, misfit
 from gruebler.design.synthesis.judging import judge_design
-from gruebler.design.synthesis.pair_search import pair_facts
+from gruebler.design.synthesis.pair_facts import pair_facts
 from gruebler.design.synthesis.targets import body_targets, point_targets
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics import move

@@ -7,7 +7,7 @@ import pytest
 
 from gruebler.design.synthesis import Demands, PositionTask, synthesise_positions
 from gruebler.design.synthesis.dyads import CRANK, Displacements, GuidingDyad
-from gruebler.design.synthesis.pair_search import pair_facts
+from gruebler.design.synthesis.pair_facts import pair_facts
 from gruebler.design.synthesis.partner_bounds import MARGIN, PartnerSearch
 
 WISHES = (Demands(crank=True), Demands(size_ratio=4.0), Demands(region=(-2, -2, 2, 2)), Demands(in_order=False))

@@ -32,7 +32,8 @@ from gruebler.design.synthesis.given_lengths import scale_to_length
 from gruebler.design.synthesis.judging import Demands, judge_design
 from gruebler.design.synthesis.law_motion import over_interval
 from gruebler.design.synthesis.minimax_search import minimax as minimax_near
-from gruebler.design.synthesis.pair_search import PairFacts, best_dyads, facts_of_pins
+from gruebler.design.synthesis.pair_facts import PairFacts, facts_of_pins
+from gruebler.design.synthesis.pair_search import best_dyads
 from gruebler.design.synthesis.positions import NEAR
 from gruebler.design.synthesis.results import EXACT, Design, SolutionCount, SynthesisResult, in_order_of, ranked
 from gruebler.design.synthesis.structural_errors import coordination_of

@@ -12,7 +12,7 @@ import numpy as np
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.dyads import GuidingDyad
 from gruebler.design.synthesis.judging import Demands
-from gruebler.design.synthesis.pair_search import inside_region
+from gruebler.design.synthesis.pair_facts import inside_region
 from gruebler.design.synthesis.tasks import SAME, PositionTask
 
 _BESIDE = {

@@ -26,15 +26,8 @@ from gruebler.design.synthesis.dyads import (
     line_conditions,
 )
 from gruebler.design.synthesis.judging import Demands, sought_order
-from gruebler.design.synthesis.pair_search import (
-    FoundPairs,
-    PairFacts,
-    SoughtPairs,
-    best_pairs,
-    facts_of_pins,
-    inside_region,
-    tightest,
-)
+from gruebler.design.synthesis.pair_facts import PairFacts, demands_failed, facts_of_pins, inside_region, tightest
+from gruebler.design.synthesis.pair_search import FoundPairs, Pair, SoughtPairs, best_pairs
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
 
@@ -93,7 +86,7 @@ class PairFamily:
         )
         return np.concatenate([np.repeat(driven, len(second), axis=0), np.tile(other, (len(first), 1))], axis=1)
 
-    def dyads(self, row: Reals) -> tuple[GuidingDyad, GuidingDyad]:
+    def dyads(self, row: Reals) -> Pair:
         """The linkage of a row, in the unit of the task."""
         _, origin, size = Displacements.of(self.task.origins, self.task.turns)
         x, m, *other = map(complex, _places(row, self.points))
@@ -261,14 +254,13 @@ def best_members(
         return FoundPairs(pairs=(), notes=(_NONE.filled(form=form),))
     facts = family.facts(rows, demands)
     met = facts.met(demands)
-    fails = np.sum([~flags for _, flags in met], axis=0)
+    fails = demands_failed(met)
     meets = (fails == 0).ravel()
     said = _FOUND if demands.lengths else _WITH_PIVOTS
     notes = [said.filled(form=form, pairs=len(rows), count=int(np.count_nonzero(meets)))]
     if demands.transmission > 0 and not meets.any():
         orders = ("transmission", *orders)  # those that are nearly good come first
-    ranks = np.lexsort([cost.ravel() for cost in reversed([fails.astype(float), *facts.costs(orders)])])
-    ranks = ranks[: np.count_nonzero(meets) or len(ranks)][: _LOOKED_AT * number]
+    ranks = facts.ranks(fails, orders)[: np.count_nonzero(meets) or None][: _LOOKED_AT * number]
     chosen = _different(family, rows[ranks], _APART, 2 * number)
     rows, held = rows[ranks[chosen]], held[ranks[chosen]]
     rows, meets = _improved(family, rows, held, demands, orders)
@@ -303,7 +295,7 @@ def _improved(
 
     def judged(some: Reals) -> tuple[Reals, Flags]:
         facts = family.facts(some, demands)
-        fails = np.sum([~flags for _, flags in facts.met(demands)], axis=0)
+        fails = demands_failed(facts.met(demands))
         return np.concatenate([fails, *facts.costs(orders)], axis=1), (fails == 0).ravel()
 
     costs, meets = judged(rows)

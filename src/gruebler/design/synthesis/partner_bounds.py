@@ -24,11 +24,11 @@ from gruebler.design.synthesis.enclosures import Enclosure
 from gruebler.design.synthesis.family_bounds import MARGINS, NARROW, PairTests, Ranges, no_way, order_dropped
 from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.length_search import PairFamily, best_members, dyad_numbers
-from gruebler.design.synthesis.pair_search import inside_region, pair_facts
+from gruebler.design.synthesis.pair_facts import inside_region, pair_facts
+from gruebler.design.synthesis.pair_search import Pair
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
 
-Pair = tuple[GuidingDyad, GuidingDyad]
 _BUDGET = 80_000  # cells that are looked at
 _ON_A_CURVE = 20_000  # those of four positions
 _HALVINGS = 60  # of each parameter

@@ -39,9 +39,8 @@ from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.given_pivots import notes_on_pivots
 from gruebler.design.synthesis.judging import Demands, best_of, judge_design, judged_by_drive, order_notes
 from gruebler.design.synthesis.length_search import best_linkages, best_members, has_lengths
-from gruebler.design.synthesis.pair_search import IMPROVED, SoughtPairs
+from gruebler.design.synthesis.pair_search import IMPROVED, Pair, SoughtPairs
 from gruebler.design.synthesis.partner_bounds import (
-    Pair,
     angle_of_pair,
     best_beside,
     best_beside_ends,

@@ -16,7 +16,7 @@ from gruebler.design.synthesis.clearances import stays_clear
 from gruebler.design.synthesis.fitting import links_moved_by_all, output_links
 from gruebler.design.synthesis.given_lengths import missing_length
 from gruebler.design.synthesis.judging import Demands
-from gruebler.design.synthesis.pair_search import WITHOUT
+from gruebler.design.synthesis.pair_facts import WITHOUT
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.results import Design, ParetoRow, Progress, SolutionCount, SynthesisResult, pareto
 from gruebler.design.synthesis.special_tasks import NoFourBarError

@@ -42,7 +42,7 @@ from gruebler.design.synthesis.judging import (
     transmission_fault,
 )
 from gruebler.design.synthesis.law_motion import over_interval
-from gruebler.design.synthesis.pair_search import WITHOUT, demands_met, tightest
+from gruebler.design.synthesis.pair_facts import WITHOUT, demands_met, tightest
 from gruebler.design.synthesis.results import (
     FITTED,
     Design,

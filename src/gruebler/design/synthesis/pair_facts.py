@@ -1,0 +1,321 @@
+"""What linkages of two guiding dyads do, in closed form: branch, order, full turn, transmission angle, which demands.
+
+All follow from the lengths and crank angles of each pair. docs/theory/synthesis-positions.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from math import degrees
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.base.arrays import Complexes, Flags, Reals
+from gruebler.base.text import Message, message
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, DyadKind, GuidingDyad
+from gruebler.design.synthesis.judging import Demands, sought_order
+from gruebler.design.synthesis.target_orders import TargetOrder
+from gruebler.design.synthesis.tasks import PositionTask
+
+_SAME_WAY = 1e-9  # radians: of two ways that differ by less the first one is taken
+_BITS = 30  # costs that differ behind them are equal: a tie is not decided by how a machine rounds
+USUAL = ("full-turn", "transmission", "size-ratio")
+"""By what designs are sorted unless the caller says otherwise."""
+Places = tuple[Complexes, Complexes]
+"""Pins in all positions, (n, m, positions), and their pivots, (n, m); an axis may have the length 1."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PairFacts:
+    """What the linkages of pairs of dyads do: entry (i, j) is driven at dyad i of the first list, an RR one."""
+
+    lengths: Reals
+    """(4, n, m) crank, coupler, rocker, frame; NaN where a slide has no such length."""
+    branch: Flags
+    """All positions lie on one branch."""
+    moves: Flags
+    """They do, and the crank meets them in order."""
+    turns: Flags
+    transmission: Reals
+    """The least transmission angle on the way through the positions, in radians; where the crank does not meet them in
+    order, on the shortest way through all of them."""
+    inside: Flags
+    """Both fixed pivots lie in the region."""
+    travel: float
+    """The size of the task, which counts as a length of linkages that slide: they have few others."""
+
+    @property
+    def longest(self) -> Reals:
+        """(n, m) the longest length."""
+        return np.asarray(np.nanmax(self.lengths, axis=0), np.float64)
+
+    @property
+    def size_ratio(self) -> Reals:
+        """(n, m) the longest length by the shortest."""
+        shortest = np.nanmin(self.lengths, axis=0)
+        shortest = np.where(np.isnan(self.lengths).any(axis=0), np.minimum(shortest, self.travel), shortest)
+        return np.asarray(self.longest / np.maximum(shortest, 1e-200), np.float64)
+
+    def met(self, demands: Demands) -> list[tuple[Message, Flags]]:
+        """The demands by their names, each with the pairs that meet it."""
+        met = [(message("one branch"), self.branch if demands.one_branch else np.ones_like(self.branch))]
+        if demands.one_branch and demands.in_order:
+            met.append((message("the order of the targets"), self.moves))
+        return met + demands_met(demands, self.turns, self.transmission, self.size_ratio, self.inside)
+
+    def costs(self, orders: Sequence[str]) -> list[Reals]:
+        """(n, m) what is to be small, the most important first."""
+        known: Mapping[str, Reals] = {
+            "transmission": -self.transmission,
+            "range-transmission": -self.transmission,
+            "size": self.longest,
+            "size-ratio": self.size_ratio,
+            "full-turn": np.asarray(1.0 - self.turns, np.float64),
+        }
+        return [_rounded(known[name]) for name in (*orders, *USUAL) if name in known]
+
+    def ranks(self, fails: Reals, orders: Sequence[str]) -> NDArray[np.intp]:
+        """The pairs in a row, those first that fail in the fewest demands, then what is best."""
+        return np.lexsort([cost.ravel() for cost in reversed([fails, *self.costs(orders)])])
+
+
+def _rounded(values: Reals) -> Reals:
+    mantissa, power = np.frexp(values)
+    return np.asarray(np.ldexp(np.round(np.ldexp(mantissa, _BITS)), power - _BITS), np.float64)
+
+
+def pair_facts(
+    task: PositionTask, first: Sequence[GuidingDyad], second: Sequence[GuidingDyad], demands: Demands
+) -> PairFacts:
+    """What all pairs of RR dyads with dyads of one kind do, in closed form. Cost: 2 us a pair."""
+    (pins, own), (far_pins, far) = (_places(task, dyads) for dyads in (first, second))
+    directions = np.array([dyad.direction for dyad in second], np.complex128)
+    slides = directions[None, :, None] * (1 if second[0].kind == SLIDER else task.turns / task.turns[0])
+    driven, other = (pins[:, None], own[:, None]), (far_pins[None], far[None])
+    reached = np.ones(len(far), bool) if second[0].kind.pairs[0].is_sliding else inside_region(far, demands)
+    inside = np.asarray(inside_region(own, demands)[:, None] & reached[None, :])
+    size = task.size if np.ptp(task.origins) else np.inf
+    return facts_of_pins(
+        driven, other, slides, second[0].kind, inside=inside, size=size, order=sought_order(task, demands)
+    )
+
+
+def facts_of_pins(
+    driven: Places,
+    other: Places,
+    slides: Complexes,
+    kind: DyadKind,
+    *,
+    inside: Flags,
+    size: float,
+    order: TargetOrder | None = None,
+) -> PairFacts:
+    """What cranks do with rockers, sliders or blocks, from the pins of both in all positions and their pivots."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        closure = _CLOSURES[kind](driven, other, slides)
+        branch, moves, turns, transmission = motion_of_pairs(closure, order)
+    # Two dyads with a common pivot are no linkage.
+    lengths = closure.lengths
+    usable = np.isfinite(transmission) & (np.nanmin(lengths, axis=0) > 1e-9 * np.nanmax(lengths, axis=0))
+    return PairFacts(
+        lengths=lengths,
+        branch=np.asarray(branch & usable),
+        moves=np.asarray(moves & usable),
+        turns=np.asarray(turns & usable),
+        transmission=np.where(usable, transmission, 0.0),
+        inside=inside,
+        travel=size,
+    )
+
+
+class PairMotion(NamedTuple):
+    """What cranks do, for each pair; see `PairFacts`."""
+
+    branch: Flags
+    moves: Flags
+    turns: Flags
+    transmission: Reals
+
+
+def motion_of_pairs(closure: PairClosure, order: TargetOrder | None = None) -> PairMotion:
+    """Whether all targets lie on one branch, and in order on it; whether the crank turns; its transmission angle.
+
+    The last is at most a right angle and only meant for linkages that meet the targets; that of the shortest way which
+    keeps the order, where several do.
+    """
+    low, high, angle, side = closure.low, closure.high, closure.angle, closure.side
+    turns = (low < -1) & (high > 1)
+    split = (low >= -1) & (high <= 1)
+    passes_back = (low < -1) & ~turns
+    angle = np.where(passes_back[..., None], angle % (2 * np.pi), angle)
+    begin, travel = shortest_arc(angle, closed=turns)
+    order = order or TargetOrder.of((), angle.shape[-1])
+    ordered, shortest = np.full(turns.shape, order.demands_nothing), np.full(turns.shape, np.inf)
+    for sequence in () if order.demands_nothing else order.sequences():
+        along = angle[..., list(sequence)]
+        gone = _way(along, turns)
+        better = np.abs(gone) < shortest - _SAME_WAY
+        ordered |= np.isfinite(gone)
+        shortest = np.where(better, np.abs(gone), shortest)
+        begin, travel = np.where(better, along[..., 0], begin), np.where(better, gone, travel)
+    same_part = ~split | (np.sign(angle) == np.sign(angle[..., :1])).all(axis=2)
+    branch = (side == side[..., :1]).all(axis=2) & (side[..., 0] != 0) & same_part
+    cosines = [closure.cosine(_extreme(begin, travel, at)) for at in (0.0, np.pi)]
+    transmission = np.arccos(np.clip(np.maximum(*map(np.abs, cosines)), 0, 1))
+    return PairMotion(*map(np.asarray, (branch, branch & ordered, turns, transmission)))
+
+
+def _way(angle: Reals, turns: Flags) -> Reals:
+    """How far the crank goes through angles one after the other, within a lap; infinite if it cannot without a turn."""
+    steps = np.diff(angle, axis=2)
+    onward, back = (steps % (2 * np.pi)).sum(axis=2), ((-steps) % (2 * np.pi)).sum(axis=2)
+    ordered = np.where(turns, np.minimum(onward, back) < 2 * np.pi, (steps > 0).all(axis=2) | (steps < 0).all(axis=2))
+    travel = np.where(onward <= back, onward, -back)  # of two positions both ways lead there: the shorter is taken
+    return np.where(ordered, np.where(turns, travel, angle[..., -1] - angle[..., 0]), np.inf)
+
+
+def shortest_arc(angles: Reals, *, closed: Flags | bool) -> tuple[Reals, Reals]:
+    """Begin and width of the shortest range with all angles of the last axis; beyond a whole turn where it is closed.
+
+    >>> begin, width = shortest_arc(np.radians([0, 170, 200]), closed=True)
+    >>> np.degrees([begin, width]).round(9).tolist()
+    [170.0, 190.0]
+    """
+    turned = np.sort(np.where(np.asarray(closed)[..., None], angles % (2 * np.pi), angles), axis=-1)
+    widths = np.concatenate(
+        [turned[..., -1:] - turned[..., :1], turned[..., :-1] + 2 * np.pi - turned[..., 1:]], axis=-1
+    )
+    widths[..., 1:] = np.where(np.asarray(closed)[..., None], widths[..., 1:], np.inf)
+    first = np.argmin(np.round(widths, 9), axis=-1, keepdims=True)
+    begin, width = (np.take_along_axis(part, first, axis=-1)[..., 0] for part in (turned, widths))
+    return np.asarray(begin), np.asarray(width)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PairClosure:
+    """Where the crank can be assembled with the other dyad: its angle from a line of symmetry, with cosines between."""
+
+    lengths: Reals
+    low: Reals
+    high: Reals
+    angle: Reals
+    """(n, m, positions)"""
+    side: Reals
+    """(n, m, positions) the sign of the assembly mode."""
+    cosine: Callable[[Reals], Reals]
+    """Of the transmission angle, from the cosine of the crank angle."""
+
+
+def _by_rocker(driven: Places, other: Places, _: Complexes) -> PairClosure:
+    (pins, own), (far_pins, far) = driven, other
+    frame = far - own
+    a, c = (np.abs(p[..., 0] - m) for p, m in (driven, other))
+    a, b, c, d = np.broadcast_arrays(a, np.abs(far_pins[..., 0] - pins[..., 0]), c, np.abs(frame))
+    return PairClosure(
+        lengths=np.array([a, b, c, d]),
+        low=(a * a + d * d - (b + c) ** 2) / (2 * a * d),
+        high=(a * a + d * d - (b - c) ** 2) / (2 * a * d),
+        angle=np.angle((pins - own[..., None]) / frame[..., None]),
+        side=np.sign(np.imag(np.conj(far_pins - pins) * (far[..., None] - pins))),
+        cosine=lambda x: (b * b + c * c - a * a - d * d + 2 * a * d * x) / (2 * b * c),
+    )
+
+
+def _by_slider(driven: Places, other: Places, slides: Complexes) -> PairClosure:
+    """The pin on a line at e from the crank's pivot: |a sin(phi) - e| <= b, phi from the line."""
+    (pins, own), (far_pins, far) = driven, other
+    a, b = np.broadcast_arrays(np.abs(pins[..., 0] - own), np.abs(far_pins[..., 0] - pins[..., 0]))
+    e = np.imag(np.conj(slides[..., 0]) * (far - own))
+    none = np.full(b.shape, np.nan)
+    return PairClosure(
+        lengths=np.array([a, b, none, none]),
+        low=(e - b) / a,
+        high=(e + b) / a,
+        angle=np.angle((pins - own[..., None]) / (1j * slides)),
+        side=np.sign(np.real(np.conj(slides) * (far_pins - pins))),
+        cosine=lambda x: (a * x - e) / b,
+    )
+
+
+def _by_block(driven: Places, other: Places, slides: Complexes) -> PairClosure:
+    """A line of the coupler, at e from the crank's pin, through the other pivot: their distance is at least |e|."""
+    (pins, own), (_, far) = driven, other
+    frame = far - own
+    a, d = np.broadcast_arrays(np.abs(pins[..., 0] - own), np.abs(frame))
+    seen = np.conj(slides) * (far[..., None] - pins)
+    along, e = np.real(seen), np.imag(seen[..., 0])
+    none = np.full(d.shape, np.nan)
+    return PairClosure(
+        lengths=np.array([a, none, none, d]),
+        low=np.full(d.shape, -np.inf),
+        high=(a * a + d * d - e * e) / (2 * a * d),
+        angle=np.angle((pins - own[..., None]) / frame[..., None]),
+        side=np.where(np.abs(along) > 1e-9 * (a + d)[..., None], np.sign(along), 0.0),
+        cosine=lambda x: e / np.sqrt(np.maximum(a * a + d * d - 2 * a * d * x, 0)),
+    )
+
+
+_CLOSURES = {CRANK: _by_rocker, SLIDER: _by_slider, BLOCK: _by_block}
+
+
+def _places(task: PositionTask, dyads: Sequence[GuidingDyad]) -> tuple[Complexes, Complexes]:
+    """The moving pivots in all positions, (dyads, positions), and the fixed ones."""
+    moving = np.array([dyad.moving for dyad in dyads], np.complex128)
+    seen = (moving - task.origins[0]) / task.turns[0]
+    return task.origins + seen[:, None] * task.turns, np.array([dyad.fixed for dyad in dyads], np.complex128)
+
+
+def _extreme(begin: Reals, travel: Reals, at: float) -> Reals:
+    """The cosine nearest to that of an angle, over a travel from a begin: its own if the angle is passed."""
+    low, high = np.minimum(begin, begin + travel), np.maximum(begin, begin + travel)
+    passed = np.floor((high - at) / (2 * np.pi)) > np.floor((low - at) / (2 * np.pi))
+    ends = np.cos(low), np.cos(high)
+    nearest = np.maximum(*ends) if at == 0 else np.minimum(*ends)
+    return np.where(passed, np.cos(at), nearest)
+
+
+def inside_region(pivots: Complexes, demands: Demands) -> Flags:
+    """Whether pivots lie in the region that is demanded, all if there is none."""
+    if demands.region is None:
+        return np.ones(len(pivots), bool)
+    x1, y1, x2, y2 = demands.region
+    return np.asarray((x1 <= pivots.real) & (pivots.real <= x2) & (y1 <= pivots.imag) & (pivots.imag <= y2))
+
+
+def demands_met(
+    demands: Demands, turns: Flags, transmission: Reals, size_ratio: Reals, inside: Flags
+) -> list[tuple[Message, Flags]]:
+    """What is demanded besides the targets by its names, each with the linkages that meet it."""
+    met = []
+    if demands.crank:
+        met.append((message("a drive that turns fully"), turns))
+    if demands.transmission > 0:
+        angle = message("a transmission angle of {angle:g}°", angle=degrees(demands.transmission))
+        met.append((angle, transmission >= demands.transmission))
+    met.append((message("a size ratio of {ratio:g}", ratio=demands.size_ratio), size_ratio <= demands.size_ratio))
+    if demands.region is not None:
+        met.append((message("the region"), inside))
+    return met
+
+
+WITHOUT = message("Designs that meet all but the demand of {demand}: {count:,}.")
+
+
+def demands_failed(met: Sequence[tuple[Message, Flags]]) -> Reals:
+    """How many demands each linkage does not meet."""
+    return np.asarray(np.sum([~flags for _, flags in met], axis=0), np.float64)
+
+
+def tightest(met: Sequence[tuple[Message, Flags]]) -> list[Message]:
+    """The demand without which the most remain; the first, such as one branch, is the task itself and stays."""
+    counts = [
+        int(np.count_nonzero(np.logical_and.reduce([flags for k, (_, flags) in enumerate(met) if k != left])))
+        for left in range(1, len(met))
+    ]
+    best = int(np.argmax(counts))
+    if not counts[best]:
+        return []
+    return [WITHOUT.filled(demand=met[best + 1][0], count=counts[best])]
