@@ -11,7 +11,8 @@ from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
 from gruebler.files import values as files
 from gruebler.files.gltf import moving_solids, stl_of_links
-from gruebler.files.link_solids import ball_solid, box_solid, cylinder_solid, link_solids
+from gruebler.files.link_solids import link_solids
+from gruebler.files.solids import ball_solid, box_solid, cylinder_solid
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space import RSSR, move

@@ -18,7 +18,8 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.base.units import MILLIMETRES
-from gruebler.files.link_solids import Solid, link_solids
+from gruebler.files.link_solids import link_solids
+from gruebler.files.solids import Solid
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space.drive_ranges import followed, spatial_range
 from gruebler.mechanics.space.motion import SpatialMotion

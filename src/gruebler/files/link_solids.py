@@ -1,4 +1,4 @@
-"""Links of a linkage in space as closed bodies of triangles: bars between joints, pins in sleeves, balls, wheels.
+"""Links of a linkage in space as closed bodies of triangles: bars between joints, pins in sleeves, forks, balls.
 
 The sizes of the bodies are chosen here; places and axes are those of the joints in the reference pose. A body of a
 link may run into another one of the same link, as a bar into its sleeve. docs/theory/formats.md has the rules.
@@ -7,19 +7,26 @@ link may run into another one of the same link, as a bar into its sleeve. docs/t
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from math import cos, isfinite, pi, sin
+from math import acos, cos, isfinite, pi, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals
-from gruebler.base.convex_hull import convex_hull
+from gruebler.files.solids import (
+    SIDES_OF_WHEEL,
+    Solid,
+    ball_solid,
+    bent_solid,
+    box_solid,
+    cylinder_solid,
+    plate_solid,
+    turned_solid,
+)
 from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.mechanics.screws.crosses import UniversalCross, crosses_of
 from gruebler.mechanics.screws.round_bodies import TurnedBody
 from gruebler.structure.chain.spaces import Space
 
-_SIDES, _SIDES_OF_WHEEL = 16, 48
 _SLENDER = 45  # the size of a linkage over the radius of its bars
 _THIN = 0.45  # pins and rods against bars
 _LONG = 2.2  # of a sleeve to each side, in radii of a bar
@@ -27,67 +34,10 @@ _DISC = 0.8
 _POST = 5.0  # radii of a bar from a bearing of the frame to its foot
 _CONE = 0.75  # of the radius of the sphere, where a bevel wheel begins
 _BALL = 1.7
+_FORK, _SMALL_FORK = 5.0, 3.6  # radii of a bar from the middle of a cross to its forks, small without a body of its own
+_STOUT = 2.0  # a universal joint on the sphere against other linkages
+_PIECES = 24  # of a half circle
 _SAME = 1e-9
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Solid:
-    """A closed surface of triangles, counterclockwise as seen from outside."""
-
-    vertices: Reals
-    """(vertices, 3), in the linkage's unit."""
-    triangles: NDArray[np.intp]
-    """(triangles, 3)."""
-
-    @property
-    def volume(self) -> float:
-        """What it encloses: the sum of the tetrahedra from the origin to each triangle.
-
-        >>> round(box_solid(np.zeros(3), np.eye(3), (1.0, 2.0, 3.0)).volume, 9)
-        48.0
-        """
-        a, b, c = (self.vertices[self.triangles[:, k]] for k in range(3))
-        return float((a * np.cross(b, c)).sum() / 6)
-
-
-def turned_solid(start: Reals, end: Reals, profile: Reals, phase: float = 0.0, sides: int = _SIDES) -> Solid:
-    """A turned body: (along, radius) from start (0) to end (1), beginning and ending on the axis.
-
-    Bars that begin at one place differ by their phase: bodies that share an edge are not closed to a reader.
-
-    >>> tip = turned_solid(np.zeros(3), np.array([0.0, 0, 3]), np.array([[0, 0], [0, 1], [1, 0.0]]))
-    >>> round(tip.volume, 2)  # of a pyramid with 16 sides
-    3.06
-    """
-    axis = end - start
-    unit = axis / np.linalg.norm(axis)
-    u = np.cross(unit, np.eye(3)[int(np.argmin(np.round(abs(unit), 6)))])
-    u /= np.linalg.norm(u)
-    v = np.cross(unit, u)
-    turn = 2 * pi * np.arange(sides) / sides + phase
-    ring = np.cos(turn)[:, None] * u + np.sin(turn)[:, None] * v
-    rings = [start + along * axis + radius * ring for along, radius in profile[1:-1]]
-    first, last = start + profile[0, 0] * axis, start + profile[-1, 0] * axis
-    k = np.arange(sides)
-    after = (k + 1) % sides
-    faces = [np.stack([0 * k, 1 + after, 1 + k], axis=1)]
-    for n in range(len(rings) - 1):
-        low = 1 + n * sides
-        faces += [
-            np.stack([low + k, low + after, low + sides + k], axis=1),
-            np.stack([low + after, low + sides + after, low + sides + k], axis=1),
-        ]
-    low, top = 1 + (len(rings) - 1) * sides, 1 + len(rings) * sides
-    faces.append(np.stack([low + k, low + after, 0 * k + top], axis=1))
-    return Solid(np.concatenate([[first], *rings, [last]]), np.concatenate(faces))
-
-
-def cylinder_solid(
-    start: Reals, end: Reals, radius: float, last: float | None = None, phase: float = 0.0, sides: int = _SIDES
-) -> Solid:
-    """A cylinder, or a cone's piece with another radius at its end."""
-    profile = np.array([[0, 0], [0, radius], [1, radius if last is None else last], [1, 0]])
-    return turned_solid(start, end, profile, phase, sides)
 
 
 def round_solid(body: TurnedBody) -> Solid:
@@ -112,52 +62,7 @@ def round_solid(body: TurnedBody) -> Solid:
             [0.8, 0],
         ]
     )
-    return turned_solid(middle - half, middle + half, profile, 0.03, _SIDES_OF_WHEEL)
-
-
-def ball_solid(middle: Reals, radius: float) -> Solid:
-    """A ball."""
-    angle = np.linspace(0, pi, _SIDES // 2 + 1)
-    profile = np.stack([(1 - np.cos(angle)) / 2, radius * np.sin(angle)], axis=1)
-    up = radius * np.array([0.0, 0.0, 1.0])
-    return turned_solid(middle - up, middle + up, profile)
-
-
-def box_solid(middle: Reals, axes: Reals, halves: tuple[float, float, float]) -> Solid:
-    """A box along the columns of a rotation."""
-    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    triangles = [each for a, b, c, d in faces for each in ((a, b, c), (a, c, d))]
-    return Solid(middle + (signs * np.array(halves)) @ axes.T, np.array(triangles, np.intp))
-
-
-def plate_solid(places: Reals, radius: float) -> Solid | None:
-    """A plate under places of a plane, as far beyond them and as thick as the radius; None if they lie in no plane.
-
-    Places on one line have no plate either.
-
-    >>> square = np.array([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0.0]])
-    >>> round(plate_solid(square, 1.0).volume, 3)  # 4 × 4, 1 at each side, an octagon's eighths at the corners
-    34.828
-    """
-    middle = places.mean(axis=0)
-    _, spread, axes = np.linalg.svd(places - middle)
-    if len(places) <= 2 or spread[1] < 2 * radius or spread[2] > radius / 4:
-        return None
-    rim = radius * np.exp(1j * pi * np.arange(8) / 4)
-    flat = ((places - middle) @ axes[:2].T) @ np.array([1, 1j])
-    hull = np.array(convex_hull(np.add.outer(flat, rim).ravel().tolist()))
-    count = len(hull)
-    low, high = (
-        middle + hull.real[:, None] * axes[0] + hull.imag[:, None] * axes[1] + h * axes[2] for h in (0, radius)
-    )
-    k = np.arange(count)
-    after = (k + 1) % count
-    fan = np.stack([0 * k[1:-1], k[1:-1], after[1:-1]], axis=1)
-    sides = [np.stack([k, after, count + after], axis=1), np.stack([k, count + after, count + k], axis=1)]
-    triangles = np.concatenate([fan[:, ::-1], count + fan, *sides])
-    solid = Solid(np.concatenate([low, high]) - radius / 2 * axes[2], triangles)
-    return solid if solid.volume > 0 else Solid(solid.vertices, triangles[:, ::-1])
+    return turned_solid(middle - half, middle + half, profile, 0.03, SIDES_OF_WHEEL)
 
 
 def link_solids(
@@ -171,11 +76,13 @@ def link_solids(
     """
     chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
     spherical = chain.space is Space.SPHERICAL
-    radius = (1.0 if spherical else linkage.size) / _SLENDER
+    crosses = crosses_of(linkage)
+    radius = (_STOUT if crosses and spherical else 1.0 if spherical else linkage.size) / _SLENDER
     solids: dict[str, list[Solid]] = {link: [] for link in chain.links}
     holds: dict[str, list[Reals]] = {link: [] for link in chain.links}
-    bearings = _joint_places(linkage, radius)
+    bearings = _joint_places(linkage, radius, crosses)
     middle = np.mean(bearings, axis=0)
+    wheeled = spherical and any(joint.pair.has_contours for joint in chain.joints)
     at_frame = [at for at, joint in zip(bearings, chain.joints, strict=True) if frame in joint.links]
     ground = _upright(np.mean(at_frame, axis=0) - middle, 1.5 * _POST * radius) if at_frame else np.zeros(3)
     for number, joint in enumerate(chain.joints):
@@ -184,31 +91,44 @@ def link_solids(
         outer = frame if frame in joint.links else joint.links[-1]
         for link in joint.links:
             hold = at
+            cross = next((each for each in crosses if each.holds(number, link)), None)
+            if link == frame and not joint.pair.has_contours and not wheeled:
+                away = _away(linkage, number, radius, () if spherical else (ground, at - middle))
+                solids[link] += _foot(at + (_reach(cross, radius) * away if cross else 0.0), away, radius)
             if joint.pair.has_contours:
                 wheel, hold = _wheel(linkage, number, joint.links.index(link), radius)
-                solids[link].append(wheel)
-            else:
+                solids[link] += wheel
+            elif cross is not None and link != cross.body:
+                heading = away if link == frame else _mean(linkage, link, number, bearings) - cross.at
+                fork, hold = _fork(cross, link, heading, radius)
+                solids[link] += fork
+            elif cross is None:
                 solids[link] += _symbol(linkage, number, at, radius, ends, outer=link == outer)
-                if link == frame and not spherical:
-                    solids[link] += _foot(linkage, number, at, radius, (ground, at - middle))
             holds[link].append(hold)
+    for cross in crosses:
+        solids[cross.body or list(cross.arms)[-1]] += _spider(cross, radius)
     for link, point in linkage.points.values():
         holds[link].append(np.array(point))
     for link, held in holds.items():
-        if link == frame:
-            continue
-        plate = plate_solid(np.array(held), radius) if len(held) > 2 and not spherical else None
-        if plate is not None:
-            solids[link].append(plate)
-            continue
-        solids[link] += [
-            cylinder_solid(a, b, radius, phase=0.05 * k)
-            for k, (a, b) in enumerate(bars_between(np.array(held)), 1)
-            if np.linalg.norm(b - a) > radius / 4
-        ]
+        if link != frame and all(link != cross.body for cross in crosses):
+            solids[link] += _bars(np.array(held), radius, spherical)
     for body in linkage.round_bodies.values():
         solids[body.link].append(round_solid(body))
     return {link: _distinct(each) for link, each in solids.items()}
+
+
+def _bars(held: Reals, r: float, spherical: bool) -> list[Solid]:
+    """What joins the joints of a link: a plate, bars, on a sphere arcs about its middle."""
+    plate = plate_solid(held, r) if len(held) > 2 and not spherical else None
+    if plate is not None:
+        return [plate]
+    bars = []
+    for k, (a, b) in enumerate(bars_between(held), 1):
+        if np.linalg.norm(b - a) <= r / 4:
+            continue
+        arc = _arc(a, b) if spherical else None
+        bars.append(cylinder_solid(a, b, r, phase=0.05 * k) if arc is None else bent_solid(arc, r, phase=0.05 * k))
+    return bars
 
 
 def _distinct(solids: Sequence[Solid]) -> tuple[Solid, ...]:
@@ -216,8 +136,11 @@ def _distinct(solids: Sequence[Solid]) -> tuple[Solid, ...]:
     return tuple({(np.round(each.vertices, 9) + 0.0).tobytes(): each for each in solids}.values())
 
 
-def _joint_places(linkage: SpatialLinkage, r: float) -> list[Reals]:
-    """Where the joints are; bearings at one place are shifted along their axes, which changes no motion."""
+def _joint_places(linkage: SpatialLinkage, r: float, crosses: Sequence[UniversalCross]) -> list[Reals]:
+    """Where the joints are; bearings at one place are shifted along their axes, which changes no motion.
+
+    They keep clear of forks, and the shafts of a cross lie on both sides of it.
+    """
     spherical = linkage.mechanism.chain.space is Space.SPHERICAL
     places: list[Reals] = []
     for number, joint in enumerate(linkage.mechanism.chain.joints):
@@ -226,9 +149,77 @@ def _joint_places(linkage: SpatialLinkage, r: float) -> list[Reals]:
         at = z if spherical else frame[:3, 3]
         if joint.pair.is_turning:
             tried = [at + step * 2 * (_LONG + 1) * r * z for step in (0, 1, -1, 2, -2, 3, -3)]
-            at = next((t for t in tried if all(np.linalg.norm(t - other) > _LONG * r for other in places)), at)
+            free = [t for t in tried if all(np.linalg.norm(t - other) > _LONG * r for other in places)]
+            clear = [t for t in free if all(np.linalg.norm(t - c.at) > _reach(c, r) + 2 * _LONG * r for c in crosses)]
+            at = [*clear, *free, at][0]
         places.append(at)
+    for cross in crosses:
+        first, second = (_shaft(linkage, cross, link) for link in cross.arms)
+        if first is None or second is None:
+            continue
+        if (places[first] - cross.at) @ (places[second] - cross.at) > 0:
+            places[second] = 2 * cross.at - places[second]
     return places
+
+
+def _shaft(linkage: SpatialLinkage, cross: UniversalCross, link: str) -> int | None:
+    """The other joint of a link that holds a cross, if it turns about an axis through the middle of the cross."""
+    joints = linkage.mechanism.chain.joints
+    others = [k for k, joint in enumerate(joints) if link in joint.links and k != cross.arms[link][0]]
+    if len(others) != 1 or not joints[others[0]].pair.is_turning:
+        return None
+    frame = linkage.frames[others[0]]
+    if linkage.mechanism.chain.space is Space.SPHERICAL:
+        return others[0]
+    off = np.linalg.norm(np.cross(frame[:3, 3] - cross.at, frame[:3, 2]))
+    return others[0] if off < _SAME * linkage.size else None
+
+
+def _mean(linkage: SpatialLinkage, link: str, number: int, bearings: Sequence[Reals]) -> Reals:
+    """The middle of the other joints of a link."""
+    joints = linkage.mechanism.chain.joints
+    others = [at for k, at in enumerate(bearings) if link in joints[k].links and k != number]
+    return np.asarray(np.mean(others or [bearings[number]], axis=0))
+
+
+def _reach(cross: UniversalCross, r: float) -> float:
+    """From the middle of a cross to the forks that hold it."""
+    return (_FORK if cross.body else _SMALL_FORK) * r
+
+
+def _fork(cross: UniversalCross, link: str, heading: Reals, r: float) -> tuple[list[Solid], Reals]:
+    """Half a ring with two eyes about the arm of a cross, and where the link goes on from it."""
+    arm = cross.arms[link][1]
+    heading = heading - (heading @ arm) * arm
+    size = float(np.linalg.norm(heading))
+    other = next(axis for of, (_, axis) in cross.arms.items() if of != link)
+    heading = heading / size if size > r / 4 else other
+    turn = pi * np.linspace(0, 1, _PIECES + 1)[:, None]
+    reach = _reach(cross, r)
+    ring = cross.at + reach * (np.cos(turn) * arm + np.sin(turn) * heading)
+    eyes = [cylinder_solid(end - 1.2 * r * arm, end + 1.2 * r * arm, 1.7 * r, phase=0.1) for end in (ring[0], ring[-1])]
+    return [bent_solid(ring, 1.1 * r, phase=0.07), *eyes], cross.at + reach * heading
+
+
+def _spider(cross: UniversalCross, r: float) -> list[Solid]:
+    """The two arms of a cross and the hub in which they meet."""
+    far = _reach(cross, r) + 1.6 * r
+    arms = [
+        cylinder_solid(cross.at - far * arm, cross.at + far * arm, 0.9 * r, phase=0.03 * k)
+        for k, (_, arm) in enumerate(cross.arms.values(), 1)
+    ]
+    return [*arms, ball_solid(cross.at, 1.9 * r)]
+
+
+def _arc(start: Reals, end: Reals) -> Reals | None:
+    """Places from one to another whose directions from the origin go along a great circle, if it is a single one."""
+    a, b = float(np.linalg.norm(start)), float(np.linalg.norm(end))
+    angle = acos(max(-1.0, min(1.0, float(start @ end) / (a * b))))
+    if not 1e-3 < angle < pi - 1e-3:
+        return None
+    part = np.linspace(0, 1, _PIECES + 1)[:, None]
+    directions = (np.sin((1 - part) * angle) * start / a + np.sin(part * angle) * end / b) / sin(angle)
+    return np.asarray((a + part * (b - a)) * directions)
 
 
 def _side(linkage: SpatialLinkage, number: int) -> float:
@@ -254,9 +245,6 @@ def _symbol(
     turns = [f.axis for f in free if f.turns]
     if pair.is_ball:
         yield ball_solid(at, _BALL * r if outer else 1.2 * r)
-    elif pair.is_cross:
-        arm = axes[:, 1 if outer else 0]
-        yield cylinder_solid(at - 2.4 * r * arm, at + 2.4 * r * arm, _THIN * r)
     elif len(slides) == 1 and len(free) <= 2:
         axis = axes[:, "xyz".index(slides[0])]
         if not outer:
@@ -305,10 +293,10 @@ def _upright(heading: Reals, least: float) -> Reals:
     return upright
 
 
-def _foot(linkage: SpatialLinkage, number: int, at: Reals, r: float, headings: tuple[Reals, Reals]) -> Iterator[Solid]:
-    """What a bearing of the frame stands on: a post across the bearing's axis, and a plate.
+def _away(linkage: SpatialLinkage, number: int, r: float, headings: Sequence[Reals]) -> Reals:
+    """Where the ground of a bearing of the frame lies, across the bearing's axis.
 
-    The post goes where the frame lies as a whole, else away from the linkage.
+    The way goes where the frame lies as a whole, else away from the linkage.
     """
     pair = linkage.mechanism.chain.joints[number].pair
     axis = linkage.frames[number, :3, 0 if pair.guides and not any(f.turns for f in pair.motion) else 2]
@@ -316,7 +304,11 @@ def _foot(linkage: SpatialLinkage, number: int, at: Reals, r: float, headings: t
     tried = [*headings, -r * np.eye(3)[2], r * linkage.frames[number, :3, 0], r * linkage.frames[number, :3, 2]]
     across = [heading if free else heading - (heading @ axis) * axis for heading in tried]
     away = next(each for each in across if np.linalg.norm(each) > r / 2)
-    away = away / np.linalg.norm(away)
+    return np.asarray(away / np.linalg.norm(away))
+
+
+def _foot(at: Reals, away: Reals, r: float) -> Iterator[Solid]:
+    """What a bearing of the frame stands on: a post, and a plate."""
     u = np.cross(away, np.eye(3)[int(np.argmin(np.round(abs(away), 6)))])
     u /= np.linalg.norm(u)
     foot = at + _POST * r * away
@@ -324,21 +316,37 @@ def _foot(linkage: SpatialLinkage, number: int, at: Reals, r: float, headings: t
     yield box_solid(foot, np.stack([away, u, np.cross(away, u)], axis=1), (0.35 * r, 3.2 * r, 3.2 * r))
 
 
-def _wheel(linkage: SpatialLinkage, number: int, index: int, r: float) -> tuple[Solid, Reals]:
-    """The disc or cone of one body of a contact, and its middle."""
+def _wheel(linkage: SpatialLinkage, number: int, index: int, r: float) -> tuple[list[Solid], Reals]:
+    """The disc or cone of one body of a contact with ribs that show how it turns, and its middle."""
     place, frame = linkage.places[number], linkage.frames[number]
     assert place.radii is not None  # checked with the linkage
     radius, sign = place.radii[index], (-1.0, 1.0)[index]
     y, z = frame[:3, 1], frame[:3, 2]
     if linkage.mechanism.chain.space is Space.SPHERICAL:
-        end = cos(radius) * (cos(radius) * z + sign * sin(radius) * y)
-        return cylinder_solid(_CONE * end, end, _CONE * sin(radius), sin(radius), sides=_SIDES_OF_WHEEL), end
+        axis = cos(radius) * z + sign * sin(radius) * y
+        end = cos(radius) * axis
+        cone = cylinder_solid(_CONE * end, end, _CONE * sin(radius), sin(radius), sides=SIDES_OF_WHEEL)
+        return [cone, *_ribs(end, axis, sin(radius), r)], end
     at = frame[:3, 3]
     if not isfinite(radius):
-        return box_solid(at + sign * _DISC * r * y, frame[:3, :3], (6 * r, _DISC * r, 2 * r)), at
+        return [box_solid(at + sign * _DISC * r * y, frame[:3, :3], (6 * r, _DISC * r, 2 * r))], at
     middle = at + sign * radius * y
     half = _DISC * r * z
-    return cylinder_solid(middle - half, middle + half, max(abs(radius), r), sides=_SIDES_OF_WHEEL), middle
+    disc = cylinder_solid(middle - half, middle + half, max(abs(radius), r), sides=SIDES_OF_WHEEL)
+    return [disc, *_ribs(middle + half, z, abs(radius), r)], middle
+
+
+def _ribs(middle: Reals, axis: Reals, radius: float, r: float) -> Iterator[Solid]:
+    """On the face of a wheel, from near its middle to near its rim."""
+    if radius < 6 * r:
+        return
+    u = np.cross(axis, np.eye(3)[int(np.argmin(np.round(abs(axis), 6)))])
+    u /= np.linalg.norm(u)
+    v = np.cross(axis, u)
+    for turn in 2 * pi * np.arange(3) / 3:
+        outward, aside = cos(turn) * u + sin(turn) * v, cos(turn) * v - sin(turn) * u
+        axes = np.stack([outward, aside, axis], axis=1)
+        yield box_solid(middle + 0.55 * radius * outward, axes, (0.33 * radius, 0.7 * r, 0.5 * r))
 
 
 def bars_between(places: Reals) -> Iterator[tuple[Reals, Reals]]:

@@ -15,8 +15,9 @@ from gruebler.base.atomic_files import write_whole
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import LANGUAGES, message
 from gruebler.files.gltf import MovingSolids, link_colour, moving_solids, united
-from gruebler.files.link_solids import Solid, round_solid
+from gruebler.files.link_solids import round_solid
 from gruebler.files.screws import screws_to_json
+from gruebler.files.solids import Solid
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.link_sizes import link_sizes
 from gruebler.mechanics.screws.resizing import can_be_resized
