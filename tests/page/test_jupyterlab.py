@@ -112,16 +112,10 @@ def test_a_joint_is_dragged_in_jupyterlab(browser, lab):
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto(address)
     page.locator(".jp-Notebook .jp-CodeCell").first.wait_for()
+    # a page without settings may ask at any time which kernel is meant
     select = page.locator(".jp-Dialog button", has_text="Select").last
-    for _ in range(100):  # a page without settings may ask which kernel is meant
-        if select.is_visible():
-            select.click()
-        if page.locator(".jp-Notebook-ExecutionIndicator[data-status='idle']").count():
-            break
-        page.wait_for_timeout(200)
-    page.wait_for_timeout(1000)
-    if select.is_visible():
-        select.click()
+    page.add_locator_handler(select, lambda shown: shown.click())
+    page.locator(".jp-Notebook-ExecutionIndicator[data-status='idle']").wait_for()
     for k in (0, 1):  # what installs gruebler where it is missing, then the widget
         page.locator(".jp-CodeCell .jp-InputArea-editor").nth(k).click()
         page.keyboard.press("Shift+Enter")
