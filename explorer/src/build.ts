@@ -181,6 +181,7 @@ export class BuildView implements View, Plane, Drawn {
     if (!stays) this.chosen = null;
     this.#history.add(drawing);
     this.drawing = next;
+    this.spots = []; // what they lay on may be gone
     this.page.say("");
     this.#changed();
     this.page.changed();

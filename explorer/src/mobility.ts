@@ -14,7 +14,10 @@ import {
   withLink,
   withoutLink,
 } from "./drawing";
+import { clearAbout, convexHull } from "./hull";
 import { spaced, t } from "./language";
+import type { Pair } from "./rows";
+import { extentOf } from "./starters";
 import type { Page } from "./view";
 import { moment } from "./waiting";
 
@@ -22,13 +25,13 @@ interface Offer {
   kind: "drive" | "undrive" | "ground" | "bar" | "remove";
   joint?: number;
   links?: string[];
-  generic: number;
+  text: string;
 }
 
 interface Told {
   counted: number;
   generic: number;
-  /** Whether the drives fix the motion; and if as many as are needed do not, why. */
+  /** Whether the drives fix the motion; how many there are, or why as many as are needed do not. */
   fixed: boolean;
   reason: string;
   lines: string[];
@@ -39,11 +42,11 @@ interface Told {
 export interface Drawn {
   readonly page: Page;
   readonly drawing: Drawing;
-  /** How far a new end is put beside others. */
-  readonly step: number;
   change(next: Drawing): void;
   /** Open the drawing as a linkage. */
   move(): void;
+  /** Show all of it. */
+  fit(): void;
 }
 
 export class MobilityPanel {
@@ -75,12 +78,12 @@ export class MobilityPanel {
     const joints = numbers.map((k) => jointName(drawing, k)).join(" ");
     const names = numbers.map((k) => knotName(drawing, k));
     const drives = drawing.drives.map((k) => numbers.indexOf(k));
-    const ends = drawing.knots.flatMap(({ links }) => (links[1] ? [] : links));
+    const ends: Record<string, string> = {};
+    for (const [k, { links }] of drawing.knots.entries()) if (!links[1]) ends[links[0]!] ??= knotName(drawing, k);
     try {
-      const told = await page.ask<Told>("drawing", { joints, names, frame, drives, ends: [...new Set(ends)] });
+      const told = await page.ask<Told>("drawing", { joints, names, frame, drives, ends });
       if (asked !== this.#asked) return;
-      const { fixed: good, generic } = told;
-      const text = told.reason || t("Mobility {generic}, drives: {drives}", { generic, drives: drives.length });
+      const { fixed: good, generic, reason } = told;
       if (generic !== told.counted)
         renew(count, `F = ${generic} `, h("small", {}, t("counted {count}", { count: told.counted })));
       const offers = told.offers.map((offer) => this.#offer(offer, numbers));
@@ -89,7 +92,7 @@ export class MobilityPanel {
       renew(
         this.element,
         count,
-        h("p", { class: good ? "good" : "bad", "data-fact": "freedoms" }, text),
+        h("p", { class: good ? "good" : "bad", "data-fact": "freedoms" }, reason),
         h("div.form", {}, ...offers, ...(good ? [move] : [])),
         h("details", {}, h("summary", {}, t("Why")), ...told.lines.map((line) => h("p.note", {}, line))),
       );
@@ -100,23 +103,19 @@ export class MobilityPanel {
     }
   }
 
-  #offer({ kind, joint, links, generic }: Offer, numbers: number[]): HTMLElement {
+  #offer({ kind, joint, links, text }: Offer, numbers: number[]): HTMLElement {
     const { drawing } = this.view;
     const [one, two] = (links ?? []) as [string, string];
     const knot = joint === undefined ? endOf(drawing, one) : numbers[joint]!;
-    const [from, to] = [one, two].map((link) => spaced(link ?? ""));
-    const called = { joint: knot < 0 ? "" : knotName(drawing, knot), one: from!, two: to!, generic };
-    const [text, act] = {
-      drive: [t("Drive {joint}", called), () => driven(drawing, knot)],
-      undrive: [t("Let {joint} free", called), () => driven(drawing, knot)],
-      ground: [
-        t("Ground at {joint}: F = {generic}", called),
-        () => withGround(drawing, { at: drawing.knots[knot]!.at, knot, link: null }),
-      ],
-      bar: [t("A link between {one} and {two}: F = {generic}", called), () => barred(this.view, one, two)],
-      remove: [t("Without {one}: F = {generic}", called), () => withoutLink(drawing, one)],
-    }[kind] as [string, () => Drawing];
-    return h("button.plain", { "data-offer": kind, onclick: () => this.view.change(act()) }, text);
+    const take = () => {
+      let next: Drawing;
+      if (kind === "ground") next = withGround(drawing, { at: drawing.knots[knot]!.at, knot, link: null });
+      else if (kind === "bar") next = barred(drawing, one, two);
+      else next = kind === "remove" ? withoutLink(drawing, one) : driven(drawing, knot);
+      this.view.change(next);
+      if (kind === "bar") this.view.fit();
+    };
+    return h("button.plain", { "data-offer": kind, onclick: take }, text);
   }
 }
 
@@ -125,14 +124,21 @@ function endOf({ knots }: Drawing, link: string): number {
   return knots.findIndex(({ links }) => `${links}` === link);
 }
 
-/** A link between two others: from an open end if there is one, to a place beside. */
-function barred({ drawing, step }: Drawn, one: string, two: string): Drawing {
-  const place = (link: string, aside: number): Spot => {
+/** A link between two others: from an open end, else from the middle of a link, and to the ground where nothing is. */
+function barred(drawing: Drawing, one: string, two: string): Drawing {
+  const placesOf = (link: string) => drawing.knots.filter(({ links }) => links.includes(link)).map(({ at }) => at);
+  const { left, right, bottom, top } = extentOf(drawing);
+  const hulls = linksOf(drawing).flatMap((link) =>
+    link === drawing.frame ? placesOf(link).map((at) => [at]) : [convexHull(placesOf(link))],
+  );
+  const place = (link: string, near?: Pair): Spot => {
     const end = endOf(drawing, link);
+    const mine = placesOf(link);
     if (end >= 0) return { at: drawing.knots[end]!.at, knot: end, link: null };
-    const mine = drawing.knots.filter(({ links }) => links.includes(link)).map(({ at }) => at);
-    const mean = (axis: 0 | 1) => mine.reduce((sum, at) => sum + at[axis], 0) / mine.length;
-    return { at: [mean(0) + aside * step, mean(1) + 0.4 * aside * step], knot: null, link };
+    const middle = ([0, 1] as const).map((axis) => mine.reduce((sum, at) => sum + at[axis], 0) / mine.length) as Pair;
+    const free = () => clearAbout(near ?? middle, 0.4 * Math.max(right - left, top - bottom), hulls);
+    return { at: link === drawing.frame || !convexHull(mine)[1] ? free() : middle, knot: null, link };
   };
-  return withLink(drawing, place(one, 1), place(two, 2));
+  const from = place(one);
+  return withLink(drawing, from, place(two, from.at));
 }

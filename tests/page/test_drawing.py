@@ -22,10 +22,10 @@ FREEDOMS = '[data-fact="freedoms"]'
 def test_what_is_offered_mends_it():
     """The mobility beside each offer is that of the chain which it leads to, written by hand."""
     # an open chain of three links has F = 3; its end on the ground makes a four-bar, that of link 2 a rigid triangle
-    first = drawing_record("R(0-1) R(1-2) R(2-3)", "0", [], "en", ends=["3"])["offers"]
-    assert first[0] == {"kind": "ground", "links": ["3"], "generic": 1}
+    first = drawing_record("R(0-1) R(1-2) R(2-3)", "0", [], "en", ends={"3": "D"})["offers"]
+    assert first[0] == {"kind": "ground", "links": ["3"], "generic": 1, "text": "Ground at D: F = 1"}
     assert len({str(offer) for offer in first}) == len(first)
-    rigid = drawing_record("R(0-1) R(1-2)", "0", [], "en", ends=["1", "2"])["offers"]
+    rigid = drawing_record("R(0-1) R(1-2)", "0", [], "en", ends={"1": "B", "2": "C"})["offers"]
     assert "ground" not in {offer["kind"] for offer in rigid}
     assert [offer["joint"] for offer in drawing_record(FOUR_BAR, "0", [], "en")["offers"]] == [0, 3]
     assert drawing_record(FOUR_BAR, "0", [0], "en")["offers"] == []
@@ -34,7 +34,7 @@ def test_what_is_offered_mends_it():
     held = "R(0-1) R(0-1) R(0-2)"
     assert [offer["joint"] for offer in drawing_record(held, "0", [], "en")["offers"]] == [2]
     shared = drawing_record("R(0-1-4) R(1-2) R(2-3) R(3-0) R(4-5) R(5-3)", "0", [0], "en")
-    assert (shared["reason"], shared["fixed"]) == ("", True)  # the drive moves link 1
+    assert (shared["reason"], shared["fixed"]) == ("Mobility 1, drives: 1", True)  # the drive moves link 1
     stuck = drawing_record(held, "0", [0], "en")
     assert not stuck["fixed"]
     assert "still moving: 2" in stuck["reason"]
@@ -50,12 +50,34 @@ def test_what_is_offered_mends_it():
     assert stiff["generic"] == 0
     removed = {offer["links"][0]: offer["generic"] for offer in stiff["offers"]}
     assert removed["4"] == 1  # the four-bar again
-    assert set(stiff["offers"][0]) == {"kind", "links", "generic"}
+    assert set(stiff["offers"][0]) == {"kind", "links", "generic", "text"}
     # a link on two pins holds both of them; of joints with equal links the second is no longer the first with a sign
     for lang in ("en", "de"):
         called = " ".join(drawing_record(held, "0", [], lang, ["A", "B", "C"])["lines"])
         assert " A, B." in called
         assert "(0-1)" not in called
+
+
+def test_what_is_offered_leaves_a_machine_that_its_drives_move():
+    """A bar between coupler and ground would hold the four-bar fast: 3(6 - 1) - 2·7 = 1 is the freedom of link 4."""
+    hung = FOUR_BAR + " R(2-4)"
+    bars = [o["links"] for o in drawing_record(hung, "0", [0], "en", "ABCDE")["offers"] if o["kind"] == "bar"]
+    assert bars[0] == ["4", "0"]
+    assert ["2", "0"] not in bars
+    for one, other in bars:
+        report = mobility_report(Chain.parse(f"{hung} R({one}-9) R(9-{other})"))
+        assert (report.generic, report.rigid_clusters) == (1, ())
+    held = hung + " R(2-5) R(5-0)"
+    for lang, reason in (("en", "A cannot be driven: it does not move."), ("de", "A lässt sich nicht antreiben")):
+        stuck = drawing_record(held, "0", [0], lang, "ABCDEFG")
+        assert reason in stuck["reason"]
+    assert stuck["offers"][0] == {"kind": "remove", "links": ["5"], "generic": 2, "text": "Glied 5 entfernen: F = 2"}
+    assert stuck["offers"][-1]["text"] == "Antrieb an A entfernen"
+    two = drawing_record(FOUR_BAR, "0", [0, 3], "en", "ABCD")
+    assert two["reason"].endswith("Drives that conflict: A, D.")
+    # of a five-bar with a drive no other one is offered that works against it: a triangle on the ground stays as it is
+    truss = drawing_record("R(0-1) R(1-2) R(2-0) R(0-3) R(3-4)", "0", [], "en")["offers"]
+    assert {offer["joint"] for offer in truss if offer["kind"] == "drive"} == {3}
 
 
 @pytest.fixture
@@ -127,6 +149,44 @@ def test_a_four_bar_and_then_a_watt_six_bar_are_drawn_and_moved(plane):
     assert view.evaluate("gruebler.views.build.drawing.knots.length") == 7
     view.reload()
     plane.until("window.gruebler?.views?.build?.drawing.knots.length === 7")  # it was kept
+    view.evaluate("localStorage.clear()")
+
+
+def test_what_is_offered_stands_clear_and_moves(plane):
+    """A bar hangs on the coupler of a driven four-bar: the pivot of the link offered is on no bar, the tool is free."""
+    view = plane.page
+    view.click('[data-begin="four-bar"]')
+    view.locator('[data-act="move"]').wait_for()
+    view.keyboard.press("l")
+    click(plane, (30, 30), (62, 58))
+    view.mouse.move(700, 500)  # the next link would begin at its end
+    assert view.locator(".drawing .pending").count() == 1
+    offer = view.locator('[data-offer="bar"]').first
+    offer.wait_for()
+    assert offer.inner_text() == "Add a link between 4 and frame: F = 1"
+    assert view.locator('[data-offer="bar"]', has_text="between 2 and frame").count() == 0
+    offer.click()
+    view.mouse.move(700, 500)
+    assert view.locator(".drawing .pending").count() == 0
+    view.locator('[data-act="move"]').wait_for()
+    assert view.locator(FREEDOMS).inner_text() == "Mobility 1, drives: 1"
+    knots = view.evaluate("gruebler.views.build.drawing.knots")
+    pivot = knots[-1]
+    assert set(pivot["links"]) == {"frame", "5"}
+    bars = {}
+    for knot in knots:
+        for link in set(knot["links"]) - {"frame", "5"}:
+            bars.setdefault(link, []).append(complex(*knot["at"]))
+    place = complex(*pivot["at"])
+    for one, other in (bar for ends in bars.values() for bar in itertools.combinations(ends, 2)):
+        part = ((place - one) / (other - one)).real
+        assert abs(place - one - min(max(part, 0), 1) * (other - one)) > 10  # mm; links are 20 to 63 long
+    box = view.locator(".drawing").bounding_box()
+    x, y = view.evaluate(f"gruebler.views.build.viewport.screen({place.real}, {place.imag})")
+    assert 0 < x < box["width"]
+    assert 0 < y < box["height"]
+    view.locator('[data-act="move"]').click()
+    plane.until("gruebler.view === 'motion' && gruebler.motion.transport.player.playing")
     view.evaluate("localStorage.clear()")
 
 

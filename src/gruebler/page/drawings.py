@@ -3,58 +3,88 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice
+from types import MappingProxyType
 from typing import Any
 
 from gruebler.base.errors import ChainError
+from gruebler.base.text import message
 from gruebler.structure.chain import Chain, Joint
-from gruebler.structure.mechanism import Mechanism, check_drives
+from gruebler.structure.chain.pairs import Alphabet
+from gruebler.structure.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.structure.mobility import MobilityReport, mobility_report
 
 _MOST_OFFERS = 4
-_MOST_BARS = 2
+_MOST_LIKE = 2  # of one kind
+_BINARY = 2  # links of a joint
+_OFFERS = {
+    "drive": message("Drive {joint}"),
+    "undrive": message("Remove the drive at {joint}"),
+    "ground": message("Ground at {joint}: F = {generic}"),
+    "bar": message("Add a link between {one} and {two}: F = {generic}"),
+    "remove": message("Remove link {one}: F = {generic}"),
+}
 
 
 def drawing_record(
-    joints: str, frame: str, drives: list[int], lang: str, names: Sequence[str] = (), ends: Sequence[str] = ()
+    joints: str,
+    frame: str,
+    drives: list[int],
+    lang: str,
+    names: Sequence[str] = (),
+    ends: Mapping[str, str] = MappingProxyType({}),
 ) -> dict[str, Any]:
     """Mobility, reason and offers of a chain that is drawn, as plain data.
 
-    Joints are given by their numbers in the text, and called by the names given; ends are links with an open end. An
-    offer is a change after which as many drives as there are give a definite motion, or a step towards it. Each that
-    changes the chain was tried: its generic mobility stands beside it.
+    Joints are given by their numbers in the text, and called by the names given; ends are the names of open ends by
+    their links. An offer is a change after which as many drives as there are give a definite motion, or a step towards
+    it. Each that changes the chain was tried: the drives move what it leads to, nothing more of it is rigid, and its
+    generic mobility stands beside it.
 
     Raises `GrueblerError` for a text that is no chain.
 
     >>> record = drawing_record("R(0-1) R(1-2) R(2-3) R(3-0)", "0", [], "en")
-    >>> record["generic"], [offer["joint"] for offer in record["offers"]]
-    (1, [0, 3])
+    >>> record["generic"], [offer["text"] for offer in record["offers"]]
+    (1, ['Drive R(0-1)', 'Drive R(3-0)'])
     """
     chain = Chain.parse(joints)
     report = mobility_report(chain, frame=frame)
-    parts = [joints, f"frame={frame}", *(f"drive={_drive_name(chain, frame, number)}" for number in drives)]
-    titles = {
-        chain.joint_title(number).in_language(lang): name for number, name in enumerate(names[: len(chain.joints)])
-    }
+    driven = _driven(chain, frame, drives)
+    alphabet = Alphabet.of_language(lang)
+    called = [*chain.joint_names(alphabet), *driven.mechanism.drive_names(alphabet)]
+    numbers = [*range(len(chain.joints)), *drives]
+    titles = {text: names[k] for text, k in zip(called, numbers, strict=True) if k < len(names)}
     title = re.compile("|".join(map(re.escape, sorted(titles, key=len, reverse=True))) or "(?!)")
 
     def named(text: str) -> str:
         return title.sub(lambda match: titles[match[0]], text)
 
-    driven = check_drives(Mechanism.parse("; ".join(parts)))
+    def worded(offer: dict[str, Any]) -> dict[str, Any]:
+        links = [link.replace("_", " ") for link in offer.get("links", ())]
+        joint = named(called[offer["joint"]]) if "joint" in offer else ends.get(offer["links"][0], "")
+        gaps = {"joint": joint, "generic": offer["generic"], **dict(zip(("one", "two"), links, strict=False))}
+        return offer | {"text": _OFFERS[offer["kind"]].filled(**gaps).in_language(lang)}
+
+    clash = not driven.fixed and len(drives) >= report.generic
+    short = message("Mobility {generic}, drives: {drives}", generic=report.generic, drives=len(drives))
     return {
         "counted": report.counted,
         "generic": report.generic,
         "lines": named(report.explain(lang)).splitlines()[1:],
-        "immobile": list(report.immobile_joints),
         "fixed": driven.fixed and report.generic > 0,
-        "reason": "" if driven.fixed or len(drives) < report.generic else named(driven.message.in_language(lang)),
-        "offers": list(_offers(chain, frame, drives, report, ends))[:_MOST_OFFERS],
+        "reason": named((driven.message if clash else short).in_language(lang)),
+        "offers": [worded(offer) for offer in islice(_offers(report, driven, drives, ends), _MOST_OFFERS)],
     }
 
 
+def _driven(chain: Chain, frame: str, drives: Sequence[int]) -> DriveReport:
+    """What the drives do; a joint of three links and more moves the first one beside the frame."""
+    parts = [chain.text(), f"frame={frame}", *(f"drive={_drive_name(chain, frame, number)}" for number in drives)]
+    return check_drives(Mechanism.parse("; ".join(parts)))
+
+
 def _drive_name(chain: Chain, frame: str, number: int) -> str:
-    """A driven joint; of three links and more it moves the first one beside the frame."""
     links = chain.joints[number].links
     own = frame if frame in links else links[0]
     other = next(link for link in links if link != own)
@@ -62,40 +92,55 @@ def _drive_name(chain: Chain, frame: str, number: int) -> str:
 
 
 def _offers(
-    chain: Chain, frame: str, drives: list[int], report: MobilityReport, ends: Sequence[str]
+    report: MobilityReport, driven: DriveReport, drives: list[int], ends: Iterable[str]
 ) -> Iterator[dict[str, Any]]:
-    generic = report.generic
+    chain, frame, generic = report.chain, report.frame, report.generic
     if generic < 1:
-        yield from _removals(chain, frame)
+        yield from _removals(report, drives)
         return
-    stuck = [number for number in drives if number in report.immobile_joints]
-    if stuck or len(drives) > generic:
-        for number in stuck or drives:
+    if driven.redundant_drives and report.rigid_clusters:
+        yield from islice(_removals(report, drives), _MOST_LIKE)
+    if driven.redundant_drives or len(drives) > generic:
+        for number in [drives[k] for k in driven.redundant_drives] or drives:
             yield {"kind": "undrive", "joint": number, "generic": generic}
         return
     if len(drives) == generic:
         return
     if generic > 1:
-        yield from _grounds(chain, frame, generic, ends)
-        yield from _bars(chain, frame, generic)
+        yield from _grounds(report, drives, ends)
+        yield from _bars(report, drives)
     for number, joint in enumerate(chain.joints):
         movable = number not in drives and number not in report.immobile_joints
-        if movable and frame in joint.links and len(joint.links) == 2:
+        if not (movable and frame in joint.links and len(joint.links) == _BINARY):
+            continue
+        if not _driven(chain, frame, [*drives, number]).redundant_drives:
             yield {"kind": "drive", "joint": number, "generic": generic}
 
 
-def _grounds(chain: Chain, frame: str, generic: int, ends: Sequence[str]) -> Iterator[dict[str, Any]]:
+def _closed(report: MobilityReport, drives: list[int], joints: str) -> MobilityReport | None:
+    """The chain with further joints, if its drives can move it and nothing more of it is rigid than was before."""
+    chain = Chain.parse(f"{report.chain.text()} {joints}")
+    after = mobility_report(chain, frame=report.frame)
+    rigid = set(map(frozenset, after.rigid_clusters)) - set(map(frozenset, report.rigid_clusters))
+    if rigid or len(drives) > after.generic or _driven(chain, report.frame, drives).redundant_drives:
+        return None
+    return after
+
+
+def _grounds(report: MobilityReport, drives: list[int], ends: Iterable[str]) -> Iterator[dict[str, Any]]:
     """Open ends that close the chain where they are held by a joint on the frame."""
+    frame = report.frame
     for link in ends:
-        if link == frame or any({link, frame} <= set(joint.links) for joint in chain.joints):
+        if link == frame or any({link, frame} <= set(joint.links) for joint in report.chain.joints):
             continue
-        after = mobility_report(Chain.parse(f"{chain.text()} R({link}-{frame})")).generic
-        if 0 < after < generic:
-            yield {"kind": "ground", "links": [link], "generic": after}
+        after = _closed(report, drives, f"R({link}-{frame})")
+        if after is not None and 0 < after.generic < report.generic:
+            yield {"kind": "ground", "links": [link], "generic": after.generic}
 
 
-def _bars(chain: Chain, frame: str, generic: int) -> Iterator[dict[str, Any]]:
+def _bars(report: MobilityReport, drives: list[int]) -> Iterator[dict[str, Any]]:
     """Two links between which a further one takes a freedom; first links with one joint, and the frame."""
+    chain, frame = report.chain, report.frame
     joined: Mapping[str, int] = {link: sum(link in joint.links for joint in chain.joints) for link in chain.links}
     near = {frozenset((a, b)) for joint in chain.joints for a in joint.links for b in joint.links}
     new = next(str(k) for k in range(1, chain.n + 2) if str(k) not in chain.links)
@@ -103,28 +148,31 @@ def _bars(chain: Chain, frame: str, generic: int) -> Iterator[dict[str, Any]]:
     pairs = [(link, frame) for link in order] + [(a, b) for a in order for b in order if a < b]
     offered = 0
     for first, second in pairs:
-        if frozenset((first, second)) in near or offered == _MOST_BARS:
+        if frozenset((first, second)) in near or offered == _MOST_LIKE:
             continue
-        mended = Chain.parse(f"{chain.text()} R({first}-{new}) R({new}-{second})")
-        if (after := mobility_report(mended).generic) == generic - 1:
+        after = _closed(report, drives, f"R({first}-{new}) R({new}-{second})")
+        if after is not None and after.generic == report.generic - 1:
             offered += 1
-            yield {"kind": "bar", "links": [first, second], "generic": after}
+            yield {"kind": "bar", "links": [first, second], "generic": after.generic}
 
 
-def _removals(chain: Chain, frame: str) -> Iterator[dict[str, Any]]:
-    """Links without which the rest moves."""
-    for link in chain.links:
-        if link == frame:
-            continue
-        rest = [
-            Joint(joint.pair, kept)
-            for joint in chain.joints
-            for kept in [tuple(other for other in joint.links if other != link)]
-            if len(kept) > 1
-        ]
+def _removals(report: MobilityReport, drives: list[int]) -> Iterator[dict[str, Any]]:
+    """Links without which the rest moves, by the drives that stay, and nothing is rigid; those of the drives last."""
+    chain, frame = report.chain, report.frame
+    moved = {link for number in drives for link in chain.joints[number].links}
+    late_first = [link for link in chain.links[::-1] if link != frame]
+    for link in [*(link for link in late_first if link not in moved), *(link for link in late_first if link in moved)]:
+        kept = {k: tuple(other for other in joint.links if other != link) for k, joint in enumerate(chain.joints)}
+        left = [k for k, links in kept.items() if len(links) > 1]
         try:
-            mended = Chain(rest, links=[other for other in chain.links if other != link], space=chain.space)
+            mended = Chain(
+                [Joint(chain.joints[k].pair, kept[k]) for k in left],
+                links=[other for other in chain.links if other != link],
+                space=chain.space,
+            )
         except ChainError:
             continue  # what is left falls apart, or is no chain
-        if (after := mobility_report(mended).generic) > 0:
-            yield {"kind": "remove", "links": [link], "generic": after}
+        after = mobility_report(mended, frame=frame)
+        stay = [left.index(k) for k in drives if k in left]
+        if after.generic > 0 and not after.rigid_clusters and not _driven(mended, frame, stay).redundant_drives:
+            yield {"kind": "remove", "links": [link], "generic": after.generic}

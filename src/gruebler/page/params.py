@@ -95,13 +95,13 @@ class DescribeStructure(Params):
 
 
 class DescribeDrawing(Params):
-    """A chain that is drawn: joints as text and what they are called, frame, driven joints, links with an open end."""
+    """A chain that is drawn: joints as text and their names, frame, driven joints, open ends by links."""
 
     joints: ChainText
     frame: Word
     drives: Annotated[list[Number], msgspec.Meta(max_length=20)] = []
     names: Annotated[list[Word], msgspec.Meta(max_length=200)] = []
-    ends: Annotated[list[Word], msgspec.Meta(max_length=200)] = []
+    ends: Annotated[dict[Word, Word], msgspec.Meta(max_length=200)] = {}
 
 
 class ListModes(Params):

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from gruebler.base.notebook import explained
 from gruebler.base.text import Message, joined, message
+from gruebler.structure.chain.pairs import Alphabet, in_alphabets
 from gruebler.structure.mechanism.model import Mechanism
 from gruebler.structure.mobility import generic
 from gruebler.structure.mobility.placement import LockedFreedom
@@ -16,6 +17,7 @@ from gruebler.structure.mobility.placement import LockedFreedom
 class DriveReport:
     """Whether the drives fix the motion of a mechanism, at almost all sizes."""
 
+    mechanism: Mechanism
     mobility: int
     drives: int
     remaining: int
@@ -44,9 +46,16 @@ class DriveReport:
             text = message("Freedoms left with the drives locked: {freedoms}; still moving: {links}.")
             sentences.append(text.filled(freedoms=self.remaining, links=", ".join(self.free_links)))
         if self.redundant_drives:
-            numbers = ", ".join(str(k + 1) for k in self.redundant_drives)
-            sentences.append(message("Drives that conflict: no. {numbers}.", numbers=numbers))
+            drives = in_alphabets(self._names_of_redundant)
+            if len(self.redundant_drives) > 1:
+                sentences.append(message("Drives that conflict: {drives}.", drives=drives))
+            else:
+                sentences.append(message("{drive} cannot be driven: it does not move.", drive=drives))
         return joined(sentences, " ")
+
+    def _names_of_redundant(self, alphabet: Alphabet) -> str:
+        names = self.mechanism.drive_names(alphabet)
+        return ", ".join(names[k] for k in self.redundant_drives)
 
 
 def check_drives(mechanism: Mechanism) -> DriveReport:
@@ -66,6 +75,7 @@ def check_drives(mechanism: Mechanism) -> DriveReport:
     moving = tuple(link for link in chain.links if link not in still)
     redundant = tuple(k for k in range(len(locks)) if locked.redundancy and locked.some_stresses[first + k].any())
     return DriveReport(
+        mechanism=mechanism,
         mobility=free.mobility,
         drives=len(locks),
         remaining=locked.mobility,
