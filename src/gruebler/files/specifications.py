@@ -14,7 +14,7 @@ import msgspec
 
 from gruebler.base.documents import convert_document, load_document
 from gruebler.base.errors import SynthesisError, naming
-from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.specification import Clearance, Specification
 from gruebler.files.tasks import counting_from_one, read_task, task_from_json
 

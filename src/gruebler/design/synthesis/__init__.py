@@ -6,10 +6,10 @@ has the definitions, theorems and methods.
 """
 
 from gruebler.design.synthesis.dead_centres import synthesise_dead_centres
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dwells import synthesise_dwells
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.functions import synthesise_function
-from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.minimax_search import minimax
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions

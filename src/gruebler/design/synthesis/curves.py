@@ -19,12 +19,13 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import message
 from gruebler.design.synthesis.curve_matching import passes
 from gruebler.design.synthesis.curve_starts import CurveStart, neighbours, timed_neighbours, transformed
+from gruebler.design.synthesis.demands import Demands, sought_order
 from gruebler.design.synthesis.dyad_linkages import four_bar_linkages, linkage_of_dyads
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.fit_limits import FourBarLimits, crank_turns
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK, FourBarKind
-from gruebler.design.synthesis.judging import Demands, best_of, order_notes, sought_order
+from gruebler.design.synthesis.judging import best_of, order_notes
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of, ranked
 from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets

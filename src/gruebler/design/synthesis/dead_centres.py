@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
+from gruebler.design.synthesis.demands import Demands, tightest
 from gruebler.design.synthesis.given_lengths import scale_to_length
-from gruebler.design.synthesis.judging import Demands, faults_of_size, pivots_inside, size_ratio, transmission_fault
-from gruebler.design.synthesis.pair_facts import tightest
+from gruebler.design.synthesis.judging import faults_of_size, pivots_inside, size_ratio, transmission_fault
 from gruebler.design.synthesis.results import PASSED, Design, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.tasks import DeadCentreTask
 from gruebler.mechanics.fourbar import FourBar, SliderCrank

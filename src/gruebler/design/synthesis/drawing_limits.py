@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, Reals
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.fit_limits import MARGIN, FitLimits
-from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.place_limits import PlaceLimits
 from gruebler.design.synthesis.structure_atlas import (
     DrawnDyad,

@@ -13,6 +13,7 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import message
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dwell_search import (
     ROCKER,
     SLIDER,
@@ -24,7 +25,7 @@ from gruebler.design.synthesis.dwell_search import (
     with_least_deviation,
     with_swing,
 )
-from gruebler.design.synthesis.judging import Demands, faults_of_size, size_ratio, transmission_fault
+from gruebler.design.synthesis.judging import faults_of_size, size_ratio, transmission_fault
 from gruebler.design.synthesis.results import EXACT, PASSED, Design, Progress, SolutionCount, SynthesisResult
 from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import DwellTask

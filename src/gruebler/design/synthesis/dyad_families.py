@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis.burmester import burmester_curves
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyads import (
     BLOCK,
     CRANK,
@@ -27,7 +28,6 @@ from gruebler.design.synthesis.dyads import (
     misfit,
     sliding_dyads,
 )
-from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.pair_search import Nearby
 from gruebler.design.synthesis.tasks import SAME, PositionTask
 

@@ -17,10 +17,10 @@ import numpy as np
 from gruebler.base.arrays import Flags, Integers, Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, message
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, short_cells
 from gruebler.design.synthesis.dyads import Displacements
 from gruebler.design.synthesis.enclosures import Enclosure
-from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.results import EXACT
 from gruebler.design.synthesis.tasks import PositionTask
 

@@ -17,9 +17,10 @@ from gruebler.base.arrays import Complexes
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.alt_burmester import Problem, Solutions, parameters, solutions
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyad_linkages import four_bar_linkages
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
-from gruebler.design.synthesis.judging import Demands, best_of, decided_by_path, order_notes, rejected_alike
+from gruebler.design.synthesis.judging import best_of, decided_by_path, order_notes, rejected_alike
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, ranked
 from gruebler.design.synthesis.targets import Targets, point_targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PathTask

@@ -14,8 +14,8 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis.closure import DesignClosure, PoseDerivatives
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.fit_limits import HELD
-from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.leg_angles import LegAngles
 from gruebler.design.synthesis.size_limits import SizeLimits, limits_of_sizes
 from gruebler.design.synthesis.target_bands import STAGES, TargetBands, numbers_or

@@ -25,11 +25,12 @@ from gruebler.design.synthesis.coordination import (
     coordinations_with_one_free_start,
     pair_arrays,
 )
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyad_families import guiding_dyads, near_in_plane, near_on_curve
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, GuidingDyad
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.design.synthesis.given_lengths import scale_to_length
-from gruebler.design.synthesis.judging import Demands, judge_design
+from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.law_motion import over_interval
 from gruebler.design.synthesis.minimax_search import minimax as minimax_near
 from gruebler.design.synthesis.pair_facts import PairFacts, facts_of_pins

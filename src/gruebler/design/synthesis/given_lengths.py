@@ -6,7 +6,8 @@ docs/theory/synthesis.md.
 from __future__ import annotations
 
 from gruebler.base.text import Message, message
-from gruebler.design.synthesis.judging import NO_LENGTH, Demands, distances_of_pins
+from gruebler.design.synthesis.demands import Demands
+from gruebler.design.synthesis.judging import NO_LENGTH, distances_of_pins
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
 

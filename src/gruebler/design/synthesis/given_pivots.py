@@ -10,9 +10,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from gruebler.base.text import Message, message
+from gruebler.design.synthesis.demands import Demands, inside_region
 from gruebler.design.synthesis.dyads import GuidingDyad
-from gruebler.design.synthesis.judging import Demands
-from gruebler.design.synthesis.pair_facts import inside_region
 from gruebler.design.synthesis.tasks import SAME, PositionTask
 
 _BESIDE = {

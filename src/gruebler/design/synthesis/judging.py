@@ -7,23 +7,21 @@ the linkage's reference pose without regard to the drive, the places where it me
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals
-from gruebler.base.errors import LinkageError, SynthesisError
-from gruebler.base.immutable import settle
-from gruebler.base.text import Message, joined, joined_by_and, message
+from gruebler.base.errors import LinkageError
+from gruebler.base.text import Message, joined, message
+from gruebler.design.synthesis.demands import EXACT_AT_MOST, Demands
 from gruebler.design.synthesis.results import EXACT, PASSED, TOO_SLENDER, Design, DesignVerdict
-from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.target_paths import TargetPath, limit_before, path_through
 from gruebler.design.synthesis.target_places import places_approached, places_met
 from gruebler.design.synthesis.targets import GuidedCurve, Targets
-from gruebler.design.synthesis.tasks import PathTask, PositionTask, Task, output_travels
 from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.kinematics import Circuit, circuit
 from gruebler.mechanics.kinematics.motion import Motion
@@ -32,147 +30,9 @@ from gruebler.mechanics.linkages import Linkage
 
 _ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage for a small task cannot promise
 _ROWS = 16  # poses from one target to the next, with several drives
-
-
-BUILDABLE = 20.0
-"""The longest length by the shortest, as a workshop accepts it; other ratios can be demanded."""
 OTHER_LENGTH = message("the length of the {link} is not {wanted}, but {found}")
 NO_LENGTH = message("{link}: no length, since this link has fewer than two pins")
 _DIGITS = range(6, 18)  # of a length: as many as tell it from the one that is given
-EXACT_AT_MOST = 1e-6
-"""With larger tolerances targets are approached, not met: the whole curve within the tolerance counts."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Demands:
-    """What an accepted design has to do besides meeting its targets on one branch and in order.
-
-    Raises `SynthesisError` for what no design could be held to: angles beyond a right one, a ratio below 1, a negative
-    tolerance, a rectangle whose corners are exchanged.
-
-    >>> Demands(transmission=0.7).crank
-    False
-    """
-
-    crank: bool = False
-    """The drive turns fully."""
-    transmission: float = 0.0
-    """The transmission angle does not fall below, in radians."""
-    size_ratio: float = BUILDABLE
-    """The longest length of a link is at most so many times the shortest."""
-    region: tuple[float, float, float, float] | None = None
-    """The fixed pivots lie in this rectangle: least x, least y, greatest x, greatest y."""
-    lengths: tuple[tuple[str, float], ...] = ()
-    """Links with the given distance of their pins: crank, coupler, rocker, frame, or other names of links."""
-    tolerance: float = EXACT
-    """How far a target may be missed, relative to the size of the task."""
-    one_branch: bool = True
-    """The drive never turns back on the way."""
-    in_order: bool = True
-    """The targets are met in the order of the task."""
-
-    def __post_init__(self) -> None:
-        """Refuse what no design could be held to; comparisons with it would fail, or hold, without a word."""
-        for name in ("crank", "one_branch", "in_order"):
-            if not isinstance(value := getattr(self, name), bool | np.bool_):
-                raise SynthesisError("{name}: expected True or False, but found {value!r}", name=name, value=value)
-        for name in ("transmission", "size_ratio", "tolerance"):
-            if not _is_number(value := getattr(self, name)):
-                raise SynthesisError("{name}: expected a number, but found {value!r}", name=name, value=value)
-        if not 0 <= self.transmission <= np.pi / 2:
-            raise SynthesisError(
-                "{key}: expected an angle between {low} and {high} degrees, but found {angle:g} degrees",
-                key="transmission",
-                low=0,
-                high=90,
-                angle=np.degrees(self.transmission),
-            )
-        if self.size_ratio < 1:
-            raise SynthesisError(
-                "{name}: expected at least 1, but found {value:g}", name="size_ratio", value=self.size_ratio
-            )
-        if not 0 <= self.tolerance < np.inf:
-            raise SynthesisError(
-                "{name}: expected a part of the size, at least 0, but found {value:g}",
-                name="tolerance",
-                value=self.tolerance,
-            )
-        if self.region is not None and not _is_rectangle(self.region):
-            raise SynthesisError(
-                "{name}: expected least x, least y, greatest x, greatest y, but found {value!r}",
-                name="region",
-                value=self.region,
-            )
-        settle(self, lengths=_given_lengths(self.lengths))
-
-    @property
-    def limits_of_size(self) -> bool:
-        """Whether lengths, the place of the pivots or the transmission angle are limited."""
-        return bool(self.lengths) or self.region is not None or self.transmission > 0
-
-    def of_task(self, task: Task, known: Iterable[str] | None = None) -> Demands:
-        """These demands, which a task of linkages with such links can meet, by default four-bars or slider-cranks.
-
-        Raises `SynthesisError` for lengths of other links, and for a pivot that the task gives outside the region.
-
-        >>> from gruebler.design.synthesis.tasks import DeadCentreTask
-        >>> Demands(lengths={"frame": 2}).of_task(DeadCentreTask(stroke=1, time_ratio=1))
-        Traceback (most recent call last):
-        gruebler.base.errors.SynthesisError: the length of a link 'frame' is given, but only crank and coupler have one
-        """
-        usual = ("crank", "coupler", *(() if output_travels(task) else ("rocker", "frame")))
-        links = tuple(dict.fromkeys(usual if known is None else known))
-        for link, _ in self.lengths:
-            if link not in links:
-                raise SynthesisError(
-                    "the length of a link {link!r} is given, but only {known} have one",
-                    link=link,
-                    known=joined_by_and(links),
-                )
-        x1, y1, x2, y2 = self.region or (-np.inf, -np.inf, np.inf, np.inf)
-        for x, y in getattr(task, "fixed_pivots", ()):
-            if not (x1 <= x <= x2 and y1 <= y <= y2):
-                raise SynthesisError(
-                    "{name}: ({x:g}, {y:g}) lies outside the region that is demanded", name="fixed_pivots", x=x, y=y
-                )
-        return self
-
-
-def _given_lengths(value: object) -> tuple[tuple[str, float], ...]:
-    """Pairs of a link and a positive length, of a table or a sequence, each link once."""
-    rows = list(value.items()) if isinstance(value, Mapping) else value
-    if not isinstance(rows, Sequence) or isinstance(rows, str):
-        raise SynthesisError(
-            "{name}: expected links with their lengths, but found {value!r}", name="lengths", value=value
-        )
-    pairs: dict[str, float] = {}
-    for row in rows:
-        if isinstance(row, str) or not isinstance(row, Sequence) or len(row) != 2 or not isinstance(row[0], str):
-            raise SynthesisError(
-                "{name}: expected links with their lengths, but found {value!r}", name="lengths", value=row
-            )
-        link, length = row
-        if link in pairs:
-            raise SynthesisError("{name}: the length of {link!r} is given twice", name="lengths", link=link)
-        if not (_is_number(length) and 0 < length < np.inf):
-            raise SynthesisError(
-                "{name}: expected a length above 0 for each link, but found {link} = {value!r}",
-                name="lengths",
-                link=link,
-                value=length,
-            )
-        pairs[link] = float(length)
-    return tuple(pairs.items())
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float | np.number) and not isinstance(value, bool) and not np.isnan(value)
-
-
-def _is_rectangle(value: object) -> bool:
-    if not isinstance(value, Sequence | np.ndarray) or len(value) != 4 or not all(map(_is_number, value)):
-        return False
-    return bool(value[0] <= value[2] and value[1] <= value[3])
 
 
 def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], demands: Demands, form: str) -> Design:
@@ -209,14 +69,6 @@ def rejected_alike(linkage: Linkage, other: Design, demands: Demands) -> Design:
     reasons = (*faults_of_size(linkage, ratio, inside, demands), other.verdict.reasons[-1])
     verdict = replace(other.verdict, size_ratio=ratio, inside=inside, reasons=reasons)
     return replace(other, linkage=linkage, verdict=verdict)
-
-
-def sought_order(task: PositionTask | PathTask, demands: Demands) -> TargetOrder | None:
-    """The order in which targets are sought; None if it is that of the list, as of a whole curve."""
-    curve = isinstance(task, PathTask) and GuidedCurve.of(task) is not GuidedCurve.NONE
-    if not demands.in_order and not curve:
-        return TargetOrder((tuple(range(len(task))),))
-    return TargetOrder.of(task.order, len(task)) if task.order else None
 
 
 def order_notes(designs: Iterable[Design], demands: Demands) -> tuple[Message, ...]:

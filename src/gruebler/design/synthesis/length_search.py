@@ -14,6 +14,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.text import message
+from gruebler.design.synthesis.demands import Demands, demands_failed, inside_region, sought_order, tightest
 from gruebler.design.synthesis.dyad_cells import FAR
 from gruebler.design.synthesis.dyads import (
     BLOCK,
@@ -25,8 +26,7 @@ from gruebler.design.synthesis.dyads import (
     guiding_conditions,
     line_conditions,
 )
-from gruebler.design.synthesis.judging import Demands, sought_order
-from gruebler.design.synthesis.pair_facts import PairFacts, demands_failed, facts_of_pins, inside_region, tightest
+from gruebler.design.synthesis.pair_facts import PairFacts, facts_of_pins
 from gruebler.design.synthesis.pair_search import FoundPairs, Pair, SoughtPairs, best_pairs
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask

@@ -17,11 +17,12 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import joined, message
 from gruebler.design.synthesis.curve_starts import atlas, neighbours, transformed
 from gruebler.design.synthesis.curves import ACCEPTED, limits_of
+from gruebler.design.synthesis.demands import EXACT_AT_MOST, Demands, sought_order
 from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.fit_limits import FourBarLimits, crank_turns
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK, FourBarKind
-from gruebler.design.synthesis.judging import EXACT_AT_MOST, Demands, judge_design, order_notes, sought_order
+from gruebler.design.synthesis.judging import judge_design, order_notes
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of, ranked
 from gruebler.design.synthesis.target_bands import STAGES, TargetBands, numbers_or
 from gruebler.design.synthesis.target_orders import TargetOrder

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from math import degrees
 from typing import NamedTuple
 
 import numpy as np
@@ -15,8 +14,8 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.text import Message, message
+from gruebler.design.synthesis.demands import Demands, demands_met, inside_region, sought_order
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, DyadKind, GuidingDyad
-from gruebler.design.synthesis.judging import Demands, sought_order
 from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.tasks import PositionTask
 
@@ -275,47 +274,3 @@ def _extreme(begin: Reals, travel: Reals, at: float) -> Reals:
     ends = np.cos(low), np.cos(high)
     nearest = np.maximum(*ends) if at == 0 else np.minimum(*ends)
     return np.where(passed, np.cos(at), nearest)
-
-
-def inside_region(pivots: Complexes, demands: Demands) -> Flags:
-    """Whether pivots lie in the region that is demanded, all if there is none."""
-    if demands.region is None:
-        return np.ones(len(pivots), bool)
-    x1, y1, x2, y2 = demands.region
-    return np.asarray((x1 <= pivots.real) & (pivots.real <= x2) & (y1 <= pivots.imag) & (pivots.imag <= y2))
-
-
-def demands_met(
-    demands: Demands, turns: Flags, transmission: Reals, size_ratio: Reals, inside: Flags
-) -> list[tuple[Message, Flags]]:
-    """What is demanded besides the targets by its names, each with the linkages that meet it."""
-    met = []
-    if demands.crank:
-        met.append((message("a drive that turns fully"), turns))
-    if demands.transmission > 0:
-        angle = message("a transmission angle of {angle:g}°", angle=degrees(demands.transmission))
-        met.append((angle, transmission >= demands.transmission))
-    met.append((message("a size ratio of {ratio:g}", ratio=demands.size_ratio), size_ratio <= demands.size_ratio))
-    if demands.region is not None:
-        met.append((message("the region"), inside))
-    return met
-
-
-WITHOUT = message("Designs that meet all but the demand of {demand}: {count:,}.")
-
-
-def demands_failed(met: Sequence[tuple[Message, Flags]]) -> Reals:
-    """How many demands each linkage does not meet."""
-    return np.asarray(np.sum([~flags for _, flags in met], axis=0), np.float64)
-
-
-def tightest(met: Sequence[tuple[Message, Flags]]) -> list[Message]:
-    """The demand without which the most remain; the first, such as one branch, is the task itself and stays."""
-    counts = [
-        int(np.count_nonzero(np.logical_and.reduce([flags for k, (_, flags) in enumerate(met) if k != left])))
-        for left in range(1, len(met))
-    ]
-    best = int(np.argmax(counts))
-    if not counts[best]:
-        return []
-    return [WITHOUT.filled(demand=met[best + 1][0], count=counts[best])]

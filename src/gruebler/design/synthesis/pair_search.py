@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Flags
 from gruebler.base.text import Message, message
+from gruebler.design.synthesis.demands import Demands, demands_failed, tightest
 from gruebler.design.synthesis.dyads import GuidingDyad
-from gruebler.design.synthesis.judging import Demands
-from gruebler.design.synthesis.pair_facts import PairFacts, demands_failed, pair_facts, tightest
+from gruebler.design.synthesis.pair_facts import PairFacts, pair_facts
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
 

@@ -17,14 +17,14 @@ import numpy as np
 from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, message
+from gruebler.design.synthesis.demands import Demands, inside_region
 from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, DyadFamily, OneDyad
 from gruebler.design.synthesis.dyad_planes import crank_family
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, GuidingDyad
 from gruebler.design.synthesis.enclosures import Enclosure
 from gruebler.design.synthesis.family_bounds import MARGINS, NARROW, PairTests, Ranges, no_way, order_dropped
-from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.length_search import PairFamily, best_members, dyad_numbers
-from gruebler.design.synthesis.pair_facts import inside_region, pair_facts
+from gruebler.design.synthesis.pair_facts import pair_facts
 from gruebler.design.synthesis.pair_search import Pair
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask

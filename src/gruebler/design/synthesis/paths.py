@@ -16,8 +16,9 @@ import numpy as np
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import message
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem
+from gruebler.design.synthesis.demands import Demands, sought_order
 from gruebler.design.synthesis.finite_points import all_four_bars, check_general, crowded, points_between
-from gruebler.design.synthesis.judging import Demands, order_notes, sought_order
+from gruebler.design.synthesis.judging import order_notes
 from gruebler.design.synthesis.positions import synthesise_positions
 from gruebler.design.synthesis.results import EXACT, Design, Progress, SolutionCount, SynthesisResult, ranked
 from gruebler.design.synthesis.special_tasks import solved_where_it_lies

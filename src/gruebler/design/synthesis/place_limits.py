@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.fit_limits import HELD, MARGIN, FitLimits, complex_slopes, largest
-from gruebler.design.synthesis.judging import Demands
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

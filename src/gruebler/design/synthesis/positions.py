@@ -17,6 +17,7 @@ import numpy as np
 
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyad_families import (
     SLIDES,
     SLIDES_BESIDE,
@@ -37,7 +38,7 @@ from gruebler.design.synthesis.dyads import (
 )
 from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.given_pivots import notes_on_pivots
-from gruebler.design.synthesis.judging import Demands, best_of, judge_design, judged_by_drive, order_notes
+from gruebler.design.synthesis.judging import best_of, judge_design, judged_by_drive, order_notes
 from gruebler.design.synthesis.length_search import best_linkages, best_members, has_lengths
 from gruebler.design.synthesis.pair_search import IMPROVED, Pair, SoughtPairs
 from gruebler.design.synthesis.partner_bounds import (

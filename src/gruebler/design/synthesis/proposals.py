@@ -13,10 +13,9 @@ from gruebler.base.errors import SynthesisError
 from gruebler.base.notebook import brief
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.clearances import stays_clear
+from gruebler.design.synthesis.demands import WITHOUT, Demands
 from gruebler.design.synthesis.fitting import links_moved_by_all, output_links
 from gruebler.design.synthesis.given_lengths import missing_length
-from gruebler.design.synthesis.judging import Demands
-from gruebler.design.synthesis.pair_facts import WITHOUT
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.results import Design, ParetoRow, Progress, SolutionCount, SynthesisResult, pareto
 from gruebler.design.synthesis.special_tasks import NoFourBarError

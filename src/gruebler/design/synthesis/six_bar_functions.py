@@ -29,7 +29,8 @@ from gruebler.design.synthesis.alt_burmester import (
     sharpened,
 )
 from gruebler.design.synthesis.coordination import pair_arrays
-from gruebler.design.synthesis.judging import Demands, judge_design
+from gruebler.design.synthesis.demands import Demands
+from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.law_motion import over_interval
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, in_order_of, ranked
 from gruebler.design.synthesis.six_bar_census import ELEVEN, START_SOLUTIONS, Census, as_start_solutions, kept_census

@@ -18,7 +18,8 @@ from gruebler.base.arrays import Complexes, Flags
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.alt_burmester import GenericSolutions, Problem, load_generic_solutions
-from gruebler.design.synthesis.judging import Demands, best_of
+from gruebler.design.synthesis.demands import Demands
+from gruebler.design.synthesis.judging import best_of
 from gruebler.design.synthesis.results import Design, Progress, SolutionCount, SynthesisResult, ranked
 from gruebler.design.synthesis.six_bar_census import (
     EIGHT_POSITIONS,

@@ -12,9 +12,9 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.design.synthesis.closure import DesignClosure
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.drawing_limits import SAFE, at_tops, beyond_cosine, cosine, top_angles
 from gruebler.design.synthesis.fit_limits import FitLimits
-from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.place_limits import PlaceLimits
 from gruebler.design.synthesis.structure_atlas import (
     DyadStructure,

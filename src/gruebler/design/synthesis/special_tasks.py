@@ -16,8 +16,8 @@ import numpy as np
 
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, joined_by_and, message
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyads import Displacements, circle_centre
-from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.results import Design, SynthesisResult
 from gruebler.design.synthesis.tasks import PathTask, PositionTask
 

@@ -13,7 +13,7 @@ from gruebler.base.arrays import Complexes
 from gruebler.base.errors import SynthesisError
 from gruebler.base.immutable import settle
 from gruebler.base.text import message
-from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.tasks import DwellTask, Pair, PathTask, PositionTask, Task, number_rows, output_travels
 
 LINKS = (4, 6)

@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, message
-from gruebler.design.synthesis.judging import Demands, transmission_fault
+from gruebler.design.synthesis.demands import Demands
+from gruebler.design.synthesis.judging import transmission_fault
 from gruebler.design.synthesis.pair_facts import PairClosure, motion_of_pairs, shortest_arc
 from gruebler.design.synthesis.results import TOO_SLENDER, DesignVerdict, SolutionCount
 from gruebler.design.synthesis.spherical_dyads import (

@@ -14,7 +14,7 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import joined_by_or, message
-from gruebler.design.synthesis.judging import Demands
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.results import SolutionCount
 from gruebler.design.synthesis.spherical import (
     LEAST_ARC,

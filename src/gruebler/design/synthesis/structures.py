@@ -19,6 +19,7 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis.closure import DesignClosure
+from gruebler.design.synthesis.demands import BUILDABLE, EXACT_AT_MOST, WITHOUT, Demands, demands_met, tightest
 from gruebler.design.synthesis.drawing_limits import limits_of_drawings
 from gruebler.design.synthesis.first_states import first_state
 from gruebler.design.synthesis.fitting import (
@@ -32,17 +33,13 @@ from gruebler.design.synthesis.fitting import (
 )
 from gruebler.design.synthesis.given_lengths import links_with_lengths, missing_length
 from gruebler.design.synthesis.judging import (
-    BUILDABLE,
-    EXACT_AT_MOST,
     OTHER_LENGTH,
-    Demands,
     judge_design,
     judge_with_drives,
     order_notes,
     transmission_fault,
 )
 from gruebler.design.synthesis.law_motion import over_interval
-from gruebler.design.synthesis.pair_facts import WITHOUT, demands_met, tightest
 from gruebler.design.synthesis.results import (
     FITTED,
     Design,

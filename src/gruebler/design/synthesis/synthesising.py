@@ -12,9 +12,9 @@ from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.dead_centres import synthesise_dead_centres
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dwells import synthesise_dwells
 from gruebler.design.synthesis.functions import synthesise_function
-from gruebler.design.synthesis.judging import Demands
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions
 from gruebler.design.synthesis.results import MOST_DESIGNS, Progress, SynthesisResult, in_order_of

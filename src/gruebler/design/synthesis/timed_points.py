@@ -12,10 +12,11 @@ import numpy as np
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import message
+from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyad_families import SLIDES_BESIDE, guiding_dyads, near_in_plane, sliding_sample
 from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
-from gruebler.design.synthesis.judging import Demands, judge_design
+from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.length_search import best_linkages
 from gruebler.design.synthesis.pair_search import SoughtPairs
 from gruebler.design.synthesis.partner_bounds import best_beside
