@@ -1,4 +1,4 @@
-"""Types of arrays, named once for all rooms, products of plane vectors, and equality of values that hold arrays.
+"""Types of arrays, named once for all rooms, products and angles of plane vectors, equality of values with arrays.
 
 Shapes stand in second docstrings.
 """
@@ -43,6 +43,22 @@ def scalar_product(a: Complexes | complex, b: Complexes | complex) -> Reals:
 def cross_product(a: Complexes | complex, b: Complexes | complex) -> Reals:
     """The area that plane vectors x + iy span, positive if b lies to the left of a."""
     return np.asarray((np.conj(a) * b).imag)
+
+
+def angles_of_turns(turns: Complexes, whole: NDArray[np.int32] | int = 0) -> Reals:
+    """The angles of turns (cosine + i sine) after so many whole ones; that of -1 is pi, whatever the sign of its zero.
+
+    The kernels that count whole turns take a turn of exactly -1 for the end of an upper half.
+
+    >>> angles_of_turns(np.array([complex(-1, 0.0), complex(-1, -0.0)])).tolist()
+    [3.141592653589793, 3.141592653589793]
+    """
+    return np.asarray(np.angle(turns + 0.0) + 2 * np.pi * whole, np.float64)
+
+
+def whole_turns(angles: Reals, turns: Complexes) -> NDArray[np.int32]:
+    """How many whole turns angles have more than those of `angles_of_turns`."""
+    return np.asarray(np.round((angles - angles_of_turns(turns)) / (2 * np.pi)), np.int32)
 
 
 def compared_by_value(cls: _Class) -> _Class:

@@ -1,6 +1,7 @@
 """Free motion: against exact forms, other formulations and published benchmarks; energy is a witness everywhere."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -680,3 +681,15 @@ def test_many_steps_at_once_are_the_single_ones(times):
         np.testing.assert_allclose(getattr(at_once, name), values, rtol=1e-8, atol=1e-8 * np.abs(values).max())
     assert (at_once.whole == singly.whole).all()
     assert at_once.whole.max() > 1
+
+
+def test_a_turn_of_minus_one_has_one_angle():
+    """Of a turn of exactly -1 the zero may have either sign: simulation and motion count on from the same angle."""
+    linkage, loads = windows(2)
+    fall = simulate(linkage, loads, until=0.1)
+    for zero in (0.0, -0.0):
+        turns, whole = fall.turns.copy(), fall.whole.copy()
+        turns[-1], whole[-1] = complex(-1.0, zero), 1
+        after = replace(fall, turns=turns, whole=whole)
+        assert after.angle("k0")[-1] == pytest.approx(3 * np.pi)
+        assert (after.motion.angle("k0") == after.angle("k0")).all()

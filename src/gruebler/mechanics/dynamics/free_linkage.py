@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Complexes, Flags, Reals
+from gruebler.base.arrays import Complexes, Flags, Reals, angles_of_turns, whole_turns
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.dynamics.charts import Blocked, Jets
 from gruebler.mechanics.dynamics.coordinates import Coordinates, CoordinateSets
@@ -137,7 +137,7 @@ class FreeLinkage:
         influences = Influences(
             places=places[0, 0],
             turns=turns,
-            angles=np.angle(turns),
+            angles=angles_of_turns(turns),
             unit_places=places[1, :count],
             unit_rates=rates[0, :count],
             drift_places=places[2, -1] * square,
@@ -252,7 +252,7 @@ def motion_of(free: FreeLinkage, now: Instants) -> Motion:
         places=places,
         turns=moving.turns,
         rates=rates,
-        whole=np.round((moving.angles - np.angle(moving.turns)) / (2 * np.pi)).astype(np.int32),
+        whole=whole_turns(moving.angles, moving.turns),
         roots=np.zeros((rows, len(free.plan.dyads))),
         unknowns=np.zeros((rows, free.plan.unknowns)),
         stop=None,

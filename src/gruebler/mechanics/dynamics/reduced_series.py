@@ -13,7 +13,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from gruebler._core import reduced_forces
-from gruebler.base.arrays import Reals
+from gruebler.base.arrays import Reals, angles_of_turns
 from gruebler.mechanics.dynamics.charts import Chart, Charts
 from gruebler.mechanics.dynamics.equations import EquationsOfMotion, Influences
 
@@ -91,7 +91,7 @@ class ReducedSeries:
         influences = Influences(
             places=jets.places[0],
             turns=jets.turns,
-            angles=np.angle(jets.turns),
+            angles=angles_of_turns(jets.turns),
             unit_places=jets.places[1:2],
             unit_rates=jets.rates[:1],
             drift_places=jets.places[2],

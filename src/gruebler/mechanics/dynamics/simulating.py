@@ -15,7 +15,7 @@ from scipy.integrate import DOP853, Radau
 from scipy.optimize import brentq
 
 from gruebler._core import free_run, free_step
-from gruebler.base.arrays import Reals
+from gruebler.base.arrays import Reals, whole_turns
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
@@ -450,7 +450,7 @@ class _Run:
             "places": places,
             "turns": moving.turns,
             "rates": rates,
-            "whole": np.round((moving.angles - np.angle(moving.turns)) / (2 * np.pi)).astype(np.int32),
+            "whole": whole_turns(moving.angles, moving.turns),
             "kinetic": kinetic,
             "potential": potential,
             "work": work,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base import notebook
-from gruebler.base.arrays import Complexes, Reals, compared_by_value
+from gruebler.base.arrays import Complexes, Reals, angles_of_turns, compared_by_value
 from gruebler.base.columns import Tabled
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import brief, explained
@@ -83,7 +83,7 @@ class Simulation(LinkPoses, Tabled):
     def angle(self, link: str) -> Reals:
         """The angle of a link's x axis against the frame's, in radians, continuous; (rows,)."""
         k = self.link_index(link)
-        return np.asarray(np.angle(self.turns[:, k]) + 2 * np.pi * self.whole[:, k])
+        return angles_of_turns(self.turns[:, k], self.whole[:, k])
 
     def angular(self, link: str, *, order: int = 1) -> Reals:
         """The angular velocity (1) or acceleration (2) of a link; (rows,)."""

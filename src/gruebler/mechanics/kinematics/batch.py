@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler import _core
-from gruebler.base.arrays import Complexes, Reals, compared_by_value
+from gruebler.base.arrays import Complexes, Reals, angles_of_turns, compared_by_value
 from gruebler.base.doors import door_that_raises
 from gruebler.base.errors import LinkageError
 from gruebler.base.jets import turn_derivative
@@ -96,7 +96,7 @@ class Motions:
 
         Without jumps as long as the link turns by less than half a turn from row to row.
         """
-        angles: Reals = np.unwrap(np.angle(self.turns[..., self.link_index(link)]), axis=1)
+        angles: Reals = np.unwrap(angles_of_turns(self.turns[..., self.link_index(link)]), axis=1)
         return angles
 
     def angular(self, link: str, *, order: int = 1) -> Reals:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Reals
+from gruebler.base.arrays import Reals, angles_of_turns, whole_turns
 from gruebler.mechanics.kinematics.kernel_calls import SolvedRows, run_rows
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.plan import Plan
@@ -95,10 +95,10 @@ def _set_pose(motion: Motion, row: int, around: SolvedRows) -> float:
     if not off > _LEAST + _SURE * np.abs(other - limit).max():  # or there is no limit
         return 0.0
     places, turns = limit
-    angles = np.angle(motion.turns[row]) + 2 * np.pi * motion.whole[row]
+    angles = angles_of_turns(motion.turns[row], motion.whole[row])
     motion.places[0, row] = places * size
     motion.turns[row] = turns / np.abs(turns)
-    motion.whole[row] = np.round((angles - np.angle(turns)) / (2 * np.pi))
+    motion.whole[row] = whole_turns(angles, turns)
     return off
 
 

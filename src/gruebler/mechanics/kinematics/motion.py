@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base import notebook
-from gruebler.base.arrays import Complexes, Reals, compared_by_value
+from gruebler.base.arrays import Complexes, Reals, angles_of_turns, compared_by_value
 from gruebler.base.columns import Table
 from gruebler.base.errors import LinkageError
 from gruebler.base.notebook import Drawn, brief, explained
@@ -164,8 +164,7 @@ class Motion(LinkPoses, Drawn):
     def angle(self, link: str) -> Reals:
         """The angle of a link's x axis against the frame's, in radians, continuous; (rows,)."""
         k = self.link_index(link)
-        angles: Reals = np.angle(self.turns[:, k] + 0.0) + 2 * np.pi * self.whole[:, k]  # -1 - 0j is counted as pi
-        return angles
+        return angles_of_turns(self.turns[:, k], self.whole[:, k])
 
     def angular(self, link: str, *, order: int = 1) -> Reals:
         """The angular velocity (1), acceleration (2) or jerk (3) of a link; (rows,)."""
