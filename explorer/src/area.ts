@@ -44,7 +44,10 @@ export function viewBoxOf({ left, right, bottom, top }: Area): string {
 }
 
 /** Lines with their numbers, and the unit of length or else the names of both axes. */
-export function gridOf({ left, right, bottom, top, unit }: Area, [across = "", up = "mm"]: string[]): SVGElement[] {
+export function gridOf(
+  { left, right, bottom, top, unit }: Area,
+  [across = "", up = "mm"]: string[] = [],
+): SVGElement[] {
   const step = (across ? degreeStep : gridStep)((LINES / MARK) * unit);
   const line = (k: number, d: string) => svg("path", { class: k ? "mesh" : "axis", d });
   const tick = (x: number, y: number, text: string) =>

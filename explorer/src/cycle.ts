@@ -237,7 +237,7 @@ function opening(sizes: Sizes, rows: Rows, row: number, joint: number): number {
 }
 
 /** A drive value as it is shown: of full turns the one from 0 on. */
-export function wrapped({ full, turns }: Reach, value: number): number {
+export function wrapped({ full, turns }: Pick<Reach, "full" | "turns">, value: number): number {
   if (!full) return value;
   const period = turns * TURN;
   const rest = ((value % period) + period) % period;

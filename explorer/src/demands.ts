@@ -10,7 +10,7 @@ export class Demands {
   order = "";
 
   /** The fields, in the language of the page; that of places if there are such; the angle is that on the way
-   * from target to target, or that of all positions. */
+   * from target to target, or that of all positions of a crank that turns fully in any case. */
   form(closed: HTMLElement | false, way: boolean, places: boolean): HTMLElement {
     const least = h("input", {
       type: "number",
@@ -22,7 +22,7 @@ export class Demands {
     });
     const order = h("input", {
       value: this.order,
-      "aria-label": t("order, if another"),
+      "aria-label": t("Order of the targets"),
       placeholder: "1 2 3",
       "data-field": "order",
       onchange: () => (this.order = order.value),
@@ -31,13 +31,13 @@ export class Demands {
       "div.form",
       {},
       closed,
-      option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
+      way && option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
       h("label", {}, way ? t("transmission angle on the way from") : t("transmission angle from"), least, "°"),
       places &&
         h(
           "details.words",
           { open: this.order !== "" },
-          h("summary", {}, t("order, if another")),
+          h("summary", {}, t("Order of the targets")),
           order,
           h("p.note", {}, t("One number for each target: the same for those in any order, – for one at any time")),
         ),

@@ -2,7 +2,7 @@
 
 import { h, menu, renew, thumbnail } from "./dom";
 import type { Moving } from "./ghost";
-import { angle, number, t } from "./language";
+import { angle, currentLanguage, number, spaced, t } from "./language";
 import type { LinkageDocument } from "./model";
 import type { Pair } from "./rows";
 
@@ -26,18 +26,21 @@ export interface Design extends Moving {
   pairs?: Pair[];
   /** Of dead centres the places of the joints at both. */
   ends?: [Pair[], Pair[]];
-  /** Of frame, crank, coupler and rocker; none of what has other joints. */
+  /** Of the four links of a four-bar, the frame first; none of what has other joints. */
   lengths: number[];
+  /** The names of all links, the frame first, by languages. */
+  names: Record<string, string[]>;
 }
 
 export interface Found {
   total: number;
-  refused: number;
   /** Whether linkages of any size do it. */
   relative?: boolean;
   items: Design[];
-  /** How complete they are, where the page found them itself. */
-  note?: string;
+  /** What stands on the cards, explained. */
+  words: string;
+  /** How complete and how exact they are. */
+  note: string;
 }
 
 /** Whether what is asked for is met, to rounding. */
@@ -45,9 +48,23 @@ function exact(error: number | null): boolean {
   return Math.abs(error ?? 0) < 1e-9;
 }
 
-/** What a design is worth, the less the better; "balanced" is the sum of its places by those in LEVEL. */
-type Order = "error" | "balanced" | "size" | "transmission" | "range" | "shift";
-const LEVEL: Order[] = ["range", "size", "shift"];
+/** By what designs are sorted; "balanced" is by the sum of their places by those in LEVEL. */
+type Value = "error" | "size" | "transmission" | "range" | "shift";
+type Order = Value | "balanced";
+const LEVEL: Value[] = ["range", "size", "shift"];
+const ORDERS: Order[] = ["error", "range", "transmission", "size", "shift", "balanced"];
+
+/** What a design is worth, the less the better. */
+function worth({ error, range, shift, size, transmission }: Design, by: Value): number {
+  const worths = {
+    error: exact(error) ? 0 : Math.abs(error!),
+    size: +size.toPrecision(9), // all of one length, to rounding, are as large
+    transmission: -(transmission ?? 0),
+    range: -(range ?? transmission ?? 0),
+    shift: shift ?? Infinity,
+  };
+  return worths[by];
+}
 
 export class DesignCards {
   readonly element = h("div.designs", {});
@@ -57,10 +74,12 @@ export class DesignCards {
   #exact = false;
   /** The form of those that are shown, at first the most frequent one; all if empty. */
   #form = "";
+  /** What is shown in the plane. */
+  #playing: Design | null = null;
 
   constructor(
     private readonly play: (design: Design) => void,
-    private readonly open: (design: Design) => void,
+    private readonly open: (design: Design, title: string) => void,
   ) {}
 
   /** Show others, or none; returns the first. */
@@ -68,29 +87,40 @@ export class DesignCards {
     this.#found = found;
     this.#form = this.#forms()[0] ?? "";
     this.#exact = !!found?.items.every(({ error }) => exact(error));
-    this.#order = this.#exact ? "balanced" : "error";
     // by which they are numbered, those that are much like others last
-    if (found) found.items = this.#sorted().sort((one, two) => +!!one.variant - +!!two.variant);
+    if (found) {
+      const orders = this.#orders();
+      this.#order = orders.find((by) => by === "error" || by === "balanced") ?? orders[0] ?? "balanced";
+      found.items = this.#sorted().sort((one, two) => +!!one.variant - +!!two.variant);
+    }
+    this.#playing = (found && this.#shown[0]) ?? null;
     this.arrange();
-    return this.#shown[0] ?? null;
+    return this.#playing;
+  }
+
+  /** How many are better by an order, of each design; equal ones have the same place. */
+  #places(by: Order): number[] {
+    const { items } = this.#found!;
+    const levels = by === "balanced" ? LEVEL.map((level) => this.#places(level)) : [];
+    const worths = items.map((one, k) =>
+      by === "balanced" ? levels.reduce((sum, places) => sum + places[k]!, 0) : worth(one, by),
+    );
+    return worths.map((own) => worths.filter((other) => other < own).length);
+  }
+
+  /** The orders in which designs do not all have one place, and not the same places as in another one. */
+  #orders(): Order[] {
+    const known = new Set([this.#found!.items.map(() => 0).join()]);
+    return ORDERS.filter((by) => {
+      const places = this.#places(by).join();
+      return !known.has(places) && known.add(places);
+    });
   }
 
   #sorted(): Design[] {
-    const items = this.#found?.items ?? [];
-    // a place is how many are better, so that equal ones have the same
-    const place = (design: Design, level: Order) =>
-      items.filter((other) => worth(other, level) < worth(design, level)).length;
-    const worth = (design: Design, by = this.#order): number =>
-      by === "balanced"
-        ? LEVEL.reduce((sum, level) => sum + place(design, level), 0)
-        : {
-            error: exact(design.error) ? 0 : Math.abs(design.error!),
-            size: design.size,
-            transmission: -(design.transmission ?? 0),
-            range: -(design.range ?? design.transmission ?? 0),
-            shift: design.shift ?? Infinity,
-          }[by];
-    return [...items].sort((one, two) => worth(one) - worth(two) || 0);
+    const { items } = this.#found!;
+    const places = this.#places(this.#order);
+    return [...items.keys()].sort((one, two) => places[one]! - places[two]!).map((k) => items[k]!);
   }
 
   get #shown(): Design[] {
@@ -111,64 +141,41 @@ export class DesignCards {
   arrange(): void {
     const found = this.#found;
     if (!found) return renew(this.element);
-    const { items, total } = found;
+    const { items } = found;
     const shown = items.length;
-    const orders: [Order, string][] = [
-      ["error", t("by deviation")],
-      ["balanced", t("balanced")],
-      ["transmission", t("by μ on the way")],
-      ["range", t("by μ in all positions")],
-      ["size", t("by size")],
-      ["shift", t("by sensitivity")],
-    ];
-    if (this.#exact) orders.shift();
-    const words = [
-      this.#order === "balanced" && t("Balanced: transmission angle, size and sensitivity count alike."),
-      found.items.some((one) => (one.range ?? Infinity) < one.transmission!) &&
-        t("On the way: from the first target to the last."),
-      found.relative && t("Of lengths only the ratios count; the longest is 100 mm."),
-      found.items.some(({ shift }) => shift) &&
-        t("Sensitivity: how far a target is off at most, if all lengths are 0.1 % wrong."),
-    ];
-    const joined = (texts: unknown[]) => texts.filter((text) => text).join(" ");
-    const said = shown ? joined(words) : "";
-    const refused = found.refused > 1 && t("{count} others do not meet what is asked.", { count: found.refused });
-    const told = [
-      found.note,
-      shown < total && t("The best of {count}.", { count: total }),
-      !total && t("None does: try a crank that need not turn fully, a smaller angle or other targets."),
-      this.#exact && shown > 0 && t("All meet the targets exactly."),
-      refused || (found.refused && t("One other does not meet what is asked.")),
-    ];
+    const names: Record<Order, string> = {
+      error: t("by deviation"),
+      transmission: t("by μ on the way"),
+      range: t("by μ in all positions"),
+      size: t("by size"),
+      shift: t("by sensitivity"),
+      balanced: t("balanced"),
+    };
+    const orders = this.#orders().map((by): [Order, string] => [by, names[by]]);
+    const sorted = orders.length === 1 ? t("Sorted {order}.", { order: orders[0]![1] }) : "";
     const mine = this.#shown.filter(({ variant }) => !variant);
     const more = this.#shown.filter(({ variant }) => variant);
     const forms = this.#forms();
     const kinds = forms.map((form): [string, string] => [form, `${form} · ${this.#of(form).length}`]);
     const several = forms.length > 1;
     kinds.unshift(["", t("All")]);
-    const chosen = { "data-field": "form" };
     renew(
       this.element,
       h("h2", {}, (several || !shown ? "" : `${forms[0]}: `) + t("{count} designs", { count: shown })),
-      h("p.note", {}, joined(told)),
-      shown > 1
-        ? h(
-            "div.form",
-            {},
-            several &&
-              menu(
-                t("Kinds of machines"),
-                kinds,
-                this.#form,
-                (form) => this.#choose(() => (this.#form = form)),
-                chosen,
-              ),
-            menu(t("Order"), orders, this.#order, (order) => this.#choose(() => (this.#order = order as Order)), {
-              "data-field": "sorted",
-            }),
-          )
-        : "",
-      said && h("details.words", {}, h("summary", {}, t("In words")), h("p.note", {}, said)),
+      h("p.note", {}, `${found.note} ${sorted}`),
+      h(
+        "div.form",
+        {},
+        several &&
+          menu(t("Kinds of machines"), kinds, this.#form, (form) => this.#choose(() => (this.#form = form)), {
+            "data-field": "form",
+          }),
+        orders.length > 1 &&
+          menu(t("Order"), orders, this.#order, (order) => this.#choose(() => (this.#order = order as Order)), {
+            "data-field": "sorted",
+          }),
+      ),
+      found.words ? h("details.words", {}, h("summary", {}, t("In words")), h("p.note", {}, found.words)) : "",
       h("div.cards.sorted", { "data-list": "designs" }, ...mine.map((design) => this.#card(design))),
       more.length
         ? h(
@@ -190,17 +197,31 @@ export class DesignCards {
     const { form, lengths, range, shift, transmission, error, size } = design;
     const degrees = (mu: number | null | undefined) => typeof mu === "number" && angle((mu * Math.PI) / 180, 3);
     const [way, all] = [transmission, range].map(degrees);
-    const names = t("frame · crank · coupler · rocker").split(" · ");
+    const names = design.names[currentLanguage()]!;
     const value = error === null || exact(error) ? 0 : 100 * error;
     const deviation = value ? t("deviation {value} %", { value: number(value, 2) }) : t("met exactly");
+    const millimetres = (length: number, k: number) => number(length, 3) + (lengths[k + 1] ? "" : " mm");
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
-    const play = () => this.play(design);
-    return h(
+    const play = () => {
+      this.#playing = design;
+      for (const one of this.element.querySelectorAll(".card")) one.toggleAttribute("aria-current", one === card);
+      this.play(design);
+    };
+    const card: HTMLElement = h(
       "button.card",
-      { onclick: () => this.open(design), onpointerenter: play, onfocus: play },
+      {
+        onclick: () => this.open(design, title),
+        onpointerenter: play,
+        onfocus: play,
+        "aria-current": design === this.#playing,
+      },
       thumbnail(design.picture, form),
       h("b", {}, title),
-      h("span.lengths", {}, ...lengths.map((one, k) => h("span", {}, names[k]!, h("strong", {}, number(one, 3))))),
+      h(
+        "span.lengths",
+        {},
+        ...lengths.map((one, k) => h("span", {}, spaced(names[k]!), h("strong", {}, millimetres(one, k)))),
+      ),
       h("span", {}, error === null || this.#exact ? "" : deviation),
       h(
         "span",
@@ -209,8 +230,9 @@ export class DesignCards {
           ? t("μ ≥ {way} on the way", { way }) + (all ? t(", else {all}", { all }) : "")
           : all && t("μ ≥ {all} in all positions", { all }),
       ),
-      h("span", {}, !lengths.length && t("size {value} mm", { value: number(size, 3) })),
+      h("span", {}, !this.#found!.relative && t("size {value} mm", { value: number(size, 3) })),
       h("span", {}, !!shift && t("sensitivity {value} %", { value: number(100 * shift, 2) })),
     );
+    return card;
   }
 }

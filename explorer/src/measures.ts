@@ -197,6 +197,11 @@ export function deadCentres(linkage: Linkage): DeadCentre[] {
   return out;
 }
 
+/** Whether the output, whose values over the cycle are given, turns fully. */
+export function goesRound({ cycle, model }: Linkage, along: Float64Array): boolean {
+  return model.outputs[0]?.joint === null && cycle.full && Math.abs(along.at(-1)! - along[0]!) > TURN / 2;
+}
+
 /** How far the output goes, with its dead centres and the ends of the cycle; null where it goes round or is none. */
 export function travelOf(linkage: Linkage, dead: readonly DeadCentre[]): number | null {
   const { cycle, model } = linkage;
@@ -204,7 +209,7 @@ export function travelOf(linkage: Linkage, dead: readonly DeadCentre[]): number 
   const turning = model.outputs[0].joint === null;
   const last = cycle.values.length - 1;
   const along = outputAlong(linkage, [...cycle.values.keys()]);
-  if (turning && cycle.full && Math.abs(along[last]! - along[0]!) > TURN / 2) return null;
+  if (goesRound(linkage, along)) return null;
   // the rows of a cycle end just before what ends it
   const ends = cycle.full ? [] : [linkage.from(0, cycle.low), linkage.from(last, cycle.high)];
   const far = ends.map((rows, k) => {

@@ -40,7 +40,7 @@ export interface OutputRecord {
   link: number;
   joint: number | null;
   legs: Leg[];
-  /** Places that are marked in its plot: the drive in radians, the output in degrees. */
+  /** Places that are marked in its plot: the drive in radians, the output in degrees, as they are plotted. */
   marks?: Pair[];
   note: Record<string, string>;
 }

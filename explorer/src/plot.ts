@@ -14,6 +14,8 @@ export interface Series {
   floor?: number;
   /** Values that differ by less are the same but for rounding. */
   same?: number;
+  /** After which values begin anew, if they do. */
+  turn?: number;
   /** Places with rings, of drive and value. */
   marks?: readonly Pair[] | undefined;
 }
@@ -161,7 +163,7 @@ export class Plot {
       return out ? NaN : Math.max(TOP - 2, Math.min(HEIGHT - BOTTOM + 2, this.#y(value)));
     });
     put(this.#beyond, { d: beyondMarks(across, series.values, sides) });
-    put(this.#curve, { d: lineThrough(across, places) });
+    put(this.#curve, { d: lineThrough(across, places, series.turn && HEIGHT / 4) });
     const ring = ([x, y]: Pair) => `M${this.#x(x)} ${this.#y(y) - 4}a4 4 0 1 0 .1 0`;
     put(this.#marks, { d: (series.marks ?? []).map(ring).join("") });
     const crossed = this.#low < 0 && this.#high > 0;
@@ -188,7 +190,7 @@ export class Plot {
     const { unit } = this;
     const [low, high] = [this.#low, this.#high];
     const across = this.unit === 1 ? roundValues(first, last, 4) : degreeValues(first, last);
-    const upward = roundValues(low, high, 3);
+    const upward = this.series!.turn ? degreeValues(low, high) : roundValues(low, high, 3);
     const told = [first, last, low, high, ...across, ...upward].join();
     if (told === this.#ticked) return;
     this.#ticked = told;
@@ -214,7 +216,7 @@ export class Plot {
     const { drives, series } = this;
     const place = Number.isNaN(this.#pointed) ? drive : this.#pointed;
     if (!series || drives.length < 2 || Number.isNaN(place)) return;
-    const value = valueAt(drives, series.values, place);
+    const value = valueAt(drives, series.values, place, series.turn);
     const outside = place < this.domain[0] || place > this.domain[1];
     const x = outside ? "-9" : this.#x(place).toFixed(1);
     put(this.#cursor, { d: `M${x} ${TOP}V${HEIGHT - BOTTOM}` });
@@ -245,13 +247,14 @@ function relabel(group: SVGGElement, labels: readonly (readonly [number, number,
   }
 }
 
-/** A path through places in pixels, interrupted where one is unknown; three of four in nearly straight parts are left
- * out, which moves the line by less than two tenths of a pixel. */
-export function lineThrough(x: Float64Array, y: Float64Array): string {
+/** A path through places in pixels, interrupted where one is unknown, and where it leaps so far, if it may; three of
+ * four in nearly straight parts are left out, which moves the line by less than two tenths of a pixel. */
+export function lineThrough(x: Float64Array, y: Float64Array, leap = 0): string {
   let d = "";
   let on = false;
   for (let k = 0; k < y.length; k++) {
     const here = y[k]!;
+    if (leap && Math.abs(here - y[k - 1]!) > leap) on = false;
     if (Number.isNaN(here)) on = false;
     else {
       // NaN next to an end of a part: it is kept
@@ -302,8 +305,8 @@ export function plotRange(
   return { low, high };
 }
 
-/** The value between two places, on the straight line through both. */
-export function valueAt(places: Float64Array, values: Float64Array, place: number): number {
+/** The value between two places, on the straight line through both; values may begin anew after a turn. */
+export function valueAt(places: Float64Array, values: Float64Array, place: number, turn = 0): number {
   let [low, high] = [0, places.length - 1];
   while (high - low > 1) {
     const middle = (low + high) >> 1;
@@ -312,7 +315,9 @@ export function valueAt(places: Float64Array, values: Float64Array, place: numbe
   }
   const width = places[high]! - places[low]!;
   const part = width > 0 ? Math.max(0, Math.min(1, (place - places[low]!) / width)) : 0;
-  return values[low]! + (part ? part * (values[high]! - values[low]!) : 0);
+  const step = values[high]! - values[low]!;
+  const value = values[low]! + (part ? part * (turn ? step - turn * Math.round(step / turn) : step) : 0);
+  return turn ? value - turn * Math.floor(value / turn) : value;
 }
 
 /** About so many round values in a range: multiples of 1, 2 or 5 times a power of ten. */

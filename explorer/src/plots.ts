@@ -5,7 +5,7 @@ import { h, renew } from "./dom";
 import { type Icon, icon } from "./icons";
 import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
-import { outputAlong, outputStandsStill, transmission, valuesOf } from "./measures";
+import { goesRound, outputAlong, outputStandsStill, transmission, valuesOf } from "./measures";
 import type { OutputRecord } from "./model";
 import { Plot, type Series } from "./plot";
 import { place } from "./rows";
@@ -19,10 +19,11 @@ export interface Lap {
   rows: number[];
 }
 
-/** The lap of a cycle, and the output in its rows. */
+/** The lap of a cycle, and the output in its rows; what turns fully begins anew after 360°. */
 interface Plotted extends Lap {
   cycle: Cycle;
   output: Float64Array;
+  round: boolean;
 }
 
 type Making = (plotted: Plotted) => Series;
@@ -118,7 +119,8 @@ export class Plots {
   /** The angle of the output in the pose that is shown, in the lap in which it is plotted. */
   plottedAngle(linkage: Linkage, value: number): number {
     const { active, cycle } = linkage;
-    const { drives, output } = this.#plotted(linkage);
+    const { drives, output, round } = this.#plotted(linkage);
+    if (round) return inTurn(value);
     const drive = wrapped(cycle, linkage.drives[active] ?? 0);
     let low = 0;
     let high = drives.length - 1;
@@ -135,7 +137,9 @@ export class Plots {
     const last = this.#last;
     if (last?.cycle === cycle) return last;
     const { drives, rows } = last && sameLap(last.cycle, cycle) ? last : lapOf(cycle);
-    this.#last = { drives, rows, cycle, output: outputAlong(linkage, rows) };
+    const along = outputAlong(linkage, rows);
+    const round = goesRound(linkage, along);
+    this.#last = { drives, rows, cycle, output: round ? along.map(inTurn) : along, round };
     return this.#last;
   }
 }
@@ -165,6 +169,10 @@ function rangeOf({ full, high, low, turns }: Cycle): [number, number] {
   return full ? [0, TURN * turns] : [low, high];
 }
 
+function inTurn(angle: number): number {
+  return wrapped({ full: true, turns: 1 }, angle);
+}
+
 function degrees(angle: number): number {
   return (angle * 360) / TURN;
 }
@@ -173,12 +181,13 @@ function outputSeries(linkage: Linkage, record: OutputRecord): Making[] {
   const turning = record.joint === null;
   const name = linkage.linkName(record.link);
   const same = 1e-9 * (turning ? 1 : linkage.size);
-  const angle: Making = ({ output }) => ({
+  const angle: Making = ({ output, round }) => ({
     title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${lengthUnit(linkage.model)}]`),
     colour: "--motion",
     values: turning ? output.map(degrees) : output,
     marks: record.marks,
     same: turning ? degrees(same) : same,
+    turn: round ? 360 : 0,
   });
   const velocity: Making = ({ rows }) => ({
     title: t("Its velocity by the drive") + rateUnit(linkage, 1),

@@ -58,7 +58,7 @@ export class SynthesisView implements View {
   readonly #told = h("span.note", { "data-fact": "set" });
   private readonly designs = new DesignCards(
     (design) => this.#play(design),
-    (design) => void this.#open(design),
+    (design, title) => void this.#open(design, title),
   );
   private readonly status = h("div.told", {});
   /** What stays in sight beside the designs. */
@@ -316,8 +316,7 @@ export class SynthesisView implements View {
     const lacks = count < wanted ? t("{count} of {wanted} set", { count, wanted }) : "";
     this.#key.disabled = !!lacks;
     this.#key.title = lacks;
-    const enough = this.#planar && !this.#shownDesign ? t("{count} set", { count }) : "";
-    this.#told.textContent = lacks || enough;
+    this.#told.textContent = lacks;
     renew(
       this.#list,
       this.points.length
@@ -368,8 +367,8 @@ export class SynthesisView implements View {
     this.#paint();
   }
 
-  async #open(design: Design): Promise<void> {
-    const name = wordsOf(this.kind, this.points.length).design;
+  async #open(design: Design, title: string): Promise<void> {
+    const name = `${wordsOf(this.kind).name}: ${title}`;
     try {
       const document = { ...design.document, page: { targets: this.targets, pairs: design.pairs } };
       const model = await this.#page.ask<Model>("open_document", { document, name });

@@ -11,6 +11,7 @@ import { valueAt } from "./plot";
 import type { Pair } from "./rows";
 
 const ARM = 14; // of the arrow that shows the angle of a position
+const LONG = 100; // millimetres of a rocker of which only the swing is known
 const AWAY = 6; // from a point to the middle of its number
 
 /** A table whose cells change the rows; each row may be removed. */
@@ -94,11 +95,12 @@ export function tip([x, y, turn]: number[], unit: number): number[] {
 }
 
 /** The pivot of a rocker, its end at both ends of its swing in degrees, and that between them: of a design, else of a
- * length of 1. */
+ * rocker as long as the longest link of designs, of which only the ratios of lengths count. */
 export function swingOf(swing: number, design: Design | null): Pair[] {
   const [one, two] = design?.ends ?? [];
   const half = (swing * Math.PI) / 360;
-  if (!one || !two) return [[0, 0], ...[-half, half, 0].map((phi): Pair => [Math.sin(phi), Math.cos(phi)])];
+  if (!one || !two)
+    return [[0, 0], ...[-half, half, 0].map((phi): Pair => [LONG * Math.sin(phi), LONG * Math.cos(phi)])];
   const pivot = one.findIndex((at, k) => k !== design!.drive && `${at}` === `${two[k]}`);
   const end = design!.members.find((own) => own.includes(pivot))!.find((k) => k !== pivot)!;
   const [x, y] = one[pivot]!;
@@ -118,8 +120,7 @@ export function swingMark(
   const long = Math.hypot(a - x, b - y);
   const clockwise = (a - x) * (v - y) < (b - y) * (u - x);
   const texts = [`${t("Time ratio")} ${number(ratio!, 4)}`, angle((swing! * Math.PI) / 180, 4)];
-  const away = (u - x) / long; // of the middle to the left or right
-  const anchor = ["end", "middle", "start"][1 + Math.round(1.4 * away)]!;
+  const left = u < x;
   const bodies = design?.ends?.flatMap((ends) => {
     const made = bodiesOf(design.members);
     putBodies(made, design.members, ends);
@@ -132,7 +133,12 @@ export function swingMark(
     ...texts.map((text, k) =>
       svg(
         k ? "text" : "text.tick",
-        { "text-anchor": anchor, transform: `translate(${u} ${-v}) scale(${unit})`, x: 4 * away, y: -3 - 5 * k },
+        {
+          "text-anchor": left ? "end" : "start", // beside the axis
+          transform: `translate(${u} ${-v}) scale(${unit})`,
+          x: left ? -2 : 2,
+          y: -3 - 5 * k,
+        },
         text,
       ),
     ),

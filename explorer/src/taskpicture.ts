@@ -99,18 +99,13 @@ export class TaskPicture {
     const parts = curve.slice(1).map((next, k): Pair[] => [curve[k]!, next]);
     const at = numberPlaces(points, closed, unit, [...(angles ? axes : []), ...parts, ...grounds]);
     put(this.#here, { r: 1.5 * unit });
-    const ratios = (of: Area) => gridOf(of, ["", ""]); // of lengths
-    const behind = swing
-      ? [...ratios(this.#area), ...swingMark(swing, points[0]!, unit, design)]
-      : [
-          ...gridOf(this.#area, angles ? wordsOf(kind).heads : []),
-          charted
-            ? svg("path.curve", { d: pathOf(charted) })
-            : svg("path.polygon", { d: kind === "positions" ? "" : pathOf(way) + loop }),
-        ];
+    const wanted = svg("path.polygon", { d: kind === "positions" ? "" : pathOf(way) + loop });
     renew(
       this.#marks,
-      ...behind,
+      ...gridOf(this.#area, angles ? wordsOf(kind).heads : []),
+      ...(swing
+        ? swingMark(swing, points[0]!, unit, design)
+        : [charted ? svg("path.curve", { d: pathOf(charted) }) : wanted]),
       ...(charted ? [this.#here] : [this.#ghost.element]),
       ...(swing ? [] : points.map((row, k) => targetMark(row, k, at[k]!, unit))),
       ...pivots.map((place) => svg("g", { "data-pivot": "" }, groundMark(place, unit))),
@@ -120,7 +115,7 @@ export class TaskPicture {
     if (charted) {
       area = areaOf(-Infinity, part, moving, this.#other);
       put(this.#other, { viewBox: viewBoxOf(area) });
-      renew(this.#other, ...ratios(area), this.#ghost.element);
+      renew(this.#other, ...gridOf(area), this.#ghost.element);
     }
     const follow = (frame: number) => charted && put(this.#here, { cx: charted[frame]![0], cy: -charted[frame]![1] });
     if (!held) this.#ghost.play(design, area.unit, follow);

@@ -122,6 +122,9 @@ test("a line leaves out what is nearly straight, keeps corners and gaps", () => 
   assert.ok(/L20 0L21 0L22 9L23 0L24 0/.test(lineThrough(x, bent)));
   const gap = x.map((value) => (value === 22 ? NaN : 0));
   assert.ok(/L20 0L21 0M23 0L24 0/.test(lineThrough(x, gap)));
+  const saw = x.map((one) => (one * 5) % 60); // begins anew at 12, 24, 36
+  assert.equal(lineThrough(x, saw).match(/M/g)!.length, 1);
+  assert.deepEqual(lineThrough(x, saw, 30).match(/M[\d. ]+/g), ["M0 0", "M12 0", "M24 0", "M36 0"]);
   const wave = x.map((value) => 50 * Math.sin(value / 20)); // as a plot: 0.125 pixels at its top from point to point
   const kept = [...lineThrough(x, wave).matchAll(/[ML]([\d.]+) (-?[\d.]+)/g)].map(([, u, v]) => [Number(u), Number(v)]);
   for (const value of x) {
@@ -169,6 +172,8 @@ test("round values at an axis, and the value between two rows", () => {
   close(valueAt(places, values, 3), 0);
   close(valueAt(places, values, 9), 0);
   close(valueAt(places, values, -1), 4);
+  close(valueAt(Float64Array.of(0, 1), Float64Array.of(350, 30), 0.5, 360), 10);
+  close(valueAt(Float64Array.of(0, 1), Float64Array.of(20, 340), 0.75, 360), 350);
 });
 
 test("a part of a range is enlarged about a place, shifted within the range, and whole again", () => {

@@ -211,7 +211,13 @@ def test_a_finger_takes_a_point_of_the_plane(tab, server):
     }""")
 
 
-def test_dead_centres_are_those_that_were_asked_for(design):
+def scaled_in_millimetres(view) -> None:
+    ticks = view.locator(".plane .tick").all_text_contents()
+    assert ticks[0] == "mm"
+    assert {"0", "20", "40", "60", "80"} < {*ticks}
+
+
+def test_the_chart_of_a_function_stays_beside_its_design(design):
     view = design.page
     view.click('[data-value="function"]')
     design.drag(design.middle('[data-point="1"] circle'), (0, -10))
@@ -231,16 +237,25 @@ def test_dead_centres_are_those_that_were_asked_for(design):
     before = here.get_attribute("cx")
     view.wait_for_timeout(100)
     assert here.get_attribute("cx") != before
+
+
+def test_dead_centres_are_those_that_were_asked_for(design):
+    view = design.page
     view.click('[data-value="dead-centres"]')
     for name, value in (("Swing [°]", "48"), ("Time ratio", "1.25")):
         field = view.locator(f'[aria-label="Dead centres {name}"]')
         field.fill(value)
         field.press("Enter")
+    assert view.locator('[data-field="crank"]').count() == 0  # it turns fully in any case
     arm = view.locator(".plane .arm").get_attribute("d")
     (a, b), (c, d) = (map(float, end.split()) for end in arm.removeprefix("M").split("L0 0L"))
+    # as long as the longest link of what will be found, and the words stand beside the axis
+    assert np.hypot(a, b) == pytest.approx(100)
+    scaled_in_millimetres(view)
+    beside = view.locator(".plane text").last.bounding_box()["x"]
+    assert beside > view.locator(".plane .axis").first.bounding_box()["x"]
     assert np.degrees(np.arccos((a * c + b * d) / np.hypot(a, b) / np.hypot(c, d))) == pytest.approx(48)
-    view.click('[data-act="synthesise"]')
-    cards.nth(1).wait_for(timeout=60_000)
+    cards = found_designs(view)
     assert view.locator(".plane text").all_text_contents()[-2:] == ["Time ratio 1.25", "48°"]
     # of each link both positions, faint, and the one that moves; the rocker stands at the ends of the swing
     assert (view.locator(".faded .bar").count(), view.locator("[data-ghost] .bar").count()) == (6, 3)
@@ -252,7 +267,10 @@ def test_dead_centres_are_those_that_were_asked_for(design):
     plane = view.locator(".plane").bounding_box()
     assert plane["y"] >= 0
     assert plane["y"] + plane["height"] <= view.viewport_size["height"]
-    view.locator('[data-field="sorted"]').select_option("transmission")
+    scaled_in_millimetres(view)
+    # their longest link is as long in all, and all turn fully: only the angle tells them apart
+    assert view.locator('[data-field="sorted"]').count() == 0
+    assert "Sorted by μ in all positions." in view.locator(".designs .note").first.inner_text()
     angles = [float(text.split("≥")[1].split("°")[0]) for text in cards.locator("span:text('≥')").all_text_contents()]
     assert len(angles) > 2
     assert angles == sorted(angles, reverse=True)
@@ -278,10 +296,9 @@ def test_pairs_of_angles_are_ringed_in_the_plot_of_the_output(design):
     ]
     drive, output = np.array(item["pairs"]).T
     assert np.diff(drive) == pytest.approx([45, 45], abs=1e-5)
-    assert np.diff(output) == pytest.approx([25, 35], abs=1e-5)
-    assert np.degrees(move(linkage_from_json(item["document"]), np.radians(drive)).angle("rocker")) == pytest.approx(
-        output, abs=1e-4
-    )
+    assert np.diff(output) % 360 == pytest.approx([25, 35], abs=1e-5)
+    moved = np.degrees(move(linkage_from_json(item["document"]), np.radians(drive)).angle("rocker"))
+    assert moved % 360 == pytest.approx(output, abs=1e-4)  # as it is plotted, since it turns fully
     model = answer("open_document", {"document": item["document"] | {"page": {"pairs": item["pairs"]}}}, "en", print)
     design.page.evaluate("(model) => { gruebler.open(model); gruebler.motion.transport.pause(); }", model)
     rings = design.page.locator('[data-panel="plots"] .plot').first.locator("path[stroke]").get_attribute("d")
@@ -306,6 +323,60 @@ def test_the_transmission_angle_asked_for_says_where_it_holds(design):
     assert "On the way: from the first target to the last." in view.locator(".designs details").first.inner_text()
     view.click('[data-value="dead-centres"]')
     assert least.inner_text().startswith("transmission angle from")
+
+
+def order_of(view, key: str) -> list[str]:
+    view.locator('[data-field="sorted"]').select_option(key)
+    return view.locator(".designs .card b").all_text_contents()
+
+
+def test_each_order_is_another_one_by_a_value_on_the_cards(design):
+    view = design.page
+    view.evaluate(f"{VIEW}.rows.positions = [[-40, 0, 0], [0, 25, 20], [35, 10, 50]]")
+    view.click('[data-value="positions"]')
+    found_designs(view)
+    view.locator('[data-field="form"]').select_option("")
+    keys = view.locator('[data-field="sorted"] option').evaluate_all("all => all.map((one) => one.value)")
+    orders = [tuple(order_of(view, key)) for key in keys]
+    assert len({*orders}) == len(keys) > 3
+    order_of(view, "size")
+    for where in ("designs", "variants"):
+        texts = view.locator(f'[data-list="{where}"] .card').all_text_contents()
+        sizes = [float(re.search(r"size ([\d.]+)\xa0mm", text)[1]) for text in texts]
+        assert sizes
+        assert sizes == sorted(sizes)
+    # the one that plays is marked
+    current = view.locator('.card[aria-current="true"], .card[aria-current=""]')
+    for number in (1, 2):
+        card = view.locator('[data-list="designs"] .card').nth(number)
+        card.hover()
+        assert current.all_inner_texts() == [card.inner_text()]
+
+
+def test_what_turns_fully_is_no_rocker_and_goes_from_0_to_360(tab, server):
+    """Frame 55.8, crank 86, coupler 100, output 90.6: 55.8 + 100 < 86 + 90.6, the frame is the shortest."""
+    page = tab(locale="de-DE").open(server.address)
+    view = page.page
+    view.click('[data-view="synthesis"]')
+    view.click('[data-value="function"]')
+    card = found_designs(view).first
+    assert card.locator(".lengths > span").all_inner_texts()[3].split() == ["Kurbel2", "90,6", "mm"]
+    card.click()
+    page.until("gruebler.view === 'motion'")
+    plot = "gruebler.motion.side.plots.parts[0].plot.series"
+    values = view.evaluate(f"[...{plot}.values]")
+    assert min(values) >= 0
+    assert max(values) <= 360
+    assert max(values) - min(values) > 350
+    curve = view.locator('[data-panel="plots"] .plot path.curve').first.get_attribute("d")
+    assert curve.count("M") == 2  # it begins anew, without a line across
+    view.evaluate("gruebler.motion.transport.pause()")
+    for drive in range(20, 360, 20):
+        view.evaluate(f"gruebler.motion.transport.pick({drive} * Math.PI / 180)")
+        read = [view.locator(one).first.text_content() for one in ('[data-panel="plots"] .plot .read', ".facts dd")]
+        plotted, told = (float(one.rstrip("°").replace(",", ".").replace("−", "-")) for one in read)
+        assert 0 <= told < 360
+        assert plotted == pytest.approx(told, abs=0.1)  # on the line between two poses
 
 
 def test_rows_of_another_length_are_refused_in_a_sentence():

@@ -90,7 +90,8 @@ def test_each_design_is_carried_through_its_points_by_the_library(tmp_path):
         for x, y in rows:
             assert np.abs(curve - complex(x, y)).min() < 0.1  # between two poses
         model = model_of(linkage)
-        for key in ("elements", "points", "sources", "joints", "groups", "links"):
+        assert item["names"] == item["model"]["linkNames"]
+        for key in ("elements", "points", "sources", "joints", "groups", "links", "linkNames"):
             assert json.loads(json.dumps(model[key])) == item["model"][key], key
         assert item["model"]["program"]["size"] == pytest.approx(model["program"]["size"])
         assert item["model"]["program"]["points"] == pytest.approx(model["program"]["points"])

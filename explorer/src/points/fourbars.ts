@@ -55,15 +55,19 @@ export function moved(bar: FourBar, size: number, origin: Complex): FourBar {
   return [one!, two!];
 }
 
-/** Driven at each side, the one first that turns fully; of two that do not, each is tried. */
-export function driven(bar: FourBar): FourBar[] {
+/** The place in `lengthsOf` of the link that turns fully against all others; -1 if none does. */
+function turningLink(bar: FourBar): number {
   const lengths = lengthsOf(bar);
   const sorted = [...lengths].sort((length, next) => length - next);
-  const turns = sorted[0]! + sorted[3]! < sorted[1]! + sorted[2]!;
-  const shortest = lengths.indexOf(sorted[0]!);
+  return sorted[0]! + sorted[3]! < sorted[1]! + sorted[2]! ? lengths.indexOf(sorted[0]!) : -1;
+}
+
+/** Driven at each side, the one first that turns fully; of two that do not, each is tried. */
+export function driven(bar: FourBar): FourBar[] {
+  const turning = turningLink(bar);
   const other: FourBar = [bar[1], bar[0]];
-  if (turns && shortest === 0) return [bar];
-  if (turns && shortest === 2) return [other];
+  if (turning === 0) return [bar];
+  if (turning === 2) return [other];
   return [bar, other];
 }
 
@@ -100,10 +104,15 @@ export function placed([one, two]: FourBar, from: Complex, to: Complex, turn: Co
 
 const DEGREE = Math.PI / 180;
 
-/** A four-bar as the page takes it: the model of some four-bar whose coupler point is named P, with other sizes.
+/** The model of some four-bar whose coupler point is named P, and the names of links of a double crank. */
+export interface Template extends Model {
+  doubleCrank: Model["linkNames"];
+}
+
+/** A four-bar as the page takes it: that of the template with other sizes.
  *
  * The x axis of each moving link runs from its pin on the frame, else its first, to the other, as in the library. */
-export function modelOf(template: Model, bar: FourBar, point: Complex, pose: Placed): Model {
+export function modelOf({ doubleCrank, ...template }: Template, bar: FourBar, point: Complex, pose: Placed): Model {
   const [crank, coupler, rocker] = lengthsOf(bar);
   const [a, b] = [bar[0].fixed, bar[1].fixed];
   const along = sub(bar[1].moving, bar[0].moving);
@@ -151,6 +160,7 @@ export function modelOf(template: Model, bar: FourBar, point: Complex, pose: Pla
   };
   return {
     ...template,
+    linkNames: turningLink(bar) === 3 ? doubleCrank : template.linkNames,
     document,
     elements,
     points: template.points.map((one) => ({ ...one, at: pair(onCoupler) })),

@@ -5,7 +5,7 @@ import type { Found } from "../designs";
 import type { Model } from "../model";
 import { place } from "../rows";
 import { abs, type Complex, scaled, sub } from "./complex";
-import { cognatesOf, driven, moved } from "./fourbars";
+import { cognatesOf, driven, moved, type Template } from "./fourbars";
 import { CLASSES, type Complete, Homotopy, realRows, taskOf } from "./homotopy";
 import { type Judged, judged } from "./judging";
 import { pictureOf } from "./picture";
@@ -19,8 +19,7 @@ export interface Question {
   rows: [number, number][];
   crank: boolean;
   transmission: number;
-  /** The model of some four-bar. */
-  template: Model;
+  template: Template;
   /** The stored generic task and its solutions, as numbers. */
   task: number[];
   solutions: ArrayBuffer;
@@ -69,7 +68,7 @@ export async function answered(question: Question, progress: (done: number, tota
         Number(other.full) - Number(one.full) || other.transmission - one.transmission || one.ratio - other.ratio,
     );
   const items = accepted.slice(0, MOST_DESIGNS).map((one) => designOf(one, targets));
-  return { found: { total: accepted.length, refused: 0, items }, real: real.length, missing: best.missing };
+  return { found: { total: accepted.length, items, words: "", note: "" }, real: real.length, missing: best.missing };
 }
 
 function designOf({ model, cycle, full, transmission, error }: Judged, targets: readonly Complex[]) {
@@ -96,6 +95,7 @@ function designOf({ model, cycle, full, transmission, error }: Judged, targets: 
     model,
     document: model.document,
     lengths,
+    names: model.linkNames,
     picture: pictureOf({ places: placesAt(home), members, fixed, cycle, point: { link, at }, targets }),
     form: "RR-RR",
     transmission,

@@ -9,7 +9,7 @@ import { place } from "../rows";
 import { Sizes } from "../sizes";
 import { Status } from "../status";
 import { abs, angle, type Complex, sub } from "./complex";
-import { couplerTurns, type FourBar, lengthsOf, modelOf, placed } from "./fourbars";
+import { couplerTurns, type FourBar, lengthsOf, modelOf, placed, type Template } from "./fourbars";
 
 const EXACT = 1e-9; // of the task's size: a point is met if it is missed by less
 const ROUNDING = 1e-13; // of the linkage's size: what the poses of a large linkage for a small task cannot promise
@@ -38,12 +38,12 @@ export interface Judged {
 /** A four-bar in the position of one of the points, judged; null if it does not do it.
  *
  * Args:
- *     template: the model of some four-bar.
+ *     template: of the model.
  *     bar: the dyad that is driven, and the other.
  *     targets: the points in their order, and `first` the number of that in whose position it stands.
  *     size: of the task. */
 export function judged(
-  template: Model,
+  template: Template,
   bar: FourBar,
   targets: readonly Complex[],
   first: number,

@@ -7,11 +7,15 @@ import type { LinkageDocument, Model } from "../model";
 import type { Question, Said } from "../points";
 import { pack } from "./packs";
 
+type TextKey =
+  | ("progress" | "complete" | "missing" | "equal" | "line" | "circle")
+  | ("form" | "balanced" | "best" | "none" | "exact");
+
 /** The script of the worker, the model of some four-bar, and what is said (`gruebler.page.site_points`). */
 interface PointsPack {
   script: string;
-  template: Model;
-  texts: Record<Language, Record<"progress" | "complete" | "missing" | "equal" | "line" | "circle" | "form", string>>;
+  template: Question["template"];
+  texts: Record<Language, Record<TextKey, string>>;
 }
 
 /** A generic task, and its solutions as float32. */
@@ -59,7 +63,7 @@ export class DesignWorker {
     lang: Language,
     progress: (text: string) => void,
   ): Promise<Found> {
-    const say = (text: keyof (typeof texts)["en"], values: Record<string, number>) =>
+    const say = (text: TextKey, values: Record<string, number> = {}) =>
       texts[lang][text].replace(/\{(\w+)\}/g, (_, name: string) => String(values[name]));
     const question: Question = {
       ...asked,
@@ -72,7 +76,7 @@ export class DesignWorker {
     const address = URL.createObjectURL(new Blob([plain], { type: "text/javascript" }));
     const worker = new Worker(address);
     try {
-      const found = new Promise<Found>((resolve, reject) => {
+      const answer = new Promise<Found>((resolve, reject) => {
         worker.onerror = (event) => reject(new Error(event.message || address));
         worker.onmessage = ({ data }: MessageEvent<Said>) => {
           if ("ready" in data) worker.postMessage(question);
@@ -83,15 +87,21 @@ export class DesignWorker {
             const [first, second] = [value].flat() as [number, number];
             reject(new Error(say(what, { first, second, count: first, most: 6 })));
           } else {
-            const { missing, real } = data;
-            this.#models = data.found.items.map((design) => (design as { model?: Model }).model!);
-            const items = data.found.items.map((design) => ({ ...design, model: undefined, form: texts[lang].form }));
-            const count = missing ? say("missing", { count: missing }) : "";
-            resolve({ ...data.found, items, note: `${say("complete", { real })} ${count}`.trim() });
+            const { found, missing, real } = data;
+            this.#models = found.items.map((design) => (design as { model?: Model }).model!);
+            const items = found.items.map((design) => ({ ...design, model: undefined, form: texts[lang].form }));
+            const count = found.total;
+            const note = [
+              say("complete", { real }),
+              missing ? say("missing", { count: missing }) : "",
+              items.length < count ? say("best", { count }) : "",
+              say(count ? "exact" : "none"),
+            ];
+            resolve({ ...found, items, words: say("balanced"), note: note.join(" ") });
           }
         };
       });
-      return await Promise.race([givenUp, found]);
+      return await Promise.race([givenUp, answer]);
     } finally {
       worker.terminate();
       URL.revokeObjectURL(address);

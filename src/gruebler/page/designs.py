@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from math import degrees, isfinite, radians
 from typing import Any
@@ -12,7 +12,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError
-from gruebler.base.text import translate
+from gruebler.base.text import LANGUAGES, Message, message, translate
 from gruebler.design.synthesis import (
     DeadCentreTask,
     Demands,
@@ -28,6 +28,7 @@ from gruebler.files import linkage_to_json
 from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.page.model import link_names
 from gruebler.pictures.linkage.bodies import CarriedLine, pins_of, slides
 from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, drive_rows, posed_linkage
@@ -45,6 +46,12 @@ _LIKE = 0.1
 """Of the size: designs of one form whose pivots and lengths differ by less are variants of one another."""
 _LONGEST = 100.0
 """Of designs of which only the ratios count: so long is the longest distance of joints on a link, in mm."""
+BALANCED = message("Balanced: transmission angle, size and sensitivity count alike.")
+BEST = message("The best of {count}.")
+EXACT = message("All meet the targets exactly.")
+NONE = message("None does: ask for less, or try other targets.")
+_ROUNDING = 1e-9
+"""Of the size: a target that is missed by less is met."""
 _FRAMES = 144  # of a motion, there and back if it does not turn fully
 
 
@@ -121,7 +128,37 @@ def design_records(
         items.append(_record(design, task, lang))
     _mark_variants(items)
     refused = len(result.designs) - len(designs)
-    return {"total": len(designs), "refused": refused, "whole": bool(sort), "relative": relative, "items": items}
+    texts = {"note": _notes(items, len(designs), refused), "words": _words(items, relative)}
+    said = {key: " ".join(text.in_language(lang) for text in some) for key, some in texts.items()}
+    return {"total": len(designs), "relative": relative, "items": items} | said
+
+
+def _notes(items: Sequence[dict[str, Any]], total: int, refused: int) -> Iterator[Message]:
+    """How complete and how exact the designs are that are shown."""
+    if len(items) < total:
+        yield BEST.filled(count=total)
+    if not total:
+        yield NONE
+    elif all(abs(item["error"] or 0) < _ROUNDING for item in items):
+        yield EXACT
+    if refused:
+        yield message("Not meeting what is asked: {count}.", count=refused)
+
+
+def _words(items: Sequence[dict[str, Any]], relative: bool) -> Iterator[Message]:
+    """What stands on the cards of designs, explained."""
+    sensitive = any(item["shift"] is not None for item in items)
+    if items and not relative:
+        yield BALANCED
+    elif sensitive:
+        yield message("Balanced: transmission angle and sensitivity count alike.")
+    angles = [(item["range"], item["transmission"]) for item in items]
+    if any(None not in both and both[0] < both[1] for both in angles):
+        yield message("On the way: from the first target to the last.")
+    if items and relative:
+        yield message("Of lengths only the ratios count; the longest is 100 mm.")
+    if sensitive:
+        yield message("Sensitivity: how far a target is off at most, if all lengths are 0.1 % wrong.")
 
 
 def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
@@ -237,8 +274,9 @@ def _met_angles(design: Design, task: Task, posed: PosedLinkage) -> dict[str, An
     turned = np.stack([path.drives[:, 0], path.angle(output)], axis=1)
     pairs = turned[len(played) :]
     angles = np.degrees(turned[: len(played)] - pairs[0] + (task.inputs[0], task.outputs[0]))
-    if posed.repeats:  # as the page counts a drive that goes round
-        pairs[:, 0] %= 2 * np.pi
+    far = np.abs(turned[len(played) - 1] - turned[0])
+    round_ = np.array([posed.repeats, posed.repeats and far[1] > np.pi])
+    pairs[:, round_] %= 2 * np.pi  # as the page counts what goes round
     return {"angles": _there_and_back(np.round(angles, 2), posed), "pairs": np.degrees(pairs).round(6).tolist()}
 
 
@@ -258,6 +296,7 @@ def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, An
     apart = [(k, m) for own in joints for k in own for m in own if k < m]
     measured = [*rows[0, joints[chain.links.index(frame)]].ravel(), *(_apart(rows[0], k, m) for k, m in apart)]
     bars = sorted(zip(chain.links, joints, strict=True), key=lambda row: row[0] != frame)  # the frame comes first
+    called = {lang: link_names(linkage, "", lang) for lang in LANGUAGES}
     blocks = [[k, k + 1] for k in range(len(carried), rows.shape[1], 4)]
     for joint, block in zip(sliding, blocks, strict=True):
         rows[:, joint] = rows[:, block].mean(axis=1)
@@ -270,6 +309,7 @@ def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, An
         "drive": linkage.mechanism.drives[0].joint,
         "measures": measured,
         "lengths": [_apart(rows[0], first, other) for _, (first, other) in bars] if four_bar else [],
+        "names": {lang: [names[link] for link, _ in bars] for lang, names in called.items()},
     }
 
 

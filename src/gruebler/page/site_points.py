@@ -17,8 +17,9 @@ from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.finite_points import ON_CIRCLE, ON_LINE, UNRESOLVED
 from gruebler.design.synthesis.tasks import EQUAL_POINTS
-from gruebler.page.designs import capitalised
-from gruebler.page.model import model_of
+from gruebler.mechanics.fourbar import FourBar
+from gruebler.page.designs import BALANCED, BEST, EXACT, NONE, capitalised
+from gruebler.page.model import link_names, model_of
 from gruebler.page.page import module_text
 
 NINE_POINTS = PROBLEMS[0]
@@ -31,9 +32,14 @@ def point_packs() -> Iterator[tuple[str, Any]]:
     >>> packs["points"]["template"]["points"][0]["name"], len(packs["nine_points"]["task"])
     ('P', 64)
     """
+    double_crank = FourBar(2, 2, 2, 1).linkage()
     first, other = GuidingDyad(CRANK, 1 + 2j, 0j), GuidingDyad(CRANK, 5 + 3j, 4 + 0j)
     texts: dict[str, Message] = {
         "form": message("four-bar"),
+        "balanced": BALANCED,
+        "best": BEST.filled(count="{count}"),
+        "none": NONE,
+        "exact": EXACT,
         "progress": message("{done} of {total} solutions followed", done="{done}", total="{total}"),
         "complete": message(
             "Of the {classes} solutions of nine points {real} are real, each of them three cognates.",
@@ -49,7 +55,8 @@ def point_packs() -> Iterator[tuple[str, Any]]:
         "points",
         {
             "script": module_text("points"),
-            "template": model_of(linkage_of_dyads(first, other, 3 + 4j, "mm")),
+            "template": model_of(linkage_of_dyads(first, other, 3 + 4j, "mm"))
+            | {"doubleCrank": {lang: list(link_names(double_crank, "", lang).values()) for lang in LANGUAGES}},
             "texts": {
                 lang: {key: capitalised(text.in_language(lang)) for key, text in texts.items()} for lang in LANGUAGES
             },
