@@ -277,3 +277,17 @@ def test_nothing_agrees_with_nothing():
     """Where equilibrium has no answer the two ways are not said to agree."""
     held = statics(move(FourBar(2, 5, 2, 5).linkage(), [0.0], order=1), Loads(moments={"rocker": 1.0}))
     assert np.isnan(held.disagreement)
+
+
+def test_the_order_of_joints_of_a_linkage_before_does_not_count():
+    """Chains are equal in whatever order their joints are written; forces are told by the numbers of joints."""
+    places = {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (6, 4), "R(0-3)": (6, 0)}
+    held = []
+    for order in ("R(0-1) R(1-2) R(2-3) R(0-3)", "R(0-1) R(2-3) R(1-2) R(0-3)"):
+        mechanism = Mechanism.parse(f"{order}; frame=0; drive=R(0-1)")
+        linkage = Linkage.from_drawing(mechanism, {j: places[j] for j in order.split()}, points={"K": ("2", 1, 3)})
+        held.append(statics(move(linkage, [1.0, 1.2]), Loads({"K": (3, -7)})))
+    first, other = held
+    assert first.motion.linkage.mechanism.chain == other.motion.linkage.mechanism.chain
+    for joint in places:
+        assert other.force(joint) == pytest.approx(first.force(joint))

@@ -26,7 +26,6 @@ from gruebler.mechanics.forces.taking_apart import (
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.linkages.lower_pairs import joints_before
-from gruebler.structure.chain import Chain
 
 _BLOCK = 2048  # rows solved at once
 _LOOKS = 7  # rows in which it is looked whether wheels that press each other apart would do work
@@ -70,11 +69,12 @@ class Reactions:
 
 def joint_connections(motion: Motion) -> tuple[JointConnection, ...]:
     """Those of the linkage as it was solved."""
-    return _connections(motion.lower_linkage.mechanism.chain)
+    return _connections(motion.lower_linkage)
 
 
 @lru_cache(maxsize=64)
-def _connections(chain: Chain) -> tuple[JointConnection, ...]:
+def _connections(linkage: Linkage) -> tuple[JointConnection, ...]:
+    chain = linkage.mechanism.chain
     return tuple(
         JointConnection(number, chain.links.index(joint.links[0]), chain.links.index(second), joint.pair.is_sliding)
         for number, joint in enumerate(chain.joints)
