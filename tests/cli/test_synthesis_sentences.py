@@ -66,7 +66,9 @@ def test_a_bound_that_is_not_proved_beside_a_given_pivot_is_not_that_of_a_dyad(s
 def test_a_slider_crank_has_no_length_of_the_frame_and_is_not_sought(said):
     out = said(4, "--length frame 5 --rejected")
     assert [line.split()[0] for line in out.splitlines() if "RR-PR" in line] == ["Linkages"]
-    assert "Linkages RR-PR are left out: a link whose length is given has fewer than two pins there." in out
+    assert (
+        "Linkages RR-PR are left out: a link whose length or direction is given has fewer than two pins there." in out
+    )
     assert "RR-RR" in out
     slider = ["--structure", "slider-crank", "--initial-designs", "4", "--length", "0", "5"]
     assert "the length of a link '0' is given, but only 1 and 2 have one" in said(3, slider)

@@ -65,6 +65,7 @@ _OPTIONS = {
     "curve_parameters": "--curve-parameter",
     "region": "--region",
     "lengths": "--length",
+    "frame_direction": "--frame-direction",
     "tolerance": "--tolerance",
     "starts": "--start-solutions",
 }
@@ -254,6 +255,7 @@ def add(parser: Parser) -> None:
             --region X1 Y1 X2 Y2 float  region for the fixed pivots
             --length LINK L ...  a given distance of the pins of crank, coupler, rocker, frame (or another link);
                 repeatable
+            --frame-direction DEG float  the angle of the line through two fixed pivots with the x axis
             --structure MECHANISM ...  fit this mechanism instead: a text, a family such as "Watt I", or a catalog
                 entry; several are compared
             --initial-designs N int  with --structure: improve N initial designs of each mechanism (default: 24 of an
@@ -354,6 +356,7 @@ def _demands(arguments: argparse.Namespace) -> Demands:
     with _keys_as_options():
         return Demands(
             lengths=_lengths(arguments.length),
+            frame_direction=None if arguments.frame_direction is None else radians(arguments.frame_direction),
             crank=arguments.crank,
             transmission=radians(arguments.transmission),
             size_ratio=arguments.size_ratio,

@@ -25,6 +25,7 @@ class _Demands(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
     size_ratio: float = Demands.size_ratio
     region: tuple[float, float, float, float] | None = None
     lengths: dict[str, float] = {}
+    frame_direction: float | None = None
     tolerance: float = Demands.tolerance
     one_branch: bool = True
     in_order: bool = True
@@ -56,9 +57,11 @@ def specification_from_json(document: Mapping[str, Any]) -> Specification:
     record = convert_document(own, _Specification, counting_from_one)
     task = task_from_json({name: value for name, value in document.items() if name not in own})
     values = msgspec.structs.asdict(record.demands)
+    for name in ("transmission", "frame_direction"):  # in degrees there
+        values[name] = None if values[name] is None else radians(values[name])
     return Specification(
         task,
-        demands=Demands(**{**values, "transmission": radians(record.demands.transmission)}),
+        demands=Demands(**values),
         links=record.links,
         sliding_joints=record.sliding_joints,
         clear=tuple(Clearance(row.body, obstacle=row.obstacle, distance=row.distance) for row in record.clear),

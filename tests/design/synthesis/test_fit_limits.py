@@ -148,7 +148,7 @@ def test_three_points_and_a_pivot_have_judged_designs():
 def test_slopes_of_limits_against_differences(kind):
     rows = ROWS[kind][:, None] + np.random.default_rng(7).uniform(-0.4, 0.4, (len(ROWS[kind]), 200))
     phi = np.linspace(0, 2, 5) + np.zeros((200, 1))
-    frame = {"frame": 3.0} if kind is FOUR_BAR else {}
+    frame = {"frame": 3.0, "frame_direction": 0.3} if kind is FOUR_BAR else {}
     for turning in (True, False):
         limits = FourBarLimits(kind=kind, turning=turning, region=REGION, size_ratio=2, transmission=0.6, **frame)
         slope = limits.linearised(rows, phi)[1]

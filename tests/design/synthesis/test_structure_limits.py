@@ -76,7 +76,8 @@ def test_slopes_of_limits_against_differences():
     rows, phi = np.stack([places.real, places.imag], axis=2).reshape(60, -1).T, rng.uniform(0, 1, (60, 5))
     region = (-1, -1, 1, 1)
     for crank in (False, True):
-        wanted = Demands(crank=crank, transmission=0.7, size_ratio=3, region=region, lengths={"1": 1.2, "2": 2.0})
+        sizes = {"lengths": {"1": 1.2, "2": 2.0}, "frame_direction": 0.3}
+        wanted = Demands(crank=crank, transmission=0.7, size_ratio=3, region=region, **sizes)
         limits = next(limits_of_drawings(structure, wanted, [0.3 + 0.2j], closed=False, unit=1.7))
         exact = limits.linearised(rows, phi)[1]
         assert not exact[:, :2].any()  # the pivot is given

@@ -193,7 +193,7 @@ def limits_of(
     lengths = {_LENGTHS[name]: length / size for name, length in wanted.lengths if name in _LENGTHS}
     places = [(p - origin) / size for p in pivots]
     for kind in kinds:
-        if len(places) > len(kind.pivots) or set(lengths) - {*kind.links}:
+        if len(places) > len(kind.pivots) or {_LENGTHS[link] for link in wanted.links_with_sizes} - {*kind.links}:
             continue
         sides = [dict(zip(names, places, strict=False)) for names in permutations(kind.pivots)] if places else [{}]
         for given in sides:
@@ -207,6 +207,7 @@ def limits_of(
                 size_ratio=wanted.size_ratio,
                 transmission=wanted.transmission,
                 frame=lengths.get("frame", 0.0),
+                frame_direction=wanted.frame_direction,
                 held=held,
             )
 

@@ -8,8 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import degrees
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.errors import SynthesisError
@@ -48,6 +50,8 @@ class Demands:
     """The fixed pivots lie in this rectangle: least x, least y, greatest x, greatest y."""
     lengths: tuple[tuple[str, float], ...] = ()
     """Links with the given distance of their pins: crank, coupler, rocker, frame, or other names of links."""
+    frame_direction: float | None = None
+    """The angle of the line through two pivots of the frame with the x axis, in radians; half turns do not count."""
     tolerance: float = EXACT
     """How far a target may be missed, relative to the size of the task."""
     one_branch: bool = True
@@ -87,17 +91,44 @@ class Demands:
                 name="region",
                 value=self.region,
             )
+        if self.frame_direction is not None and not (
+            _is_number(self.frame_direction) and np.isfinite(self.frame_direction)
+        ):
+            raise SynthesisError(
+                "{name}: expected an angle, but found {value!r}", name="frame_direction", value=self.frame_direction
+            )
         settle(self, lengths=_given_lengths(self.lengths))
 
     @property
+    def given_sizes(self) -> int:
+        """How many lengths and directions are given, an equation each."""
+        return len(self.lengths) + (self.frame_direction is not None)
+
+    @property
+    def sizes_in_words(self) -> Message:
+        """What of lengths and direction is given."""
+        if self.frame_direction is None:
+            return message("given lengths")
+        if not self.lengths:
+            return message("given direction of the frame")
+        return message("given lengths and direction of the frame")
+
+    @property
+    def links_with_sizes(self) -> tuple[str, ...]:
+        """The links of a four-bar whose length or direction is given: these have two pins."""
+        links = [link for link, _ in self.lengths]
+        return tuple(dict.fromkeys([*links, *([] if self.frame_direction is None else ["frame"])]))
+
+    @property
     def limits_of_size(self) -> bool:
-        """Whether lengths, the place of the pivots or the transmission angle are limited."""
-        return bool(self.lengths) or self.region is not None or self.transmission > 0
+        """Whether lengths, the frame's direction, the place of the pivots or the transmission angle are limited."""
+        return self.given_sizes > 0 or self.region is not None or self.transmission > 0
 
     def of_task(self, task: Task, known: Iterable[str] | None = None) -> Demands:
         """These demands, which a task of linkages with such links can meet, by default four-bars or slider-cranks.
 
-        Raises `SynthesisError` for lengths of other links, and for a pivot that the task gives outside the region.
+        Raises `SynthesisError` for lengths of other links, for a pivot that the task gives outside the region, and for
+        the frame's direction where the task has no place.
 
         >>> from gruebler.design.synthesis.tasks import DeadCentreTask
         >>> Demands(lengths={"frame": 2}).of_task(DeadCentreTask(stroke=1, time_ratio=1))
@@ -113,6 +144,8 @@ class Demands:
                     link=link,
                     known=joined_by_and(links),
                 )
+        if self.frame_direction is not None and not isinstance(task, PositionTask | PathTask):
+            raise SynthesisError("{name}: only for tasks with positions or points", name="frame_direction")
         x1, y1, x2, y2 = self.region or (-np.inf, -np.inf, np.inf, np.inf)
         for x, y in getattr(task, "fixed_pivots", ()):
             if not (x1 <= x <= x2 and y1 <= y <= y2):
@@ -173,6 +206,15 @@ def inside_region(pivots: Complexes, demands: Demands) -> Flags:
         return np.ones(len(pivots), bool)
     x1, y1, x2, y2 = demands.region
     return np.asarray((x1 <= pivots.real) & (pivots.real <= x2) & (y1 <= pivots.imag) & (pivots.imag <= y2))
+
+
+def across_direction(gaps: NDArray[Any], direction: float) -> NDArray[Any]:
+    """How far gaps (..., 2), x and y, lead off a direction: zero along it, both ways; analytic.
+
+    >>> across_direction(np.array([[3.0, 0.0], [-1.0, -1.0]]), np.pi / 4).round(6).tolist()
+    [-2.12132, 0.0]
+    """
+    return np.asarray(gaps[..., 1] * np.cos(direction) - gaps[..., 0] * np.sin(direction))
 
 
 def demands_met(

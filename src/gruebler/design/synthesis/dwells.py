@@ -80,8 +80,8 @@ def synthesise_dwells(
         docs/theory/synthesis-dwells.md
     """
     wanted = demands or Demands(tolerance=NEAR)
-    if wanted.region is not None or wanted.lengths:
-        key = "region" if wanted.region is not None else "lengths"
+    refused = {"region": wanted.region, "lengths": wanted.lengths or None, "frame_direction": wanted.frame_direction}
+    if key := next((name for name, value in refused.items() if value is not None), None):
         raise SynthesisError("{key}: a rest is designed without given lengths or places of pivots", key=key)
     tolerance = NEAR if wanted.tolerance == Demands.tolerance else wanted.tolerance
     least = (wanted.transmission or _USUAL) + _MARGIN

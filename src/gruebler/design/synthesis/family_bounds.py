@@ -180,6 +180,7 @@ class PairTests:
         shortest = np.minimum.reduce([length.high for length in (a, b, c, d)])
         fails: Flags = longest > self.demands.size_ratio * shortest
         fails |= self.have_other_lengths({"crank": a, "coupler": b, "rocker": c, "frame": d})
+        fails |= self.has_other_direction(frame)
         # The crank passes pi if b + c > a + d, and 0 if |a - d| < |b - c| does not hold: a product of two factors.
         inner, first, second = b + c - a - d, a + c - b - d, a + b - c - d
         pi_free, pi_shut = inner.low > 0, inner.high <= 0
@@ -205,6 +206,14 @@ class PairTests:
             slack = EXACT * max(1.0, length)
             other |= (links[link].low > length + slack) | (links[link].high < length - slack)
         return other
+
+    def has_other_direction(self, frame: Enclosure) -> Flags:
+        """Whether the frame, from one pivot to the other, certainly has another direction than that demanded."""
+        if self.demands.frame_direction is None:
+            return np.zeros(len(frame.value), bool)
+        across = (frame * complex(np.exp(-1j * self.demands.frame_direction))).imaginary
+        slack = EXACT * frame.modulus.high
+        return np.asarray((across.low > slack) | (across.high < -slack))
 
     def _leaves_branch(self, moving: Enclosure, back: Enclosure) -> Flags:
         """Whether some position certainly has its coupler on one side of the rocker, and some on the other.

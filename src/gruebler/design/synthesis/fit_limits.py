@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals
+from gruebler.design.synthesis.demands import across_direction
 from gruebler.design.synthesis.four_bar_kinds import FourBarKind
 
 MARGIN = 1e-6
@@ -116,6 +117,8 @@ class FourBarLimits(FitLimits):
     """The least transmission angle: over the whole turn of a crank that turns fully, else at the points."""
     frame: float = 0.0
     """The given length of the frame; 0 where it is free."""
+    frame_direction: float | None = None
+    """The given angle of the line through both pivots with the x axis."""
     held: Mapping[str, float] = field(default_factory=dict)
     """Numbers that do not change."""
 
@@ -130,7 +133,7 @@ class FourBarLimits(FitLimits):
     @property
     def narrow(self) -> bool:
         """Whether most curves of the atlas, put onto a target, pass a limit."""
-        lengths = bool(self.frame) or bool(set(self.held) - set(_PIVOTS))
+        lengths = bool(self.frame) or self.frame_direction is not None or bool(set(self.held) - set(_PIVOTS))
         return self.region is not None or self.transmission > 0 or lengths
 
     @property
@@ -156,6 +159,10 @@ class FourBarLimits(FitLimits):
         if self.frame:
             frame = self.kind.frame(r)
             limits += [frame - self.frame - HELD, self.frame - frame - HELD]
+        if self.frame_direction is not None:
+            gap = np.stack([r["b0x"] - r["a0x"], r["b0y"] - r["a0y"]], axis=-1)
+            off = across_direction(gap, self.frame_direction)
+            limits += [off - HELD, -off - HELD]
         return np.array(limits) if limits else np.zeros((0, *rows.shape[1:]))
 
     @property

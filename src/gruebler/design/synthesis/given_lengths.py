@@ -7,14 +7,16 @@ from __future__ import annotations
 
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.demands import Demands
-from gruebler.design.synthesis.judging import NO_LENGTH, distances_of_pins
+from gruebler.design.synthesis.judging import NO_LENGTH, ONE_PIVOT, distances_of_pins
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
 
 
 def missing_length(mechanism: Mechanism, demands: Demands) -> Message | None:
-    """Which given length a mechanism cannot have, in a sentence: that of a link with fewer than two pins."""
+    """Which given length or direction a mechanism cannot have, in a sentence: of a link with fewer than two pins."""
     links = links_with_lengths(mechanism)
+    if demands.frame_direction is not None and mechanism.frame not in links:
+        return ONE_PIVOT
     return next((NO_LENGTH.filled(link=message(link)) for link, _ in demands.lengths if link not in links), None)
 
 

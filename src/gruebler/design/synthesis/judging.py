@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, joined, message
-from gruebler.design.synthesis.demands import EXACT_AT_MOST, Demands
+from gruebler.design.synthesis.demands import EXACT_AT_MOST, Demands, across_direction
 from gruebler.design.synthesis.results import EXACT, PASSED, TOO_SLENDER, Design, DesignVerdict
 from gruebler.design.synthesis.target_paths import TargetPath, limit_before, path_through
 from gruebler.design.synthesis.target_places import places_approached, places_met
@@ -32,6 +32,8 @@ _ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage fo
 _ROWS = 16  # poses from one target to the next, with several drives
 OTHER_LENGTH = message("the length of the {link} is not {wanted}, but {found}")
 NO_LENGTH = message("{link}: no length, since this link has fewer than two pins")
+OTHER_DIRECTION = message("the direction of the frame is not {wanted:.5g}°, but {found}")
+ONE_PIVOT = message("the frame has no direction, since it has fewer than two pivots")
 _DIGITS = range(6, 18)  # of a length: as many as tell it from the one that is given
 
 
@@ -265,11 +267,23 @@ def faults_of_size(linkage: Linkage, ratio: float, inside: bool, demands: Demand
         elif not any(abs(length - wanted) <= EXACT * max(wanted, linkage.size) for length in distances):
             own, *others = _told_apart(wanted, *distances)
             faults.append(OTHER_LENGTH.filled(link=message(link), wanted=own, found=joined(others, "; ")))
+    if demands.frame_direction is not None:
+        faults += _faults_of_direction(linkage, demands.frame_direction)
     if not inside:
         faults.append(message("a fixed pivot lies outside the region"))
     if ratio > demands.size_ratio:
         faults.append(TOO_SLENDER.filled(ratio=ratio))
     return faults
+
+
+def _faults_of_direction(linkage: Linkage, direction: float) -> Iterator[Message]:
+    """What speaks against the frame: no two of its pivots lie in the direction."""
+    gaps = gaps_of_pins(linkage, linkage.mechanism.frame)
+    if not gaps:
+        yield ONE_PIVOT
+    elif not any(abs(across_direction(gap, direction)) <= EXACT * np.hypot(*gap) for gap in np.array(gaps)):
+        angles = [Message("{angle:.5g}°", {"angle": np.degrees(np.arctan2(y, x)) % 180}) for x, y in gaps]
+        yield OTHER_DIRECTION.filled(wanted=np.degrees(direction), found=joined(angles, "; "))
 
 
 def _told_apart(wanted: float, *lengths: float) -> list[Message]:
@@ -353,8 +367,13 @@ def size_ratio(linkage: Linkage, travel: float = np.inf) -> float:
 
 def distances_of_pins(linkage: Linkage, link: str) -> list[float]:
     """The distances of the pins of a link, each with each."""
-    pins = [complex(e.x, e.y) for (_, owner), e in linkage.elements.items() if owner == link and e.is_pin]
-    return [abs(p - q) for k, p in enumerate(pins) for q in pins[:k]]
+    return [abs(complex(*gap)) for gap in gaps_of_pins(linkage, link)]
+
+
+def gaps_of_pins(linkage: Linkage, link: str) -> list[tuple[float, float]]:
+    """From the pins of a link to each before, x and y."""
+    pins = [(e.x, e.y) for (_, owner), e in linkage.elements.items() if owner == link and e.is_pin]
+    return [(x - u, y - v) for k, (u, v) in enumerate(pins) for x, y in pins[:k]]
 
 
 def pivots_inside(linkage: Linkage, region: tuple[float, float, float, float] | None) -> bool:

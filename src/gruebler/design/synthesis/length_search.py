@@ -14,7 +14,14 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.text import message
-from gruebler.design.synthesis.demands import Demands, demands_failed, inside_region, sought_order, tightest
+from gruebler.design.synthesis.demands import (
+    Demands,
+    across_direction,
+    demands_failed,
+    inside_region,
+    sought_order,
+    tightest,
+)
 from gruebler.design.synthesis.dyad_cells import FAR
 from gruebler.design.synthesis.dyads import (
     BLOCK,
@@ -52,16 +59,18 @@ _RANK = 1e-7  # of the largest slope: an equation below it is none
 _TURNS = 4  # with each width
 _WIDTHS = tuple(0.16 * 0.4**k for k in range(9))  # sizes
 _FOUND = message(
-    "Linkages {form} with the given lengths: {pairs:,} were reached from pairs of a sample; {count:,} meet all demands."
+    "Linkages {form} ({given}): {pairs:,} were reached from pairs of a sample; {count:,} meet all demands."
 )
 _WITH_PIVOTS = message("Linkages {form} with the given pivots: {count:,} of a sample of {pairs:,} meet all demands.")
-_NONE = message("Linkages {form} with the given lengths: none was found.")
-_WITHOUT = message("Linkages {form} are left out: a link whose length is given has fewer than two pins there.")
+_NONE = message("Linkages {form} ({given}): none was found.")
+_WITHOUT = message(
+    "Linkages {form} are left out: a link whose length or direction is given has fewer than two pins there."
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PairFamily:
-    """All linkages of a driven RR dyad and another one that guide a body, some of them with given lengths.
+    """All linkages of a driven RR dyad and another one that guide a body, with given lengths or direction of the frame.
 
     Rows are linkages in sizes of the task about its origin: both pivots of the crank, on the body first, then those of
     the other dyad, or the one of a slide and the angle of its line.
@@ -72,6 +81,13 @@ class PairFamily:
     """Of the dyad that is not driven."""
     lengths: tuple[tuple[str, float], ...]
     """Links between two pins and their lengths, in the unit of the task."""
+    frame_direction: float | None = None
+    """The angle of the line through both fixed pivots with the x axis."""
+
+    @classmethod
+    def of(cls, task: PositionTask, kind: DyadKind, demands: Demands) -> PairFamily:
+        """With the lengths and the direction of the frame that are demanded."""
+        return cls(task=task, kind=kind, lengths=demands.lengths, frame_direction=demands.frame_direction)
 
     @property
     def points(self) -> int:
@@ -99,7 +115,7 @@ class PairFamily:
         given, _, size = Displacements.of(self.task.origins, self.task.turns)
         places = _places(rows, self.points)
         count = len(given.q)
-        values = np.zeros((len(rows), 2 * count + len(self.lengths)))
+        values = np.zeros((len(rows), 2 * count + len(self.lengths) + (self.frame_direction is not None)))
         slopes = np.zeros((*values.shape, rows.shape[1]))
         values[:, :count], slopes[:, :count, :4] = guiding_conditions(given, places[:, 0], places[:, 1])
         if self.kind.seen is None:
@@ -116,6 +132,13 @@ class PairFamily:
             values[:, k] = np.abs(arm) ** 2 - (length / size) ** 2
             for end_of, sign in ((begin, -2), (end, 2)):
                 slopes[:, k, 2 * end_of], slopes[:, k, 2 * end_of + 1] = sign * arm.real, sign * arm.imag
+        if self.frame_direction is not None:
+            begin, end = _ENDS[self.kind]["frame"]
+            arm = places[:, end] - places[:, begin]
+            values[:, -1] = across_direction(np.stack([arm.real, arm.imag], axis=1), self.frame_direction)
+            for end_of, sign in ((begin, -1), (end, 1)):
+                slopes[:, -1, 2 * end_of] = -sign * np.sin(self.frame_direction)
+                slopes[:, -1, 2 * end_of + 1] = sign * np.cos(self.frame_direction)
         return values, slopes
 
     def step(self, rows: Reals, held: Flags) -> Reals:
@@ -191,14 +214,15 @@ def _places(rows: Reals, count: int) -> Complexes:
 
 
 def has_lengths(kind: DyadKind, demands: Demands) -> bool:
-    """Whether linkages of a crank and such a dyad have all links whose lengths are demanded."""
-    return {link for link, _ in demands.lengths} <= set(_ENDS[kind])
+    """Whether linkages of a crank and such a dyad have all links whose lengths or direction are demanded."""
+    return set(demands.links_with_sizes) <= set(_ENDS[kind])
 
 
 def best_linkages(sought: SoughtPairs) -> FoundPairs:
     """As `best_pairs`; with given lengths, which no member of a sample has, the best of those that have them."""
     demands, given, kind = sought.demands, sought.given, sought.others[0].kind
-    if not (demands.lengths or (given and len(sought.task) == 2)):  # of two positions a given dyad has an end to choose
+    of_one_end = given and len(sought.task) == 2  # the other one is to choose
+    if not (demands.given_sizes or of_one_end):
         return best_pairs(sought)
     if not has_lengths(kind, demands):
         return FoundPairs(pairs=(), notes=(_WITHOUT.filled(form=form_symbols(f"{CRANK.form}-{kind.form}")),))
@@ -232,7 +256,7 @@ def best_members(
         return FoundPairs(pairs=(), notes=())
     kind = groups[0][1][0].kind
     form = form_symbols(f"{CRANK.form}-{kind.form}")
-    family = PairFamily(task=task, kind=kind, lengths=demands.lengths)
+    family = PairFamily.of(task, kind, demands)
     rows, held = (np.concatenate(part) for part in zip(*(_begun(family, *group) for group in groups), strict=True))
     free = np.count_nonzero(~held[0])
     determined = family.equations(rows[:1])[0].shape[1] >= free
@@ -251,12 +275,12 @@ def best_members(
     _, first = np.unique(np.round(rows[good] / _SAME).astype(np.int64), axis=0, return_index=True)
     rows, held = rows[good][np.sort(first)], held[good][np.sort(first)]
     if not len(rows):
-        return FoundPairs(pairs=(), notes=(_NONE.filled(form=form),))
+        return FoundPairs(pairs=(), notes=(_NONE.filled(form=form, given=demands.sizes_in_words),))
     facts = family.facts(rows, demands)
     met = facts.met(demands)
     fails = demands_failed(met)
     meets = (fails == 0).ravel()
-    said = _FOUND if demands.lengths else _WITH_PIVOTS
+    said = _FOUND.filled(given=demands.sizes_in_words) if demands.given_sizes else _WITH_PIVOTS
     notes = [said.filled(form=form, pairs=len(rows), count=int(np.count_nonzero(meets)))]
     if demands.transmission > 0 and not meets.any():
         orders = ("transmission", *orders)  # those that are nearly good come first

@@ -90,7 +90,7 @@ def synthesise_mixed(
     """
     size, middle = task.size, complex(np.nanmean(task.z.real), np.nanmean(task.z.imag))
     wanted = _wanted(task, size, middle)
-    kinds = _kinds(wanted, 2 * len(task.fixed_pivots) + len(demands.lengths))
+    kinds = _kinds(wanted, 2 * len(task.fixed_pivots) + demands.given_sizes)
     kinds = kinds if sliders else (FOUR_BAR,)
     every: list[Design] = []
     pivots = tuple(complex(*p) for p in task.fixed_pivots)

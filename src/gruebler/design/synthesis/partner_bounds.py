@@ -173,16 +173,16 @@ class PartnerSearch:
         return DyadCells(held, held.first_cells())
 
     def tried(self, seen: DyadCells) -> Tried:
-        """The linkages in the middle of cells, or those with the given lengths nearby."""
+        """The linkages in the middle of cells, or those with the given lengths and direction nearby."""
         kind = self.held.kind
-        family = PairFamily(task=self.task, kind=kind, lengths=self.demands.lengths)
+        family = PairFamily.of(self.task, kind, self.demands)
         side = 0 if self.driven else 4
         row = dyad_numbers([self.held])
         middle = np.stack([seen.moving.value, seen.fixed.value], axis=1).view(np.float64)
         own = np.repeat(row, len(middle), axis=0)
         rows = np.concatenate([own, middle] if self.driven else [middle, own], axis=1)
         good = np.ones(len(rows), bool)
-        if self.demands.lengths:
+        if self.demands.given_sizes:
             held = np.zeros(rows.shape, bool)
             held[:, side : side + row.shape[1]] = True
             good = seen.known & ~seen.far
@@ -223,7 +223,7 @@ def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, tests: Pai
         arms = _slack((pins - given.images(slide.moving)) * np.conj(slide.direction))
         across = _slack((slide.moving - seen.fixed) * np.conj(slide.direction))
         b, e = _first(arms).modulus, across.imaginary
-        links = {"crank": a, "coupler": b}
+        other_sizes = tests.have_other_lengths({"crank": a, "coupler": b})
         flat = _beyond(arms.imaginary, least * b.column)
         at_zero, at_pi = _beyond(a - e, least * b), _beyond(a + e, least * b)
         to_zero, to_pi = b - a + e, b - a - e
@@ -233,7 +233,7 @@ def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, tests: Pai
         frame = slide.fixed - seen.fixed
         arms = _slack((slide.fixed - pins) * np.conj(slide.direction * q))
         d, e = frame.modulus, _first(arms).imaginary
-        links = {"crank": a, "frame": d}
+        other_sizes = tests.have_other_lengths({"crank": a, "frame": d}) | tests.has_other_direction(frame)
         flat = _beyond(e.column, least * arms.modulus)
         at_zero, at_pi = _beyond(e, least * (a - d)) & _beyond(e, least * (d - a)), _beyond(e, least * (a + d))
         to_zero = (a - d) * (a - d) - e * e
@@ -241,7 +241,7 @@ def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, tests: Pai
         phi = seen.angle - frame.angle.column
     zero_free, zero_shut = to_zero.low > 0, to_zero.high <= 0
     along = arms.real
-    fails = tests.have_other_lengths(links)
+    fails = other_sizes
     if demands.crank:
         fails |= pi_shut | zero_shut
         if demands.one_branch and demands.in_order:

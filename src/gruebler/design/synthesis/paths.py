@@ -141,7 +141,7 @@ def _open_points(run: _Run) -> SynthesisResult:
 
 def free_parameters(task: PathTask, demands: Demands) -> int:
     """How many numbers of a four-bar points, pivots and lengths leave free; negative if they are too many."""
-    return MOST_POINTS - len(task) - 2 * len(task.fixed_pivots) - len(demands.lengths)
+    return MOST_POINTS - len(task) - 2 * len(task.fixed_pivots) - demands.given_sizes
 
 
 def _nearest(run: _Run) -> SynthesisResult:

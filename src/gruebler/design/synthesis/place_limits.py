@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals
-from gruebler.design.synthesis.demands import Demands
+from gruebler.design.synthesis.demands import Demands, across_direction
 from gruebler.design.synthesis.fit_limits import HELD, MARGIN, FitLimits, complex_slopes, largest
 
 
@@ -48,9 +48,11 @@ class PlaceLimits(FitLimits):
                     limits += [(low - rows[x + k]) / self.unit + MARGIN, (rows[x + k] - high) / self.unit + MARGIN]
         for link, wanted in self.demands.lengths:
             if len(self.pins.get(link, ())) > 1:
-                gaps = self._lengths(rows, [self.pins[link]]) - wanted / self.unit
-                nearest = np.take_along_axis(gaps, np.abs(gaps.real).argmin(axis=0)[None], axis=0)[0]
-                limits += [nearest - HELD, -nearest - HELD]
+                limits += _both_ways(self._lengths(rows, [self.pins[link]]) - wanted / self.unit)
+        if self.demands.frame_direction is not None and len(self.pins[self.frame]) > 1:
+            p, q = np.array([*combinations(self.pins[self.frame], 2)]).T
+            gaps = np.stack([rows[q] - rows[p], rows[q + 1] - rows[p + 1]], axis=-1) / self.unit
+            limits += _both_ways(across_direction(gaps, self.demands.frame_direction))
         if self.demands.size_ratio < np.inf and any(len(own) > 1 for own in self.pins.values()):
             every = self._lengths(rows, self.pins.values())
             limits += [*(largest(np.moveaxis(every, 0, -1)) / self.demands.size_ratio - every + MARGIN)]
@@ -66,3 +68,9 @@ class PlaceLimits(FitLimits):
         slopes = complex_slopes(self, rows, phi)
         slopes[:, [*self.held]] = 0
         return self.values(rows, phi), slopes
+
+
+def _both_ways(values: NDArray[Any]) -> list[NDArray[Any]]:
+    """That what is nearest to zero of values (pairs, ..., starts) is zero."""
+    nearest = np.take_along_axis(values, np.abs(values.real).argmin(axis=0)[None], axis=0)[0]
+    return [nearest - HELD, -nearest - HELD]

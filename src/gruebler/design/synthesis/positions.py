@@ -251,7 +251,7 @@ def _judged_best(
         notes += said
     notes += [IMPROVED] if pairs else []
     designs = _judged_as_driven(task, demands, pairs, progress)
-    if given or demands.lengths:
+    if given or demands.given_sizes:
         return designs
     return designs + _judged_pairs(task, demands, list(combinations(sliding, 2)), None)
 

@@ -306,6 +306,8 @@ def result_of(designs: Iterable[SphericalDesign], count: SolutionCount, notes: I
 def checked_demands(demands: Demands | None) -> Demands:
     """The demands, none by default; `SynthesisError` for those that belong to the plane."""
     wanted = demands or Demands()
-    if wanted.lengths or wanted.region is not None:
-        raise SynthesisError("lengths and region: demands for the plane; on the sphere arcs have no unit")
+    if wanted.given_sizes or wanted.region is not None:
+        raise SynthesisError(
+            "lengths, frame_direction and region: demands for the plane; on the sphere arcs have no unit"
+        )
     return wanted

@@ -33,6 +33,7 @@ from gruebler.design.synthesis.fitting import (
 )
 from gruebler.design.synthesis.given_lengths import links_with_lengths, missing_length
 from gruebler.design.synthesis.judging import (
+    OTHER_DIRECTION,
     OTHER_LENGTH,
     judge_design,
     judge_with_drives,
@@ -161,7 +162,9 @@ def _tightest(task: Task, demands: Demands, search: Callable[..., list[Design]])
 
     Where no single one is enough, all of them together; given pivots last.
     """
-    free = replace(demands, crank=False, transmission=0.0, size_ratio=np.inf, region=None, lengths=())
+    free = replace(
+        demands, crank=False, transmission=0.0, size_ratio=np.inf, region=None, lengths=(), frame_direction=None
+    )
     pivots = getattr(task, "fixed_pivots", ())
     if replace(demands, size_ratio=BUILDABLE) == replace(free, size_ratio=BUILDABLE) and not pivots:
         return []  # how many differ too much in their lengths is said anyway
@@ -184,10 +187,11 @@ def _counted(designs: Sequence[Design], demands: Demands) -> list[Message]:
         for name in ("turns_fully", "transmission", "size_ratio", "inside")
     ]
     met = demands_met(demands, *columns)
-    wrong = np.array([sum(reason.text == OTHER_LENGTH.text for reason in verdict.reasons) for verdict in verdicts])
+    of_sizes = (OTHER_LENGTH.text, OTHER_DIRECTION.text)
+    wrong = np.array([sum(reason.text in of_sizes for reason in verdict.reasons) for verdict in verdicts])
     said = np.sum([~flags for _, flags in met], axis=0) + wrong
-    if demands.lengths:
-        met.append((message("the given lengths"), wrong == 0))
+    if demands.given_sizes:
+        met.append((demands.sizes_in_words, wrong == 0))
     good = np.array([len(verdict.reasons) for verdict in verdicts]) == said
     good &= np.array([verdict.in_order or not demands.in_order for verdict in verdicts])
     if notes := tightest([(message("the targets"), good), *met]):
