@@ -51,9 +51,9 @@ function numbered(source) {
   });
 }
 
-/** `h("p", {}, text)` without its attributes, which are none. */
+/** `h("p", {}, text)` and `h("p", {})` without their attributes, which are none. */
 function bare(source) {
-  return source.replace(/\b(h|svg)\((\s*"[\w.-]+"),\s*\{\},/g, "$1($2,");
+  return source.replace(/\b(h|svg)\((\s*"[\w.-]+"),\s*\{\}(?=[,)])/g, "$1($2");
 }
 
 /** `void this.save()` without its first word, which is for those who read: nobody takes what comes of it. */

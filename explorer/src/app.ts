@@ -19,6 +19,7 @@ import { MotionView } from "./motion";
 import { contentOf } from "./opening";
 import { another, isOf, modelOf, type Shared, sharedOf, shareLink, unshared } from "./sharing";
 import { firstTheme, setTheme, shell, type Theme, tool } from "./shell";
+import { IN_SPACE, type InSpace, stored } from "./storing";
 import { StructureView } from "./structure";
 import { SynthesisView } from "./synthesis";
 import type { Page, View } from "./view";
@@ -194,7 +195,7 @@ export class App implements Page {
   #turnTo(name: string): void {
     if (name === "motion") {
       if (this.views[this.view]!.moves?.()) return;
-      if (this.#space) return location.assign(`space/${this.#space}.html#${currentLanguage()}/again`);
+      if (this.#space) return location.assign(`${this.#spacePage}/again`);
     }
     this.#goTo(name);
   }
@@ -236,12 +237,22 @@ export class App implements Page {
     this.show(view);
   }
 
+  get inSpace(): InSpace | null {
+    return this.#space ? stored(IN_SPACE) : null;
+  }
+
+  /** Where the machine in space is. */
+  get #spacePage(): string {
+    return `space/${this.#space}.html#${currentLanguage()}`;
+  }
+
   /** The name of the mechanism in the language of the page. */
   get #name(): string {
     const own = this.views[this.view]?.title;
     if (own) return own;
-    const name = this.motion.linkage?.title ?? "";
-    return name && this.motion.changed ? t("{name}, changed", { name }) : name;
+    const space = this.inSpace;
+    const name = (space ? space.titles[currentLanguage()] : this.motion.linkage?.title) ?? "";
+    return name && (space ?? this.motion).changed ? t("{name}, changed", { name }) : name;
   }
 
   #arrangeHeader(): void {
@@ -333,6 +344,7 @@ export class App implements Page {
 
   /** Copy the address with the linkage in it. */
   async share(): Promise<void> {
+    if (this.#space) return shareLink(this, new URL(this.#spacePage, location.href).href);
     await this.write();
     await shareLink(this, this.#linkable ? location.href : `#${await packed(this.#shared())}`);
   }
@@ -415,6 +427,7 @@ export class App implements Page {
   #save(machine: () => void): void {
     const view = this.views[this.view];
     if (view?.save) view.save();
+    else if (this.#space) location.assign(`${this.#spacePage}/again/save`);
     else machine();
   }
 

@@ -30,10 +30,8 @@ function emptyCard(): HTMLElement {
 
 export class CatalogView implements View {
   readonly element = h("div.view", { "data-page": "catalog" });
-  #words = "";
-  #pairs = "";
-  #joints = "";
-  #features: Record<string, string> = {};
+  /** What is looked for, as it was typed. */
+  readonly #query: Record<string, string> = {};
   #refining = false;
   #byLinks = false;
   readonly #cards = h("div.cards", { "data-list": "catalog" });
@@ -62,22 +60,20 @@ export class CatalogView implements View {
   }
 
   arrange(): void {
-    const field = (label: string, value: string, set: (text: string) => void, hint: string, key: string) => {
+    const field = (key: string, label: string, hint = "") => {
       const input = h("input", {
-        value,
+        value: this.#query[key] ?? "",
         "aria-label": label,
         placeholder: hint,
         "data-field": key,
         oninput: () => {
-          set(input.value);
+          this.#query[key] = input.value;
           clearTimeout(this.#typing);
           this.#typing = setTimeout(() => void this.#search(), 250);
         },
       });
-      return h("label", {}, label, input);
+      return h("label", {}, key !== "words" && label, input); // its hint says it
     };
-    const feature = (key: string, label: string) =>
-      field(label, this.#features[key] ?? "", (text) => (this.#features[key] = text), "", key);
     const more = h(
       "details.words",
       { open: this.#refining, "data-panel": "features", ontoggle: () => (this.#refining = more.open) },
@@ -85,23 +81,17 @@ export class CatalogView implements View {
       h(
         "div.form.numbers",
         {},
-        field(
-          t("Joint types: R turning, P sliding, G gears"),
-          this.#pairs,
-          (text) => (this.#pairs = text),
-          "",
-          "pairs",
-        ),
-        feature("links", t("Links")),
-        feature("mobility", t("Mobility by the count")),
-        feature("drive_joints", t("Drive joints")),
-        feature("drive_joints_at_frame", t("of them at the frame")),
-        feature("output_links", t("Output links")),
-        feature("output_links_at_frame", t("of them jointed to the frame")),
-        feature("binary", t("Binary links")),
-        feature("ternary", t("Ternary links")),
-        feature("multiple_joints", t("Multiple joints")),
-        field(t("Joints by type"), this.#joints, (text) => (this.#joints = text), t("R:4,P:0"), "joints"),
+        field("pairs", t("Joint types: R turning, P sliding, G gears")),
+        field("links", t("Links")),
+        field("mobility", t("Mobility by the count")),
+        field("drive_joints", t("Drive joints")),
+        field("drive_joints_at_frame", t("of them at the frame")),
+        field("output_links", t("Output links")),
+        field("output_links_at_frame", t("of them jointed to the frame")),
+        field("binary", t("Binary links")),
+        field("ternary", t("Ternary links")),
+        field("multiple_joints", t("Multiple joints")),
+        field("joints", t("Joints by type"), t("R:4,P:0")),
       ),
     );
     const orders: [string, string][] = [
@@ -122,16 +112,9 @@ export class CatalogView implements View {
       ["straight", t("Straight lines")],
       ["guide mechanism", t("Guide mechanisms")],
     ];
-    const words = field(
-      t("Words"),
-      this.#words,
-      (text) => (this.#words = text),
-      t("Search: crank, six-bar, …"),
-      "words",
-    );
-    words.firstChild!.remove(); // what stands in it says what it is
+    const words = field("words", t("Words"), t("Search: crank, six-bar, …"));
     const choose = (kind: string) => {
-      this.#words = kind;
+      this.#query.words = kind;
       this.arrange();
       void this.#search();
     };
@@ -141,7 +124,7 @@ export class CatalogView implements View {
         "div.page",
         {},
         h("div.form", {}, h("h2", {}, t("Catalog")), this.#note),
-        choice(t("Kinds of machines"), kinds, this.#words, choose, { class: "choice palette" }),
+        choice(t("Kinds of machines"), kinds, this.#query.words ?? "", choose, { class: "choice palette" }),
         h("div.form.search", {}, words, order),
         more,
         this.#cards,
@@ -152,21 +135,17 @@ export class CatalogView implements View {
 
   async #search(): Promise<void> {
     const number = ++this.#asked;
-    const features = Object.fromEntries(
-      Object.entries(this.#features).flatMap(([key, text]) => (/^\s*\d+\s*$/.test(text) ? [[key, Number(text)]] : [])),
-    );
+    const asked = Object.entries(this.#query).flatMap(([key, text]) => {
+      if (/^(words|pairs|joints)$/.test(key)) return [[key, text]];
+      return /^\s*\d+\s*$/.test(text) ? [[key, Number(text)]] : [];
+    });
     this.#cards.toggleAttribute("data-waiting", !this.#filled);
     if (!this.#filled) {
       this.#note.textContent = t("One moment …");
       renew(this.#cards, ...Array.from({ length: EMPTY }, emptyCard));
     }
     try {
-      const found = await this.#page.ask<Entry[]>("catalog", {
-        words: this.#words,
-        pairs: this.#pairs,
-        joints: this.#joints,
-        ...features,
-      });
+      const found = await this.#page.ask<Entry[]>("catalog", Object.fromEntries(asked));
       if (number !== this.#asked) return;
       this.#filled = true;
       this.#cards.removeAttribute("data-waiting");

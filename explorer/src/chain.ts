@@ -46,6 +46,11 @@ export interface Structure {
   driven: Choice[];
 }
 
+/** Whether it is a chain of the plane; the text of another one begins with its space. */
+export function inPlane({ text }: Structure): boolean {
+  return !/^sp\w+:/.test(text);
+}
+
 /** The picture of the chain with its strained links; a click on a joint picks it. */
 export function chainPicture(found: Structure, joint: number, pick: (joint: number) => void): Element {
   const drawn = picture(found.picture, found.text) as SVGSVGElement;

@@ -1,6 +1,6 @@
 /** The list of all chains of a size, of which one is taken. */
 
-import type { Structure } from "./chain";
+import { inPlane, type Structure } from "./chain";
 import { h, renew, thumbnail } from "./dom";
 import { currentLanguage, type Language, t } from "./language";
 import type { Page } from "./view";
@@ -42,7 +42,9 @@ export class ChainList {
    * from another view. */
   follow(found: Structure | null, leads: boolean): void {
     const { limits } = this.page;
-    const [links, mobility] = [found?.size ?? 0, found?.counted ?? 0];
+    const links = found?.size ?? 0;
+    // beside one in space stand those of the plane with as many links
+    const mobility = !found || inPlane(found) ? (found?.counted ?? 0) : 1 + (links % 2);
     const within = (value: number, range = { min: 1, max: 0 }) => range.min <= value && value <= range.max;
     const listed = within(links, limits.links) && within(mobility, limits.mobility);
     const turned = listed && (leads || !this.#asked) && (links !== this.#links || mobility !== this.mobility);
@@ -57,23 +59,17 @@ export class ChainList {
   }
 
   arrange(): void {
-    const field = (key: "links" | "mobility", label: string, value: number) =>
-      h("input", {
-        type: "number",
-        ...this.page.limits[key],
-        value,
-        "aria-label": label,
-        onchange: () => this.#typed(links, mobility),
-      });
-    const links = field("links", t("Links"), this.#links);
-    const mobility = field("mobility", t("Mobility"), this.mobility);
+    const field = (key: "links" | "mobility", label: string, value: number) => {
+      const given = { type: "number", ...this.page.limits[key], value, onchange: () => this.#typed() };
+      return h("label", {}, label, h("input", given));
+    };
     renew(
       this.element,
       h(
         "div.form",
         {},
-        h("label", {}, t("Links"), links),
-        h("label", {}, t("Mobility"), mobility),
+        field("links", t("Links"), this.#links),
+        field("mobility", t("Mobility"), this.mobility),
         this.#count,
         this.#status,
       ),
@@ -83,11 +79,11 @@ export class ChainList {
   }
 
   /** Ask for the chains of the numbers that are typed, if there can be such; else the list stays that of the last. */
-  #typed(links: HTMLInputElement, mobility: HTMLInputElement): void {
-    const wrong = [links, mobility].find((field) => !field.value || !field.checkValidity());
+  #typed(): void {
+    const fields = [...this.element.querySelectorAll("input")];
+    const wrong = fields.find((field) => !field.value || !field.checkValidity());
     if (!wrong) {
-      this.#links = Number(links.value);
-      this.mobility = Number(mobility.value);
+      [this.#links, this.mobility] = fields.map(({ value }) => Number(value)) as [number, number];
       return void this.#ask(0, true);
     }
     const { min, max } = wrong;

@@ -67,12 +67,12 @@ export function put(element: Element, attributes: Record<string, string | number
 
 /** Put other children into a place, which stays scrolled as it is; the focus goes to the element of the same name, or
  * to the first button where there is no such element any more. */
-export function renew(place: Element, ...children: (Node | string)[]): void {
+export function renew(place: Element, ...children: (Node | string | false)[]): void {
   const focused = (place.getRootNode() as Document | ShadowRoot).activeElement;
   const name = focused && focused !== place && place.contains(focused) ? selectorOf(focused) : "";
   // to ask others would lay out the page for each of them
   const scrollTop = place.matches(".view, .side") ? place.scrollTop : 0;
-  place.replaceChildren(...children);
+  place.replaceChildren(...children.filter((child) => child !== false));
   if (scrollTop) place.scrollTop = scrollTop;
   const next = name && (place.querySelector<HTMLElement>(name) ?? place.querySelector("button"));
   if (next) next.focus({ preventScroll: true });

@@ -5,6 +5,7 @@ import { download } from "./export";
 import { t } from "./language";
 import { chainText, type Model } from "./model";
 import type { Snapshot } from "./snapshot";
+import { store, stored } from "./storing";
 import type { Page } from "./view";
 
 const KEPT = "gruebler-undo";
@@ -23,20 +24,10 @@ interface Kept {
 }
 
 export function keepSizes(model: Model, past: readonly Snapshot[], link: string): void {
-  try {
-    sessionStorage.setItem(KEPT, JSON.stringify({ link, of: structureOf(model), past: past.slice(-MOST) }));
-  } catch {
-    // what cannot be kept lasts as long as the page
-  }
+  store(KEPT, { link, of: structureOf(model), past: past.slice(-MOST) });
 }
 
-function kept(): Kept {
-  try {
-    return JSON.parse(sessionStorage.getItem(KEPT) ?? "{}") as Kept;
-  } catch {
-    return {};
-  }
-}
+const kept = (): Kept => stored(KEPT) ?? {};
 
 /** The sizes that were kept of the same structure, the oldest first. */
 export function keptSizes(model: Model): Snapshot[] {
@@ -53,11 +44,7 @@ const DRAWING = "gruebler-drawing";
 
 /** Keep the drawing for when the page is opened again. */
 export function keepDrawing(drawing: Drawing): void {
-  try {
-    localStorage.setItem(DRAWING, JSON.stringify(drawing));
-  } catch {
-    // what cannot be kept lasts as long as the page
-  }
+  store(DRAWING, drawing, "localStorage");
 }
 
 /** Save a drawing as it is opened again, and say under which name. */
@@ -67,11 +54,15 @@ export function saveDrawing(page: Page, drawing: Drawing, title: string): void {
   page.say(t("Saved: {name}", { name }), "done");
 }
 
+/** The drawing that something is, if it is one. */
+function drawingOf(found: Drawing | null): Drawing | null {
+  return found && Array.isArray(found.knots) && Array.isArray(found.drives) ? found : null;
+}
+
 /** The drawing of a text, if it is one. */
 export function drawingFrom(text: string): Drawing | null {
   try {
-    const found = JSON.parse(text) as Drawing | null;
-    return found && Array.isArray(found.knots) && Array.isArray(found.drives) ? found : null;
+    return drawingOf(JSON.parse(text) as Drawing | null);
   } catch {
     return null;
   }
@@ -79,9 +70,5 @@ export function drawingFrom(text: string): Drawing | null {
 
 /** The drawing that was kept when the page was left. */
 export function keptDrawing(): Drawing {
-  try {
-    return drawingFrom(localStorage.getItem(DRAWING) ?? "") ?? EMPTY;
-  } catch {
-    return EMPTY;
-  }
+  return drawingOf(stored(DRAWING, "localStorage")) ?? EMPTY;
 }

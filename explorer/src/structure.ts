@@ -1,12 +1,12 @@
 /** The view of the structure: a chain out of all, its frame, drive and joint types, its mobility; then dimensions. */
 
-import { type Choice, chainPicture, type Structure, typesOf } from "./chain";
+import { type Choice, chainPicture, inPlane, type Structure, typesOf } from "./chain";
 import { ChainList } from "./chains";
-import { h, renew, thumbnail } from "./dom";
+import { h, indexed, renew, thumbnail } from "./dom";
 import { currentLanguage, t } from "./language";
 import { chainText, type Model } from "./model";
 import type { Page, View } from "./view";
-import { awaited, moment } from "./waiting";
+import { awaited } from "./waiting";
 
 /** The names of the links of a linkage in the language of the page. */
 function namesOf({ links, linkNames }: Model): Record<string, string> {
@@ -32,7 +32,7 @@ export class StructureView implements View {
   readonly #detail = h("div.contents", {});
   readonly #go = h("div.form.go", {});
   readonly #error = h("p.error", { role: "alert" });
-  readonly #words = h("details.words", { hidden: true }); // until there is one
+  readonly #words = h("details.words", {});
   readonly #field = h("textarea", { spellcheck: false, "data-field": "chain" });
   #typing = 0;
   #asked = 0;
@@ -48,7 +48,8 @@ export class StructureView implements View {
   }
 
   appeared(): void {
-    const own = chainText(this.#page.shown);
+    const { inSpace, shown } = this.#page;
+    const own = inSpace?.text ?? chainText(shown);
     if (own !== this.#own) void this.describe(own);
     this.#own = own;
   }
@@ -81,13 +82,12 @@ export class StructureView implements View {
   async describe(text: string, elsewhere = false): Promise<void> {
     const number = ++this.#asked;
     if (this.#field.value !== text) this.#field.value = text;
-    if (!this.structure) renew(this.#shown, moment());
     this.#detail.classList.add("asking"); // a click would choose among frames of the chain before
     try {
       const found = await this.#page.ask<Structure>("structure", {
         text,
         at_frame: this.#atFrame,
-        names: namesOf(this.#page.shown),
+        names: this.#page.inSpace?.links[currentLanguage()] ?? namesOf(this.#page.shown),
         document: this.#contacts(text),
       });
       const own = text === this.#own;
@@ -95,7 +95,6 @@ export class StructureView implements View {
       if (number !== this.#asked) return;
       this.text = text;
       this.structure = found;
-      this.#words.hidden = false;
       if (this.#joint >= found.joints.length) this.#joint = -1;
       this.#error.textContent = "";
       this.#field.setAttribute("aria-invalid", "false");
@@ -103,11 +102,9 @@ export class StructureView implements View {
       this.chains.follow(found, own || elsewhere);
     } catch (error) {
       if (number !== this.#asked) return;
-      if (!this.structure) renew(this.#shown);
       this.chains.follow(null, false);
       const said = (error as Error).message;
       this.#field.setAttribute("aria-invalid", "true");
-      this.#words.hidden = false;
       this.#words.open = true;
       const place = /(?:character|Stelle) (\d+)/.exec(said);
       renew(this.#error, said);
@@ -157,7 +154,7 @@ export class StructureView implements View {
             fact("counted", t("Counted")),
             fact("generic", t("Generic"), found.generic === found.counted ? "good" : "bad"),
           ),
-          ...lines.map((line) => h("p.said", {}, line.trim())),
+          ...lines.map((line) => h("p.said", {}, ...indexed(line.trim().replace(/\bg(?=\d)/g, "g_")))),
           strained ? h("p.note", {}, t("Orange: overconstrained links.")) : null,
           found.links.some(({ rigid }) => rigid)
             ? h("p.note", {}, t("Purple: links that are rigid against each other."))
@@ -165,6 +162,7 @@ export class StructureView implements View {
         ),
       ),
     );
+    const planar = inPlane(found); // of others no dimensions are found
     const elsewhere = h("input", {
       type: "checkbox",
       checked: !this.#atFrame,
@@ -185,20 +183,26 @@ export class StructureView implements View {
           frame === found.chosen,
         ]),
       ),
-      step(
-        3,
-        t("Drive"),
-        h("div.form", {}, h("label", {}, elsewhere, t("also drives that are not at the frame"))),
-        this.#cards(
-          "driven",
-          found.driven.filter(({ frame }) => frame === found.chosen),
-          ({ drives, text }) => [drives.join(", "), text === found.driver],
+      planar &&
+        step(
+          3,
+          t("Drive"),
+          h("div.form", {}, h("label", {}, elsewhere, t("also drives that are not at the frame"))),
+          this.#cards(
+            "driven",
+            found.driven.filter(({ frame }) => frame === found.chosen),
+            ({ drives, text }) => [drives.join(", "), text === found.driver],
+          ),
         ),
-      ),
     );
     renew(
       this.#go,
-      h("button.key", { "data-act": "realise", onclick: () => void this.#realise() }, t("Find dimensions and move it")),
+      planar &&
+        h(
+          "button.key",
+          { "data-act": "realise", onclick: () => void this.#realise() },
+          t("Find dimensions and move it"),
+        ),
     );
     if (before !== false) for (const scrolled of [this.element, window]) scrolled.scrollBy(0, top() - before);
   }

@@ -99,8 +99,9 @@ export class Track {
       const text = svg("text", { x: x(value), y: 43, "text-anchor": anchor }, turning ? angle(told) : number(told, 4));
       parts.push(text);
     };
-    label(low, full ? "start" : "middle", full ? low : from);
-    if (high > low) label(high, full ? "end" : "middle", full ? high : to);
+    const end = (value: number) => (Math.abs(value) < 1e-6 * (high - low) ? 0 : value); // but for rounding
+    label(low, full ? "start" : "middle", end(full ? low : from));
+    if (high > low) label(high, full ? "end" : "middle", end(full ? high : to));
     const inner = svg("svg", { x: 12, width: "calc(100% - 24px)", overflow: "visible" }, ...parts, this.#knob);
     inner.style.width = "calc(100% - 24px)";
     this.#root.replaceChildren(inner);

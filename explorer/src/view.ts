@@ -3,6 +3,7 @@
 import type { Request } from "./host";
 import type { Linkage } from "./linkage";
 import type { Model } from "./model";
+import type { InSpace } from "./storing";
 
 export interface View {
   readonly element: HTMLElement;
@@ -30,6 +31,8 @@ export interface Page {
   /** The linkage that is shown in motion, and what it was opened as. */
   readonly linkage: Linkage;
   readonly shown: Model;
+  /** The machine in space that Motion shows in place of it. */
+  readonly inSpace: InSpace | null;
   /** The chains of which lists are made, as far as there is somebody who makes them. */
   readonly limits: Partial<Record<"links" | "mobility", { min: number; max: number }>>;
   ask<Result>(method: string, params: Record<string, unknown>, progress?: (text: string) => void): Request<Result>;

@@ -3,7 +3,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { fitted, projection, seen, type Vector } from "../src/space/algebra";
-import { turnOf } from "../src/space/machine";
+import { Machine, turnOf } from "../src/space/machine";
+import type { Model } from "../src/space/model";
 
 test("small, large and half turns about each axis are told", () => {
   for (const phi of [1e-7, 1e-3, 1.2, 3.1, Math.PI]) {
@@ -18,19 +19,73 @@ test("small, large and half turns about each axis are told", () => {
   assert.equal(turnOf([1, 0, 0, 4, 0, 1, 0, 5, 0, 0, 1, 6]), 0);
 });
 
-test("what is fitted into a picture in space lies in its middle and fills it", () => {
+test("what is fitted into a picture in space fills its free room, from edge to edge one way", () => {
   const places: Vector[] = [
     [300, 0, 0],
     [-40, 10, 0],
     [0, 200, 30],
     [20, -20, 150],
   ];
+  const free = { left: 0.05, right: 0.2, top: 0.1, bottom: 0.15 }; // parts of the picture
+  const room = [
+    [-1 + 2 * free.left, 1 - 2 * free.right],
+    [-1 + 2 * free.bottom, 1 - 2 * free.top],
+  ];
   for (const wide of [0.8, 1.5]) {
     const camera = { turn: 0.9, lift: 0.5, middle: [0, 0, 0] as Vector, distance: 1 };
-    const view = projection(fitted(camera, wide, places), wide);
+    const view = projection(fitted(camera, wide, places, free), wide);
     const all = places.map((place) => seen(view, place));
     const ends = [0, 1].map((axis) => all.map((at) => at[axis]!)).map((at) => [Math.min(...at), Math.max(...at)]);
-    for (const [low, high] of ends) assert.ok(Math.abs(low! + high!) < 0.02, `${low} ${high}`);
-    assert.ok(Math.abs(Math.max(...ends.flat()) - 0.8) < 0.02);
+    const left = ends.map(([low, high], axis) => [low! - room[axis]![0]!, room[axis]![1]! - high!]);
+    for (const [before, after] of left) {
+      assert.ok(Math.abs(before! - after!) < 0.01, `in the middle: ${before} ${after}`);
+      assert.ok(before! > -0.01);
+    }
+    assert.ok(Math.min(...left.flat()) < 0.01, `it fills it: ${left}`);
+  }
+});
+
+test("poses between rows are those of the motion, at its ends, too", () => {
+  const turned = (phi: number) => [
+    Math.cos(phi),
+    -Math.sin(phi),
+    0,
+    50 * phi,
+    Math.sin(phi),
+    Math.cos(phi),
+    0,
+    0,
+    0,
+    0,
+    1,
+    0,
+  ];
+  const rows = 72;
+  const machine = (round: boolean, first: number, last: number) => {
+    const values = Array.from({ length: rows + 1 }, (_, k) => first + (k * (last - first)) / rows);
+    const poses = values.map((value) => [turned((value * Math.PI) / 180).map((v, k) => (round && k === 3 ? 0 : v))]);
+    const motion = { drive: 0, round, unit: "°", values, poses, arrow: { link: 0, at: [0, 0, 0], along: [0, 0, 1] } };
+    return new Machine({
+      bodies: [{}],
+      live: null,
+      middle: [0, 0, 0],
+      motions: [motion],
+      points: [],
+      size: 50,
+      unit: "mm",
+    } as unknown as Model);
+  };
+  for (const [round, first, last] of [
+    [true, 0, 360],
+    [false, -30, 40],
+  ] as const) {
+    const moved = machine(round, first, last);
+    for (const part of [0.004, 0.36, 0.9987]) {
+      const phi = ((first + part * (last - first)) * Math.PI) / 180;
+      moved.moveTo(phi);
+      const wanted = turned(phi).map((v, k) => (round && k === 3 ? 0 : v));
+      const off = wanted.map((v, k) => Math.abs(moved.poses[0]![k]! - v));
+      assert.ok(Math.max(...off) < 2e-5, `${round} ${part}`);
+    }
   }
 });

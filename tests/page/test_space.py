@@ -293,8 +293,7 @@ def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):
 
     still = picture()
     drive_to(page, "180")
-    turned = picture()
-    assert turned != still
+    assert (turned := picture()) != still
     stage = page.locator(".stage > svg")
     box = stage.bounding_box()
     x, y = box["x"] + 20, box["y"] + box["height"] - 60  # beside the bodies
@@ -302,10 +301,9 @@ def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):
     page.mouse.down()
     page.mouse.move(x + 120, y, steps=4)
     page.mouse.up()
-    assert picture() != turned
+    assert (gone_round := picture()) != turned
     assert field.input_value() == "180°"
     stage.focus()
-    gone_round = picture()
     page.keyboard.press("ArrowLeft")
     assert picture() != gone_round
     assert field.input_value() == "180°"
@@ -321,7 +319,10 @@ def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):
     )
     page.mouse.move(box["x"] + spot[0], box["y"] + spot[1])
     assert page.locator(".stage").get_attribute("title") == "crank"
+    paths = page.get_by_label("Paths of points")
+    assert paths.count() == 0  # no point has one yet
     page.mouse.down()
+    assert paths.is_checked()
     for step in range(12):
         page.mouse.move(box["x"] + spot[0] + 4 * step, box["y"] + spot[1] - 5 * step)
     page.mouse.up()

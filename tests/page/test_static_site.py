@@ -223,8 +223,9 @@ def test_a_task_is_solved_and_tried_on_a_phone_from_the_disk(tab, folder):
 def test_a_link_made_there_opens_there_for_everyone(tab, address):
     page = tab().open(address)
     page.page.click('[data-view="structure"]')
-    page.page.fill('[data-page="structure"] input[aria-label="Links"]', "4")
-    page.page.press('[data-page="structure"] input[aria-label="Links"]', "Enter")
+    links = page.page.locator('[data-page="structure"]').get_by_label("Links", exact=True)
+    links.fill("4")
+    links.press("Enter")
     page.page.locator("[data-chain]", has_text="Yours: four-bar chain").wait_for()
     page.page.evaluate("gruebler.describe('R(0-1) R(1-2) R(2-3) R(3-0)')")
     page.until("gruebler.views.structure.structure?.text.startsWith('R(0-1)')")

@@ -58,7 +58,7 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     view = page.page
     view.click('[data-view="structure"]')
     view.locator('[data-list="chains"] .card').first.wait_for()
-    links = view.locator('[data-page="structure"] [aria-label="Links"]')
+    links = view.locator('[data-page="structure"]').get_by_label("Links", exact=True)
     # it begins with the machine at hand, a four-bar, in the place of the only chain of four links
     assert links.input_value() == "4"
     cards = view.locator('[data-list="chains"] .card')
@@ -76,10 +76,12 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     refused = f"Expected a whole number from 3 to {most}."
     said = view.locator('[data-page="structure"] span[role="alert"]')
     assert said.inner_text() == refused
-    view.locator('[data-page="structure"] [aria-label="Mobility"]').press("ArrowUp")  # nobody is asked for 40 links
+    view.locator('[data-page="structure"]').get_by_label("Mobility", exact=True).press(
+        "ArrowUp"
+    )  # nobody is asked for 40 links
     assert said.inner_text() == refused
     assert view.evaluate("gruebler.views.structure.chains.mobility") == 1
-    view.locator('[data-page="structure"] [aria-label="Mobility"]').press("ArrowDown")
+    view.locator('[data-page="structure"]').get_by_label("Mobility", exact=True).press("ArrowDown")
     links.fill("7")  # F = 3·6 - 2g is even
     links.press("Enter")
     page.until("gruebler.root.textContent.includes('one is even and one is odd')")

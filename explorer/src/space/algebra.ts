@@ -46,7 +46,7 @@ export interface Camera {
 }
 
 const OPENING = 3; // the cotangent of half the angle of view
-const FILLED = 0.8; // of the picture, by what is fitted into it
+const STEPS = 8; // to a camera that fits: each leaves a tenth of what is missing
 
 /** The eye, and unit vectors to the right, up and towards the eye. */
 export function axes(camera: Camera): { eye: Vector; right: Vector; up: Vector; near: Vector } {
@@ -78,31 +78,42 @@ export function seen(matrix: Float32Array, p: Vector): [number, number] {
   return [row(0) / row(3), row(1) / row(3)];
 }
 
-/** A camera from the same side that has all places in the middle of a picture so many times as wide as high. */
-export function fitted(camera: Camera, wide: number, places: Vector[]): Camera {
+/** Parts of the picture that are kept free at its edges. */
+export interface Margins {
+  left: number;
+  right: number;
+  top: number;
+  bottom: number;
+}
+
+/** A camera from the same side that has all places in the middle of the free room of a picture so many times as wide as
+ * high. */
+export function fitted(camera: Camera, wide: number, places: Vector[], margins: Margins): Camera {
   const { right, up, near } = axes(camera);
   const all = places.map((place) => [right, up, near].map((axis) => dot(axis, place)) as Vector);
-  const between = (value: (place: Vector) => number): number => {
-    const [low, high] = [Math.min, Math.max].map((most) => all.map(value).reduce((one, other) => most(one, other)));
-    return (low! + high!) / 2;
-  };
-  let [h, v, n] = [0, 1, 2].map((k) => between((place) => place[k]!)) as Vector;
-  const needed = ([x, y, z]: Vector) => {
-    const part = Math.max(Math.abs(x - h) / Math.max(wide, 1), Math.abs(y - v) * Math.min(wide, 1));
-    return z - n + (OPENING * part) / FILLED;
-  };
-  let distance = 0;
-  for (let k = 0; k < 4; k++) {
-    if (k) {
-      // what is near is seen larger: the middle of the picture is not that of the places
-      const [x, y] = [0, 1].map((axis) => between((at) => (at[axis]! - [h, v][axis]!) / (distance - at[2] + n)));
-      [h, v] = [h + distance * x!, v + distance * y!];
-    }
-    distance = all.reduce((most, place) => Math.max(most, needed(place)), 1e-9);
+  const ends = (value: (place: Vector) => number): [number, number] =>
+    all.map(value).reduce(([least, most], one) => [Math.min(least, one), Math.max(most, one)], [Infinity, -Infinity]);
+  let [h, v, n] = [0, 1, 2].map((k) => sum(ends((at) => at[k]!)) / 2) as Vector;
+  const nearest = ends(([, , z]) => z)[1] - n; // stays before the eye
+  const scales = [OPENING / Math.max(wide, 1), OPENING * Math.min(wide, 1)];
+  const room = [2 - 2 * (margins.left + margins.right), 2 - 2 * (margins.top + margins.bottom)];
+  const wanted = [margins.left - margins.right, margins.bottom - margins.top];
+  let distance = Math.max(20 * ends(([x, y, z]) => Math.hypot(x - h, y - v, z - n))[1], 1e-9);
+  for (let k = 0; k < STEPS; k++) {
+    // what is near is seen larger: the middle of the picture is not that of the places
+    const spans = [0, 1].map((axis) =>
+      ends((at) => (scales[axis]! * (at[axis]! - [h, v][axis]!)) / (distance - at[2] + n)),
+    );
+    const [x, y] = spans.map((both, axis) => ((sum(both) / 2 - wanted[axis]!) * distance) / scales[axis]!);
+    [h, v] = [h + x!, v + y!];
+    const part = Math.max(...spans.map(([from, to], axis) => (to - from) / room[axis]!));
+    distance = Math.max(distance * part, 1.2 * nearest, 1e-9);
   }
   const middle = right.map((r, k) => h * r + v * up[k]! + n * near[k]!) as Vector;
   return { ...camera, middle, distance };
 }
+
+const sum = ([low, high]: [number, number]): number => low + high;
 
 /** The ray through a place of the picture. */
 export function ray(camera: Camera, wide: number, x: number, y: number): { from: Vector; along: Vector } {

@@ -5,8 +5,12 @@ import type { Model } from "./model";
 import { SpaceView } from "./view";
 
 const model: Model = JSON.parse(document.getElementById("gruebler-model")!.textContent!);
-const [asked = "", back] = location.hash.slice(1).split("/");
+const [asked = "", back, sheet] = location.hash.slice(1).split("/");
 setLanguage((asked in model.texts ? asked : document.documentElement.lang) as keyof Model["texts"]);
 const [entry] = performance.getEntriesByType("navigation") as PerformanceNavigationTiming[];
 const view = new SpaceView(document.body, model, back !== undefined || entry?.type !== "navigate");
+if (sheet) {
+  history.replaceState(null, "", `#${asked}/${back}`); // once
+  view.showExport();
+}
 Object.assign(window, { gruebler: view });

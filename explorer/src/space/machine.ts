@@ -12,6 +12,7 @@ export const TURNED = 1e-6;
 const STILL = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 const NEAR = 8; // rows before and behind among which a pulled link looks for its place
 const OFF = 1e-7; // by this part of its range a slider keeps off the ends, which can be reached here
+const PARTS = [0, 0.25, 0.5, 0.75, 1]; // of a range
 const TRAIL = 600; // places of a point that are remembered
 
 export class Machine implements Drivable {
@@ -22,7 +23,7 @@ export class Machine implements Drivable {
   readonly size: number;
   /** Whether the drive could not go where it was sent. */
   ended = false;
-  /** The links that do not only shift on the rows. */
+  /** The links that do not only shift where it is driven; on a sphere all of them turn. */
   readonly turning: Set<number>;
   /** The place that was pulled last. */
   traced: Spot | null = null;
@@ -35,7 +36,8 @@ export class Machine implements Drivable {
     this.#solver = live && new Solver(live, size, middle, bodies.length);
     const names = motions.map(({ drive }) => ({ name: String(drive) }));
     this.model = { drives: names, unit: data.unit };
-    const turns = (link: number) => motions.some(({ poses }) => poses.some((row) => turnOf(row[link]!) > TURNED));
+    const rows = live ? this.reached() : motions.flatMap(({ poses }) => poses);
+    const turns = (link: number) => !data.unit || rows.some((row) => turnOf(row[link]!) > TURNED);
     this.turning = new Set(bodies.map((_, link) => link).filter(turns));
     this.drives = motions.map((motion) => {
       const [low, high] = endsOf(motion);
@@ -101,12 +103,24 @@ export class Machine implements Drivable {
     const [motion, solver] = [this.#motion, this.#solver];
     if (solver) return solver.poses;
     if (!motion) return data.bodies.map(() => STILL);
-    return between(motion.poses, rowOf(motion, this.drives[this.active]!));
+    return between(motion, rowOf(motion, this.drives[this.active]!));
   }
 
-  /** Some of the poses that it reaches. */
+  /** Some of the poses that it reaches, of several drives by each alone. */
   reached(): ArrayLike<number>[][] {
-    const all = this.data.motions.flatMap(({ poses }) => poses);
+    const { bodies, live, middle, motions, size } = this.data;
+    if (live)
+      return motions.flatMap((motion) => {
+        const [low, high] = endsOf(motion);
+        return PARTS.map((part) => {
+          const solver = new Solver(live, size, middle, bodies.length);
+          const values = [...solver.values];
+          values[motion.drive] = low + part * (high - low);
+          solver.drive(values);
+          return solver.poses.map((pose) => [...pose]);
+        });
+      });
+    const all = motions.flatMap(({ poses }) => poses);
     const some = all.filter((_, k) => k % Math.ceil(all.length / 24) === 0);
     return some.length ? some : [this.poses];
   }
@@ -148,7 +162,7 @@ export class Machine implements Drivable {
     let [best, nearest] = [here, Infinity];
     for (let step = -NEAR; step <= NEAR; step += 0.25) {
       const tried = motion.round ? (here + step + last) % last : Math.min(Math.max(here + step, 0), last);
-      const gap = Math.hypot(...off(between(motion.poses, tried)[link]!));
+      const gap = Math.hypot(...off(between(motion, tried)[link]!));
       if (gap < nearest) [nearest, best] = [gap, tried];
     }
     const [low, high] = endsOf(motion);
@@ -179,9 +193,25 @@ function rowOf(motion: Motion, value: number): number {
   return (motion.values.length - 1) * (motion.round ? part - Math.floor(part) : Math.min(Math.max(part, 0), 1));
 }
 
-/** Poses between two rows. */
-function between(rows: number[][][], at: number): number[][] {
-  const low = Math.min(Math.floor(at), rows.length - 2);
-  const [a, b] = [rows[low]!, rows[low + 1]!];
-  return a.map((pose, link) => pose.map((v, k) => v + (at - low) * (b[link]![k]! - v)));
+/** The poses of a row; one beyond the last comes again after a full turn, else goes on in a parabola. */
+function posesAt({ poses, round }: Motion, row: number): number[][] {
+  const last = poses.length - 1;
+  const known = poses[round ? (row + last) % last : row];
+  if (known) return known;
+  const [a, b, c] = [0, 1, 2].map((k) => poses[row < 0 ? k : last - k]!) as [number[][], number[][], number[][]];
+  return a.map((pose, link) => pose.map((v, k) => 3 * (v - b[link]![k]!) + c[link]![k]!));
+}
+
+/** Poses between two rows: on the cubic through these and their neighbours. */
+function between(motion: Motion, at: number): number[][] {
+  const low = Math.min(Math.floor(at), motion.poses.length - 2);
+  const x = at - low;
+  const [a, b, c, d] = [-1, 0, 1, 2].map((k) => posesAt(motion, low + k)) as [number[][], ...number[][][]];
+  return a.map((pose, link) =>
+    pose.map((first, k) => {
+      const [second, third, fourth] = [b, c, d].map((one) => one![link]![k]!) as [number, number, number];
+      const [start, end, way] = [(third - first) / 2, (fourth - second) / 2, third - second];
+      return second + x * (start + x * (3 * way - 2 * start - end + x * (start + end - 2 * way)));
+    }),
+  );
 }

@@ -41,8 +41,11 @@ interface Texts {
 export interface Model {
   /** Whether the page with the other views lies above it. */
   home: boolean;
-  /** Whether there is a server that makes other sizes. */
+  /** Whether there is a server that makes files; whether it makes other sizes. */
+  asks: boolean;
   resizable: boolean;
+  /** Chain, frame and drives as text. */
+  text: string;
   texts: Record<Language, Texts>;
   /** Of the links, in the document. */
   names: string[];

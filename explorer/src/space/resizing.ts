@@ -2,7 +2,9 @@
 
 import { h, renew } from "../dom";
 import { currentLanguage, number, parsed } from "../language";
+import { store, stored } from "../storing";
 import { moment } from "../waiting";
+import { asked } from "./asking";
 import type { Model } from "./model";
 
 /** Distance and angle of a link, null where it stays. */
@@ -33,25 +35,16 @@ export class Resizing {
 
   /** The machine with the sizes that it had when the page was left, which can be undone. */
   recalled(data: Model): Model {
-    try {
-      const kept = JSON.parse(sessionStorage.getItem(KEPT) ?? "{}") as { of?: string; past?: Model[]; shown?: Model };
-      if (kept.of !== location.pathname) return data;
-      this.#past = kept.past!;
-      return kept.shown!;
-    } catch {
-      return data;
-    }
+    const kept = stored<{ of: string; past: Model[]; shown: Model }>(KEPT);
+    if (kept?.of !== location.pathname) return data;
+    this.#past = kept.past;
+    return kept.shown;
   }
 
   /** Show it with other sizes, and keep it for when the page is opened again. */
   #take(shown: Model): void {
     this.owner.take(shown);
-    try {
-      const kept = { of: location.pathname, past: this.#past.slice(-MOST), shown };
-      sessionStorage.setItem(KEPT, JSON.stringify(kept));
-    } catch {
-      // what cannot be kept lasts as long as the page
-    }
+    store(KEPT, { of: location.pathname, past: this.#past.slice(-MOST), shown });
   }
 
   get changed(): boolean {
@@ -69,11 +62,12 @@ export class Resizing {
   arrange(): void {
     const { sizes, texts, unit } = this.owner.shown();
     const { links, words } = texts[currentLanguage()];
+    const named = (link: number, what = "") => h("span", {}, h("b", {}, links[link]!), what && `, ${what}`);
     const rows = sizes.flatMap(({ angle, distance, link }) => {
       const first = distance !== null;
       return [
-        ...(first ? this.#row(link, 0, h("b", {}, links[link]!), distance, unit) : []),
-        ...(angle === null ? [] : this.#row(link, 1, first ? words.angle! : h("b", {}, links[link]!), angle, "°")),
+        ...(first ? this.#row(link, 0, named(link), distance, unit) : []),
+        ...(angle === null ? [] : this.#row(link, 1, first ? words.angle! : named(link, words.crossed!), angle, "°")),
       ];
     });
     renew(this.element, h("div.rows", {}, ...rows), this.#said);
@@ -101,27 +95,22 @@ export class Resizing {
   }
 
   async #ask(): Promise<void> {
-    const asked = ++this.#asked;
+    const question = ++this.#asked;
     const before = this.owner.shown();
-    const lang = currentLanguage();
-    const { document: linkage, names, texts } = before;
-    const sizes = Object.fromEntries([...this.#typed].map(([link, size]) => [names[link]!, size]));
-    const said = (key: "drives" | "links" | "title") =>
-      Object.fromEntries(Object.entries(texts).map(([language, one]) => [language, one[key]]));
-    const params = { document: linkage, sizes, titles: said("title"), drives: said("drives"), links: said("links") };
+    const sizes = Object.fromEntries([...this.#typed].map(([link, size]) => [before.names[link]!, size]));
     renew(this.#said, moment());
     try {
-      const answer = await fetch("resize", { method: "POST", body: JSON.stringify({ id: asked, lang, params }) });
-      const { error, result }: { error?: string; result?: Model } = await answer.json();
-      if (asked !== this.#asked) return;
-      this.#said.textContent = error ?? "";
-      if (!result) return this.#refused();
+      const made = await asked<Model>("resize", before, { sizes });
+      if (question !== this.#asked) return;
+      this.#said.textContent = "";
       this.#typed = new Map();
       this.#past.push(before);
       this.#future.length = 0;
-      this.#take(result);
-    } catch {
-      this.#said.textContent = texts[lang].words.lost!;
+      this.#take(made);
+    } catch (error) {
+      if (question !== this.#asked) return;
+      this.#said.textContent = (error as Error).message;
+      this.#refused();
     }
   }
 

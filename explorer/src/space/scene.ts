@@ -5,13 +5,28 @@ import { gridStep } from "../grid";
 import { number } from "../language";
 import type { Pair } from "../rows";
 import { zoomButtons } from "../shell";
-import { axes, before, type Camera, fitted, meeting, moved, projection, ray, seen, type Vector } from "./algebra";
+import {
+  axes,
+  before,
+  type Camera,
+  fitted,
+  type Margins,
+  meeting,
+  moved,
+  projection,
+  ray,
+  seen,
+  type Vector,
+} from "./algebra";
 import { arrowsOf, headed } from "./arrows";
 import type { Machine } from "./machine";
 import type { Spot } from "./model";
 import { type Drawn, Painter } from "./painter";
 
 const ARM = 26; // pixels of the axes in the corner
+const ROOM = 24; // pixels around the machine
+const BUTTONS = 48; // pixels
+const MOST_ROOM = 0.3; // of the picture
 const STEEP = 1.5; // radians: no farther up or down
 
 export interface SceneEvents {
@@ -126,8 +141,21 @@ export class Scene {
 
   fit(): void {
     this.#whole = true;
-    this.#camera = fitted(this.#camera, this.#wide, this.#corners());
+    if (!this.#wide) return; // it is not laid out yet
+    const reached = this.machine.reached();
+    const places = [...this.#corners(reached), ...reached.flatMap((poses) => arrowsOf(this.machine, poses).flat())];
+    this.#camera = fitted(this.#camera, this.#wide, places, this.#margins);
     this.draw();
+  }
+
+  /** What is beside the machine: buttons to the right, words below; of a small picture a third at most. */
+  get #margins(): Margins {
+    const { clientHeight, clientWidth } = this.element;
+    const [across, down] = [clientWidth, clientHeight].map(
+      (whole) => (pixels: number) => Math.min(pixels / Math.max(whole, 1), MOST_ROOM),
+    ) as [(pixels: number) => number, (pixels: number) => number];
+    const told = this.#hint.offsetHeight + ROOM;
+    return { left: across(ROOM), right: across(BUTTONS + ROOM), top: down(ROOM), bottom: down(told) };
   }
 
   zoom(factor: number): void {

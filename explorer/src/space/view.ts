@@ -7,12 +7,15 @@ import { FactList } from "../factlist";
 import type { Fact } from "../facts";
 import { centred, languageMenu, saving, sayIn, viewNames } from "../header";
 import { drivenBy, showOver, showRows } from "../help";
-import { angle, currentLanguage, number, t } from "../language";
+import { angle, currentLanguage, type Language, number, t } from "../language";
+import { fromBase64 } from "../packed";
 import { firstTheme, panelOf, setTheme, shell, tool } from "../shell";
+import { IN_SPACE, type InSpace, store } from "../storing";
 import { driveText } from "../track";
 import { type Driven, Transport } from "../transport";
 import { moved } from "./algebra";
-import { endsOf, Machine, TURNED, turnOf } from "./machine";
+import { asked } from "./asking";
+import { endsOf, Machine, turnOf } from "./machine";
 import type { Model } from "./model";
 import { OutputPlots } from "./outputs";
 import { Resizing } from "./resizing";
@@ -44,6 +47,9 @@ export class SpaceView implements Driven {
   /** The view that is shown, if it is one with a name. */
   #view = "oblique";
   #views: HTMLElement | null = null;
+  readonly #options = h("div.options", {});
+  /** Whether what is said is done, and stays while it plays. */
+  #told = false;
   readonly #resizing = new Resizing({
     shown: () => this.data,
     take: (data) => this.#take(data),
@@ -61,7 +67,10 @@ export class SpaceView implements Driven {
     this.#host = host;
     this.linkage = new Machine(this.data);
     this.scene = new Scene(this.linkage, {
-      taken: () => this.transport.pause(),
+      taken: () => {
+        this.transport.pause();
+        this.#arrangeOptions();
+      },
       pulled: () => this.posed(),
       turned: () => {
         this.#view = "";
@@ -104,6 +113,7 @@ export class SpaceView implements Driven {
     const { title: name } = this.#texts;
     const title = this.#resizing.changed ? t("{name}, changed", { name }) : name;
     document.title = `${title} – gruebler`;
+    this.#keep();
     renew(
       this.#header,
       h("h1", {}, "gruebler ", h("small", {}, title)),
@@ -120,6 +130,20 @@ export class SpaceView implements Driven {
         this.#arrange();
       }),
     );
+  }
+
+  /** What the views on the page above show of it. */
+  #keep(): void {
+    const { names, text, texts } = this.data;
+    const { changed } = this.#resizing;
+    const both = <Value>(of: (language: Language) => Value) => ({ en: of("en"), de: of("de") });
+    const machine: InSpace = {
+      changed,
+      text,
+      titles: both((language) => texts[language].title),
+      links: both((language) => Object.fromEntries(names.map((name, k) => [name, texts[language].links[k]!]))),
+    };
+    store(IN_SPACE, machine);
   }
 
   /** Show the machine with other sizes, where the drive stands. */
@@ -156,7 +180,7 @@ export class SpaceView implements Driven {
 
   /** As in the other views: files are opened on the page above, and what this one lacks keeps its room. */
   #tools(): HTMLElement[] {
-    const save = saving(() => this.#showExport());
+    const save = saving(() => this.showExport());
     if (!this.data.home) return [save];
     const { redoable, undoable } = this.#resizing;
     const steps = [
@@ -168,36 +192,50 @@ export class SpaceView implements Driven {
     return [...steps, open, save, tool("link", t("Copy the link"), () => void this.#share())];
   }
 
-  /** What can be taken away: the picture, bodies, the linkage as the library reads it. */
-  #showExport(): void {
+  /** What can be taken away: the linkage as the library reads it, its page, a picture, bodies. */
+  showExport(): void {
     const { data, linkage, scene } = this;
+    const words = this.#words;
     const told = h("p.told", { role: "status" });
-    const save = (ending: string, content: Blob | null) => {
-      if (content) told.replaceChildren(this.#download(ending, content));
+    const say = (text: string, failed = false) => {
+      told.className = `told ${failed ? "error" : "good"}`;
+      told.replaceChildren(text);
     };
-    const button = (ending: string, make: (done: (content: Blob | null) => void) => void) =>
-      h("button.plain", { onclick: () => make((content) => save(ending, content)) }, ending.toUpperCase());
-    const { convert, stl } = this.#words;
-    showOver(
+    const save = (ending: string, content: Blob | null, note = "") => {
+      if (content) say(`${this.#download(ending, content)}. ${note}`);
+    };
+    const button = (ending: string, make: () => void, name = ending.toUpperCase()) =>
+      h("button.plain", { onclick: make }, name);
+    const made = (kind: string, name?: string) => {
+      const ask = async () => {
+        say(t("One moment …"));
+        try {
+          const file = await asked<{ base64: string; type: string; note?: string }>("export_in_space", data, { kind });
+          save(kind, new Blob([fromBase64(file.base64)], { type: file.type }), file.note);
+        } catch (error) {
+          say((error as Error).message, true);
+        }
+      };
+      return data.asks ? [button(kind, () => void ask(), name)] : [];
+    };
+    const stl = () => save("stl", new Blob([stlOf(data.bodies, linkage.poses)], { type: "model/stl" }));
+    const png = () => scene.canvas.toBlob((content) => save("png", content));
+    const dialog = showOver(
       this.#root,
       t("Save and export"),
-      told,
       group(
-        t("Picture"),
-        "",
-        button("png", (done) => scene.canvas.toBlob(done)),
+        t("Continue here"),
+        words.document!,
+        button("json", () => save("json", this.#document())),
+        ...made("toml"),
       ),
-      group(
-        t("Drawing for CAD"),
-        stl!,
-        button("stl", (done) => done(new Blob([stlOf(data.bodies, linkage.poses)], { type: "model/stl" }))),
-      ),
-      group(
-        t("Other programs"),
-        convert!,
-        button("json", (done) => done(this.#document())),
-      ),
+      ...(data.asks ? [group(t("For others"), "", ...made("html"))] : []),
+      group(t("Picture"), "", button("png", png)),
+      group(words.bodied!, data.asks ? words.bodies! : words.stl!, button("stl", stl), ...made("glb", "glTF")),
+      ...(data.asks ? [group(t("Simulation"), "", ...made("urdf"))] : [h("p.note", {}, words.convert)]),
     );
+    dialog.querySelector("h2")!.after(told);
+    dialog.dataset.panel = "export";
   }
 
   #document(): Blob {
@@ -250,14 +288,6 @@ export class SpaceView implements Driven {
     });
     panels.push(panelOf("links", t("Links"), true, h("div.chips", {}, ...chips)));
     const { scene } = this;
-    const option = (key: keyof Scene["shown"], text: string) => {
-      const change = () => {
-        scene.shown[key] = box.checked;
-        scene.draw();
-      };
-      const box = h("input", { type: "checkbox", checked: scene.shown[key], onchange: change });
-      return h("label", {}, box, text);
-    };
     const look = (name: string) => {
       this.#view = name;
       scene.look(...VIEWS[name]!);
@@ -268,15 +298,32 @@ export class SpaceView implements Driven {
       this.#view,
       look,
     );
-    const options = h(
-      "div.options",
-      {},
-      option("floor", t("Grid")),
-      option("paths", words.paths!),
-      ...(data.points.some(({ name }) => name) ? [option("names", t("Names"))] : []),
-    );
-    panels.push(panelOf("show", t("Show"), true, this.#views, options));
+    this.#arrangeOptions();
+    panels.push(panelOf("show", t("Show"), true, this.#views, this.#options));
     return panels;
+  }
+
+  /** What is shown beside the bodies, as far as there is any of it. */
+  #arrangeOptions(): void {
+    const { data, linkage, scene } = this;
+    const option = (key: keyof Scene["shown"], text: string, there = true) => {
+      const change = () => {
+        scene.shown[key] = box.checked;
+        scene.draw();
+      };
+      const box = h("input", { type: "checkbox", checked: scene.shown[key], onchange: change });
+      return there ? [h("label", {}, box, text)] : [];
+    };
+    renew(
+      this.#options,
+      ...option("floor", t("Grid")),
+      ...option("paths", this.#words.paths!, linkage.spots.length > 0),
+      ...option(
+        "names",
+        t("Names"),
+        data.points.some(({ name }) => name),
+      ),
+    );
   }
 
   /** A slider of one of several drives. */
@@ -303,12 +350,16 @@ export class SpaceView implements Driven {
     return { input, output: h("output.value", {}) };
   }
 
-  #say(text: string): void {
-    sayIn(this.#message, text, "error");
+  #say(text: string, kind: "done" | "error" = "error"): void {
+    this.#told = kind === "done";
+    sayIn(this.#message, text, kind);
   }
 
   async #share(): Promise<void> {
-    await navigator.clipboard.writeText(location.href).catch(() => undefined);
+    const { copied, without } = this.#words;
+    const address = location.href.replace(/#.*/, `#${currentLanguage()}`);
+    await navigator.clipboard.writeText(address).catch(() => undefined);
+    this.#say([copied!, ...(this.#resizing.changed ? [without!] : [])].join(" "), "done");
   }
 
   // --- driven --------------------------------------------------------------------------------------------------------
@@ -328,7 +379,7 @@ export class SpaceView implements Driven {
     const { linkage } = this;
     if (linkage.ended) this.transport.pause();
     const drive = linkage.jointName(linkage.model.drives[linkage.active]?.name ?? "");
-    this.#say(linkage.ended ? this.#words.end!.replace("{drive}", drive) : "");
+    if (linkage.ended || !this.#told) this.#say(linkage.ended ? this.#words.end!.replace("{drive}", drive) : "");
     this.scene.draw();
     this.transport.showValue();
     this.#facts.show(this.#measures());
@@ -352,14 +403,17 @@ export class SpaceView implements Driven {
     const { poses } = linkage;
     const facts: Fact[] = data.outputs.flatMap((link, k) => {
       const pose = poses[link]!;
-      const turns = data.live ? turnOf(pose) > TURNED : linkage.turning.has(link);
-      const far = `${number(Math.hypot(pose[3]!, pose[7]!, pose[11]!), DIGITS)} ${data.unit}`;
+      const turns = linkage.turning.has(link);
+      const shift = Math.hypot(pose[3]!, pose[7]!, pose[11]!);
+      const far = `${number(shift < 1e-6 * data.size ? 0 : shift, DIGITS)} ${data.unit}`;
       const turned = turnOf(pose);
       const text = turns ? angle(this.#plots?.plotted(k, turned) ?? turned, DIGITS) : far;
       const travel = this.#plots?.travel(k);
       const goes = travel ? `${number(travel, DIGITS)}${turns ? "°" : ` ${data.unit}`}` : "";
+      const named = (word: string) => words[word]!.replace("{link}", texts.links[link]!);
       return [
-        { name: words[turns ? "turned" : "shifted"]!.replace("{link}", texts.links[link]!), text },
+        ...(turns && data.live && data.unit ? [{ name: named("shifted"), text: far }] : []),
+        { name: named(turns ? "turned" : "shifted"), text },
         ...(goes ? [{ name: `${t(turns ? "Swing" : "Stroke")} ${texts.links[link]!}`, text: goes }] : []),
       ];
     });

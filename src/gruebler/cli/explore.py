@@ -76,9 +76,9 @@ def _in_space(spatial: SpatialWord, arguments: argparse.Namespace) -> int:
     record, home = entry_of(word), arguments.out is None
     if record is None:
         titles = dict.fromkeys(LANGUAGES, _name(word))
-        model = space_model(spatial.linkage, titles=titles, between=spatial.range, home=home, resizable=home)
+        model = space_model(spatial.linkage, titles=titles, between=spatial.range, home=home, asks=home)
     else:
-        model = machine_model(word, home=home, resizable=home)
+        model = machine_model(word, home=home, asks=home)
     page = space_file(model, arguments.lang)
     if arguments.out is None:
         return _serve(_model(_FIRST, arguments.lang), arguments, in_space=page)

@@ -20,10 +20,13 @@ from gruebler.files.linkages import toml_key, toml_value
 from gruebler.files.load_reading import loads_of_document
 from gruebler.files.values import format_of, read, write, write_loaded
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.screws import SpatialLinkage
 
 _OWN = ("toml", "json")
 _NO_LINKAGES = frozenset({"csv", "spreadsheet", "parquet", "dxf-links", "glb", "stl"})
 """Formats of tables and folders; the page writes its table by itself."""
+_IN_SPACE = frozenset({*_OWN, "urdf", "glb"})
+"""Formats of one file that hold a linkage in space."""
 _WITH_BUTTONS = frozenset({*_OWN, "dxf", "mjcf", "urdf"})
 
 
@@ -97,19 +100,20 @@ def document_of(file: Path, linkage: Linkage) -> dict[str, Any]:
     return document if isinstance(document, dict) else {}
 
 
-def saved_file(linkage: Linkage, kind: str, lang: str, document: Mapping[str, Any]) -> dict[str, str]:
+def saved_file(linkage: Linkage | SpatialLinkage, kind: str, lang: str, document: Mapping[str, Any]) -> dict[str, str]:
     """A linkage in a format as base64, the ending of the file, and what was left out.
 
     Our own formats keep its loads and what the page shows beside it.
     """
     form = format_of("", kind)
-    if form.name in _NO_LINKAGES:
+    spatial = isinstance(linkage, SpatialLinkage)
+    if form.name not in _IN_SPACE if spatial else form.name in _NO_LINKAGES:
         raise GrueblerError("the format {name} holds no linkage", name=form.name)
     notes: list[Message] = []
     with temporary_directory() as folder:
         file = folder / f"linkage{_ending(form)}"
         try:
-            if document.get("loads"):
+            if isinstance(linkage, Linkage) and document.get("loads"):
                 write_loaded(linkage, *loads_of_document(document, linkage), file, kind, notes)
             else:
                 write(linkage, file, format_name=kind, left_out=notes)

@@ -17,6 +17,7 @@ from gruebler.page.params import (
     DescribeDrawing,
     DescribeStructure,
     Export,
+    ExportInSpace,
     ListCatalog,
     ListChains,
     ListModes,
@@ -133,7 +134,7 @@ def _moving(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
 def _in_space(asked: CatalogId, lang: str, _: Progress) -> str:
     from gruebler.page.space_page import machine_model, space_file
 
-    return space_file(machine_model(asked.id, home=True, resizable=True), lang)
+    return space_file(machine_model(asked.id, home=True, asks=True), lang)
 
 
 def _resized(asked: ResizeLinks, lang: str, _: Progress) -> dict[str, Any]:
@@ -148,10 +149,22 @@ def _resized(asked: ResizeLinks, lang: str, _: Progress) -> dict[str, Any]:
     except LinkageError as error:
         link = error.values.get("link")
         raise LinkageError(error, **({} if link is None else {"link": called.get(link, link)})) from None
-    model = space_model(changed, titles=asked.titles, drives=asked.drives, links=asked.links, home=True, resizable=True)
+    model = space_model(changed, titles=asked.titles, drives=asked.drives, links=asked.links, home=True, asks=True)
     if not model["motions"]:
         raise LinkageError("with these sizes the joints can be closed, but no drive moves it; change others as well")
     return model
+
+
+def _export_in_space(asked: ExportInSpace, lang: str, _: Progress) -> dict[str, str]:
+    from gruebler.files.screws import spatial_from_json
+    from gruebler.page.exchange import saved_file
+    from gruebler.page.space_page import space_file, space_model
+
+    linkage = spatial_from_json(asked.document)
+    if asked.kind != "html":
+        return saved_file(linkage, asked.kind, lang, {})
+    model = space_model(linkage, titles=asked.titles, drives=asked.drives, links=asked.links)
+    return _file(space_file(model, lang).encode("utf-8"), "text/html")
 
 
 def _open(asked: CatalogId, _: str, __: Progress) -> dict[str, Any]:
@@ -326,6 +339,7 @@ REQUESTS: dict[str, tuple[type[Params], Callable[[Any, str, Progress], Any]]] = 
     "picture": (CatalogId, _catalog_picture),
     "space": (CatalogId, _in_space),
     "resize": (ResizeLinks, _resized),
+    "export_in_space": (ExportInSpace, _export_in_space),
     "moving": (CatalogId, _moving),
     "open": (CatalogId, _open),
     "open_document": (OpenDocument, _open_document),

@@ -40,6 +40,7 @@ OPENED = "opened"
 MOST_WAITING = 200
 """Requests of one page that may wait; more are refused."""
 _FRAME = 4_000_000  # bytes of a frame: beyond it the connection is closed by the protocol itself
+_ASKED_IN_SPACE = ("resize", "export_in_space")
 _NOT_HERE = message("Open the address that gruebler explore has printed.")
 _HOST = re.compile(r"(\[[0-9a-fA-F:.]+\]|[^:]+)(?::\d{1,5})?")
 _POLICY = (
@@ -94,7 +95,7 @@ class ExplorerServer:
                 Route("/{token}/", self._page),
                 Route("/{token}/explorer.js", self._module),
                 Route("/{token}/space/{id}.html", self._machine_in_space),
-                Route("/{token}/space/resize", self._resized, methods=["POST"]),
+                Route("/{token}/space/{method}", self._asked_in_space, methods=["POST"]),
                 WebSocketRoute("/{token}/ws", self._socket),
                 Route("/{path:path}", self._nothing),
             ],
@@ -146,16 +147,17 @@ class ExplorerServer:
         headers = _HEADERS | {"Content-Security-Policy": "frame-ancestors 'none'"}
         return Response(text, media_type="text/html", headers=headers) if text else self._refusal()
 
-    async def _resized(self, request: Request) -> Response:
-        """A machine in space with other sizes, or why there is none: what such a page asks, which has no WebSocket."""
-        if not self._known(request) or not _from_here(request):
+    async def _asked_in_space(self, request: Request) -> Response:
+        """Other sizes or a file of a machine in space, whose page has no WebSocket; or why there is none."""
+        method = str(request.path_params["method"])
+        if not self._known(request) or not _from_here(request) or method not in _ASKED_IN_SPACE:
             return self._refusal()
         assert self._workers is not None
         lang = "en"
         try:
             asked = _read(await _text_of(request))
             lang = asked.lang
-            result = await self._workers.ask("resize", asked.params, lang, lambda _: None, asyncio.Event())
+            result = await self._workers.ask(method, asked.params, lang, lambda _: None, asyncio.Event())
             content = {"result": result}
         except GrueblerError as error:
             content = {"error": error_in_language(error, lang)}

@@ -53,10 +53,17 @@ _WORDS = {
     "none": message("No drive moves this linkage."),
     "end": message("{drive} goes no farther while the other drives stand here."),
     "angle": message("Angle"),
+    "crossed": message("angle"),
     "lost": message("The connection to gruebler is lost."),
     "axes": message("Between two axes their distance and angle; to a ball the distance alone."),
+    "file": message("File"),
+    "document": message("As gruebler reads it: gruebler explore FILE"),
+    "bodied": message("Bodies"),
+    "bodies": message("STL: bodies in the position that is shown; glTF: with its motion"),
     "stl": message("STL: bodies in the position that is shown"),
     "convert": message("With its motion, as glTF, and for other programs: gruebler convert FILE OUT"),
+    "copied": message("The link is copied."),
+    "without": message("It leads to the machine without the sizes that were changed here."),
     "flat": message("This browser cannot draw in space: it has no WebGL 2."),
 }
 _ALONE = message("The drives move one at a time here, since the page does not solve {joint}.")
@@ -91,7 +98,7 @@ def space_model(
     links: Mapping[str, Sequence[str]] | None = None,
     between: tuple[float, float] | None = None,
     home: bool = False,
-    resizable: bool = False,
+    asks: bool = False,
 ) -> dict[str, Any]:
     """What the page shows: bodies, named points, and the poses of all links over the range of the one drive.
 
@@ -99,8 +106,8 @@ def space_model(
     are values of the drives in place of all that they can reach.
 
     ``titles`` and names of ``drives`` and ``links`` by language are those of the linkage unless they are given; with
-    ``home`` the page with the other views lies above this one, in a server or a site. A ``resizable`` page asks
-    the server for other sizes.
+    ``home`` the page with the other views lies above this one, in a server or a site. A page that ``asks``
+    has other sizes and files from the server.
     """
     moving = moving_solids(linkage, between=between)
     live = _live(moving)
@@ -135,7 +142,9 @@ def space_model(
             for names in [[name.replace("_", " ") for name in (links or {}).get(lang, chain.links)]]
         },
         "home": home,
-        "resizable": resizable and can_be_resized(linkage),
+        "asks": asks,
+        "resizable": asks and can_be_resized(linkage),
+        "text": mechanism.text(),
         "names": list(chain.links),
         "unit": "" if spherical else linkage.unit,
         "document": screws_to_json(linkage),
@@ -247,7 +256,7 @@ def _short(mechanism: Mechanism, names: Sequence[str]) -> list[str]:
     return [names[mechanism.chain.index(link)] for link in moved] if apart else []
 
 
-def machine_model(id: str, *, home: bool = False, resizable: bool = False) -> dict[str, Any]:
+def machine_model(id: str, *, home: bool = False, asks: bool = False) -> dict[str, Any]:
     """The model of a machine of the catalog in space; `GrueblerError` for another one."""
     record = entry(id)
     if not record.in_space:
@@ -266,7 +275,7 @@ def machine_model(id: str, *, home: bool = False, resizable: bool = False) -> di
         links={lang: list(record.link_names(lang).values()) for lang in LANGUAGES},
         between=record.between,
         home=home,
-        resizable=resizable,
+        asks=asks,
     )
 
 
@@ -285,6 +294,6 @@ def space_file(model: dict[str, Any], lang: str = "en") -> str:
     It opens in the language, or in the one that an address names behind ``#``.
     """
     script, sheet = module_text("space"), page_styles("space")
-    policy = policy_element(script, sheets=(WHOLE_WINDOW, sheet), asks=model["resizable"])
+    policy = policy_element(script, sheets=(WHOLE_WINDOW, sheet), asks=model["asks"])
     name = str(model["texts"][lang]["title"])
     return data_page(name, lang, model, script_element(script, "module"), policy, shadow_tree(sheet))

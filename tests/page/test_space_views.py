@@ -1,0 +1,105 @@
+"""A machine in space beside the other views: room for it, what is said of it, its files, its structure."""
+
+import numpy as np
+import pytest
+
+import gruebler as gr
+from gruebler.mechanics.screws.link_sizes import link_sizes
+from gruebler.mechanics.screws.resizing import resized
+from gruebler.teaching.catalog import entry
+from tests.page.test_space import PIXELS, browsed_at, drive_to
+
+FREE = f"""margins => {{
+    {PIXELS}
+    const ratio = c.width / c.clientWidth, [right, bottom] = margins.map((one) => one * ratio);
+    const paper = [...p.subarray(4 * (c.width - 1), 4 * c.width)].join();
+    for (let y = 0; y < c.height; y++)
+        for (let x = 0; x < c.width; x++) {{
+            if (x < c.width - right && y > bottom) continue;
+            const at = 4 * (y * c.width + x);
+            if ([...p.subarray(at, at + 4)].join() !== paper) return false;
+        }}
+    return true;
+}}"""
+"""Whether nothing is drawn so near to the right and the lower edge."""
+
+
+@pytest.mark.parametrize("id", ["bennett", "gough"])
+def test_a_machine_keeps_clear_of_buttons_and_words_all_the_way(server, chromium, id):
+    """On a phone, over the whole range of its drive."""
+    browser, page, errors = browsed_at(chromium, f"{server.address}space/{id}.html")
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.get_by_role("button", name="Pause").click()
+    page.evaluate("gruebler.scene.shown.floor = false")  # a click would scroll the page, and the picture be low
+    picture = page.locator(".stage").bounding_box()
+    tools, hint = (page.locator(place).first.bounding_box() for place in (".stage .tools", ".stage .hint"))
+    margins = [picture["x"] + picture["width"] - tools["x"], picture["y"] + picture["height"] - hint["y"]]
+    assert min(margins) > 30
+    low, high = page.evaluate("[gruebler.linkage.cycle.low, gruebler.linkage.cycle.high]")
+    for part in np.linspace(0, 1, 13):
+        page.evaluate("value => gruebler.transport.pick(value)", low + part * (high - low))
+        assert page.evaluate(FREE, margins), part
+    assert errors == []
+    browser.close()
+
+
+def test_what_is_said_of_a_machine_in_space_is_so(server, chromium):
+    """Angles are called so, wheels on a sphere turn, what rests is at 0, and so are ends of a range."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/universal_joint.html")
+    links = ("frame", "input", "cross", "output")
+    assert page.locator('[data-panel="sizes"] label').all_inner_texts() == [f"{link}, angle" for link in links]
+    page.goto(server.address + "space/diff_bevel.html?de#de")
+    measures = page.locator('[data-panel="measures"]')
+    measures.get_by_text("gedreht").first.wait_for()
+    assert "verschoben" not in measures.inner_text()
+    for id, low in (("winch_screw", "0°"), ("sarrus", "−30°")):
+        page.goto(f"{server.address}space/{id}.html")
+        page.get_by_role("button", name="Pause").click()
+        drive_to(page, "0")
+        assert measures.locator("dd").first.inner_text() == "0 mm"
+        assert page.locator(".track text").first.text_content() == low
+    assert errors == []
+    browser.close()
+
+
+def test_files_of_a_machine_in_space_come_from_the_server(server, chromium, tmp_path):
+    """With the sizes that were typed; what a format leaves out is said."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/wiper_rssr.html")
+    crank = page.locator("#size-1-0")
+    crank.fill("50")
+    crank.press("Enter")
+    page.locator("header small", has_text="changed").wait_for(state="attached")
+    page.locator('[data-icon="save"]').click()
+    saved = {}
+    for name in ("TOML", "glTF", "HTML", "URDF"):
+        with page.expect_download() as taken:
+            page.get_by_role("button", name=name, exact=True).click()
+        saved[name] = taken.value.path().read_bytes()
+    assert "the loops: the model is cut" in page.locator(".told").inner_text()
+    (tmp_path / "a.toml").write_bytes(saved["TOML"])
+    wanted = link_sizes(resized(entry("wiper_rssr").placed(), {"crank": (50.0, None)}))
+    found = link_sizes(gr.read(tmp_path / "a.toml"))
+    assert [size.distance for size in found] == pytest.approx([size.distance for size in wanted])
+    assert saved["glTF"][:4] == b"glTF"
+    assert b"<robot" in saved["URDF"]
+    assert b"Content-Security-Policy" in saved["HTML"]
+    assert errors == []
+    browser.close()
+
+
+def test_header_structure_and_save_are_of_the_machine_in_space(server, chromium):
+    """In the other views, too, as long as Motion shows it."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/universal_joint.html#de")
+    name = entry("universal_joint").name.in_language("de")
+    page.get_by_role("link", name="Struktur").click()
+    page.locator(".described").get_by_text("Gelenke:").wait_for()
+    assert page.locator("header small").text_content() == name
+    text = entry("universal_joint").placed().mechanism.text()
+    assert page.locator('[data-field="chain"]').input_value() == text
+    assert "Antriebsgabel" in page.locator(".chain-picture").text_content()
+    assert page.locator('[data-act="realise"]').count() == 0  # dimensions are found in the plane
+    page.locator('[data-icon="save"]').click()
+    page.locator("dialog").get_by_role("button", name="glTF").wait_for()
+    assert page.locator("header small").text_content() == name
+    assert errors == []
+    browser.close()
