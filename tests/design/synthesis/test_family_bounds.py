@@ -76,7 +76,9 @@ def _all_held(seed, lines):
     cells, singular = short_cells(curve)
     assert curve.fits
     assert not len(singular)
-    covers = [DyadCells(curve, cells), DyadCells(curve, curve.halves(curve.halves(curve.halves(cells))))]
+    covers = [DyadCells(curve, cells)]
+    for _ in range(3):
+        covers[1:] = [DyadCells(curve, covers[-1].halves(np.ones(len(covers[-1].cells), bool)))]
     dyads = list(_dyads_on_lines(given, rng, lines))
     for cover in covers:
         assert all(_held(cover, x, m) for x, m in dyads), seed

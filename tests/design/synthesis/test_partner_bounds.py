@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from gruebler.design.synthesis import Demands, PositionTask, synthesise_positions
+from gruebler.design.synthesis.dyad_cells import DyadCells
+from gruebler.design.synthesis.dyad_planes import crank_family
 from gruebler.design.synthesis.dyads import CRANK, Displacements, GuidingDyad
 from gruebler.design.synthesis.pair_facts import pair_facts
 from gruebler.design.synthesis.partner_bounds import MARGIN, PartnerSearch
@@ -91,3 +93,54 @@ def test_the_answer_is_better_than_the_sample_and_says_what_is_proved():
     (bound,) = [float(note.split("above ")[1].split("°")[0]) for note in notes if "of the best four-bar" in note]
     best = max(np.degrees(d.verdict.transmission) for d in result.designs if d.form == "RR-RR")
     assert bound - 1 < best < bound  # judged by motion
+
+
+@pytest.mark.parametrize(
+    ("positions", "pivot", "angle"),
+    [
+        # Poles 0.05 sizes apart, and 2.5; the angles are those of a random search of its own beside the given pivot.
+        ([(-4.279656, -2.701001, 0.0), (-4.186678, -1.80013, -0.136924), (-4.085424, -1.381285, -0.201735)],
+         (-3.5822434133543473, -1.099067427377146), 89.656),
+        ([(-2.769234, -3.195383, 0.0), (-0.596757, -4.477865, 0.32181), (2.861717, -4.747957, 0.761818)],
+         (3.808248793376378, 0.5114351543042521), 86.136),
+    ],
+)  # fmt: skip
+def test_the_best_beside_a_given_pivot_is_found_and_proved_where_poles_are_close(positions, pivot, angle):
+    result = synthesise_positions(PositionTask(positions, fixed_pivots=[pivot]))
+    (bound,) = [float(str(note).split("above ")[1].split("°")[0]) for note in result.notes if "above" in str(note)]
+    best = max(np.degrees(d.verdict.transmission) for d in result.designs if d.form == "RR-RR")
+    assert angle - np.degrees(MARGIN[3]) < best <= bound < best + 0.2
+
+
+def _links_held(seed, count):
+    """How many random dyads lie in random cells about their pivots, by the links in all positions and their weight."""
+    rng = np.random.default_rng(seed)
+    task = _task(rng, 3)
+    given, origin, size = Displacements.of(task.origins, task.turns)
+    q, t = given.with_first
+    family = crank_family(given)
+    held = 0
+    for dyad in _dyads(task, rng, count):
+        x, m = ((pivot - origin) / size for pivot in (dyad.moving, dyad.fixed))
+        cells = [(0, x.real, x.imag)]
+        cells += [
+            (k, abs(x - pole), np.angle(x - pole) % (2 * np.pi)) for k, pole in enumerate(family.poles.values(), 1)
+        ]
+        for piece, *places in cells:
+            widths = 10.0 ** rng.uniform(-4, -1, 2) * (1.0 if piece == 0 else min(1.0, places[0]), 1.0)
+            offsets = rng.uniform(-1, 1, 2)
+            low, high = places - (1 + offsets) * widths, places + (1 - offsets) * widths
+            seen = DyadCells(family, np.array([[piece, 1, low[0], high[0], low[1], high[1]]]))
+
+            def at(enclosed, offsets=offsets):
+                return enclosed.value[0] + sum(s[0] * d for s, d in zip(enclosed.slopes, offsets, strict=True))
+
+            weight, rest = at(seen.weight), seen.weight.rest[0]
+            links = q * x + t - m  # from the fixed to the moving pivot
+            assert (np.abs(at(seen.arms) - weight * links) <= seen.arms.rest[0] + rest * np.abs(links) + 1e-12).all()
+            held += bool(seen.arms.rest[0, 0] < 0.1 * np.abs(seen.arms.value[0, 0]))  # it says something
+    return held
+
+
+def test_links_and_weights_of_cells_hold_random_dyads():
+    assert sum(_links_held(seed, 60) for seed in range(4)) > 300

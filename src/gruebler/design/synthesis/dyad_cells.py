@@ -5,11 +5,10 @@ docs/theory/synthesis-positions.md, "Proofs in the family of four positions".
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import cached_property, partial
 from itertools import combinations, pairwise
-from types import MappingProxyType
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -26,9 +25,7 @@ _FIRST = 24  # cells of a span to begin with
 _SHORT = 0.3  # lengths of the dyad: no cell is longer
 _MOST = 4000  # cells; a curve that needs more has a singular dyad
 _HALVINGS = 40
-Direction = tuple[Flags, Enclosure]
-"""Where the normal of a bisector is known besides, and what it is."""
-_NO_POLES: Mapping[tuple[int, int], Direction] = MappingProxyType({})
+_TINY = 1e-100
 
 
 class DyadCurve:
@@ -105,13 +102,27 @@ class DyadCurve:
         pivots = angle.mapped(turn, 1j * turn, 1.0) * along + self.cubic.start
         return pivots, np.asarray(least - abs(self.cubic.start))
 
-    def fixed_pivots(self, _: Reals, moving: Enclosure) -> tuple[Enclosure, Reals]:
-        """The pivots on the frame, and a lower bound of their distances from the origin where they may be far."""
-        return centres(moving, *self.given.with_first)
+    def links(self, _: Reals, moving: Enclosure) -> Links:
+        """The links of the dyads, from two bisectors."""
+        return links_to(*centres(moving, *self.given.with_first), moving, self.given)
 
-    def halves(self, cells: Reals) -> Reals:
-        """Each cell in two, one after the other."""
-        return halves(cells, np.zeros(len(cells), np.int64))
+
+class Links(NamedTuple):
+    """Links from the fixed pivots to the moving ones, in all positions."""
+
+    fixed: Enclosure
+    arms: Enclosure
+    """(cells, positions), times a real weight that may be zero: then the fixed pivot is infinitely far."""
+    weight: Enclosure
+    away: Reals
+    """A lower bound of the distances of fixed pivots from the origin, where they may be far."""
+
+
+def links_to(fixed: Enclosure, away: Reals, moving: Enclosure, given: Displacements) -> Links:
+    """The links to pivots that are at hand."""
+    q, t = given.with_first
+    arms = moving.column * q + t - fixed.column
+    return Links(fixed, arms, Enclosure.exact(np.ones(len(away)), len(moving.slopes)), away)
 
 
 class DyadFamily(Protocol):
@@ -122,14 +133,11 @@ class DyadFamily(Protocol):
     def first_cells(self) -> Reals:
         """Cells that hold all dyads at hand."""
 
-    def halves(self, cells: Reals) -> Reals:
-        """Each cell in two, one after the other."""
-
     def moving_pivots(self, cells: Reals) -> tuple[Enclosure, Reals]:
         """The pivots on the body, and a lower bound of their distances from the origin where they may be far."""
 
-    def fixed_pivots(self, cells: Reals, moving: Enclosure) -> tuple[Enclosure, Reals]:
-        """The pivots on the frame likewise."""
+    def links(self, cells: Reals, moving: Enclosure) -> Links:
+        """The links to the pivots on the frame."""
 
 
 class OneDyad:
@@ -142,22 +150,16 @@ class OneDyad:
         """The one cell."""
         return self.first
 
-    def halves(self, cells: Reals) -> Reals:
-        """The same dyad, which has no parts."""
-        return cells
-
     def moving_pivots(self, cells: Reals) -> tuple[Enclosure, Reals]:
         """The pivot on the body."""
         return self._pivot(cells, self.dyad.moving), np.zeros(len(cells))
 
-    def fixed_pivots(self, cells: Reals, _: Enclosure) -> tuple[Enclosure, Reals]:
-        """The pivot on the frame."""
-        return self._pivot(cells, self.dyad.fixed), np.zeros(len(cells))
+    def links(self, cells: Reals, moving: Enclosure) -> Links:
+        """The link."""
+        return links_to(self._pivot(cells, self.dyad.fixed), np.zeros(len(cells)), moving, self.given)
 
     def _pivot(self, cells: Reals, pivot: complex) -> Enclosure:
-        nothing = np.zeros(len(cells), np.complex128)
-        count = cells.shape[1] // 2 - 1
-        return Enclosure(nothing + pivot, (nothing,) * count, np.zeros(len(cells)))
+        return Enclosure.exact(np.full(len(cells), pivot), cells.shape[1] // 2 - 1)
 
 
 class DyadCells:
@@ -167,27 +169,43 @@ class DyadCells:
         self.cells = cells
         with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
             moving, far = family.moving_pivots(cells)
-            known = np.isfinite(moving.rest)
-            moving = _finite(moving, known)
+            at_hand = np.isfinite(moving.rest)
+            moving = _finite(moving, at_hand)
             self.moving = moving.widened(_SLACK * (1 + np.abs(moving.value)))
-            q, t = family.given.with_first
-            places = self.moving.column * q + t
-            fixed, beyond = family.fixed_pivots(cells, self.moving)
-            self.known: Flags = known & np.isfinite(fixed.rest)
-            """Whether both pivots are bounded; nothing else is said of the other cells."""
+            fixed, arms, weight, away = family.links(cells, self.moving)
+            at_hand &= np.isfinite(weight.rest) & np.isfinite(arms.rest[:, 0])
+            sign = np.where(weight.value < 0, -1.0, 1.0)
+            self.arms, self.weight = _finite(arms * sign[:, None], at_hand[:, None]), _finite(weight * sign, at_hand)
+            """(cells, positions) of the links from the fixed to the moving pivots, times a weight; the weight."""
+            self.known: Flags = at_hand & np.isfinite(fixed.rest) & (self.weight.low > 0)
+            """Whether both pivots are bounded."""
             fixed = _finite(fixed, self.known)
             self.fixed = fixed.widened(_SLACK * (1 + np.abs(fixed.value) + np.abs(moving.value)))
-            away = np.where(self.known, self.fixed.least, beyond)
+            away = np.fmax(away, np.where(self.known, self.fixed.least, 0))
             self.far: Flags = (np.fmax(self.moving.least, far) > FAR) | (away > FAR)
             """Whether a pivot certainly lies too far away."""
             self.length = (self.moving - self.fixed).modulus
-            arm = places - self.fixed.column
-            self.angle = arm.angle
-            """(cells, positions) of the link from the fixed to the moving pivot."""
-            self.back = -(arm * np.conj(q))
-            """(cells, positions) from the moving to the fixed pivot, as the body sees it."""
+            self.angle = self.arms.angle
+            """(cells, positions) of the links, those of unknown weight up to half a turn."""
+            self.back = -(self.arms * np.conj(family.given.with_first[0]))
+            """(cells, positions) from the moving to the fixed pivot, as the body sees it, times the weight."""
             self.extent = self.moving.reach + self.fixed.reach
             """How far the pivots of a cell lie apart."""
+
+    def halves(self, rows: Flags) -> Reals:
+        """Some cells, each in two, one after the other: the parameter is halved on which the dyads depend most."""
+        moving, link, weight = self.moving.at(rows), self.arms.at((rows, 0)), self.weight.at(rows)
+        length, size = np.abs(link.value), np.maximum(np.abs(link.value) + np.abs(weight.value), _TINY)
+        changes = [
+            np.abs(x) / (1 + np.abs(moving.value)) + np.abs(arm) / size + np.abs(part) * length / size**2
+            for x, arm, part in zip(moving.slopes, link.slopes, weight.slopes, strict=True)
+        ]
+        return halves(self.cells[rows], np.argmax(changes, axis=0))
+
+    @cached_property
+    def first_arm(self) -> Enclosure:
+        """The link in the first position, times the weight."""
+        return self.arms.at((slice(None), 0))
 
     @cached_property
     def steps(self) -> tuple[Reals, Reals]:
@@ -207,10 +225,11 @@ class DyadCells:
 
     def outside(self, region: Reals) -> Flags:
         """Whether the fixed pivots certainly lie outside a rectangle of least x, least y, greatest x, greatest y."""
-        x, y, reach = self.fixed.value.real, self.fixed.value.imag, self.fixed.reach
-        return np.asarray(
-            (x + reach < region[0]) | (y + reach < region[1]) | (x - reach > region[2]) | (y - reach > region[3])
-        )
+        pivot, weight = self.moving * self.weight - self.first_arm, self.weight
+        x, y = pivot.real, pivot.imaginary
+        inward = (x - weight * region[0], y - weight * region[1], weight * region[2] - x, weight * region[3] - y)
+        beyond, before = ([side.high < 0 for side in inward], [side.low > 0 for side in inward])
+        return np.asarray(np.any(beyond, axis=0) & (np.any(before, axis=0) | (weight.low > 0)))
 
 
 def halves(cells: Reals, parameters: Integers) -> Reals:
@@ -230,7 +249,7 @@ def short_cells(curve: DyadCurve) -> tuple[Reals, Reals]:
         short = seen.known & (seen.extent < _SHORT * seen.length.low)
         good.append(cells[short & ~seen.far])
         count += len(good[-1])
-        cells = curve.halves(cells[~short & ~seen.far])
+        cells = seen.halves(~short & ~seen.far)
         if not len(cells) or count + len(cells) > _MOST:
             break
     return np.concatenate(good), cells
@@ -266,19 +285,18 @@ def _sinc(angle: Enclosure) -> Enclosure:
 def _finite(pivots: Enclosure, known: Flags) -> Enclosure:
     """The same with huge rests where they are infinite, so that nothing becomes undefined."""
     none = np.zeros_like(pivots.value)
-    return pivots.where(known, Enclosure(none, (none,) * len(pivots.slopes), np.full(len(none), 1e30)))
+    return pivots.where(known, Enclosure(none, (none,) * len(pivots.slopes), np.full(none.shape, 1e30)))
 
 
 def centres(
     moving: Enclosure,
     turns: Complexes,
     shifts: Complexes,
-    directions: Mapping[tuple[int, int], Direction] = _NO_POLES,
 ) -> tuple[Enclosure, Reals]:
     """The centres of the circles through the places of the pivots, from two bisectors, whichever two tell most.
 
     With them a lower bound of their distances from the origin. The centre m of the bisectors Re(g_j* m) = h_j is
-    i (h_2 g_1 - h_1 g_2)/Im(g_1* g_2). Directions of the normals g_j are given where two places may be one.
+    i (h_2 g_1 - h_1 g_2)/Im(g_1* g_2).
     """
     about = moving.value  # so that numbers are small
     places = about[:, None] * (turns - 1) + shifts
@@ -287,9 +305,6 @@ def centres(
     for j, k in combinations(range(len(turns)), 2):
         gap = moving * (turns[k] - turns[j]) + (places[:, k] - places[:, j])
         middle = moving * ((turns[k] + turns[j]) / 2) + (places[:, k] + places[:, j]) / 2
-        if (j, k) in directions:
-            there, direction = directions[j, k]
-            gap = direction.where(there, gap)
         bisectors.append((gap, (gap.conjugate * middle).real))
     none = np.zeros(len(about), np.complex128)
     centre = Enclosure(none, (none,) * len(moving.slopes), np.full(len(about), np.inf))

@@ -10,13 +10,15 @@ from itertools import combinations, pairwise, product
 import numpy as np
 
 from gruebler.base.arrays import Reals
-from gruebler.design.synthesis.dyad_cells import FAR, DyadCurve, DyadFamily, centres, halves
+from gruebler.design.synthesis.dyad_cells import FAR, DyadCurve, DyadFamily, Links, links_to
 from gruebler.design.synthesis.dyads import Displacements
 from gruebler.design.synthesis.enclosures import Enclosure
 
 _POLES_APART = 1e-3
 """Sizes: poles nearer to each other are nearly one, and what lies between them is lost in rounding."""
 _FARTHEST_POLE = 100.0
+_STEPS = ((0, 1), (0, 2), (1, 2))  # between the places of a pivot
+_ROUNDING = 1e-12
 
 
 def crank_family(given: Displacements) -> DyadFamily | None:
@@ -82,12 +84,6 @@ class DyadPlane:
         rows += [(1 + k, 1, 0, radius, 0, 2 * np.pi) for k, radius in enumerate(self.radii)]
         return np.array(rows, np.float64)
 
-    def halves(self, cells: Reals) -> Reals:
-        """Each cell in two, one after the other."""
-        scale = np.array([1.0, *self.radii])[cells[:, 0].astype(int)]
-        turns = (cells[:, 5] - cells[:, 4]) * scale > cells[:, 3] - cells[:, 2]
-        return halves(cells, turns.astype(np.int64))
-
     def moving_pivots(self, cells: Reals) -> tuple[Enclosure, Reals]:
         """The pivots on the body; those of the square are infinitely far where the disc of a pole has them."""
         first, second = _ranges(cells)
@@ -98,12 +94,41 @@ class DyadPlane:
             least = np.where(beyond, np.inf, least)
         return pivots, least
 
-    def fixed_pivots(self, cells: Reals, moving: Enclosure) -> tuple[Enclosure, Reals]:
-        """The centres of the circles through the three places."""
+    def links(self, cells: Reals, moving: Enclosure) -> Links:
+        """The links: three products of the steps from place to place, and the area that these enclose as their weight.
+
+        With the steps g_jk = (q_k - q_j)(x - P_jk) the links are g_01 g_02 g_12*, g_01 g_02* g_12 and g_01* g_02 g_12,
+        each times -i/2, and the weight is Im(g_01* g_02). About a pole all are divided by the distance r from it.
+        """
         q, t = self.given.with_first
-        turn = _turn(_ranges(cells)[1])
-        normals = {(j, k): (cells[:, 0] == number, turn * (q[k] - q[j])) for number, (j, k) in enumerate(self.poles, 1)}
-        return centres(moving, q, t, normals)
+        first, second = _ranges(cells)
+        turn, about = _turn(second), moving.value
+        steps, rest = {}, moving - about
+        for j, k in _STEPS:
+            steps[j, k] = rest * (q[k] - q[j]) + (about * (q[k] - q[j]) + t[k] - t[j])
+        # Im(g_01* g_02) = bend |x|² + Im(slope x) + constant
+        bend = float(np.imag(np.conj(q[1]) * q[2] - np.conj(q[1]) - q[2]))
+        slope = np.conj(t[1]) * (q[2] - 1) - np.conj(t[2] * (np.conj(q[1]) - 1))
+        grown = slope + 2j * bend * np.conj(about)
+        area = Enclosure(
+            np.imag(np.conj(steps[0, 1].value) * steps[0, 2].value),
+            tuple(np.imag(grown * each) for each in moving.slopes),
+            np.abs(grown) * moving.rest + abs(bend) * moving.reach**2,
+        )
+        for number, ((j, k), pole) in enumerate(self.poles.items(), 1):
+            there = cells[:, 0] == number
+            steps[j, k] = (turn * (q[k] - q[j])).where(there, steps[j, k])
+            area = ((turn * (slope + 2j * bend * np.conj(pole))).imaginary + first * bend).where(there, area)
+        near, far, last = (steps[pair] for pair in _STEPS)
+        products = [near * far * last.conjugate, near * far.conjugate * last, near.conjugate * far * last]
+        arms = Enclosure(
+            np.stack([each.value for each in products], axis=1) * -0.5j,
+            tuple(np.stack(parts, axis=1) * -0.5j for parts in zip(*(each.slopes for each in products), strict=True)),
+            np.stack([each.rest for each in products], axis=1) / 2,
+        )
+        link = arms.at((slice(None), 0))
+        beyond = (moving * area - link).least / area.most
+        return Links(moving - link * area.inverse, arms, area.widened(_ROUNDING * area.most), beyond)
 
 
 class DyadPencil:
@@ -122,19 +147,13 @@ class DyadPencil:
         ends = [np.linspace(low, high, 5) for low, high in ((0, far), (0, 2 * np.pi), (-far, far))]
         return np.array([(0, 1, *np.ravel(cell)) for cell in product(*map(pairwise, ends))], np.float64)
 
-    def halves(self, cells: Reals) -> Reals:
-        """Each cell in two, one after the other."""
-        low, high = cells[:, 2::2], cells[:, 3::2]
-        widths = high - low
-        widths[:, 1] *= np.maximum(np.abs(low + high)[:, [0, 2]].max(axis=1) / 2, 0.3)
-        return halves(cells, np.argmax(widths, axis=1))
-
     def moving_pivots(self, cells: Reals) -> tuple[Enclosure, Reals]:
         """The pivots on the body."""
         distance, angle, _ = _ranges(cells)
         return distance * _turn(angle) + self.pole, np.zeros(len(cells))
 
-    def fixed_pivots(self, cells: Reals, _: Enclosure) -> tuple[Enclosure, Reals]:
-        """The pivots on the bisectors."""
+    def links(self, cells: Reals, moving: Enclosure) -> Links:
+        """The links to pivots on the bisectors."""
         _, angle, distance = _ranges(cells)
-        return distance * _turn(angle) * self.half + self.pole, np.zeros(len(cells))
+        fixed = distance * _turn(angle) * self.half + self.pole
+        return links_to(fixed, np.zeros(len(cells)), moving, self.given)

@@ -35,6 +35,16 @@ class Enclosure:
     rest: Reals
     __array_ufunc__ = None
 
+    @classmethod
+    def exact(cls, value: Numbers, parameters: int) -> Enclosure:
+        """Numbers that depend on none of so many parameters."""
+        return cls(value, (np.zeros_like(value),) * parameters, np.zeros(value.shape))
+
+    @property
+    def count(self) -> int:
+        """Of the parameters."""
+        return len(self.slopes)
+
     @property
     def reach(self) -> Reals:
         """How far it can be from its value."""

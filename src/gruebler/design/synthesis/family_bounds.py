@@ -6,9 +6,9 @@ the two cells is halved. docs/theory/synthesis-positions.md, "Proofs in the fami
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
-from functools import partial
+from enum import Enum, auto
 from math import ceil, degrees, radians
 from typing import NamedTuple
 
@@ -21,6 +21,7 @@ from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, short_cells
 from gruebler.design.synthesis.dyads import Displacements
 from gruebler.design.synthesis.enclosures import Enclosure
+from gruebler.design.synthesis.pair_lengths import PairLengths, Ranges
 from gruebler.design.synthesis.results import EXACT
 from gruebler.design.synthesis.tasks import PositionTask
 
@@ -55,9 +56,21 @@ class Exclusion(NamedTuple):
     """Pairs of cells that were looked at."""
 
 
-def order_dropped(task: PositionTask, demands: Demands) -> Demands:
-    """Without the order if it is not that of the list: what is excluded without it is excluded all the more."""
-    return replace(demands, in_order=False) if task.order else demands
+class WayOrder(Enum):
+    """In which order the crank meets the positions."""
+
+    LISTED = auto()
+    ANY = auto()
+    """That with the least travel."""
+    OWN = auto()
+    """One that is given: what is excluded without it is excluded all the more."""
+
+    @classmethod
+    def of(cls, task: PositionTask, demands: Demands) -> WayOrder:
+        """That of a task."""
+        if not demands.in_order:
+            return cls.ANY
+        return cls.OWN if task.order else cls.LISTED
 
 
 def excluded(task: PositionTask, demands: Demands, budget: int = _BUDGET) -> Exclusion:
@@ -76,7 +89,7 @@ def excluded(task: PositionTask, demands: Demands, budget: int = _BUDGET) -> Exc
     cells, singular = short_cells(curve)
     whole = len(curve.spans) * (1 if curve.cubic.closes else 2) * curve.end
     beyond = float(np.sum(singular[:, 3] - singular[:, 2])) / whole if len(singular) else 0.0
-    search = PairTests(order_dropped(task, demands), origin, size)
+    search = PairTests(demands, WayOrder.of(task, demands), origin, size)
     seen = DyadCells(curve, cells)
     drivers, others = search.kept(seen)
     i, j = (side.ravel() for side in np.meshgrid(np.flatnonzero(drivers), np.flatnonzero(others), indexing="ij"))
@@ -141,20 +154,39 @@ def _halved(curve: DyadCurve, seen: DyadCells, i: Integers, j: Integers) -> tupl
     same = np.unique(np.concatenate([i[~first], j[first]]))
     at = np.zeros((2, len(seen.cells)), np.int64)
     at[0, split], at[1, same] = 2 * np.arange(len(split)), 2 * len(split) + np.arange(len(same))
-    cells = DyadCells(curve, np.concatenate([curve.halves(seen.cells[split]), seen.cells[same]]))
+    cells = DyadCells(curve, np.concatenate([seen.halves(split), seen.cells[same]]))
     own, other = np.where(first, at[0, i], at[1, i]), np.where(first, at[1, j], at[0, j])
     return cells, np.concatenate([own, own + first]), np.concatenate([other, other + ~first])
+
+
+class _Side(NamedTuple):
+    """Cells of the one dyad of pairs, and rows of them."""
+
+    cells: DyadCells
+    rows: Integers
+    place: int
+    """Of its parameters among those of the pairs, before or behind those of the other dyad."""
+
+    def at(self, enclosed: Enclosure) -> Enclosure:
+        return enclosed.at(self.rows).placed(self.place, enclosed.count)
+
+    def some(self, rows: Integers) -> _Side:
+        return self._replace(rows=self.rows[rows])
+
+
+_Sides = tuple[_Side, _Side]
+"""The driven dyads first."""
 
 
 class PairTests:
     """The demands as tests of pairs of cells: true where all four-bars of a pair certainly fail."""
 
-    def __init__(self, demands: Demands, origin: complex, size: float) -> None:
-        self.demands = demands
+    def __init__(self, demands: Demands, order: WayOrder, origin: complex, size: float) -> None:
+        self.demands, self.order = demands, order
         least = demands.transmission
         # Without one branch there is no way on which a transmission angle could be kept.
         self.on_a_branch = demands.one_branch or least > 0
-        self.ordered = demands.one_branch and demands.in_order
+        self.ordered = demands.one_branch and order is WayOrder.LISTED
         self.cosine = float(np.cos(least))
         turns = [complex(np.exp(1j * least)), complex(np.exp(-1j * least))]
         self.sides = turns if least > 0 else turns[:1]
@@ -170,42 +202,44 @@ class PairTests:
             kept &= ~seen.outside(self.region)
         return (kept & ~seen.keeps_no_order if self.ordered and self.demands.crank else kept), kept
 
-    def fails(self, seen: DyadCells, i: Integers, j: Integers, seconds: DyadCells | None = None) -> Flags:
-        """Pairs of cells, the driven one first; the other ones out of `seconds`, where they are given."""
-        beside, count = seconds or seen, len(seen.moving.slopes)
-        driven, other = (partial(_placed, side=side, rows=rows, others=count) for side, rows in enumerate((i, j)))
-        moving, frame = other(beside.moving) - driven(seen.moving), other(beside.fixed) - driven(seen.fixed)
-        a, b, c, d = driven(seen.length), moving.modulus, other(beside.length), frame.modulus
-        longest = np.maximum.reduce([length.low for length in (a, b, c, d)])
-        shortest = np.minimum.reduce([length.high for length in (a, b, c, d)])
-        fails: Flags = longest > self.demands.size_ratio * shortest
-        fails |= self.have_other_lengths({"crank": a, "coupler": b, "rocker": c, "frame": d})
+    def fails(
+        self, seen: DyadCells, i: Integers, j: Integers, seconds: DyadCells | None = None, *, far: int = 1
+    ) -> Flags:
+        """Pairs of cells, the driven one first; the other ones out of `seconds`, where they are given.
+
+        The fixed pivots of the second cells may be infinitely far, or with `far` 0 those of the first ones.
+        """
+        sides = _Side(seen, i, 0), _Side(seconds or seen, j, 1)
+        with np.errstate(invalid="ignore"):  # what is not bounded excludes nothing
+            fails = self._fail(sides, far, 1)
+            own = sides[far]
+            unsure = np.flatnonzero(fails & (own.cells.weight.low[own.rows] <= 0))
+            if len(unsure):
+                fails[unsure] = self._fail((sides[0].some(unsure), sides[1].some(unsure)), far, -1)
+        return fails
+
+    def _fail(self, sides: _Sides, far: int, sign: int) -> Flags:
+        """The same, where the weight of the far link has this sign."""
+        (driven, other), (near, own) = sides, (sides[1 - far], sides[far])
+        coupler = other.at(other.cells.moving) - driven.at(driven.cells.moving)
+        away = own.at(own.cells.moving) - near.at(near.cells.fixed)
+        link, weight = own.at(own.cells.first_arm) * sign, own.at(own.cells.weight) * sign
+        lengths = PairLengths.of(coupler, near.at(near.cells.length), link, away, weight, crank_far=not far)
+        fails = lengths.too_slender(self.demands.size_ratio) | lengths.have_others(self.lengths)
+        frame = weight * away - link if far else (link - weight * away) * sign
         fails |= self.has_other_direction(frame)
-        # The crank passes pi if b + c > a + d, and 0 if |a - d| < |b - c| does not hold: a product of two factors.
-        inner, first, second = b + c - a - d, a + c - b - d, a + b - c - d
-        pi_free, pi_shut = inner.low > 0, inner.high <= 0
-        plus, minus = (first.low > 0, second.low > 0), (first.high < 0, second.high < 0)
-        zero_free = (plus[0] & plus[1]) | (minus[0] & minus[1])
-        zero_shut = (plus[0] & minus[1]) | (minus[0] & plus[1])
-        turns_not = pi_shut | zero_shut
+        ranges = lengths.ranges
         if self.demands.crank:
-            fails |= turns_not
+            fails |= ranges.pi_shut | ranges.zero_shut
         if self.on_a_branch:
-            fails |= self._leaves_branch(moving, other(beside.back))
+            fails |= self._leaves_branch(coupler, other.at(other.cells.back))
         if not self.demands.one_branch:
             return fails
-        phi = driven(seen.angle) - frame.angle.column
-        ranges = Ranges(pi_free=pi_free, pi_shut=pi_shut, zero_free=zero_free, zero_shut=zero_shut)
-        return np.asarray(fails | no_way(phi, seen, i, ranges, self._too_flat(a, b, c, d), self.demands))
-
-    def have_other_lengths(self, links: Mapping[str, Enclosure]) -> Flags:
-        """Whether links certainly have other lengths than those that are demanded."""
-        some = next(iter(links.values()))
-        other = np.zeros(len(some.value), bool)
-        for link, length in self.lengths:
-            slack = EXACT * max(1.0, length)
-            other |= (links[link].low > length + slack) | (links[link].high < length - slack)
-        return other
+        none = np.zeros(len(fails), bool)
+        flat = lengths.too_flat(self.cosine) if self.demands.transmission else (none, none)
+        # Of a crank with negative weight the arms are turned by half a turn, and so is the frame.
+        phi = driven.at(driven.cells.angle) - frame.angle.column
+        return np.asarray(fails | no_way(phi, driven.cells, driven.rows, ranges, flat, self.order))
 
     def has_other_direction(self, frame: Enclosure) -> Flags:
         """Whether the frame, from one pivot to the other, certainly has another direction than that demanded."""
@@ -227,32 +261,9 @@ class PairTests:
         left = np.any([(part.low > 0).any(axis=1) for part in turned], axis=0)
         return np.asarray(right & left)
 
-    def _too_flat(self, a: Enclosure, b: Enclosure, c: Enclosure, d: Enclosure) -> tuple[Flags, Flags]:
-        """Whether the transmission angle is certainly too small where the crank passes 0, and where it passes pi."""
-        if not self.demands.transmission:
-            return (np.zeros(len(a.value), bool),) * 2
-        squares, allowed = b * b + c * c, 2 * self.cosine * (b * c)
-        return tuple(  # type: ignore[return-value]
-            ((squares - far * far - allowed).low > 0) | ((squares - far * far + allowed).high < 0)
-            for far in (d - a, d + a)
-        )
-
-
-def _placed(enclosed: Enclosure, side: int, rows: Integers, others: int) -> Enclosure:
-    return enclosed.at(rows).placed(side, others)
-
-
-class Ranges(NamedTuple):
-    """Whether the crank certainly passes the crank angles 0 and pi, and whether it certainly does not."""
-
-    pi_free: Flags
-    pi_shut: Flags
-    zero_free: Flags
-    zero_shut: Flags
-
 
 def no_way(
-    phi: Enclosure, seen: DyadCells, i: Integers, ranges: Ranges, flat: tuple[Flags, Flags], demands: Demands
+    phi: Enclosure, seen: DyadCells, i: Integers, ranges: Ranges, flat: tuple[Flags, Flags], order: WayOrder
 ) -> Flags:
     """Whether no range of the crank has a way through the positions: one about 0, about pi, both, or a full turn.
 
@@ -262,7 +273,7 @@ def no_way(
         i: (rows,) which of them.
         ranges: what ends the ranges.
         flat: whether the transmission angle is certainly too small where the crank passes 0, and where it passes pi.
-        demands: what is demanded.
+        order: in which the crank meets the positions.
     """
     at_zero, at_pi = flat
     pi_free, pi_shut, zero_free, zero_shut = ranges
@@ -270,16 +281,17 @@ def no_way(
     front = _Angles.cut(phi, -np.pi, 0.0)
     behind = _Angles.cut(phi, 0.0, np.pi)
     steps = seen.steps[1][i]
-    no_front, no_behind = (
-        angles.keep_no_order(steps) if demands.in_order else np.zeros(len(i), bool) for angles in (front, behind)
-    )
+    listed, none = order is WayOrder.LISTED, np.zeros(len(i), bool)
+    no_front, no_behind = (angles.keep_no_order(steps) if listed else none for angles in (front, behind))
     split = front.both_sides | no_front | pi_free | zero_free
     about_zero = no_front | (front.both_sides & at_zero) | pi_free | zero_shut
     about_pi = no_behind | (behind.both_sides & at_pi) | pi_shut | zero_free
-    if demands.in_order:
+    if listed:
         onward, back = (least[i] for least in seen.ways)
         begin, reach = phi.value[:, 0], phi.reach[:, 0]
         turns_not |= _way_fails(begin, reach, onward, at_zero, at_pi) & _way_fails(-begin, reach, back, at_zero, at_pi)
+    elif order is WayOrder.ANY:
+        turns_not |= _shortest_way_fails(phi, at_zero, at_pi)
     return np.asarray(split & about_zero & about_pi & turns_not)
 
 
@@ -314,3 +326,15 @@ def _way_fails(begin: Reals, reach: Reals, travel: Reals, at_zero: Flags, at_pi:
         passed = np.floor((begin - reach + travel - at) / _LAP) > np.floor((begin + reach - at) / _LAP)
         fails |= passed & flat
     return fails
+
+
+def _shortest_way_fails(phi: Enclosure, at_zero: Flags, at_pi: Flags) -> Flags:
+    """Whether the shortest way of a crank that turns fully, around the largest gap, passes where it must not."""
+    angles, reach = np.sort(phi.value % _LAP, axis=1), np.fmin(phi.reach.max(axis=1), _LAP)[:, None]
+    gaps = np.roll(angles, -1, axis=1) - angles
+    gaps[:, -1] += _LAP
+    fails = gaps + 2 * reach < (gaps - 2 * reach).max(axis=1)[:, None]  # that is not the largest gap
+    for at, flat in ((0.0, at_zero), (np.pi, at_pi)):
+        within = (at - angles + reach) % _LAP < gaps + 2 * reach
+        fails |= ~within & flat[:, None]
+    return np.asarray(fails.all(axis=1))

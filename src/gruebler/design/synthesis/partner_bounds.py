@@ -22,9 +22,10 @@ from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, Dyad
 from gruebler.design.synthesis.dyad_planes import crank_family
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, GuidingDyad
 from gruebler.design.synthesis.enclosures import Enclosure
-from gruebler.design.synthesis.family_bounds import MARGINS, NARROW, PairTests, Ranges, no_way, order_dropped
+from gruebler.design.synthesis.family_bounds import MARGINS, NARROW, PairTests, WayOrder, no_way
 from gruebler.design.synthesis.length_search import PairFamily, best_members, dyad_numbers
 from gruebler.design.synthesis.pair_facts import pair_facts
+from gruebler.design.synthesis.pair_lengths import Ranges, is_other, off
 from gruebler.design.synthesis.pair_search import Pair
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
@@ -125,10 +126,10 @@ def branch_and_bound(
                 best, place = float(reached[k]), (complex(tried.moving[k]), complex(tried.fixed[k]))
         if best + margin >= pi / 2:
             return left / whole, best, place
-        stays = ~seen.far & (possible(seen, best + margin) | ~seen.known)
+        stays = ~seen.far & possible(seen, best + margin)
         done = stays & ((seen.extent < NARROW) | (looked + 2 * np.count_nonzero(stays) > budget))
         left += _content(cells[done])
-        cells = family.halves(cells[stays & ~done])
+        cells = seen.halves(stays & ~done)
         if not len(cells):
             break
     return (left + _content(cells)) / whole, best, place
@@ -156,13 +157,16 @@ class PartnerSearch:
 
     def possible(self, seen: DyadCells, angle: float) -> Flags:
         """Cells that may have a linkage with such a transmission angle."""
-        wanted = replace(order_dropped(self.task, self.demands), transmission=angle)
-        tests = PairTests(wanted, self.origin, self.size)
+        wanted = replace(self.demands, transmission=angle)
+        tests = PairTests(wanted, WayOrder.of(self.task, wanted), self.origin, self.size)
         drivers, others = tests.kept(seen)
         if self.held.slides:
-            return self.inside & drivers & ~_fails(seen, self.given, self.held, tests)
+            return self.inside & drivers & ~(seen.known & _fails(seen, self.given, self.held, tests))
         varied, own = np.arange(len(seen.cells)), np.zeros(len(seen.cells), np.int64)
-        fails = tests.fails(self.cell, own, varied, seen) if self.driven else tests.fails(seen, varied, own, self.cell)
+        if self.driven:
+            fails = tests.fails(self.cell, own, varied, seen)
+        else:
+            fails = tests.fails(seen, varied, own, self.cell, far=0)
         return np.asarray(self.inside & (others if self.driven else drivers) & ~fails)
 
     @cached_property
@@ -223,9 +227,9 @@ def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, tests: Pai
         arms = _slack((pins - given.images(slide.moving)) * np.conj(slide.direction))
         across = _slack((slide.moving - seen.fixed) * np.conj(slide.direction))
         b, e = _first(arms).modulus, across.imaginary
-        other_sizes = tests.have_other_lengths({"crank": a, "coupler": b})
-        flat = _beyond(arms.imaginary, least * b.column)
-        at_zero, at_pi = _beyond(a - e, least * b), _beyond(a + e, least * b)
+        links, fails = {"crank": a, "coupler": b}, np.zeros(len(seen.cells), bool)
+        flat = off(arms.imaginary, least * b.column)
+        at_zero, at_pi = off(a - e, least * b), off(a + e, least * b)
         to_zero, to_pi = b - a + e, b - a - e
         pi_free, pi_shut = to_pi.low > 0, to_pi.high <= 0
         phi = seen.angle - float(np.angle(1j * slide.direction))
@@ -233,18 +237,19 @@ def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, tests: Pai
         frame = slide.fixed - seen.fixed
         arms = _slack((slide.fixed - pins) * np.conj(slide.direction * q))
         d, e = frame.modulus, _first(arms).imaginary
-        other_sizes = tests.have_other_lengths({"crank": a, "frame": d}) | tests.has_other_direction(frame)
-        flat = _beyond(e.column, least * arms.modulus)
-        at_zero, at_pi = _beyond(e, least * (a - d)) & _beyond(e, least * (d - a)), _beyond(e, least * (a + d))
+        links, fails = {"crank": a, "frame": d}, tests.has_other_direction(frame)
+        flat = off(e.column, least * arms.modulus)
+        at_zero, at_pi = off(e, least * (a - d)) & off(e, least * (d - a)), off(e, least * (a + d))
         to_zero = (a - d) * (a - d) - e * e
         pi_free, pi_shut = np.ones(len(seen.cells), bool), np.zeros(len(seen.cells), bool)
         phi = seen.angle - frame.angle.column
     zero_free, zero_shut = to_zero.low > 0, to_zero.high <= 0
     along = arms.real
-    fails = other_sizes
+    for link, length in tests.lengths:
+        fails |= is_other(links[link], 1.0, length)
     if demands.crank:
         fails |= pi_shut | zero_shut
-        if demands.one_branch and demands.in_order:
+        if tests.ordered:
             fails |= seen.keeps_no_order
     if demands.transmission:
         fails |= flat.any(axis=1)
@@ -255,7 +260,7 @@ def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, tests: Pai
     if not demands.one_branch:
         return fails
     ranges = Ranges(pi_free=pi_free, pi_shut=pi_shut, zero_free=zero_free, zero_shut=zero_shut)
-    closed = no_way(phi, seen, np.arange(len(seen.cells)), ranges, (at_zero, at_pi), demands)
+    closed = no_way(phi, seen, np.arange(len(seen.cells)), ranges, (at_zero, at_pi), tests.order)
     return np.asarray(fails | closed)
 
 
@@ -265,11 +270,6 @@ def _slack(measured: Enclosure) -> Enclosure:
 
 def _first(row: Enclosure) -> Enclosure:
     return Enclosure(row.value[:, 0], tuple(slope[:, 0] for slope in row.slopes), row.rest[:, 0])
-
-
-def _beyond(value: Enclosure, most: Enclosure) -> Flags:
-    """Whether it is certainly larger in size than something that is positive, or than both where it may be negative."""
-    return np.asarray(((value - most).low > 0) | ((value + most).high < 0))
 
 
 def slide_notes(
