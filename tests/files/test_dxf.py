@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from gruebler.base.errors import GrueblerError
 from gruebler.files import values as files
+from gruebler.files.drawing_linkages import linkage_of_drawing
 from gruebler.files.dxf import cut_outs, dxf_from_linkage, plate_outline
-from gruebler.files.pin_drawings import linkage_of_drawing, lower_linkage
+from gruebler.files.linkage_drawings import lower_linkage
 from gruebler.files.pmks import drawing_from_pmks
 from gruebler.mechanics.analysis.plates import Plate, plates_of, whole_motion
 from gruebler.mechanics.fourbar import FourBar, SliderCrank

@@ -46,7 +46,7 @@ def test_a_model_runs_a_whole_turn_as_the_linkage_does(name):
     data = mujoco.MjData(model)
     drive = linkage.mechanism.drive_names()[0]
     joint = model.joint(drive)
-    from gruebler.files.pin_drawings import lower_linkage
+    from gruebler.files.linkage_drawings import lower_linkage
 
     lower = lower_linkage(linkage)
     first, other = lower.reference(0)

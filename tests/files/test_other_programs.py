@@ -16,11 +16,13 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import error_in_language
 from gruebler.base.units import MILLIMETRES
 from gruebler.files import values as files
+from gruebler.files.drawing_linkages import linkage_of_drawing
 from gruebler.files.four_bar_rs import drawing_from_ron, ron_from_drawing
 from gruebler.files.linkage2 import drawing_from_linkage2, linkage2_from_drawing
+from gruebler.files.linkage_drawings import drawing_of
 from gruebler.files.linkages import read_loaded
 from gruebler.files.motiongen import drawing_from_motiongen, motiongen_from_drawing
-from gruebler.files.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, drawing_of, linkage_of_drawing
+from gruebler.files.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing
 from gruebler.files.pmks import drawing_from_pmks, pmks_from_drawing
 from gruebler.files.pylinkage import drawing_from_pylinkage, pylinkage_from_drawing
 from gruebler.files.pyslvs import drawing_from_pyslvs, pyslvs_from_drawing

@@ -9,7 +9,7 @@ import pytest
 
 from gruebler.base.errors import GrueblerError
 from gruebler.files import values as files
-from gruebler.files.pin_drawings import lower_linkage
+from gruebler.files.linkage_drawings import lower_linkage
 from gruebler.files.urdf import urdf_from_linkage
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import move

@@ -9,7 +9,7 @@ from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, message
 from gruebler.base.units import MILLIMETRES
-from gruebler.files.pin_drawings import lower_linkage
+from gruebler.files.linkage_drawings import lower_linkage
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
 

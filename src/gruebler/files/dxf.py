@@ -21,7 +21,7 @@ import numpy as np
 from gruebler.base.convex_hull import convex_hull
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import Message, message
-from gruebler.files.pin_drawings import lower_linkage
+from gruebler.files.linkage_drawings import lower_linkage
 from gruebler.mechanics.analysis.link_planes import link_planes, plate_sizes
 from gruebler.mechanics.analysis.plates import Plate, Plates, plates_of, whole_motion
 from gruebler.mechanics.kinematics.reference_pose import pose_at_reference

@@ -208,7 +208,7 @@ def _write_task(value: Any, path: Path, left_out: list[Message]) -> None:
 
 def _linkage(path: Path, drawing: Callable[[], PinDrawing], left_out: list[Message]) -> Linkage:
     """The linkage of a drawing; errors name the file, also where numbers near the largest have no square."""
-    from gruebler.files.pin_drawings import linkage_of_drawing
+    from gruebler.files.drawing_linkages import linkage_of_drawing
 
     try:
         drawn = drawing()
@@ -261,7 +261,7 @@ def _drawn(
         return _linkage(path, lambda: _function(module, f"drawing_from_{called}")(text, left_out), left_out)
 
     def write(value: Any, path: Path, left_out: list[Message]) -> None:
-        from gruebler.files.pin_drawings import drawing_of
+        from gruebler.files.linkage_drawings import drawing_of
 
         drawing = drawing_of(_as_linkage(value), left_out)
         write_whole(path, _function(module, f"{called}_from_drawing")(drawing, left_out))
@@ -303,7 +303,7 @@ def _json_of_others(name: str, title: Message, carries: Message) -> Format:
         return _linkage(path, partial(_function(name, f"drawing_from_{name}"), data, left_out), left_out)
 
     def write(value: Any, path: Path, left_out: list[Message]) -> None:
-        from gruebler.files.pin_drawings import drawing_of
+        from gruebler.files.linkage_drawings import drawing_of
 
         document = _function(name, f"{name}_from_drawing")(drawing_of(_as_linkage(value), left_out), left_out)
         write_whole(path, json.dumps(document, indent=1) + "\n")

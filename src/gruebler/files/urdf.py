@@ -21,7 +21,7 @@ from gruebler.base.units import MILLIMETRES
 from gruebler.files.body_tree import DENSITY, SLENDER, OpenTree
 from gruebler.files.gltf import metres_a_unit
 from gruebler.files.link_solids import bars_between
-from gruebler.files.pin_drawings import lower_linkage, placed_joint
+from gruebler.files.linkage_drawings import lower_linkage, placed_joint
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.screws import JointPlace, SpatialLinkage
 from gruebler.mechanics.space.bodies import motions

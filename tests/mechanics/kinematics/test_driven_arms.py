@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 
 from gruebler.files import values as files
-from gruebler.files.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, linkage_of_drawing
+from gruebler.files.drawing_linkages import linkage_of_drawing
+from gruebler.files.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.kinematics import move
