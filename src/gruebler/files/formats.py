@@ -9,8 +9,6 @@ import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from importlib import import_module
-from math import atan2
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,24 +16,22 @@ from gruebler.base.atomic_files import write_whole
 from gruebler.base.documents import load_document
 from gruebler.base.errors import GrueblerError, naming
 from gruebler.base.text import Message, message, reason_of
+from gruebler.files.documents import (
+    drawn_linkage,
+    function_of,
+    linkage_to_write,
+    read_own_document,
+    read_task_or_curve,
+    write_csv,
+    write_own_document,
+    write_parquet_table,
+    write_spreadsheet,
+)
 
 if TYPE_CHECKING:
-    from typing import TypeAlias
-
-    from gruebler.base.columns import Table
-    from gruebler.design.synthesis import Task
-    from gruebler.files.pin_drawings import PinDrawing
-    from gruebler.machines.gears import TrainReading
     from gruebler.mechanics.linkages import Linkage
     from gruebler.mechanics.screws import SpatialLinkage
     from gruebler.structure.chain import Chain
-
-    Value: TypeAlias = Chain | list[Chain] | Linkage | SpatialLinkage | TrainReading | Task
-
-_TASKS = frozenset({"positions", "points", "inputs", "function", "swing", "stroke"})
-_LINKAGES = frozenset({"joints", "four_bar", "slider_crank", "inverted_slider_crank"})  # they may have points, too
-_LARGEST_TABLE = 1_000_000  # bytes
-_POSE = 4  # numbers: a place and a direction
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,163 +57,9 @@ class Format:
     """What a file of another program has of a table ``[loads]``, with places in its drawing."""
 
 
-LOADS = message("loads, masses and the speed of the drive")
-"""What is left out of a linkage by those who want the linkage alone."""
-
 _WITH_UNIT = message("with their unit")
 _AS_MILLIMETRES = message("mm (the format has no unit)")
 _HEADER = message("the unit of the linkage, in the header")
-
-
-# --- readers and writers of the table ----------------------------------------------------------------
-
-
-def _own_document(path: Path, left_out: list[Message]) -> Value:
-    """A TOML or JSON document: of this library, or JSON of another program that shows by its keys."""
-    data = load_document(path, lambda text: GrueblerError("{path}: {problem}", path=path, problem=text))
-    if isinstance(data, list):
-        return [_chain(path, item) for item in data]
-    if not isinstance(data, Mapping):
-        raise GrueblerError("{path}: expected a table of keys", path=path)
-    if (program := _program_of(data)) is not None:
-        return _linkage(path, partial(_function(program, f"drawing_from_{program}"), data, left_out), left_out)
-    if not _TASKS.isdisjoint(data) and _LINKAGES.isdisjoint(data):
-        from gruebler.files.tasks import read_task
-
-        return read_task(path)
-    if "train" in data:
-        from gruebler.machines.gears import read_toml
-
-        return read_toml(path.read_text(encoding="utf-8-sig"), str(path))
-    if "pair" in str(data.get("joints", ""))[:200] and not isinstance(data.get("joints"), str):
-        return _chain(path, data)
-    from gruebler.files.screws import read_any_linkage
-
-    value = read_any_linkage(path)
-    if data.get("loads"):
-        left_out.append(LOADS)
-    return value
-
-
-def _chain(path: Path, document: Any) -> Chain:
-    from gruebler.structure.chain import Chain
-
-    with naming(path, GrueblerError):
-        return Chain.from_json(document)
-
-
-def _write_own_document(value: Any, path: Path, left_out: list[Message]) -> None:
-    from gruebler.design.synthesis import Task
-    from gruebler.mechanics.linkages import Linkage
-    from gruebler.mechanics.screws import SpatialLinkage
-    from gruebler.structure.chain import Chain
-
-    del left_out
-    suffix = path.suffix.lower()
-    if isinstance(value, SpatialLinkage):
-        from gruebler.files.screws import write_screws
-
-        write_screws(path, value)
-    elif isinstance(value, Linkage):
-        from gruebler.files import write_linkage
-
-        write_linkage(path, value)
-    elif isinstance(value, Task):
-        from gruebler.files.tasks import write_task
-
-        write_task(path, value)
-    elif type(value).__name__ in ("Motion", "SpatialMotion", "Table"):
-        raise GrueblerError(
-            "{path}: motions and tables go to .csv or .parquet, not {suffix!r}", path=path, suffix=suffix
-        )
-    elif suffix == ".json":
-        document = value.to_json() if isinstance(value, Chain) else [chain.to_json() for chain in value]
-        write_whole(path, json.dumps(document, ensure_ascii=False, indent=1) + "\n")
-    else:
-        raise GrueblerError("{path}: chains go to .json, .txt or .g6, not {suffix!r}", path=path, suffix=suffix)
-
-
-def _write_csv(value: Any, path: Path, left_out: list[Message]) -> None:
-    table = _as_table(value)
-    if table is None:
-        _write_task(value, path, left_out)
-    else:
-        write_whole(path, table.csv())
-
-
-def _write_spreadsheet(value: Any, path: Path, left_out: list[Message]) -> None:
-    """With a byte order mark: without it spreadsheets take ° and ′ for other signs."""
-    del left_out
-    write_whole(path, "\ufeff" + _required_table(value, path).csv(decimal_comma=True))
-
-
-def _write_parquet(value: Any, path: Path, left_out: list[Message]) -> None:
-    del left_out
-    write_whole(path, _required_table(value, path).parquet())
-
-
-def _as_table(value: Any) -> Table | None:
-    """The table of a motion, or the table itself; None for other values."""
-    from gruebler.base.columns import Table
-    from gruebler.mechanics.kinematics.motion import Motion
-
-    if isinstance(value, Motion):
-        return value.table()
-    return value if isinstance(value, Table) else None
-
-
-def _required_table(value: Any, path: Path) -> Table:
-    table = _as_table(value)
-    if table is None:
-        kind = type(value).__name__
-        raise GrueblerError("{path}: the format holds motions and tables, not a {kind}", path=path, kind=kind)
-    return table
-
-
-def _task(path: Path, left_out: list[Message]) -> Task:
-    """A task in CSV, or without a header a curve of four-bar-rs, closed if its name has ``.closed.``."""
-    from gruebler.design.synthesis import PathTask, PositionTask
-    from gruebler.files.four_bar_rs import curve_from_csv
-    from gruebler.files.tasks import read_task
-    from gruebler.files.text_files import read_text
-
-    del left_out
-    text = read_text(path, _LARGEST_TABLE)
-    try:
-        rows = curve_from_csv(text)
-        if rows is None:
-            return read_task(path)
-        if len(rows[0]) == _POSE:
-            return PositionTask(tuple((x, y, atan2(dy, dx)) for x, y, dx, dy in rows))
-        return PathTask(tuple((x, y) for x, y in rows), closed=".closed." in path.name.lower())
-    except GrueblerError as error:
-        if str(path) in str(error):
-            raise
-        raise GrueblerError("{path}: {error}", path=path, error=error) from None
-
-
-def _write_task(value: Any, path: Path, left_out: list[Message]) -> None:
-    from gruebler.design.synthesis import Task
-    from gruebler.files.tasks import write_task
-
-    del left_out
-    if not isinstance(value, Task):
-        raise GrueblerError("{path}: expected a synthesis task", path=path)
-    write_task(path, value)
-
-
-def _linkage(path: Path, drawing: Callable[[], PinDrawing], left_out: list[Message]) -> Linkage:
-    """The linkage of a drawing; errors name the file, also where numbers near the largest have no square."""
-    from gruebler.files.drawing_linkages import linkage_of_drawing
-
-    try:
-        drawn = drawing()
-        left_out += [LOADS] if drawn.loads else []
-        return linkage_of_drawing(drawn, left_out)
-    except OverflowError:
-        raise GrueblerError("{path}: it has numbers that are too large to be lengths", path=path) from None
-    except GrueblerError as error:
-        raise GrueblerError("{path}: {error}", path=path, error=error) from None
 
 
 def loads_document(path: Path, form: Format, linkage: Linkage) -> dict[str, Any]:
@@ -235,19 +77,6 @@ def loads_document(path: Path, form: Format, linkage: Linkage) -> dict[str, Any]
     return {"loads": loads, "places": {}} if loads else {}
 
 
-def _as_linkage(value: Any) -> Linkage:
-    """The linkage to write; `GrueblerError` for a value without dimensions."""
-    from gruebler.mechanics.linkages.conversion import as_linkage
-
-    return as_linkage(value)
-
-
-def _function(module: str, name: str) -> Callable[..., Any]:
-    """A function of a file in this folder, loaded when it is called for."""
-    function: Callable[..., Any] = getattr(import_module(f"gruebler.files.{module}"), name)
-    return function
-
-
 def _drawn(
     name: str, suffix: str, title: Message, carries: Message, lengths: Message, *, written_as: str = ""
 ) -> Format:
@@ -258,18 +87,18 @@ def _drawn(
         from gruebler.files.text_files import read_text
 
         text = read_text(path)
-        return _linkage(path, lambda: _function(module, f"drawing_from_{called}")(text, left_out), left_out)
+        return drawn_linkage(path, lambda: function_of(module, f"drawing_from_{called}")(text, left_out), left_out)
 
     def write(value: Any, path: Path, left_out: list[Message]) -> None:
         from gruebler.files.linkage_drawings import drawing_of
 
-        drawing = drawing_of(_as_linkage(value), left_out)
-        write_whole(path, _function(module, f"{called}_from_drawing")(drawing, left_out))
+        drawing = drawing_of(linkage_to_write(value), left_out)
+        write_whole(path, function_of(module, f"{called}_from_drawing")(drawing, left_out))
 
     def loads(path: Path) -> Mapping[str, Any]:
         from gruebler.files.text_files import read_text
 
-        return _function(module, f"drawing_from_{called}")(read_text(path), []).loads  # type: ignore[no-any-return]
+        return function_of(module, f"drawing_from_{called}")(read_text(path), []).loads  # type: ignore[no-any-return]
 
     suffixes = (suffix,)
     return Format(
@@ -277,35 +106,17 @@ def _drawn(
     )
 
 
-_JSON_OF_OTHERS = ("motiongen", "pylinkage")
-"""Programs whose documents are JSON; their module knows them by ``is_...``."""
-
-
-def _program_of(document: Any) -> str | None:
-    """The other program whose document this is, by its keys."""
-    return next((each for each in _JSON_OF_OTHERS if _function(each, f"is_{each}")(document)), None)
-
-
-def json_of_another_program(path: Path) -> bool:
-    """Whether a JSON file is one of another program, by its keys; False for a file that is no JSON."""
-    try:
-        data = load_document(path, GrueblerError)
-    except GrueblerError:
-        return False
-    return _program_of(data) is not None
-
-
 def _json_of_others(name: str, title: Message, carries: Message) -> Format:
     def read(path: Path, left_out: list[Message]) -> Linkage:
         data = load_document(path, lambda text: GrueblerError("{path}: {problem}", path=path, problem=text))
-        if not _function(name, f"is_{name}")(data):
+        if not function_of(name, f"is_{name}")(data):
             raise GrueblerError("{path}: is not a document of {program}", path=path, program=title)
-        return _linkage(path, partial(_function(name, f"drawing_from_{name}"), data, left_out), left_out)
+        return drawn_linkage(path, partial(function_of(name, f"drawing_from_{name}"), data, left_out), left_out)
 
     def write(value: Any, path: Path, left_out: list[Message]) -> None:
         from gruebler.files.linkage_drawings import drawing_of
 
-        document = _function(name, f"{name}_from_drawing")(drawing_of(_as_linkage(value), left_out), left_out)
+        document = function_of(name, f"{name}_from_drawing")(drawing_of(linkage_to_write(value), left_out), left_out)
         write_whole(path, json.dumps(document, indent=1) + "\n")
 
     return Format(name=name, suffixes=(), title=title, carries=carries, read=read, write=write, lengths=_AS_MILLIMETRES)
@@ -317,8 +128,8 @@ def _of_linkages(name: str, title: Message, carries: Message, lengths: Message, 
     def write(value: Any, path: Path, left_out: list[Message]) -> None:
         from gruebler.mechanics.screws import SpatialLinkage
 
-        linkage = value if in_space and isinstance(value, SpatialLinkage) else _as_linkage(value)
-        write_whole(path, _function(name, f"{name}_from_linkage")(linkage, left_out))
+        linkage = value if in_space and isinstance(value, SpatialLinkage) else linkage_to_write(value)
+        write_whole(path, function_of(name, f"{name}_from_linkage")(linkage, left_out))
 
     return Format(name=name, suffixes=(f".{name}",), title=title, carries=carries, write=write, lengths=lengths)
 
@@ -327,7 +138,7 @@ def _write_dxf_of_links(value: Any, path: Path, left_out: list[Message]) -> None
     """One file a link, in a folder."""
     from gruebler.files.dxf import dxf_of_links
 
-    texts = dxf_of_links(_as_linkage(value), left_out)
+    texts = dxf_of_links(linkage_to_write(value), left_out)
     _write_in_folder(path, {f"{name}.dxf": text for name, text in texts.items()})
 
 
@@ -426,8 +237,8 @@ FORMATS: tuple[Format, ...] = (
         suffixes=(".toml",),
         title=message("gruebler, TOML"),
         carries=message("linkages in plane and space, tasks, gear trains (read), completely"),
-        read=_own_document,
-        write=_write_own_document,
+        read=read_own_document,
+        write=write_own_document,
         lengths=_WITH_UNIT,
     ),
     Format(
@@ -435,8 +246,8 @@ FORMATS: tuple[Format, ...] = (
         suffixes=(".json",),
         title=message("gruebler, JSON; JSON of other programs is recognised"),
         carries=message("linkages in plane and space, tasks, chains, completely"),
-        read=_own_document,
-        write=_write_own_document,
+        read=read_own_document,
+        write=write_own_document,
         lengths=_WITH_UNIT,
     ),
     Format(
@@ -444,8 +255,8 @@ FORMATS: tuple[Format, ...] = (
         suffixes=(".csv",),
         title=message("gruebler, CSV; curves of four-bar-rs are recognised"),
         carries=message("synthesis tasks, completely; tables of motions with units in their headers (written)"),
-        read=_task,
-        write=_write_csv,
+        read=read_task_or_curve,
+        write=write_csv,
         lengths=message("of tables with their unit, of tasks as they are"),
     ),
     _lines("text", ".txt", message("gruebler, texts of chains"), message("chains, one per line, with any joints")),
@@ -544,7 +355,7 @@ FORMATS: tuple[Format, ...] = (
         title=message("CSV for spreadsheets with decimal commas"),
         carries=message("tables of motions with units in their headers, semicolons between cells"),
         lengths=_WITH_UNIT,
-        write=_write_spreadsheet,
+        write=write_spreadsheet,
     ),
     Format(
         name="parquet",
@@ -552,7 +363,7 @@ FORMATS: tuple[Format, ...] = (
         title=message("Parquet"),
         carries=message("tables of motions with units in their headers"),
         lengths=_WITH_UNIT,
-        write=_write_parquet,
+        write=write_parquet_table,
     ),
 )
 """Every format, those of this library first."""

@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING
 from gruebler.base.doors import door
 from gruebler.base.errors import GrueblerError, unknown, warn
 from gruebler.base.text import Message, joined, joined_by_or, message
-from gruebler.files.formats import FORMATS, LOADS, Format, json_of_another_program, loads_document
+from gruebler.files.documents import LOADS, json_of_another_program
+from gruebler.files.formats import FORMATS, Format, loads_document
 
 if TYPE_CHECKING:
-    from gruebler.files.formats import Value
+    from gruebler.files.documents import Value
     from gruebler.mechanics.forces.loads import Loads
     from gruebler.mechanics.linkages import Linkage
 

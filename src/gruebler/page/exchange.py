@@ -15,7 +15,8 @@ from gruebler.base.atomic_files import temporary_directory, write_whole
 from gruebler.base.documents import load_document
 from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, error_in_language, joined, translate
-from gruebler.files.formats import FORMATS, LOADS, Format, loads_document
+from gruebler.files.documents import LOADS
+from gruebler.files.formats import FORMATS, Format, loads_document
 from gruebler.files.linkages import toml_key, toml_value
 from gruebler.files.load_reading import loads_of_document
 from gruebler.files.values import format_of, read, write, write_loaded

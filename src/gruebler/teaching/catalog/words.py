@@ -14,7 +14,7 @@ from gruebler.files import values
 from gruebler.mechanics.fourbar.length_texts import LENGTH_FORMS, LENGTH_KINDS, size_of
 
 if TYPE_CHECKING:
-    from gruebler.files.formats import Value
+    from gruebler.files.documents import Value
     from gruebler.structure.mechanism import Mechanism
 
 
