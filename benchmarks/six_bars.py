@@ -3,7 +3,8 @@
 Of Watt I: how many carry a body through 6 positions. Through eleven pairs, or eight positions: estimated from how often
 random ones are the same, until the 95 % are within 2 %.
 
-`python -m benchmarks.six_bars FAMILY PAIRS FOLDER SEED` keeps what is found in a folder and goes on from there.
+`python -m benchmarks.six_bars FAMILY PAIRS FOLDER SEED` keeps what is found in a folder and goes on from there. The
+family "Watt I, one angle": those that turn the body between 6 positions of one angle.
 """
 
 import sys
@@ -53,10 +54,19 @@ def estimate(problem: Problem, folder: str, seed: int) -> None:
 
 
 def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 1) -> None:
-    more = {"poses": pairs - 1, "points": 0} if family == "Watt I" else {"poses": 0, "points": pairs - 1}
-    problem = Problem(name=f"{pairs} targets", **more, classes=0, members=1, family=family)
+    kind, _, one_angle = family.partition(", ")
+    poses, points = (pairs - 1, 0) if kind == "Watt I" else (0, pairs - 1)
+    problem = Problem(
+        name=f"{pairs} targets",
+        poses=poses,
+        points=points,
+        classes=0,
+        members=1,
+        family=kind,
+        one_angle=bool(one_angle),
+    )
     search = Search(problem, seed)
-    file = Path(folder or ".") / f"{family.replace(' ', '_')}_{pairs}_{seed}.npz"
+    file = Path(folder or ".") / f"{family.replace(', ', '_').replace(' ', '_')}_{pairs}_{seed}.npz"
     file.parent.mkdir(parents=True, exist_ok=True)
     if folder and file.exists():
         search.load(file)

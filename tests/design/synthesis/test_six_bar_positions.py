@@ -16,7 +16,7 @@ from gruebler.design.synthesis.dyads import Displacements, all_dyads
 from gruebler.design.synthesis.six_bar_census import EIGHT_POSITIONS, SEVEN_POSITIONS, Census
 from gruebler.design.synthesis.six_bar_guidance import random_guides
 from gruebler.design.synthesis.six_bar_monodromy import Search, follow, on_special_plane, trace
-from gruebler.design.synthesis.six_bar_positions import FIVE_POSITIONS, SIX_POSITIONS, keeps_sides
+from gruebler.design.synthesis.six_bar_positions import FIVE_POSITIONS, ONE_ANGLE, SIX_POSITIONS, keeps_sides
 from gruebler.mechanics.kinematics import move
 
 PINS = np.array([-1.5, -0.64 + 0.48j, 1.16 - 0.45j, 0, -0.46 - 0.77j, 1.2 - 0.94j, -0.32 - 1.45j])  # A C D B H G F
@@ -74,13 +74,14 @@ def solution_of(wanted):
     return z[None, : task.shape[1]], task
 
 
-def test_every_six_bar_is_among_the_generic_solutions():
+@pytest.mark.parametrize("problem", [SIX_POSITIONS, ONE_ANGLE], ids=lambda problem: problem.name)
+def test_every_six_bar_is_among_the_generic_solutions(problem):
     """Carried to the generic task each of sixty ends at a stored one: if a tenth were missing, 1 in 500 would pass."""
-    base = load_generic_solutions(SIX_POSITIONS)
-    assert len(base.z) == SIX_POSITIONS.classes
+    base, rng = load_generic_solutions(problem), np.random.default_rng(3)
+    assert len(base.z) == problem.classes
     arrived = 0
-    for z, task in zip(*random_guides(np.random.default_rng(3), 60, 5, tilted=False), strict=True):
-        end, good = follow(SIX_POSITIONS, z[None], task, base.parameters)
+    for z, task in zip(*random_guides(rng, 60, 5, tilted=False, one_angle=problem.one_angle), strict=True):
+        end, good = follow(problem, z[None], task, base.parameters)
         if good[0]:
             arrived += 1
             assert np.abs(base.z - end).max(axis=1).min() < 1e-6 * (1 + np.abs(end).max())
@@ -109,20 +110,65 @@ def test_six_positions_of_a_six_bar_find_it_again(monkeypatch):
             assert np.array(positions_of(pins, turned)) == pytest.approx(np.array(wanted.positions), abs=1e-7)
 
 
-@pytest.mark.parametrize("angle", [0.0, 1.1])
-def test_six_positions_of_one_angle_are_passed_without_any_turn(angle):
-    """They took 77 s for one design. `move` carries the body, which keeps its angle between them, too."""
-    places = [(-1.14, 0.54), (-0.68, 0.31), (-0.23, -0.01), (0.23, -0.33), (0.68, -0.55), (1.14, -0.59)]
-    task = PositionTask([(*place, angle) for place in places], fixed_pivots=[(-1.5, -1), (1, -0.5)])
+@pytest.mark.parametrize(
+    ("count", "angle", "pivots"), [(6, 0.0, [(-1.5, -1), (1, -0.5)]), (6, 1.1, [(-1.5, -1), (1, -0.5)]),
+                                   (7, 0.4, [(-1.5, -1)]), (8, 0.4, [])]
+)  # fmt: skip
+def test_positions_of_one_angle_are_passed_without_any_turn(count, angle, pivots):
+    """Six took 77 s for one design, seven and eight found none. `move` carries the body; its angle stays."""
+    x = np.linspace(-1.2, 1.2, count)
+    places = np.stack([x, 0.3 * x + 0.2 * x**2], axis=1)
+    task = PositionTask([(*place, angle) for place in places], fixed_pivots=pivots)
     found = synthesise(task, six_bars=True)
     assert len(found.designs) > 10
     for design in found.designs[:10]:
         motion = move(design.linkage, np.linspace(design.drives[0], design.drives[-1], 200))
         assert motion.complete
         assert np.ptp(motion.angle("body")) < 1e-9
-        assert move(design.linkage, design.drives).point("P") == pytest.approx(np.array(places), abs=1e-9)
-        pivots = [(e.x, e.y) for (_, link), e in design.linkage.elements.items() if link == "frame"]
-        assert np.array(pivots) == pytest.approx(np.array(task.fixed_pivots), abs=1e-12)
+        assert move(design.linkage, design.drives).point("P") == pytest.approx(places, abs=1e-9)
+        frame = [(e.x, e.y) for (_, link), e in design.linkage.elements.items() if link == "frame"]
+        assert np.ravel(frame[2 - len(pivots) :]) == pytest.approx(np.ravel(pivots), abs=1e-12)
+
+
+def test_six_positions_of_one_angle_of_a_six_bar_that_turns_find_it_again(monkeypatch):
+    """Where no six-bar that keeps the angle is accepted. It has six such positions, as the theory says it may have.
+
+    They are sought by changes of sign as its rocker turns, with the coupler on either side.
+    """
+    monkeypatch.setattr("gruebler.design.synthesis.six_bar_positions._SHIFTING", 0)
+    a, d, f, h, g = -0.574 + 0.129j, -0.742 - 0.137j, -0.357 - 0.924j, -0.341 + 0.098j, 0.058 - 0.119j
+    c = d + (-1.891 + 0.253j) * (h - d)
+    crank = abs(c - a)
+
+    def pin_and_miss(turn, side):
+        """H, and by how much the link F-G would be longer if the body had its first angle."""
+        pin = d * turn
+        gap = a - pin
+        along = (abs(gap) ** 2 + abs(c - d) ** 2 - crank**2) / (2 * abs(gap))
+        across = np.emath.sqrt(abs(c - d) ** 2 - along**2)
+        if isinstance(across, complex):
+            return np.nan, np.nan
+        end = pin + (h - d) / (c - d) * gap / abs(gap) * (along + side * across * 1j)
+        return end, abs(end + g - h - f * turn) - abs(g - f)
+
+    places = []
+    for side in (1, -1):
+        angles = np.linspace(1e-3, 2 * np.pi + 1e-3, 4001)
+        misses = np.array([pin_and_miss(np.exp(1j * angle), side)[1] for angle in angles])
+        for k in np.flatnonzero(misses[:-1] * misses[1:] < 0):
+            low, high = angles[k], angles[k + 1]
+            for _ in range(60):
+                middle = (low + high) / 2
+                same = pin_and_miss(np.exp(1j * middle), side)[1] * misses[k] > 0
+                low, high = (middle, high) if same else (low, middle)
+            places.append(pin_and_miss(np.exp(1j * low), side)[0])
+    assert len(places) == 6
+    places.sort(key=lambda place: abs(place - h))
+    task = PositionTask([(z.real, z.imag, 0.0) for z in places], fixed_pivots=((a.real, a.imag), (0, 0)))
+    found = synthesise(task, six_bars=True, demands=Demands(size_ratio=1e6, one_branch=False, in_order=False))
+    assert found.count.found > 860
+    lengths = [design.linkage.length("crank", 0, 1) for design in (*found.designs, *found.rejected)]
+    assert min(abs(length - crank) for length in lengths) < 1e-6
 
 
 def test_five_positions_have_as_many_as_two_theorems_say():

@@ -53,6 +53,8 @@ class Problem:
     """How many solutions, with the order of the dyads, a class has."""
     family: str = ""
     """Of linkages, by the name that the core knows; four-bars without one."""
+    one_angle: bool = False
+    """Whether the body has the same angle in all positions."""
 
     @property
     def unknowns(self) -> int:

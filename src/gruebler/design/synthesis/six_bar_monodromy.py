@@ -109,7 +109,7 @@ def known_solutions(
     Returns (count, unknowns) and the tasks, complex[count, 4, unknowns] as `_core.track` takes them.
     """
     if problem.guides:
-        return random_guides(rng, count, problem.poses, tilted=general)
+        return random_guides(rng, count, problem.poses, tilted=general, one_angle=problem.one_angle)
     family, unknowns = problem.family, problem.unknowns
     z, ratio = random_numbers(rng, count, unknowns), random_numbers(rng, count, 2)
     tasks, filled = np.zeros((count, 4, unknowns), np.complex128), np.zeros(count, np.int64)
@@ -195,19 +195,22 @@ class Search:
     """Solutions of some tasks, found along ways between them.
 
     A way from task u to task v, each solution of u to one of v, is followed once for each pair of ends, from either of
-    them; first on the six ways between four tasks. Of eight pairs the last equation of v may have any factor, with the
-    same solutions: another way.
+    them; first on the ways between all tasks. Other ways lead to equivalents of v: of eight pairs its last equation
+    may have any factor; positions may be turned by any complex angle, and their six-bars with them.
     """
 
-    def __init__(self, problem: Problem, seed: int, threads: int | None = None) -> None:
+    def __init__(
+        self, problem: Problem, seed: int, threads: int | None = None, *, tasks: int = _TASKS, general: bool = True
+    ) -> None:
         rng = np.random.default_rng(seed)
-        z, (task,) = known_solutions(problem, rng, 1, general=problem.guides)
+        z, (task,) = known_solutions(problem, rng, 1, general=problem.guides and general)
         self.problem, self.threads, self.lost, self.clashes, self.paths = problem, threads, 0, 0, 0
         used = np.abs(task) > 0
+        used[0, : problem.poses * problem.one_angle] = False
         self.tasks: list[Complexes] = [task] + [
-            np.where(used, random_numbers(rng, *task.shape), task) for _ in range(_TASKS - 1)
+            np.where(used, random_numbers(rng, *task.shape), task) for _ in range(tasks - 1)
         ]
-        self.found: list[Complexes] = [z] + [z[:0]] * (_TASKS - 1)
+        self.found: list[Complexes] = [z] + [z[:0]] * (tasks - 1)
         self.ways: list[tuple[int, int, complex]] = []
         self.matched: list[list[Flags]] = []
         self.rng = rng
@@ -216,12 +219,14 @@ class Search:
     def begin_again(self) -> None:
         """With six new ways: of few solutions all may be closed under those that there are."""
         self.ways, self.matched = [], []
-        for u, v in combinations(range(_TASKS), 2):
+        for u, v in combinations(range(len(self.tasks)), 2):
             self.add_way(u, v)
 
     def add_way(self, u: int, v: int) -> None:
         """One more way from task u to task v."""
-        self.ways.append((u, v, complex(random_numbers(self.rng)) if self.problem.points == 7 else 1.0))
+        again = self.paths > 0 or any((a, b) == (u, v) for a, b, _ in self.ways)
+        factor = self.problem.points == 7 or (self.problem.guides and again)
+        self.ways.append((u, v, complex(random_numbers(self.rng)) if factor else 1.0))
         self.matched.append([np.zeros(len(self.found[k]), bool) for k in (u, v)])
 
     def left(self) -> list[tuple[int, int, int]]:
@@ -235,8 +240,11 @@ class Search:
             return False
         begin, end = (self.ways[number][:2][k] for k in (side, 1 - side))
         some = np.flatnonzero(~self.matched[number][side])[:_PIECE]
-        tasks = [self.tasks[self.ways[number][0]], self._scaled(number)]
-        ends, good = follow(self.problem, self.found[begin][some], tasks[side], tasks[1 - side], self.threads)
+        task, by = self._equivalent(number)
+        tasks, unit = [self.tasks[self.ways[number][0]], task], np.ones_like(by)
+        starts = self.found[begin][some] * (by if side else unit)
+        ends, good = follow(self.problem, starts, tasks[side], tasks[1 - side], self.threads)
+        ends = ends / (unit if side else by)
         self.matched[number][side][some] = True
         known = len(self.found[end])
         self.found[end], where = merged(self.found[end], ends[good])
@@ -255,13 +263,21 @@ class Search:
         """Of all ways together, how many pairs of ends are known."""
         return sum(int(ends[0].sum()) for ends in self.matched)
 
-    def _scaled(self, number: int) -> Complexes:
-        """The second task of a way, its last equation times the factor of the way."""
+    def _equivalent(self, number: int) -> tuple[Complexes, Complexes]:
+        """The end of a way, equivalent to its second task by its factor, and what multiplies solutions of that."""
         _, v, factor = self.ways[number]
-        task = self.tasks[v].copy()
-        task[2] *= factor
-        task[3, :2] *= factor
-        return task
+        task, by = self.tasks[v].copy(), np.ones(self.problem.unknowns, np.complex128)
+        if self.problem.guides:
+            by[2::2], by[3::2] = factor, 1 / factor
+            task[1] *= factor
+            task[2] /= factor
+            task[0, TILT] /= factor
+            task[3, ::2] *= factor
+            task[3, 1::2] /= factor
+        else:
+            task[2] *= factor
+            task[3, :2] *= factor
+        return task, by
 
     def save(self, file: Path) -> None:
         """What is found and followed, to go on from."""
@@ -274,7 +290,7 @@ class Search:
     def load(self, file: Path) -> None:
         """What an earlier search with the same seed saved; one of `UNUSABLE` is raised where the file has none."""
         with file.open("rb") as stream, np.load(stream) as stored:
-            listed = [stored[f"z{k}"] for k in range(_TASKS)]
+            listed = [stored[f"z{k}"] for k in range(len(self.tasks))]
             ways = [(int(u.real), int(v.real), factor) for u, v, factor in stored["ways"].tolist()]
             matched = [[stored[f"m{k}_{s}"] for s in (0, 1)] for k in range(len(ways))]
             lost, clashes, paths = stored["counts"].tolist()

@@ -41,6 +41,10 @@ FIVE_POSITIONS = Problem(name="five positions", poses=4, points=0, classes=108, 
 """Both pivots of the frame are given, and the pin of the body on the coupler."""
 SIX_POSITIONS = Problem(name="six positions", poses=5, points=0, classes=5754, members=1, family="Watt I")
 """Both pivots of the frame are given."""
+ONE_ANGLE = Problem(
+    name="six positions of one angle", poses=5, points=0, classes=884, members=1, family="Watt I", one_angle=True
+)
+"""Likewise; six-bars that turn the body between the positions."""
 _SENSITIVE = 0.2
 """Of the paths: positions near to each other leave so many solutions that depend on them a billion times."""
 _SHIFTING, _JUDGED = 400, 40  # six-bars that shift a body: how many are looked at, and judged at most
@@ -76,8 +80,8 @@ def synthesise_guiding_six_bars(
 
     Returns:
         `SynthesisResult`: the designs that keep their assembly mode through all positions, driven at one pivot or the
-        other, judged by their motion. The notes say how many there are besides. Six positions of one angle have
-        infinitely many that keep it on the whole way: some of these, if any is accepted.
+        other, judged by their motion. The notes say how many there are besides. Positions of one angle have, from six
+        on, infinitely many that keep it on the whole way: some of these, of six positions if any is accepted.
 
     Raises `SynthesisError` for other tasks. Cost: 0.2 s of processor time, of six positions 10 s, and 10 to 60 ms for
     each verdict; of seven and eight 5 ms for each start solution, at first 5 ms more.
@@ -100,9 +104,10 @@ def synthesise_guiding_six_bars(
         )
     wanted = (demands or Demands()).of_task(task, _mechanism(DRIVES[0]).chain.links)
     place = _Place.of(task)
-    if len(task) == 6 and np.abs(place.turns - 1).max() <= ALIKE and (shifted := _shifted(task, place, wanted)).designs:
+    one_angle = len(task) > 5 and bool(np.abs(place.turns - 1).max() <= ALIKE)
+    if one_angle and ((shifted := _shifted(task, place, wanted)).designs or len(task) > 6):
         return shifted
-    generic = _generic(len(task), starts, threads, progress)
+    generic = _generic(len(task), one_angle, starts, threads, progress)
     z = six_bar_solutions(
         generic.problem, generic.base, place.parameters, special=_SENSITIVE, threads=threads, progress=progress
     )
@@ -116,13 +121,14 @@ def synthesise_guiding_six_bars(
 
 def _shifted(task: PositionTask, place: _Place, wanted: Demands) -> SynthesisResult:
     """Six-bars that keep the angle of the body on the whole way."""
-    pins = shifting_six_bars(-complex(place.given[-2]), 0j, place.shifts, _SHIFTING)
+    crank = -complex(place.given[0]) if len(task) == 6 else None
+    pins = shifting_six_bars(crank, None if len(task) == 8 else 0j, place.shifts, _SHIFTING)
     kept = _kept(place, pins, wanted)
     some = np.flatnonzero(kept.any(axis=1))[:_JUDGED]
     accepted, rejected = ranked(_judged(task, place, pins[some], kept[some], wanted))
     note = message(
         "The body keeps its angle on the whole way: infinitely many six-bars shift it along the coupler curve of a "
-        "four-bar on these pivots. Those here are from random starts."
+        "four-bar. Those here are from random starts."
     )
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(pins), real=len(pins))
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=(note,))
@@ -153,15 +159,22 @@ class _Generic(NamedTuple):
     damaged: Path | None = None
 
 
-def _generic(positions: int, starts: int | None, threads: int | None, progress: Progress | None) -> _Generic:
+def _generic(
+    positions: int, one_angle: bool, starts: int | None, threads: int | None, progress: Progress | None
+) -> _Generic:
     """Those of so many positions."""
     if positions <= 6:
         if starts is not None:
             raise SynthesisError(
                 "{name}: only of seven and eight positions; of others all solutions are followed", name="starts"
             )
-        problem = FIVE_POSITIONS if positions == 5 else SIX_POSITIONS
+        problem = ONE_ANGLE if one_angle else SIX_POSITIONS if positions == 6 else FIVE_POSITIONS
         text = message("Watt I, {count} general positions with these pivots: {classes:,} complex solutions.")
+        if one_angle:
+            text = message(
+                "No six-bar that keeps the angle of the body on the whole way is accepted. Others, {count} general "
+                "positions of one angle with these pivots: {classes:,} complex solutions."
+            )
         return _Generic(problem, load_generic_solutions(problem), text.filled(count=positions, classes=problem.classes))
     number = START_SOLUTIONS if starts is None else as_start_solutions(starts)
     problem = SEVEN_POSITIONS if positions == 7 else EIGHT_POSITIONS
