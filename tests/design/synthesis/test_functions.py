@@ -311,6 +311,53 @@ def test_families_of_pairs_are_searched_by_the_demands(count, output):
     assert tight.designs or "all but the demand of a transmission angle of 89.9°" in " ".join(map(str, tight.notes))
 
 
+@pytest.mark.parametrize(
+    ("inputs", "outputs", "output", "crank", "known"),
+    [
+        # a, b, c, d and the starts in radians
+        ((0, -14, -81), (0, -3, 12), "angle", False, (0.142163, 0.842016, 0.248288, 1, 0.702931, 1.826051, 85.2)),
+        ((0, -14, -81), (0, -3, 12), "angle", True, (0.079946, 0.946471, 0.133581, 1, 0.585122, 1.504037, 74.5)),
+        ((0, 32), (0, 56), "angle", True, (10.874611, 10.578307, 1.323215, 1, 1.021018, 5.733407, 78.0)),
+        # a, b, e, the start of the crank and of the slider
+        ((0, 30, 60), (0, 12, 20), "travel", True, (24.703686, 397.690130, -16.916594, 4.817109, 400.198750, 88.8)),
+    ],
+)
+def test_the_best_of_a_family_of_pairs_is_no_worse_than_one_that_is_known(inputs, outputs, output, crank, known):
+    """Short cranks beside the frame and long couplers count, too.
+
+    The known linkages are the best of a fine grid of start angles (or travels), where Freudenstein's equation is linear
+    in the lengths; here they are held against the pairs, and the angle against the law of cosines.
+    """
+    *lengths, phi_0, start, angle = known
+    phi = phi_0 + np.radians(inputs)
+    way = np.linspace(phi[0], phi[-1], 200)
+    if output == "angle":
+        a, b, c, d = lengths
+        pins, far = a * np.exp(1j * phi), d + c * np.exp(1j * (start + np.radians(outputs)))
+        cosines = (b**2 + c**2 - np.abs(d - a * np.exp(1j * way)) ** 2) / (2 * b * c)
+        outputs = np.radians(outputs)
+    else:
+        a, b, e = lengths
+        pins, far = a * np.exp(1j * phi), start + np.array(outputs) + 1j * e
+        cosines = (a * np.sin(way) - e) / b
+    np.testing.assert_allclose(np.abs(far - pins), b, rtol=1e-5)
+    assert np.degrees(np.arccos(np.abs(cosines).max())) > angle
+    task = FunctionTask(np.radians(inputs), outputs=outputs, output=output, start_input=False, start_output=False)
+    found = synthesise_function(task, Demands(crank=crank), number=4, sort=["transmission"])
+    assert np.degrees(max(design.verdict.transmission for design in found.designs)) > angle
+
+
+def test_families_of_pairs_do_not_depend_on_the_unit_of_the_travel():
+    inputs, outputs = np.radians([0, 30, 60]), np.array([0, 12, 20])
+    angles = []
+    for unit in (1, 1e-3, 1e3):
+        task = FunctionTask(inputs, outputs=unit * outputs, output="travel", start_input=False, start_output=False)
+        found = synthesise_function(task, number=6, sort=["transmission"])
+        angles.append([design.verdict.transmission for design in found.designs])
+    assert len(angles[0]) == 6
+    np.testing.assert_allclose(angles[1:], angles[:1] * 2, atol=1e-6)
+
+
 def test_the_measure_that_is_asked_for_steers_the_search_of_pairs():
     task = FunctionTask([0, 0.5, 1.0], outputs=[0, 0.3, 0.7], start_input=False, start_output=False)
     by_angle = synthesise_function(task, number=4).designs[0]

@@ -150,7 +150,7 @@ class CoordinationKind:
     """``angle`` or ``travel``."""
     unknowns: int
     columns: Callable[[Reals, Reals], Reals]
-    """(pairs, unknowns + 1): the conditions say that a combination of the first columns is the last one."""
+    """(..., pairs, unknowns + 1): the conditions say that a combination of the first columns is the last one."""
     lengths: Callable[[Reals], tuple[float, ...] | None]
     """From the factors of that combination to signed lengths."""
     positive: Callable[[tuple[float, ...], complex, float], tuple[tuple[float, ...], float, float]]
@@ -164,7 +164,7 @@ class CoordinationKind:
 
 
 def _four_bar_columns(phi: Reals, psi: Reals) -> Reals:
-    return np.stack([np.cos(psi), -np.cos(phi), np.ones_like(phi), np.cos(phi - psi)], axis=1)
+    return np.stack([np.cos(psi), -np.cos(phi), np.ones_like(phi), np.cos(phi - psi)], axis=-1)
 
 
 def _four_bar_lengths(k: Reals) -> tuple[float, ...] | None:
@@ -187,7 +187,7 @@ def _four_bar_dyad(lengths: tuple[float, ...], pin: complex, psi: float) -> tupl
 
 
 def _slider_columns(phi: Reals, s: Reals) -> Reals:
-    return np.stack([s * np.cos(phi), np.sin(phi), np.ones_like(phi), s * s], axis=1)
+    return np.stack([s * np.cos(phi), np.sin(phi), np.ones_like(phi), s * s], axis=-1)
 
 
 def _slider_lengths(k: Reals) -> tuple[float, ...] | None:
@@ -209,7 +209,7 @@ def _slider_dyad(lengths: tuple[float, ...], pin: complex, s: float) -> tuple[co
 
 
 def _inverted_columns(phi: Reals, psi: Reals) -> Reals:
-    return np.stack([np.sin(phi - psi), np.ones_like(phi), -np.sin(psi)], axis=1)
+    return np.stack([np.sin(phi - psi), np.ones_like(phi), -np.sin(psi)], axis=-1)
 
 
 def _inverted_lengths(k: Reals) -> tuple[float, ...] | None:

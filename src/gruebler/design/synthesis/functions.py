@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -26,8 +25,8 @@ from gruebler.design.synthesis.coordination import (
     pair_arrays,
 )
 from gruebler.design.synthesis.demands import Demands
-from gruebler.design.synthesis.dyad_families import guiding_dyads, near_in_plane, near_on_curve
-from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, GuidingDyad
+from gruebler.design.synthesis.dyad_families import guiding_dyads
+from gruebler.design.synthesis.dyads import CRANK, SLIDER, GuidingDyad
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.design.synthesis.given_lengths import scale_to_length
 from gruebler.design.synthesis.judging import judge_design
@@ -37,6 +36,7 @@ from gruebler.design.synthesis.pair_facts import PairFacts, facts_of_pins
 from gruebler.design.synthesis.pair_search import best_dyads
 from gruebler.design.synthesis.positions import NEAR
 from gruebler.design.synthesis.results import EXACT, Design, SolutionCount, SynthesisResult, in_order_of, ranked
+from gruebler.design.synthesis.start_families import near_by_starts, sampled_by_starts
 from gruebler.design.synthesis.structural_errors import coordination_of
 from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import FunctionTask, PositionTask
@@ -49,8 +49,6 @@ _FAMILIES = {
     4: message("There are infinitely many solutions, one for each point of a curve; {count} were taken."),
 }
 """By how many pairs, with both starts free: what a dyad between crank and output can be."""
-_SAMPLE = 400
-"""Linkages of a family that are judged in closed form."""
 _FORMS = {"angle": "four-bar", "travel": "slider-crank"}
 """What crank, coupler and output form together; slides between crank and output name themselves."""
 
@@ -164,13 +162,11 @@ def _by_given_starts(task: FunctionTask, wanted: Demands, free: int) -> _Candida
 
 def _by_free_starts(task: FunctionTask, wanted: Demands, number: int, sort: Sequence[str] | None) -> _Candidates:
     """By the dyads between crank and output, with both starts free; families are searched unless ``sort`` is None."""
-    searched = sort is not None and len(task) < 5
-    dyads = _connecting(task, _SAMPLE if searched else number)
-    turning = [dyad for dyad in dyads if not dyad.slides]
+    dyads = _connecting(task, number)
     notes: tuple[Message, ...] = ()
-    if searched and turning:
-        seen = _seen_from_crank(task)
-        near = near_on_curve(seen) if len(task) == 4 else partial(near_in_plane, seen)
+    turning = sampled_by_starts(task) if sort is not None and len(task) < 5 else []
+    if turning:
+        near = partial(near_by_starts, task)
         best, search = best_dyads(turning, partial(_facts, task), wanted, near, orders=sort or (), number=number)
         notes = tuple(search)
         some = turning[:: max(1, len(turning) // number)]
@@ -295,8 +291,6 @@ def _connecting(task: FunctionTask, number: int) -> list[GuidingDyad]:
     seen = _seen_from_crank(task)
     size = 1.0 if task.output == "angle" else seen.size
     family = guiding_dyads(seen, number)
-    if len(task) == 2 and number >= _SAMPLE:
-        family = _on_bisectors(seen, size)
     connecting = []
     for dyad in family:
         if task.output == "angle" and not dyad.slides:
@@ -306,19 +300,6 @@ def _connecting(task: FunctionTask, number: int) -> list[GuidingDyad]:
         if not frame:
             connecting.append(dyad)
     return connecting
-
-
-def _on_bisectors(seen: PositionTask, size: float) -> tuple[GuidingDyad, ...]:
-    """A sample of the dyads of two positions: pivots in the plane about the frame, each with some on its bisector."""
-    given, origin, own = Displacements.of(seen.origins, seen.turns)
-    dyads = []
-    for x, y, step in product(np.linspace(-1.5, 2.5, 10), np.linspace(-2, 2, 10), np.linspace(-2, 2, 8)):
-        places = given.images((complex(x, y) * size - origin) / own) * own + origin
-        along = 1j * (places[1] - places[0])
-        if abs(along) > EXACT * size:
-            fixed = places.mean() + step * size * along / abs(along)
-            dyads.append(GuidingDyad(CRANK, complex(places[0]), complex(fixed)))
-    return tuple(dyads)
 
 
 def _connected(task: FunctionTask, demands: Demands, dyad: GuidingDyad) -> Design | None:

@@ -27,6 +27,10 @@ _WIDTHS = tuple(0.004 * 0.4**k for k in range(6))
 _APART = 4  # places in the sample: designs nearer to a better one are not listed
 _LOOKED_AT = 2000  # pairs for each design that is wanted
 _ALIKE = 0.05  # sizes: pivots of two designs that are improved differ by more
+_STEPS = tuple(0.04 * 0.4**k for k in range(8))  # widths of a family with one dyad to choose
+_CLIMBS = 16  # moves to a better dyad of each width
+_VALLEY = 0.1  # sizes: places from which such searches begin differ by more
+_TRIED = 3  # such places for each design that is wanted
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,18 +142,43 @@ def best_dyads(
         ),
         IMPROVED,
     ]
+    places = np.array([(dyad.moving, dyad.fixed) for dyad in dyads])
+
+    def apart(some: NDArray[np.intp], dyad: GuidingDyad) -> NDArray[np.intp]:
+        """Those of the sample that differ from a dyad."""
+        gaps = np.abs(places[some] - [dyad.moving, dyad.fixed]).sum(axis=1)
+        return np.asarray(some[gaps > _VALLEY * _reach(dyad)])
+
+    left = ranks[: np.count_nonzero(good) or number]  # where none of the sample is good, one beside it may be
     best: list[GuidingDyad] = []
-    for rank in ranks[: np.count_nonzero(good) or number]:  # where none of the sample is good, one beside it may be
-        dyad, meets = dyads[rank], False
-        for width in _WIDTHS:
-            others = [dyad, *near(dyad, width)]
-            order, fine, _ = ranked(others)
-            dyad, meets = others[order[0]], bool(fine[order[0]])
-        if meets and all(abs(dyad.moving - each.moving) + abs(dyad.fixed - each.fixed) > _ALIKE for each in best):
-            best.append(dyad)
-        if len(best) == number:
+    for _ in range(_TRIED * number):
+        if not len(left) or len(best) == number:
             break
+        dyad = dyads[left[0]]
+        left, meets = apart(left, dyad), False
+        for width in _STEPS:
+            for _ in range(_CLIMBS):
+                others = [dyad, *near(dyad, width)]
+                order, fine, _ = ranked(others)
+                dyad, meets = others[order[0]], bool(fine[order[0]])
+                if order[0] == 0:
+                    break
+        if meets and all(
+            abs(dyad.moving - each.moving) + abs(dyad.fixed - each.fixed) > _ALIKE * _reach(each) for each in best
+        ):
+            best.append(dyad)
+    left = ranks[: np.count_nonzero(good)]
+    for dyad in best:
+        left = apart(left, dyad)
+    while len(left) and len(best) < number:  # few searches end at different places: others stand beside them
+        best.append(dyads[left[0]])
+        left = apart(left, best[-1])
     return best, notes if best else notes + tightest(met)
+
+
+def _reach(dyad: GuidingDyad) -> float:
+    """The size of a crank and its coupler, seen from the crank's pivot."""
+    return abs(dyad.moving) + abs(dyad.fixed)
 
 
 IMPROVED = message("The best are then improved: their pivots are moved within the family, in ever smaller steps.")

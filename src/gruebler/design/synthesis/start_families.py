@@ -1,0 +1,104 @@
+"""Families of linkages that coordinate two to four pairs: by where input and output start, which is free.
+
+docs/theory/synthesis-functions.md: with the starts chosen, the linear condition of a four-bar or slider-crank gives the
+linkage of three pairs; of two pairs its first factor is free, too, and of four pairs the start of the output is not.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+
+from gruebler.base.arrays import Reals
+from gruebler.design.synthesis.coordination import (
+    KINDS,
+    CoordinationKind,
+    coordinations_with_one_free_start,
+    pair_arrays,
+)
+from gruebler.design.synthesis.dyads import GuidingDyad
+from gruebler.design.synthesis.tasks import FunctionTask
+
+_STARTS = {2: 24, 3: 96, 4: 360}
+"""By the number of pairs: how many starts of each side are tried."""
+_FACTORS = 24
+_LARGEST_FACTOR = 32.0  # first factors are tried between its inverse and this, by the size of the output
+_FARTHEST = 4.0  # start travels: to the hyperbolic sine of so much, by the size of the output, denser near 0
+
+
+def sampled_by_starts(task: FunctionTask) -> list[GuidingDyad]:
+    """A sample of the family of two to four pairs, as the dyads between crank and output. Cost: 0.2 s."""
+    count = _STARTS[len(task)]
+    places = (np.arange(count) + 0.5) / count
+    if len(task) == 4:
+        return _with_input_starts(task, np.pi * places)
+    starts = np.pi * places if task.output == "angle" else _FARTHEST * (2 * places - 1)
+    if len(task) == 3:  # a start half a turn on is that of a negative crank
+        inputs, begins = np.meshgrid(np.pi * places, starts)
+        return _with_starts(task, inputs.ravel(), begins.ravel())
+    logs = np.log(_LARGEST_FACTOR) * (2 * (np.arange(_FACTORS) + 0.5) / _FACTORS - 1)
+    inputs, begins, factors = np.meshgrid(np.pi * np.append(places, 1 + places), starts, logs)
+    return _with_starts(task, inputs.ravel(), begins.ravel(), factors.ravel())
+
+
+def near_by_starts(task: FunctionTask, dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
+    """Dyads of the family beside one of them, whose starts differ by so large a part of all that there are."""
+    size = _output_size(task)
+    at, step = [float(np.angle(dyad.fixed))], [np.pi * width]
+    if len(task) == 4:
+        return _with_input_starts(task, at[0] + step[0] * np.array([-1.0, -0.5, 0.5, 1.0]))
+    if task.output == "angle":
+        at, step = [*at, float(np.angle(dyad.moving - 1))], [*step, np.pi * width]
+    else:
+        at, step = [*at, float(np.arcsinh(dyad.moving.real / size))], [*step, 2 * _FARTHEST * width]
+    if len(task) == 2:
+        factor = 1 / abs(dyad.fixed) if task.output == "angle" else 2 * abs(dyad.fixed) / size
+        at, step = [*at, float(np.log(factor))], [*step, 2 * np.log(_LARGEST_FACTOR) * width]
+    moves = np.array([move for move in product((-1.0, -0.5, 0.0, 0.5, 1.0), repeat=len(at)) if any(move)])
+    inputs, starts, *logs = (np.array(at) + moves * np.array(step)).T
+    return _with_starts(task, inputs, starts, logs[0] if logs else None)
+
+
+def _kind(task: FunctionTask) -> CoordinationKind:
+    return next(kind for kind in KINDS if kind.output == task.output and kind.unknowns == 3)
+
+
+def _output_size(task: FunctionTask) -> float:
+    return 1.0 if task.output == "angle" else float(np.ptp(task.outputs)) or 1.0
+
+
+def _with_starts(task: FunctionTask, inputs: Reals, starts: Reals, logs: Reals | None = None) -> list[GuidingDyad]:
+    """The linkages of three pairs with such starts, of two pairs with such logarithms of the first factor, too."""
+    kind, size = _kind(task), _output_size(task)
+    phi, output = pair_arrays(task)
+    begins = starts if task.output == "angle" else size * np.sinh(starts)
+    columns = kind.columns(inputs[:, None] + phi - phi[0], begins[:, None] + output - output[0])
+    right, chosen = columns[..., -1], np.empty((len(inputs), 0))
+    if logs is not None:
+        chosen = (np.exp(logs) * size)[:, None]
+        right = right - columns[..., 0] * chosen
+    matrices = columns[..., chosen.shape[1] : -1]
+    scale = np.abs(matrices).max(axis=1, keepdims=True)  # a travel in metres weighs as much as one in millimetres
+    with np.errstate(divide="ignore", invalid="ignore"):
+        solved = np.einsum("kij,kj->ki", np.linalg.pinv(matrices / scale), right) / scale[:, 0]
+    dyads = []
+    for factors, phi_0, begin in zip(np.hstack([chosen, solved]), inputs.tolist(), begins.tolist(), strict=True):
+        lengths = kind.lengths(factors)
+        if lengths is not None:
+            dyads.append(kind.dyad(lengths, complex(lengths[0] * np.exp(1j * phi_0)), begin)[1])
+    return dyads
+
+
+def _with_input_starts(task: FunctionTask, inputs: Reals) -> list[GuidingDyad]:
+    """The linkages of four pairs whose crank starts so: at most two for each start."""
+    kind = _kind(task)
+    phi, _ = pair_arrays(task)
+    dyads = []
+    for start in inputs:
+        counted = replace(task, inputs=tuple(start + phi - phi[0]), start_input=True, law=None)
+        for solution in coordinations_with_one_free_start(kind, counted).real:
+            pin = solution.lengths[0] * complex(np.exp(1j * solution.input_start))
+            dyads.append(kind.dyad(solution.lengths, pin, solution.output_start)[1])
+    return dyads
