@@ -121,7 +121,8 @@ def independent_part(linkage: Linkage) -> Independent:
 class ReferenceConditions:
     """The closing conditions of pins, slides, pins in slots and double slides, one joint after the other.
 
-    The unknowns are x, y (in sizes) and angle of each link but the frame.
+    The unknowns are x, y (in sizes) and angle of each link but the frame. `ClosureSystem` has those of lower pairs:
+    the four of a pin, a slide and a block in place of the one of a pin in a slot, whose force is what is released.
     """
 
     def __init__(self, linkage: Linkage) -> None:
