@@ -9,7 +9,8 @@ from gruebler.design.synthesis import Demands, PathTask, synthesise_path
 from gruebler.design.synthesis.curves import Fit, linkages_of
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR
 from gruebler.design.synthesis.judging import judge_design
-from gruebler.design.synthesis.ordered_matching import Places, SmoothCurve, TargetDistances
+from gruebler.design.synthesis.ordered_matching import SmoothCurve, TargetDistances
+from gruebler.design.synthesis.ordered_places import Places
 from gruebler.design.synthesis.targets import Probe, Targets, point_targets
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics import circuit, move

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.base.arrays import Reals
-from gruebler.design.synthesis.ordered_matching import Places, preferred
+from gruebler.design.synthesis.ordered_matching import preferred
+from gruebler.design.synthesis.ordered_places import Places
 from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.target_places import Piece, TargetPlaces
 from gruebler.mechanics.kinematics import Circuit

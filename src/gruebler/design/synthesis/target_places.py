@@ -8,15 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
-from gruebler.design.synthesis.ordered_matching import (
-    OrderedMatch,
-    Places,
-    SmoothCurve,
-    TargetDistances,
-    lap_about,
-    preferred,
-    with_free,
-)
+from gruebler.design.synthesis.ordered_matching import OrderedMatch, SmoothCurve, TargetDistances, preferred
+from gruebler.design.synthesis.ordered_places import Places, lap_about, with_free
 from gruebler.design.synthesis.targets import Targets
 from gruebler.mechanics.kinematics import Circuit, Poses
 
