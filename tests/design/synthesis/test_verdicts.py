@@ -16,14 +16,16 @@ from gruebler.design.synthesis import (
     FunctionTask,
     PathTask,
     PositionTask,
+    judging,
     synthesise,
     synthesise_path,
 )
+from gruebler.design.synthesis.dyad_families import sliding_family
 from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
-from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
-from gruebler.design.synthesis.judging import judge_design
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
+from gruebler.design.synthesis.judging import circuit_near, judge_design
 from gruebler.design.synthesis.results import Design, DesignVerdict
-from gruebler.design.synthesis.targets import GuidedCurve, point_targets
+from gruebler.design.synthesis.targets import GuidedCurve, body_targets, point_targets
 from gruebler.mechanics.analysis.transmission import transmission_angle
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.geometry.roberts import cognates
@@ -376,3 +378,28 @@ def test_the_least_transmission_angle_lies_between_targets_too(sides, ends):
     verdict = judge_design(bar.with_reference_pose(motion.pose(0)), targets, Demands(), "four-bar").verdict
     least = np.degrees(np.arccos(abs(b**2 + c**2 - (d - a) ** 2) / (2 * b * c)))
     assert np.degrees(verdict.transmission) == pytest.approx(least, abs=1e-5)
+
+
+def test_a_slide_that_leaves_its_targets_for_good_is_followed_near_them(monkeypatch):
+    """A guide that turns about the frame, along a line of the body, lets it slide away; a narrow wedge comes back."""
+    task = PositionTask([(0, 0.1, 0), (40, 20.1, np.radians(20)), (60, 50.1, np.radians(40))])
+    sliders, blocks = (sliding_family(task, kind, [1, 1j, np.exp(0.4j)]) for kind in (SLIDER, BLOCK))
+    linkages = [linkage_of_dyads(one, other, 0.1j, "mm") for one in sliders for other in blocks]
+    longest = [circuit(each, step=0.05).length for each in linkages]
+    assert max(longest) > 1900  # both ways to the end of what is followed
+    near = [circuit_near(each, body_targets(task, each)) for each in linkages]
+    assert max(each.length for each in near) < max(longest) / 2
+    ways = [np.hypot(*np.ptp(each.samples.complex_point("P").view(float).reshape(-1, 2), axis=0)) for each in near]
+    assert max(ways) > 20 * task.size
+
+    def verdicts():
+        demands = Demands(crank=True)
+        return [judge_design(each, body_targets(task, each), demands, "").verdict for each in linkages]
+
+    shorter = verdicts()
+    monkeypatch.setattr(judging, "circuit_near", lambda linkage, _: circuit(linkage, step=0.05))
+    for part, whole in zip(shorter, verdicts(), strict=True):
+        assert (part.accepted, [*map(str, part.reasons)]) == (whole.accepted, [*map(str, whole.reasons)])
+    wedge = [sliding_family(task, SLIDER, [np.exp(1j * angle)])[0] for angle in (0.5, 0.65)]
+    linkage = linkage_of_dyads(*wedge, 0.1j, "mm")
+    assert circuit_near(linkage, body_targets(task, linkage)).closed

@@ -212,9 +212,12 @@ def near_in_plane(task: PositionTask, dyad: GuidingDyad, width: float) -> list[G
         if along:
             steps = (reach * share * along / abs(along) for share in (-1.0, -0.5, 0.5, 1.0))
             others += [replace(dyad, fixed=dyad.fixed + step) for step in steps]
+    given, origin, size = Displacements.of(task.origins, task.turns)
+    if len(task) == 2:
+        given = _with_third(given, _BULGES[0])
     for pivot in pivots:
         with suppress(SynthesisError):  # it serves any dyad
-            others += guiding_dyads(replace(task, moving_pivots=((pivot.real, pivot.imag),), fixed_pivots=()))
+            others.append(dyad_of_moving_pivot(given, (pivot - origin) / size).moved(size, origin))
     return [other for other in others if not other.slides]
 
 

@@ -29,6 +29,9 @@ from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 
 _ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage for a small task cannot promise
+_FAR = 100.0
+"""Sizes of linkage and targets: an open circuit is followed so far, and farther only where it is still near them."""
+_STEP = 0.05  # along a circuit, in sizes and radians
 _ROWS = 16  # poses from one target to the next, with several drives
 OTHER_LENGTH = message("the length of the {link} is not {wanted}, but {found}")
 NO_LENGTH = message("{link}: no length, since this link has fewer than two pins")
@@ -106,7 +109,7 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     if targets.in_any_order:
         demands = replace(demands, in_order=False)
     try:
-        course = circuit(linkage, step=0.05)
+        course = circuit_near(linkage, targets)
         limit = demands.tolerance + _ROUNDING * linkage.size / targets.size
         met = (places_met if demands.tolerance <= EXACT_AT_MOST else places_approached)(course, targets, limit)
         if met.places.empty:
@@ -171,6 +174,15 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         reasons=tuple(reasons),
     )
     return Design(linkage=linkage, verdict=verdict, form=form, drives=drives, targets=targets)
+
+
+def circuit_near(linkage: Linkage, targets: Targets) -> Circuit:
+    """The circuit of a linkage; where its slides leave the targets for good, only the part near them."""
+    far = min(_FAR * (1 + targets.size / linkage.size), 1000.0)
+    course = circuit(linkage, step=_STEP, most=far)
+    places = np.delete(course.traced.poses, np.s_[2::3], axis=1)  # without angles
+    gone = np.ptp(places, axis=0).max() > far / 4
+    return course if gone or course.traced.ended != "long" else circuit(linkage, step=_STEP)
 
 
 class _WayBetween(NamedTuple):
