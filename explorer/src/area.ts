@@ -6,7 +6,7 @@ import { number } from "./language";
 import { SUPPORT } from "./scene";
 import type { Box } from "./viewport";
 
-const MARK = 3.2; // pixels that a mark has for each of its units
+export const MARK = 3.2; // pixels that a mark has for each of its units
 const AROUND = 45; // pixels around a mark
 const LINES = 36; // pixels between lines of the grid, at least
 

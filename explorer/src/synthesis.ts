@@ -63,13 +63,14 @@ export class SynthesisView implements View {
   private readonly status = h("div.told", {});
   /** What stays in sight beside the designs. */
   readonly #doing = h("div.doing", {});
+  readonly #clearing = h("button.plain", { "data-act": "clear", onclick: () => this.#clear() });
   readonly #page: Page;
 
   constructor(page: Page) {
     this.#page = page;
     const { plane } = this.#picture;
     plane.addEventListener("pointerdown", (event) => this.#down(event));
-    plane.addEventListener("pointermove", (event) => this.#held?.(this.#picture.at(event)));
+    plane.addEventListener("pointermove", (event) => this.#held?.(this.#placeOf(event)));
     for (const event of ["pointerup", "pointercancel"])
       plane.addEventListener(event, () => {
         this.#held = null;
@@ -122,6 +123,7 @@ export class SynthesisView implements View {
     this.#picture.plane.setAttribute("aria-label", t("What is to be met"));
     this.element.classList.toggle("typed", !this.#planar);
     renew(this.#key, t("Find linkages"));
+    renew(this.#clearing, t("Clear"));
     const back = () => this.element.scrollIntoView();
     const close = (on: boolean) => {
       this.#closed = on;
@@ -134,7 +136,7 @@ export class SynthesisView implements View {
         "div.form",
         {},
         this.#key,
-        ...(this.#planar ? [h("button.plain", { "data-act": "clear", onclick: () => this.#clear() }, t("Clear"))] : []),
+        this.#planar && this.#clearing,
         h("button.plain", { "data-act": "back", title: t("To the targets"), onclick: back }, "↑"),
         this.status,
         this.#told,
@@ -189,13 +191,18 @@ export class SynthesisView implements View {
     this.#puts = "";
     this.designs.show(null);
     this.#play(null);
+    this.status.querySelector("button")?.click(); // what is looked for is given up
     renew(this.status);
     this.arrange();
   }
 
+  #placeOf(event: PointerEvent): [number, number] {
+    return this.#picture.at(event, this.#puts !== "curve");
+  }
+
   #down(event: PointerEvent): void {
     if (this.kind === "dead-centres") return;
-    const [x, y] = this.#picture.at(event);
+    const [x, y] = this.#placeOf(event);
     this.#picture.plane.setPointerCapture(event.pointerId);
     if (this.#puts === "curve") return this.#stroke(x, y);
     const { unit } = this.#picture;
@@ -243,6 +250,7 @@ export class SynthesisView implements View {
   }
 
   #clear(): void {
+    if (this.#searching) return;
     this.rows[this.kind] = [];
     this.#pivots = [];
     this.designs.show(null);
@@ -315,6 +323,7 @@ export class SynthesisView implements View {
     const wanted = this.#page.served || this.kind !== "points" ? FEWEST[this.kind] : NINE;
     const lacks = count < wanted ? t("{count} of {wanted} set", { count, wanted }) : "";
     this.#key.disabled = !!lacks;
+    this.#clearing.disabled = !count && !this.#pivots.length;
     this.#key.title = lacks;
     this.#told.textContent = lacks;
     renew(
@@ -328,15 +337,19 @@ export class SynthesisView implements View {
           )
         : "",
       this.kind === "function" ? h("button.plain", { "data-act": "pair", onclick: add }, t("Another pair")) : "",
-      this.kind === "positions" && this.points.length > 1 && this.points.every(([, , angle]) => angle === last[2])
-        ? h("p.note", {}, t("All at one angle: the link is shifted and does not turn."))
-        : "",
     );
   }
 
+  /** Meanwhile its buttons do nothing. */
+  get #searching(): boolean {
+    return !!this.status.querySelector("progress");
+  }
+
   async #search(): Promise<void> {
+    if (this.#searching) return;
+    const { kind } = this;
     const question = {
-      kind: this.kind,
+      kind,
       rows: this.points,
       pivots: this.kind === "positions" ? this.#pivots : [],
       closed: this.kind === "points" && this.#closed,
@@ -344,6 +357,7 @@ export class SynthesisView implements View {
     };
     this.#told.textContent = "";
     const found = await awaited(this.status, (progress) => this.#page.ask<Found>("synthesise", question, progress));
+    if (kind !== this.kind) return renew(this.status);
     if (!found) return;
     this.#play(this.designs.show(found));
     this.#drawList();

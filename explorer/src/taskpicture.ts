@@ -1,6 +1,6 @@
 /** What a linkage is to meet as a picture: places, a chart of angles or a swing, with the design that moves. */
 
-import { type Area, areaOf, gridOf, groundMark, viewBoxOf } from "./area";
+import { type Area, areaOf, gridOf, groundMark, MARK, viewBoxOf } from "./area";
 import type { Design } from "./designs";
 import { h, put, renew, svg } from "./dom";
 import { Ghost, pathOf } from "./ghost";
@@ -46,14 +46,12 @@ export class TaskPicture {
     return this.#area.unit;
   }
 
-  /** Where a pointer is, in round numbers. */
-  at(event: PointerEvent): [number, number] {
+  /** Where a pointer is; in round numbers the last digit is the first that it can tell. */
+  at(event: PointerEvent, round: boolean): [number, number] {
     const box = this.#marks.getScreenCTM()!.inverse();
     const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(box);
-    const { left, right } = this.#area;
-    const fine = 10 ** Math.ceil(Math.log10(1000 / (right - left)));
-    const round = (value: number) => Math.round(value * fine) / fine;
-    return [round(point.x), round(-point.y)];
+    const fine = 10 ** Math.floor(Math.log10(MARK / this.unit));
+    return [point.x, -point.y].map((value) => (round ? Math.round(value * fine) / fine : value)) as Pair;
   }
 
   /** Draw all of it; while a mark is held what is seen stays, and the design goes on as it is. */

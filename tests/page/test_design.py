@@ -379,12 +379,74 @@ def test_what_turns_fully_is_no_rocker_and_goes_from_0_to_360(tab, server):
         assert plotted == pytest.approx(told, abs=0.1)  # on the line between two poses
 
 
+@pytest.mark.parametrize("locale", ["en-US", "de-DE"])
+def test_a_search_moves_nothing_and_is_one(tab, server, locale):
+    """Enter on the button does not begin another one; what is under way has room at 1024 pixels, too."""
+    page = tab(width=1024, height=768, locale=locale).open(server.address)
+    view = page.page
+    view.click('[data-view="synthesis"]')
+    clear = view.locator('[data-act="clear"]')
+    assert clear.is_disabled()  # nothing is set
+    view.evaluate(f"{VIEW}.rows.points = [[20, -20], [0, -30], [-20, -20], [-20, 10], [10, 20]]")
+    view.click('[data-value="points"]')
+    assert clear.is_enabled()
+    view.evaluate("""() => {
+        const { backend } = gruebler, { ask } = backend;
+        window.asked = 0;
+        backend.ask = (...all) => { window.asked += all[0] === "synthesise"; return ask.apply(backend, all); };
+    }""")
+    plane = view.locator(".plane").bounding_box()
+    key = view.locator('[data-act="synthesise"]')
+    key.focus()
+    for _ in range(3):
+        view.keyboard.press("Enter")
+    told = set()
+    while text := view.evaluate(f"{VIEW}.status.textContent"):
+        told.add(text)
+        assert view.locator(".plane").bounding_box() == plane, text
+    assert len(told) > 1
+    view.locator('[data-list="designs"] .card').first.wait_for()
+    assert view.evaluate("window.asked") == 1
+    assert view.evaluate("gruebler.root.getRootNode().activeElement.dataset.act") == "synthesise"
+
+
+def test_another_task_gives_up_what_is_looked_for(design):
+    view = design.page
+    view.click('[data-value="function"]')
+    view.click('[data-act="synthesise"]')
+    view.click('[data-value="dead-centres"]')
+    view.wait_for_timeout(3000)
+    assert view.locator(".designs .card").count() == 0
+    assert view.evaluate(f"{VIEW}.status.textContent") == ""
+
+
+def test_a_click_puts_whole_millimetres_where_a_pixel_is_as_large(design):
+    view = design.page
+    view.click('[data-value="positions"]')
+    for place in ((0, 0), (40, 20)):
+        x, y = design.target(*place)
+        view.mouse.click(x + 0.4, y - 0.4)
+    assert [row[:2] for row in view.evaluate(f"{VIEW}.rows.positions")] == [[0, 0], [40, 20]]
+
+
 def test_rows_of_another_length_are_refused_in_a_sentence():
     from gruebler.page.requests import answer
 
     for kind, row in (("positions", [1, 2]), ("points", [1, 2, 3]), ("dead-centres", [1, 2, 3])):
         with pytest.raises(GrueblerError, match="numbers in each row"):
             answer("synthesise", {"kind": kind, "rows": [row] * 5}, "en", print)
+
+
+def test_a_pair_that_lies_on_a_frame_to_rounding_is_no_fault():
+    """Of these pairs one design has a frame of its motion a last digit beside the crank's angle of a pair."""
+    from gruebler.page.designs import design_records, task_of
+
+    found = design_records(task_of("function", [[0, 0], [45, 27], [90, 60]]), True, 20.0, "en", lambda _: None)
+    assert len(found["items"]) > 10
+    for item in found["items"]:
+        drive, output = np.array(item["pairs"]).T
+        assert np.diff(drive) % 360 == pytest.approx([45, 45], abs=1e-5)
+        assert np.diff(output) % 360 == pytest.approx([27, 33], abs=1e-5)
 
 
 def test_each_kind_of_rows_is_its_task():

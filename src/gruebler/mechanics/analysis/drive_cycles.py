@@ -33,6 +33,7 @@ _MOST_TURNS = 8  # after which a linkage must be back where it was
 _MOST_WITH_WHEELS = 720  # the same with wheels, whose tooth numbers make long cycles
 _FAR = 20.0  # sizes: a slide that goes as far without a limit has none
 _BACK = 1e-7  # how near it is then
+_EQUAL = 1e-9  # of the longest step: places that differ by less are one, since the next step cannot be foretold from it
 _WELL = 1e-3  # a start with a root below it is near a change point or limit
 _NARROW = 2e-6  # radians or sizes: limits are seen at a square of -1e-13, so that a single position is as wide as this
 
@@ -181,8 +182,9 @@ def _turns(plan: Plan) -> bool:
 
 
 def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, np.ndarray]:
-    """As `move` at speed 1, begun from a pose, by small rows; and the rows of the places."""
-    parts = np.maximum(1, np.ceil(np.abs(np.diff(places)) / plan.longest_steps[0])).astype(np.int64)
+    """As `move` at speed 1, begun from a pose, by small rows; and the rows of the places, of equal ones the same."""
+    steps = np.abs(np.diff(places)) / plan.longest_steps[0]
+    parts = np.where(steps > _EQUAL, np.ceil(steps), 0).astype(np.int64)
     rows = np.concatenate([[0], np.cumsum(parts)])
     path = np.interp(np.arange(rows[-1] + 1), rows, places).reshape(-1, 1)
     speeds = np.zeros((order, *path.shape))
