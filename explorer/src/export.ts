@@ -109,7 +109,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
   const groups = [
     group(
       t("Continue here"),
-      t("Opens here again; Ctrl S"),
+      t("Opens here again"),
       button("JSON", () => saveDocument(page, shown, say)),
       served("TOML"),
     ),

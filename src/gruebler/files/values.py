@@ -263,4 +263,7 @@ def write_loaded(
         write_linkage(path, linkage, loads, speed)
     else:
         write(linkage, path, format_name=format_name, left_out=left_out)
-        left_out.append(LOADS)
+        acting = (loads.forces, loads.moments, loads.springs, loads.torsion_springs, loads.motors)
+        left_out += [message("loads")] if any(acting) else []
+        left_out += [message("masses")] if loads.bodies or loads.masses else []
+        left_out += [message("the speed of the drive")] if speed is not None else []
