@@ -109,6 +109,25 @@ def test_demands_are_met_within_the_family():
         assert least == pytest.approx(design.verdict.transmission, abs=1e-3)
 
 
+@pytest.mark.parametrize("count", [3, 4])
+@pytest.mark.parametrize("arcs", [(40, 68, 62, 78), (38, 75, 66, 60), (36, 60, 72, 55)])
+def test_a_known_member_of_a_family_is_not_better_than_those_that_are_found(arcs, count):
+    """Its ratio of arcs and its transmission angle, by the law of cosines at the ends of the way, are demanded."""
+    a, b, c, d = np.radians(arcs)
+    phi = np.radians([40, 75, 110, 140][:count])
+    task, _ = _coupler_task(SphericalFourBar(a, b, c, d), phi)
+    across = np.cos(a) * np.cos(d) + np.sin(a) * np.sin(d) * np.cos(phi)
+    least = np.arccos(np.abs((across - np.cos(b) * np.cos(c)) / (np.sin(b) * np.sin(c))).max())
+    ratio = max(arcs) / min(arcs)
+    assert a + max(arcs) * np.pi / 180 < sum(np.radians(sorted(arcs)[1:3]))  # Grashof: its crank turns fully
+    demands = Demands(crank=True, size_ratio=ratio + 1e-6, transmission=least - 1e-6)
+    found = synthesise_orientations(task, demands, number=4)
+    assert found.designs
+    for design in found.designs:
+        assert design.verdict.transmission >= least - 1e-6
+        assert design.verdict.size_ratio <= ratio + 1e-6
+
+
 def test_small_caps_are_the_plane():
     """The worked example with four real planar dyads (README) on a sphere of 10,000 times its size: four of six."""
     rows = [(0, 0, 0), (-2, 3.8, 81), (-0.1, 3.4, -16), (1.5, 0.8, -32), (-1.8, 2.2, 55)]

@@ -5,8 +5,9 @@ docs/theory/synthesis-sphere.md has the equations and the counts.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import permutations
 from math import pi
 
 import numpy as np
@@ -26,6 +27,7 @@ from gruebler.design.synthesis.spherical_dyads import (
     displacements,
     family_dyads,
     five_orientation_dyads,
+    near_dyads,
 )
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.spherical_four_bar import SphericalFourBar
@@ -33,6 +35,8 @@ from gruebler.structure.mechanism import Mechanism
 
 LEAST_ARC = 1e-6
 _APART = 0.02  # radians: axes of two designs that are listed differ by more
+_WIDTHS = tuple(0.2 * 0.4**k for k in range(7))  # radians: from the distance of two dyads of a sample down
+_MOVES = 8  # to a better pair of dyads of each width
 _ROWS = 33  # poses from one target to the next
 _TEXT = "spherical: R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); drive=R(frame-crank)"
 
@@ -108,16 +112,16 @@ def synthesise_orientations(
     if count == MOST_ORIENTATIONS:
         dyads, complex_dyads = five_orientation_dyads(turns)
         theorem: int | None = COMPLEX_DYADS
-        pairs = [(i, j) for i in range(len(dyads)) for j in range(len(dyads)) if i != j]
+        pairs = list(permutations(dyads, 2))
     else:
         dyads = family_dyads(turns)
         theorem, complex_dyads = None, len(dyads)
         pairs = _best_pairs(dyads, turns, wanted, number, notes)
-    designs = [_judged(_axes_of(dyads[i], dyads[j]), turns, wanted) for i, j in pairs]
+    designs = [_judged(_axes_of(*pair), turns, wanted) for pair in pairs]
     if theorem is not None:  # each linkage once, driven where it does more
-        halves = {frozenset(pair): list[SphericalDesign]() for pair in pairs}
+        halves = {frozenset(map(id, pair)): list[SphericalDesign]() for pair in pairs}
         for pair, design in zip(pairs, designs, strict=True):
-            halves[frozenset(pair)].append(design)
+            halves[frozenset(map(id, pair))].append(design)
         designs = [min(both, key=_order) for both in halves.values()]
     return result_of(
         designs,
@@ -132,20 +136,11 @@ def arc_between(first: Reals, second: Reals) -> float:
 
 
 def _best_pairs(
-    dyads: tuple[SphericalDyad, ...], turns: Reals, demands: Demands, number: int, notes: list[Message]
-) -> list[tuple[int, int]]:
+    dyads: Sequence[SphericalDyad], turns: Reals, demands: Demands, number: int, notes: list[Message]
+) -> list[tuple[SphericalDyad, SphericalDyad]]:
     """The pairs of a family that meet the demands, in closed form: the best that differ; those that fail least."""
-    fixed, moving = (np.array([getattr(dyad, name) for dyad in dyads]) for name in ("fixed", "moving"))
-    closure = _closures(fixed, moving, turns)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        branch, moves, full, transmission = motion_of_pairs(closure)
-    folded = np.minimum(closure.lengths, pi - closure.lengths)
-    ratio = closure.lengths.max(axis=0) / np.maximum(closure.lengths.min(axis=0), 1e-300)
-    usable = folded.min(axis=0) > LEAST_ARC
-    path = moves if demands.in_order else branch
-    met = np.stack([path | (not demands.one_branch), full | (not demands.crank), ratio <= demands.size_ratio])
-    good = np.concatenate([met, [transmission >= demands.transmission]]) & usable
-    fails = np.where(usable, np.sum(~good, axis=0), 99)
+    costs = _costs(dyads, dyads, turns, demands)
+    fails = costs[0]
     notes.append(
         message(
             "{dyads} dyads, each with each and driven at either: of {pairs:,} four-bars {count:,} meet all demands.",
@@ -154,19 +149,61 @@ def _best_pairs(
             count=int(np.count_nonzero(fails == 0)),
         )
     )
-    # An arc near 0 or half a circle folds the linkage to a point, as a large ratio does in the plane.
-    ranks = np.lexsort(
-        [(-folded.min(axis=0)).ravel(), -np.round(transmission, 6).ravel(), ~full.ravel(), fails.ravel()]
-    )
-    chosen: list[tuple[int, int]] = []
+    ranks = np.lexsort([cost.ravel() for cost in reversed(costs)])
+    sampled: list[tuple[SphericalDyad, SphericalDyad]] = []
     for rank in ranks[: 200 * number]:
         i, j = divmod(int(rank), len(dyads))
-        alike = any(_gap(moving[i], moving[k]) + _gap(moving[j], moving[m]) < _APART for k, m in chosen)
-        if i != j and not alike and fails[i, j] == fails.ravel()[ranks[0]]:
-            chosen.append((i, j))
-        if len(chosen) == number:
+        pair = dyads[i], dyads[j]
+        if i != j and fails[i, j] == fails.ravel()[ranks[0]] and _differs(pair, sampled):
+            sampled.append(pair)
+        if len(sampled) == number:
             break
-    return chosen
+    best: list[tuple[SphericalDyad, SphericalDyad]] = []
+    for pair in [*(_improved(pair, turns, demands) for pair in sampled), *sampled]:
+        if len(best) < number and _differs(pair, best):
+            best.append(pair)
+    return best
+
+
+def _improved(
+    pair: tuple[SphericalDyad, SphericalDyad], turns: Reals, demands: Demands
+) -> tuple[SphericalDyad, SphericalDyad]:
+    """The best pair nearby: both dyads are moved within the family, in ever smaller steps, as long as that helps."""
+    for width in _WIDTHS:
+        for _ in range(_MOVES):
+            first, second = ([dyad, *near_dyads(turns, dyad, width)] for dyad in pair)
+            costs = _costs(first, second, turns, demands)
+            best = int(np.lexsort([cost.ravel() for cost in reversed(costs)])[0])
+            if best == 0:
+                break
+            pair = first[best // len(second)], second[best % len(second)]
+    return pair
+
+
+def _costs(
+    first: Sequence[SphericalDyad], second: Sequence[SphericalDyad], turns: Reals, demands: Demands
+) -> list[Reals]:
+    """(first, second) what is to be small, the most important first: demands that are not met, then what is better."""
+    closure = _closures(first, second, turns)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        branch, moves, full, transmission = motion_of_pairs(closure)
+    # Of each axis the end is taken that is nearer to the axis before, as `_axes_of` does.
+    cosines = np.cos(closure.lengths)
+    arcs = np.arccos(np.append(np.abs(cosines[:3]), [np.prod(np.sign(cosines[:3]), axis=0) * cosines[3]], axis=0))
+    ratio = arcs.max(axis=0) / np.maximum(arcs.min(axis=0), 1e-300)
+    folded = np.minimum(arcs, pi - arcs).min(axis=0)
+    path = moves if demands.in_order else branch
+    met = [path | (not demands.one_branch), full | (not demands.crank), ratio <= demands.size_ratio]
+    good = np.stack([*met, transmission >= demands.transmission]) & (folded > LEAST_ARC)
+    fails = np.where(folded > LEAST_ARC, np.sum(~good, axis=0), 99)
+    # An arc near 0 or half a circle folds the linkage to a point, as a large ratio does in the plane.
+    worst = np.where(np.isnan(transmission), 0.0, np.round(transmission, 6))
+    return [fails.astype(np.float64), 1.0 - full, -worst, -folded]
+
+
+def _differs(pair: tuple[SphericalDyad, SphericalDyad], others: Iterable[tuple[SphericalDyad, SphericalDyad]]) -> bool:
+    """Whether the axes on the body lie elsewhere than those of other pairs."""
+    return all(sum(_gap(p.moving, q.moving) for p, q in zip(pair, other, strict=True)) >= _APART for other in others)
 
 
 def _gap(first: Reals, second: Reals) -> float:
@@ -174,20 +211,29 @@ def _gap(first: Reals, second: Reals) -> float:
     return float(np.arccos(min(1.0, abs(float(first @ second)))))
 
 
-def _closures(fixed: Reals, moving: Reals, turns: Reals) -> PairClosure:
+def _closures(first: Sequence[SphericalDyad], second: Sequence[SphericalDyad], turns: Reals) -> PairClosure:
     """Where the crank of each pair of dyads can be assembled: cos(A B0) = cos a cos d + sin a sin d cos(phi)."""
-    pins = np.concatenate([moving[None], np.einsum("kij,nj->kni", turns, moving)])  # (targets, dyads, 3)
-    cosines = [np.einsum("ni,ni->n", fixed, moving), moving @ moving.T, fixed @ fixed.T]
-    own, b, d = (np.arccos(np.clip(each, -1, 1)) for each in cosines)
-    a, c = np.broadcast_to(own[:, None], b.shape), np.broadcast_to(own[None, :], b.shape)
+    (own, moving), (far, far_moving) = (
+        (np.array([dyad.fixed for dyad in dyads]), np.array([dyad.moving for dyad in dyads]))
+        for dyads in (first, second)
+    )
+    # (targets, dyads, 3)
+    pins, far_pins = (np.concatenate([p[None], np.einsum("kij,nj->kni", turns, p)]) for p in (moving, far_moving))
+    cosines = [
+        np.sum(own * moving, axis=1)[:, None],
+        moving @ far_moving.T,
+        np.sum(far * far_moving, axis=1),
+        own @ far.T,
+    ]
+    a, b, c, d = np.broadcast_arrays(*(np.arccos(np.clip(each, -1, 1)) for each in cosines))
     with np.errstate(invalid="ignore", divide="ignore"):
         low, high = ((np.cos(arc) - np.cos(a) * np.cos(d)) / (np.sin(a) * np.sin(d)) for arc in (b + c, b - c))
-        normals = np.cross(fixed[:, None], fixed[None])
+        normals = np.cross(own[:, None], far[None])
         across = np.einsum("ijx,kix->ijk", normals, pins) / np.sin(d)[..., None]
-        ahead = np.einsum("jx,kix->ijk", fixed, pins) - np.cos(d)[..., None] * np.cos(a)[..., None]
+        ahead = np.einsum("jx,kix->ijk", far, pins) - np.cos(d)[..., None] * np.cos(a)[..., None]
         angle = np.arctan2(across, ahead / np.sin(d)[..., None])
-        arms = np.cross(pins[:, :, None], fixed[None, None])  # (targets, i, j, 3): A x B0
-        side = np.sign(np.einsum("kijx,kjx->ijk", arms, pins))
+        arms = np.cross(pins[:, :, None], far[None, None])  # (targets, i, j, 3): A x B0
+        side = np.sign(np.einsum("kijx,kjx->ijk", arms, far_pins))
     return PairClosure(
         lengths=np.array([a, b, c, d]),
         low=low,

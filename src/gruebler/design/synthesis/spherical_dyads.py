@@ -153,14 +153,50 @@ def family_dyads(turns: Reals) -> tuple[SphericalDyad, ...]:
         axes = np.stack([across * np.cos(around), across * np.sin(around), height], axis=1)
     else:
         axes = _curve(_cubic(turns))
-    dyads = []
-    for moving in axes:
-        ways = (turns - np.eye(3)) @ moving
-        if np.linalg.svd(ways, compute_uv=False)[1] > _REAL:  # else it lies on a pole, which any axis serves
-            dyads.append(SphericalDyad(fixed=_fixed_axis(turns, moving), moving=moving))
+    dyads = _serving(turns, axes)
     if not dyads:
         raise SynthesisError(_INFINITELY_MANY)
     return tuple(dyads)
+
+
+def near_dyads(turns: Reals, dyad: SphericalDyad, width: float) -> list[SphericalDyad]:
+    """Dyads of three or four orientations beside one of them: their axes on the body are about so many radians away."""
+    first, second = np.linalg.svd(dyad.moving[None])[2][1:]
+    if len(turns) == 2:
+        around = 2 * pi * np.arange(8) / 8
+        moves = width * np.concatenate([np.exp(1j * around), 0.5 * np.exp(1j * around)])
+        return _serving(turns, dyad.moving + moves.real[:, None] * first + moves.imag[:, None] * second)
+    cubic = _cubic(turns)
+    _, slope = _cubic_at(cubic, dyad.moving)
+    along = np.cross(slope, dyad.moving)
+    if not along.any():  # a double point, where the curve has two directions
+        return []
+    axes = dyad.moving + width * np.array([[-1.0], [-0.5], [0.5], [1.0]]) * along / np.linalg.norm(along)
+    for _ in range(4):
+        values, slopes = _cubic_at(cubic, axes)
+        axes = axes - (values / np.maximum((slopes**2).sum(axis=1), 1e-300))[:, None] * slopes
+        axes = axes / np.linalg.norm(axes, axis=1, keepdims=True)
+    onto = np.abs(_cubic_at(cubic, axes)[0]) < _EXACT * np.abs(cubic).max()
+    return _serving(turns, axes[onto])
+
+
+def _serving(turns: Reals, axes: Reals) -> list[SphericalDyad]:
+    """The dyads of axes of the body, less those on a pole, which any axis of the frame serves."""
+    axes = axes / np.linalg.norm(axes, axis=1, keepdims=True)
+    _, singular, fixed = np.linalg.svd(np.einsum("kij,nj->nki", turns - np.eye(3), axes))
+    several = singular[:, 1] > _REAL
+    return [SphericalDyad(fixed=own[-1], moving=axis) for axis, own in zip(axes[several], fixed[several], strict=True)]
+
+
+def _cubic_at(cubic: Reals, axes: Reals) -> tuple[Reals, Reals]:
+    """The value of a cubic and its slope at axes, (..., 3)."""
+    powers = np.array(_CUBIC)
+    value = np.prod(axes[..., None, :] ** powers, axis=-1) @ cubic
+    slopes = []
+    for k in range(3):
+        lowered = np.maximum(powers - np.eye(3, dtype=int)[k], 0)
+        slopes.append(np.prod(axes[..., None, :] ** lowered, axis=-1) @ (cubic * powers[:, k]))
+    return value, np.stack(slopes, axis=-1)
 
 
 def _curve(cubic: Reals) -> Reals:
