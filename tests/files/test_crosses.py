@@ -7,6 +7,8 @@ from gruebler.files.link_solids import link_solids
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.crosses import crosses_of
 from gruebler.mechanics.space import move
+from gruebler.pictures.space.scene import scene_of
+from gruebler.pictures.space.views import VIEWS
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 
@@ -64,6 +66,26 @@ def test_a_link_whose_axes_meet_at_a_right_angle_is_a_cross_in_two_forks(id, cro
     assert abs(places[cross] @ normal).max() < 0.5 * spans[0]  # flat, other than a bar between the ends
     middles = [places[link].mean(axis=0) for link in found.arms]
     assert middles[0] @ middles[1] < 0  # the shafts lie on both sides
+
+
+@pytest.mark.parametrize(("id", "cross"), [("universal_joint", "cross"), ("own", "c")])
+def test_pictures_show_two_forks_on_a_cross(id, cross):
+    """Two bars of the cross at right angles through its middle; each holder has an eye at either side of one."""
+    scene = scene_of(LINKAGES[id], VIEWS["isometric"])
+    (found,) = crosses_of(LINKAGES[id])
+    middle = scene.scale * (found.at - scene.middle)
+    spines = [part.points[:2] - middle for part in scene.parts if part.link == cross and part.look == "bar"]
+    assert len(spines) == 2
+    ways = [spine[1] - spine[0] for spine in spines]
+    assert [spine.mean(axis=0) for spine in spines] == [pytest.approx(np.zeros(3), abs=1e-6)] * 2
+    assert ways[0] @ ways[1] == pytest.approx(0, abs=1e-6)
+    for link, (_, arm) in found.arms.items():
+        eyes = [
+            part.points[:2].mean(axis=0) - middle for part in scene.parts if part.link == link and part.look == "sleeve"
+        ]
+        along = sorted(eye @ arm for eye in eyes if np.linalg.norm(eye - (eye @ arm) * arm) < 1e-6)
+        assert along[0] == pytest.approx(-along[-1])
+        assert along[-1] > 10
 
 
 def test_links_that_are_no_crosses():

@@ -11,7 +11,7 @@ import gruebler as gr
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import message
 from gruebler.mechanics.screws import SpatialLinkage
-from gruebler.mechanics.space import Bennett, UniversalJoint
+from gruebler.mechanics.space import Bennett, SphericalFourBar, UniversalJoint
 from gruebler.mechanics.space.drive_ranges import spatial_range
 from gruebler.pictures.canvas.panels import draw_panels
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, TextShape
@@ -256,7 +256,8 @@ def test_what_is_behind_a_wheel_is_seen_through_it():
 
 def test_bars_of_an_arc_meet_without_gaps_as_textbooks_have_them():
     """On the sphere the links are arcs of short bars, whose lines are the links in textbooks, also where they cross."""
-    shapes = textbook(draw_spatial(entry("universal_joint").placed())).shapes
+    linkage = SphericalFourBar(*np.radians([30, 80, 60, 70])).linkage(0.5)
+    shapes = textbook(draw_spatial(linkage)).shapes
     ends = [[complex(*end) for end in shape.parts[0]] for shape in shapes if shape.style == "textbook-body-rod"]
     gaps = [min(abs(a[1] - b[0]) for b in ends if b is not a) for a in ends]
     assert len(ends) >= 3 * 24  # three moving links; bars in a ring are cut

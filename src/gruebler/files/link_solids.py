@@ -23,7 +23,7 @@ from gruebler.files.solids import (
     turned_solid,
 )
 from gruebler.mechanics.screws import SpatialLinkage
-from gruebler.mechanics.screws.crosses import UniversalCross, crosses_of
+from gruebler.mechanics.screws.crosses import UniversalCross, crosses_of, put_apart
 from gruebler.mechanics.screws.round_bodies import TurnedBody
 from gruebler.structure.chain.spaces import Space
 
@@ -154,25 +154,8 @@ def _joint_places(linkage: SpatialLinkage, r: float, crosses: Sequence[Universal
             at = [*clear, *free, at][0]
         places.append(at)
     for cross in crosses:
-        first, second = (_shaft(linkage, cross, link) for link in cross.arms)
-        if first is None or second is None:
-            continue
-        if (places[first] - cross.at) @ (places[second] - cross.at) > 0:
-            places[second] = 2 * cross.at - places[second]
+        put_apart(linkage, cross, places, cross.at)
     return places
-
-
-def _shaft(linkage: SpatialLinkage, cross: UniversalCross, link: str) -> int | None:
-    """The other joint of a link that holds a cross, if it turns about an axis through the middle of the cross."""
-    joints = linkage.mechanism.chain.joints
-    others = [k for k, joint in enumerate(joints) if link in joint.links and k != cross.arms[link][0]]
-    if len(others) != 1 or not joints[others[0]].pair.is_turning:
-        return None
-    frame = linkage.frames[others[0]]
-    if linkage.mechanism.chain.space is Space.SPHERICAL:
-        return others[0]
-    off = np.linalg.norm(np.cross(frame[:3, 3] - cross.at, frame[:3, 2]))
-    return others[0] if off < _SAME * linkage.size else None
 
 
 def _mean(linkage: SpatialLinkage, link: str, number: int, bearings: Sequence[Reals]) -> Reals:

@@ -77,3 +77,25 @@ def _meeting(linkage: SpatialLinkage, first: int, second: int) -> Reals | None:
     if abs(float(gap @ np.cross(a[:3, 2], b[:3, 2]))) > _SAME * linkage.size:
         return None
     return np.asarray(a[:3, 3] + (gap @ a[:3, 2]) * a[:3, 2])
+
+
+def put_apart(linkage: SpatialLinkage, cross: UniversalCross, places: list[Reals], middle: Reals) -> None:
+    """Put the bearings of the two shafts of a cross on both sides of its middle, among places of joints."""
+    first, second = (_shaft(linkage, cross, link) for link in cross.arms)
+    if first is None or second is None:
+        return
+    if (places[first] - middle) @ (places[second] - middle) > 0:
+        places[second] = 2 * middle - places[second]
+
+
+def _shaft(linkage: SpatialLinkage, cross: UniversalCross, link: str) -> int | None:
+    """The other joint of a link that holds a cross, if it turns about an axis through the middle of the cross."""
+    joints = linkage.mechanism.chain.joints
+    others = [k for k, joint in enumerate(joints) if link in joint.links and k != cross.arms[link][0]]
+    if len(others) != 1 or not joints[others[0]].pair.is_turning:
+        return None
+    frame = linkage.frames[others[0]]
+    if linkage.mechanism.chain.space is Space.SPHERICAL:
+        return others[0]
+    off = np.linalg.norm(np.cross(frame[:3, 3] - cross.at, frame[:3, 2]))
+    return others[0] if off < _SAME * linkage.size else None

@@ -11,11 +11,12 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.mechanics.screws.crosses import crosses_of, put_apart
 from gruebler.mechanics.space.sleeves import shaft_first, sleeve_travels
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines, Shape
 from gruebler.pictures.space.painting import painted_parts
 from gruebler.pictures.space.parts import SpatialPart, across, ground_support, link_bar, points_on_paper, wheel
-from gruebler.pictures.space.symbols import SOLIDS, SPHERE, PlacedJoint, SlidingRod, drive_arrow
+from gruebler.pictures.space.symbols import SOLIDS, SPHERE, PlacedJoint, SlidingRod, drive_arrow, held_cross
 from gruebler.pictures.space.views import View
 from gruebler.structure.chain.spaces import Space
 
@@ -107,7 +108,15 @@ def scene_of(linkage: SpatialLinkage, view: View, poses: Reals | None = None) ->
         poses = np.tile(np.eye(4), (1, linkage.mechanism.chain.n, 1, 1))
     scale, middle = _scaled(linkage, view, poses)
     joints = _drawn_joints(linkage, scale, middle, sleeve_travels(linkage, poses))
-    symbols = [SOLIDS[joint.pair.name](joint) for joint in joints]
+    held = {
+        number: (cross, link) for cross in crosses_of(linkage) if cross.body for link, (number, _) in cross.arms.items()
+    }
+    symbols = [
+        held_cross(joint, *held[number], scale * (held[number][0].at - middle))
+        if number in held
+        else SOLIDS[joint.pair.name](joint)
+        for number, joint in enumerate(joints)
+    ]
     parts = _distinct([part for symbol in symbols for part in symbol.parts])
     frame = linkage.mechanism.frame
     outlines, solids = {}, []
@@ -137,8 +146,8 @@ def scene_of(linkage: SpatialLinkage, view: View, poses: Reals | None = None) ->
     for number in {drive.joint for drive in linkage.mechanism.drives}:
         if joints[number].pair.motion[0].turns or not joints[number].pair.is_higher:
             line, head = drive_arrow(joints[number], view.sight)
-            held = joints[number].links[-1]
-            lines += [(held, "drive", line), (held, "head", head)]
+            driven = joints[number].links[-1]
+            lines += [(driven, "drive", line), (driven, "head", head)]
     return SpatialScene(
         linkage=linkage,
         view=view,
@@ -218,6 +227,8 @@ def _drawn_joints(
             free = (place for place in tried if all(np.linalg.norm(place - other) > _APART for other in ats))
             at = next(free, at)
         ats.append(at)
+    for cross in crosses_of(linkage):
+        put_apart(linkage, cross, ats, scale * (cross.at - middle))
     middles = {
         link: np.mean([ats[k] for k, joint in enumerate(chain.joints) if link in joint.links], axis=0)
         for link in chain.links
@@ -298,6 +309,8 @@ def _round_trip(places: Reals) -> tuple[list[int], list[tuple[int, int]]]:
 
 def _bars(link: str, start: Reals, clear: float, end: Reals, other: float, spherical: bool) -> list[SpatialPart]:
     """Bars from place to place, on a sphere along a great circle; they begin outside of the joints."""
+    if np.linalg.norm(end - start) < _SHORT:
+        return []
     places = _arc(start, end) if spherical else np.array([start, end])
     lengths = np.linalg.norm(np.diff(places, axis=0), axis=1)
     if lengths.sum() < clear + other + _SHORT:

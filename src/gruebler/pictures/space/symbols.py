@@ -12,8 +12,9 @@ from math import cos, isfinite, pi, sin
 import numpy as np
 
 from gruebler.base.arrays import Reals
+from gruebler.mechanics.screws.crosses import UniversalCross
 from gruebler.mechanics.screws.joint_places import JointPlace
-from gruebler.pictures.space.parts import SpatialPart, across, ball, block, line, sleeve, socket, wheel
+from gruebler.pictures.space.parts import SpatialPart, across, ball, block, line, link_bar, sleeve, socket, wheel
 from gruebler.structure.chain.pairs import Pair
 
 _HALF, _RADIUS, _STOP = 11.0, 6.5, 19.0
@@ -22,6 +23,7 @@ _THREAD = 5.0
 _ON_AXIS = 1.0  # pixels from an axis
 _BALL, _SOCKET = 6.5, 9.5
 _FORK, _ARM = 14.0, 8.0
+_WIDE = 34.0  # half the width of a fork about a cross that is a link, and its length
 _PLATE, _GAP = 15.0, 3.0
 _SMALL = 3.0  # a contour of a smaller radius is drawn as a ball
 SPHERE = 130.0
@@ -190,6 +192,22 @@ def _universal(joint: PlacedJoint) -> Symbol:
         parts += [line(link, np.array(feet)), line(link, np.array([ends[1], feet[1]]))]
         holds[link] = joint.at + _FORK * heading
     return Symbol(parts=parts, holds=holds)
+
+
+def held_cross(joint: PlacedJoint, cross: UniversalCross, link: str, middle: Reals) -> Symbol:
+    """A fork with two eyes about the arm of a link that is a cross."""
+    assert cross.body is not None
+    arm = joint.axes[:, 2]
+    heading = joint.middles[link] - middle
+    heading = heading - (heading @ arm) * arm
+    size = float(np.linalg.norm(heading))
+    heading = heading / size if size > 1.0 else next(other for of, (_, other) in cross.arms.items() if of != link)
+    ends = [middle - _WIDE * arm, middle + _WIDE * arm]
+    feet = [end + _WIDE * heading for end in ends]
+    parts = [link_bar(cross.body, middle - (_WIDE + _STOP / 2) * arm, middle + (_WIDE + _STOP / 2) * arm)]
+    parts += [link_bar(link, a, b) for a, b in ((ends[0], feet[0]), (feet[0], feet[1]), (feet[1], ends[1]))]
+    parts += [sleeve(link, end - _HALF / 2 * arm, end + _HALF / 2 * arm, _RADIUS) for end in ends]
+    return Symbol(parts=parts, holds={link: middle + _WIDE * heading, cross.body: middle})
 
 
 def _planar(joint: PlacedJoint) -> Symbol:
