@@ -35,7 +35,7 @@ interface Kind {
 
 interface Mark {
   key: string;
-  mark: "right" | "near" | "wrong";
+  mark: "right" | "near" | "wrong" | "missing";
   hint: string;
 }
 
@@ -90,7 +90,7 @@ export class ExercisesView implements View {
   readonly #place = h("div", {});
   readonly #kinds = h("div", {});
   readonly #tasks = h("div", {});
-  readonly #score = h("span.score", { role: "status" });
+  readonly #score = h("span.note", { role: "status" });
   readonly #verdict = h("b", { role: "status", "data-result": "" });
   #answers: Record<string, string> = {};
   /** The tasks that were marked, and whether all their answers were right. */
@@ -102,13 +102,23 @@ export class ExercisesView implements View {
   }
 
   appeared(): void {
-    if (!this.task) void this.#fillKinds().then(() => this.fresh());
+    if (!this.task) void this.#fillKinds();
   }
 
   arrange(): void {
-    renew(this.element, h("div.page", {}, h("h2", {}, t("Exercises")), this.#kinds, this.#tasks, this.#place));
+    renew(
+      this.element,
+      h(
+        "div.page",
+        {},
+        h("div.form", {}, h("h2", {}, t("Exercises")), this.#score),
+        this.#kinds,
+        this.#tasks,
+        this.#place,
+      ),
+    );
     this.#showScore();
-    if (this.task) void this.#fillKinds().then(() => this.fresh());
+    if (this.task) void this.#fillKinds();
   }
 
   async #fillKinds(): Promise<void> {
@@ -120,6 +130,7 @@ export class ExercisesView implements View {
       void this.fresh();
     };
     renew(this.#kinds, choice(t("Theory"), options, this.kind, choose, { class: "choice palette" }));
+    return this.fresh();
   }
 
   /** The exercises of the text; none for a kind of fresh tasks. */
@@ -213,7 +224,6 @@ export class ExercisesView implements View {
             act("mark", t("Mark my answers"), !solved, () => undefined, "submit"),
             act("next", t("Next task"), solved, () => this.#next()),
             this.#verdict,
-            this.#score,
           ),
           h(
             "div.form",
@@ -222,9 +232,8 @@ export class ExercisesView implements View {
               act("try", [t("Try it"), name].filter(Boolean).join(": "), false, () => void this.#tryIt(k)),
             ),
           ),
-          marked
-            ? h("details.words.solution", {}, h("summary", {}, t("The solution")), ...marked.solution.map(partOf))
-            : null,
+          marked &&
+            h("details.words.solution", {}, h("summary", {}, t("The solution")), ...marked.solution.map(partOf)),
         ),
       ),
     );
@@ -232,11 +241,17 @@ export class ExercisesView implements View {
 
   /** What is asked, with a field or a choice, and its mark. */
   #row({ key, name, symbol, unit, choices }: Asked): HTMLElement {
-    const mark = this.#marked?.marks.find((one) => one.key === key);
+    const missing: Mark = { key, mark: "missing", hint: "" };
+    const mark = this.#marked && (this.#marked.marks.find((one) => one.key === key) ?? missing);
     const given = this.#answers[key] ?? "";
     const set = (value: string) => (this.#answers[key] = value);
     const [id, hint] = [`answer-${key}`, `hint-${key}`];
-    const words = { right: `✓ ${t("right")}`, near: `≈ ${t("nearly right")}`, wrong: `✗ ${t("wrong")}` };
+    const words = {
+      right: `✓ ${t("right")}`,
+      near: `≈ ${t("nearly right")}`,
+      wrong: `✗ ${t("wrong")}`,
+      missing: t("missing"),
+    };
     const input = h("input", {
       id,
       value: given,
@@ -259,7 +274,7 @@ export class ExercisesView implements View {
     return h(
       "div.answer",
       { "data-mark": mark?.mark },
-      choices.length ? h("span", {}, name) : h("label", { for: id }, name),
+      h(choices.length ? "span" : "label", { for: !choices.length && id }, name),
       field,
       mark ? h("b", {}, words[mark.mark]) : null,
       mark?.hint ? h("div", { id: hint }, ...indexed(mark.hint)) : null,
@@ -290,14 +305,7 @@ export class ExercisesView implements View {
   #showScore(): void {
     const tasks = [...this.record.values()];
     const solved = tasks.filter(Boolean).length;
-    renew(
-      this.#score,
-      ...tasks.slice(-12).map((one) => {
-        const sign = one ? "●" : "○";
-        return h("i", { class: one ? "good" : "bad", "aria-hidden": "true" }, sign);
-      }),
-      tasks.length ? t("{solved} of {tasks} solved", { solved, tasks: tasks.length }) : "",
-    );
+    if (tasks.length) this.#score.textContent = t("{solved} of {tasks} solved", { solved, tasks: tasks.length });
   }
 
   async #tryIt(part: number): Promise<void> {

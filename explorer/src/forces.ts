@@ -48,10 +48,7 @@ export interface Loaded {
 
 export class Forces {
   readonly element = h("div", { "data-part": "forces" });
-  readonly #form = new LoadForm(
-    () => this.changed(),
-    (speed) => this.#view.transport.playAt(speed),
-  );
+  readonly #form = new LoadForm(() => this.changed());
   readonly #summary = h("summary", {});
   /** What acts, above its results. */
   readonly #acting = h("details.words", {}, this.#summary, this.#form.element);
@@ -132,7 +129,7 @@ export class Forces {
     const button = h(
       "button.plain",
       { "data-act": "assume", onclick: assume },
-      t("Assume bars of steel, 20 mm × 5 mm"),
+      t("Assume steel: bars 20 mm × 5 mm, sliders 20 mm long"),
     );
     const offer = weightless ? [h("div.form", {}, button)] : [];
     if (!drives) {
@@ -159,22 +156,34 @@ export class Forces {
       renew(this.#joint, ...options);
       const fallen = h("div.form", {});
       const onclick = () => void this.#fall(fallen);
+      const play = () => this.#view.transport.playAt(speed!);
       const release = t("Release the drive: free motion");
-      const most = effort.reduce<number>((best, one, k) => (size(one) > size(effort[best]!) ? k : best), 0);
+      const largestOf = (sizes: number[]) => sizes.indexOf(Math.max(...sizes));
+      const most = largestOf(effort.map((one) => Math.abs(one ?? 0)));
       const largest = `${number(effort[most] ?? 0, 4)} ${turning ? momentUnit(model) : "N"}`;
-      const place = driveText(linkage, drives[most]!, 4);
-      const rate = turning ? `${number((speed ?? 0) / RPM)}/min` : `${number(speed ?? 0)} ${lengthUnit(model)}/s`;
-      const note = `${t("at {place}", { place })}, ${rate}`;
-      const strong = this.#forces.reduce((best, { most: own }, k) => (own > this.#forces[best]!.most ? k : best), 0);
-      const strongest = `${number(this.#forces[strong]!.most, 4)} N`;
+      const at = (row: number) => t("at {place}", { place: driveText(linkage, drives[row]!, 4) });
+      const rate = turning ? `${number(speed! / RPM)}/min` : `${number(speed!)} ${lengthUnit(model)}/s`;
+      const strong = largestOf(this.#forces.map((force) => force.most));
+      const { most: strongest, x, y } = this.#forces[strong]!;
+      const where = largestOf(Array.from(x, (one, k) => Math.hypot(one, y[k]!) || 0));
       this.#joint.selectedIndex = chosen < 0 ? strong : chosen;
       this.#facts.show([
-        { name: turning ? t("Largest drive torque") : t("Largest drive force"), text: largest, note },
-        { name: t("Largest joint force"), text: strongest, note: options[strong]!.textContent! },
+        { name: turning ? t("Largest drive torque") : t("Largest drive force"), text: largest, note: at(most) },
+        {
+          name: t("Largest joint force"),
+          text: `${number(strongest, 4)} N`,
+          note: `${at(where)}, ${options[strong]!.textContent}`,
+        },
       ]);
       renew(
         this.#result,
         ...offer,
+        h(
+          "div.form",
+          {},
+          h("span.note", {}, t("Of a drive at {rate}; the picture has a speed of its own.", { rate })),
+          h("button.plain", { "data-act": "play", onclick: play }, t("Play at this speed")),
+        ),
         this.#facts.element,
         this.#plot.element,
         h("p.note", {}, t("Arrow length: square root of the force")),
@@ -229,10 +238,6 @@ export class Forces {
     renew(place, h("p.note", {}, found.lines.join(" ")));
     this.#view.transport.play(found);
   }
-}
-
-function size(value: number | null): number {
-  return Math.abs(value ?? 0);
 }
 
 function numbers(values: Numbers): Float64Array {

@@ -30,11 +30,7 @@ export class LoadForm {
   #weight = true;
   #loads: Load[] = [];
 
-  constructor(
-    private readonly changed: () => void,
-    /** Let the picture move at a speed of the drive. */
-    private readonly play: (speed: number) => void,
-  ) {}
+  constructor(private readonly changed: () => void) {}
 
   /** Nothing is typed yet. */
   clear(): void {
@@ -62,36 +58,29 @@ export class LoadForm {
         this.speed = v > 0 ? v * factor : null;
       },
     );
-    const play = { "data-act": "play", onclick: () => this.play(speed) };
-    const first = [
-      h("div.rows", {}, ...rows.splice(0)),
-      speed ? h("div.form", {}, h("button.plain", play, t("Play at this speed"))) : "",
-    ];
     for (const link of links)
       rows.push(
         ...this.#row(`mass-${link}`, t("Mass {link}", { link: linkage.linkName(link) }), "kg", masses[link]!, (v) => {
           this.masses = masses.map((mass, k) => (k === link ? Math.max(0, v) : mass));
         }),
       );
-    const places = [
+    const places: [string, string][] = [
       ["", t("none")],
-      ...sizes.points.map(({ name }, k) => [`point ${k}`, linkage.pointName(name)]),
-      ...model.joints.map(({ name }, k) => [`joint ${k}`, linkage.jointName(name)]),
-      ...links.map((link) => [`link ${link}`, linkage.linkName(link)]),
+      ...sizes.points.map(({ name }, k): [string, string] => [`point ${k}`, linkage.pointName(name)]),
+      ...model.joints.map(({ name }, k): [string, string] => [`joint ${k}`, linkage.jointName(name)]),
+      ...links.map((link): [string, string] => [`link ${link}`, linkage.linkName(link)]),
     ];
     // one row for each, and an empty one
     for (const [k, load] of [...this.#loads, null].entries()) {
       const chosen = load ? `${load.on} ${load.number}` : "";
-      const onchange = () => {
-        const [on, which] = where.value.split(" ");
-        this.#loads.splice(k, 1, ...(on ? [{ x: 0, y: 0, ...load, on, number: Number(which) }] : []));
-        this.changed();
-        this.show(linkage, masses, speed, springs);
-      };
-      const options = places.map(([value, text]) => h("option", { value, selected: value === chosen }, text));
-      const id = `force-load-${k}`;
-      const where = h("select", { id, onchange }, ...options);
-      rows.push(h("label", { for: id }, t("Load on")), where);
+      rows.push(
+        ...chooser(`force-load-${k}`, t("Load on"), places, chosen, (place) => {
+          const [on, which] = places[place]![0].split(" ");
+          this.#loads.splice(k, 1, ...(on ? [{ x: 0, y: 0, ...load, on, number: Number(which) }] : []));
+          this.changed();
+          this.show(linkage, masses, speed, springs);
+        }),
+      );
       const part = (key: "x" | "y", label: string, unit: string) =>
         rows.push(...this.#row(`${key}-${k}`, label, unit, load![key], (v) => (load![key] = v)));
       if (load?.on === "link") part("x", t("Moment"), momentUnit(model));
@@ -106,12 +95,7 @@ export class LoadForm {
       this.changed();
     };
     const weight = h("input", { type: "checkbox", checked: this.#weight, onchange: weigh });
-    renew(
-      this.element,
-      ...first,
-      h("div.rows", {}, ...rows),
-      h("div.form", {}, h("label", {}, weight, t("Weight, downward"))),
-    );
+    renew(this.element, h("div.rows", {}, ...rows), h("div.form", {}, h("label", {}, weight, t("Weight, downward"))));
   }
 
   /** For each spring its kind, its ends and its rates, and a row for another one. */
@@ -120,24 +104,12 @@ export class LoadForm {
     const places = endsOf(linkage);
     const links = [...linkage.model.links.slice(0, linkage.model.own).keys()];
     const rows: HTMLElement[] = [];
-    const select = (
-      id: string,
-      label: string,
-      options: [unknown, string, string?][],
-      chosen: unknown,
-      take: (k: number) => void,
-    ) => {
-      const known = options.findIndex(([value]) => String(value) === String(chosen));
-      const choices = known < 0 ? [...options, [chosen, endName(linkage, chosen as End)] as const] : options;
-      const field = h(
-        "select",
-        { id, onchange: () => take(field.selectedIndex) },
-        ...choices.map(([, text], k) =>
-          h("option", { selected: known < 0 ? k === options.length : k === known }, text),
-        ),
-      );
-      rows.push(h("label", { for: id }, label), field);
-    };
+    const select = (...asked: Parameters<typeof chooser>) => rows.push(...chooser(...asked));
+    /** With the end that is chosen, if it is neither joint nor point. */
+    const ended = (options: [End, string, string?][], [link, x, y]: End) =>
+      options.some(([end]) => String(end) === String([link, x, y]))
+        ? options
+        : [...options, [[link, x, y], `${linkage.linkName(link)}: ${number(x)}; ${number(y)}`] as [End, string]];
     for (const [k, spring] of [...springs, null].entries()) {
       const put = (more: Partial<Spring> | null) => {
         const next = { ...spring!, ...more };
@@ -167,7 +139,7 @@ export class LoadForm {
         ? links.map((link) => [[link, 0, 0], linkage.linkName(link)])
         : places;
       for (const side of [0, 1] as const)
-        select(`spring-${k}-${side}`, side ? t("to") : t("from"), options, ends[side], (which) => {
+        select(`spring-${k}-${side}`, side ? t("to") : t("from"), ended(options, ends[side]), ends[side], (which) => {
           const other = [...ends] as Spring["ends"];
           other[side] = options[which]?.[0] ?? ends[side];
           put({ ends: other });
@@ -202,7 +174,20 @@ export class LoadForm {
   }
 }
 
-/** What an end that is neither joint nor point is called. */
-function endName(linkage: Linkage, [link, x, y]: End): string {
-  return `${linkage.linkName(link)}: ${number(x)}; ${number(y)}`;
+/** One of several, by its place among them, with what it is for. */
+function chooser(
+  id: string,
+  label: string,
+  options: [unknown, string, string?][],
+  chosen: unknown,
+  take: (place: number) => void,
+): HTMLElement[] {
+  const field = h(
+    "select",
+    { id, onchange: () => take(field.selectedIndex) },
+    ...options.map(([value, text]) =>
+      h("option", { value: value as string, selected: String(value) === String(chosen) }, text),
+    ),
+  );
+  return [h("label", { for: id }, label), field];
 }

@@ -54,11 +54,16 @@ export function nameSpots(viewport: Viewport, { at, away, along = [0, 0], bar }:
   if (bar === undefined) {
     const side = ALONE + halfOf(name);
     return [
-      [x, y + 4 - ALONE],
-      [x, y + 4 + ALONE],
-      [x + side, y + 4],
-      [x - side, y + 4],
-    ];
+      [0, -ALONE],
+      [0, ALONE],
+      [side, 0],
+      [-side, 0],
+      // in a corner between its rail and a force
+      [side, -ALONE],
+      [-side, -ALONE],
+      [side, ALONE],
+      [-side, ALONE],
+    ].map(([right, down]): Pair => [x + right!, y + 4 + down!]);
   }
   const [u, v] = away;
   const far = BODY + halfOf(name) * Math.abs(u) + INK * Math.abs(v);

@@ -123,12 +123,12 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
     },
     onkeydown: (event: KeyboardEvent) => event.stopPropagation(),
   });
-  const name = linkage.linkName(link);
+  const pins = [first, second].every((k) => linkage.sizes.is(k, "pin"));
+  const name = pins || link !== linkage.model.frame ? linkage.linkName(link) : t("eccentricity");
   const lettered = linkage.letterOf(0);
   const ends = `${others(first)}${lettered ? "–" : " – "}${others(second)}`;
   const bold = h("b", {}, lettered ? ends : name);
   const label = h("label", { for: id, title: `${name}: ${ends}` }, bold, alone || lettered ? "" : ` ${ends}`);
-  const pins = [first, second].every((k) => linkage.sizes.is(k, "pin"));
   return [
     label,
     input,

@@ -32,7 +32,7 @@ export class StructureView implements View {
   readonly #detail = h("div.contents", {});
   readonly #go = h("div.form.go", {});
   readonly #error = h("p.error", { role: "alert" });
-  readonly #words = h("details.words", {});
+  readonly #words = h("details.words", { hidden: true }); // until there is one
   readonly #field = h("textarea", { spellcheck: false, "data-field": "chain" });
   #typing = 0;
   #asked = 0;
@@ -114,6 +114,7 @@ export class StructureView implements View {
         this.#error.append(h("span.place", {}, `\n${before}▸${text.slice(at - 1, at + 16)}`));
       }
     }
+    this.#words.hidden = false;
     this.#detail.classList.remove("asking");
   }
 

@@ -46,6 +46,18 @@ test("one place alone has its name above", () => {
   assert.deepEqual(namePlace(pin, [], "block", 1), { at: [3, 4], away: [0, 1] });
 });
 
+test("between its rail and a force across it the name of a block stands in a corner", () => {
+  const viewport = new Viewport();
+  const [x, y] = viewport.screen(0, 0);
+  const spots = nameSpots(viewport, { at: [0, 0], away: [0, 1] }, "slider");
+  // the rail goes to both sides, the force up and down: neither is met by the letters
+  const free = (at: Pair) => Math.abs(at[1] - 4 - y) > 12 && Math.abs(at[0] - x) > halfOf("slider");
+  const block: Pair[] = [[x, y]];
+  const [u, v] = spots[clearSpot(spots, "slider", [block, []], free)]!;
+  assert.ok(free([u, v]));
+  assert.ok(Math.hypot(u - x, v - 4 - y) < 22 + 2 * halfOf("slider"));
+});
+
 test("the name of a bar is nearer to it than to another, however sharp the angle between them", () => {
   const viewport = new Viewport();
   for (let degrees = -170; degrees <= 180; degrees += 5) {

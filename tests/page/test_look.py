@@ -484,6 +484,24 @@ def test_on_a_phone_a_finger_meets_the_search_of_the_catalog_which_says_what_it_
     assert page.page.evaluate("document.documentElement.scrollWidth") == 390
 
 
+@pytest.mark.parametrize("width", [1440, 1024])
+def test_search_and_order_of_the_catalog_are_in_line(tab, server, width):
+    page = tab(width=width).open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-page="catalog"] [data-id]').first.wait_for()
+    field, order = (page.page.locator(f'[data-field="{key}"]').bounding_box() for key in ("words", "order"))
+    assert [field["y"], field["height"]] == pytest.approx([order["y"], order["height"]], abs=0.5)
+
+
+def test_the_distance_of_a_slide_from_the_pivot_is_called_eccentricity(tab, server):
+    page = tab(locale="de-DE").open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-id="slidercrank"]').click()
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'slidercrank'")
+    names = page.page.locator('.motion [data-panel="sizes"] label').all_inner_texts()
+    assert sorted(names) == ["Exzentrizität", "Koppel", "Kurbel"]
+
+
 def test_the_value_of_each_plot_stands_beside_its_title_in_english(tab, server):
     """Where the curve is not, and with some room between them."""
     page = tab(locale="en-US").open(server.address)

@@ -53,11 +53,20 @@ def test_a_linkage_of_another_chain_says_nothing():
     assert structure_record(text, "en", linkage=entries()["geneva"].linkage())["picture"] == alone["picture"]
 
 
+def test_one_bar_tells_that_the_structure_waits(tab, server):
+    page = tab().open(server.address)
+    page.hold()
+    page.page.click('[data-view="structure"]')
+    page.page.locator('[data-page="structure"] progress').first.wait_for()
+    assert page.page.locator('[data-page="structure"] progress').count() == 1
+
+
 def test_numbers_without_chains_and_colours_are_explained(tab, server):
     page = tab().open(server.address)
     view = page.page
     view.click('[data-view="structure"]')
     view.locator('[data-list="chains"] .card').first.wait_for()
+    assert "g<sub>1</sub> = 4" in view.locator(".said", has_text="g1 = 4").first.inner_html()
     links = view.locator('[data-page="structure"]').get_by_label("Links", exact=True)
     # it begins with the machine at hand, a four-bar, in the place of the only chain of four links
     assert links.input_value() == "4"

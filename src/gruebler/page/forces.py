@@ -27,6 +27,7 @@ from gruebler.teaching.catalog import entries
 
 _BESIDES = message("Besides, loads or masses as they stand in the file or the catalog act on {places}.")
 _STEEL_BAR = 7850 * 0.020 * 0.005  # kg/m: a cross-section of 20 mm by 5 mm
+_BLOCK = 0.020  # m: what a slider and other short links are long
 _ROWS = 180  # of a turn
 _MOST_ROWS = 1080
 _NO_ENDS = 0.02  # of a range, at either end: no drive keeps its speed up to where it turns back
@@ -213,13 +214,17 @@ def _places(linkage: Linkage, link: str) -> list[complex]:
 
 
 def _assumed(linkage: Linkage) -> list[float]:
-    """The masses of links that are bars of steel from the middle of their joints to each of them; short ones cubes."""
+    """The masses of links that are bars of steel from the middle of their joints to each of them; short ones blocks.
+
+    >>> from gruebler.mechanics.fourbar import SliderCrank
+    >>> _assumed(SliderCrank(40, 100).linkage())  # the slider: 7850 kg/m3, 20 mm by 20 mm by 5 mm
+    [0.0, 0.0314, 0.0785, 0.0157]
+    """
     metre = metres_of(linkage.unit)
     moving = [link for link in linkage.mechanism.chain.links if link != linkage.mechanism.frame]
     lengths = {link: metre * sum(abs(arm) for _, arm in _arms(linkage, link)) for link in moving}
-    least = metre * linkage.size / 20
     return [
-        float(f"{_STEEL_BAR * max(lengths[link], least):.3g}") if link in lengths else 0.0
+        float(f"{_STEEL_BAR * max(lengths[link], _BLOCK):.3g}") if link in lengths else 0.0
         for link in linkage.mechanism.chain.links
     ]
 

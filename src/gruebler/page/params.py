@@ -71,27 +71,26 @@ class MeasureLinkage(Params):
     between: Annotated[list[float], msgspec.Meta(max_length=2)] = []
 
 
-class LinkageInSpace(Params):
-    """A linkage in space, and how its page calls it, its drives and links by language."""
+class ResizeLinks(Params):
+    """A linkage in space that is to have other sizes, and how its page calls it, its drives and links by language."""
 
     document: dict[str, Any]
+    sizes: dict[Word, tuple[float | None, float | None]]
+    """Distance and angle in degrees of a link, as far as they change."""
     titles: dict[str, Word] = {}
     drives: dict[str, list[Word]] = {}
     links: dict[str, list[Word]] = {}
 
 
-class ResizeLinks(LinkageInSpace, kw_only=True):
-    """One that is to have other sizes."""
+class ExportInSpace(Params):
+    """A linkage in space of which a file is wanted, and how its page calls it, its drives and links by language."""
 
-    sizes: dict[Word, tuple[float | None, float | None]]
-    """Distance and angle in degrees of a link, as far as they change."""
-
-
-class ExportInSpace(LinkageInSpace, kw_only=True):
-    """One of which a file is wanted."""
-
+    document: dict[str, Any]
     kind: Word
     """``html``, or the name of a format of `gruebler.files`."""
+    titles: dict[str, Word] = {}
+    drives: dict[str, list[Word]] = {}
+    links: dict[str, list[Word]] = {}
 
 
 class DescribeStructure(Params):

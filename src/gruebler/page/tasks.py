@@ -134,8 +134,8 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
     >>> task = exercise("dead-centre-1-7")
     >>> for part in solution_parts(task, solve(task), "en")[:2]:
     ...     print(part["text"], "|", part["formula"])
-    1. Outer dead centre, crank and connecting rod stretched | l_a = a + b = 30 + 100 = 130 mm
-    2. Inner dead centre, crank and connecting rod overlapping | l_i = b - a = 100 - 30 = 70 mm
+    1. Outer dead centre, crank and coupler stretched | l_a = a + b = 30 + 100 = 130 mm
+    2. Inner dead centre, crank and coupler overlapping | l_i = b - a = 100 - 30 = 70 mm
     """
 
     def part(text: str, formula: str = "", *, heading: bool = False, rows: Sequence[list[str]] = ()) -> dict[str, Any]:

@@ -441,7 +441,7 @@ def test_any_slider_velocity_is_solved_by_both_ways(a, b, phi, e):
         (lambda: dead_centres.slider_crank(-1, 20), "a must be positive"),
         (lambda: dead_centres.slider_crank(float("nan"), 20), "a must be a finite number"),
         (lambda: dead_centres.crank_rocker(100, 10, 20, 30), "not assemblable"),
-        (lambda: dead_centres.stroke_middle(20), "either the connecting rod b is given"),
+        (lambda: dead_centres.stroke_middle(20), "either the coupler b is given"),
         (lambda: grashof.condition(100, 10, 20, 30), "cannot be assembled"),
         (lambda: grashof.length_range("a", b=3, c=4, d=5), "must be b, c or d"),
         (lambda: transmission_angle.four_bar(5, 5, 5, 12), "does not turn fully"),

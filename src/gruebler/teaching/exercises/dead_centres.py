@@ -15,8 +15,8 @@ from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angl
 
 FLAT = 1e-7
 """Tolerance of an angle at which an output turns back, which is less sharp than the output."""
-_OUTER = message("outer dead centre, crank and connecting rod stretched")
-_INNER = message("inner dead centre, crank and connecting rod overlapping")
+_OUTER = message("outer dead centre, crank and coupler stretched")
+_INNER = message("inner dead centre, crank and coupler overlapping")
 _STROKE = message("stroke, the distance of the dead centres")
 _NOT_ONCE = message("The stroke is twice the crank, not once.")
 _ONE_CENTRE = message("That is the distance in one dead centre; the stroke is the difference of both.")
@@ -172,10 +172,10 @@ def stroke_table(
 
 def _rod(builder: SolutionBuilder, a: float, b: float | None, ratio: float | None) -> float:
     if (b is None) == (ratio is None):
-        raise LinkageError("either the connecting rod b is given or the ratio lambda = a/b")
+        raise LinkageError("either the coupler b is given or the ratio lambda = a/b")
     as_positive("lambda" if b is None else "b", ratio if b is None else b)
     if ratio is not None:
-        name = message("connecting rod from the crank-conrod ratio")
+        name = message("coupler from the crank-conrod ratio")
         return builder.find("b", name, "a/λ", a / ratio, a=a, λ=ratio)
     assert b is not None
     builder.find("λ", _RATIO, "a/b", a / b, unit="", a=a, b=b)
@@ -382,5 +382,5 @@ def central_crank_rocker(a: float, b: float, c: float, unit: str = "mm") -> Solu
     )
     builder.mistake("d", sqrt(a**2 + b**2 + c**2), message("a² is subtracted, not added."))
     builder.mistake("μ_min", 180 - mu, message("μ is folded to at most 90°."))
-    builder.mistake("λ", b / a, message("λ is the crank divided by the connecting rod."))
+    builder.mistake("λ", b / a, message("λ is the crank divided by the coupler."))
     return builder.done()

@@ -225,7 +225,7 @@ def slider_crank(
     crank = radians(phi)
     low = "e - a·sin φ" if e else "-a·sin φ"
     beta = atan2(e - a * sin(crank), sqrt(b**2 - (e - a * sin(crank)) ** 2))
-    name = message("inclination of the connecting rod (negative: it falls towards the slider)")
+    name = message("inclination of the coupler (negative: it falls towards the slider)")
     values: dict[str, float | str] = {"a": a, "b": b, "e": e, "φ": angle(phi)}
     numerator = f"({low})" if e else low
     builder.find("β", name, f"arcsin({numerator}/b)", degrees(beta), unit="°", values=values)

@@ -101,7 +101,7 @@ def exercise_linkage(exercise: Exercise) -> DrawnLinkage | None:
 
 
 def _of_lengths(exercise: Exercise) -> DrawnLinkage | None:
-    """a, b, c, d: crank, coupler, rocker, frame; a, b, e: crank, connecting rod, eccentricity."""
+    """a, b, c, d: crank, coupler, rocker, frame; a, b, e: crank, coupler, eccentricity."""
     given = exercise.given
     size: FourBar | SliderCrank
     lengths = {key: float(given[key]) for key in ("a", "b", "c", "d", "e") if isinstance(given.get(key), int | float)}
