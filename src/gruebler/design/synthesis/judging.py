@@ -18,7 +18,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, joined, message
 from gruebler.design.synthesis.demands import EXACT_AT_MOST, Demands, across_direction
-from gruebler.design.synthesis.results import EXACT, PASSED, TOO_SLENDER, Design, DesignVerdict
+from gruebler.design.synthesis.results import EXACT, PASSED, TOO_SLENDER, Design, DesignVerdict, ranked
 from gruebler.design.synthesis.target_paths import TargetPath, limit_before, path_through
 from gruebler.design.synthesis.target_places import places_approached, places_met
 from gruebler.design.synthesis.targets import GuidedCurve, Targets
@@ -41,15 +41,9 @@ _DIGITS = range(6, 18)  # of a length: as many as tell it from the one that is g
 
 
 def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], demands: Demands, form: str) -> Design:
-    """The first accepted one of linkages that differ in their drive, else the one with the fewest faults."""
-    best: Design | None = None
-    for design in judged_by_drive(linkages, targets, demands, form):
-        if design.verdict.accepted:
-            return design
-        if best is None or len(design.verdict.reasons) < len(best.verdict.reasons):
-            best = design
-    assert best is not None
-    return best
+    """The best of linkages that differ in their drive, as designs are ranked: an accepted one if there is any."""
+    accepted, rejected = ranked(judged_by_drive(linkages, targets, demands, form))
+    return (*accepted, *rejected)[0]
 
 
 def judged_by_drive(
