@@ -224,7 +224,7 @@ export class SpaceView implements Driven {
       this.#root,
       t("Save and export"),
       group(
-        t("Continue here"),
+        words.file!,
         words.document!,
         button("json", () => save("json", this.#document())),
         ...made("toml"),
