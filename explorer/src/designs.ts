@@ -82,7 +82,7 @@ export class DesignCards {
     private readonly open: (design: Design, title: string) => void,
   ) {}
 
-  /** Show others, or none; returns the first. */
+  /** Show others, or none; returns that of the first card. */
   show(found: Found | null): Design | null {
     this.#found = found;
     this.#form = this.#forms()[0] ?? "";
@@ -93,7 +93,7 @@ export class DesignCards {
       this.#order = orders.find((by) => by === "error" || by === "balanced") ?? orders[0] ?? "balanced";
       found.items = this.#sorted().sort((one, two) => +!!one.variant - +!!two.variant);
     }
-    this.#playing = (found && this.#shown[0]) ?? null;
+    this.#playing = (found && this.#shown.find(({ variant }) => !variant)) ?? null;
     this.arrange();
     return this.#playing;
   }

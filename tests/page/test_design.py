@@ -227,6 +227,7 @@ def test_the_chart_of_a_function_stays_beside_its_design(design):
     assert pairs[1] == pytest.approx([45, 25 + 10 / degree], abs=0.2)
     assert y[0] - y[1] == pytest.approx(pairs[1][1] * degree, abs=1)
     cards = found_designs(view)
+    assert cards.first.get_attribute("aria-current") is not None
     cards.nth(1).hover()
     # the chart stays beside the design, with the curve of the rocker over the crank through all pairs
     assert view.locator(".plane").count() == 2
