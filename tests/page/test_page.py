@@ -452,7 +452,7 @@ def test_a_four_bar_through_points_that_are_clicked(tab, server):
     page.page.click('[data-act="synthesise"]')
     page.page.locator('[data-list="designs"] .card').first.wait_for(timeout=100_000)
     page.page.locator('[data-list="designs"] .card').first.click()
-    page.until("gruebler.motion.linkage.model.name.startsWith('A design')")
+    page.until("gruebler.motion.linkage.model.name.startsWith('Points: ')")
     document = json.loads(page.page.evaluate("JSON.stringify(gruebler.motion.document())"))
     design = linkage_from_json(document)
     (name,) = design.points

@@ -128,13 +128,22 @@ def design_records(
         items.append(_record(design, task, lang))
     _mark_variants(items)
     refused = len(result.designs) - len(designs)
-    texts = {"note": _notes(items, len(designs), refused), "words": _words(items, relative)}
+    texts = {"note": _notes(task, items, len(designs), refused), "words": _words(items, relative)}
     said = {key: " ".join(text.in_language(lang) for text in some) for key, some in texts.items()}
     return {"total": len(designs), "relative": relative, "items": items} | said
 
 
-def _notes(items: Sequence[dict[str, Any]], total: int, refused: int) -> Iterator[Message]:
-    """How complete and how exact the designs are that are shown."""
+def _notes(task: Task, items: Sequence[dict[str, Any]], total: int, refused: int) -> Iterator[Message]:
+    """How complete and how exact the designs are that are shown.
+
+    >>> shifted = task_of("positions", [[0, 0, 30], [1, 1, 30], [2, 0, 30]])
+    >>> for text in _notes(shifted, [], 0, 0):
+    ...     print(text)
+    All at one angle: the link is shifted and does not turn.
+    None does: ask for less, or try other targets.
+    """
+    if isinstance(task, PositionTask) and len({angle for *_, angle in task.positions}) == 1:
+        yield message("All at one angle: the link is shifted and does not turn.")
     if len(items) < total:
         yield BEST.filled(count=total)
     if not total:
