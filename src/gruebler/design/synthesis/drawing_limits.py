@@ -149,27 +149,28 @@ def cosine(dyad: DrawnDyad, pin: PinPlaces, motions: LinkMotions) -> Reals:
 
 def beyond_cosine(cosines: Reals, most: float) -> Reals:
     """(2, ...) by how much cosines (..., 2) at the tops of both signs pass a limit."""
-    return np.moveaxis(np.nan_to_num(SIGNS * cosines, nan=-1.0) - most + MARGIN, -1, 0)
+    signed = SIGNS * cosines
+    return np.moveaxis(np.where(np.isnan(signed), -1.0, signed) - most + MARGIN, -1, 0)
 
 
 def top_angles(cosines: Reals, angles: Reals, *, between: bool) -> list[Reals]:
     """(starts, 1) crank angles where cosines (starts, angles) are largest, and where least; between angles, too."""
-    tops = []
-    for sign in SIGNS:
-        at = np.nan_to_num(sign * cosines, nan=-np.inf).argmax(axis=1)
-        top = np.take_along_axis(angles, at[:, None], axis=1)
-        tops.append(top + _beside(sign * cosines, at)[:, None] * (angles[:, 1:2] - angles[:, :1]) if between else top)
+    tops, rows = [], np.arange(len(cosines))
+    for signed in (cosines, -cosines):
+        at = np.fmax(signed, -np.inf).argmax(axis=1)
+        top = angles[rows, at][:, None]
+        tops.append(top + _beside(signed, at)[:, None] * (angles[:, 1:2] - angles[:, :1]) if between else top)
     return tops
 
 
 def _beside(values: Reals, at: NDArray[np.intp]) -> Reals:
     """(rows,) by which part of a step the top of the parabola through three places lies beside the middle one."""
-    before, here, after = (
-        np.take_along_axis(values, ((at + k) % values.shape[1])[:, None], 1)[:, 0] for k in (-1, 0, 1)
-    )
+    rows = np.arange(len(values))
+    before, here, after = (values[rows, (at + k) % values.shape[1]] for k in (-1, 0, 1))
     bend = before - 2 * here + after
     with np.errstate(invalid="ignore", divide="ignore"):
-        return np.clip(np.nan_to_num((before - after) / (2 * bend)), -0.5, 0.5)
+        part = np.clip((before - after) / (2 * bend), -0.5, 0.5)
+    return np.where(np.isnan(part), 0.0, part)
 
 
 def limits_of_drawings(

@@ -219,5 +219,5 @@ def largest(values: NDArray[Any]) -> NDArray[Any]:
     """The largest along the last axis, by its real part."""
     if values.dtype.kind == "f":
         return np.asarray(np.fmax.reduce(values, axis=-1))
-    at = np.asarray(np.nan_to_num(values.real, nan=-np.inf).argmax(axis=-1))[..., None]
+    at = np.asarray(np.fmax(values.real, -np.inf).argmax(axis=-1))[..., None]
     return np.asarray(np.take_along_axis(values, at, axis=-1)[..., 0])

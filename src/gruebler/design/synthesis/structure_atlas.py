@@ -141,18 +141,18 @@ def plane_motions(structure: DyadStructure, pin: PinPlaces, turned: Reals, sides
     ones = np.ones(np.broadcast_shapes(own.shape, turned.shape), np.complex128)
     spin = np.exp(1j * turned) * ones
     motions = {frame: (ones, 0 * ones), crank: (spin, own * (1 - spin) + spin * (own - far))}
-    for dyad, side in zip(structure.dyads, sides[..., None], strict=True):
-        ends = [
-            rotation * pin(joint, base) + shift
-            for joint, base in zip(dyad.outer, dyad.base, strict=True)
-            for rotation, shift in (motions[base],)
-        ]
-        arms = dyad_arms(dyad, pin)
-        gap = ends[1] - ends[0]
-        with np.errstate(invalid="ignore", divide="ignore"):
-            distance = np.abs(gap)
-            along = (np.abs(arms[0]) ** 2 - np.abs(arms[1]) ** 2 + distance**2) / (2 * distance)
-            across = side * np.sqrt(np.abs(arms[0]) ** 2 - along**2)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        for dyad, side in zip(structure.dyads, sides[..., None], strict=True):
+            ends = [
+                rotation * pin(joint, base) + shift
+                for joint, base in zip(dyad.outer, dyad.base, strict=True)
+                for rotation, shift in (motions[base],)
+            ]
+            arms = dyad_arms(dyad, pin)
+            gap = ends[1] - ends[0]
+            distance, squared = np.abs(gap), np.abs(arms[0]) ** 2
+            along = (squared - np.abs(arms[1]) ** 2 + distance**2) / (2 * distance)
+            across = side * np.sqrt(squared - along**2)
             inner = ends[0] + gap / distance * (along + 1j * across)
             for link, end, joint, arm in zip(dyad.links, ends, dyad.outer, arms, strict=True):
                 rotation = (inner - end) / arm
