@@ -27,10 +27,11 @@ ELEVEN = {
 }
 """Six-bars through eleven pairs, by their type; how many there are is estimated only."""
 SEVEN_POSITIONS, EIGHT_POSITIONS = (
-    Problem(name=name, poses=poses, points=0, classes=0, members=1, family="Watt I")
-    for name, poses in (("seven positions", 6), ("eight positions", 7))
+    Problem(name=name, poses=poses, points=0, classes=classes, members=1, family="Watt I")
+    for name, poses, classes in (("seven positions", 6, 35_618), ("eight positions", 7, 0))
 )
-"""Six-bars that carry a body through positions, of seven with the rocker's pivot given; their number is estimated."""
+"""Six-bars that carry a body through positions, of seven with the rocker's pivot given, so many as monodromy listed; of
+eight their number is estimated."""
 START_SOLUTIONS = 20_000
 """So many are followed to a task unless it is said how many."""
 _MOST = 500_000  # of more of them most would be found again

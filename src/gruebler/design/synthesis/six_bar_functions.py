@@ -200,7 +200,16 @@ def _how_complete(family: str, starts: StartSet) -> Message:
 
 
 def how_many(targets: Message, census: Census) -> Message:
-    """What a census says of all solutions."""
+    """What a census, or a list, says of all solutions."""
+    if census.problem.classes:
+        return message(
+            "{family}, {targets}: {known:,} complex solutions are known, of {classes:,} that were listed by monodromy. "
+            "The others are not sought.",
+            family=census.problem.family,
+            targets=targets,
+            known=len(census.z),
+            classes=census.problem.classes,
+        )
     estimate = census.estimate()
     return message(
         "{family}, {targets}: {known:,} complex solutions are known, of an estimated {number:,.0f} (95 %: "
