@@ -195,7 +195,7 @@ def add(parser: Parser) -> None:
         task TASK ?  a .toml, .json or .csv file (or the options below)
         --swing DEG float  swing of the rocker
         --stroke H float  stroke of the slider
-        --crank-angle DEG float  crank angle between the dead centres
+        --crank-angle DEG float  crank angle between the dead centres, in which rocker and crank turn the same way
         --time-ratio K float  time ratio of slow to quick travel
         """
     )

@@ -143,3 +143,33 @@ def test_the_smallest_is_found_where_it_is_asked_for():
     other = synthesise_dead_centres(task, demands, number=60).designs
     assert small.linkage.size <= min(design.linkage.size for design in other)
     assert np.degrees(small.verdict.transmission) == pytest.approx(40, abs=1e-6)  # as far as the demand lets it
+
+
+def test_the_other_sense_of_a_crank_angle_is_told():
+    """A swing of 38.5 degrees: 24.6 and 37.5 degrees by a sweep of all pivots on the circle of equal angles."""
+    task = DeadCentreTask(swing=np.radians(38.5), crank_angle=np.radians(152.5))
+    notes = " ".join(map(str, synthesise_dead_centres(task).notes))
+    assert "(crank angle 207.5°), the best minimum transmission angle is" in notes
+    told = float(notes.split("angle is ")[-1].split("°")[0])
+    assert told == pytest.approx(np.degrees(swept(np.radians(38.5), np.radians(207.5))), abs=0.1)
+    half = synthesise_dead_centres(DeadCentreTask(swing=np.radians(38.5), crank_angle=np.pi))
+    assert not any("opposite way" in str(note) for note in half.notes)
+
+
+def swept(swing, angle):
+    """The largest least transmission angle of crank-rockers: A0 sees both ends of a rocker of length 1 under the angle.
+
+    B1 and B2 lie on the circle about B0. In one of them the coupler is folded back over the crank, which points the
+    other way there: |A0 B1| and |A0 B2| are b + a and b - a, or the other way round.
+    """
+    ends = np.exp(1j * np.array([0.0, swing]))
+    x, y = np.meshgrid(*2 * (np.linspace(-1.9999, 2.0003, 1601),))
+    best = 0.0
+    for place in x + 1j * y:
+        far = ends[:, None] - place
+        fits = np.abs(np.angle(-far[1] / far[0]) % (2 * np.pi) - angle) < 1e-3
+        a, b, d = np.abs(np.diff(np.abs(far), axis=0))[0] / 2, np.abs(far).sum(axis=0) / 2, np.abs(place)
+        cosines = np.array([(b * b + 1 - (d + sign * a) ** 2) / (2 * b) for sign in (1, -1)])
+        least = np.pi / 2 - np.abs(np.pi / 2 - np.arccos(np.clip(cosines, -1, 1))).max(axis=0)
+        best = max(best, least[fits].max(initial=0.0))
+    return best

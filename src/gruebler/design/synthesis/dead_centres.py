@@ -5,7 +5,8 @@ docs/theory/synthesis-dead-centres.md derives the one-parameter family and its l
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import cos, degrees, pi, sin, sqrt
@@ -215,6 +216,7 @@ def synthesise_dead_centres(
             low=low * scale, high=high * scale, angle=degrees(family.best.transmission)
         )
     ]
+    notes += _other_sense(task)
     chosen = _spread(family.members, family.best, number)
     lengths = _named_lengths(family.best.linkage).values()
     if wanted.limits_of_size or orders or max(lengths) > wanted.size_ratio * min(lengths):
@@ -224,6 +226,21 @@ def synthesise_dead_centres(
     rejected = tuple(d for d in designs if not d.verdict.accepted)
     count = SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs))
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
+
+
+def _other_sense(task: DeadCentreTask) -> Iterator[Message]:
+    """What a crank and a rocker with the same dead centres do that turn opposite ways in the given angle."""
+    if task.crank_angle is None or task.swing is None or abs(task.crank_angle - pi) < _SAME:
+        return
+    with suppress(SynthesisError):  # there is none
+        other = dead_centre_family(replace(task, crank_angle=2 * pi - task.crank_angle))
+        yield message(
+            "While the crank turns by {own:.4g}°, the rocker turns the same way; where it turns the opposite way "
+            "(crank angle {rest:.4g}°), the best minimum transmission angle is {angle:.4g}°.",
+            own=degrees(task.crank_angle),
+            rest=degrees(2 * pi - task.crank_angle),
+            angle=degrees(other.best.transmission),
+        )
 
 
 def _spread(members: Sequence[FamilyMember], best: FamilyMember, number: int) -> list[FamilyMember]:
