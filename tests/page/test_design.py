@@ -355,13 +355,17 @@ def test_each_order_is_another_one_by_a_value_on_the_cards(design):
 
 
 def test_what_turns_fully_is_no_rocker_and_goes_from_0_to_360(tab, server):
-    """Frame 55.8, crank 86, coupler 100, output 90.6: 55.8 + 100 < 86 + 90.6, the frame is the shortest."""
+    """By Grashof: the frame is the shortest, and with the longest shorter than the other two."""
     page = tab(locale="de-DE").open(server.address)
     view = page.page
     view.click('[data-view="synthesis"]')
     view.click('[data-value="function"]')
     card = found_designs(view).first
-    assert card.locator(".lengths > span").all_inner_texts()[3].split() == ["Kurbel2", "90,6", "mm"]
+    names, lengths = zip(*(one.split()[:2] for one in card.locator(".lengths > span").all_inner_texts()), strict=True)
+    shortest, second, third, longest = sorted(float(one.replace(",", ".")) for one in lengths)
+    assert float(lengths[0].replace(",", ".")) == shortest
+    assert shortest + longest < second + third
+    assert names == ("Gestell", "Kurbel", "Koppel", "Kurbel2")
     card.click()
     page.until("gruebler.view === 'motion'")
     plot = "gruebler.motion.side.plots.parts[0].plot.series"
