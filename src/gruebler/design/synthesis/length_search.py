@@ -34,7 +34,7 @@ from gruebler.design.synthesis.dyads import (
     line_conditions,
 )
 from gruebler.design.synthesis.pair_facts import PairFacts, facts_of_pins
-from gruebler.design.synthesis.pair_search import FoundPairs, Pair, SoughtPairs, best_pairs
+from gruebler.design.synthesis.pair_search import FoundPairs, Pair, SoughtPairs, best_pairs, distinct
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
 
@@ -52,7 +52,6 @@ _BEGUN = 8192  # pairs of a sample from which is begun, those first that need th
 _SPREAD, _WIDE = 2.5, 1.5  # degrees of freedom, and sizes: Student's distribution of other starts
 _LOOKED_AT = 400  # members for each linkage that is wanted
 _APART = 0.2  # sizes: pivots of two members that are made better differ by more
-_ALIKE = 0.05  # sizes: those of two linkages that are listed
 _EXACT = 1e-14  # of the numbers: smaller steps end the search
 _NOTHING = 1e-13  # of the squares of slopes: below it they are dependent
 _RANK = 1e-7  # of the largest slope: an equation below it is none
@@ -258,8 +257,8 @@ def best_members(
     form = form_symbols(f"{CRANK.form}-{kind.form}")
     family = PairFamily.of(task, kind, demands)
     rows, held = (np.concatenate(part) for part in zip(*(_begun(family, *group) for group in groups), strict=True))
-    free = np.count_nonzero(~held[0])
-    determined = family.equations(rows[:1])[0].shape[1] >= free
+    slopes = family.equations(rows[:1])[1][0][:, ~held[0]]
+    determined = np.count_nonzero(slopes.any(axis=1)) >= slopes.shape[1]  # equations of what is not held
     if len(rows) > _BEGUN:
         order = np.argsort(np.linalg.norm(family.step(rows, held), axis=1), kind="stable")
         # Half of them nearest to linkages with the lengths, half spread over all others: few linkages may all lie far.
@@ -285,11 +284,13 @@ def best_members(
     if demands.transmission > 0 and not meets.any():
         orders = ("transmission", *orders)  # those that are nearly good come first
     ranks = facts.ranks(fails, orders)[: np.count_nonzero(meets) or None][: _LOOKED_AT * number]
-    chosen = _different(family, rows[ranks], _APART, 2 * number)
+    chosen = _different(family, rows[ranks], 100 * _SAME if determined else _APART, 2 * number)
     rows, held = rows[ranks[chosen]], held[ranks[chosen]]
     rows, meets = _improved(family, rows, held, demands, orders)
-    pairs = tuple(family.dyads(rows[k]) for k in _different(family, rows, _ALIKE, number))
-    return FoundPairs(pairs=pairs, notes=(*notes, *([] if meets.any() else tightest(met))))
+    pairs = [family.dyads(row) for row in rows]
+    if not determined:  # of finitely many each is one of its own
+        pairs = distinct(pairs, task.size)
+    return FoundPairs(pairs=tuple(pairs[:number]), notes=(*notes, *([] if meets.any() else tightest(met))))
 
 
 def _begun(family: PairFamily, firsts: Sequence[GuidingDyad], seconds: Sequence[GuidingDyad]) -> tuple[Reals, Flags]:

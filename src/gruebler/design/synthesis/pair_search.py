@@ -5,7 +5,7 @@ Two to four positions leave families of dyads, every two of which are a four-bar
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,11 +26,12 @@ Nearby = Callable[[GuidingDyad, float], list[GuidingDyad]]
 _WIDTHS = tuple(0.004 * 0.4**k for k in range(6))
 _APART = 4  # places in the sample: designs nearer to a better one are not listed
 _LOOKED_AT = 2000  # pairs for each design that is wanted
-_ALIKE = 0.05  # sizes: pivots of two designs that are improved differ by more
 _STEPS = tuple(0.04 * 0.4**k for k in range(8))  # widths of a family with one dyad to choose
 _CLIMBS = 16  # moves to a better dyad of each width
 _VALLEY = 0.1  # sizes: places from which such searches begin differ by more
 _TRIED = 3  # such places for each design that is wanted
+_ALIKE = 0.05
+"""Of size of the task and longest link: linkages whose pivots differ by less in sum are nearly the same."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -109,8 +110,7 @@ def best_pairs(sought: SoughtPairs) -> FoundPairs:
     for i, j in chosen:  # where none of the sample is good, one beside it may be
         pair, meets = _improved(sought, (dyads[i], others[j]))
         known |= meets
-        if all(_gap(pair, other) > _ALIKE * sought.task.size for other in pairs):
-            pairs.append(pair)
+        pairs = distinct([*pairs, pair], sought.task.size)
         if len(pairs) == sought.number:
             break
     return FoundPairs(pairs=tuple(pairs), notes=(*notes, *([] if known else tightest(met))))
@@ -195,8 +195,27 @@ _SEARCHED = {
 """By whether a dyad is given and whether the other one slides."""
 
 
+def distinct(pairs: Iterable[Pair], size: float) -> list[Pair]:
+    """Those that are not nearly the same as one before.
+
+    >>> from gruebler.design.synthesis.dyads import CRANK
+    >>> crank, rocker = GuidingDyad(CRANK, 1j, 0j), GuidingDyad(CRANK, 3 + 2j, 4 + 0j)
+    >>> len(distinct([(crank, rocker), (crank, GuidingDyad(CRANK, 3 + 2.1j, 4.05 + 0j))], 1.0))
+    1
+    """
+    kept: list[Pair] = []
+    for pair in pairs:
+        first, second = pair
+        links = first.length, second.length, abs(first.moving - second.moving), abs(first.fixed - second.fixed)
+        if all(_gap(pair, other) > _ALIKE * (size + max(links)) for other in kept):
+            kept.append(pair)
+    return kept
+
+
 def _gap(first: Pair, second: Pair) -> float:
-    """The sum of the distances of the pivots of two linkages, whichever dyad drives."""
+    """The sum of the distances of the pivots of two linkages, whichever dyad drives; infinite for two kinds."""
+    if {dyad.kind.form for dyad in first} != {dyad.kind.form for dyad in second}:
+        return np.inf
     return min(
         sum(abs(a.moving - b.moving) + abs(a.fixed - b.fixed) for a, b in zip(first, other, strict=True))
         for other in (second, second[::-1])

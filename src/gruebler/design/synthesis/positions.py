@@ -40,7 +40,7 @@ from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.given_pivots import notes_on_pivots
 from gruebler.design.synthesis.judging import best_of, judge_design, judged_by_drive, order_notes
 from gruebler.design.synthesis.length_search import best_linkages, best_members, has_lengths
-from gruebler.design.synthesis.pair_search import IMPROVED, Pair, SoughtPairs
+from gruebler.design.synthesis.pair_search import IMPROVED, Pair, SoughtPairs, distinct
 from gruebler.design.synthesis.partner_bounds import (
     angle_of_pair,
     best_beside,
@@ -270,7 +270,7 @@ def _best_pairs(sought: SoughtPairs) -> tuple[list[Pair], list[Message]]:
     else:
         improved, proved = improved_pair(task, demands, search.pairs)
         better = [improved] if improved else []
-    return [*better, *search.pairs], [*search.notes, *proved]
+    return distinct([*better, *search.pairs], task.size), [*search.notes, *proved]
 
 
 def _judged_ends(

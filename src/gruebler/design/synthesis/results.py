@@ -379,7 +379,8 @@ def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
         for design in found.designs
     ]
     best = [row for row in rows if not any(other.dominates(row) for other in rows)]
-    return tuple(sorted(best, key=lambda row: row._costs))
+    told = {(row.structure, row._costs): row for row in reversed(best)}  # of those that are printed alike the first one
+    return tuple(sorted(told.values(), key=lambda row: row._costs))
 
 
 def ranked(candidates: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
