@@ -33,10 +33,10 @@ def said(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("lang", "improved", "pairs"),
     [
-        ("en", "The best are then improved: their pivots are moved", "Linkages of a crank and a dyad PR: "),
+        ("en", "The best of these are improved: their pivots are moved", "Linkages of a crank and a dyad PR that meet"),
         (
             "de",
-            "Die besten werden danach verbessert: Ihre Gelenkpunkte",
+            "Die besten davon werden verbessert: Ihre Gelenkpunkte",
             "Getriebe aus einer Kurbel und einem Zweischlag",
         ),
     ],
@@ -61,6 +61,29 @@ def test_a_bound_that_is_not_proved_beside_a_given_pivot_is_not_that_of_a_dyad(s
     ):
         (line,) = [line for line in said(2, f"--moving-pivot -8.1 -0.9 {demands}", lang).splitlines() if begin in line]
         assert line.endswith(end)
+
+
+def test_finitely_many_linkages_are_not_said_to_be_infinitely_many(said):
+    # Three positions leave a four-bar 8 - 4 numbers: four lengths leave finitely many. Lengths of a four-bar of ROWS.
+    words = "--length crank 3 --length coupler 5 --length rocker 4 --length frame 6"
+    for lang, finite, infinite, improved in (
+        ("en", "leave finitely many linkages", "infinitely many", "improved"),
+        ("de", "nur endlich viele Getriebe", "unendlich viele", "verbessert"),
+    ):
+        out = said(3, words, lang)
+        assert finite in out
+        assert infinite not in out
+        assert improved not in out
+    assert "infinitely many" in said(3, words.replace(" --length frame 6", ""))
+
+
+def test_a_proof_has_the_best_angle_beside_its_bound(said):
+    out = said(3, "--moving-pivot 1 1")
+    (line,) = [line for line in out.splitlines() if line.startswith("Proved: no four-bar with the given pivot")]
+    bound, best = (float(part.split("°")[0]) for part in (line.split("above ")[1], line.split("best one here has ")[1]))
+    listed = [row.split()[4].rstrip("°") for row in out.splitlines() if re.match(r"\d+ RR-RR", row)]
+    assert max(map(float, listed)) == best
+    assert best < bound <= best + 0.2
 
 
 def test_a_slider_crank_has_no_length_of_the_frame_and_is_not_sought(said):

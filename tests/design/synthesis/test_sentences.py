@@ -134,8 +134,8 @@ def said(result):
 @pytest.mark.parametrize(
     ("count", "english", "german"),
     [
-        (2, "every point of the body and every point of the frame", "jeder Punkt des Gestells"),
-        (3, "every point of the body is the pivot of one dyad", "Gelenkpunkt eines Zweischlags"),
+        (2, "Every point of the body and every point of the frame", "jeder Punkt des Gestells"),
+        (3, "Every point of the body is the pivot of one dyad", "Gelenkpunkt eines Zweischlags"),
         (4, "Burmester's cubics", "Kreispunkt- und Mittelpunktkurve"),
     ],
 )

@@ -263,7 +263,11 @@ def _searched(
         notes.append(message("No member has the given lengths."))
         return _spread(family.members, family.best, number)
     notes.append(
-        message("Of {members} members that were tried {count} meet all demands.", members=len(members), count=len(good))
+        message(
+            "Linkages of the family that meet all demands: {count:,} of {members:,}.",
+            members=len(members),
+            count=len(good),
+        )
     )
     if not good:
         notes += tightest(_met(designs, demands))

@@ -16,7 +16,7 @@ import numpy as np
 
 from gruebler.base.arrays import Flags, Integers, Reals
 from gruebler.base.errors import SynthesisError
-from gruebler.base.text import Message, message
+from gruebler.base.text import Message, joined, message
 from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, short_cells
 from gruebler.design.synthesis.dyads import Displacements
@@ -42,6 +42,7 @@ _UNDECIDED = message(
     "part of {left:.1g} of all pairs of dyads is not excluded, such as that of the fixed pivots ({x:.5g}, {y:.5g}) and "
     "({u:.5g}, {v:.5g})."
 )
+_BEST = message("The best one here has {best:.1f}°.")
 _UNKNOWN = message("No bound of the transmission angle could be proved for this family of four-bars.")
 
 
@@ -134,13 +135,18 @@ def bound_notes(task: PositionTask, demands: Demands, best: float | None) -> Ite
     for margin in MARGINS:
         angle = ceil(10 * (begin + margin)) / 10
         if angle < 90 and not excluded(task, replace(demands, transmission=radians(angle))).left:
-            yield _AT_MOST.filled(far=FAR, angle=angle)
+            yield beside_best(_AT_MOST.filled(far=FAR, angle=angle), best)
             return
         if left is not None and left.example is not None:
             first, _, second, _ = left.example
             yield _UNDECIDED.filled(far=FAR, left=left.left, x=first.real, y=first.imag, u=second.real, v=second.imag)
             left = None
     yield _UNKNOWN
+
+
+def beside_best(bound: Message, best: float | None) -> Message:
+    """A bound, and the best angle that is known, in radians, to compare."""
+    return bound if best is None else joined([bound, _BEST.filled(best=degrees(best))], " ")
 
 
 def _widths(cells: DyadCells) -> Reals:

@@ -34,7 +34,7 @@ from gruebler.design.synthesis.dyads import (
     line_conditions,
 )
 from gruebler.design.synthesis.pair_facts import PairFacts, facts_of_pins
-from gruebler.design.synthesis.pair_search import FoundPairs, Pair, SoughtPairs, best_pairs, distinct
+from gruebler.design.synthesis.pair_search import FoundPairs, Pair, SoughtPairs, best_pairs, distinct_pairs
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
 
@@ -57,10 +57,14 @@ _NOTHING = 1e-13  # of the squares of slopes: below it they are dependent
 _RANK = 1e-7  # of the largest slope: an equation below it is none
 _TURNS = 4  # with each width
 _WIDTHS = tuple(0.16 * 0.4**k for k in range(9))  # sizes
-_FOUND = message(
-    "Linkages {form} ({given}): {pairs:,} were reached from pairs of a sample; {count:,} meet all demands."
+_FOUND = {
+    True: message("Linkages {form} ({given}) that meet all demands: {count:,} of {pairs:,} that were found."),
+    False: message("Linkages {form} ({given}) that meet all demands: {count:,} of a sample of {pairs:,}."),
+}
+"""By whether there are finitely many."""
+_WITH_PIVOTS = message(
+    "Linkages {form} with the given pivots that meet all demands: {count:,} of a sample of {pairs:,}."
 )
-_WITH_PIVOTS = message("Linkages {form} with the given pivots: {count:,} of a sample of {pairs:,} meet all demands.")
 _NONE = message("Linkages {form} ({given}): none was found.")
 _WITHOUT = message(
     "Linkages {form} are left out: a link whose length or direction is given has fewer than two pins there."
@@ -257,8 +261,8 @@ def best_members(
     form = form_symbols(f"{CRANK.form}-{kind.form}")
     family = PairFamily.of(task, kind, demands)
     rows, held = (np.concatenate(part) for part in zip(*(_begun(family, *group) for group in groups), strict=True))
-    slopes = family.equations(rows[:1])[1][0][:, ~held[0]]
-    determined = np.count_nonzero(slopes.any(axis=1)) >= slopes.shape[1]  # equations of what is not held
+    slopes = family.equations(rows[:: len(rows) // 32 + 1])[1][:, :, ~held[0]]
+    determined = bool(np.count_nonzero(slopes.any(axis=(0, 2))) >= slopes.shape[2])  # equations of what is not held
     if len(rows) > _BEGUN:
         order = np.argsort(np.linalg.norm(family.step(rows, held), axis=1), kind="stable")
         # Half of them nearest to linkages with the lengths, half spread over all others: few linkages may all lie far.
@@ -279,7 +283,7 @@ def best_members(
     met = facts.met(demands)
     fails = demands_failed(met)
     meets = (fails == 0).ravel()
-    said = _FOUND.filled(given=demands.sizes_in_words) if demands.given_sizes else _WITH_PIVOTS
+    said = _FOUND[determined].filled(given=demands.sizes_in_words) if demands.given_sizes else _WITH_PIVOTS
     notes = [said.filled(form=form, pairs=len(rows), count=int(np.count_nonzero(meets)))]
     if demands.transmission > 0 and not meets.any():
         orders = ("transmission", *orders)  # those that are nearly good come first
@@ -289,7 +293,7 @@ def best_members(
     rows, meets = _improved(family, rows, held, demands, orders)
     pairs = [family.dyads(row) for row in rows]
     if not determined:  # of finitely many each is one of its own
-        pairs = distinct(pairs, task.size)
+        pairs = distinct_pairs(pairs, task.size)
     return FoundPairs(pairs=tuple(pairs[:number]), notes=(*notes, *([] if meets.any() else tightest(met))))
 
 

@@ -31,7 +31,7 @@ _CLIMBS = 16  # moves to a better dyad of each width
 _VALLEY = 0.1  # sizes: places from which such searches begin differ by more
 _TRIED = 3  # such places for each design that is wanted
 _ALIKE = 0.05
-"""Of size of the task and longest link: linkages whose pivots differ by less in sum are nearly the same."""
+"""Of size of the task and shortest link: linkages whose pivots differ by less in sum are nearly the same."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,7 +110,7 @@ def best_pairs(sought: SoughtPairs) -> FoundPairs:
     for i, j in chosen:  # where none of the sample is good, one beside it may be
         pair, meets = _improved(sought, (dyads[i], others[j]))
         known |= meets
-        pairs = distinct([*pairs, pair], sought.task.size)
+        pairs = distinct_pairs([*pairs, pair], sought.task.size)
         if len(pairs) == sought.number:
             break
     return FoundPairs(pairs=tuple(pairs), notes=(*notes, *([] if known else tightest(met))))
@@ -136,8 +136,8 @@ def best_dyads(
     ranks, good, met = ranked(dyads)
     notes = [
         message(
-            "Of {dyads} linkages of the family {count} meet all demands.",
-            dyads=len(dyads),
+            "Linkages of the family that meet all demands: {count:,} of {members:,}.",
+            members=len(dyads),
             count=int(np.count_nonzero(good)),
         ),
         IMPROVED,
@@ -181,33 +181,40 @@ def _reach(dyad: GuidingDyad) -> float:
     return abs(dyad.moving) + abs(dyad.fixed)
 
 
-IMPROVED = message("The best are then improved: their pivots are moved within the family, in ever smaller steps.")
+IMPROVED = message(
+    "The best of these are improved: their pivots are moved within the family, in ever smaller steps; of those that "
+    "are then nearly the same one is listed."
+)
 _SEARCHED = {
     (False, False): message(
-        "{dyads} dyads, each with each and driven at either: of {pairs:,} four-bars {count:,} meet all demands."
+        "Four-bars that meet all demands: {count:,} of {pairs:,} ({dyads} dyads, each with each, driven at either)."
     ),
-    (False, True): message("Linkages of a crank and a dyad {form}: {count:,} of {pairs:,} meet all demands."),
+    (False, True): message("Linkages of a crank and a dyad {form} that meet all demands: {count:,} of {pairs:,}."),
     (True, False): message(
-        "Four-bars with the given pivot, driven there or at the other one: {count:,} of {pairs:,} meet all demands."
+        "Four-bars with the given pivot, driven there or at the other one, that meet all demands: {count:,} of "
+        "{pairs:,}."
     ),
-    (True, True): message("Linkages with the given pivot and a dyad {form}: {count:,} of {pairs:,} meet all demands."),
+    (True, True): message(
+        "Linkages with the given pivot and a dyad {form} that meet all demands: {count:,} of {pairs:,}."
+    ),
 }
 """By whether a dyad is given and whether the other one slides."""
 
 
-def distinct(pairs: Iterable[Pair], size: float) -> list[Pair]:
+def distinct_pairs(pairs: Iterable[Pair], size: float) -> list[Pair]:
     """Those that are not nearly the same as one before.
 
     >>> from gruebler.design.synthesis.dyads import CRANK
     >>> crank, rocker = GuidingDyad(CRANK, 1j, 0j), GuidingDyad(CRANK, 3 + 2j, 4 + 0j)
-    >>> len(distinct([(crank, rocker), (crank, GuidingDyad(CRANK, 3 + 2.1j, 4.05 + 0j))], 1.0))
+    >>> len(distinct_pairs([(crank, rocker), (crank, GuidingDyad(CRANK, 3 + 2.1j, 4.05 + 0j))], 1.0))
     1
     """
     kept: list[Pair] = []
     for pair in pairs:
         first, second = pair
-        links = first.length, second.length, abs(first.moving - second.moving), abs(first.fixed - second.fixed)
-        if all(_gap(pair, other) > _ALIKE * (size + max(links)) for other in kept):
+        turning = [dyad.length for dyad in pair if not dyad.slides]
+        between = abs(first.moving - second.moving), abs(first.fixed - second.fixed)
+        if all(_gap(pair, other) > _ALIKE * (size + min(*turning, *between)) for other in kept):
             kept.append(pair)
     return kept
 

@@ -22,7 +22,7 @@ from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, Dyad
 from gruebler.design.synthesis.dyad_planes import crank_family
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, GuidingDyad
 from gruebler.design.synthesis.enclosures import Enclosure
-from gruebler.design.synthesis.family_bounds import MARGINS, NARROW, PairTests, WayOrder, no_way
+from gruebler.design.synthesis.family_bounds import MARGINS, NARROW, PairTests, WayOrder, beside_best, no_way
 from gruebler.design.synthesis.length_search import PairFamily, best_members, dyad_numbers
 from gruebler.design.synthesis.pair_facts import pair_facts
 from gruebler.design.synthesis.pair_lengths import Ranges, is_other, off
@@ -287,7 +287,7 @@ def slide_notes(
             break
         bound = replace(demands, transmission=radians(angle))
         if not any(left_of_cranks(task, bound, dyad) for dyad in dyads):
-            yield _AT_MOST.filled(form=symbols, far=FAR, angle=angle)
+            yield beside_best(_AT_MOST.filled(form=symbols, far=FAR, angle=angle), best)
             return
     if best is None:
         yield _UNKNOWN.filled(form=symbols)
@@ -319,7 +319,7 @@ def improved_pair(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -
             if best + margin >= pi / 2:
                 return improved, []
             note = _BESIDE_SLIDE if pair[1].slides else _BESIDE
-            return improved, [note.filled(form=form, far=FAR, angle=_upward(best + margin))]
+            return improved, [beside_best(note.filled(form=form, far=FAR, angle=_upward(best + margin)), best)]
         if partner.left and partner.dyad is None:
             margin *= _WIDER
     return improved, [_BESIDE_UNKNOWN.filled(form=form)]
@@ -353,7 +353,7 @@ def best_beside(
         return [], [_NONE_BESIDE.filled(held=said, far=FAR)]
     if begin + margin >= pi / 2:
         return better, []  # no angle is larger
-    return better, [_MOST_BESIDE.filled(held=said, far=FAR, angle=_upward(begin + margin))]
+    return better, [beside_best(_MOST_BESIDE.filled(held=said, far=FAR, angle=_upward(begin + margin)), begin)]
 
 
 def best_beside_ends(
@@ -380,7 +380,8 @@ def best_beside_ends(
                 break
             group = (given, [partner.dyad]) if side == 0 else ([partner.dyad], given)
             ended = best_members(task, [group], demands, orders=["transmission"], number=1).pairs
-            pair = max((pair[0], partner.dyad) if side == 0 else (partner.dyad, pair[1]), *ended, key=angle)
+            beside = (pair[0], partner.dyad) if side == 0 else (partner.dyad, pair[1])
+            pair = max([beside, *ended], key=angle)
             better.insert(0, pair)
         if angle(pair) > -np.inf:
             break

@@ -40,7 +40,7 @@ from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.given_pivots import notes_on_pivots
 from gruebler.design.synthesis.judging import best_of, judge_design, judged_by_drive, order_notes
 from gruebler.design.synthesis.length_search import best_linkages, best_members, has_lengths
-from gruebler.design.synthesis.pair_search import IMPROVED, Pair, SoughtPairs, distinct
+from gruebler.design.synthesis.pair_search import IMPROVED, Pair, SoughtPairs, distinct_pairs
 from gruebler.design.synthesis.partner_bounds import (
     angle_of_pair,
     best_beside,
@@ -74,19 +74,19 @@ _FOUR_BAR = f"{CRANK.form}-{CRANK.form}"
 DYADS = message("dyads")
 _FAMILIES = {
     2: message(
-        "There are infinitely many solutions: every point of the body and every point of the frame is a pivot of "
-        "infinitely many dyads; {count} dyads were taken."
+        "Every point of the body and every point of the frame is a pivot of infinitely many dyads; {count} dyads were "
+        "taken."
     ),
     3: message(
-        "There are infinitely many solutions: every point of the body is the pivot of one dyad, likewise every point "
-        "of the frame; {count} dyads were taken."
+        "Every point of the body is the pivot of one dyad, likewise every point of the frame; {count} dyads were taken."
     ),
-    4: message(
-        "There are infinitely many solutions: the pivots lie on Burmester's cubics, one dyad for each point of them; "
-        "{count} dyads were taken."
-    ),
+    4: message("The pivots lie on Burmester's cubics, one dyad for each point of them; {count} dyads were taken."),
 }
 
+_FINITE = message(
+    "The positions and what is given leave finitely many linkages, or none. They were sought from pairs of {count} "
+    "dyads and from random pivots, so that one may be missing."
+)
 _PAIRS = message(
     "{dyads} complex dyads are {pairs} solutions as ordered pairs, each dyad also with itself, and {linkages} linkages."
 )
@@ -138,8 +138,10 @@ def synthesise_positions(
         return _approximate(task, wanted, dyads, progress)
     notes = [*nearly_one_joint(task)]
     notes += [*notes_on_pivots(task, given or dyads, wanted)] if chosen and len(task) in (3, 4) else []
+    finite = searched and _freedoms(task) <= wanted.given_sizes
     if searched:
         candidates = _judged_best(free, wanted, dyads, given, number, sort, progress, notes)
+        notes += [] if finite or not candidates else [IMPROVED]
     elif len(task) == 2:
         candidates = _judged_ends(task, wanted, number, sort, progress, notes)
     else:
@@ -151,7 +153,7 @@ def synthesise_positions(
         complex_dyads = all_dyads(displacements).found
         notes.append(_PAIRS.filled(dyads=complex_dyads, pairs=complex_dyads**2, linkages=comb(complex_dyads, 2)))
     else:
-        notes.append(_FAMILIES[len(task)].filled(count=len(dyads)))
+        notes.append((_FINITE if finite else _FAMILIES[len(task)]).filled(count=len(dyads)))
     if len(dyads) < 2:
         notes.append(message("A linkage needs two dyads."))
     designs, rejected = ranked(candidates)
@@ -163,9 +165,18 @@ def synthesise_positions(
         task=task,
         designs=designs,
         rejected=rejected,
-        count=SolutionCount(what=DYADS, theorem=THEOREM[len(task)], found=complex_dyads, real=len(dyads)),
+        count=SolutionCount(
+            what=DYADS, theorem=0 if finite else THEOREM[len(task)], found=complex_dyads, real=len(dyads)
+        ),
         notes=tuple(notes),
     )
+
+
+def _freedoms(task: PositionTask) -> int:
+    """How many numbers of a four-bar through two to four positions, with at most one given pivot, are free."""
+    of_dyad = 5 - len(task)  # four numbers, and an equation for each position after the first
+    given = len(task.moving_pivots) + len(task.fixed_pivots) + len(task.curve_parameters)
+    return 2 * of_dyad - given * min(2, of_dyad)
 
 
 def _proved(
@@ -249,7 +260,6 @@ def _judged_best(
             some = [pair for pair in freed if angle_of_pair(task, demands, pair) > -np.inf] + some
         pairs += some
         notes += said
-    notes += [IMPROVED] if pairs else []
     designs = _judged_as_driven(task, demands, pairs, progress)
     if given or demands.given_sizes:
         return designs
@@ -270,7 +280,7 @@ def _best_pairs(sought: SoughtPairs) -> tuple[list[Pair], list[Message]]:
     else:
         improved, proved = improved_pair(task, demands, search.pairs)
         better = [improved] if improved else []
-    return distinct([*better, *search.pairs], task.size), [*search.notes, *proved]
+    return distinct_pairs([*better, *search.pairs], task.size), [*search.notes, *proved]
 
 
 def _judged_ends(

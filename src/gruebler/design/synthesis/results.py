@@ -248,7 +248,7 @@ class SolutionCount:
     what: Message
     """What is counted, such as dyads or cognate triples."""
     theorem: int | None
-    """How many complex solutions a general task has; None where there are infinitely many, 0 where none is exact."""
+    """How many complex solutions a general task has; None where there are infinitely many, 0 where it is unknown."""
     found: int
     """How many of them were found, those at infinity among them."""
     real: int
@@ -379,8 +379,8 @@ def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
         for design in found.designs
     ]
     best = [row for row in rows if not any(other.dominates(row) for other in rows)]
-    told = {(row.structure, row._costs): row for row in reversed(best)}  # of those that are printed alike the first one
-    return tuple(sorted(told.values(), key=lambda row: row._costs))
+    once = {(row.structure, row._costs): row for row in reversed(best)}  # of those that are printed alike the first one
+    return tuple(sorted(once.values(), key=lambda row: row._costs))
 
 
 def ranked(candidates: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ...]]:

@@ -143,7 +143,8 @@ def _best_pairs(
     fails = costs[0]
     notes.append(
         message(
-            "{dyads} dyads, each with each and driven at either: of {pairs:,} four-bars {count:,} meet all demands.",
+            "Four-bars that meet all demands: {count:,} of {pairs:,} "
+            "({dyads} dyads, each with each, driven at either).",
             dyads=len(dyads),
             pairs=len(dyads) * (len(dyads) - 1),
             count=int(np.count_nonzero(fails == 0)),

@@ -158,9 +158,9 @@ def _with_free_starts(phi: Reals, psi: Reals, frame: float, demands: Demands, nu
     if theorem is not None:
         return result
     notes = message(
-        "{count:,} linkages of the family were judged, {good:,} of them meet all demands.",
-        count=len(designs),
-        good=len(result.designs),
+        "Linkages of the family that meet all demands: {count:,} of {members:,}.",
+        members=len(designs),
+        count=len(result.designs),
     )
     return replace(result, designs=result.designs[:number], rejected=result.rejected[:number], notes=(notes,))
 

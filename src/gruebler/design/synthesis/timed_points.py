@@ -18,7 +18,7 @@ from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.length_search import best_linkages
-from gruebler.design.synthesis.pair_search import SoughtPairs, distinct
+from gruebler.design.synthesis.pair_search import SoughtPairs, distinct_pairs
 from gruebler.design.synthesis.partner_bounds import best_beside
 from gruebler.design.synthesis.results import Design, SolutionCount, SynthesisResult, ranked
 from gruebler.design.synthesis.targets import Probe, Targets, position_targets
@@ -65,7 +65,7 @@ def timed_positions(task: PathTask, demands: Demands, number: int, sort: Sequenc
         for family in families
     )
     better, proved = best_beside(positions, demands, own, turning.pairs, drives=True)
-    pairs = distinct([*better, *turning.pairs, *(pair for search in sliding for pair in search.pairs)], task.size)
+    pairs = distinct_pairs([*better, *turning.pairs, *(pair for search in sliding for pair in search.pairs)], task.size)
     designs = [
         design for _, other in pairs for design in _judged_timed(task, np.array(task.crank_angles), demands, own, other)
     ]
