@@ -96,7 +96,9 @@ class TransmissionExtremes:
     largest: Transmission
     """The largest for the leg that has the smallest."""
     legs: tuple[tuple[str, ...], ...]
-    """The driving legs; with several the smallest angle counts."""
+    """The legs on the way from the drive to the output, from the output on; the smallest angle counts."""
+    undefined: tuple[str, ...] = ()
+    """The links on that way in whose group no transmission angle is defined."""
 
     @property
     def good(self) -> bool:

@@ -20,8 +20,9 @@ from gruebler.base.text import LANGUAGES, Text, error_in_language, number, trans
 from gruebler.files import linkage_to_json
 from gruebler.files.load_reading import loads_of_document
 from gruebler.files.load_writing import loads_to_json
+from gruebler.mechanics.analysis.messages import undefined_transmission_message
 from gruebler.mechanics.analysis.outputs import find_output
-from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
+from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, force_path
 from gruebler.mechanics.fourbar import grashof
 from gruebler.mechanics.kinematics.branches import labelled_groups
 from gruebler.mechanics.kinematics.plan import Dyad, Plan
@@ -299,7 +300,7 @@ def _output(linkage: Linkage, plan: Plan) -> list[dict[str, Any]]:
     index = plan.lower.mechanism.chain.index
     record: dict[str, Any] = {"link": index(output.link), "joint": output.joint, "legs": [], "note": {}}
     try:
-        legs = pushing_links(plan, output)
+        path = force_path(plan, output)
     except NoTransmissionAngleError as error:
         notes = {lang: (said := error_in_language(error, lang))[0].upper() + said[1:] for lang in LANGUAGES}
         return [record | {"note": notes}]
@@ -310,14 +311,18 @@ def _output(linkage: Linkage, plan: Plan) -> list[dict[str, Any]]:
 
     record["legs"] = [
         {
+            "links": [index(link) for link in leg.links],
             "from": place(leg.slide or leg.outer),
             "across": leg.slide is not None,
             "pin": place(leg.pin),
             "pushed": index(leg.pushed),
             "guide": None if leg.guide is None else {"slides": leg.guide[0].is_sliding, "at": place(leg.guide[1])},
         }
-        for leg in legs
+        for leg in path.legs
     ]
+    if path.undefined:
+        undefined = undefined_transmission_message(path.undefined)
+        record["note"] = {lang: undefined.in_language(lang) for lang in LANGUAGES}
     return [record]
 
 

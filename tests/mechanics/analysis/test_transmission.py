@@ -9,8 +9,10 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.analysis.drive_cycles import drive_cycle
+from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import deviation_angle, measure_transmission, transmission_angle
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
@@ -119,21 +121,73 @@ def test_larger_groups_are_measured_at_the_leg_on_the_moving_side() -> None:
     assert found.largest.mu >= mu.max() - 1e-9
 
 
-def test_between_two_moving_legs_it_is_the_angle_of_the_dyad() -> None:
-    """Law of cosines for Jansen's leg: link and foot meet at 39.4 and 36.7 from the joints that hold them."""
+def between_links(one: Complexes, pin: Complexes, other: Complexes) -> Reals:
+    """The angle at a pin, by the law of cosines, at most a right one."""
+    a, b, c = abs(one - pin), abs(other - pin), abs(one - other)
+    return np.asarray(np.arccos(np.abs(a**2 + b**2 - c**2) / (2 * a * b)))
+
+
+def test_of_dyads_in_series_the_smallest_angle_counts() -> None:
+    """Jansen's leg: its foot hangs on two links that move, each the end of a dyad on the crank."""
     linkage = entry("jansen").linkage()
     course = drive_cycle(linkage)
     motion = course.at(np.linspace(0, 2 * math.pi, 3601), 2)
-    upper, knee, lower = (
-        motion.complex_point(name) for name in ("R(triangle-link)", "R(link-foot)", "R(lower_rod-rocker-foot)")
+    names = linkage.mechanism.chain.joint_names()
+    place = {name: motion.complex_point(name) for name in names}
+    crank = place["R(crank-upper_rod-lower_rod)"]
+    expected = np.min(
+        [
+            between_links(place["R(triangle-link)"], place["R(link-foot)"], place["R(lower_rod-rocker-foot)"]),
+            between_links(crank, place["R(upper_rod-triangle)"], place["R(frame-triangle-rocker)"]),
+            between_links(crank, place["R(lower_rod-rocker-foot)"], place["R(frame-triangle-rocker)"]),
+        ],
+        axis=0,
     )
-    arms = np.abs(upper - knee), np.abs(lower - knee)
-    cosine = (arms[0] ** 2 + arms[1] ** 2 - np.abs(upper - lower) ** 2) / (2 * arms[0] * arms[1])
-    expected = np.arccos(np.abs(cosine))
     assert transmission_angle(motion) == pytest.approx(expected, abs=1e-9)
     smallest = measure_transmission(course, find_output(linkage)).smallest
     assert smallest.mu == pytest.approx(expected.min(), abs=1e-5)
     assert smallest.mu <= expected.min()
+
+
+WATT = Linkage.from_drawing(
+    Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3) R(3-4) R(4-5) R(0-5); frame=0; drive=R(0-1)"),
+    dict(
+        zip(
+            ["R(0-1)", "R(1-2)", "R(2-3)", "R(0-3)", "R(3-4)", "R(4-5)", "R(0-5)"],
+            [(-30, -20), (-30, 0), (20, 20), (30, -20), (25, 0), (80, 20), (100, -20)],
+            strict=True,
+        )
+    ),
+)
+
+
+def test_a_watt_linkage_is_as_good_as_the_worse_of_its_four_bars() -> None:
+    """By hand: at crank angle 0 the first diagonal is 60 - 20 = 40, and the law of cosines gives 47.5 degrees."""
+    coupler, rocker = math.hypot(50, 20), math.hypot(10, 40)
+    worst = math.acos((coupler**2 + rocker**2 - 40**2) / (2 * coupler * rocker))
+    assert math.degrees(worst) == pytest.approx(47.5, abs=0.05)
+    found = measures(WATT)
+    assert found.transmission is not None
+    smallest = found.transmission.smallest
+    assert (smallest.mu, smallest.links) == (pytest.approx(worst, abs=1e-9), ("2",))
+    assert smallest.drive % (2 * math.pi) == pytest.approx(0, abs=1e-6)
+    assert found.transmission.legs == (("4",), ("2",))
+    assert "Transmission angle 47.5° at 0° (link 2)" in found.explain()
+    first = measures(WATT, output="3").transmission
+    assert first is not None
+    assert first.legs == (("2",),)
+
+
+def test_where_it_is_not_defined_on_the_way_that_is_said() -> None:
+    """A link that slides on the crank and in link 3, as Oldham's coupling has it, turns 3 by a couple."""
+    chain = "R(0-1) P(1-2) P(2-3) R(0-3) R(3-4) R(4-5) R(0-5); frame=0; drive=R(0-1)"
+    places = [(0, 0), (10, 0, 0), (10, 0, math.pi / 2), (3, 1), (10, 10), (40, 30), (50, 0)]
+    mechanism = Mechanism.parse(chain)
+    oldham = Linkage.from_drawing(mechanism, dict(zip(mechanism.chain.joint_names(), places, strict=True)))
+    found = measures(oldham).transmission
+    assert found is not None
+    assert (found.legs, set(found.undefined)) == ((("4",),), {"2", "3"})
+    assert "between the drive and the output, no transmission angle is defined." in measures(oldham).explain()
 
 
 def test_virtual_work_at_the_driving_leg() -> None:

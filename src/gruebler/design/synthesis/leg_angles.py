@@ -64,8 +64,8 @@ class LegAngles:
             )
 
         for leg in legs:
-            if leg.guide is None:
-                continue  # the way of its pin depends on rates
+            if leg.guide is None or leg.guide[1][0] != frame:
+                continue  # the way of its pin depends on rates, or on the pose of another link
             pushed = key_of(leg.pin, line=False)
             force = _Line(key_of(leg.slide, line=True), None, True) if leg.slide is not None else None
             force = force or _Line(key_of(leg.outer, line=False), pushed, False)

@@ -130,7 +130,7 @@ def transmission_lines(units: MeasureUnits, transmission: TransmissionExtremes) 
     worst, best = transmission.smallest, transmission.largest
     if best.mu - worst.mu > _CONSTANT:
         yield message(
-            "Transmission angle {smallest} at {drive} (leg {links}) to {largest}; deviation angle up to {deviation}.",
+            "Transmission angle {smallest} at {drive} (link {links}) to {largest}; deviation angle up to {deviation}.",
             smallest=angle_message(worst.mu),
             drive=units.drive(worst.drive),
             links=", ".join(worst.links),
@@ -140,3 +140,11 @@ def transmission_lines(units: MeasureUnits, transmission: TransmissionExtremes) 
     else:
         yield message("Transmission angle {angle} throughout.", angle=angle_message(worst.mu))
     yield message("It does not fall below 40°." if transmission.good else "It falls below 40°.")
+    if transmission.undefined:
+        yield undefined_transmission_message(transmission.undefined)
+
+
+def undefined_transmission_message(links: Sequence[str]) -> Message:
+    """Between which links, on the way of the force, there is no transmission angle."""
+    text = message("For {links}, between the drive and the output, no transmission angle is defined.")
+    return text.filled(links=", ".join(links))

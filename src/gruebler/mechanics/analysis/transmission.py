@@ -1,7 +1,8 @@
 """The transmission angle in the generalised sense, along a motion and at its extremes.
 
-After Alt: the angle between the absolute path of the point at which the last group drives its output, and the path of
-that point relative to what drives the group. Definitions and proofs: docs/theory/events.md.
+After Alt: the angle between the absolute path of the point at which a group drives its output, and the path of that
+point relative to what drives the group; the smallest of those on the way from the drive to the output. Definitions and
+proofs: docs/theory/events.md.
 """
 
 from __future__ import annotations
@@ -71,37 +72,81 @@ class PushingLink:
         return self.outer if self.pairs[1].is_sliding else self.inner
 
 
+@dataclass(frozen=True, slots=True)
+class ForcePath:
+    """How the force of the drive comes to the output."""
+
+    legs: tuple[PushingLink, ...]
+    """Those of the output's group, then those of the groups on which that one hangs."""
+    undefined: tuple[str, ...]
+    """The links of groups on the way in which there is no leg, or one that transmits a couple only."""
+
+
 def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
-    """The legs by which the group of the output is driven.
+    """The legs by which the drive moves the output, as `force_path` finds them."""
+    return force_path(plan, output).legs
 
-    A leg is a body of the group with one outer and one inner joint. It drives if it hangs on a link that moves, or has
-    the drive in itself. The output's own body is a leg only if there is no other.
 
-    Raises `LinkageError` with a sentence that says why there is no transmission angle.
+def force_path(plan: Plan, output: Output) -> ForcePath:
+    """Follow the force from the output back to the drive, group by group.
+
+    A leg is a body of a group with one outer and one inner joint. It drives if it hangs on a link that moves, or has
+    the drive in itself. The body that is loaded is a leg only if there is no other.
+
+    Raises `NoTransmissionAngleError` with a sentence that says why the group of the output has no leg.
     """
     if plan.released:
         raise NoTransmissionAngleError(
             "there is no transmission angle: the linkage is overconstrained, and how its joints share the force "
             "depends on their stiffness"
         )
-    group = next((g for g in plan.decomposition.groups if any(output.link in b for b in _bodies(g))), None)
-    if group is None:
+    groups = plan.decomposition.groups
+    own = next((k for k, group in enumerate(groups) if any(output.link in body for body in _bodies(group))), None)
+    if own is None:
         raise NoTransmissionAngleError(
             "there is no transmission angle: {link!r} is moved by the drive itself", link=output.link
         )
+    path = _legs(plan, groups[own], {output.link})
+    if not path:
+        raise NoTransmissionAngleError("there is no transmission angle: no link with two joints drives the output")
+    if couple := next(filter(_is_couple, path), None):
+        raise NoTransmissionAngleError(
+            "there is no transmission angle: {links} slides at both ends and transmits a couple only",
+            links=", ".join(couple.links),
+        )
+    loaded = _holders(plan, groups[own])
+    undefined: list[str] = []
+    for group in reversed(groups[:own]):
+        links = [link for body in _bodies(group) for link in body]
+        if loaded.isdisjoint(links):
+            continue
+        legs = _legs(plan, group, loaded)
+        if not legs or any(map(_is_couple, legs)):
+            undefined += links
+        else:
+            path += legs
+        loaded |= _holders(plan, group)
+    return ForcePath(tuple(path), tuple(undefined))
+
+
+def _is_couple(leg: PushingLink) -> bool:
+    return all(pair.is_sliding for pair in leg.pairs)
+
+
+def _legs(plan: Plan, group: SolvedGroup, loaded: set[str]) -> list[PushingLink]:
+    """The legs of a group by which loaded links of it are moved."""
     driven = [k for k in range(len(group.bodies)) if _is_driven(plan, group, k)]
     legs = {k: leg for k in driven if (leg := _leg(plan, group, k)) is not None}
-    others = {k: leg for k, leg in legs.items() if output.link not in _bodies(group)[k]}
-    chosen = others or legs
-    if not chosen:
-        raise NoTransmissionAngleError("there is no transmission angle: no link with two joints drives the output")
-    couples = [leg for leg in chosen.values() if all(pair.is_sliding for pair in leg.pairs)]
-    if couples:
-        links = ", ".join(couples[0].links)
-        raise NoTransmissionAngleError(
-            "there is no transmission angle: {links} slides at both ends and transmits a couple only", links=links
-        )
-    return tuple(chosen.values())
+    others = {k: leg for k, leg in legs.items() if loaded.isdisjoint(_bodies(group)[k])}
+    return list((others or legs).values())
+
+
+def _holders(plan: Plan, group: SolvedGroup) -> set[str]:
+    """The links that move and on which a group hangs: what acts on the group acts on these."""
+    chain, frame = plan.lower.mechanism.chain, plan.lower.mechanism.frame
+    inside = {link for body in _bodies(group) for link in body}
+    outer = [number for number, member in group.joints if member.outer]
+    return {link for number in outer for link in chain.joints[number].links} - inside - {frame}
 
 
 def _bodies(group: SolvedGroup) -> list[tuple[str, ...]]:
@@ -224,7 +269,7 @@ def _folded(lines: _Lines) -> Reals:
 
 
 def transmission_angle(motion: Motion, output: str | None = None) -> Reals:
-    """The transmission angle mu in each pose, at most pi/2; with several driving legs the smallest; (rows,).
+    """The transmission angle mu in each pose, at most pi/2; on the way from the drive the smallest; (rows,).
 
     Raises `LinkageError` if the motion has no accelerations (``order=2``), or there is no transmission angle.
 
@@ -253,7 +298,8 @@ def measure_transmission(cycle: Course, output: Output) -> TransmissionExtremes:
 
     Raises `LinkageError` if there is no transmission angle, with the reason.
     """
-    legs = pushing_links(cycle.plan, output)
+    path = force_path(cycle.plan, output)
+    legs = path.legs
     extremes = []
     for leg in legs:
         places, ends = _stationary(cycle, leg)
@@ -267,7 +313,7 @@ def measure_transmission(cycle: Course, output: Output) -> TransmissionExtremes:
     smallest = _first(ordered, min(extreme.mu for extreme in ordered))
     extrema = [extreme for extreme in ordered if extreme.links == smallest.links]
     largest = _first(extrema, max(extreme.mu for extreme in extrema))
-    return TransmissionExtremes(tuple(ordered), smallest, largest, tuple(leg.links for leg in legs))
+    return TransmissionExtremes(tuple(ordered), smallest, largest, tuple(leg.links for leg in legs), path.undefined)
 
 
 def _first(extremes: list[Transmission], mu: float) -> Transmission:
