@@ -5,7 +5,7 @@ import { CatalogView } from "./catalog";
 import { h, renew } from "./dom";
 import { ExercisesView } from "./exercises";
 import { saveDocument, showExport } from "./export";
-import { languageMenu, saving, sayIn, tabs, viewNames } from "./header";
+import { languageMenu, saving, sayIn, sayWhetherOn, tabs, viewNames } from "./header";
 import { showKeys } from "./help";
 import { Backend, type HostModel } from "./host";
 import { keptLink } from "./kept";
@@ -16,20 +16,14 @@ import { LibraryView } from "./library";
 import { packed } from "./link";
 import type { Model } from "./model";
 import { MotionView } from "./motion";
-import { contentOf } from "./opening";
-import { another, isOf, modelOf, type Shared, sharedOf, shareLink, unshared } from "./sharing";
+import { contentOf, takeDropped } from "./opening";
+import { openShared, type Shared, sharedOf, shareLink } from "./sharing";
 import { firstTheme, setTheme, shell, type Theme, tool } from "./shell";
 import { IN_SPACE, type InSpace, stored } from "./storing";
 import { StructureView } from "./structure";
 import { SynthesisView } from "./synthesis";
-import type { Page, View } from "./view";
+import type { Page, Place, View } from "./view";
 import { drawn } from "./waiting";
-
-/** A place in the history of the browser. */
-interface Place {
-  view?: string;
-  space?: string;
-}
 
 export class App implements Page {
   readonly backend: Backend;
@@ -85,12 +79,8 @@ export class App implements Page {
     this.#place = h(this.#linkable ? "main" : "div", { class: "views" }, this.motion.element);
     this.root = h("div.app", {}, this.#header, this.lost, this.message, this.#place);
     listenToKeys(() => this.#keyed, this.#linkable ? null : this.root);
-    this.host.addEventListener("dragover", (event) => event.preventDefault());
-    this.host.addEventListener("drop", (event) => {
-      event.preventDefault();
-      void this.openFile(event.dataTransfer?.files[0]);
-    });
-    model.on("connection", ((on: boolean) => this.#connection(on)) as (message: never) => void);
+    takeDropped(host, (file) => void this.openFile(file));
+    model.on("connection", ((on: boolean) => sayWhetherOn(this.lost, on)) as (message: never) => void);
     model.on("change:machine", (() => this.open(model.get("machine") as Model)) as (message: never) => void);
   }
 
@@ -303,13 +293,6 @@ export class App implements Page {
     sayIn(this.message, text, kind, action);
   }
 
-  #connection(on: boolean): void {
-    this.lost.hidden = on;
-    this.lost.textContent = on
-      ? ""
-      : t("The connection to gruebler is lost. The page goes on by itself; it connects again when the server is back.");
-  }
-
   ask<Result>(method: string, params: Record<string, unknown>, progress?: (text: string) => void) {
     return this.backend.ask<Result>(method, params, currentLanguage(), progress);
   }
@@ -374,7 +357,7 @@ export class App implements Page {
       text = keptLink().slice(1);
     }
     try {
-      if (text) await this.#openShared(await unshared(text));
+      if (text) await openShared(text, this);
       this.#unread = false;
       this.changed();
     } catch (error) {
@@ -388,39 +371,22 @@ export class App implements Page {
     this.arrange();
   }
 
-  async #openShared(shared: Shared): Promise<void> {
-    const { document, drive, name, changed = false } = shared;
-    const { model } = this.motion.linkage;
-    if (isOf(model, document) && (model.name === name || !this.backend.present))
-      return this.motion.openDocument(document, drive);
-    if (!this.backend.present) throw another();
-    this.motion.open({ ...(await modelOf(shared, this)), changed });
-    this.show("motion");
-    if (this.#atSite) this.motion.openDocument(document, drive);
-  }
-
   // --- files ---------------------------------------------------------------------------------------------------------
 
   async openFile(file: File | undefined): Promise<void> {
-    if (!file) return;
-    this.say(t("Opening {name} …", { name: file.name }), "done", h("progress", { "aria-hidden": "true" }));
-    try {
-      const found = await contentOf(file, this);
-      this.say("");
-      if (found.document) this.motion.openDocument(found.document);
-      else if (found.model) this.open(found.model);
-      else if (found.drawing) {
-        this.#turnTo("build");
-        (this.#viewOf("build") as BuildView).begin(found.drawing);
-      } else if (found.text) this.describe(found.text);
-      else if (found.points) {
-        (this.#viewOf("synthesis") as SynthesisView).take(found.points, found.closed ?? false, found.order);
-        this.#turnTo("synthesis");
-      }
-      if (found.note) this.say(found.note, "done");
-    } catch (error) {
-      this.say((error as Error).message);
+    const found = file && (await contentOf(file, this));
+    if (!found) return;
+    if (found.document) this.motion.openDocument(found.document);
+    else if (found.model) this.open(found.model);
+    else if (found.drawing) {
+      this.#turnTo("build");
+      (this.#viewOf("build") as BuildView).begin(found.drawing);
+    } else if (found.text) this.describe(found.text);
+    else if (found.points) {
+      (this.#viewOf("synthesis") as SynthesisView).take(found.points, found.closed ?? false, found.order);
+      this.#turnTo("synthesis");
     }
+    if (found.note) this.say(found.note, "done");
   }
 
   /** What the view shows is saved by itself, else the machine at hand. */

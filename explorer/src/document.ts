@@ -2,9 +2,10 @@
 
 import { besideOf } from "./beside";
 import type { Rows } from "./kernel";
-import { type Linkage, Refused } from "./linkage";
+import type { Linkage } from "./linkage";
 import type { LinkageDocument } from "./model";
 import { placeBlocks, readState } from "./reading";
+import { Refused } from "./refused";
 import { oneRow, place, putOrigin, putTurn, turn } from "./rows";
 import { meshesOf, setPhases } from "./wheels";
 

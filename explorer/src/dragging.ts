@@ -2,9 +2,10 @@
 
 import { type Distance, kept } from "./keeping";
 import type { Rows } from "./kernel";
-import { type Linkage, Refused } from "./linkage";
+import type { Linkage } from "./linkage";
 import { Locks } from "./locks";
 import { placeBlocks, readState } from "./reading";
+import { Refused } from "./refused";
 import { direction, move, oneRow, type Pair, place, putOrigin, putTurn, turn } from "./rows";
 import type { Cylinder } from "./sizes";
 import { type Mesh, meshesOf, onCircle, type Pivot, pivotOf, setPhases, shiftWheel } from "./wheels";

@@ -76,6 +76,12 @@ export function sayIn(place: HTMLElement, text: string, kind: "error" | "done", 
   place.replaceChildren(h("span", {}, text, action && " ", action), close);
 }
 
+/** Say that there is no connection, or no more. */
+export function sayWhetherOn(place: HTMLElement, on: boolean): void {
+  place.hidden = on;
+  place.textContent = on ? "" : t("The connection to gruebler is lost; it comes back with the server.");
+}
+
 /** The button of what can be taken away, on a wide page with its word. */
 export function saving(show: () => void): HTMLElement {
   const button = tool("save", t("Save and export"), show);

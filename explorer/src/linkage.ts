@@ -1,11 +1,12 @@
 /** A linkage on the page: its sizes, its pose, its cycle; how it is solved and moved. */
 
 import { type Beside, besideOf } from "./beside";
-import { type Cycle, findCycle, type Stop, stopOf, TURN } from "./cycle";
+import { type Cycle, findCycle, stopOf, TURN } from "./cycle";
 import { Kernel, type Rows, type State } from "./kernel";
 import { currentLanguage, inLetters, spaced } from "./language";
 import type { DriveRecord, Model } from "./model";
 import { Code, type Program, programOf } from "./program";
+import { Refused } from "./refused";
 import { leastRoot, oneRow, origin, type Pair, picked, place, stateAt, turn } from "./rows";
 import { Sizes } from "./sizes";
 import type { Snapshot } from "./snapshot";
@@ -14,17 +15,6 @@ import type { Snapshot } from "./snapshot";
 const NEAR_CHANGE = 1e-5;
 /** The least step of a quick search, in rows: what is shown does not tell it from the end. */
 const QUICK = 1e-8;
-
-/** Why a change was refused. */
-export class Refused extends Error {
-  constructor(
-    readonly stop: Stop | null,
-    /** Why not, where nothing stops: joints of a link meet, or what is kept does not allow it. */
-    readonly reason: "" | "near" | "kept" = "",
-  ) {
-    super("refused");
-  }
-}
 
 export class Linkage {
   readonly sizes: Sizes;

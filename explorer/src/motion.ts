@@ -10,12 +10,13 @@ import { drivenBy } from "./help";
 import { History } from "./history";
 import { keepSizes, keptSizes } from "./kept";
 import { t } from "./language";
-import { Linkage, Refused } from "./linkage";
+import { Linkage } from "./linkage";
 import { floatingLink } from "./measures";
 import type { LinkageDocument, Model } from "./model";
 import type { Editor } from "./panels";
 import { PlaneTransport } from "./planetransport";
 import type { Plots } from "./plots";
+import { Refused } from "./refused";
 import { type Pair, place } from "./rows";
 import { AT_FIRST, type Shown } from "./shown";
 import { Side } from "./side";
@@ -308,7 +309,7 @@ export class MotionView implements View, Editor, Driven {
   /** The link that is to carry a coupler point; it stands still then. */
   #carry(link: number | null): void {
     this.transport.pause();
-    this.page.say(link === null ? t("A coupler point: choose the link that carries it.") : "");
+    this.page.say(link === null ? t("Coupler point: choose its link.") : "");
     this.#choose(link);
   }
 

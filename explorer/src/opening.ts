@@ -1,5 +1,6 @@
 /** What a file holds: the library reads every format, a page alone its own mechanism in JSON. */
 
+import { h } from "./dom";
 import type { Drawing } from "./drawing";
 import { drawingFrom } from "./kept";
 import { t } from "./language";
@@ -23,7 +24,20 @@ interface Content {
   note?: string;
 }
 
-export async function contentOf(file: File, page: Page): Promise<Content> {
+/** What a file holds; it is said while it is read, and why it cannot be. */
+export async function contentOf(file: File, page: Page): Promise<Content | null> {
+  page.say(t("Opening {name} …", { name: file.name }), "done", h("progress", { "aria-hidden": "true" }));
+  try {
+    const found = await read(file, page);
+    page.say("");
+    return found;
+  } catch (error) {
+    page.say((error as Error).message);
+    return null;
+  }
+}
+
+async function read(file: File, page: Page): Promise<Content> {
   if (file.size > LARGEST) throw new Error(t("The file {name} is too large for the page.", { name: file.name }));
   const drawing = /\.json$/i.test(file.name) && page.served ? drawingFrom(await file.text()) : null;
   if (drawing) return { drawing };
@@ -35,6 +49,15 @@ export async function contentOf(file: File, page: Page): Promise<Content> {
   const document = jsonOf(await file.text());
   if (document?.reference_pose && isOf(page.shown, document)) return { document };
   throw new Error(t("This page alone opens its own mechanism, saved as JSON. Others: gruebler explore FILE"));
+}
+
+/** Open what is dropped on the page. */
+export function takeDropped(page: HTMLElement, open: (file: File | undefined) => void): void {
+  page.addEventListener("dragover", (event) => event.preventDefault());
+  page.addEventListener("drop", (event) => {
+    event.preventDefault();
+    open(event.dataTransfer?.files[0]);
+  });
 }
 
 function jsonOf(text: string): LinkageDocument | null {

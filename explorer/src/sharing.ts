@@ -1,6 +1,7 @@
 /** What a link carries, and how it is made and read. */
 
 import { h } from "./dom";
+import type { Backend } from "./host";
 import { t } from "./language";
 import { BadLink, unpacked } from "./link";
 import type { LinkageDocument, Model } from "./model";
@@ -19,7 +20,7 @@ export interface Shared {
 }
 
 /** That a link is of another mechanism than can be shown here. */
-export function another(): BadLink {
+function another(): BadLink {
   return new BadLink(t("This link holds another mechanism. Open it with: gruebler explore LINK"));
 }
 
@@ -38,18 +39,30 @@ export function sharedOf(motion: MotionView, withModel: boolean): Shared {
 }
 
 /** What the text behind # carries; BadLink if it is none. */
-export async function unshared(text: string): Promise<Shared> {
+async function unshared(text: string): Promise<Shared> {
   const shared = (await unpacked(text)) as Shared;
   if (typeof shared?.document?.joints !== "string") throw new BadLink(t("This link holds no mechanism."));
   return shared;
 }
 
 /** The model of what a link carries: from the library, from the link itself, or from the machine of its name. */
-export async function modelOf({ document, name, source, model }: Shared, page: Page): Promise<Model> {
+async function modelOf({ document, name, source, model }: Shared, page: Page): Promise<Model> {
   if (page.served) return page.ask<Model>("open_document", { document, name, source });
   const found = model ? { ...model, document } : await page.ask<Model>("open", { id: source });
   if (!isOf(found, document)) throw another();
   return found;
+}
+
+/** Show what the text behind # carries: other sizes of the linkage at hand, or another linkage. */
+export async function openShared(text: string, page: Page & { backend: Backend; motion: MotionView }): Promise<void> {
+  const shared = await unshared(text);
+  const { document, drive, name, changed = false } = shared;
+  const { backend, motion, shown, served } = page;
+  if (isOf(shown, document) && (shown.name === name || !backend.present)) return motion.openDocument(document, drive);
+  if (!backend.present) throw another();
+  motion.open({ ...(await modelOf(shared, page)), changed });
+  page.show("motion");
+  if (!served) motion.openDocument(document, drive);
 }
 
 /** Put an address into the clipboard; where that is not allowed it is shown. */

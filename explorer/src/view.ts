@@ -24,6 +24,12 @@ export interface View {
   press?(event: KeyboardEvent, target: Element): boolean;
 }
 
+/** A place in the history of the browser: a view, and the machine in space that is shown in place of Motion. */
+export interface Place {
+  view?: string;
+  space?: string;
+}
+
 /** The page as its views see it. */
 export interface Page {
   /** Whether there is a Python behind the page. */
