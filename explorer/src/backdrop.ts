@@ -1,7 +1,8 @@
 /** A picture behind the plane: read from a file, made small, put where it is wanted. */
 
+import { DEGREE } from "./cycle";
 import { h, svg } from "./dom";
-import { toHull } from "./hull";
+import { away, toHull } from "./hull";
 import type { Pair } from "./rows";
 import type { Viewport } from "./viewport";
 
@@ -40,7 +41,7 @@ export function backdropElement({ at, high, href }: Backdrop): SVGImageElement {
 function placeOn({ at, high }: Backdrop, part: Pair): Pair {
   const [x, y, wide, turned] = at as [number, number, number, number];
   const [u, v] = [(part[0] * wide) / 2, (part[1] * wide * high) / 2];
-  const [c, s] = [Math.cos((turned * Math.PI) / 180), Math.sin((turned * Math.PI) / 180)];
+  const [c, s] = [Math.cos(turned * DEGREE), Math.sin(turned * DEGREE)];
   return [x + c * u - s * v, y + s * u + c * v];
 }
 
@@ -63,7 +64,7 @@ export type Grip = "size" | "turn" | "move";
 
 /** What of the picture is within reach of a place; null beside it. */
 export function gripAt(picture: Backdrop, place: Pair, reach: number): Grip | null {
-  const near = (at: Pair) => Math.hypot(at[0] - place[0], at[1] - place[1]) < reach;
+  const near = (at: Pair) => away(at, ...place) < reach;
   const { size, turn } = gripsOf(picture);
   if (near(size)) return "size";
   if (near(turn)) return "turn";
@@ -74,11 +75,10 @@ export function gripAt(picture: Backdrop, place: Pair, reach: number): Grip | nu
  * degrees. */
 export function gripped(picture: Backdrop, grip: Grip, from: Pair, to: Pair): Backdrop {
   const [x, y, wide, turned] = picture.at as [number, number, number, number];
-  const away = ([px, py]: Pair) => Math.hypot(px - x, py - y);
-  const degrees = Math.round((Math.atan2(to[1] - y, to[0] - x) * 180) / Math.PI);
+  const degrees = Math.round(Math.atan2(to[1] - y, to[0] - x) / DEGREE);
   const at = {
     move: [x + to[0] - from[0], y + to[1] - from[1], wide, turned],
-    size: [x, y, Math.max(wide / 100, (wide * away(to)) / away(from)), turned],
+    size: [x, y, Math.max(wide / 100, (wide * away(to, x, y)) / away(from, x, y)), turned],
     turn: [x, y, wide, degrees],
   };
   return { ...picture, at: at[grip] };

@@ -1,5 +1,6 @@
 /** The bodies of links in SVG: bars and plates, rails and blocks, cylinders. */
 
+import { DEGREE } from "./cycle";
 import { convexHull } from "./hull";
 import type { Linkage } from "./linkage";
 import { direction, type Pair } from "./rows";
@@ -99,7 +100,7 @@ export class Bodies {
     const pinned = sizes.elementsOf(joint).some((m) => m !== k && sizes.is(m, "pin"));
     if (!frame && !pinned && !this.#carries(link, joint)) {
       const here = sizes.xy(k);
-      const turn = `rotate(${(-sizes.angles[k]! * 180) / Math.PI})`;
+      const turn = `rotate(${-sizes.angles[k]! / DEGREE})`;
       const transform = `translate(${this.#place(...here)}) ${turn}`;
       out.push(["rect", { class: "block", x: -15, y: -9, width: 30, height: 18, rx: 3, transform }]);
       nodes.push(here);

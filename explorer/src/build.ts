@@ -3,18 +3,7 @@
 import { gripAt, gripped } from "./backdrop";
 import { choiceOf, isLow, removeChosen } from "./choice";
 import { h, lowered, renew, svg } from "./dom";
-import {
-  type Drawing,
-  documentOfDrawing,
-  EMPTY,
-  joined,
-  joining,
-  linksOf,
-  moved,
-  type Spot,
-  same,
-  traced,
-} from "./drawing";
+import { type Drawing, EMPTY, joined, joining, linksOf, moved, type Spot, same } from "./drawing";
 import { Fingers, pixelIn, wheelZooms, whileDown } from "./fingers";
 import { stepOf } from "./grid";
 import { zoomedBy } from "./help";
@@ -24,7 +13,6 @@ import { keepDrawing, keptDrawing, saveDrawing } from "./kept";
 import { spaced, t } from "./language";
 import type { Linkage } from "./linkage";
 import { type Drawn, MobilityPanel } from "./mobility";
-import type { Model } from "./model";
 import { hintOf, KEYS, NEEDED, palette, type Tool, withTool } from "./palette";
 import { placesPanel } from "./places";
 import { type Aim, type Chosen, GRIP, isPicture, type Plane, planePicture, spotAt } from "./plane";
@@ -32,6 +20,7 @@ import { WAYS } from "./pointer";
 import type { Pair } from "./rows";
 import { zoomButtons } from "./shell";
 import { extentOf, starters } from "./starters";
+import { openDrawn } from "./taken";
 import type { Page, View } from "./view";
 import { type Box, Viewport } from "./viewport";
 
@@ -86,10 +75,9 @@ export class BuildView implements View, Plane, Drawn {
   #resize(): void {
     const { width, height } = this.root.getBoundingClientRect();
     if (!width) return;
-    const first = this.viewport.width < 2;
     Object.assign(this.viewport, { width, height });
     this.root.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    if (first) this.fit();
+    if (this.viewport.fitted) this.fit();
     else this.#draw();
   }
 
@@ -138,26 +126,20 @@ export class BuildView implements View, Plane, Drawn {
     this.#offer();
   }
 
-  get linkage() {
-    return this.page.linkage;
-  }
-
   /** What can be begun with, while the plane is empty. */
   #offer(): void {
-    renew(this.#starters, ...(this.drawing.knots.length ? [] : starters(this)));
+    renew(this.#starters, ...(this.drawing.knots.length ? [] : starters(this, this.page.linkage)));
   }
 
-  begin(drawing: Drawing, known = false): void {
+  begin(drawing: Drawing, known = false, tool: Tool = "move"): void {
     this.change(drawing);
     if (known) this.#known = drawing;
-    this.#take("move");
+    this.#take(tool);
     this.fit();
   }
 
   empty(): void {
-    this.change(EMPTY);
-    this.#take("ground");
-    this.fit();
+    this.begin(EMPTY, false, "ground");
   }
 
   #take(tool: Tool): void {
@@ -390,7 +372,7 @@ export class BuildView implements View, Plane, Drawn {
 
   moves(): boolean {
     const { drawing } = this;
-    const fresh = drawing !== this.#known || (this.#made && this.linkage !== this.#made);
+    const fresh = drawing !== this.#known || (this.#made && this.page.linkage !== this.#made);
     if (!fresh || this.mobility.moving !== drawing) return false;
     void this.move();
     return true;
@@ -399,12 +381,8 @@ export class BuildView implements View, Plane, Drawn {
   async move(): Promise<void> {
     this.#known = this.drawing;
     try {
-      const { title } = this.drawing;
-      const shown = title === undefined ? traced(this.drawing) : this.drawing;
-      const question = { document: documentOfDrawing(shown), name: title ?? t("A drawn mechanism") };
-      const model = await this.page.ask<Model>("open_document", question);
-      this.page.open({ ...model, changed: title !== undefined });
-      this.#made = this.linkage;
+      await openDrawn(this.page, this.drawing);
+      this.#made = this.page.linkage;
     } catch (error) {
       this.page.say((error as Error).message);
     }

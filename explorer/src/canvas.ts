@@ -1,5 +1,6 @@
 /** The canvas over the bodies: curves of points, centrodes, hodographs. */
 
+import { DEGREE } from "./cycle";
 import { clearAbout } from "./hull";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
@@ -76,7 +77,7 @@ export class Painter {
     pen.font = "12px system-ui, sans-serif";
     pen.textAlign = "center";
     const arrows = targets.map(([x, y, degrees]) => {
-      const phi = ((degrees ?? 0) * Math.PI) / 180;
+      const phi = (degrees ?? 0) * DEGREE;
       const [u, v] = viewport.screen(x, y);
       return [6, degrees === undefined ? 6 : 26].map((far): Pair => [u + far * Math.cos(phi), v - far * Math.sin(phi)]);
     });

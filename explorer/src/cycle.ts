@@ -7,6 +7,7 @@ import type { Sizes } from "./sizes";
 import { Status } from "./status";
 
 export const TURN = 2 * Math.PI;
+export const DEGREE = TURN / 360;
 const MOST_TURNS = 8;
 const MOST_WITH_WHEELS = 40;
 const BACK = 1e-7; // how near a linkage is to where it was, after whole turns

@@ -1,5 +1,6 @@
 /** The designs that the library found, as cards in an order; each plays when it is pointed at. */
 
+import { DEGREE } from "./cycle";
 import { h, menu, renew, thumbnail } from "./dom";
 import type { Moving } from "./ghost";
 import { angle, currentLanguage, number, spaced, t } from "./language";
@@ -195,7 +196,7 @@ export class DesignCards {
 
   #card(design: Design): HTMLElement {
     const { form, lengths, range, shift, transmission, error, size } = design;
-    const degrees = (mu: number | null | undefined) => typeof mu === "number" && angle((mu * Math.PI) / 180, 3);
+    const degrees = (mu: number | null | undefined) => typeof mu === "number" && angle(mu * DEGREE, 3);
     const [way, all] = [transmission, range].map(degrees);
     const names = design.names[currentLanguage()]!;
     const value = error === null || exact(error) ? 0 : 100 * error;

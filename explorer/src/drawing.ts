@@ -3,6 +3,8 @@
 
 import type { Backdrop } from "./backdrop";
 import type { Beside } from "./beside";
+import { DEGREE } from "./cycle";
+import { away, middleOf, onLine } from "./hull";
 import { t } from "./language";
 import type { LinkageDocument } from "./model";
 import type { Pair } from "./rows";
@@ -18,7 +20,7 @@ export interface Knot {
   /** Of gears: where on the line of centres they touch, as a part of the distance; beyond a centre the teeth of the
    * other wheel are internal. */
   readonly part?: number;
-  /** Of an open end: what the point of its link is called. */
+  /** What it was called in the linkage that was taken over; an open end as the point of its link. */
   readonly name?: string;
 }
 
@@ -63,10 +65,16 @@ export function jointsOf({ knots }: Drawing): number[] {
   return [...knots.keys()].filter((k) => knots[k]!.links.length > 1);
 }
 
-/** What a knot is called, so that its name is not taken for that of a link: A to Z, then A1. */
+/** What a knot is called, so that its name is not taken for that of a link: A to Z, then A1; not as another one. */
 export function knotName({ knots }: Drawing, number: number): string {
-  const round = Math.floor(number / 26);
-  return knots[number]!.name ?? String.fromCharCode(65 + (number % 26)) + (round || "");
+  const { name } = knots[number]!;
+  const taken = new Set(knots.map((knot) => knot.name));
+  let before = knots.slice(0, number).filter((knot) => !knot.name).length;
+  for (let k = 0; !name; k++) {
+    const letter = String.fromCharCode(65 + (k % 26)) + (Math.floor(k / 26) || "");
+    if (!taken.has(letter) && !before--) return letter;
+  }
+  return name;
 }
 
 /** Whether two spots or knots are at the same place. */
@@ -270,25 +278,24 @@ export function driven(drawing: Drawing, number: number): Drawing {
 export function lengthsOf(drawing: Drawing): number[] {
   return linksOf(drawing).flatMap((link) => {
     const [one, two, three] = drawing.knots.filter((knot) => knot.links.includes(link) && isPin(knot));
-    return one && two && !three ? [Math.hypot(two.at[0] - one.at[0], two.at[1] - one.at[1])] : [];
+    return one && two && !three ? [away(one.at, ...two.at)] : [];
   });
 }
 
-/** With a point whose curve is shown, beside the longest link that is not on the frame; as it is if there is one. */
+/** With a point whose curve is shown, in the middle of a link that is not on the frame: of one beside a drive, else of
+ * the first; as it is if there is a point. */
 export function traced(drawing: Drawing): Drawing {
-  const { frame, knots } = drawing;
+  const { drives, frame, knots } = drawing;
   if (knots.some(({ links }) => !links[1] && links[0] !== frame)) return drawing;
-  let [made, most] = [drawing, 0];
-  for (const link of linksOf(drawing)) {
-    const pins = knots.filter((knot) => isPin(knot) && knot.links.includes(link));
-    if (pins.some(({ links }) => links.includes(frame!))) continue;
-    const [[x, y], [u, v]] = [pins[0]?.at ?? [0, 0], pins.at(-1)?.at ?? [0, 0]];
-    const [dx, dy] = [u - x, v - y];
-    if (Math.hypot(dx, dy) <= most) continue;
-    most = Math.hypot(dx, dy);
-    made = { ...drawing, knots: [...knots, { at: [x + dx / 2 - 0.4 * dy, y + dy / 2 + 0.4 * dx], links: [link] }] };
-  }
-  return made;
+  const pinsOf = (one: string) => knots.filter((knot) => isPin(knot) && knot.links.includes(one));
+  const meets = (one: string, others: readonly string[]) =>
+    pinsOf(one).some(({ links }) => others.some((other) => links.includes(other)));
+  const afloat = linksOf(drawing).filter((one) => pinsOf(one)[1] && !meets(one, [frame!]));
+  const driving = drives.flatMap((k) => knots[k]!.links);
+  const carrier = afloat.find((one) => meets(one, driving)) ?? afloat[0];
+  if (!carrier) return drawing;
+  const at = middleOf(pinsOf(carrier).map((knot) => knot.at));
+  return { ...drawing, knots: [...knots, { at, links: [carrier], name: "K1" }] };
 }
 
 /** What a joint is called in the text of the chain. */
@@ -310,15 +317,9 @@ function driveName(drawing: Drawing, number: number): string {
 export function documentOfDrawing(drawing: Drawing): LinkageDocument {
   const joints = jointsOf(drawing);
   const name = (k: number) => jointName(drawing, k);
-  const ends = drawing.knots.filter(
-    ({ links, name: own }) => links.length === 1 && (own || links[0] !== drawing.frame),
+  const ends = [...drawing.knots.entries()].filter(
+    ([, { links, name: own }]) => !links[1] && (own || links[0] !== drawing.frame),
   );
-  const taken = new Set(ends.map((end) => end.name));
-  let number = 1;
-  const another = () => {
-    while (taken.has(`K${number}`)) number++;
-    return `K${number++}`;
-  };
   const beside = {
     ...drawing.beside,
     ...(drawing.picture && drawing.keeps && { picture: drawing.picture }),
@@ -333,16 +334,25 @@ export function documentOfDrawing(drawing: Drawing): LinkageDocument {
     page: beside,
     places: Object.fromEntries(
       joints.map((k) => {
-        return [name(k), placeOf(drawing.knots[k]!)];
+        return [name(k), placeOf(drawing, drawing.knots[k]!)];
       }),
     ),
-    points: Object.fromEntries(ends.map((end) => [end.name ?? another(), { link: end.links[0]!, at: [...end.at] }])),
+    points: Object.fromEntries(
+      ends.map(([k, { at, links }]) => [knotName(drawing, k), { link: links[0]!, at: [...at] }]),
+    ),
   };
 }
 
 /** Where a joint lies, as the document has it: a pin, a slide with its direction, two wheels with their radii. */
-function placeOf({ at, between, links, part, slide }: Knot): unknown {
-  if (!between) return slide === undefined ? [...at] : [...at, slide];
+function placeOf({ drives, frame, knots }: Drawing, { at, between, links, part, slide }: Knot): unknown {
+  if (slide !== undefined) {
+    // on the ground its way is counted from beside the pivot of the drive
+    const pivot = knots[drives[0]!];
+    const along: Pair = [at[0] + Math.cos(slide * DEGREE), at[1] + Math.sin(slide * DEGREE)];
+    const grounded = pivot && [pivot.links, links].every((one) => one.includes(frame!));
+    return [...(grounded ? onLine(at, along, pivot.at) : at), slide];
+  }
+  if (!between) return [...at];
   const [from, to] = between;
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
   if (part === undefined) return [...from, (Math.atan2(dy, dx) * 180) / Math.PI];

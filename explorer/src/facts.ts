@@ -1,15 +1,15 @@
 /** What is read off in the pose that is shown and over the cycle: names and values, good or bad. */
 
-import { TURN, wrapped } from "./cycle";
+import { DEGREE, TURN, wrapped } from "./cycle";
 import { angle, number, t } from "./language";
 import type { Linkage } from "./linkage";
-import { type DeadCentre, type Least, output, transmission } from "./measures";
+import { type DeadCentre, isAngle, type Least, output, transmission } from "./measures";
 import { readingsOf } from "./rulers";
 import { driveText } from "./track";
-import { placeOf, rateUnit } from "./wording";
+import { placeOf, rateUnit, transferName } from "./wording";
 
 /** From here on a transmission angle is good. */
-const GOOD = (40 / 180) * Math.PI;
+const GOOD = 40 * DEGREE;
 
 export interface Fact {
   name: string;
@@ -30,14 +30,14 @@ export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap:
   const { cycle, model, pose } = linkage;
   const facts: Fact[] = [];
   const record = model.outputs[0];
-  const turning = record?.joint === null;
+  const turning = isAngle(linkage);
   const size = (value: number) => (turning ? angle(value) : `${number(value, 4)} ${model.unit}`);
   if (record) {
     const value = output(linkage, pose, 0);
     const text = size(turning ? inLap(value) : value);
     facts.push({ name: t("Output {name}", { name: linkage.linkName(record.link) }), text });
     facts.push({
-      name: t("Velocity by the drive"),
+      name: transferName(linkage, 1),
       text: number(Math.round(1e12 * output(linkage, pose, 0, 1)) / 1e12, 4), // below is rounding
       note: rateUnit(linkage, 1),
     });
@@ -55,7 +55,7 @@ export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap:
     if (least) {
       const place = driveText(linkage, placeOf(linkage, least.value), 4);
       // of four links it is no question which one pushes
-      const link = least.link !== null && model.own > 4 && linkage.linkName(least.link);
+      const link = model.own > 4 && least.leg?.links.map((one) => linkage.linkName(one)).join(", ");
       const note = link ? t("at {place}, link {link}", { place, link }) : t("at {place}", { place });
       facts.push({ name: t("Smallest μ"), text: angle(least.mu), note, style: least.mu < GOOD ? "bad" : "good" });
     }

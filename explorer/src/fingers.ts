@@ -1,6 +1,7 @@
 /** What pointers do to a picture: where they are, how long they are down, the wheel, two fingers. */
 
 import { ownPage } from "./dom";
+import { away } from "./hull";
 import type { Pair } from "./rows";
 import type { Viewport } from "./viewport";
 
@@ -60,10 +61,10 @@ export class Fingers {
     if (!before) return false;
     this.#places.set(id, now);
     if (!other) return false;
-    const wide = Math.hypot(before[0] - other[0], before[1] - other[1]);
+    const wide = away(before, ...other);
     if (!(wide > 1)) return true;
     viewport.pan((now[0] - before[0]) / 2, (now[1] - before[1]) / 2);
-    const far = Math.hypot(now[0] - other[0], now[1] - other[1]);
+    const far = away(now, ...other);
     viewport.zoom(far / wide, (now[0] + other[0]) / 2, (now[1] + other[1]) / 2);
     return true;
   }

@@ -2,6 +2,7 @@
 
 import { groundMark, mark } from "./area";
 import { put, renew, svg, wantsStill } from "./dom";
+import { away } from "./hull";
 import type { Pair } from "./rows";
 import { DRIVEN } from "./scene";
 
@@ -57,8 +58,7 @@ export class Ghost {
       .slice(joints, points && joints + points)
       .map((_, k) => svg("path.curve", { d: `${pathOf(frames.map((frame) => frame[joints + k]!))}Z` }));
     const pins = first.slice(0, joints).map(() => svg("circle.joint", { r: 1.5 * unit }));
-    const still = (k: number) =>
-      frames.every((frame) => Math.hypot(frame[k]![0] - first[k]![0], frame[k]![1] - first[k]![1]) < 1e-3 * unit);
+    const still = (k: number) => frames.every((frame) => away(frame[k]!, ...first[k]!) < 1e-3 * unit);
     const grounds = pins.flatMap((_, k) => (still(k) ? [groundMark(first[k]!, unit)] : []));
     const hatched = (k: number) => (still(k) ? ["rail", "rail-hatch"] : ["rail"]).map((name) => svg(`path.${name}`));
     const bodies = [...rails.map(([end]) => hatched(end!)), ...bodiesOf(members)];

@@ -20,9 +20,10 @@ export function stepOf({ scale }: Viewport): number {
   return gridStep(70 / scale);
 }
 
-/** Lines, numbers along the left edge and in a row at a height, and the unit in their corner. */
-export function gridOf(viewport: Viewport, unit: string, foot: number): SVGElement[] {
+/** Lines, numbers along the left and the lower edge, and the unit in their corner. */
+export function gridOf(viewport: Viewport, unit: string): SVGElement[] {
   const { width, height } = viewport;
+  const foot = height - 8;
   const step = stepOf(viewport);
   const numbers = [svg("text.tick", { x: 6, y: foot }, unit)];
   const [left, top] = viewport.world(0, 0);

@@ -70,6 +70,19 @@ export function spotsAbout([x, y]: Pair, far: number, room = 0): Pair[] {
   });
 }
 
+/** The place on the line through two others that is the nearest to a third. */
+export function onLine([x, y]: Pair, [u, v]: Pair, [p, q]: Pair): Pair {
+  const [dx, dy] = [u - x, v - y];
+  const part = ((p - x) * dx + (q - y) * dy) / (dx * dx + dy * dy);
+  return [x + part * dx, y + part * dy];
+}
+
+/** The middle of places. */
+export function middleOf(places: readonly Pair[]): Pair {
+  const mean = (axis: 0 | 1) => places.reduce((sum, at) => sum + at[axis], 0) / (places.length || 1);
+  return [mean(0), mean(1)];
+}
+
 /** How far a place is from another. */
 export function away([px, py]: Pair, x: number, y: number): number {
   return Math.hypot(px - x, py - y);

@@ -1,6 +1,6 @@
 /** What is measured of a linkage: its output, dead centres, transmission angle, poles. */
 
-import { principal, TURN } from "./cycle";
+import { principal, TURN, wrapped } from "./cycle";
 import type { Rows } from "./kernel";
 import type { Linkage } from "./linkage";
 import type { Leg, Model, Place } from "./model";
@@ -9,6 +9,7 @@ import { direction, leastRoot, origin, type Pair, place, rate, turn } from "./ro
 const STILL = 1e-9; // of the natural speed: an output that is never faster does not move
 const NOISE = 1e-6; // radians, or sizes: what moves less does not move, as in the plots of Python
 const CHANGE = 1e-5; // below this root, next to a change point, velocities have no sign
+const SAME_ANGLE = 1e-8; // radians: of equal ones rounding chooses none
 const GOLDEN = 0.6180339887498949;
 
 export interface DeadCentre {
@@ -22,12 +23,17 @@ interface Low {
   mu: number;
 }
 
-/** The smallest one, with the link that pushes there; null if it is the same throughout. */
+/** The smallest one, with the leg that pushes there; null if it is the same throughout. */
 export interface Least extends Low {
-  link: number | null;
+  leg: Leg | null;
 }
 
 // --- the output ------------------------------------------------------------------------------------------------------
+
+/** Whether the output is an angle, and not a way. */
+export function isAngle({ model }: Linkage): boolean {
+  return model.outputs[0]?.joint === null;
+}
 
 /** The output, or its first or second derivative by the drive, in a row. */
 export function output({ model, sizes }: Linkage, rows: Rows, row: number, order = 0): number {
@@ -62,9 +68,9 @@ export function output({ model, sizes }: Linkage, rows: Rows, row: number, order
 /** The output, or a derivative by the drive, at rows of the cycle that follow one another. An angle has no jumps, and
  * lies between -180° and 180° where the cycle was found, as the library measures it from a reference pose. */
 export function outputAlong(linkage: Linkage, rows: readonly number[], order = 0): Float64Array {
-  const { cycle, model } = linkage;
+  const { cycle } = linkage;
   const values = valuesOf(rows, (row) => output(linkage, cycle.rows, row, order));
-  return order || model.outputs[0]?.joint !== null ? values : unwrapped(values, rows.indexOf(cycle.home));
+  return order || !isAngle(linkage) ? values : unwrapped(values, rows.indexOf(cycle.home));
 }
 
 /** A value of each of some rows. */
@@ -76,7 +82,7 @@ export function valuesOf(rows: readonly number[], f: (row: number) => number): F
 
 /** Whether the output, whose values over the cycle are given, keeps its angle or its place, but for rounding. */
 export function outputStandsStill(linkage: Linkage, values: Float64Array): boolean {
-  const size = linkage.model.outputs[0]?.joint === null ? 1 : linkage.sizes.unit;
+  const size = isAngle(linkage) ? 1 : linkage.sizes.unit;
   let [low, high] = [Infinity, -Infinity];
   for (const value of values) [low, high] = [Math.min(low, value), Math.max(high, value)];
   return high - low < NOISE * size;
@@ -95,20 +101,19 @@ export function unwrapped(values: Float64Array, home: number): Float64Array {
 
 // --- the transmission angle ------------------------------------------------------------------------------------------
 
-/** The transmission angle, at most pi/2; with several legs the smallest; NaN where there is none. */
+/** The transmission angle, at most pi/2: of the legs on the way from the drive to the output the smallest one; NaN
+ * where there is none. */
 export function transmission(linkage: Linkage, rows: Rows, row: number): number {
-  return leastOfLegs(linkage, (leg) => forceAndWay(linkage, rows, row, leg))[0];
+  const angles = legsOf(linkage).map((leg) => between(forceAndWay(linkage, rows, row, leg)));
+  return angles.length ? Math.min(...angles) : NaN;
 }
 
-/** The smallest of the angles of the legs, whose cosines and sines are given, and the link of that leg. */
-function leastOfLegs({ model }: Linkage, cosineAndSine: (leg: Leg) => Pair): [number, number | null] {
-  const legs = model.outputs[0]?.legs ?? [];
-  const angles = legs.map((leg) => {
-    const [real, imag] = cosineAndSine(leg);
-    return Math.atan2(Math.abs(real), Math.abs(imag));
-  });
-  const mu = angles.length ? Math.min(...angles) : NaN;
-  return [mu, legs[angles.indexOf(mu)]?.from[0] ?? null];
+function legsOf({ model }: Linkage): readonly Leg[] {
+  return model.outputs[0]?.legs ?? [];
+}
+
+function between([real, imag]: Pair): number {
+  return Math.atan2(Math.abs(real), Math.abs(imag));
 }
 
 /** Cosine and sine between the force of a leg and the way of the point on which it acts. */
@@ -176,8 +181,8 @@ export function deadCentres(linkage: Linkage): DeadCentre[] {
   const speed = [...outputAlong(linkage, every, 1)];
   const usual = Math.max(0, ...speed.map((v) => (Number.isFinite(v) ? Math.abs(v) : 0)));
   const out: DeadCentre[] = [];
-  const { drive, model, size } = linkage;
-  const natural = (model.outputs[0]?.joint === null ? 1 : size) / (drive?.turning ? 1 : size);
+  const { drive, size } = linkage;
+  const natural = (isAngle(linkage) ? 1 : size) / (drive?.turning ? 1 : size);
   if (!(usual > STILL * natural)) return out;
   const still = 1e-9 * usual;
   const outputs = outputAlong(linkage, every);
@@ -188,7 +193,7 @@ export function deadCentres(linkage: Linkage): DeadCentre[] {
       const found = turningBack(linkage, values[last]!, values[row]!, last);
       if (found !== null) {
         // in the lap of the row beside it, so that the difference of two angles is how far the output goes
-        if (model.outputs[0]?.joint === null) found.output = outputs[last]! + principal(found.output - outputs[last]!);
+        if (isAngle(linkage)) found.output = outputs[last]! + principal(found.output - outputs[last]!);
         out.push(found);
       }
     }
@@ -206,7 +211,7 @@ export function goesRound({ cycle, model }: Linkage, along: Float64Array): boole
 export function travelOf(linkage: Linkage, dead: readonly DeadCentre[]): number | null {
   const { cycle, model } = linkage;
   if (!model.outputs[0] || cycle.values.length < 2) return null;
-  const turning = model.outputs[0].joint === null;
+  const turning = isAngle(linkage);
   const last = cycle.values.length - 1;
   const along = outputAlong(linkage, [...cycle.values.keys()]);
   if (goesRound(linkage, along)) return null;
@@ -249,36 +254,45 @@ export function zero(f: (value: number) => number, from: number, to: number, fin
   return (a + b) / 2;
 }
 
-/** The smallest transmission angle over the cycle and where it is; at the ends of a range its limit counts. */
+/** The smallest transmission angle over the cycle and where it is first; at the ends of a range its limit counts. */
 export function leastTransmission(linkage: Linkage): Least | null {
-  if (!linkage.model.outputs[0]?.legs.length) return null;
-  const { values, rows, full, low, high } = linkage.cycle;
-  const angles = Array.from(values, (_, row) => transmission(linkage, rows, row));
+  const { cycle } = linkage;
+  const all = legsOf(linkage).map((leg) =>
+    Array.from(cycle.values, (_, row) => between(forceAndWay(linkage, cycle.rows, row, leg))),
+  );
+  const most = Math.min(...all.flat().filter(Number.isFinite));
+  const found = legsOf(linkage).flatMap((leg, k) => lowsOf(linkage, leg, all[k]!, most));
+  found.sort((one, other) => wrapped(cycle, one.value) - wrapped(cycle, other.value));
+  const least = Math.min(...found.map(({ mu }) => mu));
+  return found.find(({ mu }) => mu <= least + SAME_ANGLE) ?? null;
+}
+
+/** The smallest angles of a leg, whose angles in the rows of the cycle are given; those that are larger than one that
+ * is known already are left out. */
+function lowsOf(linkage: Linkage, leg: Leg, angles: readonly number[], most: number): Least[] {
+  const { values, full, low, high } = linkage.cycle;
   const known = angles.filter(Number.isFinite).sort(ascending);
-  if (!known.length) return null;
+  if (!known.length) return [];
   const median = known[known.length >> 1]!;
   const spread = known.map((one) => Math.abs(one - median)).sort(ascending);
-  if (spread[Math.floor(0.9 * (spread.length - 1))]! <= 1e-8) return { value: values[0]!, mu: median, link: null };
-  let [best, mu] = [-1, Infinity];
-  angles.forEach((now, row) => {
-    if (now < mu) [best, mu] = [row, now];
+  if (spread[Math.floor(0.9 * (spread.length - 1))]! <= 1e-8) return [{ value: values[0]!, mu: median, leg: null }];
+  const out: Least[] = [];
+  angles.forEach((mu, row) => {
+    const [one, other] = [Math.max(0, row - 1), Math.min(values.length - 1, row + 1)];
+    const [before, after] = [angles[one]!, angles[other]!];
+    // it can be less between the rows by what it differs from one to the other, at a corner
+    if (before < mu || after < mu || !(mu - Math.max(before - mu || 0, after - mu || 0) <= most)) return;
+    const angleAt = (value: number) => {
+      const pose = linkage.from(row, value);
+      return pose.reached < 2 ? Infinity : between(forceAndWay(linkage, pose, 1, leg));
+    };
+    const ends = smallest(angleAt, values[one]!, values[other]!, linkage.quick ? 14 : 40);
+    for (const found of [{ value: values[row]!, mu }, ...ends]) out.push({ ...found, leg });
   });
-  let found: Low = { value: values[best]!, mu };
-  const angleAt = (value: number) => {
-    const pose = linkage.from(best, value);
-    return pose.reached < 2 ? Infinity : transmission(linkage, pose, 1);
-  };
-  const next = [values[Math.max(0, best - 1)]!, values[Math.min(values.length - 1, best + 1)]!] as const;
-  for (const one of smallest(angleAt, ...next, linkage.quick ? 14 : 40)) if (one.mu < found.mu) found = one;
-  const pose = linkage.from(best, found.value);
-  let [, link] = leastOfLegs(linkage, (leg) => forceAndWay(linkage, pose, pose.reached - 1, leg));
-  if (!full && values.length > 2) {
-    for (const upper of [false, true]) {
-      const [end, pushing] = transmissionAtEnd(linkage, upper);
-      if (end < found.mu) [found, link] = [{ value: upper ? high : low, mu: end }, pushing];
-    }
-  }
-  return { ...found, link };
+  if (!full && values.length > 2)
+    for (const upper of [false, true])
+      out.push({ value: upper ? high : low, mu: transmissionAtEnd(linkage, upper, leg), leg });
+  return out.filter(({ mu }) => mu <= most);
 }
 
 function ascending(a: number, b: number): number {
@@ -310,27 +324,24 @@ function smallest(f: (value: number) => number, from: number, to: number, steps:
 
 /** The transmission angle at an end of the range, where poses are ill-conditioned: in t, with the drive at
  * middle - cos t times half the width, it is analytic and extrapolated from t up to 0.3 by a polynomial. */
-function transmissionAtEnd(linkage: Linkage, upper: boolean): [number, number | null] {
+function transmissionAtEnd(linkage: Linkage, upper: boolean, leg: Leg): number {
   const { values, low, high } = linkage.cycle;
   const half = (high - low) / 2;
   const nodes = 10;
   const row = upper ? values.length - 2 : 1;
-  return leastOfLegs(linkage, (leg) => {
-    let [re, im, sum] = [0, 0, 0];
-    for (let k = 0; k < nodes; k++) {
-      const angle = ((2 * k + 1) * Math.PI) / (2 * nodes);
-      const t = 0.15 * (1 - Math.cos(angle));
-      const from = half * 2 * Math.sin(t / 2) ** 2;
-      const rows = linkage.from(row, upper ? high - from : low + from);
-      if (rows.reached < 2) return [NaN, NaN];
-      const weight = ((k % 2 ? -1 : 1) * Math.sin(angle)) / t;
-      const [x, y] = forceAndWay(linkage, rows, 1, leg);
-      re += weight * x;
-      im += weight * y;
-      sum += weight;
-    }
-    return [re / sum, im / sum];
-  });
+  let [re, im] = [0, 0];
+  for (let k = 0; k < nodes; k++) {
+    const angle = ((2 * k + 1) * Math.PI) / (2 * nodes);
+    const t = 0.15 * (1 - Math.cos(angle));
+    const from = half * 2 * Math.sin(t / 2) ** 2;
+    const rows = linkage.from(row, upper ? high - from : low + from);
+    if (rows.reached < 2) return NaN;
+    const weight = ((k % 2 ? -1 : 1) * Math.sin(angle)) / t;
+    const [x, y] = forceAndWay(linkage, rows, 1, leg);
+    re += weight * x;
+    im += weight * y;
+  }
+  return between([re, im]);
 }
 
 // --- a link in the plane ---------------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ import {
   withLink,
   withoutLink,
 } from "./drawing";
-import { clearAbout, convexHull } from "./hull";
+import { clearAbout, convexHull, middleOf } from "./hull";
 import { spaced, t } from "./language";
 import type { Pair } from "./rows";
 import { extentOf } from "./starters";
@@ -67,7 +67,10 @@ export class MobilityPanel {
     const all = linksOf(drawing);
     const loose = all.find((link) => !jointsOf(drawing).some((k) => drawing.knots[k]!.links.includes(link)));
     if (frame === null || all.length < 3 || loose) {
-      let text = frame === null ? t("Put a ground") : t("Draw links, at least three.");
+      let text =
+        frame === null
+          ? t("Begin with an example, or place ground joints and join them by links.")
+          : t("A mechanism has at least three links.");
       if (frame !== null && all.length > 2) text = t("Link {link} has no joint yet.", { link: spaced(loose!) });
       return renew(this.element, ...(all.length ? [count] : []), h("p.note", {}, text));
     }
@@ -126,18 +129,19 @@ function endOf({ knots }: Drawing, link: string): number {
 
 /** A link between two others: from an open end, else from the middle of a link, and to the ground where nothing is. */
 function barred(drawing: Drawing, one: string, two: string): Drawing {
-  const placesOf = (link: string) => drawing.knots.filter(({ links }) => links.includes(link)).map(({ at }) => at);
+  const of = (link: string) => drawing.knots.filter(({ links }) => links.includes(link)).map(({ at }) => at);
   const { left, right, bottom, top } = extentOf(drawing);
-  const hulls = linksOf(drawing).flatMap((link) =>
-    link === drawing.frame ? placesOf(link).map((at) => [at]) : [convexHull(placesOf(link))],
-  );
+  const hulls = [
+    ...drawing.knots.map(({ at }) => [at]),
+    ...linksOf(drawing).flatMap((link) => (link === drawing.frame ? [] : [convexHull(of(link))])),
+  ];
   const place = (link: string, near?: Pair): Spot => {
     const end = endOf(drawing, link);
-    const mine = placesOf(link);
     if (end >= 0) return { at: drawing.knots[end]!.at, knot: end, link: null };
-    const middle = ([0, 1] as const).map((axis) => mine.reduce((sum, at) => sum + at[axis], 0) / mine.length) as Pair;
-    const free = () => clearAbout(near ?? middle, 0.4 * Math.max(right - left, top - bottom), hulls);
-    return { at: link === drawing.frame || !convexHull(mine)[1] ? free() : middle, knot: null, link };
+    const middle = middleOf(of(link));
+    const apart = link === drawing.frame || !convexHull(of(link))[1];
+    const far = 0.4 * Math.max(right - left, top - bottom);
+    return { at: apart ? clearAbout(near ?? middle, far, hulls) : middle, knot: null, link };
   };
   const from = place(one);
   return withLink(drawing, from, place(two, from.at));

@@ -28,6 +28,8 @@ export type Place = [number, number, number, number, number, number];
 
 /** A link that pushes another: across a slide, or from one pin along the line to the other. */
 export interface Leg {
+  /** What pushes: a link, or a body of several. */
+  links: number[];
   from: Place;
   across: boolean;
   pin: Place;

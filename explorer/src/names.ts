@@ -1,6 +1,6 @@
 /** Where the name of a link stands: in its body if that has room, else beside it. */
 
-import { convexHull, toHull } from "./hull";
+import { convexHull, away as distance, middleOf, toHull } from "./hull";
 import type { Pair } from "./rows";
 import type { Viewport } from "./viewport";
 
@@ -29,14 +29,14 @@ export function halfOf(name: string): number {
  * Where the body has no room, the name stands beside the longest side of it between joints. */
 export function namePlace(joints: readonly Pair[], points: readonly Pair[], name: string, scale: number): NamePlace {
   const hull = convexHull([...joints, ...points]);
-  const mean = [0, 1].map((axis) => hull.reduce((sum, p) => sum + p[axis]!, 0) / hull.length) as Pair;
+  const mean = middleOf(hull);
   if (hull.length < 2) return { at: mean, away: [0, 1] };
   const sides = hull.map((one, k) => [one, hull[(k + 1) % hull.length]!]);
   const room = (halfOf(name) + ROOM) / scale;
   if (sides.every((one) => toHull(one, ...mean) > room)) return { at: mean, away: null };
   const isJoint = (p: Pair) => joints.some((one) => one[0] === p[0] && one[1] === p[1]);
   const between = sides.filter((one) => one.every(isJoint));
-  const long = ([p, q]: Pair[]) => Math.hypot(q![0] - p![0], q![1] - p![1]);
+  const long = ([p, q]: Pair[]) => distance(q!, ...p!);
   const side = (between.length ? between : sides).reduce((a, b) => (long(b) > 1.001 * long(a) ? b : a));
   const [[x, y], [u, v]] = side as [Pair, Pair];
   return {

@@ -48,7 +48,7 @@ async function read(file: File, page: Page): Promise<Content> {
   }
   const document = jsonOf(await file.text());
   if (document?.reference_pose && isOf(page.shown, document)) return { document };
-  throw new Error(t("This page alone opens its own mechanism, saved as JSON. Others: gruebler explore FILE"));
+  throw new Error(t("This page alone opens its own mechanism as JSON. Others: gruebler explore FILE"));
 }
 
 /** Open what is dropped on the page. */

@@ -86,13 +86,13 @@ export function palette(chosen: Tool, take: (tool: Tool) => void): HTMLElement[]
 /** What is to be done with a tool. */
 export function hintOf(tool: Tool): (Node | string)[] {
   const hints: Record<Tool, string> = {
-    move: t("Drag joints; choose a joint or a link to change it."),
-    ground: t("Place it, on a joint too."),
-    slider: t("Place it, on a joint too."),
+    move: t("Drag joints; click a joint or link to edit it."),
+    ground: t("Click on the plane or on a joint."),
+    slider: t("Click on the plane or on a joint."),
     link: t("Place joint after joint, or drag from end to end."),
     cylinder: t("Place both ends, or drag from end to end."),
     dyad: t("Place an end, the middle, the other end."),
-    gears: t("Place both centres, then where they touch; beyond a centre one is a ring."),
+    gears: t("Place both centres, then the point of contact: beyond a centre for a ring gear."),
   };
   return [h("b", {}, nameOf(tool)), " ", hints[tool]];
 }

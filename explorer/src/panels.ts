@@ -5,6 +5,7 @@ import { digits, showDigits } from "./digits";
 import { applyDocument, documentOf } from "./document";
 import { h, renew } from "./dom";
 import { type Dragging, type Length, LONGEST } from "./dragging";
+import { middleOf } from "./hull";
 import { icon } from "./icons";
 import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
@@ -180,8 +181,8 @@ export function pointsPanel(editor: Editor): HTMLElement {
   const link = linkMenu(editor, t("Link of a new point"));
   const add = () => {
     const mine = linkage.sizes.elementsOn(shown.link).map((k) => linkage.elementAt(k));
-    const mean = (axis: 0 | 1) => mine.reduce((sum, p) => sum + p[axis], 0) / (mine.length || 1);
-    editor.addPoint(shown.link, mean(0), mean(1) + 0.3 * linkage.size);
+    const [x, y] = middleOf(mine);
+    editor.addPoint(shown.link, x, y + 0.3 * linkage.size);
     editor.stage.fit();
   };
   return h(
@@ -189,7 +190,7 @@ export function pointsPanel(editor: Editor): HTMLElement {
     {},
     h("div.point-rows", {}, ...rows),
     h("div.form", {}, link, h("button.plain", { "data-act": "add-point", onclick: add }, t("Add a point"))),
-    h("p.note", {}, t("Click twice to put a point on a link, else on this one.")),
+    h("p.note", {}, t("Double-click a link to place a point on it.")),
   );
 }
 

@@ -1,10 +1,11 @@
 /** The plane on which a mechanism is drawn: its picture, with a grid. */
 
 import { type Backdrop, backdropElement, cornersOf, gripsOf, putBackdrop } from "./backdrop";
+import { DEGREE } from "./cycle";
 import { svg } from "./dom";
 import { type Drawing, isPin, type Knot, knotName, lengthsOf, linksOf, type Spot, same, unitOf } from "./drawing";
 import { gridOf, stepOf } from "./grid";
-import { away, clearAbout, convexHull, nearest, toHull } from "./hull";
+import { away, clearAbout, convexHull, nearest, onLine, toHull } from "./hull";
 import { angle, number, spaced } from "./language";
 import { clearSpot, halfOf, namePlace, nameSpots } from "./names";
 import type { Pair } from "./rows";
@@ -41,13 +42,6 @@ export function isPicture(chosen: Chosen | null): boolean {
 export function outlineOf({ drawing, viewport }: Pick<Plane, "drawing" | "viewport">, link: string): Pair[] {
   const mine = drawing.knots.filter((knot) => knot.links.includes(link) && isPin(knot));
   return convexHull(mine.map(({ at }) => viewport.screen(...at)));
-}
-
-/** The place on the line through two others that is the nearest to a third. */
-function onLine([x, y]: Pair, [u, v]: Pair, [p, q]: Pair): Pair {
-  const [dx, dy] = [u - x, v - y];
-  const part = ((p - x) * dx + (q - y) * dy) / (dx * dx + dy * dy);
-  return [x + part * dx, y + part * dy];
 }
 
 /** What is at a pixel: a knot, a link, else a place, which snaps and is level or upright if that is wanted; one knot is
@@ -197,7 +191,7 @@ function alongEnds({ between, part }: Knot, scale: number): SVGElement {
   const [[x, y], [u, v]] = between!;
   const [dx, dy] = [u - x, v - y];
   const long = Math.hypot(dx, dy) * scale;
-  const turned = svg("g", { transform: `rotate(${(-Math.atan2(dy, dx) * 180) / Math.PI})` });
+  const turned = svg("g", { transform: `rotate(${-Math.atan2(dy, dx) / DEGREE})` });
   if (part === undefined)
     turned.append(
       svg("path.bar", { d: `M0 0H${long / 2}` }),
@@ -232,12 +226,12 @@ function knotElement({ chosen, drawing, viewport }: Plane, k: number, at: Pair):
 
 /** The grid, and a bar as long as a step. */
 function grid({ drawing, viewport }: Plane): SVGElement[] {
-  const { width, height } = viewport;
+  const { width } = viewport;
   const unit = unitOf(drawing);
   const right = width - 64; // beside the buttons
   const step = stepOf(viewport);
   const long = step * viewport.scale;
   const d = `M${right - long} 24v6h${long}v-6`;
   const told = svg("text.tick", { x: right - long / 2, y: 22, "text-anchor": "middle" }, `${number(step)} ${unit}`);
-  return [...gridOf(viewport, unit, height - 8), svg("path.scale", { d }), told];
+  return [...gridOf(viewport, unit), svg("path.scale", { d }), told];
 }

@@ -1,17 +1,17 @@
 /** The plots of a linkage over its drive. */
 
-import { type Cycle, TURN, wrapped } from "./cycle";
+import { type Cycle, DEGREE, TURN, wrapped } from "./cycle";
 import { h, renew } from "./dom";
 import { type Icon, icon } from "./icons";
 import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
-import { goesRound, outputAlong, outputStandsStill, transmission, valuesOf } from "./measures";
+import { goesRound, isAngle, outputAlong, outputStandsStill, transmission, valuesOf } from "./measures";
 import type { OutputRecord } from "./model";
 import { Plot, type Series } from "./plot";
 import { place } from "./rows";
 import { Span } from "./span";
 import { whole } from "./waiting";
-import { lengthUnit, rateUnit } from "./wording";
+import { inBrackets, lengthUnit, rateUnit, transferName } from "./wording";
 
 /** The rows of a cycle in the order in which they are plotted, with their drive values. */
 export interface Lap {
@@ -51,11 +51,13 @@ export class Plots {
     const series = record ? outputSeries(linkage, record) : [];
     for (const { name, link, at } of sizes.points)
       series.push(({ rows }) => ({
-        title: t("Speed of {name} by the drive", { name: linkage.pointName(name) }) + rateUnit(linkage, 1, false),
+        title:
+          t("Speed of {name} by the drive", { name: linkage.pointName(name) }) +
+          inBrackets(rateUnit(linkage, 1, false)),
         colour: "--ink",
         values: valuesOf(rows, (row) => Math.hypot(...place(linkage.cycle.rows, row, link, ...at, 1))),
       }));
-    const unit = drive?.turning ? TURN / 360 : 1;
+    const unit = drive?.turning ? DEGREE : 1;
     this.parts = series.map((make) => ({ plot: new Plot(unit, this.pick, this.#span), make }));
     const note = record?.note[currentLanguage()];
     const notes = note ? [h("p.note", {}, note)] : [];
@@ -174,15 +176,15 @@ function inTurn(angle: number): number {
 }
 
 function degrees(angle: number): number {
-  return (angle * 360) / TURN;
+  return angle / DEGREE;
 }
 
 function outputSeries(linkage: Linkage, record: OutputRecord): Making[] {
-  const turning = record.joint === null;
+  const turning = isAngle(linkage);
   const name = linkage.linkName(record.link);
   const same = 1e-9 * (turning ? 1 : linkage.size);
   const angle: Making = ({ output, round }) => ({
-    title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${lengthUnit(linkage.model)}]`),
+    title: t("Output {name}", { name }) + inBrackets(turning ? "°" : lengthUnit(linkage.model)),
     colour: "--motion",
     values: turning ? output.map(degrees) : output,
     marks: record.marks,
@@ -190,13 +192,13 @@ function outputSeries(linkage: Linkage, record: OutputRecord): Making[] {
     turn: round ? 360 : 0,
   });
   const velocity: Making = ({ rows }) => ({
-    title: t("Its velocity by the drive") + rateUnit(linkage, 1),
+    title: transferName(linkage, 1) + inBrackets(rateUnit(linkage, 1)),
     colour: "--green",
     values: outputAlong(linkage, rows, 1),
     same,
   });
   const acceleration: Making = ({ rows }) => ({
-    title: t("Its acceleration by the drive") + rateUnit(linkage, 2),
+    title: transferName(linkage, 2) + inBrackets(rateUnit(linkage, 2)),
     colour: "--purple",
     values: outputAlong(linkage, rows, 2),
     same,

@@ -199,7 +199,7 @@ export class Pointer {
       if (next.pointerId !== first.pointerId) return;
       latest = pixelIn(this.#board.root, next);
       this.#shift = next.shiftKey;
-      far = Math.max(far, Math.hypot(latest[0] - start[0], latest[1] - start[1]));
+      far = Math.max(far, away(latest, ...start));
       mine.at = latest;
       frame ||= requestAnimationFrame(flush);
     };

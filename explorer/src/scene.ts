@@ -211,7 +211,7 @@ export class Scene {
       [this.#forceArrows(linkage, shown), "N"],
       ...([1, 2] as const).map((k): [Vector[], string] => {
         const wanted = k === 1 ? shown.velocities : shown.accelerations;
-        return [this.#vectors(linkage, k, wanted), rateUnit(linkage, k, false).replace(/[[\]]/g, "")];
+        return [this.#vectors(linkage, k, wanted), rateUnit(linkage, k, false)];
       }),
     ];
     const arrows = kinds.flatMap(([all]) =>
@@ -245,7 +245,9 @@ export class Scene {
       const { element, half, begins, name, spots } = label;
       const places = spots(viewport);
       const touching = (at: Pair) =>
-        taken.find((other) => half + other.half > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01);
+        taken.find(
+          (other) => half + other.half + 4 > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01,
+        );
       const clear = (of: Pair[][]) => (at: Pair) => !touching(at) && of.every((one) => clearOf(one, half, at));
       const seen = ([u, v]: Pair) => u > half && u + half < width - (v < low ? BESIDE : 0);
       const free = clear(hulls[k]!.length ? arrows : drawn);

@@ -1,5 +1,6 @@
 /** Outlines that links have beside their bars: wheels, cams, belts. */
 
+import { away } from "./hull";
 import type { ShapeRecord } from "./model";
 import type { Sizes } from "./sizes";
 
@@ -27,7 +28,7 @@ function pinThatWasAt({ model }: Sizes, link: number, x: number, y: number): num
   let [best, least] = [-1, Infinity];
   model.elements.forEach((e, k) => {
     if (e.link !== link || e.kind !== "pin") return;
-    const off = Math.hypot(e.at[0] - x, e.at[1] - y);
+    const off = away(e.at, x, y);
     if (off < least) [best, least] = [k, off];
   });
   return best;

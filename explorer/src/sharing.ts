@@ -70,7 +70,7 @@ export async function shareLink(page: Page, address: string): Promise<void> {
   try {
     await navigator.clipboard.writeText(address);
     const where = page.served && address.includes("://") ? t("Others open it by: gruebler explore LINK") : "";
-    page.say(`${t("The link is copied. It holds the mechanism with its sizes.")} ${where}`, "done");
+    page.say(`${t("The link is copied; it holds the mechanism.")} ${where}`, "done");
   } catch {
     const field = h("input", {
       value: address,

@@ -1,6 +1,7 @@
 /** Where a place that is pointed at is meant: in line with others, on the grid, at a round angle, at a known length. */
 
 import { gridStep, stepOf } from "./grid";
+import { away } from "./hull";
 import type { Linkage } from "./linkage";
 import type { Pair } from "./rows";
 import type { Viewport } from "./viewport";
@@ -31,9 +32,8 @@ export function snapped([x, y]: Pair, viewport: Viewport, { places, from, length
   );
   const [inX, inY] = [Math.abs(other[0]! - x) < reach, Math.abs(other[1]! - y) < reach];
   const part = (value: number) => (Math.abs(value) < 1e-12 ? 0 : value); // exactly upright, exactly level
-  const away = ([u, v]: Pair) => Math.hypot(u - x, v - y);
   let found: Pair = [inX ? other[0]! : onGrid(x), inY ? other[1]! : onGrid(y)];
-  if (away(found) < reach) return found;
+  if (away(found, x, y) < reach) return found;
   for (const [u, v] of from) {
     const [dx, dy] = [x - u, y - v];
     const far = Math.hypot(dx, dy);
@@ -45,7 +45,7 @@ export function snapped([x, y]: Pair, viewport: Viewport, { places, from, length
     if (!turned && (!known || inX || inY)) continue;
     const [r, phi] = [known ? length : onGrid(far), turned ? round : angle];
     const polar: Pair = [u + r * part(Math.cos(phi)), v + r * part(Math.sin(phi))];
-    if (away(polar) < away(found)) found = polar;
+    if (away(polar, x, y) < away(found, x, y)) found = polar;
   }
   return found;
 }

@@ -177,8 +177,8 @@ export class Stage implements Board {
     const name = chosen === null ? "" : linkage.linkName(chosen);
     if (this.adding)
       return name
-        ? t("A point of {name}: put it anywhere, on the link or beside it.", { name })
-        : t("A coupler point: choose the link that carries it.");
+        ? t("A point of {name}: place it on the link or beside it.", { name })
+        : t("Coupler point: choose its link.");
     const aside = this.#scene.poleAside ? ` ${t("The pole lies outside of the picture.")}` : "";
     if (!name) return t("Drag a joint to change sizes, a link to move it.") + aside;
     const mine = this.dragging!.lengths().filter(({ link }) => link === chosen);
@@ -188,7 +188,7 @@ export class Stage implements Board {
 
   #rule(unit: string): void {
     const ruled = this.shown.grid ? JSON.stringify([this.viewport, unit, currentLanguage()]) : "";
-    if (ruled !== this.#ruled) renew(this.#grid, ...(ruled ? gridOf(this.viewport, unit, 14) : []));
+    if (ruled !== this.#ruled) renew(this.#grid, ...(ruled ? gridOf(this.viewport, unit) : []));
     this.#ruled = ruled;
   }
 

@@ -2,6 +2,7 @@
 
 import { h, svg } from "./dom";
 import { type Drawing, isPin, type Knot, linksOf } from "./drawing";
+import { away } from "./hull";
 import { t } from "./language";
 import type { Linkage } from "./linkage";
 import { outlineOf } from "./plane";
@@ -12,9 +13,8 @@ import { type Box, Viewport } from "./viewport";
 const WIDE = 104; // pixels of a card's picture
 const HIGH = 58;
 
-/** Where a drawing begins, and what takes it. */
+/** What takes a drawing to begin with. */
 interface Beginning {
-  readonly linkage: Linkage;
   /** Begin with a drawing, perhaps of what Motion shows. */
   begin(drawing: Drawing, known?: boolean): void;
 }
@@ -46,8 +46,7 @@ export function extentOf({ knots }: Drawing): Box {
   };
   for (const { at, between, part } of knots) {
     add(at);
-    for (const centre of between ?? [])
-      add(centre, part === undefined ? 0 : Math.hypot(at[0] - centre[0], at[1] - centre[1]));
+    for (const centre of between ?? []) add(centre, part === undefined ? 0 : away(at, ...centre));
   }
   return box;
 }
@@ -72,10 +71,10 @@ function sketch(drawing: Drawing): SVGElement {
 }
 
 /** Cards along the upper edge of an empty plane. */
-export function starters(view: Beginning): HTMLElement[] {
-  const found = drawingOf(view.linkage).drawing;
-  const { title } = view.linkage;
-  const name = title.length > 36 ? `${title.slice(0, 34)}…` : title;
+export function starters(view: Beginning, linkage: Linkage): HTMLElement[] {
+  const found = drawingOf(linkage).drawing;
+  const { title } = linkage;
+  const name = title.length > 28 ? `${title.slice(0, 26)}…` : title;
   const cards: [string, string, Drawing | undefined][] = [
     ["hand", t("Edit {name}", { name }), found],
     ["four-bar", t("Four-bar linkage"), drawn(FOUR_BAR)],

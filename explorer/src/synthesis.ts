@@ -1,5 +1,6 @@
 /** The view of the synthesis: what a linkage is to do, put into a plane or a table; designs that do it play over it. */
 
+import { DEGREE } from "./cycle";
 import { Demands, option } from "./demands";
 import { type Design, DesignCards, type Found } from "./designs";
 import { choice, h, renew } from "./dom";
@@ -219,7 +220,7 @@ export class SynthesisView implements View {
     const turn = (row: number[]) => {
       this.#held = ([u, v]) => {
         if (near([u, v]) && row !== turned) return;
-        row[2] = Math.round((Math.atan2(v - row[1]!, u - row[0]!) * 180) / Math.PI);
+        row[2] = Math.round(Math.atan2(v - row[1]!, u - row[0]!) / DEGREE);
         this.#draw();
       };
     };

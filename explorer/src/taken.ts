@@ -1,9 +1,12 @@
-/** A linkage as a drawing: its joints where they are now, its links, drives and points. */
+/** A linkage as a drawing: its joints where they are now, its links, drives and points; and a drawing as a linkage. */
 
 import type { Beside } from "./beside";
-import { type Drawing, isName, type Knot, placed } from "./drawing";
+import { type Drawing, documentOfDrawing, isName, type Knot, placed, traced } from "./drawing";
+import { t } from "./language";
 import type { Linkage } from "./linkage";
+import type { Model } from "./model";
 import { direction, type Pair, place } from "./rows";
+import type { Page } from "./view";
 
 /** The drawing of a linkage in the pose that is shown; without one the joints that cannot be drawn. */
 export function drawingOf(linkage: Linkage): { drawing?: Drawing; other: string[] } {
@@ -11,7 +14,10 @@ export function drawingOf(linkage: Linkage): { drawing?: Drawing; other: string[
   const shown = model.links.map((_, link) => linkage.linkName(link).replaceAll(" ", "_"));
   const named = new Set(shown).size === shown.length && shown.every(isName);
   const names = named ? shown : model.links;
-  const joints = model.joints.map((_, joint) => knotOf(linkage, joint, names));
+  const joints = model.joints.map((_, joint) => {
+    const [knot, name] = [knotOf(linkage, joint, names), linkage.letterOf(joint)];
+    return knot && name ? { ...knot, name } : knot;
+  });
   const other = model.joints.flatMap(({ name }, joint) => (joints[joint] ? [] : [linkage.jointName(name)]));
   if (other.length) return { other };
   const points = sizes.points.map(({ name, link, at }): Knot => {
@@ -76,4 +82,12 @@ function knotOf(linkage: Linkage, joint: number, names: readonly string[]): Knot
 
 function ends(linkage: Linkage, one: number, two: number): [Pair, Pair] {
   return [linkage.elementAt(one), linkage.elementAt(two)];
+}
+
+/** Let Motion show the linkage of a drawing, with the curve of a point if it is a new one. */
+export async function openDrawn(page: Page, drawing: Drawing): Promise<void> {
+  const { title } = drawing;
+  const document = documentOfDrawing(title === undefined ? traced(drawing) : drawing);
+  const model = await page.ask<Model>("open_document", { document, name: title ?? t("A drawn mechanism") });
+  page.open({ ...model, changed: title !== undefined });
 }

@@ -1,6 +1,7 @@
 /** What a linkage is to meet: marks in the plane, and a table in which they are typed. */
 
 import { groundMark } from "./area";
+import { DEGREE } from "./cycle";
 import type { Design } from "./designs";
 import { digits } from "./digits";
 import { h, svg } from "./dom";
@@ -90,7 +91,7 @@ export function evenly(line: number[][], count: number): { places: number[][]; c
 
 /** The end of the arrow of a position. */
 export function tip([x, y, turn]: number[], unit: number): number[] {
-  const phi = ((turn ?? 0) * Math.PI) / 180;
+  const phi = (turn ?? 0) * DEGREE;
   return [x! + ARM * unit * Math.cos(phi), y! + ARM * unit * Math.sin(phi)];
 }
 
@@ -119,7 +120,7 @@ export function swingMark(
   const [[x, y], [a, b], [c, d], [u, v]] = [pivot!, one!, two!, top!];
   const long = Math.hypot(a - x, b - y);
   const clockwise = (a - x) * (v - y) < (b - y) * (u - x);
-  const texts = [`${t("Time ratio")} ${number(ratio!, 4)}`, angle((swing! * Math.PI) / 180, 4)];
+  const texts = [`${t("Time ratio")} ${number(ratio!, 4)}`, angle(swing! * DEGREE, 4)];
   const left = u < x;
   const bodies = design?.ends?.flatMap((ends) => {
     const made = bodiesOf(design.members);

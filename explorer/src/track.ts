@@ -1,6 +1,6 @@
 /** The slider of the drive: where it may go, where the output turns back, where the transmission is worst. */
 
-import { type Reach, TURN, wrapped } from "./cycle";
+import { DEGREE, type Reach, TURN, wrapped } from "./cycle";
 import { h, put, svg } from "./dom";
 import { angle, currentLanguage, number, t } from "./language";
 
@@ -59,7 +59,7 @@ export class Track {
     const shows = JSON.stringify([turning, dead, least, unit, turns, reached, currentLanguage()]);
     if (shows === this.#told) return;
     this.#told = shows;
-    this.#unit = turning ? TURN / 360 : 1;
+    this.#unit = turning ? DEGREE : 1;
     const [low, high] = limitsOf(cycle);
     this.#limits = [low, high];
     [this.#from, this.#to] = shownRange(this.#limits, full);

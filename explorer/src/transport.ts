@@ -1,6 +1,6 @@
 /** The row under the picture: the drive of the linkage, which is set, pulled and played. */
 
-import { type Reach, type Stop, TURN, wrapped } from "./cycle";
+import { DEGREE, type Reach, type Stop, TURN, wrapped } from "./cycle";
 import { h, renew } from "./dom";
 import { number, parsed, t } from "./language";
 import { later, Player } from "./player";
@@ -127,7 +127,7 @@ export class Transport<View extends Driven = Driven> {
   /** A drive value that is typed, in degrees or in the unit of length. */
   #typed(): void {
     const { cycle, drive } = this.view.linkage;
-    const value = parsed(this.#value.value.replace(/[^\d.,e−-]*$/, "")) * (drive?.turning ? TURN / 360 : 1);
+    const value = parsed(this.#value.value.replace(/[^\d.,e−-]*$/, "")) * (drive?.turning ? DEGREE : 1);
     const [low, high] = this.range;
     if (!Number.isFinite(value)) return this.showValue();
     if (cycle.full) this.pick(value);
@@ -139,7 +139,7 @@ export class Transport<View extends Driven = Driven> {
   nudge(steps: number): void {
     const { cycle, drive, size } = this.view.linkage;
     if (!drive) return;
-    const value = this.drive + steps * (drive.turning ? TURN / 360 : size / 200);
+    const value = this.drive + steps * (drive.turning ? DEGREE : size / 200);
     const [low, high] = this.range;
     if (cycle.full) this.pick(value);
     else this.pick(Math.max(low, Math.min(high, value)), value < low || value > high);

@@ -2,8 +2,10 @@
 
 import { type Stop, wrapped } from "./cycle";
 import { t } from "./language";
-import type { Linkage, Refused } from "./linkage";
+import type { Linkage } from "./linkage";
+import { isAngle } from "./measures";
 import type { Model } from "./model";
+import type { Refused } from "./refused";
 import { Status } from "./status";
 import { driveText } from "./track";
 
@@ -42,11 +44,22 @@ export function refusedText(linkage: Linkage, { reason, stop }: Refused, value: 
   return reason ? t("What is kept does not allow it.") : t("This size is not possible.");
 }
 
-/** The unit of the first or second derivative of the output by the drive, in brackets; nothing if there is none. */
-export function rateUnit({ drive, model }: Linkage, order: 1 | 2, turning = model.outputs[0]?.joint === null): string {
+/** The unit of the first or second derivative of the output by the drive; nothing if there is none. */
+export function rateUnit(linkage: Linkage, order: 1 | 2, turning = isAngle(linkage)): string {
+  const { drive, model } = linkage;
   const unit = lengthUnit(model);
   const above = turning ? "rad" : unit;
   const below = drive?.turning ? "rad" : unit;
-  if (above === below) return order === 1 ? "" : ` [1/${below}]`;
-  return ` [${above}/${below}${order === 1 ? "" : "²"}]`;
+  if (above === below) return order === 1 ? "" : `1/${below}`;
+  return `${above}/${below}${order === 1 ? "" : "²"}`;
+}
+
+/** A unit behind a title; nothing if there is none. */
+export function inBrackets(unit: string): string {
+  return unit && ` [${unit}]`;
+}
+
+/** The first or second derivative of the output by the drive. */
+export function transferName(linkage: Linkage, order: 1 | 2): string {
+  return t("Transfer function {sign}", { sign: (isAngle(linkage) ? "ψ" : "s") + "′″"[order - 1] });
 }

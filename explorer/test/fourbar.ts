@@ -131,6 +131,7 @@ export function fourBar(lengths: Lengths, theta: number): Model {
         joint: null,
         legs: [
           {
+            links: [COUPLER],
             from: [COUPLER, 0, 0, 1, 0, 3],
             across: false,
             pin: [COUPLER, coupler, 0, 1, 0, 4],

@@ -11,11 +11,12 @@ import { Backend, Cancelled, RequestError, StillModel } from "../src/host";
 import { angle, number, parsed, setLanguage, t } from "../src/language";
 import { BadLink, checksum, packed, unpacked } from "../src/link";
 import { Linkage } from "../src/linkage";
+import type { Least } from "../src/measures";
 import { chainText } from "../src/model";
 import { Status } from "../src/status";
 import { quoted, tableOf } from "../src/table";
 import { stopText } from "../src/wording";
-import { COUPLER, CRANK_ROCKER, fourBar } from "./fourbar";
+import { CRANK_ROCKER, fourBar } from "./fourbar";
 
 function inGerman(body: () => void): void {
   setLanguage("de");
@@ -113,7 +114,7 @@ test("what is read off a four-bar", () => {
     { value: 3.7, output: 2.5 },
     { value: 0.385, output: 1.1 },
   ];
-  const found = { dead, travel: 1.4, least: { value: 0, mu: 0.65, link: null as number | null } };
+  const found = { dead, travel: 1.4, least: { value: 0, mu: 0.65, leg: null as Least["leg"] } };
   const facts = () =>
     factsOf(linkage, found, (value) => value).map(({ name, text, style, note }) => [name, text, style ?? note ?? ""]);
   // psi: 180 degrees less the angle at D of the triangle 45, 40, 70
@@ -135,7 +136,7 @@ test("what is read off a four-bar", () => {
   ]);
   const where = () => factsOf(linkage, found, (value) => value).find(({ name }) => name === "Smallest μ")!.note;
   assert.equal(where(), "at 0°");
-  found.least.link = COUPLER;
+  found.least.leg = linkage.model.outputs[0]!.legs[0]!;
   assert.equal(where(), "at 0°");
   linkage.model.own = 6;
   assert.equal(where(), "at 0°, link coupler");

@@ -190,6 +190,86 @@ def test_what_is_offered_stands_clear_and_moves(plane):
     view.evaluate("localStorage.clear()")
 
 
+WATT = {
+    "frame": "frame",
+    "drives": [0],
+    "knots": [
+        {"at": at, "links": links}
+        for at, links in (
+            ([-30, -20], ["frame", "1"]),
+            ([-30, 0], ["1", "2"]),
+            ([20, 20], ["2", "3"]),
+            ([30, -20], ["frame", "3"]),
+            ([25, 0], ["3", "4"]),
+            ([80, 20], ["4", "5"]),
+            ([100, -20], ["frame", "5"]),
+        )
+    ],
+}
+
+
+def test_bars_stay_bars_and_names_stay_names(plane):
+    """A point is added for its curve where it changes no link; one that was drawn keeps its letter, there and back."""
+    view = plane.page
+    view.evaluate(f"gruebler.views.build.begin({json.dumps(WATT)})")
+    view.locator('[data-act="move"]').click()
+    plane.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.joints.length === 7")
+    (point,) = view.evaluate("gruebler.motion.linkage.sizes.points")
+    assert view.evaluate("gruebler.motion.linkage.model.links")[point["link"]] == "2"  # the crank drives it
+    assert point["at"] == pytest.approx([math.hypot(50, 20) / 2, 0], abs=1e-9)  # on the line of its joints
+    assert view.locator(".facts", has_text="Smallest μ").inner_text().count("47.5°") == 1  # by hand: test_machine.py
+    assert "at 0°, link 2" in view.locator(".facts").first.inner_text()
+    view.click('[data-view="build"]')
+    view.evaluate("gruebler.views.build.empty()")
+    view.click('[data-begin="six-bar"]')
+    view.locator('[data-act="move"]').click()
+    plane.until("gruebler.view === 'motion' && gruebler.motion.linkage.sizes.points[0]?.name === 'E'")
+    letters = "gruebler.motion.linkage.beside.letters"
+    assert view.evaluate(letters) == "A B C D F G H"
+    view.click('[data-view="build"]')
+    view.evaluate("gruebler.views.build.empty()")
+    view.click('[data-begin="hand"]')
+    names = set(view.locator(".drawing text.name").all_text_contents())
+    assert names == {*"ABCDEFGH", *"12345"}
+    view.evaluate("localStorage.clear()")
+
+
+def test_a_way_is_counted_from_the_pivot_of_the_crank(plane):
+    view = plane.page
+    view.click('[data-begin="slider-crank"]')
+    view.locator('[data-act="move"]').click()
+    plane.until("gruebler.motion.linkage.model.outputs[0]?.joint === 3")
+    linkage = linkage_from_json(json.loads(view.evaluate("JSON.stringify(gruebler.motion.document())")))
+    # at 90 degrees the block is where it was drawn, 80 to the right; at 0 degrees 20 + 82.46
+    ways = move(linkage, np.radians([90, 0])).displacement(3)
+    assert ways == pytest.approx([80, 20 + math.hypot(80, 20)], abs=1e-9)
+    view.evaluate("localStorage.clear()")
+
+
+def test_on_a_phone_what_is_chosen_stands_beside_the_table(tab, server):
+    page = tab(width=390, height=844, touch=True).open(server.address)
+    view = page.page
+    view.click('[data-view="build"]')
+    picture = view.locator('[data-begin="four-bar"] svg').bounding_box()
+    assert picture["width"] >= 80  # a four-bar is told from a six-bar
+    assert picture["height"] >= 44
+    view.click('[data-begin="four-bar"]')
+    view.locator("table input").first.wait_for()
+    view.evaluate("scrollTo(0, 400)")
+    page.until("gruebler.root.querySelector('.view.shown .stage').classList.contains('low')")
+    assert view.locator(".drawing + .hint").is_visible()
+    box = view.locator('.drawing [data-knot="1"]').bounding_box()
+    view.touchscreen.tap(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    choice = view.locator(".choosing")
+    choice.get_by_text("B: 1 – 2").wait_for()
+    assert choice.get_by_text("Remove").is_visible()
+    height = view.evaluate("gruebler.views.build.viewport.height")
+    for k in range(5):  # all of the drawing is in the low picture
+        box = view.locator(f'.drawing [data-knot="{k}"]').bounding_box()
+        assert 0 <= box["y"] <= height - box["height"]
+    view.evaluate("localStorage.clear()")
+
+
 def test_an_empty_plane_begins_with_the_ground_and_ends_stay_on_axes(plane):
     view = plane.page
     assert view.locator('.palette [aria-pressed="true"]').get_attribute("data-tool") == "ground"
@@ -212,7 +292,7 @@ def test_an_empty_plane_begins_with_the_ground_and_ends_stay_on_axes(plane):
     view.keyboard.press("g")
     view.click('[data-tool="ground"]')
     click(plane, (0, 0))
-    assert "Draw links" in view.locator('[data-place="mobility"]').inner_text()
+    assert "at least three links" in view.locator('[data-place="mobility"]').inner_text()
     view.keyboard.press("l")
     assert view.locator(".drawing + .hint").inner_text().startswith("Link")
     click(plane, (0, 0), (60, 35))  # 69.46 long: as near to 70 as the pointer is

@@ -626,7 +626,7 @@ def test_a_measurement_line_follows_the_motion(tab, crank_rocker):
         x, y = page.middle('[data-link="coupler"] .bar')
         page.page.mouse.click(*((x, y - beside) if beside else (box["x"] + 9, box["y"] + 9)))
         assert page.page.evaluate(taken) == [False, link]
-        assert ("choose the link that carries it" in page.page.locator(".message").inner_text()) is (link is None)
+        assert ("choose its link" in page.page.locator(".message").inner_text()) is (link is None)
     x, y = page.middle('[data-link="coupler"] .bar')
     page.page.mouse.click(x, y - 70)
     page.page.keyboard.press("Escape")

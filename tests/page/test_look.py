@@ -189,14 +189,15 @@ def test_the_grid_has_numbers(tab, crank_rocker):
     ticks = page.page.locator(".stage .grid .tick")
     written = ticks.all_text_contents()
     assert written[0] == page.page.evaluate("gruebler.motion.linkage.model.unit")
-    upper = [tick for tick in ticks.all() if tick.get_attribute("y") == "14"][1:]
-    assert len(upper) > 3
-    for tick in upper:
+    foot = page.page.evaluate("gruebler.motion.stage.viewport.height") - 8
+    lower = [tick for tick in ticks.all() if float(tick.get_attribute("y")) == foot][1:]
+    assert len(lower) > 3
+    for tick in lower:
         value = tick.text_content().replace("−", "-")
         expected = page.page.evaluate(f"gruebler.motion.stage.viewport.screen({value}, 0)[0]")
         assert abs(float(tick.get_attribute("x")) - 3 - expected) <= 1
     page.page.evaluate("gruebler.motion.transport.pick(1)")
-    assert page.page.evaluate("(old) => old.isConnected", upper[0].element_handle())
+    assert page.page.evaluate("(old) => old.isConnected", lower[0].element_handle())
     page.page.evaluate("gruebler.motion.stage.zoom(0.3)")
     assert ticks.all_text_contents() != written
     page.page.evaluate("gruebler.motion.shown.grid = false, gruebler.motion.redraw()")
@@ -386,6 +387,25 @@ FILLED = {
     "exercises": "[data-answer]",
     "catalog": "[data-list=catalog] .card svg",
 }
+
+
+def test_what_is_chosen_looks_so_under_the_pointer_and_moves_nothing(tab, server):
+    page = tab(width=1440, height=900).open(server.address)
+    view = page.page
+    colour = "gruebler.root.querySelector('[aria-selected=true]').computedStyleMap().get('background-color').toString()"
+    before = view.evaluate(colour)
+    view.hover('[data-view="motion"]')
+    assert view.evaluate(colour) == before
+    view.click('[data-view="build"]')
+    places = []
+    for tool in ("ground", "link"):
+        view.click(f'[data-tool="{tool}"]')
+        places.append([button.bounding_box() for button in view.locator(".palette button").all()])
+    assert places[0] == places[1]
+    view.click('[data-view="motion"]')
+    view.keyboard.press("?")
+    heights = {key.bounding_box()["height"] for key in view.locator("dialog kbd").all()}
+    assert len(heights) == 1  # no box is torn over two lines
 
 
 @pytest.mark.parametrize(("width", "locale"), [(1440, "en-US"), (390, "en-US"), (390, "de-DE")])
