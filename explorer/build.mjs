@@ -122,6 +122,7 @@ const often = `
   split spots springs stage start startsWith state status stiffness stopPropagation stroke structure
   style synthesis tabindex tagName targets test text textContent title toFixed together toggle
   toLowerCase toUpperCase transform transmission transport trim turning turns unit unknowns unshift
+  design history location point undoable variant
   offsetLeft order plane value values velocities view viewBox viewport views width windings world zoom
 `.match(/\w+/g);
 

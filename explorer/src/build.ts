@@ -75,9 +75,12 @@ export class BuildView implements View, Plane, Drawn {
   #resize(): void {
     const { width, height } = this.root.getBoundingClientRect();
     if (!width) return;
-    Object.assign(this.viewport, { width, height });
+    const { viewport } = this;
+    // a phone's low picture shows all of it, too
+    const fits = viewport.width < 2 || (width < 500 && viewport.fitted && height !== viewport.height);
+    Object.assign(viewport, { width, height });
     this.root.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    if (this.viewport.fitted) this.fit();
+    if (fits) this.fit();
     else this.#draw();
   }
 

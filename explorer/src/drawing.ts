@@ -355,7 +355,7 @@ function placeOf({ drives, frame, knots }: Drawing, { at, between, links, part, 
   if (!between) return [...at];
   const [from, to] = between;
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-  if (part === undefined) return [...from, (Math.atan2(dy, dx) * 180) / Math.PI];
+  if (part === undefined) return [...from, Math.atan2(dy, dx) / DEGREE];
   const far = Math.hypot(dx, dy);
   const side = part < 0 || part > 1 ? -far : far; // the larger of two on one side is internal: a negative radius
   const radii = [part * side, side - part * side];

@@ -16,7 +16,7 @@ export function showKeys(root: HTMLElement, draws: boolean): void {
   const rows: [string, string][] = [
     [t("Space"), t("play and pause")],
     ["Esc", t("give up a drag")],
-    [t("Shift"), t("while dragging: snap to joints, grid, angles, lengths")],
+    [t("Shift"), t("snap while dragging")],
     ["← →", t("move the drive by 1°, with Shift by 10°")],
     ["Tab, ← → ↑ ↓", t("move a joint, with Shift in small steps")],
     [t("Enter, double-click"), t("hold or release a joint")],

@@ -292,7 +292,7 @@ function lowsOf(linkage: Linkage, leg: Leg, angles: readonly number[], most: num
   if (!full && values.length > 2)
     for (const upper of [false, true])
       out.push({ value: upper ? high : low, mu: transmissionAtEnd(linkage, upper, leg), leg });
-  return out.filter(({ mu }) => mu <= most);
+  return out;
 }
 
 function ascending(a: number, b: number): number {

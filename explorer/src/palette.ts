@@ -92,7 +92,7 @@ export function hintOf(tool: Tool): (Node | string)[] {
     link: t("Place joint after joint, or drag from end to end."),
     cylinder: t("Place both ends, or drag from end to end."),
     dyad: t("Place an end, the middle, the other end."),
-    gears: t("Place both centres, then the point of contact: beyond a centre for a ring gear."),
+    gears: t("Place both centres, then the contact (outside: ring gear)."),
   };
   return [h("b", {}, nameOf(tool)), " ", hints[tool]];
 }

@@ -1,6 +1,7 @@
 /** A linkage as a drawing: its joints where they are now, its links, drives and points; and a drawing as a linkage. */
 
 import type { Beside } from "./beside";
+import { DEGREE } from "./cycle";
 import { type Drawing, documentOfDrawing, isName, type Knot, placed, traced } from "./drawing";
 import { t } from "./language";
 import type { Linkage } from "./linkage";
@@ -64,7 +65,7 @@ function knotOf(linkage: Linkage, joint: number, names: readonly string[]): Knot
     if (cylinder) return placed({ at, links, between: ends(linkage, cylinder[2], cylinder[3]) });
     const [line] = mine as [number];
     const [c, s] = direction(pose, 0, sizes.element(line).link, sizes.line(line));
-    return { at, links, slide: (Math.atan2(s, c) * 180) / Math.PI };
+    return { at, links, slide: Math.atan2(s, c) / DEGREE };
   }
   if (!name.startsWith("G(") || !all("round")) return null;
   const [one, two] = mine as [number, number];

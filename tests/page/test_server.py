@@ -22,6 +22,7 @@ from websockets.exceptions import InvalidStatus  # noqa: E402
 
 from gruebler.files import linkage_to_json  # noqa: E402
 from gruebler.mechanics.fourbar import FourBar  # noqa: E402
+from gruebler.page import worker  # noqa: E402
 from gruebler.page.model import model_of  # noqa: E402
 
 
@@ -154,6 +155,26 @@ print(sorted(set(sys.modules) - before))
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
     assert done.stdout == "[]\n"
+
+
+def test_what_is_loaded_before_anybody_asks_meets_no_request(monkeypatch):
+    """Two threads that import a package at once found it half made: a busy machine's catalog stayed empty."""
+    running, most = 0, 0
+
+    def answer(*_):
+        nonlocal running, most
+        running += 1
+        most = max(most, running)
+        time.sleep(0.02)
+        running -= 1
+
+    monkeypatch.setattr(worker, "answer", answer)
+    loader = threading.Thread(target=worker.load)
+    loader.start()
+    for _ in range(10):
+        worker.answered("catalog", {}, "en", print)
+    loader.join()
+    assert most == 1
 
 
 def test_a_socket_from_another_origin_is_closed(server):

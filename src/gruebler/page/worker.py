@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Callable
 from importlib import import_module
-from threading import Thread
+from threading import Lock, Thread
 from typing import Any
 
 import msgspec
@@ -29,11 +30,22 @@ _FIRST: tuple[tuple[str, dict[str, Any]], ...] = (
 )
 
 
+_ALONE = Lock()
+"""Two threads that import a package at once can find it half made."""
+
+
+def answered(method: str, params: dict[str, Any], lang: str, progress: Callable[[str], None]) -> Any:
+    """`answer` while no other thread does."""
+    with _ALONE:
+        return answer(method, params, lang, progress)
+
+
 def load() -> None:
     """Load the modules that the catalog, its pictures, the structure of a machine and designs need. Cost: 1 s."""
     for method, params in _FIRST:
-        answer(method, params, "en", lambda _: None)
-    import_module("gruebler.page.designs")  # 0.3 s
+        answered(method, params, "en", lambda _: None)
+    with _ALONE:
+        import_module("gruebler.page.designs")  # 0.3 s
 
 
 def main() -> None:
@@ -52,7 +64,7 @@ def main() -> None:
         method, params, lang = msgspec.json.decode(line)
         say("begun", None)
         try:
-            result = answer(method, params, lang, lambda text: say("progress", text))
+            result = answered(method, params, lang, lambda text: say("progress", text))
         except GrueblerError as error:
             say("error", error_on_page(error, lang))
         except RecursionError:
