@@ -110,7 +110,7 @@ def test_a_four_bar_and_then_a_watt_six_bar_are_drawn_and_moved(plane):
     assert view.locator('[data-fact="drawn"]').inner_text() == "F = 3"  # 3(4 - 1) - 2·3: an open chain
     assert view.locator("[data-offer]").all_inner_texts().index("Ground at D: F = 1") == 0
     view.click('[data-offer="ground"]')
-    view.locator('[data-offer="drive"]').first.wait_for()
+    view.locator('[data-offer="drive"]').nth(1).wait_for()  # of the open chain one was offered
     assert view.locator('[data-fact="drawn"]').inner_text() == "F = 1"
     # joints have letters on the plane and beside it, links numbers
     assert view.locator(".drawing text.name").all_text_contents() == ["1", "2", "3", "A", "B", "C", "D"]

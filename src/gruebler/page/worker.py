@@ -11,6 +11,7 @@ import sys
 from collections.abc import Callable
 from importlib import import_module
 from threading import Lock, Thread
+from time import sleep
 from typing import Any
 
 import msgspec
@@ -44,6 +45,7 @@ def load() -> None:
     """Load the modules that the catalog, its pictures, the structure of a machine and designs need. Cost: 1 s."""
     for method, params in _FIRST:
         answered(method, params, "en", lambda _: None)
+        sleep(0.01)  # a request that waits goes first
     with _ALONE:
         import_module("gruebler.page.designs")  # 0.3 s
 
