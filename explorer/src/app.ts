@@ -87,7 +87,7 @@ export class App implements Page {
   async start(): Promise<void> {
     if (missing) {
       this.#appear();
-      const text = t("This page needs WebAssembly, and the browser does not allow it: {why}", { why: missing });
+      const text = t("This page needs WebAssembly: {why}", { why: missing });
       return this.say(text, "error");
     }
     this.#unread = this.#linkable && location.hash.length > 1; // until it is read

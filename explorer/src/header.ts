@@ -79,7 +79,7 @@ export function sayIn(place: HTMLElement, text: string, kind: "error" | "done", 
 /** Say that there is no connection, or no more. */
 export function sayWhetherOn(place: HTMLElement, on: boolean): void {
   place.hidden = on;
-  place.textContent = on ? "" : t("The connection to gruebler is lost until the server is back.");
+  place.textContent = t("The connection to gruebler is lost until the server is back.");
 }
 
 /** The button of what can be taken away, on a wide page with its word. */

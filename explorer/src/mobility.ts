@@ -67,7 +67,7 @@ export class MobilityPanel {
     const all = linksOf(drawing);
     const loose = all.find((link) => !jointsOf(drawing).some((k) => drawing.knots[k]!.links.includes(link)));
     if (frame === null || all.length < 3 || loose) {
-      let text = frame === null ? t("Begin with an example, or place ground joints.") : t("Draw at least three links.");
+      let text = frame === null ? t("Choose an example or place ground joints.") : t("Draw at least three links.");
       if (frame !== null && all.length > 2) text = t("Link {link} has no joint yet.", { link: spaced(loose!) });
       return renew(this.element, ...(all.length ? [count] : []), h("p.note", {}, text));
     }

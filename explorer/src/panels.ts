@@ -190,7 +190,7 @@ export function pointsPanel(editor: Editor): HTMLElement {
     {},
     h("div.point-rows", {}, ...rows),
     h("div.form", {}, link, h("button.plain", { "data-act": "add-point", onclick: add }, t("Add a point"))),
-    h("p.note", {}, t("Double-click a link to place a point on it.")),
+    h("p.note", {}, t("Double-click a link to add a point.")),
   );
 }
 
