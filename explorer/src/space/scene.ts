@@ -57,6 +57,8 @@ export class Scene {
     [0, 0, 0],
   ];
   #step = 1;
+  /** Of each body its link and its farthest places. */
+  #reach: { link: number; places: Vector[] }[] = [];
   readonly #colours = new Map<string, Vector>();
   readonly #fingers = new Map<number, PointerEvent>();
   #pulling = false;
@@ -106,7 +108,12 @@ export class Scene {
 
   /** How large it is, and what its grid shows. */
   #measure(): void {
-    this.#step = gridStep(this.machine.data.size / 6);
+    const { bodies, glass, size } = this.machine.data;
+    this.#step = gridStep(size / 6);
+    this.#reach = [...bodies.map((body, link) => ({ ...body, link })), ...glass].map(({ link, vertices }) => ({
+      link,
+      places: farthest(vertices),
+    }));
     const corners = this.#corners();
     const ends = (least: typeof Math.min) =>
       [0, 1, 2].map((k) => corners.reduce((a, at) => least(a, at[k]!), corners[0]![k]!));
@@ -125,17 +132,10 @@ export class Scene {
 
   // --- where from ----------------------------------------------------------------------------------------------------
 
-  /** The corners of all bodies in poses, those that are reached at first. */
+  /** The farthest places of all bodies in poses, those that are reached at first. */
   #corners(reached = this.machine.reached()): Vector[] {
-    const { bodies, glass } = this.machine.data;
-    const all = [...bodies.map((body, link) => ({ ...body, link })), ...glass];
     return reached.flatMap((poses) =>
-      all.flatMap(({ vertices, link }) => {
-        const places: Vector[] = [];
-        for (let k = 0; k < vertices.length; k += 3)
-          places.push(moved(poses[link]!, vertices.slice(k, k + 3) as Vector));
-        return places;
-      }),
+      this.#reach.flatMap(({ link, places }) => places.map((place) => moved(poses[link]!, place))),
     );
   }
 
@@ -343,6 +343,23 @@ export class Scene {
     event.stopPropagation();
     this.#round(...way);
   }
+}
+
+/** The places of a body that are farthest in 26 directions: enough to tell how far it reaches. */
+function farthest(vertices: number[]): Vector[] {
+  const found = new Set<number>();
+  const signs = [-1, 0, 1];
+  for (const x of signs)
+    for (const y of signs)
+      for (const z of signs) {
+        let [best, most] = [0, -Infinity];
+        for (let k = 0; k < vertices.length; k += 3) {
+          const far = x * vertices[k]! + y * vertices[k + 1]! + z * vertices[k + 2]!;
+          if (far > most) [best, most] = [k, far];
+        }
+        if (vertices.length) found.add(best);
+      }
+  return [...found].map((k) => vertices.slice(k, k + 3) as Vector);
 }
 
 /** How far apart two fingers are. */
