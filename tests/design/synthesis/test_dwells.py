@@ -104,11 +104,11 @@ def test_the_output_rests_and_swings_as_wanted(rockers):
 
 
 def test_the_figures_of_the_theory_page(rockers):
-    """It says 0.0012 degrees for the best, and 0.0015 with a transmission angle of 35 degrees for another."""
+    """It says 0.0012 degrees for the best, and 0.0018 with a transmission angle of 42 degrees for another."""
     degrees = [(30 * design.verdict.error, np.degrees(design.verdict.transmission)) for design in rockers.designs]
     assert degrees[0][0] < 0.00125
     assert min(angle for _, angle in degrees) > 30
-    assert any(error < 0.00155 and angle > 34.5 for error, angle in degrees)
+    assert any(error < 0.00185 and angle > 42 for error, angle in degrees)
 
 
 def test_a_demanded_transmission_angle_is_kept():
