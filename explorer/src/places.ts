@@ -43,7 +43,7 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty()
     file,
     h("button.plain", { "data-act": "picture", onclick: () => file.click() }, t("Background picture")),
     ...(knots.length
-      ? [h("div.form", {}, h("button.plain", { "data-act": "empty", onclick: () => view.empty() }, t("Empty plane")))]
+      ? [h("div.form", {}, h("button.plain", { "data-act": "empty", onclick: () => view.empty() }, t("Clear drawing")))]
       : []),
   ];
 }

@@ -178,7 +178,7 @@ export class StructureView implements View {
       step(
         2,
         t("Frame"),
-        h("p.note.form", {}, t("Equivalent links stand here once.")),
+        h("p.note.form", {}, t("Equivalent links are shown once.")),
         this.#cards("inversions", found.inversions, ({ frame }) => [
           /^\d/.test(frame) ? `${t("Frame")} ${frame}` : frame,
           frame === found.chosen,

@@ -21,7 +21,7 @@ export function wordsOf(kind: Kind): TaskWords {
       name: t("Points"),
       hint: t(
         "Put points in the order in which a coupler point passes them: " +
-          "five to nine are met exactly if possible, more nearly.",
+          "five to nine are met exactly if possible, more approximately.",
       ),
       row: t("Point"),
       heads: ["x", "y"],
@@ -40,7 +40,7 @@ export function wordsOf(kind: Kind): TaskWords {
     },
     "dead-centres": {
       name: t("Dead centres"),
-      hint: t("A crank drives a rocker; time ratio: slow stroke by quick stroke."),
+      hint: t("A crank drives a rocker; time ratio: slow stroke time / quick one."),
       row: t("Dead centres"),
       heads: [t("Swing [°]"), t("Time ratio")],
     },

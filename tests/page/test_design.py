@@ -365,7 +365,7 @@ def test_what_turns_fully_is_no_rocker_and_goes_from_0_to_360(tab, server):
     shortest, second, third, longest = sorted(float(one.replace(",", ".")) for one in lengths)
     assert float(lengths[0].replace(",", ".")) == shortest
     assert shortest + longest < second + third
-    assert names == ("Gestell", "Kurbel", "Koppel", "Kurbel2")
+    assert names == ("Gestell", "Kurbel", "Koppel", "Abtriebskurbel")
     card.click()
     page.until("gruebler.view === 'motion'")
     plot = "gruebler.motion.side.plots.parts[0].plot.series"

@@ -128,7 +128,7 @@ def design_records(
         items.append(_record(design, task, lang))
     _mark_variants(items)
     refused = len(result.designs) - len(designs)
-    texts = {"note": _notes(task, items, len(designs), refused), "words": _words(items, relative)}
+    texts = {"note": _notes(task, items, len(designs), refused), "words": _words(task, items, relative)}
     said = {key: " ".join(text.in_language(lang) for text in some) for key, some in texts.items()}
     return {"total": len(designs), "relative": relative, "items": items} | said
 
@@ -151,10 +151,10 @@ def _notes(task: Task, items: Sequence[dict[str, Any]], total: int, refused: int
     elif all(abs(item["error"] or 0) < _ROUNDING for item in items):
         yield EXACT
     if refused:
-        yield message("Not meeting what is asked: {count}.", count=refused)
+        yield message("Left out, as they do not meet what is asked: {count}.", count=refused)
 
 
-def _words(items: Sequence[dict[str, Any]], relative: bool) -> Iterator[Message]:
+def _words(task: Task, items: Sequence[dict[str, Any]], relative: bool) -> Iterator[Message]:
     """What stands on the cards of designs, explained."""
     sensitive = any(item["shift"] is not None for item in items)
     if items and not relative:
@@ -162,7 +162,7 @@ def _words(items: Sequence[dict[str, Any]], relative: bool) -> Iterator[Message]
     elif sensitive:
         yield message("Balanced: transmission angle and sensitivity count alike.")
     angles = [(item["range"], item["transmission"]) for item in items]
-    if any(None not in both and both[0] < both[1] for both in angles):
+    if not isinstance(task, DeadCentreTask) and any(None not in both and both[0] < both[1] for both in angles):
         yield message("On the way: from the first target to the last.")
     if items and relative:
         yield message("Of lengths only the ratios count; the longest is 100 mm.")

@@ -103,6 +103,14 @@ def test_search(query, ids):
     assert {e.id for e in search(query)} == ids
 
 
+@pytest.mark.parametrize("word", ["in space", "räumlich"])
+def test_machines_in_space_are_found_as_such(word):
+    found = {e.id for e in search(Query(words=(word,)))}
+    assert {e.id for e in entries().values() if e.in_space} <= found
+    assert {"bennett", "gough", "delta"} <= found
+    assert "lambda" not in found
+
+
 def test_search_by_purpose():
     """The entries that a reader of the teaching documents looks for and did not find by this word."""
     guides = {e.id for e in search(Query(words=("Führungsgetriebe",)))}

@@ -190,8 +190,8 @@ def plain_word(text: str) -> str:
 def searched_text(candidate: Entry) -> str:
     """Everything in which a word is looked for, as `plain_word` writes it.
 
-    Id, names, remark, source, names of links, what the mechanism is for, its family, and what a linkage is called by
-    the number of its links, in every language.
+    Id, names, remark, source, names of links, what the mechanism is for, its family, whether it moves in space, and
+    what a linkage is called by the number of its links, in every language.
     """
     remark = candidate.remark
     chain = candidate.chain()
@@ -200,6 +200,7 @@ def searched_text(candidate: Entry) -> str:
     parts = [candidate.id, candidate.name.en, candidate.name.de, candidate.source]
     parts += [*candidate.links, *candidate.links.values()]
     parts += [remark.en, remark.de] if remark else []
+    parts += ["in space", "räumlich"] if candidate.in_space else []
     parts += [use.in_language(lang) for lang in LANGUAGES]
     parts += [family(mechanism, lang) or "" for lang in LANGUAGES]
     if chain.n in _NUMBERS and all(joint.pair.is_basic for joint in chain.joints):
