@@ -545,3 +545,19 @@ def test_a_travel_is_nothing_on_the_sphere(tmp_path, capsys):
     task.write_text("input,travel\n0,0\n10,5\n20,15\n30,25", encoding="utf-8")
     assert main(["synthesise", "spherical-function", str(task)]) == 2
     assert "coordinate angles, not a travel" in capsys.readouterr().err
+
+
+def test_an_order_leads_the_search_of_paths_too(tmp_path, capsys):
+    """Three positions with crank angles: of random partners of the crank the best has 82 degrees, not 74."""
+    task = tmp_path / "timed.toml"
+    task.write_text(
+        "points = [[3.0350203, 0.2680028], [3.2871601, 0.476936], [4.4401962, 2.1331895]]\n"
+        "angles = [0, 2.570899, 17.0984657]\ncrank_angles = [0, 4.5736834, 30.8920742]\n",
+        encoding="utf-8",
+    )
+    options = ["--length", "rocker", "6.2788859", "--sort", "transmission", "--json"]
+    assert main(["synthesise", "path", str(task), *options]) == 0
+    found = json.loads(capsys.readouterr().out)["designs"]
+    best, second = (design["transmission_through_targets"] for design in found[:2])
+    assert best > 82
+    assert second > 78  # 74 where the order came after the search

@@ -500,14 +500,16 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
             return _fitted(arguments, task, demands, progress)
         if isinstance(task, PositionTask | FunctionTask) and arguments.six_bars:
             return _six_bars(arguments, task, demands, progress)
-        if isinstance(task, PositionTask):
-            return synthesise_positions(task, demands, sort=_orders(arguments), progress=progress, **more)
+        if isinstance(task, PositionTask | PathTask):
+            guided: Callable[..., SynthesisResult] = (
+                synthesise_path if isinstance(task, PathTask) else synthesise_positions
+            )
+            return guided(task, demands, sort=_orders(arguments), progress=progress, **more)
         if isinstance(task, FunctionTask):
             return synthesise_function(task, demands, minimax=arguments.minimax, sort=_orders(arguments), **more)
         if isinstance(task, DeadCentreTask):
             return synthesise_dead_centres(task, demands, sort=_orders(arguments), **more)
-        method: Callable[..., SynthesisResult] = synthesise_dwells if isinstance(task, DwellTask) else synthesise_path
-        return method(task, demands, progress=progress, **more)
+        return synthesise_dwells(task, demands, progress=progress, **more)
 
 
 def _six_bars(
