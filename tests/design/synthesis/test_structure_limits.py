@@ -250,3 +250,19 @@ def test_angles_of_legs_are_those_of_the_motion_and_differentiated_exactly(name)
                 legs.beyond(closure, *((q + s * step, sizes) if at is q else (q, sizes + s * step)))[0] for s in (1, -1)
             ]
             assert exact[:, :, k] == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=1e-6)
+
+
+def test_both_four_bars_keep_the_angle_where_the_force_goes_through_both():
+    """Stephenson III, whose output hangs on the coupler of a first four-bar: both dyads by `move`, all round."""
+    around = np.exp(1j * np.linspace(0, 2 * np.pi, 40, endpoint=False))
+    points = [(3 * z.real, z.imag + 0.5 * (z * z).real) for z in around]
+    demands = Demands(crank=True, transmission=radians(60), tolerance=0.03)
+    task = PathTask(points, closed=True)
+    found = synthesise(task, structures=[STEPHENSON], demands=demands, link="5", starts=4)
+    assert found.designs  # none where only the dyad of the output is held: the first one falls to 48 degrees
+    path = dyad_structure(STEPHENSON).force_path
+    assert {dyad.links for dyad in path} == {("2", "3"), ("4", "5")}
+    for design in found.designs:
+        for dyad in path:
+            arms = [*zip(dyad.links, dyad.outer, strict=True)]
+            assert least_angle(design.linkage, dyad.inner, arms) >= 60 - 0.01

@@ -56,8 +56,8 @@ class DrawingLimits(FitLimits):
     @property
     def _bounds(self) -> list[tuple[DrawnDyad, float]]:
         """The dyads whose angle is limited, with the largest cosine of it."""
-        output, angle = self.structure.output, self.places.demands.transmission
-        least = [(dyad, angle if output in dyad.links else 0.0) for dyad in self.structure.dyads]
+        path, angle = self.structure.force_path, self.places.demands.transmission
+        least = [(dyad, angle if dyad in path else 0.0) for dyad in self.structure.dyads]
         return [(dyad, min(float(np.cos(mu)), 1 - SAFE)) for dyad, mu in least if self.turning or mu > 0]
 
     def values(self, rows: Reals, phi: Reals) -> Reals:

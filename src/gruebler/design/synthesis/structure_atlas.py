@@ -56,6 +56,17 @@ class DyadStructure:
         return [link for link in chain.links if link in held - {frame, self.crank}][-1]
 
     @property
+    def force_path(self) -> tuple[DrawnDyad, ...]:
+        """The dyad of the output, and those that hang on the frame on the way from the drive to it."""
+        loaded, path = {self.output}, []
+        for dyad in reversed(self.dyads):
+            if loaded & set(dyad.links):
+                loaded |= set(dyad.base) - {self.mechanism.frame}
+                if self.output in dyad.links or self.mechanism.frame in dyad.base:
+                    path.append(dyad)
+        return tuple(path)
+
+    @property
     def coupler_links(self) -> tuple[str, ...]:
         """The links whose points do not move on circles: those without a joint at the frame."""
         chain, frame = self.mechanism.chain, self.mechanism.frame
