@@ -81,8 +81,20 @@ def order_notes(designs: Iterable[Design], demands: Demands) -> tuple[Message, .
     free, count = replace(demands, in_order=False), 0
     for each in designs:
         if each.targets is not None and each.verdict.one_circuit and not each.verdict.in_order:
-            count += judge_design(each.linkage, each.targets, free, each.form).verdict.accepted
+            driven = (each.linkage, *_driven_elsewhere(each.linkage, each.targets))
+            count += any(judge_design(some, each.targets, free, each.form).verdict.accepted for some in driven)
     return (message("Designs rejected only for the order of the targets: {count}.", count=count),) if count else ()
+
+
+def _driven_elsewhere(linkage: Linkage, targets: Targets) -> Iterator[Linkage]:
+    """A four-bar driven at its other pivot, unless its targets are of a link that turns there."""
+    mechanism = linkage.mechanism
+    chain, frame = mechanism.chain, mechanism.frame
+    held = {other for joint in chain.joints if frame in joint.links for other in joint.links} - {frame}
+    turning = not any(joint.pair.is_sliding for joint in chain.joints)
+    if turning and len(chain.links) == len(chain.joints) == 4 and held.isdisjoint(p.link for p in targets.probes):
+        (drive,) = mechanism.drives
+        yield from (linkage.with_frame(frame, other) for other in held - {*drive.between})
 
 
 def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> Design:
