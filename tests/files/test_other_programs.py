@@ -377,7 +377,7 @@ def test_what_is_left_out_is_said(tmp_path):
     with pytest.warns(files.FormatWarning, match="not written: .*the unit of the numbers, which are mm"):
         files.write(FourBar(25, 70, 40, 70).linkage(unit="cm"), path)
     notes = files.convert(FOLDER / "klann.linkage2", tmp_path / "klann.graphml")
-    assert [str(note) for note in notes] == ["dimensions, frame and drives", "loads, masses and the speed of the drive"]
+    assert [str(note) for note in notes] == ["dimensions, frame and drives", "the speed of the drive"]
 
 
 def test_wheels_and_cams_are_refused(tmp_path):

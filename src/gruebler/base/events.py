@@ -81,12 +81,12 @@ class Transmission:
         return pi / 2 - self.mu
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class TransmissionExtremes:
     """The extremes of the transmission angle.
 
     >>> worst, right = Transmission(0.0, radians(37), ("coupler",)), Transmission(1.4, pi / 2, ("coupler",))
-    >>> TransmissionExtremes((worst, right), worst, right, (("coupler",),)).good
+    >>> TransmissionExtremes(extremes=(worst, right), smallest=worst, largest=right, legs=(("coupler",),)).good
     False
     """
 

@@ -222,7 +222,7 @@ def test_drives_that_conflict():
     found = decompose(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1); drive=R(1-2)"))
     assert not found.complete
     assert found.overconstrained
-    assert "no. 1, 2" in found.explain()
+    assert "conflict: R(0-1), R(1-2)." in found.explain()
     braced = decompose(Mechanism(Chain.from_graph6("C~"), "0"))
     assert braced.message() == (
         "Constraints or drives conflict: there are no Assur groups. "

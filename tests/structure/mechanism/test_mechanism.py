@@ -63,7 +63,7 @@ def test_one_part_free_while_another_is_driven_twice():
     assert set(wrong.redundant_drives) == {0, 1}
     assert set(wrong.free_links) == {"b", "c", "d"}
     assert "still moving: b, c, d" in wrong.explain()
-    assert "Nr. 1, 2" in wrong.explain("de")
+    assert "widersprechen: D(0-1), D(3-0)." in wrong.explain("de")
     right = check_drives(Mechanism(Chain.parse(text), "0", ["R(0-1)", "R(0-a)", "R(0-d)"]))
     assert right.fixed
     assert "bestimmen die Bewegung" in right.explain("de")

@@ -211,8 +211,8 @@ def inside_region(pivots: Complexes, demands: Demands) -> Flags:
 def across_direction(gaps: NDArray[Any], direction: float) -> NDArray[Any]:
     """How far gaps (..., 2), x and y, lead off a direction: zero along it, both ways; analytic.
 
-    >>> across_direction(np.array([[3.0, 0.0], [-1.0, -1.0]]), np.pi / 4).round(6).tolist()
-    [-2.12132, 0.0]
+    >>> across_direction(np.array([[3.0, 0.0], [0.0, 2.0]]), np.pi / 4).round(6).tolist()
+    [-2.12132, 1.414214]
     """
     return np.asarray(gaps[..., 1] * np.cos(direction) - gaps[..., 0] * np.sin(direction))
 

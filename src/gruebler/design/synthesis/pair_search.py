@@ -206,7 +206,7 @@ def distinct_pairs(pairs: Iterable[Pair], size: float) -> list[Pair]:
 
     >>> from gruebler.design.synthesis.dyads import CRANK
     >>> crank, rocker = GuidingDyad(CRANK, 1j, 0j), GuidingDyad(CRANK, 3 + 2j, 4 + 0j)
-    >>> len(distinct_pairs([(crank, rocker), (crank, GuidingDyad(CRANK, 3 + 2.1j, 4.05 + 0j))], 1.0))
+    >>> len(distinct_pairs([(crank, rocker), (crank, GuidingDyad(CRANK, 3 + 2.05j, 4.02 + 0j))], 1.0))
     1
     """
     kept: list[Pair] = []

@@ -313,7 +313,13 @@ def measure_transmission(cycle: Course, output: Output) -> TransmissionExtremes:
     smallest = _first(ordered, min(extreme.mu for extreme in ordered))
     extrema = [extreme for extreme in ordered if extreme.links == smallest.links]
     largest = _first(extrema, max(extreme.mu for extreme in extrema))
-    return TransmissionExtremes(tuple(ordered), smallest, largest, tuple(leg.links for leg in legs), path.undefined)
+    return TransmissionExtremes(
+        extremes=tuple(ordered),
+        smallest=smallest,
+        largest=largest,
+        legs=tuple(leg.links for leg in legs),
+        undefined=path.undefined,
+    )
 
 
 def _first(extremes: list[Transmission], mu: float) -> Transmission:

@@ -207,7 +207,8 @@ def transmission_extremes(
     if min(first[1], second[1]) < math.pi / 2 < max(first[1], second[1]):
         extremes.append(Transmission(right, math.pi / 2, _LEG))
     smallest, largest = (choice(extremes, key=lambda extreme: extreme.mu) for choice in (min, max))
-    return TransmissionExtremes(tuple(sorted(extremes, key=lambda extreme: extreme.drive)), smallest, largest, (_LEG,))
+    ordered = tuple(sorted(extremes, key=lambda extreme: extreme.drive))
+    return TransmissionExtremes(extremes=ordered, smallest=smallest, largest=largest, legs=(_LEG,))
 
 
 def cannot_assemble(arcs: Sequence[CrankRange], missing: Mask, undetermined: Mask, singular: Mask) -> Message | None:
