@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 
 from gruebler.base.errors import CatalogError, near_words
-from gruebler.base.text import LANGUAGES
+from gruebler.base.text import LANGUAGES, message
 from gruebler.files.catalog_records import Entry, Exercise, read_entry, read_exercise
 from gruebler.structure.chain.pairs import PAIRS, Pair, pair
 from gruebler.structure.mechanism import Mechanism
@@ -162,6 +162,7 @@ def _meanings(symbol: str) -> set[Pair]:
     return {p for p in PAIRS if symbol in p.symbols.values()} or {pair(symbol)}
 
 
+_IN_SPACE = message("in space")
 _NUMBERS = {
     3: ("three", "drei"),
     4: ("four", "vier"),
@@ -200,7 +201,7 @@ def searched_text(candidate: Entry) -> str:
     parts = [candidate.id, candidate.name.en, candidate.name.de, candidate.source]
     parts += [*candidate.links, *candidate.links.values()]
     parts += [remark.en, remark.de] if remark else []
-    parts += ["in space", "räumlich"] if candidate.in_space else []
+    parts += [_IN_SPACE.in_language(lang) for lang in LANGUAGES if candidate.in_space]
     parts += [use.in_language(lang) for lang in LANGUAGES]
     parts += [family(mechanism, lang) or "" for lang in LANGUAGES]
     if chain.n in _NUMBERS and all(joint.pair.is_basic for joint in chain.joints):
