@@ -141,7 +141,7 @@ def test_three_points_and_a_pivot_have_judged_designs():
     points = [(0, 0), (1, 0.6), (2, 0.8)]
     found = synthesise_path(PathTask(points, fixed_pivots=[(0, -3)]), number=1)
     assert found.designs[0].verdict.error < 1e-9
-    assert "4 parameters" in str(found.notes[0])
+    assert "free parameters: 4" in str(found.notes[0])
 
 
 @pytest.mark.parametrize("kind", ROWS, ids=lambda kind: kind.name)
