@@ -275,8 +275,6 @@ export class BuildView implements View, Plane, Drawn {
 
   #down(event: PointerEvent): void {
     if (event.button > 0) return;
-    event.preventDefault();
-    this.root.focus({ preventScroll: true });
     this.#fingers.put(event.pointerId, pixelIn(this.root, event));
     if (this.#fingers.count > 1) return this.#takeBack();
     this.#begun = [this.drawing, [...this.spots]];

@@ -36,9 +36,13 @@ export function withMinus(text: string): string {
   return text.replace(/(^|[\s(=])-(?=[\s\d(])/g, "$1−");
 }
 
-/** A text in which what follows an underscore is an index: l_a. */
+/** A text in which what follows an underscore is an index, l_a, and the class of a joint, g1; it does not break
+ * beside an equals sign. */
 export function indexed(text: string): (string | Node)[] {
-  return text.split(/(?<=[\p{L}\d])_([\p{L}\d]+)/u).map((part, k) => (k % 2 ? h("sub", {}, part) : part));
+  const whole = text.replaceAll(" = ", "\u00a0=\u00a0");
+  return whole
+    .split(/(?:(?<=[\p{L}\d])_|(?<=\bg)(?=\d))([\p{L}\d]+)/u)
+    .map((part, k) => (k % 2 ? h("sub", {}, part) : part));
 }
 
 export function h<K extends keyof HTMLElementTagNameMap>(

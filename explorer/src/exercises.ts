@@ -199,7 +199,7 @@ export class ExercisesView implements View {
           "div",
           {},
           h("h2", {}, task.name),
-          h("p", {}, ...indexed(task.task.replaceAll(" = ", "\u00a0=\u00a0"))),
+          h("p", {}, ...indexed(task.task)),
           task.remark ? h("p.note", {}, task.remark) : null,
         ),
         h(

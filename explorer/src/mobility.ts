@@ -1,6 +1,6 @@
 /** The panel that tells the mobility of what is drawn, and offers what would mend it. */
 
-import { h, renew } from "./dom";
+import { h, indexed, renew } from "./dom";
 import {
   counted,
   type Drawing,
@@ -94,7 +94,7 @@ export class MobilityPanel {
         count,
         h("p", { class: good ? "good" : "bad", "data-fact": "freedoms" }, reason),
         h("div.form", {}, ...offers, ...(good ? [move] : [])),
-        h("details", {}, h("summary", {}, t("Why")), ...told.lines.map((line) => h("p.note", {}, line))),
+        h("details", {}, h("summary", {}, t("Why")), ...told.lines.map((line) => h("p.note", {}, ...indexed(line)))),
       );
     } catch (error) {
       if (asked === this.#asked) renew(this.element, count, h("p.note", {}, (error as Error).message));
@@ -115,7 +115,7 @@ export class MobilityPanel {
       this.view.change(next);
       if (kind === "bar") this.view.fit();
     };
-    return h("button.plain", { "data-offer": kind, onclick: take }, text);
+    return h("button.plain", { "data-offer": kind, onclick: take }, ...indexed(text));
   }
 }
 

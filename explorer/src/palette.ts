@@ -94,5 +94,5 @@ export function hintOf(tool: Tool): (Node | string)[] {
     dyad: t("Place an end, the middle, the other end."),
     gears: t("Place both centres, then the contact (outside: ring gear)."),
   };
-  return [h("b", {}, nameOf(tool)), " ", hints[tool]];
+  return [h("b", {}, nameOf(tool)), ": ", hints[tool]];
 }

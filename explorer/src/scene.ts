@@ -42,7 +42,7 @@ export class Scene {
   poleAside = false;
   readonly #arrows = ["force", "velocity", "acceleration"].map((kind) => svg(`path.${kind}`, {}));
   /** Beside the longest arrow of each kind, how much it is. */
-  readonly #values = [0, 1, 2].map(() => svg("text.tick", { "data-arrow": "", "text-anchor": "middle" }));
+  readonly #values = [0, 1, 2].map(() => svg("text", { "data-arrow": "", "text-anchor": "middle" }));
   readonly #springs = svg("path.spring-path", {});
   readonly #rulers = svg("path.ruler", {});
   readonly #circle = svg("circle.inflection", { r: 0 });

@@ -155,7 +155,7 @@ export class StructureView implements View {
             fact("counted", t("Counted")),
             fact("generic", t("Generic"), found.generic === found.counted ? "good" : "bad"),
           ),
-          ...lines.map((line) => h("p.said", {}, ...indexed(line.trim().replace(/\bg(?=\d)/g, "g_")))),
+          ...lines.map((line) => h("p.said", {}, ...indexed(line.trim()))),
           strained ? h("p.note", {}, t("Orange: overconstrained links.")) : null,
           found.links.some(({ rigid }) => rigid)
             ? h("p.note", {}, t("Purple: links that are rigid against each other."))

@@ -66,7 +66,7 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     view = page.page
     view.click('[data-view="structure"]')
     view.locator('[data-list="chains"] .card').first.wait_for()
-    assert "g<sub>1</sub> = 4" in view.locator(".said", has_text="g1 = 4").first.inner_html()
+    assert "g<sub>1</sub>&nbsp;=&nbsp;4" in view.locator(".said", has_text="g1 = 4").first.inner_html()
     links = view.locator('[data-page="structure"]').get_by_label("Links", exact=True)
     # it begins with the machine at hand, a four-bar, in the place of the only chain of four links
     assert links.input_value() == "4"
