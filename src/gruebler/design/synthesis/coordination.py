@@ -47,6 +47,11 @@ class Coordination:
         """The linkage by its usual lengths."""
         return self.row.size(*self.lengths)
 
+    def placed(self, unit: str = "mm") -> Linkage:
+        """The linkage with its crank at the angle of the first pair, on its branch; its frame lies on the x axis."""
+        own = self.linkage().linkage(unit=unit)
+        return own.with_reference_pose(move_quietly(own, [self.input_start], branch=branch_of_side(self.side)).pose(0))
+
     @property
     def row(self) -> CoordinationKind:
         """What its kind does."""
@@ -113,10 +118,7 @@ class Minimax:
 
     def linkage(self, unit: str = "mm") -> Linkage:
         """The linkage in the position where the interval begins, on its branch."""
-        solution = self.solution
-        own = solution.linkage().linkage(unit=unit)
-        start = move_quietly(own, [solution.input_start], branch=branch_of_side(solution.side))
-        return own.with_reference_pose(start.pose(0))
+        return self.solution.placed(unit)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data: lengths, starts, errors and the certificate; angles in degrees."""
@@ -261,6 +263,11 @@ KINDS = (
         input_degree=1,
     ),
 )
+
+
+def turning_kind(task: FunctionTask) -> CoordinationKind:
+    """Four-bars, or slider-cranks for travels."""
+    return next(kind for kind in KINDS if kind.output == task.output and kind.unknowns == 3)
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,10 +10,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import zip_longest
 from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.coordination import (
@@ -23,15 +25,18 @@ from gruebler.design.synthesis.coordination import (
     coordinations_with_fixed_starts,
     coordinations_with_one_free_start,
     pair_arrays,
+    turning_kind,
 )
 from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyad_families import guiding_dyads
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, GuidingDyad
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
+from gruebler.design.synthesis.freudenstein import output_errors
 from gruebler.design.synthesis.given_lengths import scale_to_length
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.law_motion import over_interval
 from gruebler.design.synthesis.minimax_search import minimax as minimax_near
+from gruebler.design.synthesis.nearest_functions import nearest_linkages
 from gruebler.design.synthesis.pair_facts import PairFacts, facts_of_pins
 from gruebler.design.synthesis.pair_search import best_dyads
 from gruebler.design.synthesis.positions import NEAR
@@ -171,11 +176,11 @@ def _by_free_starts(task: FunctionTask, wanted: Demands, number: int, sort: Sequ
         notes = tuple(search)
         some = turning[:: max(1, len(turning) // number)]
         dyads = (best or some) + [dyad for dyad in dyads if dyad.slides]
-    candidates = [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
     theorem: int | None = None
-    complex_count = len(dyads)
+    nearest: list[Design] = []
     if len(task) > 5:
-        theorem = 0
+        theorem, dyads = 0, [dyad for dyad in dyads if dyad.slides]
+        nearest = _nearest_pairs(task, wanted)
         notes = (
             message(
                 "More than five pairs are met by least squares; designs that come nearer than {tolerance:g} are "
@@ -184,14 +189,32 @@ def _by_free_starts(task: FunctionTask, wanted: Demands, number: int, sort: Sequ
             ),
         )
     elif len(task) == 5:
-        theorem = complex_count = 3  # four dyads less the frame
+        theorem = 3  # four dyads less the frame
     else:
         notes = (*notes, _FAMILIES[len(task)].filled(count=max(len(turning), len(dyads))))
+    candidates = nearest + [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
+    real = len(nearest) + len(dyads)
+    complex_count = 3 if len(task) == 5 else real
     return _Candidates(
-        candidates,
-        SolutionCount(what=message("linkages"), theorem=theorem, found=complex_count, real=len(dyads)),
-        notes,
+        candidates, SolutionCount(what=message("linkages"), theorem=theorem, found=complex_count, real=real), notes
     )
+
+
+def _nearest_pairs(task: FunctionTask, wanted: Demands) -> list[Design]:
+    """The four-bars or slider-cranks that follow more than five pairs most nearly, by the output at each crank angle."""
+    phi, output = pair_arrays(task)
+    turned, moved = phi - phi[0], output - output[0]
+    size = 1.0 if task.output == "angle" else float(np.ptp(output)) or 1.0
+    designs = []
+    for solution in nearest_linkages(turning_kind(task), phi, output):
+        error = float(np.abs(output_errors(solution, turned, moved)).max()) / size
+        design = _judged_at_starts(task, wanted, solution, turned, moved, size, error)
+        verdict = replace(design.verdict, error=error)
+        if error > wanted.tolerance:
+            reason = message("a target is missed by {error:.3g} of the size", error=error)
+            verdict = replace(verdict, reasons=(*verdict.reasons, reason))
+        designs.append(replace(design, verdict=verdict))
+    return designs
 
 
 def _facts(task: FunctionTask, dyads: Sequence[GuidingDyad]) -> PairFacts:
@@ -210,28 +233,47 @@ def _facts(task: FunctionTask, dyads: Sequence[GuidingDyad]) -> PairFacts:
 
 
 def _optima(exact: SynthesisResult, law: FunctionLaw, demands: Demands) -> SynthesisResult:
-    """The minimax optimum near each design of a result; designs without one are rejected."""
+    """The minimax optima near the designs of a result and near the linkages that follow the function most nearly.
+
+    Designs without one are rejected.
+    """
     task = exact.task
     assert isinstance(task, FunctionTask)
     optima, candidates = list[Minimax](), list[Design]()
-    for design in (*exact.designs, *exact.rejected):
-        start = coordination_of(design, task, law)
+    x = np.array([law.interval[0], *chebyshev_spacing(*law.interval, _NEAREST), law.interval[1]])
+    nearest = nearest_linkages(
+        turning_kind(task), law.inputs(x), law.outputs(x), start_input=task.start_input, start_output=task.start_output
+    )
+    exactly = (*exact.designs, *exact.rejected)
+    starts = [coordination_of(design, task, law) for design in exactly] + nearest
+    for start, design in zip_longest(starts, exactly):
         try:
             if start is None:
                 raise SynthesisError("the minimax optimum is sought of four-bars and slider-cranks")
             optimum = minimax_near(start, law)
         except SynthesisError:
-            reason = message("it does not follow the function over the whole interval: no minimax optimum is near")
-            reasons = (*design.verdict.reasons, reason)
-            candidates.append(replace(design, verdict=replace(design.verdict, reasons=reasons)))
+            if design is not None:
+                reason = message("it does not follow the function over the whole interval: no minimax optimum is near")
+                reasons = (*design.verdict.reasons, reason)
+                candidates.append(replace(design, verdict=replace(design.verdict, reasons=reasons)))
+            continue
+        if design is None and not optimum.certificate.optimum:
             continue
         if not any(_same_optimum(optimum, other) for other in optima):
             optima.append(optimum)
             candidates.append(_judged_optimum(task, law, demands, optimum))
     accepted, rejected = ranked(candidates)
+    note = message(
+        "The search for minimax optima also begins at {count} linkages that follow the function most nearly, by least "
+        "squares from a grid of starts.",
+        count=len(nearest),
+    )
+    exact = replace(exact, notes=(*exact.notes, note))
     return replace(exact, designs=in_order_of(accepted, ["error"]), rejected=rejected)
 
 
+_NEAREST = 25
+"""At so many places of the interval the linkages that follow a function most nearly are sought."""
 _SAME_OPTIMUM = 1e-4  # relative: optima are flat, so that two searches for one end near each other, not in one place
 
 
@@ -246,27 +288,45 @@ def _same_optimum(first: Minimax, second: Minimax) -> bool:
 
 def _judged_optimum(task: FunctionTask, law: FunctionLaw, demands: Demands, optimum: Minimax) -> Design:
     """A minimax optimum as a design, carried from one end of the interval to the other through the pairs."""
-    solution = optimum.solution
-    if task.output == "angle":
-        scale = scale_to_length(optimum.linkage(), demands)
-        solution = replace(solution, lengths=tuple(scale * length for length in solution.lengths))
-        optimum = replace(optimum, solution=solution)
-    linkage = optimum.linkage(task.unit)
     x = np.array([law.interval[0], *chebyshev_spacing(*law.interval, len(task)), law.interval[1]])
     free_law = replace(law, input_start=0.0, output_start=0.0)
-    phi, output = solution.input_start + free_law.inputs(x), solution.output_start + free_law.outputs(x)
+    size = 1.0 if task.output == "angle" else abs(law.output_swing)
+    error = optimum.error / size
+    design = _judged_at_starts(
+        task, demands, optimum.solution, free_law.inputs(x), free_law.outputs(x), size, 1.1 * error
+    )  # 1.1: the error is rounded
+    verdict = replace(design.verdict, error=error, over_interval=optimum.error)
+    optimum = replace(optimum, solution=_scaled(task, demands, optimum.solution))
+    targets = None if design.targets is None else replace(design.targets, values=design.targets.values[1:-1])
+    return replace(design, verdict=verdict, drives=design.drives[1:-1], optimum=optimum, targets=targets)
+
+
+def _scaled(task: FunctionTask, demands: Demands, solution: Coordination) -> Coordination:
+    """With the first of the given lengths, where the task leaves the size free."""
+    scale = scale_to_length(solution.placed(), demands) if task.output == "angle" else 1.0
+    return replace(solution, lengths=tuple(scale * length for length in solution.lengths))
+
+
+def _judged_at_starts(
+    task: FunctionTask,
+    demands: Demands,
+    solution: Coordination,
+    turned: Reals,
+    moved: Reals,
+    size: float,
+    error: float,
+) -> Design:
+    """A linkage by its starts, judged at (pairs,) crank angles and outputs counted from them, which it may so miss."""
+    phi, output = solution.input_start + turned, solution.output_start + moved
     if task.output == "angle":
-        size = 1.0
         probes, values = (Probe(link="crank"), Probe(link="rocker")), [np.exp(1j * phi), np.exp(1j * output)]
     else:
-        size = abs(law.output_swing)
         probes, values = (Probe(link="crank", length=size), Probe(joint=3)), [size * np.exp(1j * phi), output + 0j]
-    met = replace(demands, tolerance=max(demands.tolerance, 1.1 * optimum.error / size))  # 1.1: the error is rounded
+    linkage = _scaled(task, demands, solution).placed(task.unit)
     targets = Targets(probes, np.stack(values, axis=1), size)
+    met = replace(demands, tolerance=max(demands.tolerance, error))
     design = judge_design(linkage, targets, met, solution.kind)
-    verdict = replace(design.verdict, error=optimum.error / size, over_interval=optimum.error)
-    pairs = replace(targets, values=targets.values[1:-1])
-    return replace(design, verdict=verdict, drives=tuple(map(float, phi[1:-1])), optimum=optimum, targets=pairs)
+    return replace(design, drives=tuple(map(float, phi)), targets=targets)
 
 
 def _design(task: FunctionTask, demands: Demands, solution: Coordination) -> Design:

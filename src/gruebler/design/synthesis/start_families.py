@@ -13,10 +13,9 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.design.synthesis.coordination import (
-    KINDS,
-    CoordinationKind,
     coordinations_with_one_free_start,
     pair_arrays,
+    turning_kind,
 )
 from gruebler.design.synthesis.dyads import GuidingDyad
 from gruebler.design.synthesis.tasks import FunctionTask
@@ -61,17 +60,13 @@ def near_by_starts(task: FunctionTask, dyad: GuidingDyad, width: float) -> list[
     return _with_starts(task, inputs, starts, logs[0] if logs else None)
 
 
-def _kind(task: FunctionTask) -> CoordinationKind:
-    return next(kind for kind in KINDS if kind.output == task.output and kind.unknowns == 3)
-
-
 def _output_size(task: FunctionTask) -> float:
     return 1.0 if task.output == "angle" else float(np.ptp(task.outputs)) or 1.0
 
 
 def _with_starts(task: FunctionTask, inputs: Reals, starts: Reals, logs: Reals | None = None) -> list[GuidingDyad]:
     """The linkages of three pairs with such starts, of two pairs with such logarithms of the first factor, too."""
-    kind, size = _kind(task), _output_size(task)
+    kind, size = turning_kind(task), _output_size(task)
     phi, output = pair_arrays(task)
     begins = starts if task.output == "angle" else size * np.sinh(starts)
     columns = kind.columns(inputs[:, None] + phi - phi[0], begins[:, None] + output - output[0])
@@ -93,7 +88,7 @@ def _with_starts(task: FunctionTask, inputs: Reals, starts: Reals, logs: Reals |
 
 def _with_input_starts(task: FunctionTask, inputs: Reals) -> list[GuidingDyad]:
     """The linkages of four pairs whose crank starts so: at most two for each start."""
-    kind = _kind(task)
+    kind = turning_kind(task)
     phi, _ = pair_arrays(task)
     dyads = []
     for start in inputs:

@@ -6,7 +6,6 @@ numbers of the linkage.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -16,8 +15,9 @@ from numpy.typing import ArrayLike
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.base.formulas import Formula
-from gruebler.design.synthesis.coordination import KINDS, Coordination, CoordinationKind, as_coordination
+from gruebler.design.synthesis.coordination import KINDS, Coordination, CoordinationKind
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
+from gruebler.design.synthesis.freudenstein import EQUATIONS, Equation, errors_and_slopes, linkage_of_numbers
 from gruebler.design.synthesis.results import Design
 from gruebler.design.synthesis.tasks import FunctionTask
 
@@ -27,8 +27,6 @@ _ZOOMS, _PARTS = 4, 20
 which changes the extreme by less than 1e-9 of itself."""
 _WIDTH = 2e-3
 """Of the interval: the distance of values from which derivatives by x are taken."""
-_ROUNDING = 1e-13
-"""By so much a cosine may exceed 1 where the linkage is stretched."""
 
 
 def coordination_of(design: Design, task: FunctionTask, law: FunctionLaw) -> Coordination | None:
@@ -81,78 +79,6 @@ def error_extremes(solution: Coordination, law: FunctionLaw) -> Reals:
     return family.extremes(family.numbers_of(solution))[0]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Equation:
-    """What Freudenstein's equation says of a kind of linkage."""
-
-    numbers: Callable[[tuple[float, ...], float], list[float]]
-    """The three of a linkage, from its lengths and the unit of travels."""
-    outputs: Callable[[Reals, Reals, Reals, int], Reals]
-    """What solves it, from the numbers, the inputs, the outputs wanted and the branch."""
-    derivatives: Callable[[Reals, Reals, Reals], tuple[Reals, Reals]]
-    """By the input and by the output."""
-    turned: Callable[[Reals], int]
-    """-1 where numbers stand for a linkage on the other branch, of positive lengths."""
-    narrowest: float
-    """The crank angle, and that angle by half a turn later, at which the room that is left has an extreme."""
-
-
-def _four_bar_numbers(lengths: tuple[float, ...], _: float) -> list[float]:
-    a, b, c = (v / lengths[3] for v in lengths[:3])
-    return [1 / a, 1 / c, (a * a + c * c + 1 - b * b) / (2 * a * c)]
-
-
-def _four_bar_outputs(numbers: Reals, inputs: Reals, wanted: Reals, side: int) -> Reals:
-    """Re(conj(w) exp(i psi)) = K2 cos phi - K3; of the angles the value nearest to the one wanted."""
-    k1, k2, k3 = numbers[:3]
-    c, s = np.cos(inputs), np.sin(inputs)
-    w = k1 - c - 1j * s
-    cosine = (k2 * c - k3) / np.abs(w)
-    cosine = np.where(np.abs(cosine) < 1 + _ROUNDING, np.clip(cosine, -1, 1), np.nan)
-    output = np.angle(w) + side * np.arccos(cosine)
-    return np.asarray(wanted + np.angle(np.exp(1j * (output - wanted))))
-
-
-def _four_bar_derivatives(numbers: Reals, inputs: Reals, output: Reals) -> tuple[Reals, Reals]:
-    k1, k2 = numbers[:2]
-    turned = np.sin(inputs - output)
-    return k2 * np.sin(inputs) + turned, -k1 * np.sin(output) - turned
-
-
-def _slider_numbers(lengths: tuple[float, ...], unit: float) -> list[float]:
-    a, b, e = (v / unit for v in lengths)
-    return [2 * a, 2 * a * e, b * b - a * a - e * e]
-
-
-def _slider_outputs(numbers: Reals, inputs: Reals, _: Reals, side: int) -> Reals:
-    k1, k2, k3 = numbers[:3]
-    c, s = np.cos(inputs), np.sin(inputs)
-    return np.asarray(k1 * c / 2 + side * np.sqrt((k1 * c / 2) ** 2 + k2 * s + k3))
-
-
-def _slider_derivatives(numbers: Reals, inputs: Reals, output: Reals) -> tuple[Reals, Reals]:
-    k1, k2 = numbers[:2]
-    return k2 * np.cos(inputs) - k1 * output * np.sin(inputs), k1 * np.cos(inputs) - 2 * output
-
-
-_EQUATIONS = {
-    "four-bar": _Equation(
-        numbers=_four_bar_numbers,
-        outputs=_four_bar_outputs,
-        derivatives=_four_bar_derivatives,
-        turned=lambda numbers: int(np.sign(numbers[0] * numbers[1])),
-        narrowest=0.0,
-    ),
-    "slider-crank": _Equation(
-        numbers=_slider_numbers,
-        outputs=_slider_outputs,
-        derivatives=_slider_derivatives,
-        turned=lambda _: 1,
-        narrowest=np.pi / 2,
-    ),
-}
-
-
 @dataclass(frozen=True, eq=False)
 class ErrorFamily:
     """The structural errors for a law of all linkages of a kind, by five numbers of the linkage.
@@ -169,7 +95,7 @@ class ErrorFamily:
     law: FunctionLaw
 
     def __post_init__(self) -> None:
-        if self.kind not in _EQUATIONS:
+        if self.kind not in EQUATIONS:
             raise SynthesisError("the minimax optimum is sought of four-bars and slider-cranks")
 
     @cached_property
@@ -182,8 +108,8 @@ class ErrorFamily:
         return next(kind for kind in KINDS if kind.name == self.kind)
 
     @property
-    def _equation(self) -> _Equation:
-        return _EQUATIONS[self.kind]
+    def _equation(self) -> Equation:
+        return EQUATIONS[self.kind]
 
     def links_of(self, solution: Coordination) -> tuple[float, ...]:
         """What the lengths of a linkage are compared with: all links, or crank, coupler and the wanted travel."""
@@ -210,16 +136,7 @@ class ErrorFamily:
 
     def linkage_of(self, numbers: Reals) -> Coordination | None:
         """The linkage of these numbers, the frame of a four-bar 1; None if it has none that can be assembled."""
-        signed = self._row.lengths(numbers[:3])
-        begin = np.array(self.law.interval[:1])
-        output = float(self._outputs(numbers, *self._wanted(numbers, begin))[0])
-        if signed is None or not np.isfinite(output):
-            return None
-        linkage = as_coordination(self.kind, signed, float(numbers[3]), output)
-        lengths = tuple(float(self.unit * v) for v in linkage.lengths)
-        start = self.unit * (linkage.output_start + float(numbers[4]) - output)
-        turned = self._equation.turned(numbers)
-        return replace(linkage, lengths=lengths, output_start=start, side=self.side * turned)
+        return linkage_of_numbers(self._row, numbers, self.side, self.unit)
 
     def inputs(self, numbers: Reals, x: Reals) -> Reals:
         """The crank angles at x."""
@@ -243,13 +160,7 @@ class ErrorFamily:
 
     def slopes(self, numbers: Reals, x: Reals) -> tuple[Reals, Reals]:
         """The errors and (x, 5) their derivatives by the numbers: the equation holds whatever the numbers are."""
-        inputs, wanted = self._wanted(numbers, x)
-        output = self._outputs(numbers, inputs, wanted)
-        columns = self._row.columns(inputs, output)
-        by_input, by_output = self._equation.derivatives(numbers, inputs, output)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            moved = -np.column_stack([columns[:, :3], by_input]) / by_output[:, None]
-        return output - wanted, np.column_stack([moved, -np.ones_like(x)])
+        return errors_and_slopes(self._row, self.side, numbers, *self._wanted(numbers, x))
 
     def _narrowest(self, numbers: Reals) -> Reals:
         """Where within the interval the crank is in line with the frame; of slider-cranks at right angles to the path.
