@@ -201,7 +201,7 @@ def _by_free_starts(task: FunctionTask, wanted: Demands, number: int, sort: Sequ
 
 
 def _nearest_pairs(task: FunctionTask, wanted: Demands) -> list[Design]:
-    """The four-bars or slider-cranks that follow more than five pairs most nearly, by the output at each crank angle."""
+    """The four-bars or slider-cranks that follow more than five pairs most nearly, by the output at crank angles."""
     phi, output = pair_arrays(task)
     turned, moved = phi - phi[0], output - output[0]
     size = 1.0 if task.output == "angle" else float(np.ptp(output)) or 1.0
