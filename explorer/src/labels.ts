@@ -21,9 +21,8 @@ export interface Label {
   taken: number;
   /** The corners of its link. */
   hull?: (viewport: Viewport) => Pair[];
-  /** Half its width, in pixels, and whether it begins at its place instead of having its middle there. */
+  /** Half its width, in pixels. */
   half: number;
-  begins: boolean;
   /** Whether it has so many places that others have theirs before. */
   many?: boolean;
 }
@@ -62,30 +61,29 @@ export function labelsOf(linkage: Linkage): Label[] {
       taken: 0,
       hull,
       half: halfOf(name),
-      begins: false,
       many: convexHull(joints()).length > 1,
     };
   });
-  const marks = sizes.points.map(
-    (point): Label => ({
-      element: svg("text.mark", {}, linkage.pointName(point.name)),
-      name: point.name,
-      spots: (viewport) => {
-        const [x, y] = viewport.screen(...place(linkage.pose, 0, point.link, ...point.at));
-        return [[x + 9, y - 9]];
-      },
-      taken: 0,
-      half: halfOf(linkage.pointName(point.name)),
-      begins: true,
-    }),
-  );
+  const marks = sizes.points.map((point): Label => {
+    const name = linkage.pointName(point.name);
+    const half = halfOf(name);
+    const spots = (viewport: Viewport) => {
+      const [x, y] = viewport.screen(...place(linkage.pose, 0, point.link, ...point.at));
+      return [9 + half, -9 - half].flatMap((right): Pair[] => [
+        [x + right, y - 9],
+        [x + right, y + 18],
+      ]);
+    };
+    const element = svg("text.mark", { "text-anchor": "middle" }, name);
+    return { element, name: point.name, spots, taken: 0, half };
+  });
   const letters = [...model.joints.keys()].flatMap((joint): Label[] => {
     const name = linkage.letterOf(joint);
     if (!name) return [];
     const spots = (viewport: Viewport) =>
       spotsAbout(viewport.screen(...linkage.jointAt(joint)), -LETTER).map(([x, y]): Pair => [x, y + 4]);
     const element = svg("text.name", { "text-anchor": "middle" }, name);
-    return [{ element, name, spots, taken: 0, half: halfOf(name), begins: false }];
+    return [{ element, name, spots, taken: 0, half: halfOf(name) }];
   });
   return [...letters, ...names, ...marks];
 }
@@ -96,6 +94,15 @@ export function standing([x, y]: Pair): Pair[] {
     [x, y - 14],
     [x + 17, y + 23],
     [x - 17, y + 23],
+  ];
+}
+
+/** The arrow of a drive but for its head, beside which a letter has room. */
+export function driving([x, y]: Pair): Pair[] {
+  return [
+    [x - 8, y - 6],
+    [x - 7, y - 13],
+    [x + 9, y - 11],
   ];
 }
 

@@ -6,6 +6,7 @@ import { svg } from "./dom";
 import { type Drawing, isPin, type Knot, knotName, lengthsOf, linksOf, type Spot, same, unitOf } from "./drawing";
 import { gridOf, stepOf } from "./grid";
 import { away, clearAbout, convexHull, nearest, onLine, toHull } from "./hull";
+import { driving } from "./labels";
 import { angle, number, spaced } from "./language";
 import { clearSpot, halfOf, namePlace, nameSpots } from "./names";
 import type { Pair } from "./rows";
@@ -86,13 +87,7 @@ export function planePicture(plane: Plane): SVGElement[] {
   const path = (corners: readonly Pair[]) =>
     corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
   const hulls = bodies.map((link) => outlineOf(plane, link));
-  const arrows = drawing.drives.map((k): Pair[] => {
-    const [x, y] = viewport.screen(...drawing.knots[k]!.at);
-    return [
-      [x - 13, y - 5],
-      [x + 9, y - 10],
-    ];
-  });
+  const arrows = drawing.drives.map((k) => driving(viewport.screen(...drawing.knots[k]!.at)));
   const letters = lettersOf(plane, [...hulls, ...arrows]);
   const links = bodies.flatMap((link, k) => {
     const hull = hulls[k]!;

@@ -5,7 +5,7 @@ import { Bodies } from "./bodies";
 import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import { clearAbout, convexHull } from "./hull";
-import { clearOf, type Label, labelsOf, standing } from "./labels";
+import { clearOf, driving, type Label, labelsOf, standing } from "./labels";
 import { number as numberText } from "./language";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
@@ -25,6 +25,7 @@ const LINE = 15; // pixels that names are apart
 const MOST_CLEAR = 40; // names that look for a place of their own in every picture
 const TOOLS = 218; // down to where names are clear of the buttons over the picture
 const BESIDE = 56; // from the right edge of the picture to the left one of these
+const NEAR = 16; // places of a letter of which others are twice as far
 const RAIL = 6; // half the width of a rail with its hatching, and some room
 
 export class Scene {
@@ -223,6 +224,7 @@ export class Scene {
     const grounds = this.#pins
       .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
       .map(({ joint }) => standing(viewport.screen(...linkage.jointAt(joint))));
+    grounds.push(...model.drives.map(({ joint }) => driving(viewport.screen(...linkage.jointAt(joint)))));
     const { height, width } = viewport;
     const low = height < 2 * TOOLS ? 72 : TOOLS; // a low picture has one button only
     const buttons: Pair[] = [
@@ -242,7 +244,7 @@ export class Scene {
     const drawn = [...hulls.filter((hull) => hull.length), ...arrows, ...grounds, buttons];
     const order = [...this.#labels.entries()].sort(([, one], [, other]) => +!!one.many - +!!other.many);
     for (const [k, label] of order) {
-      const { element, half, begins, name, spots } = label;
+      const { element, half, name, spots } = label;
       const places = spots(viewport);
       const touching = (at: Pair) =>
         taken.find(
@@ -261,10 +263,9 @@ export class Scene {
           label.taken,
           (at) => seen(at) && clear(grounds)(at),
         );
-      } else if (!free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
+      } else if (label.taken >= NEAR || !free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
       const [left, top] = places[label.taken]!;
-      const aside = begins ? half : 0;
-      const x = Math.max(half + 2, Math.min(width - half - 2, left + aside)); // it is not cut
+      const x = Math.max(half + 2, Math.min(width - half - 2, left)); // it is not cut
       let y = top;
       const way = y < (touching([x, y])?.y ?? 0) ? -1 : 1;
       for (let other = touching([x, y]); other; other = touching([x, y])) y = other.y + way * LINE;
@@ -273,7 +274,7 @@ export class Scene {
         [x - half, y - 4],
         [x + half, y - 4],
       ]);
-      move(element, [x - aside, y]);
+      move(element, [x, y]);
     }
     kinds.forEach(([all, unit], k) => {
       put(this.#arrows[k]!, { d: all.map((vector) => arrow(...vector)).join("") });

@@ -327,13 +327,10 @@ def test_tools_of_a_phone_stand_in_one_row(tab, server):
     boxes = tools.evaluate_all("all => all.map((e) => e.getBoundingClientRect().toJSON())")
     assert len({box["y"] for box in boxes}) == 1
     assert min(box["height"] for box in boxes) >= 44
-    palette = page.page.locator(".transport.palette")
-    assert palette.evaluate("(e) => e.scrollWidth > e.clientWidth")  # the last ones are reached by a swipe
+    assert all(0 <= box["left"] < box["right"] <= 390 for box in boxes)
     page.page.locator('[data-tool="gears"]').click()
     hint = page.page.locator("[data-page] .hint, .drawing + .hint").first
-    assert hint.inner_text().startswith("Zahnradpaar Beide Mitten")
-    last = page.page.locator('[data-tool="gears"]').bounding_box()
-    assert last["x"] + last["width"] <= 390  # it stays in sight when it is chosen
+    assert hint.inner_text().startswith("Zahnradpaar: Beide Mitten")
 
 
 def test_tools_stand_in_one_row_on_a_small_desk(tab, server):
@@ -534,3 +531,36 @@ def test_the_value_of_each_plot_stands_beside_its_title_in_english(tab, server):
     for right, bottom, left, top in boxes:
         assert top < bottom
         assert right + 3 < left
+
+
+def test_letters_of_a_phone_stay_at_their_joints_and_points_clear_of_bars_and_rails(tab, server):
+    """Of a slider-crank, over its turn: the letter of its crank's pivot, the name of the point of its coupler."""
+    page = tab(width=390, height=844, touch=True).open(server.address)
+    page.page.tap('[data-view="build"]')
+    page.page.tap('[data-begin="slider-crank"]')
+    page.page.tap('[data-act="move"]')
+    page.until("gruebler.view === 'motion'")
+    page.page.evaluate("gruebler.motion.transport.pause()")
+    seen = """(() => {
+        const { linkage, stage } = gruebler.motion;
+        const at = (joint) => stage.viewport.screen(...linkage.jointAt(joint));
+        const middle = (text) => {
+            const name = [...stage.root.querySelectorAll("text")].find((one) => one.textContent === text);
+            const { e, f } = name.transform.baseVal[0].matrix;
+            return [e, f - 4];
+        };
+        return [at(0), at(1), at(2), middle("A"), middle("K1")];
+    })()"""
+    arrow = np.array([(9.5, -9.5), (0, -13.4), (-9, -10), (-12.5, -5)])  # of the drive, about its joint
+    far, gaps, off = [], [], []
+    for drive in range(0, 360, 10):
+        page.page.evaluate(f"gruebler.motion.transport.pick({np.radians(drive)})")
+        a, b, c, letter, mark = map(np.array, page.page.evaluate(seen))
+        far.append(np.hypot(*(letter - a)))
+        gaps.append(min(np.hypot(*(letter - a - at)) for at in arrow))
+        x, y = (c - b) / np.hypot(*(c - b))
+        off.append(min(abs(x * (mark - b)[1] - y * (mark - b)[0]), abs(mark - c)[1]))  # from its bar, from the rail
+    assert np.mean(np.array(far) < 21) > 0.8
+    assert min(gaps) > 8
+    assert np.mean(np.array(off) > 9) > 0.8
+    page.page.evaluate("localStorage.clear()")
