@@ -21,8 +21,8 @@ interface Task {
   remark: string;
   /** Pictures of what can be tried, each with a name where there are several. */
   figures: { name: string; picture: string }[];
-  /** How many of them are opened to try; tasks in space have none. */
-  tries: number;
+  /** What the buttons say that open what can be tried; tasks in space have none. */
+  tries: string[];
   asked: Asked[];
 }
 
@@ -228,9 +228,7 @@ export class ExercisesView implements View {
           h(
             "div.form",
             {},
-            ...(marked ? task.figures.slice(0, task.tries) : []).map(({ name }, k) =>
-              act("try", [t("Try it"), name].filter(Boolean).join(": "), false, () => void this.#tryIt(k)),
-            ),
+            ...(marked ? task.tries : []).map((text, k) => act("try", text, false, () => void this.#tryIt(k))),
           ),
           marked &&
             h("details.words.solution", {}, h("summary", {}, t("The solution")), ...marked.solution.map(partOf)),

@@ -262,3 +262,36 @@ def test_the_velocity_is_asked_where_the_linkage_then_stands(exercises):
     page.page.click('[data-act="try"]')
     page.until("gruebler.view === 'motion'")
     assert page.page.evaluate("gruebler.motion.linkage.drives[0] * 180 / Math.PI") == pytest.approx(float(angle))
+
+
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (390, 844)])
+def test_marks_and_hints_move_no_button(exercises, width, height):
+    """Hints stand beside what is typed and above a choice; on a phone the bar keeps its height in its place."""
+    page = exercises(width=width, height=height, touch=width < 500)
+    view = page.page
+    bar = ".shown .go"
+    for kind in ("mobility", "grashof"):
+        begin(page, kind, 7)
+        for field in view.locator("input[data-answer]").all():
+            field.fill("9")
+        for group in view.locator("div[data-answer]").all():
+            group.locator("button").last.click()
+        rows = "[...gruebler.root.querySelectorAll('.answer')].map((one) => one.offsetHeight)"
+        before, place = view.evaluate(rows), view.locator(bar).bounding_box()
+        view.click('[data-act="mark"]')
+        view.locator("[id^=hint-]").first.wait_for()
+        page.until("gruebler.root.querySelector('[data-result]').textContent")
+        if width > 500:
+            assert view.evaluate(rows) == pytest.approx(before, abs=13)  # a choice with two lines of a hint
+        assert view.locator(bar).bounding_box()["height"] == place["height"]
+        assert view.locator(".answer > [id^=hint-]").count() > 1
+
+
+@pytest.mark.parametrize(("lang", "words"), [("en", ["Structure", "Motion"]), ("de", ["Struktur", "Bewegung"])])
+def test_what_is_tried_says_where_it_opens(lang, words):
+    ids = ["mobility-1-3", "grashof-1-3", "exercise-5"]
+    tries = [task_record(id, lang)["tries"] for id in ids]
+    assert [len(one) for one in tries] == [len(tried_task(id)) for id in ids]
+    assert words[0] in tries[0][0]
+    assert all(words[1] in text for one in tries[1:] for text in one)
+    assert len({*tries[2]}) == len(tries[2]) > 1  # each says which one

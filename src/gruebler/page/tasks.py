@@ -32,6 +32,8 @@ from gruebler.teaching.worksheets.tasks import exercise_figure
 
 _OF_THE_TEXT = "exercise"
 _OTHERWISE = message("See the steps of the solution.")
+_IN_STRUCTURE = message("Try it in Structure")
+_IN_MOTION = message("Try it in Motion")
 
 
 def task_kinds(lang: str) -> list[dict[str, Any]]:
@@ -64,7 +66,7 @@ def task_record(id: str, lang: str) -> dict[str, Any]:
         "task": task.task.in_language(lang),
         "remark": task.remark.in_language(lang) if task.remark else "",
         "figures": _figures(task, lang),
-        "tries": 1 if _chain_of(task) else len(exercise_linkages(task)),
+        "tries": _tries(task, lang),
         "asked": [
             {
                 "key": ascii_key(result.key),
@@ -84,6 +86,18 @@ def _chain_of(task: Exercise) -> str:
     """The text of the chain that a task is about; empty where it is about linkages."""
     chain = task.given.get("chain")
     return chain if isinstance(chain, str) else ""
+
+
+def _tries(task: Exercise, lang: str) -> list[str]:
+    """What is written on the buttons that open what can be tried; tasks in space have none.
+
+    >>> _tries(exercise("mobility-1-3"), "en"), _tries(exercise("exercise-5"), "en")[0]
+    (['Try it in Structure'], 'Try it in Motion: Garage door without rail')
+    """
+    if _chain_of(task):
+        return [_IN_STRUCTURE.in_language(lang)]
+    names = [drawn.name.in_language(lang) if drawn.name else "" for drawn in exercise_linkages(task)]
+    return [": ".join(filter(None, (_IN_MOTION.in_language(lang), name))) for name in names]
 
 
 def _figures(task: Exercise, lang: str) -> list[dict[str, str]]:
