@@ -32,7 +32,7 @@ export class Demands {
       {},
       closed,
       way && option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
-      h("label", {}, way ? t("transmission angle on the way from") : t("transmission angle from"), least, "°"),
+      h("label", {}, way ? t("transmission angle on the way at least") : t("transmission angle at least"), least, "°"),
       places &&
         h(
           "details.words",

@@ -143,12 +143,11 @@ export class DesignCards {
     const found = this.#found;
     if (!found) return renew(this.element);
     const { items } = found;
-    const shown = items.length;
     const names: Record<Order, string> = {
       error: t("by deviation"),
       transmission: t("by μ on the way"),
       range: t("by μ in all positions"),
-      size: t("by size"),
+      size: t("by longest link"),
       shift: t("by sensitivity"),
       balanced: t("balanced"),
     };
@@ -158,16 +157,15 @@ export class DesignCards {
     const more = this.#shown.filter(({ variant }) => variant);
     const forms = this.#forms();
     const kinds = forms.map((form): [string, string] => [form, `${form} · ${this.#of(form).length}`]);
-    const several = forms.length > 1;
     kinds.unshift(["", t("All")]);
     renew(
       this.element,
-      h("h2", {}, (several || !shown ? "" : `${forms[0]}: `) + t("{count} designs", { count: shown })),
-      h("p.note", {}, `${found.note} ${sorted}`),
+      h("h2", {}, t("{count} designs", { count: items.length })),
+      h("p.note", {}, `${found.note} ${sorted} ${found.words}`),
       h(
         "div.form",
         {},
-        several &&
+        forms.length > 1 &&
           menu(t("Kinds of machines"), kinds, this.#form, (form) => this.#choose(() => (this.#form = form)), {
             "data-field": "form",
           }),
@@ -176,13 +174,12 @@ export class DesignCards {
             "data-field": "sorted",
           }),
       ),
-      found.words ? h("details.words", {}, h("summary", {}, t("In words")), h("p.note", {}, found.words)) : "",
       h("div.cards.sorted", { "data-list": "designs" }, ...mine.map((design) => this.#card(design))),
       more.length
         ? h(
             "details.words",
             {},
-            h("summary", {}, t("Much like these: {count}", { count: more.length })),
+            h("summary", {}, t("{count} more, much like these", { count: more.length })),
             h("div.cards.sorted", { "data-list": "variants" }, ...more.map((design) => this.#card(design))),
           )
         : "",
@@ -231,7 +228,7 @@ export class DesignCards {
           ? t("μ ≥ {way} on the way", { way }) + (all ? t(", else {all}", { all }) : "")
           : all && t("μ ≥ {all} in all positions", { all }),
       ),
-      h("span", {}, !this.#found!.relative && t("size {value} mm", { value: number(size, 3) })),
+      h("span", {}, !this.#found!.relative && t("longest link {value} mm", { value: number(size, 3) })),
       h("span", {}, !!shift && t("sensitivity {value} %", { value: number(100 * shift, 2) })),
     );
     return card;

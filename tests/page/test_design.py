@@ -317,13 +317,14 @@ def test_the_transmission_angle_asked_for_says_where_it_holds(design):
     least = view.locator('label:has([data-field="least"])')
     for kind in ("points", "positions", "function"):
         view.click(f'[data-value="{kind}"]')
-        assert least.inner_text().startswith("transmission angle on the way from")
+        assert least.inner_text().startswith("transmission angle on the way at least")
     view.click('[data-act="synthesise"]')
     view.locator('[data-list="designs"] .card:has-text("on the way, else")').first.wait_for(timeout=60_000)
-    view.locator(".designs summary").first.click()
-    assert "On the way: from the first target to the last." in view.locator(".designs details").first.inner_text()
+    told = view.locator(".designs > .note").inner_text()
+    assert "On the way: from the first target to the last." in told
+    assert "Sensitivity: how far a target is off at most" in told
     view.click('[data-value="dead-centres"]')
-    assert least.inner_text().startswith("transmission angle from")
+    assert least.inner_text().startswith("transmission angle at least")
 
 
 def order_of(view, key: str) -> list[str]:
@@ -343,7 +344,7 @@ def test_each_order_is_another_one_by_a_value_on_the_cards(design):
     order_of(view, "size")
     for where in ("designs", "variants"):
         texts = view.locator(f'[data-list="{where}"] .card').all_text_contents()
-        sizes = [float(re.search(r"size ([\d.]+)\xa0mm", text)[1]) for text in texts]
+        sizes = [float(re.search(r"longest link ([\d.]+)\xa0mm", text)[1]) for text in texts]
         assert sizes
         assert sizes == sorted(sizes)
     # the one that plays is marked

@@ -46,7 +46,7 @@ _LIKE = 0.1
 """Of the size: designs of one form whose pivots and lengths differ by less are variants of one another."""
 _LONGEST = 100.0
 """Of designs of which only the ratios count: so long is the longest distance of joints on a link, in mm."""
-BALANCED = message("Balanced: transmission angle, size and sensitivity count alike.")
+BALANCED = message("Balanced: transmission angle, longest link and sensitivity count alike.")
 BEST = message("The best of {count}.")
 EXACT = message("All meet the targets exactly.")
 NONE = message("None does: ask for less, or try other targets.")
