@@ -363,3 +363,15 @@ def test_the_measure_that_is_asked_for_steers_the_search_of_pairs():
     by_angle = synthesise_function(task, number=4).designs[0]
     by_ratio = synthesise_function(task, number=4, sort=["size-ratio"]).sorted_by("size-ratio").designs[0]
     assert by_ratio.verdict.size_ratio < by_angle.verdict.size_ratio
+
+
+@pytest.mark.parametrize(("turned", "names"), [(0, None), (np.pi, "1 (crank)")])
+def test_a_crank_that_lies_opposite_to_the_given_angle_is_told(turned, names):
+    """Freudenstein's equation holds of lines: a crank turned by half a turn against its shaft meets the same pairs."""
+    phi = 0.4 + np.array([0.0, 0.5, 1.0])
+    psi = np.unwrap(np.asarray(FourBar(0.8, 1.5, 1.2, 1.0).motion(phi).output.value))
+    found = synthesise_function(FunctionTask(tuple(phi + turned), outputs=tuple(psi)))
+    assert found.designs[0].drives[0] == pytest.approx(phi[0])
+    told = [str(note) for note in found.notes if "shafts" in str(note)]
+    assert told == ([] if names is None else [told[0]])
+    assert names is None or told[0].endswith(f"by design: {names}.")

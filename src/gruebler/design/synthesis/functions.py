@@ -42,7 +42,7 @@ from gruebler.design.synthesis.pair_search import best_dyads
 from gruebler.design.synthesis.positions import NEAR
 from gruebler.design.synthesis.results import EXACT, Design, SolutionCount, SynthesisResult, in_order_of, ranked
 from gruebler.design.synthesis.start_families import near_by_starts, sampled_by_starts
-from gruebler.design.synthesis.structural_errors import coordination_of
+from gruebler.design.synthesis.structural_errors import coordination_of, links_turned_round
 from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import FunctionTask, PositionTask
 from gruebler.mechanics.linkages import Linkage
@@ -117,6 +117,16 @@ def synthesise_function(
         )
     if fitted:
         designs = in_order_of(designs, ["error"])
+    opposite = [(k, links) for k, design in enumerate(designs, 1) if (links := links_turned_round(design, task))]
+    if opposite:
+        notes = (
+            *notes,
+            message(
+                "Given angles are those of the shafts; links that point the other way, at 180 degrees to them, by "
+                "design: {links}.",
+                links=", ".join(f"{k} ({', '.join(names)})" for k, names in opposite),
+            ),
+        )
     result = SynthesisResult(task=task, designs=designs, rejected=rejected, count=met.solutions, notes=notes)
     return _optima(result, task.law, wanted) if minimax and task.law is not None else result
 

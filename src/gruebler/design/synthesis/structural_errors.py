@@ -34,15 +34,10 @@ def coordination_of(design: Design, task: FunctionTask, law: FunctionLaw) -> Coo
 
     The starts are those of x at the begin of the interval.
     """
-    linkage = design.linkage
-    chain, reference_pose = linkage.mechanism.chain, linkage.reference_pose
-    if reference_pose is None or any(not joint.pair.is_turning for joint in chain.joints[:3]):
+    places = _pins(design)
+    if places is None:
         return None
-    places = [
-        complex(*reference_pose[link].put(linkage.elements[number, link].x, linkage.elements[number, link].y))
-        for number, link in ((0, "frame"), (0, "crank"), (1, "crank"), (2, "coupler"), (3, "frame"))
-    ]
-    pivot, pin, far, other = places[0], places[2], places[3], places[4]
+    pivot, pin, far, other = places
     x = chebyshev_spacing(*law.interval, len(task))[:1]
     free = replace(law, input_start=0.0, output_start=0.0)
     crank = float(np.angle(pin - pivot)) - float(free.inputs(x)[0])
@@ -58,6 +53,36 @@ def coordination_of(design: Design, task: FunctionTask, law: FunctionLaw) -> Coo
     return Coordination(
         "slider-crank", lengths=lengths_, input_start=crank, output_start=output, side=1 if far.real >= pin.real else -1
     )
+
+
+def _pins(design: Design) -> tuple[complex, complex, complex, complex] | None:
+    """Pivot and pin of the crank, other pin of the coupler, pivot of the rocker or point of the slide; None of others."""
+    linkage = design.linkage
+    chain, pose = linkage.mechanism.chain, linkage.reference_pose
+    if pose is None or any(not joint.pair.is_turning for joint in chain.joints[:3]):
+        return None
+    a0, a, b, b0 = (
+        complex(*pose[link].put(linkage.elements[number, link].x, linkage.elements[number, link].y))
+        for number, link in ((0, "frame"), (1, "crank"), (2, "coupler"), (3, "frame"))
+    )
+    return a0, a, b, b0
+
+
+def links_turned_round(design: Design, task: FunctionTask) -> list[str]:
+    """Which of crank and rocker point away from the angle that a task of given starts has for them.
+
+    The condition holds for the lines of the links, so that a link may lie at 180 degrees to the angle of its shaft.
+    """
+    places = _pins(design)
+    if places is None:
+        return []
+    pivot, pin, far, other = places
+    away = []
+    if task.start_input and np.real((pin - pivot) * np.exp(-1j * task.inputs[0])) < 0:
+        away.append("crank")
+    if task.start_output and task.output == "angle" and np.real((far - other) * np.exp(-1j * task.outputs[0])) < 0:
+        away.append("rocker")
+    return away
 
 
 def structural_error(solution: Coordination, law: FunctionLaw, x: ArrayLike) -> Reals:
