@@ -56,7 +56,7 @@ def coordination_of(design: Design, task: FunctionTask, law: FunctionLaw) -> Coo
 
 
 def _pins(design: Design) -> tuple[complex, complex, complex, complex] | None:
-    """Pivot and pin of the crank, other pin of the coupler, pivot of the rocker or point of the slide; None of others."""
+    """Pivot and pin of the crank, the other pin of the coupler, the pivot of the rocker or a point of its slide."""
     linkage = design.linkage
     chain, pose = linkage.mechanism.chain, linkage.reference_pose
     if pose is None or any(not joint.pair.is_turning for joint in chain.joints[:3]):
