@@ -133,6 +133,25 @@ def test_structures_meet_every_kind_of_task(kind, text):
         assert (found.travel, found.time_ratio) == pytest.approx((1, 1.2), abs=1e-5)
 
 
+def test_a_swing_has_no_other_dead_centres():
+    """A fit sees its output beside two positions: of these two linkages one has four dead centres."""
+    watt = Mechanism.parse("R(0-1) R(0-2) R(2-3) R(3-1) R(0-4) R(4-5) R(5-1); frame=0; drive=R(0-2)")
+    task = DeadCentreTask(swing=np.pi / 3, time_ratio=1.2)
+    result = synthesise(task, structures=[watt], demands=Demands(crank=True), starts=2)
+    counts = []
+    for design in (*result.designs, *result.rejected):
+        crank = design.linkage.required_pose["2"].angle + np.linspace(0, 2 * np.pi, 3601)
+        output = move(design.linkage, crank).angle(design.linkage.outputs[0])
+        rises = np.diff(output) > 0
+        counts.append(int(np.count_nonzero(rises != np.roll(rises, 1))))
+        if design.verdict.accepted:
+            assert np.ptp(output) == pytest.approx(task.swing, abs=1e-5)
+            assert np.count_nonzero(rises) == pytest.approx(task.angle / (2 * np.pi) * 3600, abs=1)
+            assert design.verdict.error < 1e-9
+    assert counts == [2, 4]
+    assert "has 4 dead centres" in str(result.rejected[0].verdict.reasons[-1])
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("text", [FOUR, SLIDER, INVERTED, STEPHENSON, WATT, SLIDING_SIX, TRIAD])
 @pytest.mark.parametrize("seed", range(3))

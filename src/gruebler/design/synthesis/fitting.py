@@ -35,7 +35,7 @@ _SHORTEST = 1e-4  # part of a step of Newton's method: if not even so much is go
 _RANK = 1e-13  # of the largest singular value: smaller ones are rounding
 _MET = 1e-26  # sum of squared errors by the squared size of the task: all targets are met
 _AT_REST = np.zeros((1, 0))  # no crank angles
-_ASIDE = (0.1, 0.01, 1e-3)
+_ASIDE = (0.1, 0.01, 1e-3, 1e-5)
 """Radians: a dead centre lies where the output is the same so far before and after it, but for the square of this."""
 
 

@@ -19,6 +19,7 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis.closure import DesignClosure
+from gruebler.design.synthesis.dead_centre_verdicts import with_dead_centres
 from gruebler.design.synthesis.demands import BUILDABLE, EXACT_AT_MOST, WITHOUT, Demands, demands_met, tightest
 from gruebler.design.synthesis.drawing_limits import limits_of_drawings
 from gruebler.design.synthesis.first_states import first_state
@@ -437,7 +438,8 @@ def _judged(
         limit = bands.tolerance(demands.tolerance, EXACT_AT_MOST, ACCEPTED)
     limits = replace(demands, tolerance=limit)
     if len(linkage.mechanism.drives) < 2:
-        return judge_design(linkage, wanted, limits, FITTED)
+        design = judge_design(linkage, wanted, limits, FITTED)
+        return with_dead_centres(design, task, limit) if isinstance(task, DeadCentreTask) else design
     return judge_with_drives(linkage, wanted, limits, FITTED, closure.drive_values(state.q, state.p))
 
 
