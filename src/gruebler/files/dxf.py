@@ -3,8 +3,8 @@
 Every link has a layer of its own name with its outline, which keeps a margin around pins and slots, holes at their true
 diameter, and slots as long as pins move in them. Cut-outs that are one are drawn once; of those that run into each
 other the plate is named. CURVES has the paths of named points, POINTS the points themselves.
-With all links in one drawing these lie in one position, and the origin is the first hole or slot of the frame; a link
-alone has its first hole there. The unit stands in the header.
+With all links in one drawing these lie where the reference pose has them; a link alone has its first hole at the
+origin. The unit stands in the header.
 """
 
 from __future__ import annotations
@@ -54,21 +54,18 @@ def dxf_from_linkage(
     """
     document = _new_document(linkage.unit, left_out)
     plates, sizes, planes = _cut(linkage, left_out, hole, margin)
-    lower, frame = plates.linkage, plates.linkage.mechanism.frame
-    poses, first = lower.required_pose, plates.plates[frame].places[0]
-    origin = complex(*poses[frame].put(first.real, first.imag))
+    lower = plates.linkage
+    poses = lower.required_pose
     space = document.modelspace()
     for number, (link, layer) in enumerate(_layers(list(plates.plates)).items()):
-        pose = poses[link]
-        _add_plate(document, layer, plates.plates[link], sizes, partial(_posed, pose, origin), left_out)
+        _add_plate(document, layer, plates.plates[link], sizes, partial(_posed, poses[link]), left_out)
         document.layers.get(layer).description = planes[link]
         document.layers.get(layer).color = _COLOURS[number % len(_COLOURS)]
     for name in (_CURVES, _POINTS):
         document.layers.add(name, color=8)
     for name, point in lower.points.items():
-        x, y = poses[point.link].put(point.x, point.y)
-        space.add_point((x - origin.real, y - origin.imag), dxfattribs={"layer": _POINTS})
-        path = plates.motion.complex_point(name) - origin
+        space.add_point(poses[point.link].put(point.x, point.y), dxfattribs={"layer": _POINTS})
+        path = plates.motion.complex_point(name)
         if len(path) > 1:
             closed = abs(path[-1] - path[0]) < 1e-9 * lower.size  # a whole turn ends where it began, but for rounding
             places = np.column_stack([path.real, path.imag])[: -1 if closed else None]
@@ -103,8 +100,8 @@ def dxf_of_links(
 _PLANE = "plane "
 
 
-def _posed(pose: Pose2D, origin: complex, z: complex) -> complex:
-    return complex(*pose.put(z.real, z.imag)) - origin
+def _posed(pose: Pose2D, z: complex) -> complex:
+    return complex(*pose.put(z.real, z.imag))
 
 
 def _laid(first: complex, turn: complex, z: complex) -> complex:
