@@ -24,6 +24,7 @@ from gruebler.files import linkage_to_json  # noqa: E402
 from gruebler.mechanics.fourbar import FourBar  # noqa: E402
 from gruebler.page import worker  # noqa: E402
 from gruebler.page.model import model_of  # noqa: E402
+from tests.page.conftest import Server  # noqa: E402
 
 
 def connected(server, **settings):
@@ -155,6 +156,36 @@ print(sorted(set(sys.modules) - before))
 """
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
     assert done.stdout == "[]\n"
+
+
+def test_pictures_with_which_the_catalog_begins_are_drawn_before_anybody_asks():
+    program = """
+from gruebler.page.requests import answer
+from gruebler.page.worker import load
+from gruebler.teaching.catalog import machine_pictures
+load()
+machine_pictures.draw_machine = None  # nothing can be drawn any more
+for lang in ("en", "de"):
+    found = sorted(answer("catalog", {}, lang, print), key=lambda each: each["name"].casefold())
+    assert all(answer("picture", {"id": each["id"]}, lang, print)["picture"] for each in found[:21])
+"""
+    subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=60, check=True)
+
+
+def test_a_search_and_the_pictures_before_it_are_answered_by_one_process(tmp_path):
+    """A second one would load for seconds what the first one has."""
+    server = Server(tmp_path)
+    try:
+        with connected(server) as client:
+            for number, id in enumerate(("delta", "gough", "sarrus", "schatz", "bennett", "jansen")):
+                client.send(json.dumps({"id": number, "method": "picture", "params": {"id": id}}))
+            client.send('{"id": 6, "method": "catalog", "params": {"words": "cam"}}')
+            order = [json.loads(client.recv(timeout=60))["id"] for _ in range(7)]
+        assert sorted(order) == [*range(7)]
+        assert order[-1] != 6  # the search does not wait for all pictures
+        assert len(workers(server)) == 1
+    finally:
+        server.kill()
 
 
 def test_what_is_loaded_before_anybody_asks_meets_no_request(monkeypatch):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Callable, Mapping
+from functools import cache
 from itertools import islice
 from typing import Any
 
@@ -116,10 +117,15 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
 
 
 def _catalog_picture(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
+    return {"picture": _machine_picture(asked.id, lang)}
+
+
+@cache
+def _machine_picture(id: str, lang: str) -> str:
     from gruebler.teaching.catalog import entry
     from gruebler.teaching.catalog.machine_pictures import draw_machine
 
-    return {"picture": draw_machine(entry(asked.id), lang=lang).svg(styled=False)}
+    return draw_machine(entry(id), lang=lang).svg(styled=False)
 
 
 def _moving(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:

@@ -14,7 +14,7 @@ import secrets
 import socket
 from collections import deque
 from collections.abc import AsyncIterator, Mapping
-from contextlib import asynccontextmanager, suppress
+from contextlib import asynccontextmanager, nullcontext, suppress
 from typing import Any, Literal
 
 import msgspec
@@ -39,6 +39,7 @@ OPENED = "opened"
 """The page of a linkage in space that is no machine of the catalog."""
 MOST_WAITING = 200
 """Requests of one page that may wait; more are refused."""
+_LONG = frozenset({"synthesise", "realise", "chains", "modes", "forces", "fall", "export"})
 _FRAME = 4_000_000  # bytes of a frame: beyond it the connection is closed by the protocol itself
 _ASKED_IN_SPACE = ("resize", "export_in_space")
 _NOT_HERE = message("Open the address that gruebler explore has printed.")
@@ -215,12 +216,14 @@ class _Lane:
 class _Conversation:
     """One page: its requests are answered one after the other, in their order; it may cancel any of them.
 
-    Pictures of the catalog have a lane of their own, so that nothing waits for them.
+    Pictures of the catalog have a lane of their own, so that no work waits for them. With what is answered at once they
+    take turns: one process serves both, where a second one would first have to load what the other has.
     """
 
     def __init__(self, socket: WebSocket, workers: Workers) -> None:
         self.socket, self.workers = socket, workers
         self.lanes = (_Lane(), _Lane())
+        self.turn = asyncio.Lock()
         self.events: dict[int, asyncio.Event] = {}
         self.lock = asyncio.Lock()
 
@@ -272,7 +275,8 @@ class _Conversation:
                 lane.arrived.clear()
                 await lane.arrived.wait()
             message, event = lane.waiting.popleft()
-            answer = await self._answer(message, event)
+            async with nullcontext() if message.method in _LONG else self.turn:
+                answer = await self._answer(message, event)
             self.events.pop(message.id, None)
             await self._send({"id": message.id} | answer)
 

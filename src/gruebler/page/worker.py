@@ -10,14 +10,13 @@ import os
 import sys
 from collections.abc import Callable
 from importlib import import_module
-from threading import Lock, Thread
-from time import sleep
+from threading import Event, Lock, Thread
 from typing import Any
 
 import msgspec
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import translate
+from gruebler.base.text import LANGUAGES, translate
 from gruebler.page.requests import answer, error_on_page
 
 _FIRST: tuple[tuple[str, dict[str, Any]], ...] = (
@@ -31,8 +30,16 @@ _FIRST: tuple[tuple[str, dict[str, Any]], ...] = (
 )
 
 
+_SCREEN = 24
+"""Cards of the catalog: more than a window shows."""
+
 _ALONE = Lock()
 """Two threads that import a package at once can find it half made."""
+
+
+_IDLE = Event()
+"""Set while nobody asks: a lock alone is not given to who has waited longest."""
+_IDLE.set()
 
 
 def answered(method: str, params: dict[str, Any], lang: str, progress: Callable[[str], None]) -> Any:
@@ -42,12 +49,24 @@ def answered(method: str, params: dict[str, Any], lang: str, progress: Callable[
 
 
 def load() -> None:
-    """Load the modules that the catalog, its pictures, the structure of a machine and designs need. Cost: 1 s."""
+    """Load the modules that the catalog, its pictures, the structure of a machine and designs need. Cost: 1 s.
+
+    Then draw the pictures with which the catalog begins: 0.6 s for each language.
+    """
     for method, params in _FIRST:
-        answered(method, params, "en", lambda _: None)
-        sleep(0.01)  # a request that waits goes first
+        _ahead(method, params)
     with _ALONE:
         import_module("gruebler.page.designs")  # 0.3 s
+    for lang in LANGUAGES:
+        machines = _ahead("catalog", {}, lang) or ()
+        for machine in sorted(machines, key=lambda each: str(each["name"]).casefold())[:_SCREEN]:
+            _ahead("picture", {"id": machine["id"]}, lang)
+
+
+def _ahead(method: str, params: dict[str, Any], lang: str = "en") -> Any:
+    """Answer what nobody asks yet; a request that waits goes first."""
+    _IDLE.wait()
+    return answered(method, params, lang, lambda _: None)
 
 
 def main() -> None:
@@ -65,6 +84,7 @@ def main() -> None:
     for line in sys.stdin.buffer:
         method, params, lang = msgspec.json.decode(line)
         say("begun", None)
+        _IDLE.clear()
         try:
             result = answered(method, params, lang, lambda text: say("progress", text))
         except GrueblerError as error:
@@ -73,6 +93,8 @@ def main() -> None:
             say("error", translate("the request is nested too deeply", lang))
         else:
             say("result", result)
+        finally:
+            _IDLE.set()
 
 
 if __name__ == "__main__":
