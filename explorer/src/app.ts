@@ -25,6 +25,8 @@ import { SynthesisView } from "./synthesis";
 import type { Page, Place, View } from "./view";
 import { drawn } from "./waiting";
 
+const PATIENCE = 10_000; // ms, until a page appears without what its address names
+
 export class App implements Page {
   readonly backend: Backend;
   readonly motion: MotionView;
@@ -34,8 +36,6 @@ export class App implements Page {
   private view = "motion";
   /** The machine in space that Motion shows, on a page of its own, in place of the linkage at hand. */
   #space = "";
-  /** The views that were shown: others are laid out when they are. */
-  readonly #laid = new Set(["motion"]);
   /** How far each view was scrolled when it was left. */
   readonly #scrolled: Record<string, number> = {};
   readonly #header = h("header", {});
@@ -86,28 +86,32 @@ export class App implements Page {
 
   async start(): Promise<void> {
     if (missing) {
+      this.#shadow.append(this.root);
       this.#appear();
       const text = t("This page needs WebAssembly: {why}", { why: missing });
       return this.say(text, "error");
     }
-    this.#unread = this.#linkable && location.hash.length > 1; // until it is read
+    const addressed = this.#linkable && location.hash.length > 1;
+    this.#unread = addressed; // until it is read
     await drawn();
     this.motion.take(this.model.get("machine") as Model);
     await drawn();
     for (const _ of this.motion.pieces()) {
       if (!this.root.isConnected) {
         this.show("motion");
-        this.#appear();
+        this.#shadow.append(this.root); // out of sight beside the outline
+        if (!addressed) this.#appear();
       }
       await drawn();
     }
-    if (this.shown.plays && !(location.hash.length > 1)) this.motion.run();
+    if (this.shown.plays && !addressed) this.motion.run();
     if (this.#linkable) {
       const place = history.state as Place | null; // that of a page which is loaded again
-      await this.#read();
+      await Promise.race([this.#read(), new Promise((go) => setTimeout(go, PATIENCE))]);
       this.#returnTo(place);
       this.motion.forget();
-      if (location.hash.length > 1) this.motion.recall();
+      if (addressed) this.motion.recall();
+      this.#appear();
       this.#arrangeHeader();
       history.scrollRestoration = "manual"; // each view knows where it was
       addEventListener("popstate", (event) => void this.#goneBack(event));
@@ -116,7 +120,6 @@ export class App implements Page {
 
   #appear(): void {
     this.#shadow.querySelector(".loading")?.remove(); // the outline, which stood there until now
-    this.#shadow.append(this.root);
   }
 
   destroy(): void {
@@ -141,10 +144,6 @@ export class App implements Page {
     return (this.model.get("limits") ?? {}) as Page["limits"];
   }
 
-  get #atSite(): boolean {
-    return this.backend.present && !this.served;
-  }
-
   get #linkable(): boolean {
     return this.model.get("host") !== "notebook";
   }
@@ -162,13 +161,13 @@ export class App implements Page {
       this.#scrolled[this.view] = scrollY;
     }
     this.view = name;
+    const fresh = !this.views[name];
     const view = this.#viewOf(name);
     for (const [key, { element }] of Object.entries(this.views)) element.classList.toggle("shown", key === name);
     if (name === "motion") this.#space = "";
     else this.motion.transport.pause();
     this.#arrangeHeader();
-    if (!this.#laid.has(name)) view.arrange();
-    this.#laid.add(name);
+    if (fresh) view.arrange();
     view.appeared?.();
     if (turned && this.#linkable) scrollTo(0, name === "motion" ? 0 : (this.#scrolled[name] ?? 0));
   }
@@ -282,7 +281,7 @@ export class App implements Page {
 
   /** Everything anew, in another language. */
   arrange(): void {
-    for (const name of this.#laid) this.views[name]!.arrange();
+    for (const view of Object.values(this.views)) view.arrange();
     this.motion.measured();
     this.motion.stage.build();
     this.show(this.view);
@@ -333,7 +332,7 @@ export class App implements Page {
   }
 
   #shared(): Shared {
-    return sharedOf(this.motion, this.#atSite);
+    return sharedOf(this.motion, this.backend.present && !this.served);
   }
 
   private async write(): Promise<void> {
@@ -350,14 +349,15 @@ export class App implements Page {
     let text = location.hash.slice(1);
     if (!text) return;
     this.hash = location.hash;
-    const [lang, view = "", space] = text.split("/");
+    const [lang, named = "", space] = text.split("/");
+    const view = named.replace("forces", "motion"); // a part of it
     const below = view in this.#makers; // from the page of a machine in space
     if (below) {
       setLanguage(lang as Language);
       text = keptLink().slice(1);
     }
     try {
-      if (text) await openShared(text, this);
+      if (text && (await openShared(text, this)) && !below) this.show("motion");
       this.#unread = false;
       this.changed();
     } catch (error) {
@@ -369,6 +369,7 @@ export class App implements Page {
     this.#unread = true;
     this.#returnTo({ view, space });
     this.arrange();
+    if (view !== named) this.motion.side.open(named);
   }
 
   // --- files ---------------------------------------------------------------------------------------------------------
@@ -383,8 +384,8 @@ export class App implements Page {
       (this.#viewOf("build") as BuildView).begin(found.drawing);
     } else if (found.text) this.describe(found.text);
     else if (found.points) {
-      (this.#viewOf("synthesis") as SynthesisView).take(found.points, found.closed ?? false, found.order);
       this.#turnTo("synthesis");
+      (this.#viewOf("synthesis") as SynthesisView).take(found.points, found.closed ?? false, found.order);
     }
     if (found.note) this.say(found.note, "done");
   }

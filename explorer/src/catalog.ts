@@ -35,7 +35,7 @@ export class CatalogView implements View {
   #refining = false;
   #byLinks = false;
   readonly #cards = h("div.cards", { "data-list": "catalog" });
-  readonly #note = h("span.note", { role: "status" }, "\u00a0"); // as high as its text
+  readonly #note = h("span.note", { role: "status" });
   #typing = 0;
   #asked = 0;
   #filled = false;
@@ -116,7 +116,6 @@ export class CatalogView implements View {
     const choose = (kind: string) => {
       this.#query.words = kind;
       this.arrange();
-      void this.#search();
     };
     renew(
       this.element,
@@ -130,7 +129,7 @@ export class CatalogView implements View {
         this.#cards,
       ),
     );
-    if (this.#filled) void this.#search();
+    if (this.#asked) void this.#search();
   }
 
   async #search(): Promise<void> {
@@ -139,27 +138,28 @@ export class CatalogView implements View {
       if (/^(words|pairs|joints)$/.test(key)) return [[key, text]];
       return /^\s*\d+\s*$/.test(text) ? [[key, Number(text)]] : [];
     });
-    this.#cards.toggleAttribute("data-waiting", !this.#filled);
-    if (!this.#filled) {
-      this.#note.textContent = t("One moment …");
-      renew(this.#cards, ...Array.from({ length: EMPTY }, emptyCard));
-    }
+    const cards = this.#cards;
+    this.#note.textContent = t("Searching …");
+    cards.classList.add("asking"); // those of the search before
+    cards.toggleAttribute("data-waiting", !this.#filled);
+    if (!this.#filled) renew(cards, ...Array.from({ length: EMPTY }, emptyCard));
     try {
       const found = await this.#page.ask<Entry[]>("catalog", Object.fromEntries(asked));
       if (number !== this.#asked) return;
       this.#filled = true;
-      this.#cards.removeAttribute("data-waiting");
+      cards.removeAttribute("data-waiting");
       const few = [t("No machine has all of this."), t("One machine")];
       this.#note.textContent = few[found.length] ?? t("{count} machines", { count: found.length });
       const byName = (a: Entry, b: Entry) => a.name.localeCompare(b.name, currentLanguage());
       found.sort((a, b) => (this.#byLinks && a.links - b.links) || byName(a, b));
-      renew(this.#cards, ...found.map((entry) => this.#card(entry)));
-      for (const card of this.#cards.children) this.#watcher.observe(card);
+      renew(cards, ...found.map((entry) => this.#card(entry)));
+      for (const card of cards.children) this.#watcher.observe(card);
     } catch (error) {
       if (number !== this.#asked) return;
       this.#note.textContent = (error as Error).message;
-      if (!this.#filled) renew(this.#cards);
+      if (!this.#filled) renew(cards);
     }
+    cards.classList.remove("asking");
   }
 
   #card(entry: Entry): HTMLElement {
@@ -167,16 +167,17 @@ export class CatalogView implements View {
     const special = entry.special ?? counted;
     const sizes = [
       t("{links} links, F = {mobility}", { links, mobility: special - idle }),
-      ...(idle ? [t("{idle} idle", { idle })] : []),
-      ...(special === counted ? [] : [t("by the count {counted}", { counted })]),
-    ].join(", ");
-    const kinds = space ? [t("in space")] : [t("structure only")].slice(Number(moves));
+      idle && t("{idle} idle", { idle }),
+      special !== counted && t("by the count {counted}", { counted }),
+    ];
+    const kind = space ? t("in space") : !moves && t("structure only");
+    const joined = (parts: unknown[], by: string) => parts.filter(Boolean).join(by);
     const card = h(
       "button.card",
       { "data-id": id, onclick: () => void this.#choose(entry) },
       h("div", { "data-place": "" }),
       h("b", {}, entry.name),
-      h("span", {}, [sizes, ...kinds].join(" · ")),
+      h("span", {}, joined([joined(sizes, ", "), kind], " · ")),
     );
     if (moves) movesOnHover(card, id, () => this.#page.ask("moving", { id }));
     return card;

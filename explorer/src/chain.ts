@@ -39,6 +39,8 @@ export interface Structure {
   frame: string;
   counted: number;
   generic: number;
+  /** That of the linkage at hand, if its sizes give another one. */
+  own?: number | null;
   verdict: string;
   lines: string[];
   drives: string;
@@ -59,13 +61,12 @@ export function chainPicture(found: Structure, joint: number, pick: (joint: numb
     .filter((link) => link.overconstrained || link.rigid)
     .map((link) =>
       svg("polyline", {
-        points: link.outline.map((p) => p.join(",")).join(" "),
+        points: link.outline.join(" "),
         fill: "none",
-        "stroke-width": 5,
+        "stroke-width": 18,
+        opacity: 0.6,
         "stroke-linecap": "round",
-        "stroke-linejoin": "round",
         stroke: link.overconstrained ? "var(--accent)" : "var(--purple)",
-        opacity: 0.85,
         "data-strained": link.name,
       }),
     );
@@ -94,7 +95,8 @@ export function chainPicture(found: Structure, joint: number, pick: (joint: numb
       svg("title", {}, one.name),
     ),
   );
-  drawn.append(...marks, ...joints);
+  drawn.querySelector(".gr-ground")!.after(...marks); // around the links: letters and joints lie above
+  drawn.append(...joints);
   return drawn;
 }
 
@@ -113,7 +115,6 @@ export function typesOf(joint: Structure["joints"][number] | undefined, choose: 
               "button",
               {
                 class: type.chosen ? "key" : "plain",
-                title: type.name,
                 "data-type": type.symbol,
                 onclick: () => choose(type.text),
               },

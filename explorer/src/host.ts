@@ -12,9 +12,6 @@ export interface HostModel {
   send(content: unknown): void;
 }
 
-/** An answer that says what was wrong with the question, in the reader's language. */
-export class RequestError extends Error {}
-
 /** The request was cancelled by the reader. */
 export class Cancelled extends Error {}
 
@@ -59,7 +56,7 @@ export class Backend {
     if (answer.progress !== undefined) return request.progress?.(answer.progress);
     this.#waiting.delete(answer.id);
     if (answer.cancelled) request.reject(new Cancelled());
-    else if (answer.error !== undefined) request.reject(new RequestError(answer.error));
+    else if (answer.error !== undefined) request.reject(new Error(answer.error));
     else request.resolve(answer.result);
   }
 

@@ -23,19 +23,16 @@ export async function packed(content: unknown): Promise<string> {
   return `${VERSION}.${text.replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "")}.${checksum(bytes)}`;
 }
 
-/** Why a link cannot be read. */
-export class BadLink extends Error {}
-
 export async function unpacked(text: string): Promise<unknown> {
   const [version, data, sum] = text.split(".");
   if (version !== VERSION && /^\d+$/.test(version ?? ""))
-    throw new BadLink(t("This link was made by a newer version of this page."));
-  if (!data || !sum || text.length > LONGEST) throw new BadLink(t("This link is not complete."));
+    throw new Error(t("This address was made by a newer version of this page."));
   try {
-    const bytes = fromBase64(data.replace(/-/g, "+").replace(/_/g, "/"));
-    if (checksum(bytes) === sum) return await through(new DecompressionStream("deflate-raw"), bytes).json();
+    const bytes = fromBase64(data!.replace(/-/g, "+").replace(/_/g, "/"));
+    if (checksum(bytes) === sum && text.length < LONGEST)
+      return await through(new DecompressionStream("deflate-raw"), bytes).json();
   } catch {
     // said below
   }
-  throw new BadLink(t("This link is damaged: its checksum does not match."));
+  throw new Error(t("This address is damaged or not complete."));
 }

@@ -49,7 +49,7 @@ export class MotionView implements View, Editor, Driven {
   dragging!: Dragging;
   readonly stage: Stage;
   readonly transport = new PlaneTransport(this);
-  private readonly side: Side;
+  readonly side: Side;
   /** Milliseconds of the last frames in which something was drawn. */
   readonly frames: number[] = [];
   readonly #history = new History<State>();

@@ -3,7 +3,7 @@
 import { h } from "./dom";
 import type { Backend } from "./host";
 import { t } from "./language";
-import { BadLink, unpacked } from "./link";
+import { unpacked } from "./link";
 import type { LinkageDocument, Model } from "./model";
 import type { MotionView } from "./motion";
 import type { Page } from "./view";
@@ -20,8 +20,8 @@ export interface Shared {
 }
 
 /** That a link is of another mechanism than can be shown here. */
-function another(): BadLink {
-  return new BadLink(t("This link holds another mechanism. Open it with: gruebler explore LINK"));
+function another(): Error {
+  return new Error(t("This address holds another mechanism. Open it with: gruebler explore LINK"));
 }
 
 /** Whether a document is of the mechanism of a model, with whatever sizes. */
@@ -38,10 +38,10 @@ export function sharedOf(motion: MotionView, withModel: boolean): Shared {
   return { document, name, source, drive: drives[active] ?? 0, changed: motion.changed, ...whole };
 }
 
-/** What the text behind # carries; BadLink if it is none. */
+/** What the text behind # carries; an error if it is none. */
 async function unshared(text: string): Promise<Shared> {
   const shared = (await unpacked(text)) as Shared;
-  if (typeof shared?.document?.joints !== "string") throw new BadLink(t("This link holds no mechanism."));
+  if (typeof shared?.document?.joints !== "string") throw new Error(t("This address holds no mechanism."));
   return shared;
 }
 
@@ -53,16 +53,21 @@ async function modelOf({ document, name, source, model }: Shared, page: Page): P
   return found;
 }
 
-/** Show what the text behind # carries: other sizes of the linkage at hand, or another linkage. */
-export async function openShared(text: string, page: Page & { backend: Backend; motion: MotionView }): Promise<void> {
+/** Take what the text behind # carries: other sizes of the linkage at hand, or another linkage; whether it is one. */
+export async function openShared(
+  text: string,
+  page: Page & { backend: Backend; motion: MotionView },
+): Promise<boolean> {
   const shared = await unshared(text);
   const { document, drive, name, changed = false } = shared;
   const { backend, motion, shown, served } = page;
-  if (isOf(shown, document) && (shown.name === name || !backend.present)) return motion.openDocument(document, drive);
-  if (!backend.present) throw another();
-  motion.open({ ...(await modelOf(shared, page)), changed });
-  page.show("motion");
-  if (!served) motion.openDocument(document, drive);
+  const other = !isOf(shown, document) || (shown.name !== name && backend.present);
+  if (other) {
+    if (!backend.present) throw another();
+    motion.open({ ...(await modelOf(shared, page)), changed });
+  }
+  if (!other || !served) motion.openDocument(document, drive);
+  return other;
 }
 
 /** Put an address into the clipboard; where that is not allowed it is shown. */

@@ -60,6 +60,13 @@ export class Side {
     this.plots.arrange(view.linkage);
   }
 
+  /** Open a panel and bring it to sight. */
+  open(key: string): void {
+    const panel = this.element.querySelector<HTMLDetailsElement>(`[data-panel=${key}]`)!;
+    panel.open = true;
+    panel.scrollIntoView();
+  }
+
   #panel(key: string, title: string, ...content: Node[]): HTMLElement {
     const element = panelOf(key, title, this.#opened.has(key), ...content);
     element.addEventListener("toggle", () => {

@@ -32,4 +32,6 @@ export interface InSpace {
   /** Chain, frame and drives as text, and its links by their names in it. */
   text: string;
   links: Record<Language, Record<string, string>>;
+  /** As the library reads it. */
+  document: Record<string, unknown>;
 }

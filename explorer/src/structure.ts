@@ -2,6 +2,7 @@
 
 import { type Choice, chainPicture, inPlane, type Structure, typesOf } from "./chain";
 import { ChainList } from "./chains";
+import { savedDocument } from "./document";
 import { h, indexed, renew, thumbnail } from "./dom";
 import { currentLanguage, t } from "./language";
 import { chainText, type Model } from "./model";
@@ -32,7 +33,7 @@ export class StructureView implements View {
   readonly #detail = h("div.contents", {});
   readonly #go = h("div.form.go", {});
   readonly #error = h("p.error", { role: "alert" });
-  readonly #words = h("details.words", { hidden: true }); // until there is one
+  readonly #words = h("details.words", {});
   readonly #field = h("textarea", { spellcheck: false, "data-field": "chain" });
   #typing = 0;
   #asked = 0;
@@ -88,23 +89,20 @@ export class StructureView implements View {
         text,
         at_frame: this.#atFrame,
         names: this.#page.inSpace?.links[currentLanguage()] ?? namesOf(this.#page.shown),
-        document: this.#contacts(text),
+        document: this.#sized(text),
       });
       const own = text === this.#own;
       if (own) this.chains.own = found;
       if (number !== this.#asked) return;
       this.text = text;
       this.structure = found;
-      if (this.#joint >= found.joints.length) this.#joint = -1;
       this.#error.textContent = "";
-      this.#field.setAttribute("aria-invalid", "false");
       this.#showStructure();
       this.chains.follow(found, own || elsewhere);
     } catch (error) {
       if (number !== this.#asked) return;
       this.chains.follow(null, false);
       const said = (error as Error).message;
-      this.#field.setAttribute("aria-invalid", "true");
       this.#words.open = true;
       const place = /(?:character|Stelle) (\d+)/.exec(said);
       renew(this.#error, said);
@@ -114,15 +112,15 @@ export class StructureView implements View {
         this.#error.append(h("span.place", {}, `\n${before}▸${text.slice(at - 1, at + 16)}`));
       }
     }
-    this.#words.hidden = false;
+    this.#field.setAttribute("aria-invalid", String(!!this.#error.textContent));
     this.#detail.classList.remove("asking");
   }
 
-  /** The linkage that is shown if it has higher pairs and the text is of its chain; else nothing. */
-  #contacts(text: string): object {
-    const model = this.#page.shown;
-    const higher = model.joints.some((joint) => joint.pair.contours);
-    return higher && text.split(";")[0]!.trim() === String(model.document.joints).trim() ? model.document : {};
+  /** The linkage at hand if the text is of its chain; else nothing. */
+  #sized(text: string): object {
+    const { inSpace, linkage } = this.#page;
+    const document = inSpace?.document ?? savedDocument(linkage);
+    return text.split(";")[0]!.trim() === String(document.joints).trim() ? document : {};
   }
 
   /** Show it; what was chosen among frames and drives stays where it is on the screen. */
@@ -131,9 +129,9 @@ export class StructureView implements View {
     const top = () => this.#detail.firstElementChild?.getBoundingClientRect().top ?? 0;
     const before = this.#detail.matches(":focus-within") && top();
     const drawn = chainPicture(found, this.#joint, (joint) => this.#pick(joint));
-    const strained = found.links.some((link) => link.overconstrained);
-    const lines = [...found.lines.slice(1), ...found.drives.split("\n")].filter((line) => line.trim());
-    const fact = (key: "counted" | "generic", name: string, mark?: string) =>
+    const { links, own, generic } = found;
+    const lines = [...found.drives.split("\n"), ...found.lines.slice(1)].filter(Boolean);
+    const fact = (key: "counted" | "generic" | "own", name: string, mark?: string) =>
       h("div", {}, h("dt", {}, name), h("dd", { "data-fact": key, class: mark }, `F = ${found[key]}`));
     renew(
       this.#shown,
@@ -153,17 +151,19 @@ export class StructureView implements View {
             "dl.facts",
             {},
             fact("counted", t("Counted")),
-            fact("generic", t("Generic"), found.generic === found.counted ? "good" : "bad"),
+            fact("generic", t("Generic"), generic === found.counted ? "good" : "bad"),
+            own != null && fact("own", t("These sizes"), "good"),
           ),
-          ...lines.map((line) => h("p.said", {}, ...indexed(line.trim()))),
-          strained ? h("p.note", {}, t("Orange: overconstrained links.")) : null,
-          found.links.some(({ rigid }) => rigid)
-            ? h("p.note", {}, t("Purple: links that are rigid against each other."))
-            : null,
+          ...lines.map((line) => {
+            const [, label, text] = /^([^.:]*:)?(.*)/s.exec(line)!;
+            return h("p.said", {}, label && h("span.note", {}, label), ...indexed(text!));
+          }),
+          links.some(({ overconstrained }) => overconstrained) && h("p.note", {}, t("Orange: overconstrained links.")),
+          links.some(({ overconstrained, rigid }) => rigid && !overconstrained) &&
+            h("p.note", {}, t("Purple: links rigid against each other.")),
         ),
       ),
     );
-    const planar = inPlane(found); // of others no dimensions are found
     const elsewhere = h("input", {
       type: "checkbox",
       checked: !this.#atFrame,
@@ -184,21 +184,21 @@ export class StructureView implements View {
           frame === found.chosen,
         ]),
       ),
-      planar &&
-        step(
-          3,
-          t("Drive"),
-          h("div.form", {}, h("label", {}, elsewhere, t("also drives that are not at the frame"))),
-          this.#cards(
-            "driven",
-            found.driven.filter(({ frame }) => frame === found.chosen),
-            ({ drives, text }) => [drives.join(", "), text === found.driver],
-          ),
+      step(
+        3,
+        t("Drive"),
+        h("div.form", {}, h("label", {}, elsewhere, t("also drives that are not at the frame"))),
+        this.#cards(
+          "driven",
+          found.driven.filter(({ frame }) => frame === found.chosen),
+          ({ drives, text }) => [drives.join(", "), text === found.driver],
         ),
+      ),
     );
     renew(
       this.#go,
-      planar &&
+      inPlane(found) && // of others no dimensions are found
+        generic > 0 &&
         h(
           "button.key",
           { "data-act": "realise", onclick: () => void this.#realise() },
@@ -219,7 +219,7 @@ export class StructureView implements View {
         thumbnail(picture, text),
         h("b", {}, name),
         // Viergelenk-getriebe, for a browser without a German dictionary
-        family ? h("span", {}, family.replace("kg", "k\u00adg")) : null,
+        family && h("span", {}, family.replace("kg", "k\u00adg")),
       );
     };
     return h("div.cards.few", { "data-list": key }, ...list.map(card));

@@ -29,6 +29,35 @@ def test_a_link_that_cannot_be_read_stays_in_the_address(tab, server, link, word
     assert page.page.evaluate("gruebler.message.hidden") is True
 
 
+def test_forces_have_an_address(tab, server):
+    page = tab(locale="de-DE").open(server.address + "#en/forces")
+    panel = page.page.locator('[data-panel="forces"]')
+    panel.get_by_text("Speed, masses, loads").wait_for()
+    assert page.page.locator('[aria-selected="true"]').inner_text() == "Motion"
+    assert page.page.evaluate("gruebler.message.hidden") is True
+
+
+def test_the_catalog_tells_that_it_searches(tab, server):
+    page = tab().open(server.address)
+    view = page.page
+    view.click('[data-view="catalog"]')
+    view.locator("[data-list=catalog] .card svg").first.wait_for()
+    page.hold()
+    view.locator('[data-field="words"]').fill("klann")
+    view.locator(".note", has_text="Searching").wait_for()
+    assert float(view.locator("[data-list=catalog]").evaluate("one => getComputedStyle(one).opacity")) < 1
+    page.until("held.some((one) => one.method === 'catalog')")
+    view.evaluate(
+        "held.splice(0).forEach((one) => Object.getPrototypeOf(gruebler.model).send.call(gruebler.model, one))"
+    )
+    view.locator(".note", has_text="One machine").wait_for()
+    assert view.locator("[data-list=catalog]").evaluate("one => getComputedStyle(one).opacity") == "1"
+    # a chip is one search
+    view.locator('[data-value="cam"]').click()
+    page.until("held.some((one) => one.method === 'catalog')")
+    assert view.evaluate("held.filter((one) => one.method === 'catalog').length") == 1
+
+
 @pytest.mark.parametrize(("locale", "words"), [("en-US", "This page needs"), ("de-DE", "Diese Seite braucht")])
 def test_a_browser_without_webassembly_is_told_so(tab, server, locale, words):
     page = tab(locale=locale)

@@ -68,7 +68,10 @@ def test_what_is_offered_leaves_a_machine_that_its_drives_move():
         report = mobility_report(Chain.parse(f"{hung} R({one}-9) R(9-{other})"))
         assert (report.generic, report.rigid_clusters) == (1, ())
     held = hung + " R(2-5) R(5-0)"
-    for lang, reason in (("en", "A cannot be driven: it does not move."), ("de", "A lässt sich nicht antreiben")):
+    for lang, reason in (
+        ("en", "A cannot be driven: at almost all sizes it does not move."),
+        ("de", "A lässt sich nicht antreiben"),
+    ):
         stuck = drawing_record(held, "0", [0], lang, "ABCDEFG")
         assert reason in stuck["reason"]
     assert stuck["offers"][0] == {"kind": "remove", "links": ["5"], "generic": 2, "text": "Glied 5 entfernen: F = 2"}

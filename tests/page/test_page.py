@@ -193,7 +193,7 @@ def test_from_a_chain_to_a_moving_mechanism(tab, server):
     assert view.locator("[data-chain]").count() == 2
     view.locator('[data-list="inversions"] .card span:text-is("Watt II")').wait_for()  # the first chain is chosen
     assert view.locator("[data-chain]").evaluate_all("all => all.map((e) => e.ariaPressed)") == ["true", "false"]
-    assert "n = 6" in view.locator(".described").inner_text()
+    assert "n\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}6" in view.locator(".described").inner_text()
     # Watt's chain: a ternary or a binary frame, each with two joints that no symmetry exchanges
     frames, drives = (view.locator(f'[data-list="{key}"] .card') for key in ("inversions", "driven"))
     assert frames.locator("b").all_text_contents() == ["Frame 0", "Frame 2"]

@@ -9,19 +9,23 @@ from gruebler.mechanics.screws.resizing import resized
 from gruebler.teaching.catalog import entry
 from tests.page.test_space import PIXELS, browsed_at, drive_to
 
-FREE = f"""margins => {{
+DRAWN = f"""boxes => {{
     {PIXELS}
-    const ratio = c.width / c.clientWidth, [right, bottom] = margins.map((one) => one * ratio);
+    const ratio = c.width / c.clientWidth;
     const paper = [...p.subarray(4 * (c.width - 1), 4 * c.width)].join();
+    let [left, right] = [c.width, 0];
     for (let y = 0; y < c.height; y++)
         for (let x = 0; x < c.width; x++) {{
-            if (x < c.width - right && y > bottom) continue;
             const at = 4 * (y * c.width + x);
-            if ([...p.subarray(at, at + 4)].join() !== paper) return false;
+            if ([...p.subarray(at, at + 4)].join() === paper) continue;
+            [left, right] = [Math.min(left, x), Math.max(right, x)];
+            const [across, down] = [x / ratio, (c.height - y) / ratio];
+            if (boxes.some((b) => across > b.x && across < b.x + b.width && down > b.y && down < b.y + b.height))
+                return null;
         }}
-    return true;
+    return [left / ratio, right / ratio];
 }}"""
-"""Whether nothing is drawn so near to the right and the lower edge."""
+"""From where to where across something is drawn; nothing if it is in one of the boxes."""
 
 
 @pytest.mark.parametrize("id", ["bennett", "gough"])
@@ -32,13 +36,19 @@ def test_a_machine_keeps_clear_of_buttons_and_words_all_the_way(server, chromium
     page.get_by_role("button", name="Pause").click()
     page.evaluate("gruebler.scene.shown.floor = false")  # a click would scroll the page, and the picture be low
     picture = page.locator(".stage").bounding_box()
-    tools, hint = (page.locator(place).first.bounding_box() for place in (".stage .tools", ".stage .hint"))
-    margins = [picture["x"] + picture["width"] - tools["x"], picture["y"] + picture["height"] - hint["y"]]
-    assert min(margins) > 30
+    boxes = [page.locator(place).first.bounding_box() for place in (".stage .tools", ".stage .hint")]
+    for box in boxes:  # from the lower left corner of the picture
+        box["y"] = picture["y"] + picture["height"] - box["y"] - box["height"]
+        box["x"] -= picture["x"]
+    assert min(min(box["width"], box["height"]) for box in boxes) > 30
     low, high = page.evaluate("[gruebler.linkage.cycle.low, gruebler.linkage.cycle.high]")
+    ends = []
     for part in np.linspace(0, 1, 13):
         page.evaluate("value => gruebler.transport.pick(value)", low + part * (high - low))
-        assert page.evaluate(FREE, margins), part
+        ends.append(page.evaluate(DRAWN, boxes))
+        assert ends[-1], part
+    if id == "bennett":  # it lies below the buttons, not beside them
+        assert max(right for _, right in ends) - min(left for left, _ in ends) > 0.8 * picture["width"]
     assert errors == []
     browser.close()
 
@@ -102,5 +112,46 @@ def test_header_structure_and_save_are_of_the_machine_in_space(server, chromium)
     page.locator('[data-icon="save"]').click()
     page.locator("dialog").get_by_role("button", name="glTF").wait_for()
     assert page.locator("header small").text_content() == name
+    assert errors == []
+    browser.close()
+
+
+def test_a_machine_in_space_is_left_without_a_look_at_another_one(server, chromium):
+    """Its structure was preceded by the machine with which the page begins, with buttons that could be pressed."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/bennett.html#en")
+    seen = """window.seen = new Set();
+        const look = () => {
+            const root = document.querySelector(".gruebler-explorer")?.shadowRoot;
+            for (const one of root?.querySelectorAll("h1 small, [aria-selected=true]") ?? [])
+                if (getComputedStyle(one).visibility === "visible") window.seen.add(one.textContent);
+            requestAnimationFrame(look);
+        };
+        look();"""
+    page.add_init_script(seen)
+    page.get_by_role("link", name="Structure").click()
+    page.locator('[data-fact="own"]').wait_for()
+    assert set(page.evaluate("[...seen]")) == {"Bennett's linkage", "Structure"}
+    # what the library says of its sizes (Bennett 1903: F = 1), beside what almost all sizes give
+    assert page.locator("[data-fact]").all_inner_texts() == ["F = −2", "F = 0", "F = 1"]
+    assert "the mobility is 1, not 0" in page.locator(".described").inner_text()
+    assert page.locator('[data-list="driven"] .card').count() == 1
+    # the marks of strained links lie below links and letters
+    over = "all => all.some((one) => one.parentNode.querySelector('.gr-letter').compareDocumentPosition(one) & 4)"
+    assert page.locator("[data-strained]").count() == 4
+    assert not page.locator("[data-strained]").evaluate_all(over)
+    assert errors == []
+    browser.close()
+
+
+def test_words_on_the_picture_keep_apart_and_the_chosen_tab_is_marked_under_the_pointer(server, chromium):
+    browser, page, errors = browsed_at(chromium, server.address + "space/bennett.html#de")
+    colour = "one => one.computedStyleMap().get('background-color').toString()"
+    tab = page.locator("nav [aria-current]")
+    before = tab.evaluate(colour)
+    tab.hover()
+    assert tab.evaluate(colour) == before
+    page.set_viewport_size({"width": 390, "height": 844})
+    hint, grid = (page.locator(".stage .hint").nth(k).bounding_box() for k in (0, 1))
+    assert hint["x"] + hint["width"] <= grid["x"]
     assert errors == []
     browser.close()

@@ -5,6 +5,9 @@ import re
 import pytest
 
 from gruebler.files import linkage_to_json
+from gruebler.files.screws import screws_to_json
+from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.mechanics.screws.mobility_report import freedoms
 from gruebler.page.requests import answer
 from gruebler.page.structures import structure_record
 from gruebler.teaching.catalog import entries
@@ -45,6 +48,47 @@ def test_the_frame_and_drive_that_are_chosen_are_those_of_the_list_that_are_like
         record = structure_record(chain + rest, "en")
         assert (record["chosen"], record["driver"]) == ("0", f"{chain}; frame=0; drive=R(0-1)")
     assert structure_record(f"{chain}; frame=0; drive=R(1-2)", "en")["driver"] == ""  # not at the frame
+
+
+@pytest.mark.parametrize(
+    ("id", "generic", "own", "why"),
+    [
+        # Bennett 1903: opposite links of one length and one twist, in one ratio: one freedom, where Grübler has -2
+        ("bennett", 0, 1, "Bennett's linkage: opposite links are equal"),
+        # a parallel crank more than a parallelogram needs (Grübler: 0)
+        ("toolbox2", 0, 1, "equal and parallel cranks between lever1 and lever2"),
+        # two planets of a differential where one would do: two freedoms, for two drives
+        ("diff2p", 1, 2, "equal wheels on one carrier"),
+    ],
+)
+def test_sizes_that_give_another_mobility_are_told(id, generic, own, why):
+    linkage = entries()[id].placed()
+    document = screws_to_json(linkage) if isinstance(linkage, SpatialLinkage) else linkage_to_json(linkage)
+    text = linkage.mechanism.text()
+    record = answer("structure", {"text": text, "document": document}, "en", print)
+    assert (record["generic"], record["own"]) == (generic, own)
+    assert f"the mobility is {own}, not {generic}" in record["drives"]
+    assert why in record["drives"]
+    assert record["drives"].endswith(f"Mobility {own}, drives {own}. The drives fix the motion.")
+    bare = answer("structure", {"text": text}, "en", print)
+    assert bare["own"] is None
+    if generic == 0:  # of the chain alone, it is so at almost all sizes
+        assert "cannot be driven: at almost all sizes it does not move." in bare["drives"]
+        assert "none of the joints can move." in [line.split(": ")[-1] for line in bare["lines"]]
+
+
+def test_usual_sizes_say_nothing_of_their_own():
+    linkage = entries()["crankrocker"].placed()
+    asked = {"text": linkage.mechanism.text(), "document": linkage_to_json(linkage)}
+    assert answer("structure", asked, "en", print)["own"] is None
+
+
+def test_a_drive_that_does_not_move_fixes_nothing():
+    """A parallelogram with a third crank and a loose rocker-free dyad: locking the rigid part leaves its motion."""
+    linkage = entries()["toolbox2"].placed()
+    found = freedoms(linkage)
+    assert found.instant.stands_with({0})
+    assert not found.instant.stands_with(set())
 
 
 def test_a_linkage_of_another_chain_says_nothing():
@@ -94,8 +138,12 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     links.fill("7")  # F = 3·6 - 2g is even
     links.press("Enter")
     page.until("gruebler.root.textContent.includes('one is even and one is odd')")
-    view.evaluate("gruebler.describe('R(a-b) R(b-c) R(c-d) R(d-a) R(a-c)')")
-    page.until("gruebler.root.textContent.includes('Purple: links that are rigid')")
+    view.evaluate("gruebler.describe('R(a-b) R(b-c) R(c-a)')")
+    page.until("gruebler.root.textContent.includes('Purple: links rigid')")
+    assert view.locator('[data-act="realise"]').count() == 0  # nothing would move
+    view.evaluate("gruebler.describe('R(a-b) R(b-c) R(c-d) R(d-a) R(a-c)')")  # all of it is overconstrained
+    page.until("gruebler.root.textContent.includes('Orange: overconstrained')")
+    assert "Purple" not in view.locator(".described").inner_text()
 
 
 def test_a_chain_has_the_code_of_its_card_however_it_is_numbered():

@@ -58,7 +58,7 @@ export interface Model {
   glass: (Body & { link: number })[];
   points: Spot[];
   /** The linkage as the library reads it. */
-  document: object;
+  document: Record<string, unknown>;
   /** Of links with two joints: how far these are apart, and the angle of their axes in degrees. */
   sizes: { link: number; distance: number | null; angle: number | null }[];
   /** The links whose motion is wanted. */

@@ -24,8 +24,8 @@ import type { Spot } from "./model";
 import { type Drawn, Painter } from "./painter";
 
 const ARM = 26; // pixels of the axes in the corner
-const ROOM = 24; // pixels around the machine
-const BUTTONS = 48; // pixels
+const ROOM = 16; // pixels around the machine
+const BUTTONS = 56; // pixels, of which there are three
 const MOST_ROOM = 0.3; // of the picture
 const STEEP = 1.5; // radians: no farther up or down
 
@@ -144,18 +144,23 @@ export class Scene {
     if (!this.#wide) return; // it is not laid out yet
     const reached = this.machine.reached();
     const places = [...this.#corners(reached), ...reached.flatMap((poses) => arrowsOf(this.machine, poses).flat())];
-    this.#camera = fitted(this.#camera, this.#wide, places, this.#margins);
+    const [one, other] = this.#margins.map((room) => fitted(this.#camera, this.#wide, places, room));
+    this.#camera = one!.distance < other!.distance ? one! : other!;
     this.draw();
   }
 
-  /** What is beside the machine: buttons to the right, words below; of a small picture a third at most. */
-  get #margins(): Margins {
+  /** What is beside the machine: words below, buttons to the right or above; of a small picture a third at most. */
+  get #margins(): Margins[] {
     const { clientHeight, clientWidth } = this.element;
     const [across, down] = [clientWidth, clientHeight].map(
       (whole) => (pixels: number) => Math.min(pixels / Math.max(whole, 1), MOST_ROOM),
     ) as [(pixels: number) => number, (pixels: number) => number];
     const told = this.#hint.offsetHeight + ROOM;
-    return { left: across(ROOM), right: across(BUTTONS + ROOM), top: down(ROOM), bottom: down(told) };
+    const [left, top, bottom] = [across(ROOM), down(ROOM), down(told)];
+    return [
+      { left, right: across(BUTTONS + ROOM), top, bottom },
+      { left, right: left, top: down(3 * BUTTONS), bottom },
+    ];
   }
 
   zoom(factor: number): void {

@@ -139,6 +139,7 @@ export class SpaceView implements Driven {
     const both = <Value>(of: (language: Language) => Value) => ({ en: of("en"), de: of("de") });
     const machine: InSpace = {
       changed,
+      document: this.data.document,
       text,
       titles: both((language) => texts[language].title),
       links: both((language) => Object.fromEntries(names.map((name, k) => [name, texts[language].links[k]!]))),

@@ -196,6 +196,11 @@ def read_any_linkage(path: Path | str) -> Linkage | SpatialLinkage:
     data = linkage_document(path)
     refuse_entry(data, path)
     with naming(path, LinkageError):
-        if isinstance(data, Mapping) and "screws" in data:
-            return spatial_from_json(data)
-        return linkage_from_json(data)
+        return any_linkage_from_json(data)
+
+
+def any_linkage_from_json(document: Mapping[str, Any]) -> Linkage | SpatialLinkage:
+    """The linkage of plain data, with sizes of its links or with the screws of its joints."""
+    if isinstance(document, Mapping) and "screws" in document:
+        return spatial_from_json(document)
+    return linkage_from_json(document)

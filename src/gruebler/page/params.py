@@ -100,7 +100,7 @@ class DescribeStructure(Params):
     at_frame: bool = True
     """Whether only drives at the frame are listed."""
     document: dict[str, Any] = {}
-    """A linkage of this chain, which says what its higher pairs are."""
+    """A linkage of this chain, which says what its higher pairs are and what its sizes give."""
     names: dict[str, Word] = {}
     """How a reader calls the links, as far as they are in the chain."""
 

@@ -191,10 +191,10 @@ def _open_document(asked: OpenDocument, _: str, __: Progress) -> dict[str, Any]:
 
 
 def _structure(asked: DescribeStructure, lang: str, _: Progress) -> dict[str, Any]:
-    from gruebler.files import linkage_from_json
+    from gruebler.files.screws import any_linkage_from_json
     from gruebler.page.structures import structure_record
 
-    linkage = linkage_from_json(asked.document) if asked.document else None
+    linkage = any_linkage_from_json(asked.document) if asked.document else None
     return structure_record(asked.text, lang, at_frame=asked.at_frame, linkage=linkage, names=asked.names)
 
 

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import islice
 from typing import Any
 
+from gruebler.base.errors import LinkageError
+from gruebler.base.text import message
 from gruebler.design.realisation.realising import with_drives
 from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.screws import SpatialLinkage
+from gruebler.mechanics.screws.mobility_report import Freedoms, freedoms
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.labels import labels_or_numbers
 from gruebler.pictures.canvas.shapes import Point, Shape, bounds, moved_shape
@@ -28,6 +33,7 @@ from gruebler.structure.mobility import MobilityReport, mobility_report
 _MOST_LINKS = 60  # more links are drawn and counted, but their inversions are not listed
 _MOST_DRIVEN = 60
 _LONGEST_LABEL = 3  # letters of a name beside its link in a small picture
+_SPECIAL = message("These sizes are special: the mobility is {own}, not {generic} as at almost all sizes.")
 
 
 def mechanism_of_text(text: str) -> Mechanism:
@@ -44,14 +50,15 @@ def structure_record(
     lang: str,
     *,
     at_frame: bool = True,
-    linkage: Linkage | None = None,
+    linkage: Linkage | SpatialLinkage | None = None,
     names: Mapping[str, str] | None = None,
 ) -> dict[str, Any]:
     """Picture, mobility, inversions, driven mechanisms and other joint types of a text, as plain data.
 
     The driven mechanisms are those with a drive at the frame, or all with one drive. A linkage of the same chain says
-    what its higher pairs are: gears, cams, belts, ... have signs of their own in the pictures. What is said about the
-    links calls them by ``names``, if there is one for each; the texts keep their own names.
+    what its higher pairs are: gears, cams, belts, ... have signs of their own in the pictures; and whether its sizes
+    give another mobility than almost all do. What is said about the links calls them by ``names``, if there is one
+    for each; the texts keep their own names.
 
     Raises `GrueblerError` for a text that is no chain; what it says names the place.
 
@@ -61,11 +68,14 @@ def structure_record(
     """
     mechanism = mechanism_of_text(text)
     chain = mechanism.chain
-    contacts = contact_shapes(linkage) if linkage is not None and linkage.mechanism.chain == chain else {}
+    sized = linkage if linkage is not None and linkage.mechanism.chain == chain else None
+    contacts = contact_shapes(sized) if isinstance(sized, Linkage) else {}
     report = mobility_report(chain, frame=mechanism.frame)
     few = chain.n <= _MOST_LINKS
     called = {link: names[link] for link in chain.links} if names and set(chain.links) <= set(names) else {}
     shown = mechanism.renamed(called)
+    shown_report = mobility_report(shown.chain, frame=shown.frame)
+    special = None if sized is None else _special(sized, called, shown_report)
     driven = listed_drives(chain, at_frame) if few else []
     frames = {bare.frame: bare for bare in inversions(chain)} if few else {}
     cards = {frame: drawn_frame(bare, driven, contacts, called, lang) for frame, bare in frames.items()}
@@ -85,18 +95,47 @@ def structure_record(
         "driver": "" if like is None else like.text(),
         "counted": report.counted,
         "generic": report.generic,
+        "own": None if special is None else special.mobility,
         "verdict": str(report.verdict),
-        "lines": mobility_report(shown.chain, frame=shown.frame).explain(lang).splitlines(),
-        "drives": check_drives(shown).explain(lang) if mechanism.drives else "",
+        "lines": shown_report.explain(lang).splitlines(),
+        "drives": "\n".join(_said_of_drives(shown, special, lang)),
         "inversions": [_choice(bare, cards[frame], lang, called) for frame, bare in frames.items()],
         "driven": [_choice(each, cards[each.frame], lang, called) for each in driven],
     }
 
 
+def _special(linkage: Linkage | SpatialLinkage, called: Mapping[str, str], report: MobilityReport) -> Freedoms | None:
+    """The mobility of a linkage whose sizes give another one than almost all do; None of others.
+
+    Its reasons call the links as the report of the renamed chain does.
+    """
+    with suppress(LinkageError):  # what does not close has none
+        own = freedoms(linkage)
+        if own.mobility != own.generic and own.finite.evidence not in ("blurred", "undecided"):
+            reasons = (
+                replace(each, links=tuple(called.get(link, link) for link in each.links)) for each in own.reasons
+            )
+            return replace(own, report=report, reasons=tuple(reasons))
+    return None
+
+
+def _said_of_drives(mechanism: Mechanism, special: Freedoms | None, lang: str) -> Iterator[str]:
+    """What sizes of its own make of a mechanism, and whether its drives fix the motion."""
+    if special is not None:
+        yield _SPECIAL.filled(own=special.mobility, generic=special.generic).in_language(lang)
+        yield from special.why(lang)
+    if not mechanism.drives:
+        return
+    drives = check_drives(mechanism)
+    if special is None:
+        yield drives.explain(lang)
+    elif special.instant.stands_with({drive.joint for drive in mechanism.drives}):
+        fixed = replace(drives, mobility=special.mobility, remaining=0, free_links=(), redundant_drives=())
+        yield fixed.explain(lang)
+
+
 def listed_drives(chain: Chain, at_frame: bool = True) -> list[Mechanism]:
     """The mechanisms with one drive, as far as a page can show them."""
-    if chain.space is not Space.PLANAR:
-        return []
     return [each.mechanism for each in islice(driven_mechanisms(chain, drives=1, at_frame=at_frame), _MOST_DRIVEN)]
 
 
@@ -128,7 +167,7 @@ class DrawnFrame:
     at: list[list[float]]
     """The places of the joints of the chain, in its order."""
     outlines: dict[str, list[list[float]]]
-    """The corners of each link."""
+    """The corners of each link, of a closed one the first again at the end."""
     arrows: dict[Mechanism, str]
     """The drives of each mechanism, as parts of an SVG."""
 
@@ -171,6 +210,7 @@ def drawn_frame(
         if each.frame == bare.frame
     }
     outlines = {link: placed.outlines[link] for link in chain.links}
+    around = {link: (*corners, *corners[: placed.closed[link]]) for link, corners in outlines.items()}
     labelled = labels_or_numbers(outlines, placed.closed, bodies, called)
     corner, picture = _picture(labelled, heads.values())
     small, card = (
@@ -186,7 +226,7 @@ def drawn_frame(
         card=card,
         shift=[round(corner.x - small.x, 1), round(corner.y - small.y, 1)],
         at=spots(placed.joints[places[number]] for number in range(len(chain.joints))),
-        outlines={link: spots(outline) for link, outline in outlines.items()},
+        outlines={link: spots(outline) for link, outline in around.items()},
         arrows={each: "".join(svg_element(moved_shape(shape, back)) for shape in head) for each, head in heads.items()},
     )
 

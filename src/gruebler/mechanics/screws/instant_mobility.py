@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -92,6 +93,14 @@ class InstantMobility:
             if not len(twists) or all(abs(twists[:, t.first] - twists[:, t.second]).max() < _STILL for t in ties):
                 immobile.append(joint)
         return tuple(immobile)
+
+    def stands_with(self, joints: Collection[int]) -> bool:
+        """Whether nothing has a velocity while these joints are locked."""
+        ties = [tie for tie in self.closing.ties if tie.joint in joints]
+        twists = [self.closing.twists(motion) for motion in self.motions]
+        across = [[tw[tie.first] - tw[tie.second] for tie in ties] for tw in twists]
+        rates = np.array(across).reshape(len(twists), -1)
+        return not twists or (rates.size > 0 and int(np.linalg.matrix_rank(rates, tol=_STILL)) == len(twists))
 
 
 def instant_mobility(closing: Closing, pose: Reals, tolerance: float) -> InstantMobility:

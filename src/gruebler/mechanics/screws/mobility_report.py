@@ -190,6 +190,15 @@ class Freedoms:
         lines = [_mobilities(self), *_idle(self), *_reasons(self, _joint_names(self, lang))]
         return "\n".join(line.in_language(lang) for line in lines)
 
+    def why(self, lang: str = "en") -> list[str]:
+        """The geometric reasons for more mobility than almost all sizes give, a line each.
+
+        >>> from gruebler.mechanics.fourbar import FourBar
+        >>> freedoms(FourBar(25, 70, 40, 70).linkage()).why()
+        []
+        """
+        return [line.in_language(lang) for line in _reasons(self, _joint_names(self, lang))]
+
     def to_json(self) -> dict[str, Any]:
         """Plain data for `json.dumps`."""
         names, instant = self.report.chain.joint_names(), self.instant

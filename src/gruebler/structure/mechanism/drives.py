@@ -50,7 +50,8 @@ class DriveReport:
             if len(self.redundant_drives) > 1:
                 sentences.append(message("Drives that conflict: {drives}.", drives=drives))
             else:
-                sentences.append(message("{drive} cannot be driven: it does not move.", drive=drives))
+                text = message("{drive} cannot be driven: at almost all sizes it does not move.")
+                sentences.append(text.filled(drive=drives))
         return joined(sentences, " ")
 
     def _names_of_redundant(self, alphabet: Alphabet) -> str:

@@ -291,14 +291,13 @@ def _details(report: MobilityReport, names: Sequence[str]) -> Iterator[Message]:
     for part in report.overconstrained:
         yield _overconstrained(part, names)
     if len(report.rigid_clusters) == 1 and len(report.rigid_clusters[0]) == chain.n:
-        yield message("Rigid against each other: all links.")
+        yield message("At almost all sizes all links are rigid against each other: none of the joints can move.")
     else:
         for cluster in report.rigid_clusters:
             yield message("Rigid against each other: {links}.", links=", ".join(cluster))
-    if len(report.immobile_joints) == len(chain.joints):
-        yield message("None of the joints can move.")
-    elif report.immobile_joints:
-        yield message("Joints that cannot move: {joints}.", joints=_list(names, report.immobile_joints))
+        if report.immobile_joints:
+            joints = _list(names, report.immobile_joints)
+            yield message("Joints that cannot move at almost all sizes: {joints}.", joints=joints)
     for idle in report.idle_freedoms:
         yield _idle(idle, report.generic)
     for link, count in chain.degrees.items():
