@@ -13,8 +13,9 @@ from gruebler.design.synthesis.alt_burmester import PROBLEMS, load_generic_solut
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.curve_matching import PLACES, best_matches, resampled
 from gruebler.design.synthesis.curves import fit_curve
+from gruebler.design.synthesis.dyad_structures import dyad_structure
 from gruebler.design.synthesis.dyads import Displacements, all_dyads
-from gruebler.design.synthesis.structure_atlas import dyad_structure, structure_atlas
+from gruebler.design.synthesis.structure_atlas import structure_atlas
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics import circuit, move
 from gruebler.structure.mechanism import Mechanism

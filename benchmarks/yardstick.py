@@ -16,10 +16,11 @@ from scipy.optimize import differential_evolution
 from benchmarks.synthesis import targets
 from gruebler.design.synthesis.curve_matching import resampled
 from gruebler.design.synthesis.curves import fit_curve
+from gruebler.design.synthesis.dyad_structures import DyadStructure, dyad_structure, link_motions
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR
 from gruebler.design.synthesis.judging import Demands
-from gruebler.design.synthesis.structure_atlas import DyadStructure, dyad_structure, link_motions, structure_atlas
+from gruebler.design.synthesis.structure_atlas import structure_atlas
 from gruebler.design.synthesis.structure_curves import fit_drawings
 from gruebler.structure.mechanism import Mechanism
 

@@ -74,6 +74,7 @@ auto run(Work work) {
 void add_algebra(nb::module_& module);
 void add_atlas(nb::module_& module);
 void add_counting(nb::module_& module);
+void add_design(nb::module_& module);
 void add_dynamics(nb::module_& module);
 void add_labelling(nb::module_& module);
 void add_layout(nb::module_& module);

@@ -12,6 +12,7 @@ NB_MODULE(_core, module) {
     gruebler::doors::add_algebra(module);
     gruebler::doors::add_atlas(module);
     gruebler::doors::add_counting(module);
+    gruebler::doors::add_design(module);
     gruebler::doors::add_dynamics(module);
     gruebler::doors::add_labelling(module);
     gruebler::doors::add_layout(module);

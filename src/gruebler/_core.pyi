@@ -74,6 +74,60 @@ def evaluate_pose(
     tangents: NDArray[np.float64],
 ) -> int: ...
 
+# design: drive and dyads of `CrankDyads`
+def move_planes(
+    drive: NDArray[np.int64],
+    dyads: NDArray[np.int64],
+    points: NDArray[np.complex128],
+    lines: NDArray[np.complex128],
+    sides: NDArray[np.float64],
+    turned: NDArray[np.float64],
+) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]: ...
+def find_tops(
+    drive: NDArray[np.int64],
+    dyads: NDArray[np.int64],
+    points: NDArray[np.complex128],
+    lines: NDArray[np.complex128],
+    sides: NDArray[np.float64],
+    turned: NDArray[np.float64],
+    watched: NDArray[np.int64],
+    between: bool,
+) -> NDArray[np.float64]: ...
+def find_cosines(
+    drive: NDArray[np.int64],
+    dyads: NDArray[np.int64],
+    points: NDArray[np.complex128],
+    lines: NDArray[np.complex128],
+    sides: NDArray[np.float64],
+    turned: NDArray[np.float64],
+    watched: NDArray[np.int64],
+) -> NDArray[np.float64]: ...
+def cosine_slopes(
+    drive: NDArray[np.int64],
+    dyads: NDArray[np.int64],
+    places: NDArray[np.complex128],
+    sides: NDArray[np.float64],
+    turned: NDArray[np.float64],
+    watched: NDArray[np.int64],
+) -> NDArray[np.float64]: ...
+def trace_point(
+    drive: NDArray[np.int64],
+    dyads: NDArray[np.int64],
+    places: NDArray[np.complex128],
+    sides: NDArray[np.float64],
+    turned: NDArray[np.float64],
+    link: int,
+) -> NDArray[np.complex128]: ...
+def trace_slopes(
+    drive: NDArray[np.int64],
+    dyads: NDArray[np.int64],
+    places: NDArray[np.complex128],
+    sides: NDArray[np.float64],
+    turned: NDArray[np.float64],
+    link: int,
+    by_places: bool,
+) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]: ...
+
 # structure
 class MultipleJoints:
     def __init__(self, links: int, simple: NDArray[np.int64], fewest: int, most: int, largest: int) -> None: ...

@@ -62,6 +62,21 @@ CALLS_IN_SPACE = (
                         np.ones((3, 2, 1)))),
     ("place_rods", (*ROD, np.tile(np.eye(4), (2, 3, 1, 1)))),
 )  # fmt: skip
+# A four-bar as it is drawn, and as each of its links has a plane of its own and the last one slides.
+DRAWN = np.array([0, 1, 0, 0]), np.array([[0, 2, 3, 1, 0, 1, 3, 1, 3, 2, 2]]), np.array([[0, 1j, 2 + 2j, 2, 1 + 1j]])
+SLIDING = (
+    np.array([0, 1, 0, 1]), np.array([[1, 2, 3, 1, 0, 2, 6, 3, 7, 4, 5]]),
+    np.array([[0, 0, 1, 0, 3, 0, 0.2j, 0]]), np.ones((1, 8), complex),
+)  # fmt: skip
+MODE, TURNED = np.ones((1, 1)), np.array([[0.0, 0.5]])
+CALLS_OF_DYADS = (
+    ("move_planes", (*SLIDING, MODE, TURNED)),
+    ("find_tops", (*SLIDING, MODE, TURNED, np.zeros(1, np.int64), True)),
+    ("find_cosines", (*SLIDING, MODE, TURNED, np.zeros(1, np.int64))),
+    ("cosine_slopes", (*DRAWN, MODE, TURNED, np.zeros(1, np.int64))),
+    ("trace_point", (*DRAWN, MODE, TURNED, 2)),
+    ("trace_slopes", (*DRAWN, MODE, TURNED, 2, True)),
+)
 ROWS = np.array([0, 2, 3]), np.array([0, 1, 1]), np.array([1, 2, 3])
 UNKNOWNS, TASK = np.ones((3, 8), complex), np.ones((4, 8), complex)
 
@@ -122,6 +137,7 @@ def good_calls():
     yield "eliminate", (*ROWS, 2, 1e9, 1e9)
     yield "solve_back", (np.array([0]), np.array([0, 1]), np.array([1]), np.array([5]), np.ones((2, 1), np.int64))
     yield "reduce", (np.arange(6).reshape(2, 3),)
+    yield from CALLS_OF_DYADS
     yield from CALLS_IN_SPACE
     series = np.array([[-1.0, 1, 0, 1], [1, 3, 2, 1]]), np.arange(1.0, 25).reshape(2, 2, 6), -1.0
     yield "reduced_forces", (*series, 0.5, 2.0)
@@ -132,8 +148,7 @@ def good_calls():
     yield "free_run", (*series, *many, 0.0, state, state, 0.01, 1.0, 1e-9, state, 100, np.array([0.3, 0.7]))
     layout = np.array([[0.0, 0], [1, 0], [0, 1]]), RING[:2], np.ones(2), np.array([[0, 2], [1, 0]])
     yield "relax", (*layout, np.arange(3)[None], np.eye(2)[None], 2, 5)
-    yield "closest", (*layout[:2], layout[3])
-    yield "crossing_segments", layout[:2]
+    yield from (("closest", (*layout[:2], layout[3])), ("crossing_segments", layout[:2]))
     chain = np.zeros(1, np.int64), np.array([4]), RING[None].astype(np.int32), np.zeros((1, 4), np.int32)
     ring = (4, 1, 1, *chain, np.frombuffer(b"RP", np.uint8))
     yield "describe_chains", ring

@@ -13,12 +13,11 @@ from gruebler.design.synthesis import Demands, PathTask, pareto, synthesise_path
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.curve_starts import atlas, mirror_image, transformed
 from gruebler.design.synthesis.curves import fit_curve, linkages_of
-from gruebler.design.synthesis.drawing_limits import limits_of_drawings
+from gruebler.design.synthesis.dyad_structures import dyad_structure, link_motions
 from gruebler.design.synthesis.fit_limits import FourBarLimits, crank_turns
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK
-from gruebler.design.synthesis.structure_atlas import assembled_sides, dyad_structure, link_motions, structure_atlas
-from gruebler.design.synthesis.structure_curves import _CurveFit
+from gruebler.design.synthesis.structure_atlas import structure_atlas
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import circuit, move
 from gruebler.mechanics.linkages import Linkage
@@ -297,25 +296,6 @@ def test_a_curve_that_a_six_bar_drew_is_met_exactly():
     task = PathTask([(w.real, w.imag) for w in z], closed=True)
     found = synthesise_structures(task, [structure.mechanism], starts=4, link="5")
     assert found.designs[0].verdict.error < 1e-6
-
-
-@pytest.mark.parametrize("drawing", DRAWN)
-def test_the_derivatives_of_a_point_against_differences(drawing):
-    structure, z = drawn_curve(*drawing, 7)
-    places, turned = np.array([drawing[2]]), np.linspace(0, 2 * np.pi, 7, endpoint=False)[None]
-    limits = next(limits_of_drawings(structure, Demands(), (), closed=True, unit=1.0))
-    fit, sides, step = _CurveFit(limits, drawing[1], z), assembled_sides(structure, places[:, :-1].T), 1e-6
-    points, motions = fit.points(places, turned, sides)
-    assert np.abs(points - z).max() < 1e-12
-    exact = fit.slopes(places, motions, by_places=True)
-    for k, each in enumerate(exact[:-1]):
-        change = np.zeros(places.shape, complex)
-        change[0, k // 2] = step * (1, 1j)[k % 2]
-        far, near = (fit.points(places + sign * change, turned, sides)[0] for sign in (1, -1))
-        assert np.abs((far - near) / (2 * step) - each).max() < 1e-7 * (1 + np.abs(each).max())
-    far, near = (fit.points(places, turned + sign * step, sides)[0] for sign in (1, -1))
-    assert np.abs((far - near) / (2 * step) - exact[-1]).max() < 1e-7 * (1 + np.abs(exact[-1]).max())
-    assert np.array_equal(fit.slopes(places, motions, by_places=False)[0], exact[-1])
 
 
 @pytest.mark.slow

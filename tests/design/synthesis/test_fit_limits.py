@@ -164,7 +164,7 @@ def test_the_nearest_step_within_limits_against_another_program():
     for _ in range(20):  # five limits of five numbers can always be kept
         root, normal, beyond = rng.normal(size=(5, 5)), rng.normal(size=(5, 5)), rng.uniform(-1, 1, 5)
         gram = root @ root.T + 0.1 * np.eye(5)
-        mine = _nearest_within(gram, normal, beyond)
+        (mine,) = _nearest_within(gram[None], normal[None], beyond[None])
         conditions = {"type": "ineq", "fun": lambda s, n=normal, b=beyond: n @ s - b}
         other = minimize(lambda s, g=gram: s @ g @ s, np.zeros(5), constraints=conditions, tol=1e-13).x
         assert (normal @ mine >= beyond - 1e-9).all()

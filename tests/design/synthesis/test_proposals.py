@@ -13,10 +13,10 @@ from gruebler.base.errors import SynthesisError
 from gruebler.cli.design import _type_row
 from gruebler.design.synthesis import DeadCentreTask, Demands, PathTask, PositionTask, pareto, synthesise_positions
 from gruebler.design.synthesis.clearances import guided_link, stays_clear
+from gruebler.design.synthesis.dyad_structures import dyad_structure, link_motions
 from gruebler.design.synthesis.fitting import links_moved_by_all
 from gruebler.design.synthesis.proposals import TriedType, _by_own_names, candidate_types, propose
 from gruebler.design.synthesis.specification import Clearance, Specification
-from gruebler.design.synthesis.structure_atlas import dyad_structure, link_motions
 from gruebler.design.synthesis.structures import fit_structure, synthesise_structures
 from gruebler.files.specifications import read_specification, specification_from_json
 from gruebler.mechanics.analysis import transmission_angle

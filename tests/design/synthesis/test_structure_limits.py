@@ -12,9 +12,10 @@ from gruebler.design.synthesis import Demands, FunctionTask, PathTask, PositionT
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.curve_matching import PLACES, Anchors, best_matches, resampled
 from gruebler.design.synthesis.drawing_limits import limits_of_drawings
+from gruebler.design.synthesis.dyad_structures import dyad_structure
 from gruebler.design.synthesis.leg_angles import LegAngles
 from gruebler.design.synthesis.size_limits import limits_of_sizes
-from gruebler.design.synthesis.structure_atlas import dyad_structure, structure_atlas
+from gruebler.design.synthesis.structure_atlas import structure_atlas
 from gruebler.design.synthesis.structures import fit_structure
 from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.kinematics import circuit, move

@@ -34,6 +34,19 @@ class _Joined:
     along: Reals
     """(poses, slides) the gap along the slide."""
 
+    def __getitem__(self, poses: NDArray[np.bool_]) -> _Joined:
+        own, far = (turn[poses] for turn in self.turns)
+        first, second = (arm[poses] for arm in self.arms)
+        upper, lower = (factor[poses] for factor in self.factors)
+        return _Joined(
+            turns=(own, far),
+            arms=(first, second),
+            gap=self.gap[poses],
+            factors=(upper, lower),
+            between=self.between[poses],
+            along=self.along[poses],
+        )
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PoseDerivatives:
@@ -108,6 +121,9 @@ class DesignClosure:
         self._slides = np.flatnonzero([chain.joints[number].pair.is_sliding for (number, _), _ in joints])
         starts = [np.array([self.start[key] for key in keys], np.int64) for keys in sides]
         self._starts = starts
+        moves = [np.flatnonzero(bodies < len(self.links)) for bodies in self._bodies]
+        sliding = [np.flatnonzero(bodies[self._slides] < len(self.links)) for bodies in self._bodies]
+        self._moves, self._sliding = moves, sliding
         self._lines = [start[self._slides] + 2 for start in starts]
         columns = np.concatenate([starts[0], starts[0] + 1, starts[1], starts[1] + 1, *self._lines])
         self._scatter = np.zeros((len(columns), len(sizes)))
@@ -191,7 +207,7 @@ class DesignClosure:
         """(poses, equations, unknowns) the derivatives of the gaps by the pose."""
         slopes = np.zeros((len(joined.gap), self.equations, self.unknowns))
         for side, sign in ((0, -1.0), (1, 1.0)):
-            moving = np.flatnonzero(self._bodies[side] < len(self.links))
+            moving = self._moves[side]
             column = 3 * self._bodies[side][moving]
             for k, factor in enumerate(joined.factors):
                 signed = sign * factor[:, moving]
@@ -199,7 +215,7 @@ class DesignClosure:
                 slopes[:, row, column] = signed.real
                 slopes[:, row, column + 1] = -signed.imag
                 slopes[:, row, column + 2] = np.real(signed * joined.arms[side][:, moving])
-            slides = np.flatnonzero(self._bodies[side][self._slides] < len(self.links))
+            slides = self._sliding[side]
             row, column = 2 * self._slides[slides], 3 * self._bodies[side][self._slides[slides]] + 2
             slopes[:, row + 1, column] = sign * joined.between.real[:, slides]
             if side == 0:
@@ -231,7 +247,9 @@ class DesignClosure:
             p: (dimensions,).
             size: at this distance from its link's origin a point moves as far as the link turns.
         """
-        joined = self.joined(q, p)
+        return self._derivatives(self.joined(q, p), size)
+
+    def _derivatives(self, joined: _Joined, size: float) -> PoseDerivatives:
         weights = np.tile([size, size, 1.0], len(self.links))
         basis, rest = np.linalg.qr((self.by_pose(joined) * weights).transpose(0, 2, 1), mode="complete")
         triangle = rest[:, : self.equations]
@@ -254,12 +272,13 @@ class DesignClosure:
         q = q.copy()
         open_ = np.arange(len(q))
         for _ in range(steps):
-            gaps = self.gaps(self.joined(q[open_], p))
+            joined = self.joined(q[open_], p)
+            gaps = self.gaps(joined)
             still = np.abs(gaps).max(axis=1) >= 1e-12 * size
             open_, gaps = open_[still], gaps[still]
             if not len(open_) or not np.isfinite(gaps).all():
                 break
-            q[open_] -= self.derivatives(q[open_], p, size=size).correction(gaps)
+            q[open_] -= self._derivatives(joined if still.all() else joined[still], size).correction(gaps)
         good = np.ones(len(q), bool)
         good[open_] = False
         return q, good

@@ -6,10 +6,11 @@ Every curve of a book has the same number of places, evenly along it. docs/theor
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 
@@ -64,10 +65,13 @@ def evenly_along(z: Complexes, phi: Reals) -> Reals:
 
 
 def drive_angles(phi: Reals, at: Reals) -> Reals:
-    """Drive angles between the places of a curve, on and on over its laps."""
-    whole = np.unwrap(np.append(phi, phi[0] + 2 * np.pi))
+    """Drive angles (..., points) between the places of curves (..., PLACES), on and on over their laps."""
+    whole = np.unwrap(np.concatenate([phi, phi[..., :1] + 2 * np.pi], axis=-1))
     laps = np.floor(at / PLACES)
-    return np.asarray(np.interp(at - laps * PLACES, np.arange(PLACES + 1), whole) + 2 * np.pi * laps)
+    within = at - laps * PLACES
+    before = np.minimum(within.astype(np.int64), PLACES - 1)
+    low, high = (np.take_along_axis(whole, before + k, axis=-1) for k in range(2))
+    return np.asarray((high - low) * (within - before) + low + 2 * np.pi * laps)
 
 
 def passes(*, closed: bool) -> int:
@@ -98,73 +102,122 @@ def best_matches(
     """
     spectrum = np.fft.fft(book, axis=1)
     points, places = anchors or Anchors(np.zeros((len(book), 0), np.complex128), np.zeros(0, np.complex128))
-    matches: list[CurveMatch] = []
-    for mirrored in (False, True):
-        wanted, near = (np.conj(z), np.conj(places)) if mirrored else (z, places)
-        for length in (PLACES,) if closed else _WINDOWS:
-            target, parts = resampled(wanted, length if closed else length + 1, closed=closed)
+    lengths = (PLACES,) if closed else _WINDOWS
+    by_length: dict[tuple[bool, int], list[_Matches]] = {}
+    for length in lengths:
+        pieces = _pieces(book, points, length if closed else length + 1, about_origin=about_origin)
+        for mirrored in (False, True):
+            wanted, near = (np.conj(z), np.conj(places)) if mirrored else (z, places)
+            target, parts = resampled(wanted, pieces.places, closed=closed)
+            by_length[mirrored, length] = []
             for back in (False, True):
                 rows, along = target, parts
                 if back and closed:
                     rows, along = np.roll(target[::-1], 1), (-parts) % 1.0
                 elif back:
                     rows, along = target[::-1], 1 - parts
-                alike = _matched(
-                    book, spectrum, rows, along * length, number, Anchors(points, near), about_origin=about_origin
-                )
-                matches += (replace(match, mirrored=mirrored) for match in alike)
+                each = _matched(spectrum, pieces, Anchors(rows, near), along * length, number, mirrored=mirrored)
+                by_length[mirrored, length].append(each)
                 if passed is not None:
                     passed()
-    matches.sort(key=lambda match: match.gap)
-    return matches[:number]
+    matches = [each for mirrored in (False, True) for length in lengths for each in by_length[mirrored, length]]
+    gap, numbers, at, turn, shift, mirrors = (
+        np.concatenate([getattr(each, name) for each in matches])
+        for name in ("gap", "number", "at", "turn", "shift", "mirrored")
+    )
+    return [
+        CurveMatch(
+            gap=float(gap[k]),
+            number=int(numbers[k]),
+            at=at[k],
+            turn=complex(turn[k]),
+            shift=complex(shift[k]),
+            mirrored=bool(mirrors[k]),
+        )
+        for k in np.argsort(gap, kind="stable")[:number]
+    ]
+
+
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class _Pieces:
+    """All pieces of curves with so many places, each with the anchors of its curve."""
+
+    places: int
+    anchors: Complexes
+    """(curves, anchors)"""
+    weight: float
+    """Of an anchor, against a place."""
+    whole: float
+    """The weight of all."""
+    mean: Complexes
+    """(curves, PLACES) of the piece that begins at each place; 0 if the origin stays where it is."""
+    spread: Reals
+    """(curves, PLACES)"""
+    about_origin: bool
+
+
+def _pieces(book: Complexes, anchors: Complexes, count: int, *, about_origin: bool) -> _Pieces:
+    weight = _PULL * count / max(1, anchors.shape[1])
+    whole = count + weight * anchors.shape[1]
+    around = np.concatenate([book, book[:, :count]], axis=1)
+    sums = np.cumsum(np.concatenate([np.zeros((len(around), 1)), around], axis=1), axis=1)
+    squares = np.cumsum(np.concatenate([np.zeros((len(around), 1)), np.abs(around) ** 2], axis=1), axis=1)
+    begins = np.arange(PLACES)
+    total = sums[:, begins + count] - sums[:, begins] + weight * anchors.sum(axis=1, keepdims=True)
+    mean = total / whole * (not about_origin)
+    spread = (squares[:, begins + count] - squares[:, begins]).real - whole * np.abs(mean) ** 2
+    spread += weight * np.sum(np.abs(anchors) ** 2, axis=1, keepdims=True)
+    return _Pieces(
+        places=count,
+        anchors=anchors,
+        weight=weight,
+        whole=whole,
+        mean=mean,
+        spread=spread,
+        about_origin=about_origin,
+    )
+
+
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class _Matches:
+    """The best piece of each of some curves: the fields of `CurveMatch`, a row each."""
+
+    gap: Reals
+    number: NDArray[np.int64]
+    at: Reals
+    turn: Complexes
+    shift: Complexes
+    mirrored: NDArray[np.bool_]
 
 
 def _matched(
-    book: Complexes,
-    spectrum: Complexes,
-    target: Complexes,
-    along: Reals,
-    number: int,
-    anchors: Anchors,
-    *,
-    about_origin: bool,
-) -> list[CurveMatch]:
-    """Those of curves as they are, for one sense."""
-    count, (points, places) = len(target), anchors
-    weight = _PULL * count / max(1, len(places))
-    whole = count + weight * len(places)
-    middle = 0j if about_origin else complex((target.sum() + weight * places.sum()) / whole)
-    centred, near = target - middle, places - middle
+    spectrum: Complexes, pieces: _Pieces, target: Anchors, along: Reals, number: int, *, mirrored: bool
+) -> _Matches:
+    """Of curves as they are, for one sense; the target's points, and the places of the anchors."""
+    rows, places = target
+    weight, count = pieces.weight, pieces.places
+    middle = 0j if pieces.about_origin else complex((rows.sum() + weight * places.sum()) / pieces.whole)
+    centred, near = rows - middle, places - middle
     energy = float(np.sum(np.abs(centred) ** 2) + weight * np.sum(np.abs(near) ** 2))
     padded = np.zeros(PLACES, np.complex128)
     padded[:count] = centred[:PLACES]
     # inner[begin] = sum over j of conj(curve[begin + j]) * target[j], by the theorem of convolution.
     inner = np.conj(np.fft.ifft(spectrum * np.conj(np.fft.fft(padded)), axis=1))
-    inner = inner + weight * (np.conj(points) @ near)[:, None]
-    around = np.concatenate([book, book[:, :count]], axis=1)
-    sums = np.cumsum(np.concatenate([np.zeros((len(around), 1)), around], axis=1), axis=1)
-    squares = np.cumsum(np.concatenate([np.zeros((len(around), 1)), np.abs(around) ** 2], axis=1), axis=1)
-    begins = np.arange(PLACES)
-    total = sums[:, begins + count] - sums[:, begins] + weight * points.sum(axis=1, keepdims=True)
-    mean = total / whole * (not about_origin)
-    spread = (squares[:, begins + count] - squares[:, begins]).real - whole * np.abs(mean) ** 2
-    spread += weight * np.sum(np.abs(points) ** 2, axis=1, keepdims=True)
+    inner = inner + weight * (np.conj(pieces.anchors) @ near)[:, None]
     with np.errstate(invalid="ignore", divide="ignore"):
-        likeness = np.abs(inner) ** 2 / (np.maximum(spread, 1e-12) * energy)
+        likeness = np.abs(inner) ** 2 / (np.maximum(pieces.spread, 1e-12) * energy)
     best = np.argmax(likeness, axis=1)
-    rows = np.arange(len(best))
-    matches = []
-    for n in np.argsort(-likeness[rows, best])[:number]:
-        begin = best[n]
-        turn = complex(inner[n, begin] / spread[n, begin])
-        matches.append(
-            CurveMatch(
-                gap=1 - float(likeness[n, begin]),
-                number=int(n),
-                at=begin + along,
-                turn=turn,
-                shift=middle - turn * complex(mean[n, begin]),
-                mirrored=False,
-            )
-        )
-    return matches
+    most = likeness[np.arange(len(best)), best]
+    curves = np.argsort(-most)[:number]
+    begin = best[curves]
+    turn = inner[curves, begin] / pieces.spread[curves, begin]
+    return _Matches(
+        gap=1 - most[curves],
+        number=curves,
+        at=begin[:, None] + along,
+        turn=turn,
+        shift=middle - turn * pieces.mean[curves, begin],
+        mirrored=np.full(len(curves), mirrored),
+    )

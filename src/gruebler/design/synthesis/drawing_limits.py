@@ -12,20 +12,12 @@ from itertools import permutations
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.base.arrays import Complexes, Reals
+from gruebler import _core
+from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.design.synthesis.demands import Demands
+from gruebler.design.synthesis.dyad_structures import NO_LINES, DyadStructure, assembled_sides
 from gruebler.design.synthesis.fit_limits import MARGIN, FitLimits
 from gruebler.design.synthesis.place_limits import PlaceLimits
-from gruebler.design.synthesis.structure_atlas import (
-    DrawnDyad,
-    DyadStructure,
-    LinkMotions,
-    PinPlaces,
-    dyad_arms,
-    link_motions,
-    link_slopes,
-    pins_of_drawing,
-)
 
 _ROUND = np.linspace(0, 2 * np.pi, 40, endpoint=False)  # of the crank
 SIGNS = np.array([1.0, -1.0])  # of a cosine, for an angle that is too small and one that is too large
@@ -54,123 +46,63 @@ class DrawingLimits(FitLimits):
         return np.array([float(k not in self.places.held) for k in range(2 * self.structure.joints + 2)])
 
     @property
-    def _bounds(self) -> list[tuple[DrawnDyad, float]]:
-        """The dyads whose angle is limited, with the largest cosine of it."""
+    def _bounds(self) -> dict[int, float]:
+        """The dyads by their numbers whose angle is limited, with the largest cosine of it."""
         path, angle = self.structure.force_path, self.places.demands.transmission
-        least = [(dyad, angle if dyad in path else 0.0) for dyad in self.structure.dyads]
-        return [(dyad, min(float(np.cos(mu)), 1 - SAFE)) for dyad, mu in least if self.turning or mu > 0]
+        least = [angle if dyad in path else 0.0 for dyad in self.structure.dyads]
+        return {n: min(float(np.cos(mu)), 1 - SAFE) for n, mu in enumerate(least) if self.turning or mu > 0}
 
     def values(self, rows: Reals, phi: Reals) -> Reals:
         """Of a crank that turns fully all round, to the top between places; else at the targets."""
-        if not self._bounds:
-            return self.places.values(rows, phi)
-        motions = link_motions(self.structure, _drawn(rows), self._tops(rows, phi))
-        return np.concatenate([self.places.values(rows, phi), *self._beyond(rows, motions)])
+        values = self.places.values(rows, phi)
+        return np.concatenate([values, self._cosines(rows, phi).beyond()]) if self._bounds else values
 
     def linearised(self, rows: Reals, phi: Reals) -> tuple[Reals, Reals]:
         """Exact; a top does not move as long as it is one."""
         values, slopes = self.places.linearised(rows, phi)
         if self._bounds:
-            motions = link_motions(self.structure, _drawn(rows), self._tops(rows, phi))
-            values = np.concatenate([values, *self._beyond(rows, motions)])
-            slopes = np.concatenate([slopes, *self._cosine_slopes(rows, motions)])
+            cosines = self._cosines(rows, phi)
+            values, slopes = np.concatenate([values, cosines.beyond()]), np.concatenate([slopes, cosines.slopes()])
         return values, slopes * self.free[:, None]
 
-    def _beyond(self, rows: Reals, motions: LinkMotions) -> Iterator[Reals]:
-        """(2, starts) of each dyad, by how much its cosine passes both limits at their tops."""
-        for n, (dyad, most) in enumerate(self._bounds):
-            yield beyond_cosine(cosine(dyad, _pins(rows), at_tops(motions, n)), most)
-
-    def _tops(self, rows: Reals, phi: Reals) -> Reals:
-        """(starts, tops) the crank angles where the cosine of each dyad is largest, and where it is least."""
-        angles = np.broadcast_to(_ROUND, (rows.shape[1], len(_ROUND))) if self.turning else phi
-        motions, tops = link_motions(self.structure, _drawn(rows), angles), []
-        for dyad, _ in self._bounds:
-            tops += top_angles(cosine(dyad, _pins(rows), motions), angles, between=self.turning)
-        return np.concatenate(tops, axis=1)
-
-    def _cosine_slopes(self, rows: Reals, motions: LinkMotions) -> Iterator[Reals]:
-        """(2, numbers, starts) of each dyad, how its cosine passes both limits at their tops, as numbers change."""
-        columns = rows.T.copy().view(np.complex128).T[..., None]
-        with np.errstate(invalid="ignore", divide="ignore"):  # NaN where a dyad cannot be assembled
-            slopes = link_slopes(self.structure, columns, motions, by_places=True)
-        count = len(rows)
-        for n, (dyad, _) in enumerate(self._bounds):
-            moved, changed = at_tops(motions, n), at_tops(slopes, n)
-            gap_slopes = np.zeros((count - 2, rows.shape[1], len(SIGNS)), np.complex128)
-            for sign, joint, base in zip((-1, 1), dyad.outer, dyad.base, strict=True):
-                by_turn, by_shift = changed[base]
-                gap_slopes += sign * (by_turn * columns[joint] + by_shift)[:-1]
-                gap_slopes[2 * joint] += sign * moved[base][0]
-                gap_slopes[2 * joint + 1] += sign * 1j * moved[base][0]
-            pin = pins_of_drawing(columns)
-            gap, arms = _gap(dyad, pin, moved), dyad_arms(dyad, pin)
-            first, second = np.abs(arms)
-            product, own_cosine = first * second, cosine(dyad, pin, moved)
-            by_number = np.zeros((count, *gap.shape))
-            by_number[:-2] = -np.real(np.conj(gap) * gap_slopes) / product
-            for arm, own, joint in zip(arms, (first, second), dyad.outer, strict=True):
-                by_length = own / product - own_cosine / own
-                for k, part in enumerate((arm.real, arm.imag)):
-                    by_number[2 * dyad.inner + k] += by_length * part / own
-                    by_number[2 * joint + k] -= by_length * part / own
-            yield np.moveaxis(SIGNS * np.nan_to_num(by_number), 2, 0)
+    def _cosines(self, rows: Reals, phi: Reals) -> _TopCosines:
+        """The cosines of the limited dyads at the crank angles where each is largest, and where it is least."""
+        bounds, places = self._bounds, rows.T.copy().view(np.complex128)
+        watched, most = np.array([*bounds], np.int64), np.array([*bounds.values()])
+        sides = assembled_sides(self.structure, places.T[:-1])
+        angles = np.tile(_ROUND, (len(places), 1)) if self.turning else np.ascontiguousarray(phi)
+        own = *self.structure.drawn_program, places
+        tops = _core.find_tops(*own, NO_LINES, sides, angles, watched, self.turning)
+        return _TopCosines(program=own, sides=sides, tops=tops, watched=watched, most=most)
 
 
-def at_tops(motions: LinkMotions, dyad: int) -> LinkMotions:
-    """Motions, or how they change, at both tops of a dyad by its number."""
-    own = slice(len(SIGNS) * dyad, len(SIGNS) * (dyad + 1))
-    return {link: (turn[..., own], shift[..., own]) for link, (turn, shift) in motions.items()}
+@compared_by_value
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class _TopCosines:
+    """Cosines of dyads of drawings at two crank angles each."""
+
+    program: tuple[NDArray[np.int64], NDArray[np.int64], Complexes]
+    sides: Reals
+    tops: Reals
+    """(starts, 2 dyads)"""
+    watched: NDArray[np.int64]
+    most: Reals
+
+    def beyond(self) -> Reals:
+        """(2 dyads, starts) by how much each passes its limit."""
+        cosines = _core.find_cosines(*self.program, NO_LINES, self.sides, self.tops, self.watched)
+        return beyond_cosines(cosines, self.most)
+
+    def slopes(self) -> Reals:
+        """(2 dyads, numbers, starts) how this changes with the numbers; 0 where a dyad cannot be assembled."""
+        slopes = _core.cosine_slopes(*self.program, self.sides, self.tops, self.watched)
+        return np.concatenate(SIGNS[:, None, None] * np.nan_to_num(slopes))
 
 
-def _drawn(rows: Reals) -> Complexes:
-    """(joints, starts) the places of the joints."""
-    return np.asarray(rows[:-2:2] + 1j * rows[1:-2:2])
-
-
-def _pins(rows: Reals) -> PinPlaces:
-    return pins_of_drawing(_drawn(rows)[..., None])
-
-
-def _gap(dyad: DrawnDyad, pin: PinPlaces, motions: LinkMotions) -> Complexes:
-    """From the outer joint of the first link to that of the second."""
-    own, far = (
-        motions[base][0] * pin(joint, base) + motions[base][1]
-        for joint, base in zip(dyad.outer, dyad.base, strict=True)
-    )
-    return np.asarray(far - own)
-
-
-def cosine(dyad: DrawnDyad, pin: PinPlaces, motions: LinkMotions) -> Reals:
-    """Of the angle between the links of a dyad; beyond 1 where it cannot be assembled."""
-    first, second = (np.abs(arm) for arm in dyad_arms(dyad, pin))
-    return np.asarray((first**2 + second**2 - np.abs(_gap(dyad, pin, motions)) ** 2) / (2 * first * second))
-
-
-def beyond_cosine(cosines: Reals, most: float) -> Reals:
-    """(2, ...) by how much cosines (..., 2) at the tops of both signs pass a limit."""
-    signed = SIGNS * cosines
-    return np.moveaxis(np.where(np.isnan(signed), -1.0, signed) - most + MARGIN, -1, 0)
-
-
-def top_angles(cosines: Reals, angles: Reals, *, between: bool) -> list[Reals]:
-    """(starts, 1) crank angles where cosines (starts, angles) are largest, and where least; between angles, too."""
-    tops, rows = [], np.arange(len(cosines))
-    for signed in (cosines, -cosines):
-        at = np.fmax(signed, -np.inf).argmax(axis=1)
-        top = angles[rows, at][:, None]
-        tops.append(top + _beside(signed, at)[:, None] * (angles[:, 1:2] - angles[:, :1]) if between else top)
-    return tops
-
-
-def _beside(values: Reals, at: NDArray[np.intp]) -> Reals:
-    """(rows,) by which part of a step the top of the parabola through three places lies beside the middle one."""
-    rows = np.arange(len(values))
-    before, here, after = (values[rows, (at + k) % values.shape[1]] for k in (-1, 0, 1))
-    bend = before - 2 * here + after
-    with np.errstate(invalid="ignore", divide="ignore"):
-        part = np.clip((before - after) / (2 * bend), -0.5, 0.5)
-    return np.where(np.isnan(part), 0.0, part)
+def beyond_cosines(cosines: Reals, most: Reals | float) -> Reals:
+    """(2 dyads, linkages) by how much cosines (dyads, 2, linkages) at the tops of both signs pass limits."""
+    signed = SIGNS[:, None] * cosines
+    return np.concatenate(np.where(np.isnan(signed), -1.0, signed) - np.reshape(most, (-1, 1, 1)) + MARGIN)
 
 
 def limits_of_drawings(

@@ -96,8 +96,9 @@ class FitLimits(ABC):
         shift = np.nan_to_num(shift, posinf=0.0, neginf=0.0)
         # One limit is enough for most; where another one is passed then, all are looked at together.
         others = ((beyond[at] - np.einsum("nik,nk->ni", normal[at], shift)) > MARGIN / 4).any(axis=1)
-        for k in np.flatnonzero(others):
-            shift[k] = _nearest_within(gram[at[k]], normal[at[k]], beyond[at[k]])
+        if others.any():
+            rest = at[others]
+            shift[others] = _nearest_within(gram[rest], normal[rest], beyond[rest])
         step[at] -= shift
         return changed
 
@@ -185,7 +186,7 @@ def complex_slopes(limits: FitLimits, rows: Reals, phi: Reals) -> Reals:
 
 
 def _nearest_within(gram: Reals, normal: Reals, beyond: Reals) -> Reals:
-    """The shift s of least s' gram s with normal s >= beyond; none where there is no such shift.
+    """(starts, numbers) the shifts s of least s' gram s with normal s >= beyond; 0 where there is no such shift.
 
     A problem of least distance, solved by least squares that are not negative: Lawson and Hanson, Solving Least Squares
     Problems, chapter 23.
@@ -193,21 +194,22 @@ def _nearest_within(gram: Reals, normal: Reals, beyond: Reals) -> Reals:
     from scipy.optimize import nnls
 
     root = np.linalg.cholesky(gram)
-    some = np.isfinite(beyond)
-    conditions = np.linalg.solve(root, normal[some].T)
-    scale = np.linalg.norm(conditions, axis=0) + np.abs(beyond[some])
-    kept = scale > 0
-    system = (np.vstack([conditions, beyond[some]]) / np.where(kept, scale, 1.0))[:, kept]
-    aim = np.zeros(len(system))
+    systems = np.concatenate([np.linalg.solve(root, normal.transpose(0, 2, 1)), beyond[:, None]], axis=1)
+    scale = np.linalg.norm(systems[:, :-1], axis=1) + np.abs(beyond)
+    aim = np.zeros(systems.shape[1])
     aim[-1] = 1.0
-    try:
-        multipliers, _ = nnls(system, aim)
-    except RuntimeError:  # it takes too many steps: the step is left, and refused if it passes a limit
-        return np.zeros(len(gram))
-    rest = system @ multipliers - aim
-    if abs(rest[-1]) < 1e-12:
-        return np.zeros(len(gram))
-    return np.asarray(np.linalg.solve(root.T, -rest[:-1] / rest[-1]))
+    rests = np.zeros((len(gram), len(aim) - 1))
+    for k, (system, lengths) in enumerate(zip(systems, scale, strict=True)):
+        kept = np.isfinite(lengths) & (lengths > 0)
+        scaled = system[:, kept] / lengths[kept]
+        try:
+            multipliers, _ = nnls(scaled, aim)
+        except RuntimeError:  # it takes too many steps: the step is left, and refused if it passes a limit
+            continue
+        rest = scaled @ multipliers - aim
+        if abs(rest[-1]) >= 1e-12:
+            rests[k] = -rest[:-1] / rest[-1]
+    return np.asarray(np.linalg.solve(root.transpose(0, 2, 1), rests[:, :, None])[:, :, 0])
 
 
 def crank_turns(kind: FourBarKind, rows: Reals) -> NDArray[np.bool_]:

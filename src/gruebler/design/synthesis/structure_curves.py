@@ -10,17 +10,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler import _core
 from gruebler.base.arrays import Complexes, Reals
-from gruebler.design.synthesis.curve_matching import Anchors, best_matches, drive_angles
+from gruebler.design.synthesis.curve_matching import Anchors, CurveMatch, best_matches, drive_angles
 from gruebler.design.synthesis.drawing_limits import DrawingLimits
-from gruebler.design.synthesis.structure_atlas import (
-    DyadStructure,
-    LinkMotions,
-    assembled_sides,
-    link_motions,
-    link_slopes,
-    structure_atlas,
-)
+from gruebler.design.synthesis.dyad_structures import DyadStructure, assembled_sides, link_motions
+from gruebler.design.synthesis.structure_atlas import structure_atlas
 
 _FIRST, _SECOND, _LAST = (1, 10), (3, 30), (16, 300)
 """Of the neighbours each so many-th is improved, by so many steps; the first two at some points of the target."""
@@ -130,22 +125,20 @@ def _neighbours(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool,
     origin, given = (drawn[:, joints], pivots[0]) if single else (np.zeros((len(own), 1)), 0j)
     drawn, traced = drawn - origin, np.asarray(book.z[own] - origin, np.complex128)
     anchors = None if single else Anchors(drawn[:, joints], pivots)
-    places, turned, gaps = [], [], []
-    seen: set[tuple[bytes, bool]] = set()
+    kept: dict[tuple[bytes, bool], CurveMatch] = {}
     most = max(number, _CANDIDATES) if limits.narrow else number
     for match in best_matches(traced, z - given, 2 * most, closed=closed, about_origin=single, anchors=anchors):
-        n = int(own[match.number])
-        if (name := (book.drawn[n].tobytes(), match.mirrored)) in seen or len(seen) == most:
-            continue
-        seen.add(name)
-        at = match.turn * drawn[match.number] + match.shift
-        angles = drive_angles(book.turned[n], match.at)
-        placed = (np.conj(at) if match.mirrored else at) + given
-        placed[joints] = pivots
-        places.append(placed)
-        turned.append(-angles if match.mirrored else angles)
-        gaps.append(match.gap)
-    curves = DrawnCurves(places=np.array(places), turned=np.array(turned), cost=np.array(gaps))
+        if len(kept) < most:
+            kept.setdefault((book.drawn[own[match.number]].tobytes(), match.mirrored), match)
+    matches = [*kept.values()]
+    numbers, mirrored = np.array([m.number for m in matches]), np.array([[m.mirrored] for m in matches])
+    turn, shift = (np.array(each)[:, None] for each in zip(*((m.turn, m.shift) for m in matches), strict=True))
+    at = turn * drawn[numbers] + shift
+    angles = drive_angles(book.turned[own[numbers]], np.array([m.at for m in matches]))
+    places = np.where(mirrored, np.conj(at), at) + given
+    places[:, joints] = pivots
+    gaps = np.array([m.gap for m in matches])
+    curves = DrawnCurves(places=places, turned=np.where(mirrored, -angles, angles), cost=gaps)
     if not limits.narrow:
         return curves
     beyond = limits.passed(_rows(curves.places), curves.turned)
@@ -217,33 +210,21 @@ class _CurveFit:
         self.limits, self.structure, self.link, self.z = limits, limits.structure, link, z
         self.size = float(max(np.ptp(z.real), np.ptp(z.imag)))
 
-    def points(self, places: Complexes, turned: Reals, sides: Reals) -> tuple[Complexes, LinkMotions]:
-        """(linkages, targets) where the point is, and how all links have moved."""
-        motions = link_motions(self.structure, places[:, :-1].T, turned, sides)
-        rotation, shift = motions[self.link]
-        return rotation * places[:, -1:] + shift, motions
-
-    def slopes(self, places: Complexes, motions: LinkMotions, *, by_places: bool) -> Complexes:
-        """(numbers, linkages, targets) how the point moves with the crank, and first with x, y of places if wanted."""
-        columns = places.T[:, :, None]
-        by_turn, by_shift = link_slopes(self.structure, columns, motions, by_places=by_places)[self.link]
-        of_point = by_turn * columns[-1] + by_shift
-        if not by_places:
-            return np.asarray(of_point)
-        own = motions[self.link][0]
-        return np.concatenate([of_point[:-1], own[None], 1j * own[None], of_point[-1:]])
+    def _drawn(
+        self, places: Complexes, turned: Reals, sides: Reals
+    ) -> tuple[NDArray[np.int64], NDArray[np.int64], Complexes, Reals, Reals, int]:
+        """What the core takes of linkages."""
+        drive, dyads = self.structure.drawn_program
+        own = np.ascontiguousarray(places), np.ascontiguousarray(sides), np.ascontiguousarray(turned)
+        return drive, dyads, *own, self.structure.placed_links.index(self.link)
 
     def slid(self, places: Complexes, turned: Reals, sides: Reals, times: int) -> tuple[Reals, Reals]:
         """Crank angles nearer to where the point is nearest to its targets, and the cost there."""
         for _ in range(times):
-            points, motions = self.points(places, turned, sides)
-            rate = self.slopes(places, motions, by_places=False)[0]
+            points, (rate,) = _core.trace_slopes(*self._drawn(places, turned, sides), False)
             turned = turned + _towards(rate, points - self.z)
-        points, motions = self.points(places, turned, sides)
-        cost = np.sum(np.abs(points - self.z) ** 2, axis=1)
-        # Links that do not carry the point have to be assembled, too.
-        assembled = np.isfinite(sum(rotation for rotation, _ in motions.values())).all(axis=1)
-        return turned, np.where(assembled & np.isfinite(cost), cost, np.inf)
+        cost = np.sum(np.abs(_core.trace_point(*self._drawn(places, turned, sides)) - self.z) ** 2, axis=1)
+        return turned, np.where(np.isfinite(cost), cost, np.inf)
 
     def improved_in_parts(self, places: Complexes, turned: Reals, sides: Reals, steps: int) -> DrawnCurves:
         """The same for many linkages, some at once, so that their numbers stay near the processor."""
@@ -285,8 +266,7 @@ class _CurveFit:
         self, places: Complexes, turned: Reals, sides: Reals, damping: Reals, passed: Reals
     ) -> tuple[Complexes, Reals]:
         """The change of all places, and the crank angles after it."""
-        points, motions = self.points(places, turned, sides)
-        slopes = self.slopes(places, motions, by_places=True)
+        points, slopes = _core.trace_slopes(*self._drawn(places, turned, sides), True)
         by_places, rate = slopes[:-1] * self.limits.free[:, None, None], slopes[-1]
         normal = 1j * rate / (np.abs(rate) + 1e-300)
         across = np.real(np.conj(normal) * by_places).transpose(1, 0, 2)
@@ -306,7 +286,7 @@ class _CurveFit:
         errors = points - self.z
         change, left, slide = solved(errors)
         # The curvature along the step, and the correction for it: steps in curved valleys become longer.
-        near, _ = self.points(places + _PROBE * _paired(change), turned + _PROBE * slide, sides)
+        near = _core.trace_point(*self._drawn(places + _PROBE * _paired(change), turned + _PROBE * slide, sides))
         straight = left - errors + rate * slide
         bend = 2 / _PROBE * ((near - points) / _PROBE - straight)
         further, _, more = solved(bend)

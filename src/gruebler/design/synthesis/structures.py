@@ -22,6 +22,7 @@ from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.dead_centre_verdicts import with_dead_centres
 from gruebler.design.synthesis.demands import BUILDABLE, EXACT_AT_MOST, WITHOUT, Demands, demands_met, tightest
 from gruebler.design.synthesis.drawing_limits import limits_of_drawings
+from gruebler.design.synthesis.dyad_structures import dyad_structure
 from gruebler.design.synthesis.first_states import first_state
 from gruebler.design.synthesis.fitting import (
     FitState,
@@ -53,7 +54,6 @@ from gruebler.design.synthesis.results import (
     ranked,
 )
 from gruebler.design.synthesis.special_tasks import solved_where_it_lies
-from gruebler.design.synthesis.structure_atlas import dyad_structure
 from gruebler.design.synthesis.structure_curves import fit_drawings, together
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets, point_targets
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
