@@ -158,7 +158,7 @@ export class ChainList {
         onclick: () => this.take(text),
       },
       thumbnail(picture, text),
-      h("span", {}, name),
+      h("b", {}, name),
     );
   }
 }

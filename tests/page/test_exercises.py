@@ -166,7 +166,7 @@ def test_the_chain_of_a_task_that_is_tried_is_the_marked_card(exercises):
     page = exercises()
     view = page.page
     cards = view.locator('[data-list="chains"] .card')
-    named = "all => all.map((e) => [e.querySelector('span').textContent, e.ariaPressed])"
+    named = "all => all.map((e) => [e.querySelector('b').textContent, e.ariaPressed])"
 
     def tried(seed, level, text):
         begin(page, "mobility", seed, level)

@@ -77,6 +77,13 @@ def test_sizes_that_give_another_mobility_are_told(id, generic, own, why):
         assert "none of the joints can move." in [line.split(": ")[-1] for line in bare["lines"]]
 
 
+def test_a_chain_in_space_has_drives_to_choose_and_none_is_chosen():
+    """A spherical four-bar without a drive: one freedom, one drive at the frame but for symmetry."""
+    record = structure_record("spherical: R(0-1) R(1-2) R(2-3) R(3-0)", "en")
+    assert (record["generic"], record["driver"]) == (1, "")
+    assert [each["drives"] for each in record["driven"]] == [["R(0-1)"]]
+
+
 def test_usual_sizes_say_nothing_of_their_own():
     linkage = entries()["crankrocker"].placed()
     asked = {"text": linkage.mechanism.text(), "document": linkage_to_json(linkage)}
@@ -115,7 +122,7 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     # it begins with the machine at hand, a four-bar, in the place of the only chain of four links
     assert links.input_value() == "4"
     cards = view.locator('[data-list="chains"] .card')
-    assert cards.evaluate_all("all => all.map((e) => [e.querySelector('span').textContent, e.ariaPressed])") == [
+    assert cards.evaluate_all("all => all.map((e) => [e.querySelector('b').textContent, e.ariaPressed])") == [
         ["Yours: four-bar chain", "true"],
     ]
     view.evaluate("gruebler.describe('R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)')")  # begins as a four-bar
@@ -163,7 +170,7 @@ def test_names_of_chains_are_not_broken_within_a_word(tab, server, lang):
     view = page.page
     view.click('[data-view="structure"]')
     view.evaluate("gruebler.describe('R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)')")
-    name = view.locator('[data-list="chains"] .card span', has_text="Stephenson")
+    name = view.locator('[data-list="chains"] .card b', has_text="Stephenson")
     name.wait_for()
     lines = """span => { const range = document.createRange(), text = span.firstChild, end = text.data.indexOf(" ");
         range.setStart(text, 0); range.setEnd(text, end);

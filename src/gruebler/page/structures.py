@@ -19,7 +19,7 @@ from gruebler.pictures.canvas.labels import labels_or_numbers
 from gruebler.pictures.canvas.shapes import Point, Shape, bounds, moved_shape
 from gruebler.pictures.canvas.svg import svg_element
 from gruebler.pictures.linkage.element_pictures import contact_shapes
-from gruebler.pictures.structure import paint, place_joints
+from gruebler.pictures.structure import held_outlines, paint, place_joints
 from gruebler.pictures.structure.messages import chain_name
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import PAIRS, Alphabet
@@ -149,7 +149,7 @@ def like_driven(mechanism: Mechanism, listed: Mapping[str, Mechanism], generic: 
     >>> found.text()
     'R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)'
     """
-    if not mechanism.drives and listed and generic == 1:
+    if not mechanism.drives and listed and generic == 1 and mechanism.chain.space is Space.PLANAR:
         mechanism = with_drives(mechanism)
     return listed.get(mechanism.code()) if mechanism.drives else None
 
@@ -209,7 +209,8 @@ def drawn_frame(
         for each in driven
         if each.frame == bare.frame
     }
-    outlines = {link: placed.outlines[link] for link in chain.links}
+    held = held_outlines(placed)
+    outlines = {link: held[link] for link in chain.links}
     around = {link: (*corners, *corners[: placed.closed[link]]) for link, corners in outlines.items()}
     labelled = labels_or_numbers(outlines, placed.closed, bodies, called)
     corner, picture = _picture(labelled, heads.values())

@@ -2,7 +2,7 @@
 
 from gruebler.pictures.structure.block import draw_block
 from gruebler.pictures.structure.graphs import draw_contracted, draw_graph, draw_loops
-from gruebler.pictures.structure.picture import PlacedChain, draw_structure, paint, place_joints
+from gruebler.pictures.structure.picture import PlacedChain, draw_structure, held_outlines, paint, place_joints
 from gruebler.pictures.structure.side_view import draw_side_view
 
 __all__ = [
@@ -13,6 +13,7 @@ __all__ = [
     "draw_loops",
     "draw_side_view",
     "draw_structure",
+    "held_outlines",
     "paint",
     "place_joints",
 ]

@@ -7,7 +7,7 @@ same layout, turned so that the frame is low.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import pairwise
@@ -105,7 +105,8 @@ def draw_structure(
                 symbol = joint.pair.symbol(Alphabet.of_language(lang))
                 shapes.append(note_near(at, symbol, "letter", shapes))
     if labels:
-        outlines = {link: placed.outlines[link] for link in chain_of(structure).links}
+        held = held_outlines(placed)
+        outlines = {link: held[link] for link in chain_of(structure).links}
         shapes = labels_or_numbers(outlines, placed.closed, shapes, names)
     return figure_of(shapes, title(structure, lang, name), describe(structure, lang))
 
@@ -194,13 +195,9 @@ def paint(placed: PlacedChain, lang: str = "en") -> list[Shape]:
     """Links, joints and drives, in the order of painting; letters of joints in the alphabet of the language."""
     signs = [_sign(placed, number, lang) for number in range(len(placed.chain.joints))]
     discs = sorted((disc for sign, _ in signs for disc in sign.wheels), key=lambda disc: -disc[0])
-    holds = {
-        (link, number): hold
-        for number, (sign, members) in enumerate(signs)
-        for link, hold in zip(members, sign.holds, strict=True)
-    }
+    corners = _held(placed, signs)
     own = sorted(placed.chain.links, key=lambda link: (link in placed.crossing, -placed.chain.degrees[link]))
-    bodies = {link: _link(placed, link, holds) for link in own if link not in placed.bare}
+    bodies = {link: _link(placed, link, corners[link]) for link in own if link not in placed.bare}
     under = _under_geneva_drives(placed)
     shapes = [shape for link, parts in bodies.items() if link in under for shape in parts]
     shapes += [shape for _, parts in discs for shape in parts]
@@ -230,10 +227,22 @@ def _under_geneva_drives(placed: PlacedChain) -> set[str]:
     }
 
 
-def _link(placed: PlacedChain, link: str, holds: dict[tuple[str, int], Point]) -> list[Shape]:
-    """The body of a link, its corners moved to its points of attachment at the joints."""
-    moved = {placed.joints[n]: holds[link, n] for n, j in enumerate(placed.chain.joints) if link in j.links}
-    corners = [moved.get(corner, corner) for corner in placed.outlines[link]]
+def held_outlines(placed: PlacedChain) -> dict[str, list[Point]]:
+    """The corners of each link where it is drawn: at its points of attachment at the joints."""
+    return _held(placed, [_sign(placed, number, "en") for number in range(len(placed.chain.joints))])
+
+
+def _held(placed: PlacedChain, signs: Sequence[tuple[JointSign, list[str]]]) -> dict[str, list[Point]]:
+    moved: dict[str, dict[Point, Point]] = {link: {} for link in placed.chain.links}
+    for joint, at, (sign, members) in zip(placed.chain.joints, placed.joints, signs, strict=True):
+        for link, hold in zip(members, sign.holds, strict=True):
+            if link in joint.links:
+                moved[link][at] = hold
+    return {link: [moved[link].get(corner, corner) for corner in placed.outlines[link]] for link in placed.chain.links}
+
+
+def _link(placed: PlacedChain, link: str, corners: Sequence[Point]) -> list[Shape]:
+    """The body of a link between its corners."""
     shape = polygon if placed.closed[link] else bar
     return shape(corners, is_frame=link == placed.frame, halo=link in placed.crossing)
 
