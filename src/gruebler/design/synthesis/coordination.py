@@ -20,6 +20,7 @@ from gruebler.design.synthesis.dyads import BLOCK, CRANK, GuidingDyad
 from gruebler.design.synthesis.tasks import FunctionTask
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.fourbar.length_texts import ClosedForm
+from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.branch import branch_of_side
@@ -50,7 +51,15 @@ class Coordination:
     def placed(self, unit: str = "mm") -> Linkage:
         """The linkage with its crank at the angle of the first pair, on its branch; its frame lies on the x axis."""
         own = self.linkage().linkage(unit=unit)
-        return own.with_reference_pose(move_quietly(own, [self.input_start], branch=branch_of_side(self.side)).pose(0))
+        return own.with_reference_pose(self._first(own).pose(0))
+
+    @property
+    def can_start(self) -> bool:
+        """Whether it can be put together at the first pair: at a dead centre rounding may part it."""
+        return self._first(self.linkage().linkage()).complete
+
+    def _first(self, own: Linkage) -> Motion:
+        return move_quietly(own, [self.input_start], branch=branch_of_side(self.side))
 
     @property
     def row(self) -> CoordinationKind:

@@ -217,6 +217,8 @@ def _nearest_pairs(task: FunctionTask, wanted: Demands) -> list[Design]:
     size = 1.0 if task.output == "angle" else float(np.ptp(output)) or 1.0
     designs = []
     for solution in nearest_linkages(turning_kind(task), phi, output):
+        if not solution.can_start:
+            continue
         error = float(np.abs(output_errors(solution, turned, moved)).max()) / size
         design = _judged_at_starts(task, wanted, solution, turned, moved, size, error)
         verdict = replace(design.verdict, error=error)
