@@ -2,7 +2,7 @@
 
 import { gripAt, gripped } from "./backdrop";
 import { choiceOf, isLow, removeChosen } from "./choice";
-import { h, lowered, renew, svg } from "./dom";
+import { h, lowered, option, renew, svg } from "./dom";
 import { type Drawing, EMPTY, joined, joining, linksOf, moved, type Spot, same } from "./drawing";
 import { Fingers, pixelIn, wheelZooms, whileDown } from "./fingers";
 import { stepOf } from "./grid";
@@ -109,15 +109,11 @@ export class BuildView implements View, Plane, Drawn {
     renew(this.#tools, ...palette(this.#tool, (tool) => this.#take(tool)));
     renew(this.#hint, ...hintOf(this.#tool));
     renew(this.#buttons, ...zoomButtons(this));
-    const snap = h("input", {
-      type: "checkbox",
-      checked: this.#snapping,
-      onchange: () => (this.#snapping = snap.checked),
-    });
+    const snap = option(t("Snap to joints, grid, angles and lengths"), this.#snapping, (on) => (this.#snapping = on));
     renew(
       this.#side,
       h("section.panel", {}, h("h2", {}, t("Mobility")), this.mobility.element),
-      h("section.panel.options", {}, h("label", {}, snap, t("Snap to joints, grid, angles and lengths"))),
+      h("section.panel.options", {}, snap),
       this.#places,
     );
     this.root.setAttribute("aria-label", t("Plane to draw on"));

@@ -1,6 +1,6 @@
 /** What a design must do besides its targets, as fields. */
 
-import { h } from "./dom";
+import { h, option } from "./dom";
 import { t } from "./language";
 
 export class Demands {
@@ -53,10 +53,4 @@ export class Demands {
       transmission: this.#least,
     };
   }
-}
-
-/** A box that is checked, with its text. */
-export function option(text: string, checked: boolean, set: (on: boolean) => void, key: string): HTMLElement {
-  const box = h("input", { type: "checkbox", checked, "data-field": key, onchange: () => set(box.checked) });
-  return h("label", {}, box, text);
 }

@@ -5,6 +5,7 @@ import { h, menu, renew, thumbnail } from "./dom";
 import type { Moving } from "./ghost";
 import { angle, currentLanguage, number, spaced, t } from "./language";
 import type { LinkageDocument } from "./model";
+import { Plot } from "./plot";
 import type { Pair } from "./rows";
 
 /** A linkage that does what is asked. */
@@ -25,6 +26,9 @@ export interface Design extends Moving {
   angles?: Pair[];
   /** Where it meets its pairs: drive and output in degrees, as they are in Motion. */
   pairs?: Pair[];
+  /** Of more pairs than can be met exactly what is wanted less what is reached, in degrees, as stems: drives in
+   * radians, values from zero to the error and back, and their ends. */
+  stems?: [number[], number[], Pair[]];
   /** Of dead centres the places of the joints at both. */
   ends?: [Pair[], Pair[]];
   /** Of the four links of a four-bar, the frame first; none of what has other joints. */
@@ -69,6 +73,8 @@ function worth({ error, range, shift, size, transmission }: Design, by: Value): 
 
 export class DesignCards {
   readonly element = h("div.designs", {});
+  /** By how much the design that plays misses its pairs. */
+  readonly #missed = new Plot(DEGREE, () => {});
   #found: Found | null = null;
   #order: Order = "error";
   /** Exact ones do not differ in their deviation. */
@@ -97,6 +103,13 @@ export class DesignCards {
     this.#playing = (found && this.#shown.find(({ variant }) => !variant)) ?? null;
     this.arrange();
     return this.#playing;
+  }
+
+  #plot(): void {
+    if (!this.#playing?.stems) return;
+    const [drives, values, marks] = this.#playing.stems;
+    const series = { title: t("Wanted − reached (°)"), colour: "--purple", values: Float64Array.from(values), marks };
+    this.#missed.show(Float64Array.from(drives), series, [drives[0]!, drives.at(-1)!]);
   }
 
   /** How many are better by an order, of each design; equal ones have the same place. */
@@ -142,6 +155,7 @@ export class DesignCards {
   arrange(): void {
     const found = this.#found;
     if (!found) return renew(this.element);
+    this.#plot();
     const { items } = found;
     const names: Record<Order, string> = {
       error: t("by deviation"),
@@ -162,6 +176,7 @@ export class DesignCards {
       this.element,
       h("h2", {}, t("{count} designs", { count: items.length })),
       h("p.note", {}, `${found.note} ${sorted} ${found.words}`),
+      items[0]?.stems ? this.#missed.element : "",
       h(
         "div.form",
         {},
@@ -192,18 +207,20 @@ export class DesignCards {
   }
 
   #card(design: Design): HTMLElement {
-    const { form, lengths, range, shift, transmission, error, size } = design;
+    const { form, lengths, stems, range, shift, transmission, error, size } = design;
     const degrees = (mu: number | null | undefined) => typeof mu === "number" && angle(mu * DEGREE, 3);
     const [way, all] = [transmission, range].map(degrees);
     const names = design.names[currentLanguage()]!;
     const value = error === null || exact(error) ? 0 : 100 * error;
-    const deviation = value ? t("deviation {value} %", { value: number(value, 2) }) : t("met exactly");
+    const off = stems ? angle(error!, 2) : `${number(value, 2)} %`;
+    const deviation = value ? t("deviation {value}", { value: off }) : t("met exactly");
     const millimetres = (length: number, k: number) => number(length, 3) + (lengths[k + 1] ? "" : " mm");
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
     const play = () => {
       this.#playing = design;
       for (const one of this.element.querySelectorAll(".card")) one.toggleAttribute("aria-current", one === card);
       this.play(design);
+      this.#plot();
     };
     const card: HTMLElement = h(
       "button.card",

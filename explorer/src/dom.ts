@@ -121,6 +121,12 @@ export function choice(
   return group;
 }
 
+/** A box that is checked, with its text. */
+export function option(text: string, checked: boolean, set: (on: boolean) => void, key?: string): HTMLElement {
+  const box = h("input", { type: "checkbox", checked, "data-field": key, onchange: () => set(box.checked) });
+  return h("label", {}, box, text);
+}
+
 /** A menu of which one entry is chosen: values with their texts. */
 export function menu(
   label: string,

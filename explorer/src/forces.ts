@@ -181,7 +181,7 @@ export class Forces {
         h(
           "div.form",
           {},
-          h("span.note", {}, t("Of a drive at {rate}; the picture has a speed of its own.", { rate })),
+          h("span.note", {}, t("Forces at {rate}", { rate })),
           h("button.plain", { "data-act": "play", onclick: play }, t("Play at this speed")),
         ),
         this.#facts.element,

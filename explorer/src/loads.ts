@@ -1,6 +1,6 @@
 /** What acts on a linkage, typed by the reader: the speed of its drive, masses, a force or moment, weight. */
 
-import { h, renew } from "./dom";
+import { h, option, renew } from "./dom";
 import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
 import { type End, endsOf, type Spring } from "./springs";
@@ -90,12 +90,11 @@ export class LoadForm {
       }
     }
     rows.push(...this.#springRows(linkage, springs, (own) => this.show(linkage, masses, speed, own)));
-    const weigh = () => {
-      this.#weight = weight.checked;
+    const weight = option(t("Weight, downward"), this.#weight, (on) => {
+      this.#weight = on;
       this.changed();
-    };
-    const weight = h("input", { type: "checkbox", checked: this.#weight, onchange: weigh });
-    renew(this.element, h("div.rows", {}, ...rows), h("div.form", {}, h("label", {}, weight, t("Weight, downward"))));
+    });
+    renew(this.element, h("div.rows", {}, ...rows), h("div.form", {}, weight));
   }
 
   /** For each spring its kind, its ends and its rates, and a row for another one. */

@@ -3,7 +3,7 @@
 import type { Ruler } from "./beside";
 import { digits, showDigits } from "./digits";
 import { applyDocument, documentOf } from "./document";
-import { h, renew } from "./dom";
+import { h, option, renew } from "./dom";
 import { type Dragging, type Length, LONGEST } from "./dragging";
 import { middleOf } from "./hull";
 import { icon } from "./icons";
@@ -333,27 +333,24 @@ async function listModes(editor: Editor, place: HTMLElement): Promise<void> {
 
 export function optionsPanel(editor: Editor): HTMLElement {
   const { shown } = editor;
-  const option = (key: Exclude<keyof Shown, "chosen" | "link" | "forces" | "springs">, text: string) => {
-    const onchange = () => {
-      shown[key] = box.checked;
+  const box = (key: Exclude<keyof Shown, "chosen" | "link" | "forces" | "springs">, text: string) =>
+    option(text, shown[key], (on) => {
+      shown[key] = on;
       editor.show();
-    };
-    const box = h("input", { type: "checkbox", checked: shown[key], onchange });
-    return h("label", {}, box, text);
-  };
+    });
   const link = linkMenu(editor, t("Link"));
   return h(
     "div.options",
     {},
-    option("curves", t("Coupler curves")),
-    option("velocities", t("Velocities")),
-    option("accelerations", t("Accelerations")),
-    option("hodographs", t("Hodographs of the points")),
-    option("poles", t("Pole and centrodes")),
-    option("inflection", t("Inflection circle")),
+    box("curves", t("Coupler curves")),
+    box("velocities", t("Velocities")),
+    box("accelerations", t("Accelerations")),
+    box("hodographs", t("Hodographs of the points")),
+    box("poles", t("Pole and centrodes")),
+    box("inflection", t("Inflection circle")),
     h("label", {}, t("of the link"), link),
-    option("labels", t("Names")),
-    option("grid", t("Grid")),
-    option("snap", t("Snap")),
+    box("labels", t("Names")),
+    box("grid", t("Grid")),
+    box("snap", t("Snap")),
   );
 }

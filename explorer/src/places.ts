@@ -1,7 +1,7 @@
 /** The panel in which the places of joints are typed, and that of a picture behind them. */
 
 import { backdropOf } from "./backdrop";
-import { h } from "./dom";
+import { h, option } from "./dom";
 import { isPin, knotName, moved } from "./drawing";
 import { t } from "./language";
 import type { Drawn } from "./mobility";
@@ -28,8 +28,6 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty()
     );
   };
   const file = h("input", { type: "file", accept: "image/*", hidden: true, onchange: read });
-  const onchange = () => view.change({ ...drawing, keeps: box.checked });
-  const box = h("input", { type: "checkbox", checked: keeps, "data-field": "keeps", onchange });
   return [
     ...(rows.length
       ? [rowsTable(rows, t("Joint"), ["x", "y"], false, typed, (k) => knotName(drawing, numbers[k]!))]
@@ -37,7 +35,7 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty()
     ...(picture
       ? [
           rowsTable(frame, t("Picture"), ["x", "y", t("Width"), "φ [°]"], true, framed),
-          h("label", {}, box, t("Keep it in the document")),
+          option(t("Keep it in the document"), !!keeps, (on) => view.change({ ...drawing, keeps: on }), "keeps"),
         ]
       : []),
     file,

@@ -41,7 +41,7 @@ export class Plot {
   readonly #band = svg("rect.band", { x: LEFT, width: WIDE, height: 0 });
   readonly #zero = svg("path.axis", {});
   readonly #cursor = svg("path.cursor", {});
-  readonly #here = svg("circle.here", { r: 3 });
+  readonly #here = svg("circle.here", { r: 3, cy: -9 });
   readonly #title = svg("text.title", { x: 2, y: 13 });
   readonly #value = svg("text.read", { x: WIDTH - RIGHT, y: 13, "text-anchor": "end" });
   #measure = "";

@@ -3,7 +3,7 @@
 import { type Choice, chainPicture, inPlane, type Structure, typesOf } from "./chain";
 import { ChainList } from "./chains";
 import { savedDocument } from "./document";
-import { h, indexed, renew, thumbnail } from "./dom";
+import { h, indexed, option, renew, thumbnail } from "./dom";
 import { currentLanguage, t } from "./language";
 import { chainText, type Model } from "./model";
 import type { Page, View } from "./view";
@@ -164,15 +164,11 @@ export class StructureView implements View {
         ),
       ),
     );
-    const elsewhere = h("input", {
-      type: "checkbox",
-      checked: !this.#atFrame,
-      "data-field": "elsewhere",
-      onchange: () => {
-        this.#atFrame = !elsewhere.checked;
-        void this.describe(this.text);
-      },
-    });
+    const all = (on: boolean) => {
+      this.#atFrame = !on;
+      void this.describe(this.text);
+    };
+    const elsewhere = option(t("also drives that are not at the frame"), !this.#atFrame, all, "elsewhere");
     renew(
       this.#detail,
       step(
@@ -187,7 +183,7 @@ export class StructureView implements View {
       step(
         3,
         t("Drive"),
-        h("div.form", {}, h("label", {}, elsewhere, t("also drives that are not at the frame"))),
+        h("div.form", {}, elsewhere),
         this.#cards(
           "driven",
           found.driven.filter(({ frame }) => frame === found.chosen),

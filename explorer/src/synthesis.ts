@@ -1,9 +1,9 @@
 /** The view of the synthesis: what a linkage is to do, put into a plane or a table; designs that do it play over it. */
 
 import { DEGREE } from "./cycle";
-import { Demands, option } from "./demands";
+import { Demands } from "./demands";
 import { type Design, DesignCards, type Found } from "./designs";
-import { choice, h, renew } from "./dom";
+import { choice, h, option, renew } from "./dom";
 import { History } from "./history";
 import { t } from "./language";
 import type { Model, Target } from "./model";

@@ -34,7 +34,10 @@ export function wordsOf(kind: Kind): TaskWords {
     },
     function: {
       name: t("Angles"),
-      hint: t("Three to five pairs of angles that drive and output turn through together."),
+      hint: t(
+        "Pairs of angles that drive and output turn through together: " +
+          "three to five are met exactly if possible, more approximately.",
+      ),
       row: t("Pair"),
       heads: [t("Drive [°]"), t("Output [°]")],
     },

@@ -126,22 +126,22 @@ export class Transport<View extends Driven = Driven> {
 
   /** A drive value that is typed, in degrees or in the unit of length. */
   #typed(): void {
-    const { cycle, drive } = this.view.linkage;
+    const { drive } = this.view.linkage;
     const value = parsed(this.#value.value.replace(/[^\d.,e−-]*$/, "")) * (drive?.turning ? DEGREE : 1);
-    const [low, high] = this.range;
-    if (!Number.isFinite(value)) return this.showValue();
-    if (cycle.full) this.pick(value);
-    else this.pick(Math.max(low, Math.min(high, value)), value < low || value > high);
+    if (Number.isFinite(value)) this.#turnTo(value);
     this.showValue();
   }
 
   /** Move the drive by so many degrees, or hundredths of the size. */
   nudge(steps: number): void {
-    const { cycle, drive, size } = this.view.linkage;
-    if (!drive) return;
-    const value = this.drive + steps * (drive.turning ? DEGREE : size / 200);
+    const { drive, size } = this.view.linkage;
+    if (drive) this.#turnTo(this.drive + steps * (drive.turning ? DEGREE : size / 200));
+  }
+
+  /** As far as it goes. */
+  #turnTo(value: number): void {
     const [low, high] = this.range;
-    if (cycle.full) this.pick(value);
+    if (this.view.linkage.cycle.full) this.pick(value);
     else this.pick(Math.max(low, Math.min(high, value)), value < low || value > high);
   }
 

@@ -50,6 +50,8 @@ BALANCED = message("Balanced: transmission angle, longest link and sensitivity c
 BEST = message("The best of {count}.")
 EXACT = message("All meet the targets exactly.")
 NONE = message("None does: ask for less, or try other targets.")
+_MOST_PAIRS = 5
+"""So many pairs of angles a four-bar with free starts can meet exactly."""
 _ROUNDING = 1e-9
 """Of the size: a target that is missed by less is met."""
 _FRAMES = 144  # of a motion, there and back if it does not turn fully
@@ -167,7 +169,7 @@ def _words(task: Task, items: Sequence[dict[str, Any]], relative: bool) -> Itera
     if items and relative:
         yield message("Of lengths only the ratios count; the longest is 100 mm.")
     if sensitive:
-        yield message("Sensitivity: how far a target is off at most, if all lengths are 0.1 % wrong.")
+        yield message("Sensitivity: how far a target is off if lengths are 0.1 % wrong.")
 
 
 def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
@@ -268,7 +270,11 @@ def _there_and_back(rows: Reals, posed: PosedLinkage) -> list[Any]:
 
 
 def _met_angles(design: Design, task: Task, posed: PosedLinkage) -> dict[str, Any]:
-    """How angles are met: crank and output in degrees, as the pairs count them, of each row; or both dead centres."""
+    """How angles are met: crank and output in degrees, as the pairs count them, of each row; or both dead centres.
+
+    Of more pairs than can be met exactly also by how much each is missed, as stems: cranks in radians, what is wanted
+    less what is reached in degrees, from zero and back, and the ends of both.
+    """
     linkage, cycle = design.linkage, posed.cycle
     if cycle is not None and isinstance(task, DeadCentreTask):
         ends = np.array([centre.drive for centre in measures(linkage).dead_centres])
@@ -282,11 +288,31 @@ def _met_angles(design: Design, task: Task, posed: PosedLinkage) -> dict[str, An
     (output,) = at_frame - set(mechanism.drives[0].between)
     turned = np.stack([path.drives[:, 0], path.angle(output)], axis=1)
     pairs = turned[len(played) :]
-    angles = np.degrees(turned[: len(played)] - pairs[0] + (task.inputs[0], task.outputs[0]))
+    met: dict[str, Any] = {}
+    begin = pairs[0].copy()
+    if len(task) > _MOST_PAIRS and design.targets is not None:
+        missed = np.angle(design.targets.values[:, 1] * np.exp(-1j * pairs[:, 1]))
+        begin[1] += missed[0]
+        met = {"stems": _stems(task.inputs, np.degrees(missed).round(6).tolist())}
+    angles = np.degrees(turned[: len(played)] - begin + (task.inputs[0], task.outputs[0]))
     far = np.abs(turned[len(played) - 1] - turned[0])
     round_ = np.array([posed.repeats, posed.repeats and far[1] > np.pi])
     pairs[:, round_] %= 2 * np.pi  # as the page counts what goes round
-    return {"angles": _there_and_back(np.round(angles, 2), posed), "pairs": np.degrees(pairs).round(6).tolist()}
+    curve, reached = _there_and_back(np.round(angles, 2), posed), np.degrees(pairs).round(6).tolist()
+    return {"angles": curve, "pairs": reached} | met
+
+
+def _stems(places: Sequence[float], values: Sequence[float]) -> list[Any]:
+    """A line from zero to each value and back, with room at both sides: its places, its values, and the ends.
+
+    >>> _stems([0.0, 1.0], [2.0, 3.0])[1]
+    (0, 0.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0)
+    """
+    tips = sorted(zip(places, values, strict=True))
+    first, last = tips[0][0], tips[-1][0]
+    room = 0.04 * (last - first)
+    line = [(first - room, 0), *((x, part * y) for x, y in tips for part in (0, 1, 0)), (last + room, 0)]
+    return [*zip(*line, strict=True), tips]
 
 
 def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, Any]:
