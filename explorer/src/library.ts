@@ -8,7 +8,6 @@ export class LibraryView implements View {
   readonly element = h("div.view", { "data-page": "build" });
 
   arrange(): void {
-    const steps = ["pip install 'gruebler[web]'", "gruebler explore"];
     renew(
       this.element,
       h(
@@ -16,8 +15,13 @@ export class LibraryView implements View {
         {},
         h("h2", {}, t("Draw")),
         h("p", {}, t("Draw a mechanism: its mobility is told while you draw, then it moves.")),
-        h("p", {}, t("This part asks the library at every step. On your computer, with Python, two commands open it:")),
-        h("pre", {}, steps.join("\n")),
+        h(
+          "p",
+          {},
+          t("This needs gruebler on your computer: pip install 'gruebler[web]', then: {command}", {
+            command: "gruebler explore",
+          }),
+        ),
       ),
     );
   }

@@ -48,6 +48,8 @@ export class SynthesisView implements View {
   /** How wide the plane is before there is anything in it; that of points out of a file is as wide as they need. */
   #home = 0;
   readonly #history = new History<State>();
+  /** The targets that the designs meet. */
+  #asked = "";
   /** The targets before the change that is going on. */
   #before = this.#state;
   /** What the pointer takes along. */
@@ -326,7 +328,10 @@ export class SynthesisView implements View {
     this.#key.disabled = !!lacks;
     this.#clearing.disabled = !count && !this.#pivots.length;
     this.#key.title = lacks;
-    this.#told.textContent = lacks;
+    const { element } = this.designs;
+    const former = element.firstChild && this.#state[1] !== this.#asked;
+    element.style.opacity = former ? ".6" : "";
+    this.#told.textContent = lacks || (former ? t("The designs are for the former targets.") : "");
     renew(
       this.#list,
       this.points.length
@@ -357,9 +362,11 @@ export class SynthesisView implements View {
       ...this.#demands.asked(this.#planar),
     };
     this.#told.textContent = "";
+    const [, asked] = this.#state;
     const found = await awaited(this.status, (progress) => this.#page.ask<Found>("synthesise", question, progress));
     if (kind !== this.kind) return renew(this.status);
     if (!found) return;
+    this.#asked = asked;
     this.#play(this.designs.show(found));
     this.#drawList();
     // on a phone below the plane, which stays in sight

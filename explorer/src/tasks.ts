@@ -20,8 +20,8 @@ export function wordsOf(kind: Kind): TaskWords {
     points: {
       name: t("Points"),
       hint: t(
-        "Put points in the order in which a coupler point passes them: " +
-          "five to nine are met exactly if possible, more approximately.",
+        "Put points in the order in which a coupler point passes them, or draw a curve: " +
+          "up to nine points are met exactly if possible.",
       ),
       row: t("Point"),
       heads: ["x", "y"],

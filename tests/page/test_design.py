@@ -362,11 +362,14 @@ def test_what_turns_fully_is_no_rocker_and_goes_from_0_to_360(tab, server):
     view.click('[data-view="synthesis"]')
     view.click('[data-value="function"]')
     card = found_designs(view).first
-    names, lengths = zip(*(one.split()[:2] for one in card.locator(".lengths > span").all_inner_texts()), strict=True)
+    names, lengths = zip(
+        *(one.splitlines()[:2] for one in card.locator(".lengths > span").all_inner_texts()), strict=True
+    )
+    lengths = [one.split()[0] for one in lengths]
     shortest, second, third, longest = sorted(float(one.replace(",", ".")) for one in lengths)
     assert float(lengths[0].replace(",", ".")) == shortest
     assert shortest + longest < second + third
-    assert names == ("Gestell", "Kurbel", "Koppel", "Abtriebskurbel")
+    assert names == ("Gestell", "Kurbel", "Koppel", "getriebene Kurbel")
     card.click()
     page.until("gruebler.view === 'motion'")
     plot = "gruebler.motion.side.plots.parts[0].plot.series"
@@ -424,6 +427,24 @@ def test_another_task_gives_up_what_is_looked_for(design):
     view.wait_for_timeout(3000)
     assert view.locator(".designs .card").count() == 0
     assert view.evaluate(f"{VIEW}.status.textContent") == ""
+
+
+def test_designs_of_former_targets_say_so(design):
+    """As long as the targets are others than those that were asked for: undo makes them right again."""
+    view = design.page
+    view.click('[data-value="function"]')
+    cards, told = found_designs(view), view.locator('[data-fact="set"]')
+    count = cards.count()
+    assert told.inner_text() == ""
+    cell = view.locator(".points input").nth(3)
+    cell.fill("31")
+    cell.press("Enter")
+    assert told.inner_text() == "The designs are for the former targets."
+    assert cards.count() == count
+    assert float(view.locator(".designs").evaluate("one => getComputedStyle(one).opacity")) < 0.7
+    view.click('header [data-icon="undo"]')
+    assert told.inner_text() == ""
+    assert float(view.locator(".designs").evaluate("one => getComputedStyle(one).opacity")) == 1
 
 
 def test_a_click_puts_whole_millimetres_where_a_pixel_is_as_large(design):

@@ -34,9 +34,9 @@ from gruebler.structure.chain.pairs import Pair
 from gruebler.structure.chain.spaces import Space
 from gruebler.teaching.catalog import entries
 
-_NUMBERED = re.compile(r"(frame|crank|output crank|coupler|rocker|slider|block|wheel)(\d*)")
+_NUMBERED = re.compile(r"(frame|crank|driven crank|coupler|rocker|slider|block|wheel)(\d*)")
 """Names of the links of four-bars, and by roles."""
-_OUTPUT_CRANK = message("output crank")
+_DRIVEN_CRANK = message("driven crank")
 """The rocker of a four-bar that turns fully, too."""
 
 _FOUR_BAR = ("crank", "coupler", "rocker", "frame")  # its links, in the order of their lengths
@@ -159,13 +159,13 @@ def link_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
     >>> link_names(FourBar(25, 70, 40, 70).linkage(), "", "de")["rocker"]
     'Schwinge'
     >>> link_names(FourBar(86, 100, 90.6, 55.8).linkage(), "", "de")["rocker"]  # a double crank
-    'Abtriebskurbel'
+    'getriebene Kurbel'
     """
     links = linkage.mechanism.chain.links
     record = entries().get(source)
     if record is not None and record.chain().links == links:
         return dict(zip(links, record.in_language(lang).chain().links, strict=True))
-    second = {"rocker": _OUTPUT_CRANK.text} if _is_double_crank(linkage) else {}
+    second = {"rocker": _DRIVEN_CRANK.text} if _is_double_crank(linkage) else {}
     parts = {link: _NUMBERED.fullmatch(second.get(link, link)) for link in links}
     return {link: translate(part[1], lang) + part[2] if part else link for link, part in parts.items()}
 
