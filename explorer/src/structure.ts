@@ -33,7 +33,7 @@ export class StructureView implements View {
   readonly #detail = h("div.contents", {});
   readonly #go = h("div.form.go", {});
   readonly #error = h("p.error", { role: "alert" });
-  readonly #words = h("details.words", {});
+  readonly #words = h("details.words", { hidden: true }); // until there is one
   readonly #field = h("textarea", { spellcheck: false, "data-field": "chain" });
   #typing = 0;
   #asked = 0;
@@ -113,6 +113,7 @@ export class StructureView implements View {
       }
     }
     this.#field.setAttribute("aria-invalid", String(!!this.#error.textContent));
+    this.#words.hidden = false;
     this.#detail.classList.remove("asking");
   }
 
