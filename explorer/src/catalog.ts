@@ -1,6 +1,6 @@
 /** The catalog: every machine with its picture, found by words of either language and by its features. */
 
-import { choice, h, menu, ownPage, renew, thumbnail } from "./dom";
+import { choice, h, menu, ownPage, press, renew, thumbnail } from "./dom";
 import { movesOnHover } from "./hover";
 import { currentLanguage, t } from "./language";
 import type { Model } from "./model";
@@ -36,6 +36,7 @@ export class CatalogView implements View {
   #byLinks = false;
   readonly #cards = h("div.cards", { "data-list": "catalog" });
   readonly #note = h("span.note", { role: "status" });
+  #kinds!: HTMLElement;
   #typing = 0;
   #asked = 0;
   #filled = false;
@@ -117,13 +118,14 @@ export class CatalogView implements View {
       this.#query.words = kind;
       this.arrange();
     };
+    this.#kinds = choice(t("Kinds of machines"), kinds, "", choose, { class: "choice palette" });
     renew(
       this.element,
       h(
         "div.page",
         {},
         h("div.form", {}, h("h2", {}, t("Catalog")), this.#note),
-        choice(t("Kinds of machines"), kinds, this.#query.words ?? "", choose, { class: "choice palette" }),
+        this.#kinds,
         h("div.form.search", {}, words, order),
         more,
         this.#cards,
@@ -138,6 +140,7 @@ export class CatalogView implements View {
       if (/^(words|pairs|joints)$/.test(key)) return [[key, text]];
       return /^\s*\d+\s*$/.test(text) ? [[key, Number(text)]] : [];
     });
+    press(this.#kinds, this.#query.words ?? "");
     const cards = this.#cards;
     this.#note.textContent = t("Searching …");
     cards.classList.add("asking"); // those of the search before

@@ -105,20 +105,21 @@ export function choice(
     "div.choice",
     { role: "group", "aria-label": label, ...more },
     ...options.map(([value, text]) => {
-      const press = () => {
-        for (const one of group.children) one.setAttribute("aria-pressed", String(one === button));
+      const onclick = () => {
+        press(group, value);
         choose(value);
       };
-      const pressed = String(value === chosen);
-      const button = h(
-        "button",
-        { type: "button", "data-value": value, "aria-pressed": pressed, onclick: press },
-        text,
-      );
-      return button;
+      return h("button", { type: "button", "data-value": value, onclick }, text);
     }),
   );
+  press(group, chosen);
   return group;
+}
+
+/** Mark which of a choice is chosen; none if it has no such value. */
+export function press(group: HTMLElement, value: string): void {
+  for (const one of group.children as Iterable<Element> as HTMLElement[])
+    one.setAttribute("aria-pressed", String(one.dataset.value === value));
 }
 
 /** A box that is checked, with its text. */

@@ -331,7 +331,7 @@ export class SynthesisView implements View {
     const { element } = this.designs;
     const former = element.firstChild && this.#state[1] !== this.#asked;
     element.style.opacity = former ? ".6" : "";
-    this.#told.textContent = lacks || (former ? t("The designs are for the former targets.") : "");
+    this.#told.textContent = lacks || (former ? t("Designs for the former targets") : "");
     renew(
       this.#list,
       this.points.length

@@ -439,7 +439,7 @@ def test_designs_of_former_targets_say_so(design):
     cell = view.locator(".points input").nth(3)
     cell.fill("31")
     cell.press("Enter")
-    assert told.inner_text() == "The designs are for the former targets."
+    assert told.inner_text() == "Designs for the former targets"
     assert cards.count() == count
     assert float(view.locator(".designs").evaluate("one => getComputedStyle(one).opacity")) < 0.7
     view.click('header [data-icon="undo"]')

@@ -564,3 +564,19 @@ def test_letters_of_a_phone_stay_at_their_joints_and_points_clear_of_bars_and_ra
     assert min(gaps) > 8
     assert np.mean(np.array(off) > 9) > 0.8
     page.page.evaluate("localStorage.clear()")
+
+
+def test_the_kinds_of_the_catalog_are_lit_by_the_words_that_are_looked_for(tab, server):
+    page = tab().open(server.address)
+    view = page.page
+    view.click('[data-view="catalog"]')
+    lit = view.locator('[data-page="catalog"] .palette [aria-pressed="true"]')
+    assert lit.all_inner_texts() == ["All"]
+    view.click('[data-value="straight"]')
+    assert lit.all_inner_texts() == ["Straight lines"]
+    words = view.locator('[data-page="catalog"] [data-field="words"]')
+    assert words.input_value() == "straight"
+    for typed, kinds in (("crank", ["Cranks"]), ("klann", []), ("", ["All"])):
+        words.fill(typed)
+        pressed = "[...gruebler.root.querySelectorAll('[data-page=catalog] .palette [aria-pressed=true]')]"
+        page.until(f"{pressed}.map((one) => one.textContent).join() === {','.join(kinds)!r}")
