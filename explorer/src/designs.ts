@@ -211,9 +211,8 @@ export class DesignCards {
     const degrees = (mu: number | null | undefined) => typeof mu === "number" && angle(mu * DEGREE, 3);
     const [way, all] = [transmission, range].map(degrees);
     const names = design.names[currentLanguage()]!;
-    const value = error === null || exact(error) ? 0 : 100 * error;
-    const off = stems ? angle(error!, 2) : `${number(value, 2)} %`;
-    const deviation = value ? t("deviation {value}", { value: off }) : t("met exactly");
+    const value = stems ? angle(error!, 2) : `${number(100 * error!, 2)} %`;
+    const deviation = exact(error) ? t("met exactly") : t("deviation {value}", { value });
     const millimetres = (length: number, k: number) => number(length, 3) + (lengths[k + 1] ? "" : " mm");
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
     const play = () => {

@@ -125,13 +125,12 @@ export class Forces {
       this.#brings = true;
       this.changed();
     };
-    const weightless = masses.every((mass) => !mass);
     const button = h(
       "button.plain",
       { "data-act": "assume", onclick: assume },
-      t("Assume steel: bars 20 mm × 5 mm, sliders 20 mm long"),
+      t("Assume steel: bars 20 mm × 5 mm to each joint, sliders 20 mm long"),
     );
-    const offer = weightless ? [h("div.form", {}, button)] : [];
+    const offer = masses.some(Boolean) ? [] : [h("div.form", {}, button)];
     if (!drives) {
       const note = t("Nothing acts yet: type masses or loads.");
       renew(this.#result, h("p.note", {}, note), ...offer);

@@ -12,7 +12,7 @@ import {
   withLink,
   withSlider,
 } from "./drawing";
-import { type Icon, icon } from "./icons";
+import { icon } from "./icons";
 import { t } from "./language";
 
 export type Tool = "move" | "ground" | "link" | "slider" | "dyad" | "cylinder" | "gears";
@@ -42,16 +42,6 @@ export const KEYS: Record<string, Tool> = {
   w: "gears",
 };
 
-const ICONS: Record<Tool, Icon> = {
-  move: "arrow",
-  ground: "ground",
-  link: "bar",
-  slider: "slider",
-  dyad: "dyad",
-  cylinder: "cylinder",
-  gears: "gears",
-};
-
 export function nameOf(tool: Tool): string {
   const names: Record<Tool, string> = {
     move: t("Move"),
@@ -76,7 +66,7 @@ export function palette(chosen: Tool, take: (tool: Tool) => void): HTMLElement[]
         "aria-pressed": String(key === chosen),
         onclick: () => take(key),
       },
-      icon(ICONS[key]),
+      icon(key === "link" ? "bar" : key),
       nameOf(key),
       h("span.letter.keys", {}, ` (${letter.toUpperCase()})`),
     ),

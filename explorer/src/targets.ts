@@ -168,7 +168,7 @@ export function numberPlaces(
 }
 
 /** A point with its number, and the arrow of a position; all of it in units that are so long. */
-export function targetMark([x, y, turn]: number[], k: number, [at, up]: Pair, unit: number): SVGElement {
+export function targetMark([x, y, turn]: number[], k: number, [at, up]: Pair, unit: number, mute = false): SVGElement {
   const [u, v] = tip([0, 0, turn ?? 0], 1);
   return svg(
     "g",
@@ -177,6 +177,6 @@ export function targetMark([x, y, turn]: number[], k: number, [at, up]: Pair, un
       ? []
       : [svg("path.arm", { d: `M0 0L${u} ${-v!}` }), svg("circle.tip", { r: 1.8, cx: u!, cy: -v! })]),
     svg("circle", { r: 2.6 }),
-    svg("text", { x: (at - x!) / unit, y: (y! - up) / unit + 2, "text-anchor": "middle" }, String(k + 1)),
+    svg("text", { x: (at - x!) / unit, y: (y! - up) / unit + 2, "text-anchor": "middle" }, mute ? "" : String(k + 1)),
   );
 }

@@ -4,12 +4,14 @@ import { type Area, areaOf, gridOf, groundMark, MARK, viewBoxOf } from "./area";
 import type { Design } from "./designs";
 import { h, put, renew, svg } from "./dom";
 import { Ghost, pathOf } from "./ghost";
+import { away } from "./hull";
 import type { Pair } from "./rows";
 import { numberPlaces, swingMark, swingOf, targetMark } from "./targets";
 import { type Kind, wordsOf } from "./tasks";
 
 const WIDE = 240; // of the plane, in millimetres; that of a phone is narrower
 const PART = 0.64; // of the height of the window, at most
+const CROWD = 9; // points, of more only some have their numbers
 const LOW = 0.32; // the same on a phone, where designs need room
 
 /** What is met, and by what. */
@@ -68,7 +70,11 @@ export class TaskPicture {
     const part = narrow && design ? LOW / (charted ? 2 : 1) : high;
     const moving = design?.frames.flat() ?? [];
     if (!held) {
-      const places = [...(swing ?? points), ...pivots, ...(charted ? [] : moving)];
+      // of a large design as much as leaves its targets in sight
+      const targets: readonly (readonly number[])[] = swing ?? points;
+      const off = ([x, y]: readonly number[]) => away(targets[0] as Pair, x!, y!);
+      const far = 2.5 * Math.max(...targets.map(off));
+      const places = [...targets, ...pivots, ...(charted ? [] : moving).filter((one) => off(one) < far)];
       const wide = angles || swing ? 0 : home || (narrow ? 0.6 : 1) * WIDE;
       this.#area = areaOf(design && !angles ? -Infinity : wide, part, places, this.plane);
     }
@@ -105,7 +111,7 @@ export class TaskPicture {
         ? swingMark(swing, points[0]!, unit, design)
         : [charted ? svg("path.curve", { d: pathOf(charted) }) : wanted]),
       ...(charted ? [this.#here] : [this.#ghost.element]),
-      ...(swing ? [] : points.map((row, k) => targetMark(row, k, at[k]!, unit))),
+      ...(swing ? [] : points.map((row, k) => targetMark(row, k, at[k]!, unit, !!points[CROWD] && k % 5 > 0))),
       ...pivots.map((place) => svg("g", { "data-pivot": "" }, groundMark(place, unit))),
     );
     put(this.plane, { viewBox: viewBoxOf(this.#area) });

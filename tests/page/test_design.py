@@ -557,3 +557,25 @@ def test_stems_are_drawn_beside_the_designs(design):
     before = plot.locator("path.curve").first.get_attribute("d")
     cards.last.hover()
     design.until(f"gruebler.root.querySelector('.designs .plot path.curve').getAttribute('d') !== '{before}'")
+
+
+def test_a_large_design_leaves_its_targets_in_sight(design):
+    """A four-bar of 100 mm over points that are 5 mm apart; of many points some have their numbers."""
+    view = design.page
+    view.evaluate(f"(rows) => {VIEW}.take(rows, true)", [[k, k % 3] for k in range(20)])
+    numbers = view.locator("[data-point] text").all_text_contents()
+    assert [one for one in numbers if one] == ["1", "6", "11", "16"]
+    asked = {"kind": "dead-centres", "rows": [[60, 1.2]], "pivots": [], "closed": False}
+    asked |= {"order": [], "crank": True, "transmission": 20}
+    view.evaluate(
+        f"""async (asked) => {{
+            const found = await gruebler.ask("synthesise", asked);
+            {VIEW}.take([[0, 0], [3, 4], [5, 0]], false);
+            {VIEW}.designs.show(found);
+        }}""",
+        asked,
+    )
+    view.locator('[data-list="designs"] .card').last.hover()
+    view.locator("[data-ghost] .joint").first.wait_for()
+    wide = float(view.locator(".plane").get_attribute("viewBox").split()[2])
+    assert 5 < wide < 6 * 5
