@@ -35,6 +35,14 @@ def test_masses_are_offered_before_there_are_any():
     assert told["assumed"] == [0, pytest.approx(0.0196, abs=1e-4), pytest.approx(0.05495, abs=1e-4), 0.0314]
 
 
+def test_a_bar_reaches_to_the_point_on_its_line():
+    """The coupler of Chebyshev's lambda mechanism is a bar of 100 mm: 7850 kg/m³ · 20 mm · 5 mm · 100 mm."""
+    told = answer("forces", asked(FourBar(20, 50, 50, 40).linkage({"C": (100, 0)})), "en", print)
+    assert told["assumed"][2:] == [0.0785, pytest.approx(0.03925, abs=1e-4)]
+    beside = answer("forces", asked(FourBar(20, 50, 50, 40).linkage({"C": (100, 1)})), "en", print)
+    assert beside["assumed"][2] == pytest.approx(0.03925, abs=1e-4)  # a point that only draws a curve
+
+
 def test_an_engine_shakes_by_the_law_of_its_crank():
     """The piston of a slider-crank, m r w² (1 + r/l) in the outer dead centre (any book on machine dynamics)."""
     question = asked(SliderCrank(30, 50).linkage(), masses=[0, 0, 0, 2.0], gravity=False, speed=100.0)

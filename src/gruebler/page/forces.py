@@ -195,13 +195,15 @@ def _masses(linkage: Linkage, loads: Loads) -> list[float]:
 
 
 def _places(linkage: Linkage, link: str) -> list[complex]:
-    """Where a link has its joints, each place once; of a link with one joint also its points.
+    """Where a link has its joints, each place once; of a bar its ends, also where only a point lies on one.
 
-    Of others they are no part: they only draw curves.
+    Of a link with one joint the first points count. Points beside a bar are no part of it: they only draw curves.
 
     >>> from gruebler.mechanics.fourbar import FourBar
     >>> _places(FourBar(25, 70, 40, 70).linkage({"K": (45, 40)}), "coupler")
     [0j, (70+0j)]
+    >>> _places(FourBar(25, 70, 40, 70).linkage({"K": (140, 0)}), "coupler")
+    [0j, (140+0j)]
     """
     near = 1e-9 * linkage.size
     places: list[complex] = []
@@ -210,7 +212,14 @@ def _places(linkage: Linkage, link: str) -> list[complex]:
     for place in [*joints, *points]:
         if (place in joints or len(places) < 2) and all(abs(place - other) > near for other in places):
             places.append(place)
-    return places
+    if len(places) < 2:
+        return places
+    along = (places[1] - places[0]) / abs(places[1] - places[0])
+    seen = [(place - places[0]) / along for place in places + points]
+    if any(abs(place.imag) > near for place in seen[: len(places)]):
+        return places
+    on_it = [place.real for place in seen if abs(place.imag) <= near]
+    return [places[0] + along * end for end in (min(on_it), max(on_it))]
 
 
 def _assumed(linkage: Linkage) -> list[float]:
