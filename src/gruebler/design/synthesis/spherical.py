@@ -34,7 +34,7 @@ from gruebler.mechanics.space.spherical_four_bar import SphericalFourBar
 from gruebler.structure.mechanism import Mechanism
 
 LEAST_ARC = 1e-6
-_APART = 0.02  # radians: axes of two designs that are listed differ by more
+APART = 0.02  # radians: axes of two designs that are listed differ by more
 _WIDTHS = tuple(0.2 * 0.4**k for k in range(7))  # radians: from the distance of two dyads of a sample down
 _MOVES = 8  # to a better pair of dyads of each width
 _ROWS = 33  # poses from one target to the next
@@ -122,7 +122,7 @@ def synthesise_orientations(
         halves = {frozenset(map(id, pair)): list[SphericalDesign]() for pair in pairs}
         for pair, design in zip(pairs, designs, strict=True):
             halves[frozenset(map(id, pair))].append(design)
-        designs = [min(both, key=_order) for both in halves.values()]
+        designs = [min(both, key=order_of_designs) for both in halves.values()]
     return result_of(
         designs,
         SolutionCount(what=message("dyads"), theorem=theorem, found=complex_dyads, real=len(dyads)),
@@ -167,13 +167,17 @@ def _best_pairs(
 
 
 def _improved(
-    pair: tuple[SphericalDyad, SphericalDyad], turns: Reals, demands: Demands
+    pair: tuple[SphericalDyad, SphericalDyad], turns: Reals, demands: Demands, *, given_first: bool = False
 ) -> tuple[SphericalDyad, SphericalDyad]:
-    """The best pair nearby: both dyads are moved within the family, in ever smaller steps, as long as that helps."""
+    """The best pair nearby: dyads are moved within the family, in ever smaller steps, as long as that helps.
+
+    Both are, or the second alone if the first is given.
+    """
     for width in _WIDTHS:
         for _ in range(_MOVES):
             first, second = ([dyad, *near_dyads(turns, dyad, width)] for dyad in pair)
-            costs = _costs(first, second, turns, demands)
+            first = first[:1] if given_first else first
+            costs = _costs(first, second, turns, demands, given_first=given_first)
             best = int(np.lexsort([cost.ravel() for cost in reversed(costs)])[0])
             if best == 0:
                 break
@@ -181,16 +185,45 @@ def _improved(
     return pair
 
 
+def improved_function_dyads(
+    frame: SphericalDyad, dyads: Sequence[SphericalDyad], turns: Reals, demands: Demands, number: int
+) -> list[SphericalDyad]:
+    """Couplers better than those of a sample, in a family that coordinates pairs: the best that differ, each improved.
+
+    Args:
+        frame: the arc between the fixed axes, as seen from the crank.
+        dyads: the sample: couplers, likewise.
+        turns: of the output link as seen from the crank.
+        demands: what counts first.
+        number: how many of the sample are improved.
+    """
+    costs = _costs([frame], dyads, turns, demands, given_first=True)
+    chosen: list[tuple[SphericalDyad, SphericalDyad]] = []
+    for k in np.lexsort([cost[0] for cost in reversed(costs)]):
+        if len(chosen) < number and _differs((frame, dyads[int(k)]), chosen):
+            chosen.append((frame, dyads[int(k)]))
+    return [_improved(pair, turns, demands, given_first=True)[1] for pair in chosen]
+
+
 def _costs(
-    first: Sequence[SphericalDyad], second: Sequence[SphericalDyad], turns: Reals, demands: Demands
+    first: Sequence[SphericalDyad],
+    second: Sequence[SphericalDyad],
+    turns: Reals,
+    demands: Demands,
+    *,
+    given_first: bool = False,
 ) -> list[Reals]:
     """(first, second) what is to be small, the most important first: demands that are not met, then what is better."""
     closure = _closures(first, second, turns)
     with np.errstate(invalid="ignore", divide="ignore"):
         branch, moves, full, transmission = motion_of_pairs(closure)
-    # Of each axis the end is taken that is nearer to the axis before, as `_axes_of` does.
+    # Of each axis the end is taken that is nearer to the axis before, as `_axes_of` does; beside a given arc both
+    # neighbours are shorter than a quarter of a circle.
     cosines = np.cos(closure.lengths)
-    arcs = np.arccos(np.append(np.abs(cosines[:3]), [np.prod(np.sign(cosines[:3]), axis=0) * cosines[3]], axis=0))
+    shorter, last = ([1, 3], 2) if given_first else ([0, 1, 2], 3)
+    signs = np.prod(np.sign(cosines[shorter]), axis=0)
+    cosines[shorter], cosines[last] = np.abs(cosines[shorter]), signs * cosines[last]
+    arcs = np.arccos(cosines)
     ratio = arcs.max(axis=0) / np.maximum(arcs.min(axis=0), 1e-300)
     folded = np.minimum(arcs, pi - arcs).min(axis=0)
     path = moves if demands.in_order else branch
@@ -204,7 +237,7 @@ def _costs(
 
 def _differs(pair: tuple[SphericalDyad, SphericalDyad], others: Iterable[tuple[SphericalDyad, SphericalDyad]]) -> bool:
     """Whether the axes on the body lie elsewhere than those of other pairs."""
-    return all(sum(_gap(p.moving, q.moving) for p, q in zip(pair, other, strict=True)) >= _APART for other in others)
+    return all(sum(_gap(p.moving, q.moving) for p, q in zip(pair, other, strict=True)) >= APART for other in others)
 
 
 def _gap(first: Reals, second: Reals) -> float:
@@ -334,14 +367,15 @@ def judged_four_bar(bar: SphericalFourBar, pins: Reals, demands: Demands) -> Sph
     )
 
 
-def _order(design: SphericalDesign) -> tuple[int, bool, float]:
+def order_of_designs(design: SphericalDesign) -> tuple[int, bool, float]:
+    """By how many reasons it is rejected, then the better ones first."""
     verdict = design.verdict
     return len(verdict.reasons), not verdict.turns_fully, -np.nan_to_num(verdict.transmission)
 
 
 def result_of(designs: Iterable[SphericalDesign], count: SolutionCount, notes: Iterable[Message]) -> SphericalResult:
     """Accepted designs and rejected ones, the best first."""
-    ranked = sorted(designs, key=_order)
+    ranked = sorted(designs, key=order_of_designs)
     return SphericalResult(
         designs=tuple(design for design in ranked if design.verdict.accepted),
         rejected=tuple(design for design in ranked if not design.verdict.accepted),
