@@ -12,6 +12,7 @@ import type { Linkage } from "./linkage";
 import type { Kept } from "./locks";
 import type { LinkageDocument } from "./model";
 import { renameEnds } from "./rulers";
+import { cross } from "./shell";
 import { ownColour, type Shown } from "./shown";
 import { endsOf } from "./springs";
 import type { Page } from "./view";
@@ -232,7 +233,7 @@ function pointRow(editor: Editor, k: number): HTMLElement {
     h("i", {}),
     typed("point-name", t("Name"), linkage.pointName(point.name), rename),
     h("span.unit", {}, linkage.linkName(point.link)),
-    h("button.quiet", { "aria-label": t("Remove {name}", { name: point.name }), onclick: remove }, "×"),
+    cross(point.name, remove),
     h("span.unit", {}, "x"),
     typed("point-x", "x", point.at[0], coordinate(0)),
     h("span.unit", {}, "y"),
@@ -276,12 +277,11 @@ export function rulersPanel(editor: Editor): HTMLElement {
     h("div.form", {}, from, to, h("button.plain", { "data-act": "measure", onclick: add }, t("Add"))),
     ...rulers.map((ruler, k) => {
       const name = ruler.map(called).join(" – ");
-      const remove = () => put(rulers.filter((_, other) => other !== k));
       return h(
         "div.form",
         {},
         name,
-        h("button.quiet", { "aria-label": t("Remove {name}", { name }), onclick: remove }, "×"),
+        cross(name, () => put(rulers.filter((_, other) => other !== k))),
       );
     }),
   );

@@ -53,6 +53,11 @@ export function zoomButtons(picture: { zoom(factor: number): void; fit(): void }
   ];
 }
 
+/** A button that removes what is called so. */
+export function cross(name: string, onclick: () => void): HTMLElement {
+  return h("button.quiet", { "aria-label": t("Remove {name}", { name }), onclick }, "×");
+}
+
 /** A panel beside the picture, open or closed. */
 export function panelOf(key: string, title: string, open: boolean, ...content: Node[]): HTMLDetailsElement {
   return h("details", { open, "data-panel": key }, h("summary", {}, title), h("div", {}, ...content));

@@ -10,6 +10,7 @@ import { clearAbout } from "./hull";
 import { angle, number, parsed, t } from "./language";
 import { valueAt } from "./plot";
 import type { Pair } from "./rows";
+import { cross } from "./shell";
 
 const ARM = 14; // of the arrow that shows the angle of a position
 const LONG = 100; // millimetres of a rocker of which only the swing is known
@@ -40,12 +41,9 @@ export function rowsTable(
     });
     return h("td", {}, input);
   };
-  const cross = (k: number) => {
-    const remove = () => {
-      rows.splice(k, 1);
-      changed();
-    };
-    return h("button.quiet", { "aria-label": t("Remove {name}", { name: called(k) }), onclick: remove }, "×");
+  const remove = (k: number) => () => {
+    rows.splice(k, 1);
+    changed();
   };
   const first = (tag: "td" | "th", text: string) => (numbered(0) ? [h(tag, {}, text)] : []);
   return h(
@@ -58,7 +56,7 @@ export function rowsTable(
         {},
         ...first("td", numbered(k)),
         ...head.map((_, axis) => cell(row, k, axis)),
-        h("td", {}, removable ? cross(k) : null),
+        h("td", {}, removable ? cross(called(k), remove(k)) : null),
       ),
     ),
   );
