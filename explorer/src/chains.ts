@@ -25,7 +25,7 @@ export class ChainList {
   /** The code of the chain that is described. */
   #chosen = "";
   readonly #list = h("div.chains", {});
-  readonly #count = h("span.note.count", {}, "\u00a0");
+  readonly #count = h("span.note", {}, "\u00a0");
   readonly #status = h("div.form", {});
   #asked = 0;
 
@@ -98,10 +98,8 @@ export class ChainList {
     const place = this.#found ? this.#status : this.#list;
     const found = await awaited(place, (progress) => this.page.ask<Chains>("chains", question, progress));
     if (number !== this.#asked) return; // another list is wanted by now
-    if (found) {
-      const before = start && this.#found ? this.#found.items : [];
-      this.#found = { ...found, items: [...before, ...found.items] };
-    }
+    const before = start ? this.#found!.items : [];
+    if (found) this.#found = { ...found, items: [...before, ...found.items] };
     this.#show();
     const first = others && found?.items[0];
     if (first) this.take(first.text);
@@ -132,7 +130,6 @@ export class ChainList {
         : t("There is none with so few links.");
       return renew(this.#list, h("p.note", {}, why), h("div.cards.few", {}, ...mine));
     }
-    const more = shown < total ? [h("button.plain", { onclick: () => void this.#ask(shown) }, t("More"))] : [];
     renew(
       this.#list,
       h(
@@ -144,7 +141,7 @@ export class ChainList {
           code === own?.code ? null : this.#card(code, text, picture, names[currentLanguage()] || `${k + 1}`),
         ),
       ),
-      ...more,
+      shown < total && h("button.plain", { onclick: () => void this.#ask(shown) }, t("More")),
     );
   }
 

@@ -112,6 +112,17 @@ def dropped(page, name: str, content: bytes) -> None:
     )
 
 
+def test_what_is_saved_is_told_between_title_and_cross_on_a_phone(tab, server):
+    view = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address).page
+    view.click('[data-icon="save"]')
+    with view.expect_download():
+        view.locator('dialog button:text-is("JSON")').click()
+    places = "one => [...one.querySelectorAll('h2, .told, .quiet')].map((e) => e.getBoundingClientRect().toJSON())"
+    title, told, cross = view.locator(".sheet-head").evaluate(places)
+    assert title["right"] <= told["left"] < told["right"] <= cross["left"]
+    assert told["width"] > 100
+
+
 SIZE_BELOW_TITLE = "(one) => one.querySelector('h2').checkVisibility() && [one.offsetWidth, one.offsetHeight]"
 
 
