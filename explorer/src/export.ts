@@ -161,9 +161,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
       h("summary", {}, t("As text, in Python")),
       h("p.note", {}, t("The chain as text")),
       h("pre", { "data-text": "chain" }, chainText(model)),
-      named
-        ? null
-        : h("p.note", { "data-note": "file" }, t("Save it as JSON first; the commands read {file}.", { file })),
+      named ? null : h("p.note", { "data-note": "file" }, t("Save it as JSON; the commands read {file}.", { file })),
       h("p.note", {}, t("The same on the command line")),
       h("pre", {}, `gruebler analyse ${word}\ngruebler draw ${word} -o ${stem}.svg`),
       h("p.note", {}, t("The same in Python")),

@@ -154,11 +154,7 @@ export class SynthesisView implements View {
         choice(t("What a linkage is to do"), kinds, this.kind, (kind) => this.#turnTo(kind as Kind)),
         this.#page.served
           ? null
-          : h(
-              "p.note",
-              {},
-              t("Here four-bars through nine points are found; everything else needs the library: gruebler explore"),
-            ),
+          : h("p.note", {}, t("Here four-bars through nine points are found; for all else: gruebler explore")),
         h(
           "div.two.wide",
           {},
@@ -166,9 +162,7 @@ export class SynthesisView implements View {
             "div",
             {},
             h("p.note", {}, wordsOf(this.kind).hint),
-            this.#planar
-              ? choice(t("What is to be met"), clicks, this.#puts, (value) => (this.#puts = value as Puts))
-              : null,
+            this.#planar && choice(t("What is to be met"), clicks, this.#puts, (value) => (this.#puts = value as Puts)),
             this.#doing,
           ),
           h(
@@ -328,10 +322,9 @@ export class SynthesisView implements View {
     this.#key.disabled = !!lacks;
     this.#clearing.disabled = !count && !this.#pivots.length;
     this.#key.title = lacks;
-    const { element } = this.designs;
-    const former = element.firstChild && this.#state[1] !== this.#asked;
-    element.style.opacity = former ? ".6" : "";
-    this.#told.textContent = lacks || (former ? t("Designs for the former targets") : "");
+    const former =
+      this.designs.element.firstChild && this.#asked !== this.#state[1] && t("Designs for the former targets");
+    this.#told.textContent = lacks || former || "";
     renew(
       this.#list,
       this.points.length
@@ -339,10 +332,10 @@ export class SynthesisView implements View {
             "div.points",
             {},
             table(this.points, row, heads),
-            this.kind === "positions" && this.#pivots.length ? table(this.#pivots, t("Fixed pivot"), ["x", "y"]) : null,
+            this.kind === "positions" && !!this.#pivots.length && table(this.#pivots, t("Fixed pivot"), ["x", "y"]),
           )
         : "",
-      this.kind === "function" ? h("button.plain", { "data-act": "pair", onclick: add }, t("Another pair")) : "",
+      this.kind === "function" && h("button.plain", { "data-act": "pair", onclick: add }, t("Another pair")),
     );
   }
 

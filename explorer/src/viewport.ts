@@ -31,11 +31,12 @@ export class Viewport {
     return [(x - this.#ox) / this.scale, (this.#oy - y) / this.scale];
   }
 
-  /** Show a rectangle, or at least a square of that width; what lies at the foot, so many pixels high, is left out. */
-  fit({ left, right, bottom, top }: Box, least: number, foot = 0): void {
+  /** Show a rectangle, or at least a square of that width; what lies below, so many pixels high, is left out. */
+  fit({ left, right, bottom, top }: Box, least: number, below?: number): void {
     const narrow = this.width < 500;
     const margin = narrow ? 34 : 60;
     const keys = narrow ? 56 : 0; // the buttons on the right
+    const foot = below ?? (narrow ? margin : 0); // what can be done, in two lines
     const wide = Math.max(right - left, least);
     const high = Math.max(top - bottom, least);
     this.scale = Math.min((this.width - 2 * margin - keys) / wide, (this.height - 2 * margin - foot) / high);
