@@ -91,7 +91,7 @@ export class ChainList {
     renew(this.#status, h("span.error", { role: "alert" }, text));
   }
 
-  /** Ask for some more of them; the first one is taken if others are wanted. */
+  /** Ask for some more of them; the first one is taken if others are wanted, or none. */
   async #ask(start: number, others = false): Promise<void> {
     const question = { links: this.#links, mobility: this.mobility, start };
     const number = ++this.#asked;
@@ -101,8 +101,7 @@ export class ChainList {
     const before = start ? this.#found!.items : [];
     if (found) this.#found = { ...found, items: [...before, ...found.items] };
     this.#show();
-    const first = others && found?.items[0];
-    if (first) this.take(first.text);
+    if (others && found) this.take(found.items[0]?.text ?? "");
   }
 
   #show(): void {

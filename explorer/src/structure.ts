@@ -83,6 +83,11 @@ export class StructureView implements View {
   async describe(text: string, elsewhere = false): Promise<void> {
     const number = ++this.#asked;
     if (this.#field.value !== text) this.#field.value = text;
+    if (!text) {
+      this.text = text;
+      for (const part of [this.#shown, this.#detail, this.#go]) renew(part);
+      return;
+    }
     this.#detail.classList.add("asking"); // a click would choose among frames of the chain before
     try {
       const found = await this.#page.ask<Structure>("structure", {

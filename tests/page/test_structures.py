@@ -145,6 +145,12 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     links.fill("7")  # F = 3·6 - 2g is even
     links.press("Enter")
     page.until("gruebler.root.textContent.includes('one is even and one is odd')")
+    parts = '[data-list="driven"] .card, .described .facts, [data-act="realise"]'
+    assert view.locator(parts).count() == 0  # nothing is shown of the chain before
+    links.fill("6")
+    links.press("Enter")
+    view.locator('[data-act="realise"]').wait_for()
+    assert view.locator(".described .facts").count() == 1
     view.evaluate("gruebler.describe('R(a-b) R(b-c) R(c-a)')")
     page.until("gruebler.root.textContent.includes('Purple: links rigid')")
     assert view.locator('[data-act="realise"]').count() == 0  # nothing would move
