@@ -148,7 +148,7 @@ private:
             e.turn[1][i] = slide * other;
             e.hang(0, i, end);
             e.hang(1, i, far);
-            e.cosine[i] = beside / std::sqrt(square);
+            e.cosine[i] = beside / std::sqrt((square + beside * beside) / 2);
         }
     }
 
@@ -360,7 +360,7 @@ std::string fault(const Linkages& linkages) {
         const CrankDyad& dyad = linkages.dyads[d];
         const auto form = static_cast<std::int64_t>(dyad.form);
         if (form < 0 || form > static_cast<std::int64_t>(Form::rpp)) return "a dyad has a form that is none";
-        if (form > 0 && linkages.lines == nullptr) return "a sliding joint needs its line";
+        if (form > 0 && linkages.lines == nullptr && linkages.count > 0) return "a sliding joint needs its line";
         for (int k = 0; k < 2; ++k) {
             if (!is_link(dyad.bases[k]) || !placed[dyad.bases[k]]) return "a dyad hangs on a link that is not placed";
             if (!is_element(dyad.on_base[k]) || !is_element(dyad.on_link[k]) || !is_element(dyad.inner[k]))

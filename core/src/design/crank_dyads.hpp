@@ -50,7 +50,8 @@ bool move_planes(const Linkages& linkages, Complex* turns, Complex* shifts, Watc
 // are a whole turn in equal steps: [count, 2 watched].
 //
 // The cosine is between -1 and 1 exactly where the dyad can be assembled, smooth beyond: of RRR that of the angle at the inner
-// joint, of RRP and RPR how far the line lies beside the joint by the arm, of PRP and RPP 1 less the sine between both lines.
+// joint; of RRP how far the line lies beside the first outer joint, by the arm; of RPR how far the outer joints lie beside each
+// other across the slide, by the root mean square of this and their distance; of PRP and RPP 1 less the sine between both lines.
 bool find_tops(const Linkages& linkages, const std::vector<std::int64_t>& watched, bool between, double* tops,
                Watch& watch);
 

@@ -102,7 +102,7 @@ def limits_of_sizes(
         unit=unit,
         held=held,
     )
-    structure = dyad_structure(mechanism) if demands.crank else None
+    structure = dyad_structure(mechanism, sliding=True) if demands.crank else None
     if structure is None:
         return SizeLimits(places=places, crank=None)
     number = {key: k for k, key in enumerate(closure.keys)}

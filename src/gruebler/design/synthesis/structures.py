@@ -91,8 +91,8 @@ def synthesise_structures(
         task: what is wanted; which pins of the frame given pivots are, is tried in all ways. Of functions and dead
             centres only differences count, since a structure has no line from which angles are measured.
         structures: driven mechanisms of turning and sliding joints; with several drives for positions and points.
-        demands: what a design has to do besides: pivots, lengths and their ratio are kept by every step, with
-            turning joints alone a crank that turns, too; the transmission angle as far as the targets allow it.
+        demands: what a design has to do besides: pivots, lengths and their ratio are kept by every step, of
+            a crank and dyads a crank that turns, too; the transmission angle as far as the targets allow it.
         starts: how many are improved to the end of each mechanism: by default the best 24 of 1,920 neighbours from the
             atlas of its structure (a crank and dyads of turning joints, for a path), or 4 realisations of any other.
         link: that is guided, or whose motion is the output; for each start the one that is most alike without it.
