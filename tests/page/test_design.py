@@ -537,7 +537,7 @@ def test_what_more_than_five_pairs_miss_stands_as_stems():
         reached = [np.unwrap(np.angle(pin + (d - pin) / far * (along + s * 1j * beside) - d)) for s in (1, -1)]
         misses = [np.array([row[1] for row in TABLE]) - np.degrees(one) for one in reached]
         # that of the first pair is free: all of them are shifted alike
-        assert min(np.ptp(one - ends) for one in misses) < 1e-3  # lengths have five digits
+        assert min(np.ptp(one - ends) for one in misses) < 5e-3  # lengths have five digits
         assert np.abs(ends).max() == pytest.approx(np.degrees(item["error"]), abs=1e-5)
 
 

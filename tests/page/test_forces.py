@@ -59,6 +59,10 @@ def test_a_pendulum_swings_in_its_own_time():
     question["document"]["reference_pose"] = hanging
     question["drives"] = [-math.pi / 2 + 0.02]
     told = answer("fall", question, "en", print)
+    # -90 + 1.1459 cos(15.66) degrees after 1 s
+    assert told["lines"][0].startswith("Free motion: in 1 s the drive goes from ")
+    ends = [float(one) for one in re.findall(r"(\S+)°", told["lines"][0])]
+    assert ends == pytest.approx([-88.854, -91.144], abs=6e-3)
     crank = [math.atan2(row[3], row[2]) + math.pi / 2 for row in told["turns"]]
     wanted = [0.02 * math.cos(math.sqrt(9.80665 / 0.04) * k / told["rate"]) for k in range(len(crank))]
     assert crank == pytest.approx(wanted, abs=2e-5)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import pi
+from math import degrees, pi
 from typing import Any, NamedTuple
 
 import msgspec
@@ -11,7 +11,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import joined, message
+from gruebler.base.text import Message, joined, message
 from gruebler.base.units import metres_of
 from gruebler.files import linkage_from_json
 from gruebler.files.catalog_records import renamed_loads
@@ -26,6 +26,7 @@ from gruebler.page.params import LoadedLinkage, OuterLoad, OwnSpring
 from gruebler.teaching.catalog import entries
 
 _BESIDES = message("Besides, loads or masses as they stand in the file or the catalog act on {places}.")
+_FREE = message("Free motion: in {seconds:n} s the drive goes from {start} to {end}.")
 _STEEL_BAR = 7850 * 0.020 * 0.005  # kg/m: a cross-section of 20 mm by 5 mm
 _BLOCK = 0.020  # m: what a slider and other short links are long
 _ROWS = 180  # of a turn
@@ -95,14 +96,26 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     free = replace(loads, forces={}, moments={}, motors={})
     times = np.arange(round(asked.until * _A_SECOND) + 1) / _A_SECOND
     run = simulate(linkage, free, at=asked.drives, until=asked.until, times=times, tolerance=_ENOUGH)
+    start, end = (_drive_texts(linkage, run.drives[row]) for row in (0, -1))
+    free_motion = _FREE.filled(seconds=float(run.times[-1]), start=start, end=end)
     places = np.stack([run.places[0].real, run.places[0].imag], axis=-1)
     turns = np.stack([run.turns.real, run.turns.imag], axis=-1)
     return {
         "rate": _A_SECOND,
         "places": _short(places).reshape(len(run), -1).tolist(),
         "turns": _short(turns).reshape(len(run), -1).tolist(),
-        "lines": run.explain(lang).splitlines(),
+        "lines": [free_motion.in_language(lang), *run.explain(lang).splitlines()[1:]],
     }
+
+
+def _drive_texts(linkage: Linkage, values: Reals) -> Message:
+    """Drive values without the names of their joints, turning ones in degrees."""
+    turned, shifted = message("{value:n}°"), message("{value:n} {unit}")
+    drives = zip(linkage.mechanism.drives, values.tolist(), strict=True)
+    return joined(
+        turned.filled(value=degrees(value)) if drive.turning else shifted.filled(value=value, unit=linkage.unit)
+        for drive, value in drives
+    )
 
 
 def _laden(asked: LoadedLinkage, lang: str) -> _Laden:
