@@ -133,6 +133,21 @@ def test_structures_meet_every_kind_of_task(kind, text):
         assert (found.travel, found.time_ratio) == pytest.approx((1, 1.2), abs=1e-5)
 
 
+def test_the_dyad_that_carries_a_body_counts_for_the_transmission_angle():
+    """Of Watt's first kind a body hangs on coupler and crank, where the force to the rocker does not go."""
+    watt = Mechanism.parse("R(0-1) R(0-2) R(2-3) R(3-1) R(0-4) R(4-5) R(5-1); frame=2; drive=R(0-2)")
+    result = synthesise(TASKS["positions"], structures=[watt], starts=2)
+    designs = [design for design in (*result.designs, *result.rejected) if np.isfinite(design.verdict.transmission)]
+    assert designs
+    for design in designs:
+        first, ends = design.drives[0], (min(design.drives), max(design.drives))
+        for way in (np.linspace(first, end, 1001) for end in ends if end != first):
+            motion = move(design.linkage, way)
+            pins = [motion.complex_point(f"R({name})") for name in ("0-4", "4-5", "5-1")]
+            angle = np.angle((pins[0] - pins[1]) / (pins[2] - pins[1]))
+            assert np.degrees(design.verdict.transmission) <= np.degrees(np.arcsin(np.abs(np.sin(angle))).min()) + 0.01
+
+
 def test_a_swing_has_no_other_dead_centres():
     """A fit sees its output beside two positions: of these two linkages one has four dead centres."""
     watt = Mechanism.parse("R(0-1) R(0-2) R(2-3) R(3-1) R(0-4) R(4-5) R(5-1); frame=0; drive=R(0-2)")

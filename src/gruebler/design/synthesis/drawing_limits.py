@@ -29,6 +29,8 @@ class DrawingLimits(FitLimits):
     """What drawings keep to: numbers are x, y of each joint in turn, then of the point."""
 
     structure: DyadStructure
+    link: str
+    """The link that carries the point."""
     places: PlaceLimits
     turning: bool
     pivots: Mapping[int, complex]
@@ -48,7 +50,7 @@ class DrawingLimits(FitLimits):
     @property
     def _bounds(self) -> dict[int, float]:
         """The dyads by their numbers whose angle is limited, with the largest cosine of it."""
-        path, angle = self.structure.force_path, self.places.demands.transmission
+        path, angle = self.structure.force_path(self.link), self.places.demands.transmission
         least = [angle if dyad in path else 0.0 for dyad in self.structure.dyads]
         return {n: min(float(np.cos(mu)), 1 - SAFE) for n, mu in enumerate(least) if self.turning or mu > 0}
 
@@ -106,7 +108,7 @@ def beyond_cosines(cosines: Reals, most: Reals | float) -> Reals:
 
 
 def limits_of_drawings(
-    structure: DyadStructure, demands: Demands, pivots: Sequence[complex], *, closed: bool, unit: float
+    structure: DyadStructure, link: str, demands: Demands, pivots: Sequence[complex], *, closed: bool, unit: float
 ) -> Iterator[DrawingLimits]:
     """What linkages of a structure keep to; for each way in which given pivots can be its joints at the frame."""
     chain, frame = structure.mechanism.chain, structure.mechanism.frame
@@ -114,6 +116,7 @@ def limits_of_drawings(
     for joints in permutations([x // 2 for x in pins[frame]], len(pivots)):
         yield DrawingLimits(
             structure=structure,
+            link=link,
             places=PlaceLimits(
                 pins=pins,
                 frame=frame,

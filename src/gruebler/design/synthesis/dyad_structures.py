@@ -63,14 +63,14 @@ class DyadStructure:
         held = {link for joint in chain.joints if frame in joint.links for link in joint.links}
         return [link for link in chain.links if link in held - {frame, self.crank}][-1]
 
-    @cached_property
-    def force_path(self) -> tuple[DrawnDyad, ...]:
-        """The dyad of the output, and those that hang on the frame on the way from the drive to it."""
-        loaded, path = {self.output}, []
+    def force_path(self, guided: str) -> tuple[DrawnDyad, ...]:
+        """The dyads of the output and of a guided link, and those that hang on the frame on the way from the drive."""
+        ends = {self.output, guided}
+        loaded, path = {*ends}, []
         for dyad in reversed(self.dyads):
             if loaded & set(dyad.links):
                 loaded |= set(dyad.base) - {self.mechanism.frame}
-                if self.output in dyad.links or self.mechanism.frame in dyad.base:
+                if ends & set(dyad.links) or self.mechanism.frame in dyad.base:
                     path.append(dyad)
         return tuple(path)
 

@@ -22,6 +22,8 @@ from gruebler.design.synthesis.target_bands import STAGES, TargetBands, numbers_
 from gruebler.design.synthesis.target_orders import Ranks
 from gruebler.design.synthesis.targets import GuidedCurve
 from gruebler.design.synthesis.tasks import DeadCentreTask, DwellTask, FunctionTask, PathTask, PositionTask, Task
+from gruebler.mechanics.analysis.outputs import find_output
+from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.assur import AssurError, decompose
 from gruebler.structure.mechanism import Mechanism
 
@@ -188,6 +190,22 @@ def links_moved_by_all(mechanism: Mechanism) -> tuple[str, ...]:
     return tuple(link for link in moving if link in last)
 
 
+def guided_output(linkage: Linkage, link: str) -> tuple[str, ...]:
+    """A guided link as the output, where the force to the usual output does not go through its group; else the usual.
+
+    >>> from gruebler.design.realisation import realise
+    >>> watt = Mechanism.parse("R(0-1) R(0-2) R(2-3) R(3-1) R(0-4) R(4-5) R(5-1); frame=2; drive=R(0-2)")
+    >>> guided_output(realise(watt).linkage, "4")
+    ('4',)
+    """
+    try:
+        groups = decompose(linkage.mechanism).groups
+    except AssurError:
+        return linkage.outputs
+    own = next((group.links for group in groups if link in group.links), None)
+    return linkage.outputs if own is None or find_output(linkage).link in own else (link,)
+
+
 @dataclass
 class FitState:
     """Dimensions, the poses at all targets, the links that are compared, and what else is free."""
@@ -316,7 +334,7 @@ def improved(
     wanted = demands or Demands(size_ratio=np.inf)
     limits = limits_of_sizes(closure, wanted, q[0], state.p, held=state.held, unit=size)
     if demands is not None and demands.transmission > 0 and len(closure.linkage.mechanism.drives) < 2:
-        outputs = (state.output,) if state.output else closure.linkage.outputs
+        outputs = (state.output,) if state.output else guided_output(closure.linkage, state.link)
         targets = replace(targets, legs=LegAngles.of(closure, outputs, demands.transmission))
     start = _at(closure, targets, replace(state, q=q), size)
     freedoms = start.by_motion.shape[2]

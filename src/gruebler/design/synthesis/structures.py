@@ -29,6 +29,7 @@ from gruebler.design.synthesis.fitting import (
     FitTargets,
     fit_stages,
     fit_targets,
+    guided_output,
     improved,
     links_moved_by_all,
     output_links,
@@ -345,7 +346,9 @@ def _fitted(task: Task, demands: Demands, limits: Demands, link: str, job: _Job)
     structure = dyad_structure(job.mechanism)
     assert structure is not None
     pivots = [complex(*p) for p in task.fixed_pivots]
-    every = [*limits_of_drawings(structure, limits, pivots, closed=task.closed, unit=fit_targets(task).size)]
+    every = [
+        *limits_of_drawings(structure, job.drawn_link, limits, pivots, closed=task.closed, unit=fit_targets(task).size)
+    ]
     number = -(-_NEIGHBOURS * job.kept // len(every))
     fits = together([fit_drawings(each, job.drawn_link, task.z, closed=task.closed, number=number) for each in every])
     names = job.mechanism.chain.joint_names()
@@ -356,6 +359,7 @@ def _fitted(task: Task, demands: Demands, limits: Demands, link: str, job: _Job)
         drawing: dict[str | int, object] = {name: (z.real, z.imag) for name, z in zip(names, joints, strict=True)}
         points = {"P": (job.drawn_link, point.real, point.imag)}
         linkage = Linkage.from_drawing(job.mechanism, drawing, points=points)
+        linkage = linkage.with_outputs(guided_output(linkage, job.drawn_link))
         designs.append(judge_design(linkage, targets, replace(demands, tolerance=_limit(demands)), FITTED))
     return designs
 
@@ -401,7 +405,7 @@ def fit_structure(
         return None
     for targets in stages:
         state = improved(closure, state, targets, limits)
-    outputs = (state.output,) if state.output else first.linkage.outputs
+    outputs = (state.output,) if state.output else guided_output(first.linkage, state.link)
     wanted = demands or Demands()
     design = _judged(task, stages[-1], wanted, closure, state, outputs)
     for _ in range(_RAISED):  # between the targets the angle may be smaller than at them
