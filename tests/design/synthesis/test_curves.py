@@ -1,6 +1,6 @@
 """Whole curves and any structure: derivatives, linkages that come back, published kinds of curves."""
 
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
@@ -13,11 +13,12 @@ from gruebler.design.synthesis import Demands, PathTask, pareto, synthesise_path
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.curve_starts import atlas, mirror_image, transformed
 from gruebler.design.synthesis.curves import fit_curve, linkages_of
-from gruebler.design.synthesis.dyad_structures import dyad_structure, link_motions
+from gruebler.design.synthesis.dyad_structures import assembled_sides, dyad_structure, link_motions
 from gruebler.design.synthesis.fit_limits import FourBarLimits, crank_turns
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK
 from gruebler.design.synthesis.structure_atlas import structure_atlas
+from gruebler.design.synthesis.structure_curves import DrawnCurves, _at_first_target
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import circuit, move
 from gruebler.mechanics.linkages import Linkage
@@ -296,6 +297,24 @@ def test_a_curve_that_a_six_bar_drew_is_met_exactly():
     task = PathTask([(w.real, w.imag) for w in z], closed=True)
     found = synthesise_structures(task, [structure.mechanism], starts=4, link="5")
     assert found.designs[0].verdict.error < 1e-6
+
+
+@pytest.mark.parametrize("side", [*product((1, -1), repeat=2)])
+def test_what_is_drawn_anew_at_the_first_target_draws_the_same_curve(side):
+    """On the other side than drawn, too, as when a dyad of the drawing was stretched on the way."""
+    structure, _ = drawn_curve(*DRAWN[0], 1)
+    places, turned = np.array([DRAWN[0][2]]), 0.3 + np.linspace(0, 0.5, 9)[None]
+    sides = assembled_sides(structure, places[:, :-1].T) * np.array(side)[:, None]
+
+    def traced(places, turned, sides):
+        rotation, shift = link_motions(structure, places[:, :-1].T, turned, sides)["5"]
+        return rotation * places[:, -1:] + shift
+
+    points = traced(places, turned, sides)
+    anew = _at_first_target(structure, "5", DrawnCurves(places=places, turned=turned, cost=np.zeros(1)), sides)
+    again = traced(anew.places, anew.turned, assembled_sides(structure, anew.places[:, :-1].T))
+    assert np.abs(again - points).max() < 1e-12
+    assert np.abs(anew.places[0, -1] - points[0, 0]) < 1e-12
 
 
 @pytest.mark.slow

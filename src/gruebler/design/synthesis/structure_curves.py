@@ -77,7 +77,7 @@ def fit_drawings(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool
             sides, before = sides[:, own], curves.turned[own]
             curves = rough.improved_in_parts(curves.places[own], before[:, thin], sides, steps)
             curves = replace(curves, turned=_spread(curves.turned, thin, before))
-        return _each_once(_at_first_target(structure, link, curves), _APART * fit.size)
+        return _each_once(_at_first_target(structure, link, curves, sides), _APART * fit.size)
 
     first = pool = improved(_neighbours(limits, link, z, closed=closed, number=number))
     if not len(first.cost):
@@ -91,9 +91,9 @@ def fit_drawings(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool
     best = _each_once(together(chosen), _APART * fit.size)
     sides = assembled_sides(structure, best.places[:, :-1].T)
     best = fit.improved_in_parts(best.places, best.turned, sides, _LAST[1])
+    best = _at_first_target(structure, link, best, sides)
     beyond = limits.passed(_rows(best.places), best.turned) > 0
-    best = replace(best, cost=np.where(beyond, np.inf, best.cost))
-    return _each_once(_at_first_target(structure, link, best), _SAME * fit.size)
+    return _each_once(replace(best, cost=np.where(beyond, np.inf, best.cost)), _SAME * fit.size)
 
 
 def _bred(limits: DrawingLimits, pool: DrawnCurves, count: int, chance: np.random.Generator) -> DrawnCurves:
@@ -151,11 +151,11 @@ def _spread(turned: Reals, thin: NDArray[np.int64], before: Reals) -> Reals:
     return np.asarray(before + np.stack([np.interp(every, thin, row) for row in turned - before[:, thin]]))
 
 
-def _at_first_target(structure: DyadStructure, link: str, curves: DrawnCurves) -> DrawnCurves:
-    """The same linkages drawn where they meet the first target."""
+def _at_first_target(structure: DyadStructure, link: str, curves: DrawnCurves, sides: Reals) -> DrawnCurves:
+    """The same linkages drawn where they meet the first target, on the sides on which they meet all of them."""
     chain = structure.mechanism.chain
     drawn = curves.places[:, :-1].T
-    motions = link_motions(structure, drawn, curves.turned[:, :1])
+    motions = link_motions(structure, drawn, curves.turned[:, :1], sides)
     owners = [joint.links[0] for joint in chain.joints] + [link]
     places = [
         (rotation * place[:, None] + shift)[:, 0]
