@@ -111,14 +111,20 @@ def _bred(limits: DrawingLimits, pool: DrawnCurves, count: int, chance: np.rando
 
 
 def _neighbours(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool, number: int) -> DrawnCurves:
-    """The curves of the atlas that are most like the target, placed on it, no drawing twice.
+    """So many of each kind of drawings: curves are more alike among some kinds than after the improvement."""
+    book = structure_atlas(limits.structure)
+    of_link = book.link == limits.structure.coupler_links.index(link)
+    kinds = [np.flatnonzero(of_link & (book.short == short)) for short in (True, False)]
+    return together([_alike(limits, own, z, closed=closed, number=number) for own in kinds])
+
+
+def _alike(limits: DrawingLimits, own: NDArray[np.int64], z: Complexes, *, closed: bool, number: int) -> DrawnCurves:
+    """Of some curves of the atlas those that are most like the target, placed on it, no drawing twice.
 
     A given pivot is the origin of the comparison; several are compared as well as the curve, then the joints lie there.
     Where limits are narrow, those come first that are both alike and hardly beyond.
     """
-    structure = limits.structure
-    book = structure_atlas(structure)
-    own = np.flatnonzero(book.link == structure.coupler_links.index(link))
+    book = structure_atlas(limits.structure)
     joints, pivots = [*limits.pivots], np.array([*limits.pivots.values()], np.complex128)
     drawn = np.concatenate([book.drawn[own], book.point[own, None]], axis=1)
     single = len(joints) == 1
@@ -134,7 +140,7 @@ def _neighbours(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool,
     numbers, mirrored = np.array([m.number for m in matches]), np.array([[m.mirrored] for m in matches])
     turn, shift = (np.array(each)[:, None] for each in zip(*((m.turn, m.shift) for m in matches), strict=True))
     at = turn * drawn[numbers] + shift
-    angles = drive_angles(book.turned[own[numbers]], np.array([m.at for m in matches]))
+    angles = drive_angles(book.turned[own[numbers]].astype(np.float64), np.array([m.at for m in matches]))
     places = np.where(mirrored, np.conj(at), at) + given
     places[:, joints] = pivots
     gaps = np.array([m.gap for m in matches])
