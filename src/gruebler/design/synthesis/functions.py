@@ -38,10 +38,10 @@ from gruebler.design.synthesis.law_motion import over_interval
 from gruebler.design.synthesis.minimax_search import minimax as minimax_near
 from gruebler.design.synthesis.nearest_functions import nearest_linkages
 from gruebler.design.synthesis.pair_facts import PairFacts, facts_of_pins
-from gruebler.design.synthesis.pair_search import best_dyads
+from gruebler.design.synthesis.pair_search import IMPROVED, best_dyads
 from gruebler.design.synthesis.positions import NEAR
 from gruebler.design.synthesis.results import EXACT, Design, SolutionCount, SynthesisResult, in_order_of, ranked
-from gruebler.design.synthesis.start_families import near_by_starts, sampled_by_starts
+from gruebler.design.synthesis.start_families import family_dimension, near_by_starts, sampled_by_starts, with_ratios
 from gruebler.design.synthesis.structural_errors import coordination_of, links_turned_round
 from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import FunctionTask, PositionTask
@@ -54,6 +54,8 @@ _FAMILIES = {
     4: message("There are infinitely many solutions, one for each point of a curve; {count} were taken."),
 }
 """By how many pairs, with both starts free: what a dyad between crank and output can be."""
+_FEW = message("The ratios of the given lengths leave finitely many four-bars; {count:,} were found.")
+_MANY = message("There are infinitely many four-bars with the ratio of the given lengths; {count:,} were taken.")
 _FORMS = {"angle": "four-bar", "travel": "slider-crank"}
 """What crank, coupler and output form together; slides between crank and output name themselves."""
 
@@ -107,7 +109,11 @@ def synthesise_function(
                 "count."
             ),
         )
-    if not designs and task.output == "angle" and len(wanted.lengths) > 1:
+    if (
+        not designs
+        and task.output == "angle"
+        and len(wanted.lengths) > 1 + (family_dimension(task) if free == 2 else 0)
+    ):
         notes = (
             *notes,
             message(
@@ -180,10 +186,15 @@ def _by_free_starts(task: FunctionTask, wanted: Demands, number: int, sort: Sequ
     dyads = _connecting(task, number)
     notes: tuple[Message, ...] = ()
     turning = sampled_by_starts(task) if sort is not None and len(task) < 5 else []
+    near, family = partial(near_by_starts, task), None
+    ratios = len(wanted.lengths) - 1
+    if turning and task.output == "angle" and 0 < ratios <= family_dimension(task):
+        turning = with_ratios(task, wanted.lengths, turning[:: len(turning) // _BEGUN + 1])
+        near = partial(_near_with_ratios, task, wanted)
+        family = (_FEW if ratios == family_dimension(task) else _MANY).filled(count=len(turning))
     if turning:
-        near = partial(near_by_starts, task)
         best, search = best_dyads(turning, partial(_facts, task), wanted, near, orders=sort or (), number=number)
-        notes = tuple(search)
+        notes = tuple(each for each in search if each is not IMPROVED or family is None or family.text != _FEW.text)
         some = turning[:: max(1, len(turning) // number)]
         dyads = (best or some) + [dyad for dyad in dyads if dyad.slides]
     theorem: int | None = None
@@ -201,13 +212,18 @@ def _by_free_starts(task: FunctionTask, wanted: Demands, number: int, sort: Sequ
     elif len(task) == 5:
         theorem = 3  # four dyads less the frame
     else:
-        notes = (*notes, _FAMILIES[len(task)].filled(count=max(len(turning), len(dyads))))
+        notes = (*notes, family or _FAMILIES[len(task)].filled(count=max(len(turning), len(dyads))))
     candidates = nearest + [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
     real = len(nearest) + len(dyads)
     complex_count = 3 if len(task) == 5 else real
     return _Candidates(
         candidates, SolutionCount(what=message("linkages"), theorem=theorem, found=complex_count, real=real), notes
     )
+
+
+def _near_with_ratios(task: FunctionTask, wanted: Demands, dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
+    """Dyads beside one of them that keep the ratios of the given lengths."""
+    return with_ratios(task, wanted.lengths, near_by_starts(task, dyad, width))
 
 
 def _nearest_pairs(task: FunctionTask, wanted: Demands) -> list[Design]:
@@ -288,6 +304,7 @@ def _optima(exact: SynthesisResult, law: FunctionLaw, demands: Demands) -> Synth
     return replace(exact, designs=in_order_of(accepted, ["error"]), rejected=rejected)
 
 
+_BEGUN = 1500  # members of a sample from which given ratios of lengths are sought
 _NEAREST = 25
 """At so many places of the interval the linkages that follow a function most nearly are sought."""
 _FARTHER, _FAR = 10.0, 0.02

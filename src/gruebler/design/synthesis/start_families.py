@@ -6,6 +6,7 @@ linkage of three pairs; of two pairs its first factor is free, too, and of four 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product
 
@@ -17,11 +18,15 @@ from gruebler.design.synthesis.coordination import (
     pair_arrays,
     turning_kind,
 )
-from gruebler.design.synthesis.dyads import GuidingDyad
+from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.tasks import FunctionTask
 
 _STARTS = {2: 24, 3: 96, 4: 360}
 """By the number of pairs: how many starts of each side are tried."""
+_STEPS = 40
+_LONGEST = 0.3  # of a step to given ratios, by the frame
+_REACHED = 1e-12
+_SAME = 1e-7  # by the frame: pivots of two linkages that are one differ by less
 _FACTORS = 24
 _LARGEST_FACTOR = 32.0  # first factors are tried between its inverse and this, by the size of the output
 _FARTHEST = 4.0  # start travels: to the hyperbolic sine of so much, by the size of the output, denser near 0
@@ -58,6 +63,58 @@ def near_by_starts(task: FunctionTask, dyad: GuidingDyad, width: float) -> list[
     moves = np.array([move for move in product((-1.0, -0.5, 0.0, 0.5, 1.0), repeat=len(at)) if any(move)])
     inputs, starts, *logs = (np.array(at) + moves * np.array(step)).T
     return _with_starts(task, inputs, starts, logs[0] if logs else None)
+
+
+def family_dimension(task: FunctionTask) -> int:
+    """The dimension of the family of two to four pairs."""
+    return 5 - len(task)
+
+
+def with_ratios(
+    task: FunctionTask, lengths: Sequence[tuple[str, float]], dyads: Sequence[GuidingDyad]
+) -> list[GuidingDyad]:
+    """The four-bars nearest to some of the family whose lengths are to each other as given; each once.
+
+    By Gauss and Newton in both moving pivots, with the frame from 0 to 1: the coupler is as long at every pair, and the
+    logarithms of the lengths differ as those of the given ones.
+
+    Args:
+        task: two to four pairs of angles.
+        lengths: links and their lengths, at least two, at most one more than the family has dimensions.
+        dyads: with which is begun, between crank and output.
+    """
+    phi, output = pair_arrays(task)
+    crank, rocker = (np.exp(1j * (angles - angles[0])) for angles in (phi, output))
+    wanted = np.log([length for _, length in lengths])
+    z = np.array([(dyad.fixed, dyad.moving) for dyad in dyads])
+    for _ in range(_STEPS):
+        with np.errstate(all="ignore"):
+            pins, far = z[:, :1] * crank, (z[:, 1:] - 1) * rocker
+            gap = 1 + far - pins
+            square = np.abs(gap) ** 2
+            # Rows by x, y of both pivots: the gradient of |w|^2 for w = w0 + t z is 2 conj(t) w.
+            by_fixed, by_moving = -2 * np.conj(crank) * gap, 2 * np.conj(rocker) * gap
+            lines = {"crank": (z[:, 0], 1, 0), "coupler": (z[:, 1] - z[:, 0], -1, 1), "rocker": (z[:, 1] - 1, 0, 1)}
+            logs, changes = [], []
+            for link, _ in lengths:
+                w, first, second = lines.get(link, (np.ones(len(z)), 0, 0))
+                logs.append(np.log(np.abs(w)))
+                changes.append(np.stack([first / np.conj(w), second / np.conj(w)], axis=1))
+            ratios = np.stack(logs, axis=1) - wanted
+            values = np.concatenate([square[:, 1:] - square[:, :1], ratios[:, 1:] - ratios[:, :1]], axis=1)
+            pairs = np.stack([by_fixed, by_moving], axis=2)
+            own = np.stack(changes, axis=1)
+            slopes = np.concatenate([pairs[:, 1:] - pairs[:, :1], own[:, 1:] - own[:, :1]], axis=1)
+        good = np.isfinite(values).all(axis=1) & np.isfinite(slopes).all(axis=(1, 2))
+        z, values, slopes = z[good], values[good], slopes[good]
+        matrix = np.stack([slopes.real, slopes.imag], axis=3).reshape(*values.shape, 4)
+        step = -np.einsum("nij,nj->ni", np.linalg.pinv(matrix), values)
+        step *= np.minimum(1, _LONGEST / np.maximum(np.linalg.norm(step, axis=1), 1e-300))[:, None]
+        z = z + step.view(np.complex128)
+    met = np.abs(values).max(axis=1, initial=0.0) < _REACHED
+    z = z[met]
+    _, first_of_each = np.unique(np.round(z / _SAME), axis=0, return_index=True)
+    return [GuidingDyad(CRANK, complex(moving), complex(fixed)) for fixed, moving in z[np.sort(first_of_each)]]
 
 
 def _output_size(task: FunctionTask) -> float:
