@@ -96,17 +96,19 @@ def four_bar(z: np.ndarray, *, closed: bool) -> tuple[str, np.ndarray]:
     return best.kind.name, curve_points(best.kind, best.row[:, None], turned, best.side).z
 
 
-def unlimited(structure: DyadStructure, z: np.ndarray, pivots: dict[int, complex]) -> tuple[DrawingLimits, int]:
+def unlimited(
+    structure: DyadStructure, link: str, z: np.ndarray, pivots: dict[int, complex]
+) -> tuple[DrawingLimits, int]:
     """No limits but given pivots of joints, and in how many ways these can be joints at the frame."""
     unit = float(max(np.ptp(z.real), np.ptp(z.imag)))
     demands = Demands(size_ratio=np.inf)
-    every = [*limits_of_drawings(structure, demands, [*pivots.values()], closed=True, unit=unit)]
+    every = [*limits_of_drawings(structure, link, demands, [*pivots.values()], closed=True, unit=unit)]
     return next(limits for limits in every if [*limits.pivots] == [*pivots]), len(every)
 
 
 def six_bar(structure: DyadStructure, link: str, z: np.ndarray, *, closed: bool) -> np.ndarray:
     """The path of the best six-bar of a kind whose crank passes all points in order, and no others far from them."""
-    fits = fit_drawings(unlimited(structure, z, {})[0], link, z, closed=closed, number=NEIGHBOURS)
+    fits = fit_drawings(unlimited(structure, link, z, {})[0], link, z, closed=closed, number=NEIGHBOURS)
     polygon = np.abs(np.diff(np.append(z, z[0]) if closed else z)).sum()
     for places, turned in zip(fits.places, fits.turned, strict=True):
         sense = np.sign(turned[-1] - turned[0])
@@ -154,7 +156,7 @@ def drawn_again(seeds: tuple[int, ...], each: int, neighbours: int, *, pivots: b
         fixed = [n for n, joint in enumerate(chain.joints) if frame in joint.links][: 2 * pivots]
         for _ in range(each):
             (z, joints), start = drawn_path(structure, link, rng), time.process_time()
-            limits, ways = unlimited(structure, z, {n: complex(joints[n]) for n in fixed})
+            limits, ways = unlimited(structure, link, z, {n: complex(joints[n]) for n in fixed})
             cost = fit_drawings(limits, link, z, closed=True, number=-(-neighbours // ways)).cost.min(initial=np.inf)
             error = np.sqrt(cost / len(z)) / max(np.ptp(z.real), np.ptp(z.imag))
             met += error < MET

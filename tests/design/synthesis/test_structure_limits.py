@@ -7,6 +7,7 @@ from math import degrees, radians
 import numpy as np
 import pytest
 
+from benchmarks.yardstick import SIX_BARS, unlimited
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis import Demands, FunctionTask, PathTask, PositionTask, synthesise
 from gruebler.design.synthesis.closure import DesignClosure
@@ -134,6 +135,18 @@ def test_a_crank_turns_fully_outside_curves_too(task):
     assert turning
     for linkage in turning:
         assert move(linkage, circuit(linkage).drive[0] + np.linspace(0, 2 * np.pi, 721)).complete
+
+
+@pytest.mark.parametrize(("kind", "ways"), [("Stephenson III", 3 * 2), ("Watt I", 2)])
+def test_two_pivots_can_be_all_pairs_of_joints_at_the_frame(kind, ways):
+    """Asked as the benchmark of curves that six-bars drew asks."""
+    text, link = SIX_BARS[kind]
+    structure = dyad_structure(Mechanism.parse(text))
+    limits, found = unlimited(structure, link, np.array([0, 1 + 2j]), {0: 1j, 3: 2 - 1j})
+    assert found == ways
+    assert limits.pivots == {0: 1j, 3: 2 - 1j}
+    assert np.flatnonzero(limits.free == 0).tolist() == [0, 1, 6, 7]
+    assert not limits.narrow
 
 
 def test_curves_are_compared_with_their_anchors_as_linear_least_squares_does():
