@@ -265,3 +265,21 @@ def test_lengths_that_no_crank_rocker_has_are_said_so_alone(capsys):
     out = capsys.readouterr().out
     assert "No member has the given lengths." in out
     assert "Of 0 members" not in out
+
+
+def test_a_list_that_begins_with_full_turns_says_so_where_another_has_a_larger_angle(said):
+    rows = ("-40,0,12", "0,25,35", "35,10,70")
+    sentence = "Designs whose drive turns fully come first"
+
+    def angles(printed):
+        found = re.findall(r"R\(frame-\w+\) +(yes|no) +([\d.]+)°", printed)
+        return [turns for turns, _ in found], [float(angle) for _, angle in found]
+
+    usual = said(rows, "--length coupler 60")
+    turns, mu = angles(usual)
+    assert turns == sorted(turns, reverse=True)
+    assert mu[0] < max(mu)
+    assert sentence in usual
+    largest = said(rows, "--length coupler 60 --sort transmission")
+    assert angles(largest)[1][0] == max(angles(largest)[1])
+    assert sentence not in largest

@@ -15,7 +15,7 @@ from gruebler.design.synthesis import Design, PathTask, PositionTask, SynthesisR
 from gruebler.design.synthesis.coordination import Minimax
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.minimax_search import digits_for_error
-from gruebler.design.synthesis.results import EXACT, FITTED, SolutionCount
+from gruebler.design.synthesis.results import EXACT, FITTED, DesignVerdict, SolutionCount
 from gruebler.design.synthesis.sensitivity import slide_offsets
 from gruebler.design.synthesis.tasks import gives_lengths, output_travels
 from gruebler.mechanics.linkages import Linkage
@@ -42,6 +42,9 @@ _ANGLES = message(
     "µ of range: over the whole range of the drive, as `analyse` gives it."
 )
 _LOW = message("!: below 40°.")
+_FULL_TURNS = message(
+    "Designs whose drive turns fully come first; `--sort transmission` begins with the largest transmission angle."
+)
 _PARETO = (message("µ on the way"), message("µ of range"))
 _LETTERS = {"crank": "a", "coupler": "b", "rocker": "c", "frame": "d"}
 """Lengths as the closed forms name them; those of other links have the names of their links."""
@@ -121,6 +124,16 @@ def print_notes(shown: SynthesisResult, lang: str) -> None:
     print_text(joined([_ANGLES, *low], " ").in_language(lang))
     if any(design.sensitivity is not None for design in shown.designs):
         print_text(_SHIFT.in_language(lang))
+    if _turning_before_better([design.verdict for design in shown.designs]):
+        print_text(_FULL_TURNS.in_language(lang))
+
+
+def _turning_before_better(verdicts: Sequence[DesignVerdict]) -> bool:
+    """Whether designs with a full turn stand before others that have a larger transmission angle."""
+    turning = [verdict.turns_fully for verdict in verdicts]
+    others = [verdict.transmission for verdict in verdicts if not verdict.turns_fully]
+    first = bool(others) and any(turning) and turning == sorted(turning, reverse=True)
+    return first and verdicts[0].transmission < max(others)
 
 
 def print_pareto(result: SynthesisResult, lang: str) -> None:
