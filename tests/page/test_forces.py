@@ -261,7 +261,7 @@ def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_field
     assert torque.startswith(f"\N{MINUS SIGN}{-largest:.4g} N·mm at ")
     places = [drive for drive, effort in zip(told["drives"], told["effort"], strict=True) if effort == largest]
     assert torque.endswith(f" at {math.degrees(places[0]):.4g}°")
-    assert panel.get_by_text("Of a drive at 60/min").count() == 1
+    assert panel.get_by_text("Forces at 60/min").count() == 1
 
     forces = [
         (math.hypot(x, y), k) for one in told["forces"] for k, (x, y) in enumerate(zip(*one["force"], strict=True))
