@@ -31,6 +31,10 @@ def test_what_is_offered_mends_it():
     assert drawing_record(FOUR_BAR, "0", [0], "en")["offers"] == []
     assert [offer["kind"] for offer in drawing_record(FOUR_BAR, "0", [0, 3], "en")["offers"]] == ["undrive", "undrive"]
     # a link on two grounds does not move: its joints are no drives, neither offered nor taken
+    # what drives a lever on a cylinder is the cylinder; of a slider-crank, whose slide is on the ground, the crank
+    lever = "R(0-1) R(0-2) R(1-3) P(2-3)"
+    assert [offer["joint"] for offer in drawing_record(lever, "0", [], "en")["offers"]] == [3, 0, 1]
+    assert drawing_record("R(0-1) R(1-2) R(2-3) P(0-3)", "0", [], "en")["offers"][0]["joint"] == 0
     held = "R(0-1) R(0-1) R(0-2)"
     assert [offer["joint"] for offer in drawing_record(held, "0", [], "en")["offers"]] == [2]
     shared = drawing_record("R(0-1-4) R(1-2) R(2-3) R(3-0) R(4-5) R(5-3)", "0", [0], "en")

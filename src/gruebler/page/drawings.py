@@ -109,12 +109,22 @@ def _offers(
     if generic > 1:
         yield from _grounds(report, drives, ends)
         yield from _bars(report, drives)
-    for number, joint in enumerate(chain.joints):
+    cylinders = [number for number in range(len(chain.joints)) if _is_cylinder(chain, frame, number)]
+    grounded = [number for number, joint in enumerate(chain.joints) if frame in joint.links]
+    for number in cylinders + grounded:
         movable = number not in drives and number not in report.immobile_joints
-        if not (movable and frame in joint.links and len(joint.links) == _BINARY):
+        if not (movable and len(chain.joints[number].links) == _BINARY):
             continue
         if not _driven(chain, frame, [*drives, number]).redundant_drives:
             yield {"kind": "drive", "joint": number, "generic": generic}
+
+
+def _is_cylinder(chain: Chain, frame: str, number: int) -> bool:
+    """Whether a joint is a slide of two links off the frame that have nothing but a pin at their other ends."""
+    joint = chain.joints[number]
+    others = [[k for k, other in enumerate(chain.joints) if link in other.links and k != number] for link in joint.links]
+    pins = all(len(own) == 1 and chain.joints[own[0]].pair.is_turning for own in others)
+    return joint.pair.is_sliding and frame not in joint.links and pins
 
 
 def _closed(report: MobilityReport, drives: list[int], joints: str) -> MobilityReport | None:
