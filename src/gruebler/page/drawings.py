@@ -122,8 +122,10 @@ def _offers(
 def _is_cylinder(chain: Chain, frame: str, number: int) -> bool:
     """Whether a joint is a slide of two links off the frame that have nothing but a pin at their other ends."""
     joint = chain.joints[number]
-    others = [[k for k, other in enumerate(chain.joints) if link in other.links and k != number] for link in joint.links]
-    pins = all(len(own) == 1 and chain.joints[own[0]].pair.is_turning for own in others)
+    beside = [
+        [other for k, other in enumerate(chain.joints) if link in other.links and k != number] for link in joint.links
+    ]
+    pins = all(len(own) == 1 and own[0].pair.is_turning for own in beside)
     return joint.pair.is_sliding and frame not in joint.links and pins
 
 
