@@ -40,11 +40,7 @@ interface Saved {
   note?: string;
 }
 
-const WIDTHS: [string, number][] = [
-  ["640 px", 640],
-  ["1280 px", 1280],
-  ["1920 px", 1920],
-];
+const WIDTHS = [640, 1280, 1920]; // pixels
 const GIF_WIDTH = 423; // of a GIF with a zoom of 1
 const LARGEST_ZOOM = 4;
 
@@ -102,7 +98,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
     save(page, say, recorded!.startsWith("video/mp4") ? "mp4" : "webm", recorded!, blob);
   };
   const gif = () => ask("gif", { zoom: Math.min(LARGEST_ZOOM, choice.width / GIF_WIDTH) });
-  const widths = WIDTHS.map(([text, value]): [string, string] => [String(value), text]);
+  const widths = WIDTHS.map((value): [string, string] => [`${value}`, `${value} px`]);
   const width = menu(t("Width of films"), widths, String(choice.width), (value) => (choice.width = Number(value)));
   const served = (name: string, kind = name.toLowerCase()) => (page.served ? button(name, () => ask(kind)) : null);
   const { unit } = page.shown;

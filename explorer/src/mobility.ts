@@ -66,11 +66,10 @@ export class MobilityPanel {
     this.element.classList.remove("asking");
     const all = linksOf(drawing);
     const loose = all.find((link) => !jointsOf(drawing).some((k) => drawing.knots[k]!.links.includes(link)));
-    if (frame === null || all.length < 3 || loose) {
-      let text = frame === null ? t("Choose an example or place ground joints.") : t("Draw at least three links.");
-      if (frame !== null && all.length > 2) text = t("Link {link} has no joint yet.", { link: spaced(loose!) });
-      return renew(this.element, ...(all.length ? [count] : []), h("p.note", {}, text));
-    }
+    let missing = loose && t("Link {link} has no joint yet.", { link: spaced(loose) });
+    if (all.length < 3) missing = t("Draw at least three links.");
+    if (frame === null) missing = t("Choose an example or place ground joints.");
+    if (missing) return renew(this.element, all.length > 0 && count, h("p.note", {}, missing));
     if (this.element.querySelector("[data-fact=freedoms]")) this.element.firstChild!.replaceWith(count);
     else renew(this.element, count, moment());
     this.element.classList.add("asking"); // what was offered before does not hold any more
@@ -88,13 +87,19 @@ export class MobilityPanel {
         renew(count, `F = ${generic} `, h("small", {}, t("counted {count}", { count: told.counted })));
       const offers = told.offers.map((offer) => this.#offer(offer, numbers));
       if (good) this.moving = drawing;
+      const { open } = this.element.querySelector("details") ?? {};
       const move = h("button.key", { "data-act": "move", onclick: () => this.view.move() }, t("Move it"));
       renew(
         this.element,
         count,
         h("p", { class: good ? "good" : "bad", "data-fact": "freedoms" }, reason),
         h("div.form", {}, ...offers, ...(good ? [move] : [])),
-        h("details", {}, h("summary", {}, t("Why")), ...told.lines.map((line) => h("p.note", {}, ...indexed(line)))),
+        h(
+          "details",
+          { open },
+          h("summary", {}, t("Why")),
+          ...told.lines.map((line) => h("p.note", {}, ...indexed(line))),
+        ),
       );
     } catch (error) {
       if (asked === this.#asked) renew(this.element, count, h("p.note", {}, (error as Error).message));

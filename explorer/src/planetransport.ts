@@ -67,6 +67,7 @@ export class PlaneTransport extends Transport<DrivenInPlane> {
 
   /** What is shown in each frame of a film, once through the motion from where the drive is. */
   *film<Shown>(shown: () => Shown): Generator<Shown> {
+    const { playing } = this.player;
     this.pause();
     const { active, cycle, drives } = this.view.linkage;
     const start = drives[active] ?? 0;
@@ -78,5 +79,6 @@ export class PlaneTransport extends Transport<DrivenInPlane> {
       this.go(value);
     }
     this.go(start);
+    if (playing) this.toggle();
   }
 }

@@ -706,3 +706,4 @@ def test_classes_of_joints_are_indices_and_no_line_breaks_beside_an_equals_sign(
     offer = view.locator("[data-offer=bar]").first
     offer.wait_for()
     assert "F\xa0=\xa01" in offer.text_content()
+    assert view.locator('[data-place="mobility"] details').get_attribute("open") is not None  # as it was

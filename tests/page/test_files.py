@@ -253,9 +253,15 @@ def test_the_single_file_opens_its_own_document_and_records_a_film(tab, tmp_path
     page.page.evaluate("gruebler.motion.transport.speed = 60")  # a second
     page.page.locator('[data-panel="export"] select').select_option("640")
     drive = page.page.evaluate("gruebler.motion.linkage.drives[0]")
+    assert not page.page.evaluate("gruebler.motion.transport.player.playing")
     with page.page.expect_download(timeout=30_000) as saved:
         page.page.locator('[data-panel="export"] button:text-is("Film")').click()
     saved.value.save_as(tmp_path / "film.webm")
     assert (tmp_path / "film.webm").read_bytes().startswith(b"\x1a\x45\xdf\xa3")  # EBML, the container of WebM
     assert (tmp_path / "film.webm").stat().st_size > 5_000
     assert page.page.evaluate("gruebler.motion.linkage.drives[0]") == drive  # it stands where it stood
+    assert not page.page.evaluate("gruebler.motion.transport.player.playing")
+    page.page.evaluate("gruebler.motion.transport.toggle()")
+    with page.page.expect_download(timeout=30_000):
+        page.page.locator('[data-panel="export"] button:text-is("Film")').click()
+    assert page.page.evaluate("gruebler.motion.transport.player.playing")  # it goes on
