@@ -7,7 +7,7 @@ import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
 import { goesRound, isAngle, outputAlong, outputStandsStill, transmission, valuesOf } from "./measures";
 import type { OutputRecord } from "./model";
-import { Plot, type Series } from "./plot";
+import { Plot, type Series, valueAt } from "./plot";
 import { place } from "./rows";
 import { Span } from "./span";
 import { whole } from "./waiting";
@@ -123,15 +123,8 @@ export class Plots {
     const { active, cycle } = linkage;
     const { drives, output, round } = this.#plotted(linkage);
     if (round) return inTurn(value);
-    const drive = wrapped(cycle, linkage.drives[active] ?? 0);
-    let low = 0;
-    let high = drives.length - 1;
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (drives[middle]! <= drive) low = middle;
-      else high = middle;
-    }
-    return value + TURN * Math.round((output[low]! - value) / TURN);
+    const near = valueAt(drives, output, wrapped(cycle, linkage.drives[active] ?? 0));
+    return value + TURN * Math.round((near - value) / TURN);
   }
 
   #plotted(linkage: Linkage): Plotted {
@@ -191,23 +184,19 @@ function outputSeries(linkage: Linkage, record: OutputRecord): Making[] {
     same: turning ? degrees(same) : same,
     turn: round ? 360 : 0,
   });
-  const velocity: Making = ({ rows }) => ({
-    title: transferName(linkage, 1) + inBrackets(rateUnit(linkage, 1)),
-    colour: "--green",
-    values: outputAlong(linkage, rows, 1),
-    same,
-  });
-  const acceleration: Making = ({ rows }) => ({
-    title: transferName(linkage, 2) + inBrackets(rateUnit(linkage, 2)),
-    colour: "--purple",
-    values: outputAlong(linkage, rows, 2),
-    same,
-  });
+  const transfer =
+    (order: 1 | 2, colour: string): Making =>
+    ({ rows }) => ({
+      title: transferName(linkage, order) + inBrackets(rateUnit(linkage, order)),
+      colour,
+      values: outputAlong(linkage, rows, order),
+      same,
+    });
   const mu: Making = ({ rows }) => ({
     title: `${t("Transmission angle μ")} [°]`,
     colour: "--accent",
     floor: SMALL,
     values: valuesOf(rows, (row) => degrees(transmission(linkage, linkage.cycle.rows, row))),
   });
-  return [angle, velocity, acceleration, ...(record.legs.length ? [mu] : [])];
+  return [angle, transfer(1, "--green"), transfer(2, "--purple"), ...(record.legs.length ? [mu] : [])];
 }

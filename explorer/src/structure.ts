@@ -44,7 +44,7 @@ export class StructureView implements View {
     this.chains = new ChainList(page, (text) => void this.describe(text));
     this.#field.addEventListener("input", () => {
       clearTimeout(this.#typing);
-      this.#typing = setTimeout(() => void this.describe(this.#field.value), 300);
+      this.#typing = setTimeout(() => void this.describe(this.#field.value, true), 300);
     });
   }
 

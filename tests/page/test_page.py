@@ -250,6 +250,12 @@ def test_errors_of_a_text_stand_at_their_place(tab, server):
     page.page.locator("[data-strained]").first.wait_for()
     strained = page.page.locator("[data-strained]").evaluate_all("all => all.map((e) => e.dataset.strained)")
     assert set(strained) >= {"0", "1", "2", "3"}
+    numbers = page.page.locator('[data-page="structure"] input[type="number"]')
+    field.fill("R(0-1) R(0-2) R(0-3) R(1-4) R(2-4) R(3-4)")  # three links between two: n = 5, F = 3·4 - 2·6 = 0
+    page.page.locator('.facts [data-fact="counted"]', has_text="F = 0").wait_for()
+    assert numbers.evaluate_all("all => all.map((e) => e.value)") == ["5", "0"]
+    page.page.locator('[data-of][aria-pressed="true"]').wait_for()
+    assert "Viergelenk" not in page.page.locator(".chains").inner_text()
 
 
 @pytest.mark.parametrize("step", [pytest.param(1, marks=pytest.mark.slow), 5])
