@@ -253,6 +253,25 @@ def test_the_verdict_is_in_sight_and_read_out(exercises, width, height):
     assert field["y"] + field["height"] <= bar["y"]
 
 
+def test_the_hint_is_in_sight(exercises):
+    """On a phone the last answer is wrong alone."""
+    page = exercises(width=390, height=844, touch=True)
+    view = page.page
+    begin(page, "mobility", 7)
+    for key, value in solve(exercise("mobility-1-7")).results.items():
+        view.locator(f'[data-answer="{ascii_key(key)}"]').fill("9" if key == "F" else str(value.value))
+    lower = "(part) => gruebler.root.querySelector(part).getBoundingClientRect()"
+    gap = f"({lower})('.shown .go').top - ({lower})('[data-answer=F]').bottom"
+    view.mouse.move(200, 300)
+    view.mouse.wheel(0, 2 - view.evaluate(gap))  # the last answer just above the bar
+    page.until(f"Math.abs({gap} - 2) < 3")
+    view.locator('[data-answer="F"]').press("Enter")
+    page.until("gruebler.root.querySelector('[data-result]').textContent")
+    assert view.locator("[data-mark=wrong]").count() == 1
+    hint, bar = (view.locator(part).bounding_box() for part in ("[id=hint-F]", ".shown .go"))
+    assert hint["y"] + hint["height"] <= bar["y"]
+
+
 def test_the_velocity_is_asked_where_the_linkage_then_stands(exercises):
     page = exercises()
     begin(page, "velocity", 3)
