@@ -74,7 +74,7 @@ function sketch(drawing: Drawing): SVGElement {
 export function starters(view: Beginning, linkage: Linkage): HTMLElement[] {
   const found = drawingOf(linkage).drawing;
   const { title } = linkage;
-  const name = title.replace(/^(.{26}).{3,}/, "$1…");
+  const name = title.replace(/^(?=.{29})(.{1,26}) .*/, "$1 …");
   const cards: [string, string, Drawing | undefined][] = [
     ["hand", t("Edit {name}", { name }), found],
     ["four-bar", t("Four-bar linkage"), drawn(FOUR_BAR)],

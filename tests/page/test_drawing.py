@@ -11,6 +11,7 @@ from gruebler.files import linkage_from_json
 from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.kinematics import move
 from gruebler.page.drawings import drawing_record
+from gruebler.page.model import model_of
 from gruebler.structure.chain import Chain
 from gruebler.structure.mobility import mobility_report
 from gruebler.teaching import catalog
@@ -707,3 +708,11 @@ def test_classes_of_joints_are_indices_and_no_line_breaks_beside_an_equals_sign(
     offer.wait_for()
     assert "F\xa0=\xa01" in offer.text_content()
     assert view.locator('[data-place="mobility"] details').get_attribute("open") is not None  # as it was
+
+
+def test_the_name_of_the_machine_at_hand_is_cut_between_words(plane):
+    model = model_of(catalog.entry("crankrocker").linkage(), name="Kurbelschwinge als angenäherte Geradführung")
+    plane.page.evaluate("(model) => gruebler.open(model)", model)
+    plane.page.click('[data-view="build"]')
+    card = plane.page.locator("[data-begin=hand]", has_text="Kurbelschwinge")
+    assert card.inner_text().strip() == "Edit Kurbelschwinge als …"
