@@ -49,8 +49,7 @@ export function showOver(root: HTMLElement, title: string, ...content: Child[]):
 /** Do what a key does with the drive and the picture; whether it does anything. */
 export function drivenBy(event: KeyboardEvent, target: Element, transport: Transport, picture: Picture): boolean {
   const far = event.shiftKey ? 10 : 1;
-  const ways: Record<string, number> = { ArrowRight: far, ArrowLeft: -far };
-  const way = ways[event.key];
+  const way = { ArrowRight: far, ArrowLeft: -far }[event.key];
   const plays = event.key === " " && !target.matches("button, summary, a, [type=checkbox]");
   if (way) transport.nudge(way);
   else if (plays) transport.toggle();

@@ -67,17 +67,10 @@ export function output({ model, sizes }: Linkage, rows: Rows, row: number, order
 
 /** The output, or a derivative by the drive, at rows of the cycle that follow one another. An angle has no jumps, and
  * lies between -180° and 180° where the cycle was found, as the library measures it from a reference pose. */
-export function outputAlong(linkage: Linkage, rows: readonly number[], order = 0): Float64Array {
+export function outputAlong(linkage: Linkage, rows: readonly number[]): Float64Array {
   const { cycle } = linkage;
-  const values = valuesOf(rows, (row) => output(linkage, cycle.rows, row, order));
-  return order || !isAngle(linkage) ? values : unwrapped(values, rows.indexOf(cycle.home));
-}
-
-/** A value of each of some rows. */
-export function valuesOf(rows: readonly number[], f: (row: number) => number): Float64Array {
-  const out = new Float64Array(rows.length);
-  for (let k = 0; k < out.length; k++) out[k] = f(rows[k]!);
-  return out;
+  const values = Float64Array.from(rows, (row) => output(linkage, cycle.rows, row));
+  return isAngle(linkage) ? unwrapped(values, rows.indexOf(cycle.home)) : values;
 }
 
 /** Whether the output, whose values over the cycle are given, keeps its angle or its place, but for rounding. */
@@ -178,7 +171,7 @@ function wayOf(linkage: Linkage, rows: Rows, row: number, link: number, point: P
 export function deadCentres(linkage: Linkage): DeadCentre[] {
   const { values } = linkage.cycle;
   const every = [...values.keys()];
-  const speed = [...outputAlong(linkage, every, 1)];
+  const speed = every.map((row) => output(linkage, linkage.cycle.rows, row, 1));
   const usual = Math.max(0, ...speed.map((v) => (Number.isFinite(v) ? Math.abs(v) : 0)));
   const out: DeadCentre[] = [];
   const { drive, size } = linkage;

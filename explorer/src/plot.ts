@@ -9,6 +9,8 @@ import { Span } from "./span";
 export interface Series {
   title: string;
   values: Float64Array;
+  /** The value of the pose that is shown. */
+  now?: () => number;
   colour: string;
   /** Below this value the ground is shaded. */
   floor?: number;
@@ -186,10 +188,10 @@ export class Plot {
 
   /** Round values at both axes; they are made anew where they are others. */
   #showTicks(domain: Pair): void {
-    const [first, last] = [domain[0] / this.unit, domain[1] / this.unit];
     const { unit } = this;
+    const [first, last] = [domain[0] / unit, domain[1] / unit];
     const [low, high] = [this.#low, this.#high];
-    const across = this.unit === 1 ? roundValues(first, last, 4) : degreeValues(first, last);
+    const across = unit === 1 ? roundValues(first, last, 4) : degreeValues(first, last);
     const upward = this.series!.turn ? degreeValues(low, high) : roundValues(low, high, 3);
     const told = [first, last, low, high, ...across, ...upward].join();
     if (told === this.#ticked) return;
@@ -222,7 +224,8 @@ export class Plot {
     put(this.#cursor, { d: `M${x} ${TOP}V${HEIGHT - BOTTOM}` });
     const y = Number.isFinite(value) ? Math.max(TOP, Math.min(HEIGHT - BOTTOM, this.#y(value))) : -9;
     put(this.#here, { cx: x, cy: y.toFixed(1) });
-    const read = number(Math.abs(value) < (series.same ?? 0) ? 0 : value, 4);
+    const told = (place === drive && series.now?.()) || value; // of a pose without rates that at the drive
+    const read = number(Math.abs(told) < series.same! ? 0 : told, 4);
     const where = `${number(place / this.unit, 4)}${this.unit === 1 ? "" : "°"}: ${read}`;
     this.#value.textContent = place === drive ? read + this.#measure : where;
   }
@@ -322,16 +325,16 @@ export function valueAt(places: Float64Array, values: Float64Array, place: numbe
 
 /** About so many round values in a range: multiples of 1, 2 or 5 times a power of ten. */
 export function roundValues(low: number, high: number, count: number): number[] {
-  const step = gridStep((high - low) / (count + 1.5));
+  return multiples(gridStep((high - low) / (count + 1.5)), low, high);
+}
+
+function multiples(step: number, low: number, high: number): number[] {
   const first = Math.ceil(low / step - 1e-9);
-  const found = Math.floor(high / step + 1e-9) - first + 1;
-  return Array.from({ length: Math.max(0, found) }, (_, k) => (first + k) * step);
+  const count = Math.floor(high / step + 1e-9) - first + 1;
+  return Array.from({ length: Math.max(0, count) }, (_, k) => (first + k) * step);
 }
 
 /** Angles in degrees that divide a circle. */
 function degreeValues(low: number, high: number): number[] {
-  if (high - low < 10) return roundValues(low, high, 4);
-  const step = degreeStep((high - low) / 5);
-  const first = Math.ceil(low / step - 1e-9);
-  return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, k) => (first + k) * step);
+  return high - low < 10 ? roundValues(low, high, 4) : multiples(degreeStep((high - low) / 5), low, high);
 }

@@ -3,9 +3,10 @@
 import { type Cycle, DEGREE, TURN, wrapped } from "./cycle";
 import { h, renew } from "./dom";
 import { type Icon, icon } from "./icons";
+import type { Rows } from "./kernel";
 import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
-import { goesRound, isAngle, outputAlong, outputStandsStill, transmission, valuesOf } from "./measures";
+import { goesRound, isAngle, output, outputAlong, outputStandsStill, transmission } from "./measures";
 import type { OutputRecord } from "./model";
 import { Plot, type Series, valueAt } from "./plot";
 import { place } from "./rows";
@@ -22,7 +23,7 @@ export interface Lap {
 /** The lap of a cycle, and the output in its rows; what turns fully begins anew after 360°. */
 interface Plotted extends Lap {
   cycle: Cycle;
-  output: Float64Array;
+  outputs: Float64Array;
   round: boolean;
 }
 
@@ -48,14 +49,14 @@ export class Plots {
   arrange(linkage: Linkage): void {
     const { drive, model, sizes } = linkage;
     const record = model.outputs[0];
-    const series = record ? outputSeries(linkage, record) : [];
+    const series = record ? outputSeries(linkage, record, (angle) => this.plottedAngle(linkage, angle)) : [];
     for (const { name, link, at } of sizes.points)
       series.push(({ rows }) => ({
         title:
           t("Speed of {name} by the drive", { name: linkage.pointName(name) }) +
           inBrackets(rateUnit(linkage, 1, false)),
         colour: "--ink",
-        values: valuesOf(rows, (row) => Math.hypot(...place(linkage.cycle.rows, row, link, ...at, 1))),
+        ...over(linkage, rows, (all, row) => Math.hypot(...place(all, row, link, ...at, 1))),
       }));
     const unit = drive?.turning ? DEGREE : 1;
     this.parts = series.map((make) => ({ plot: new Plot(unit, this.pick, this.#span), make }));
@@ -98,7 +99,7 @@ export class Plots {
     if (cycle.values.length < 2) return;
     const plotted = this.#plotted(linkage);
     const record = model.outputs[0];
-    const still = record !== undefined && outputStandsStill(linkage, plotted.output);
+    const still = record !== undefined && outputStandsStill(linkage, plotted.outputs);
     this.#still.hidden = !still;
     for (const { plot } of record ? this.parts.slice(0, OF_OUTPUT) : [])
       plot.element.style.display = still ? "none" : "";
@@ -121,9 +122,9 @@ export class Plots {
   /** The angle of the output in the pose that is shown, in the lap in which it is plotted. */
   plottedAngle(linkage: Linkage, value: number): number {
     const { active, cycle } = linkage;
-    const { drives, output, round } = this.#plotted(linkage);
+    const { drives, outputs, round } = this.#plotted(linkage);
     if (round) return inTurn(value);
-    const near = valueAt(drives, output, wrapped(cycle, linkage.drives[active] ?? 0));
+    const near = valueAt(drives, outputs, wrapped(cycle, linkage.drives[active] ?? 0));
     return value + TURN * Math.round((near - value) / TURN);
   }
 
@@ -134,7 +135,7 @@ export class Plots {
     const { drives, rows } = last && sameLap(last.cycle, cycle) ? last : lapOf(cycle);
     const along = outputAlong(linkage, rows);
     const round = goesRound(linkage, along);
-    this.#last = { drives, rows, cycle, output: round ? along.map(inTurn) : along, round };
+    this.#last = { drives, rows, cycle, outputs: round ? along.map(inTurn) : along, round };
     return this.#last;
   }
 }
@@ -172,14 +173,23 @@ function degrees(angle: number): number {
   return angle / DEGREE;
 }
 
-function outputSeries(linkage: Linkage, record: OutputRecord): Making[] {
+/** A value over the cycle, and of the pose that is shown. */
+function over(linkage: Linkage, rows: number[], f: (all: Rows, row: number) => number) {
+  return { values: Float64Array.from(rows, (row) => f(linkage.cycle.rows, row)), now: () => f(linkage.pose, 0) };
+}
+
+function outputSeries(linkage: Linkage, record: OutputRecord, inLap: (angle: number) => number): Making[] {
   const turning = isAngle(linkage);
   const name = linkage.linkName(record.link);
   const same = 1e-9 * (turning ? 1 : linkage.size);
-  const angle: Making = ({ output, round }) => ({
+  const angle: Making = ({ outputs, round }) => ({
     title: t("Output {name}", { name }) + inBrackets(turning ? "°" : lengthUnit(linkage.model)),
     colour: "--motion",
-    values: turning ? output.map(degrees) : output,
+    values: turning ? outputs.map(degrees) : outputs,
+    now: () => {
+      const value = output(linkage, linkage.pose, 0);
+      return turning ? degrees(inLap(value)) : value;
+    },
     marks: record.marks,
     same: turning ? degrees(same) : same,
     turn: round ? 360 : 0,
@@ -189,14 +199,14 @@ function outputSeries(linkage: Linkage, record: OutputRecord): Making[] {
     ({ rows }) => ({
       title: transferName(linkage, order) + inBrackets(rateUnit(linkage, order)),
       colour,
-      values: outputAlong(linkage, rows, order),
+      ...over(linkage, rows, (all, row) => output(linkage, all, row, order)),
       same,
     });
   const mu: Making = ({ rows }) => ({
     title: `${t("Transmission angle μ")} [°]`,
     colour: "--accent",
     floor: SMALL,
-    values: valuesOf(rows, (row) => degrees(transmission(linkage, linkage.cycle.rows, row))),
+    ...over(linkage, rows, (all, row) => degrees(transmission(linkage, all, row))),
   });
   return [angle, transfer(1, "--green"), transfer(2, "--purple"), ...(record.legs.length ? [mu] : [])];
 }

@@ -4,7 +4,7 @@
 
 import { currentLanguage } from "./language";
 import type { Linkage } from "./linkage";
-import { outputAlong, transmission } from "./measures";
+import { output, outputAlong, transmission } from "./measures";
 import { place } from "./rows";
 import { lengthUnit } from "./wording";
 
@@ -18,13 +18,13 @@ export function tableOf(linkage: Linkage): string {
   const head = [turning ? "drive_deg" : `drive_${lengthUnit(model)}`];
   if (record) head.push("output", "output_velocity", "output_acceleration", "transmission_angle_deg");
   for (const { name } of points) head.push(`${name}_x`, `${name}_y`, `${name}_vx`, `${name}_vy`);
-  const rows = [...cycle.values.keys()];
-  const [outputs, first, second] = [0, 1, 2].map((order) => outputAlong(linkage, rows, order));
+  const outputs = outputAlong(linkage, [...cycle.values.keys()]);
   const lines = Array.from(cycle.values, (value, row) => {
     const line = [turning ? degrees(value) : value];
     if (record) {
       const psi = outputs[row]!;
-      line.push(record.joint === null ? degrees(psi) : psi, first[row]!, second[row]!);
+      line.push(record.joint === null ? degrees(psi) : psi);
+      line.push(...[1, 2].map((order) => output(linkage, cycle.rows, row, order)));
       line.push(degrees(transmission(linkage, cycle.rows, row)));
     }
     for (const { link, at } of points)
