@@ -396,6 +396,8 @@ def test_a_search_moves_nothing_and_is_one(tab, server, locale):
     view.click('[data-view="synthesis"]')
     clear = view.locator('[data-act="clear"]')
     assert clear.is_disabled()  # nothing is set
+    curve, told = (view.locator(one).bounding_box() for one in ('[data-value="curve"]', '[data-fact="set"]'))
+    assert told["x"] >= curve["x"] + curve["width"]
     view.evaluate(f"{VIEW}.rows.points = [[20, -20], [0, -30], [-20, -20], [-20, 10], [10, 20]]")
     view.click('[data-value="points"]')
     assert clear.is_enabled()
