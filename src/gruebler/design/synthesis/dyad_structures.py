@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 
 from gruebler import _core
 from gruebler.base.arrays import Complexes, Reals
-from gruebler.structure.assur import AssurError, decompose
+from gruebler.structure.assur import DYADS, AssurError, decompose
 from gruebler.structure.mechanism import Mechanism
 
-_FORMS = ("RRR", "RRP", "RPR", "PRP", "RPP")  # outer, inner and outer joint, by the numbers of the core
 NO_LINES = np.zeros((0, 0), np.complex128)
 """Of linkages in which nothing slides."""
 
@@ -136,7 +135,7 @@ def dyad_structure(mechanism: Mechanism, *, sliding: bool = False) -> DyadStruct
         links = group.bodies[0][0], group.bodies[1][0]
         outer = [next(n for n in group.outer if link in chain.joints[n].links) for link in links]
         letters = "".join("P" if chain.joints[n].pair.is_sliding else "R" for n in (outer[0], group.inner[0], outer[1]))
-        if letters not in _FORMS:
+        if letters not in DYADS:
             letters, links, outer = letters[::-1], links[::-1], outer[::-1]
         base = [
             next(other for other in chain.joints[joint].links if other != link)
@@ -148,7 +147,7 @@ def dyad_structure(mechanism: Mechanism, *, sliding: bool = False) -> DyadStruct
                 outer=(outer[0], outer[1]),
                 inner=group.inner[0],
                 base=(base[0], base[1]),
-                form=_FORMS.index(letters),
+                form=DYADS.index(letters),  # the number of the core
             )
         )
     return DyadStructure(
