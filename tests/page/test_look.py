@@ -580,3 +580,14 @@ def test_the_kinds_of_the_catalog_are_lit_by_the_words_that_are_looked_for(tab, 
         words.fill(typed)
         pressed = "[...gruebler.root.querySelectorAll('[data-page=catalog] .palette [aria-pressed=true]')]"
         page.until(f"{pressed}.map((one) => one.textContent).join() === {','.join(kinds)!r}")
+
+
+@pytest.mark.parametrize("locale", ["en-US", "de-DE"])
+def test_features_to_search_for_are_in_line_on_a_phone(tab, server, locale):
+    page = tab(width=390, height=844, locale=locale, touch=True).open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.click('[data-panel="features"] summary')
+    fields = page.page.locator('[data-panel="features"] input')
+    assert fields.count() > 9
+    edges = "all => all.map((one) => one.getBoundingClientRect()).map(({ left, right }) => [left, right].join())"
+    assert len(set(fields.evaluate_all(edges))) == 1
