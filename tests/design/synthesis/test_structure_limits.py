@@ -39,10 +39,14 @@ def lengths(linkage):
 
 
 def least_angle(linkage, joint, links):
-    """Second method: over a whole turn of the crank by `move`, the least angle at a joint between arms of two links."""
+    """Second method: over a whole turn of the crank by `move`, the least angle at a joint between arms of two links.
+
+    In degrees; -1 where the crank does not turn fully.
+    """
     start = circuit(linkage).drive[0]
     motion = move(linkage, np.linspace(start, start + 2 * np.pi, 721))
-    assert motion.complete  # the crank turns fully
+    if not motion.complete:
+        return -1.0
     directions = []
     for link, far in links:
         ends = [linkage.elements[number, link] for number in (joint, far)]
