@@ -61,6 +61,14 @@ class Coordination:
     def _first(self, own: Linkage) -> Motion:
         return move_quietly(own, [self.input_start], branch=branch_of_side(self.side))
 
+    def is_near(self, other: Coordination, tolerance: float) -> bool:
+        """Whether both are one linkage at one start: lengths relative to the longest, crank angles in radians."""
+        if (self.kind, self.side) != (other.kind, other.side):
+            return False
+        turn = np.exp(1j * self.input_start) - np.exp(1j * other.input_start)
+        gaps = np.abs(np.subtract(self.lengths, other.lengths))
+        return bool(abs(turn) < tolerance and (gaps < tolerance * max(map(abs, self.lengths))).all())
+
     @property
     def row(self) -> CoordinationKind:
         """What its kind does."""

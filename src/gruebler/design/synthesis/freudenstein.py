@@ -16,6 +16,8 @@ from gruebler.design.synthesis.coordination import Coordination, CoordinationKin
 
 _ROUNDING = 1e-13
 """By so much a cosine may exceed 1 where the linkage is stretched."""
+LEAST_NUMBER = 0.1
+"""Numbers smaller than this change by parts of it: they may pass through zero."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

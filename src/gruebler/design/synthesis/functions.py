@@ -291,7 +291,7 @@ def _optima(exact: SynthesisResult, law: FunctionLaw, demands: Demands) -> Synth
             continue
         if design is None and not optimum.certificate.optimum:
             continue
-        if not any(_same_optimum(optimum, other) for other in optima):
+        if not any(optimum.solution.is_near(other.solution, _SAME_OPTIMUM) for other in optima):
             optima.append(optimum)
             candidates.append(_judged_optimum(task, law, demands, optimum))
     accepted, rejected = ranked(candidates)
@@ -310,15 +310,6 @@ _NEAREST = 25
 _FARTHER, _FAR = 10.0, 0.02
 """What misses it by so much more than the nearest one, and by so large a part of the output, is not followed."""
 _SAME_OPTIMUM = 1e-4  # relative: optima are flat, so that two searches for one end near each other, not in one place
-
-
-def _same_optimum(first: Minimax, second: Minimax) -> bool:
-    own, other = first.solution, second.solution
-    if (own.kind, own.side) != (other.kind, other.side):
-        return False
-    turn = np.exp(1j * own.input_start) - np.exp(1j * other.input_start)
-    gaps = np.abs(np.subtract(own.lengths, other.lengths))
-    return bool(abs(turn) < _SAME_OPTIMUM and (gaps < _SAME_OPTIMUM * max(map(abs, own.lengths))).all())
 
 
 def _judged_optimum(task: FunctionTask, law: FunctionLaw, demands: Demands, optimum: Minimax) -> Design:

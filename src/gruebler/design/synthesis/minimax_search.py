@@ -15,6 +15,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.coordination import Coordination, Minimax, MinimaxCertificate
 from gruebler.design.synthesis.formulas import FunctionLaw
+from gruebler.design.synthesis.freudenstein import LEAST_NUMBER
 from gruebler.design.synthesis.structural_errors import ErrorFamily
 from gruebler.mechanics.linkages.branch import branch_of_side
 
@@ -22,8 +23,6 @@ _REGION = 0.1
 """The region for which a certificate says by how much the error may still fall: parts of the numbers, and radians."""
 _EQUAL, _STATIONARY, _CONVEX = 1e-6, 1e-7, 1e-6
 """Relative to the error: sizes that are equal, a decrease that is none, a curvature that is positive."""
-_LEAST_NUMBER = 0.1
-"""Numbers smaller than this change by parts of it: they may pass through zero."""
 _LONGEST, _LONG = 1e4, 10
 """Lengths that differ by more than this factor for more steps run away to a linkage of another kind; for fewer they
 pass through infinity."""
@@ -150,7 +149,7 @@ class _Search:
 
     def scale(self, numbers: Reals) -> Reals:
         """(free,) what steps are relative to: the numbers of the equation themselves, one radian or one travel."""
-        return np.asarray(np.append(np.maximum(np.abs(numbers[:3]), _LEAST_NUMBER), [1.0, 1.0])[self.free])
+        return np.asarray(np.append(np.maximum(np.abs(numbers[:3]), LEAST_NUMBER), [1.0, 1.0])[self.free])
 
     def gradients(self, numbers: Reals, x: Reals, scale: Reals) -> tuple[Reals, Reals]:
         """The errors at some x and (x, free) their derivatives by relative steps."""

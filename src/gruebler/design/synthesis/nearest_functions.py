@@ -11,17 +11,15 @@ import numpy as np
 
 from gruebler.base.arrays import Integers, Reals
 from gruebler.design.synthesis.coordination import Coordination, CoordinationKind
-from gruebler.design.synthesis.freudenstein import EQUATIONS, errors_and_slopes, linkage_of_numbers
+from gruebler.design.synthesis.freudenstein import EQUATIONS, LEAST_NUMBER, errors_and_slopes, linkage_of_numbers
+from gruebler.design.synthesis.start_families import FARTHEST
 
 _STARTS = 72
 """So many starts of the input and of the output are tried, where they are free."""
-_FARTHEST = 4.0  # start travels: to the hyperbolic sine of so much, by the size of the output, denser near 0
 _WEIGHINGS = 3
 _STEPS, _CANDIDATES, _LONG = 40, 96, 1000
 """From every valley of the grid so many steps are taken, then so many of the best are followed to their ends."""
 _NO_GAIN = 1e-10
-_LEAST_NUMBER = 0.1
-"""Numbers smaller than this change by parts of it: they may pass through zero."""
 _SAME = 1e-3  # relative: least squares end flat, so that two searches for one linkage end near each other
 _LEAST_SLOPE = 1e-2
 """Below this the equation says little of the output, near a dead centre: its rows are not weighed higher."""
@@ -66,7 +64,7 @@ def nearest_linkages(
     first = phi[0], wanted[0]
     places = (np.arange(_STARTS) + 0.5) / _STARTS
     inputs = np.array([phi[0]]) if start_input else np.pi * places  # half a turn on: the start of a negative crank
-    begins = np.pi * places if kind.output == "angle" else np.sinh(_FARTHEST * (2 * places - 1))
+    begins = np.pi * places if kind.output == "angle" else np.sinh(FARTHEST * (2 * places - 1))
     if start_output:
         begins = wanted[:1]
     turned, moved = phi - first[0], wanted - first[1]
@@ -79,7 +77,7 @@ def nearest_linkages(
     linkages: list[Coordination] = []
     for k in np.argsort(misfit):
         linkage = linkage_of_numbers(kind, numbers[k], int(valleys.sides[k]), unit)
-        if linkage is None or not np.isfinite(misfit[k]) or any(_same(linkage, other) for other in linkages):
+        if linkage is None or not np.isfinite(misfit[k]) or any(linkage.is_near(other, _SAME) for other in linkages):
             continue
         linkages.append(linkage)
         if len(linkages) == number:
@@ -133,7 +131,7 @@ def _least_squares(
     damping = np.full(len(sums), 1e-3)
     going = np.flatnonzero(np.isfinite(sums))
     for _ in range(steps):
-        scale = np.maximum(np.abs(numbers[going][:, free]), _LEAST_NUMBER)
+        scale = np.maximum(np.abs(numbers[going][:, free]), LEAST_NUMBER)
         rows = slopes[going] * scale[:, None]
         square = np.swapaxes(rows, 1, 2) @ rows
         own = np.diagonal(square, axis1=1, axis2=2)
@@ -152,10 +150,3 @@ def _least_squares(
         if not len(going):
             break
     return numbers, sums
-
-
-def _same(first: Coordination, second: Coordination) -> bool:
-    turn = np.exp(1j * first.input_start) - np.exp(1j * second.input_start)
-    gaps = np.abs(np.subtract(first.lengths, second.lengths))
-    alike = first.side == second.side and abs(turn) < _SAME
-    return bool(alike and (gaps < _SAME * max(map(abs, first.lengths))).all())

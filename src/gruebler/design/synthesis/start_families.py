@@ -29,7 +29,7 @@ _REACHED = 1e-12
 _SAME = 1e-7  # by the frame: pivots of two linkages that are one differ by less
 _FACTORS = 24
 _LARGEST_FACTOR = 32.0  # first factors are tried between its inverse and this, by the size of the output
-_FARTHEST = 4.0  # start travels: to the hyperbolic sine of so much, by the size of the output, denser near 0
+FARTHEST = 4.0  # start travels: to the hyperbolic sine of so much, by the size of the output, denser near 0
 
 
 def sampled_by_starts(task: FunctionTask) -> list[GuidingDyad]:
@@ -38,7 +38,7 @@ def sampled_by_starts(task: FunctionTask) -> list[GuidingDyad]:
     places = (np.arange(count) + 0.5) / count
     if len(task) == 4:
         return _with_input_starts(task, np.pi * places)
-    starts = np.pi * places if task.output == "angle" else _FARTHEST * (2 * places - 1)
+    starts = np.pi * places if task.output == "angle" else FARTHEST * (2 * places - 1)
     if len(task) == 3:  # a start half a turn on is that of a negative crank
         inputs, begins = np.meshgrid(np.pi * places, starts)
         return _with_starts(task, inputs.ravel(), begins.ravel())
@@ -56,7 +56,7 @@ def near_by_starts(task: FunctionTask, dyad: GuidingDyad, width: float) -> list[
     if task.output == "angle":
         at, step = [*at, float(np.angle(dyad.moving - 1))], [*step, np.pi * width]
     else:
-        at, step = [*at, float(np.arcsinh(dyad.moving.real / size))], [*step, 2 * _FARTHEST * width]
+        at, step = [*at, float(np.arcsinh(dyad.moving.real / size))], [*step, 2 * FARTHEST * width]
     if len(task) == 2:
         factor = 1 / abs(dyad.fixed) if task.output == "angle" else 2 * abs(dyad.fixed) / size
         at, step = [*at, float(np.log(factor))], [*step, 2 * np.log(_LARGEST_FACTOR) * width]
@@ -112,9 +112,11 @@ def with_ratios(
         step *= np.minimum(1, _LONGEST / np.maximum(np.linalg.norm(step, axis=1), 1e-300))[:, None]
         z = z + step.view(np.complex128)
     met = np.abs(values).max(axis=1, initial=0.0) < _REACHED
-    z = z[met]
-    _, first_of_each = np.unique(np.round(z / _SAME), axis=0, return_index=True)
-    return [GuidingDyad(CRANK, complex(moving), complex(fixed)) for fixed, moving in z[np.sort(first_of_each)]]
+    each = np.empty((0, 2), np.complex128)
+    for pivots in z[met]:  # rounded places would part two that are one, where they lie on an edge
+        if (np.abs(each - pivots).max(axis=1) > _SAME).all():
+            each = np.vstack([each, pivots])
+    return [GuidingDyad(CRANK, complex(moving), complex(fixed)) for fixed, moving in each]
 
 
 def _output_size(task: FunctionTask) -> float:
