@@ -23,6 +23,7 @@ from gruebler.design.synthesis import (
     Task,
     synthesise,
 )
+from gruebler.design.synthesis.start_families import MOST_PAIRS
 from gruebler.design.synthesis.tasks import gives_lengths
 from gruebler.files import linkage_to_json
 from gruebler.mechanics.analysis.measuring import measures
@@ -50,8 +51,6 @@ BALANCED = message("Balanced: transmission angle, longest link and sensitivity c
 BEST = message("The best of {count}.")
 EXACT = message("All meet the targets exactly.")
 NONE = message("None does: ask for less, or try other targets.")
-_MOST_PAIRS = 5
-"""So many pairs of angles a four-bar with free starts can meet exactly."""
 _ROUNDING = 1e-9
 """Of the size: a target that is missed by less is met."""
 _FRAMES = 144  # of a motion, there and back if it does not turn fully
@@ -290,7 +289,7 @@ def _met_angles(design: Design, task: Task, posed: PosedLinkage) -> dict[str, An
     pairs = turned[len(played) :]
     met: dict[str, Any] = {}
     begin = pairs[0].copy()
-    if len(task) > _MOST_PAIRS and design.targets is not None:
+    if len(task) > MOST_PAIRS and design.targets is not None:
         missed = np.angle(design.targets.values[:, 1] * np.exp(-1j * pairs[:, 1]))
         begin[1] += missed[0]
         met = {"stems": _stems(task.inputs, np.degrees(missed).round(6).tolist())}

@@ -41,7 +41,13 @@ from gruebler.design.synthesis.pair_facts import PairFacts, facts_of_pins
 from gruebler.design.synthesis.pair_search import IMPROVED, best_dyads
 from gruebler.design.synthesis.positions import NEAR
 from gruebler.design.synthesis.results import EXACT, Design, SolutionCount, SynthesisResult, in_order_of, ranked
-from gruebler.design.synthesis.start_families import family_dimension, near_by_starts, sampled_by_starts, with_ratios
+from gruebler.design.synthesis.start_families import (
+    MOST_PAIRS,
+    family_dimension,
+    near_by_starts,
+    sampled_by_starts,
+    with_ratios,
+)
 from gruebler.design.synthesis.structural_errors import coordination_of, links_turned_round
 from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import FunctionTask, PositionTask
@@ -91,7 +97,7 @@ def synthesise_function(
     if minimax and task.law is None:
         raise SynthesisError("the minimax optimum needs the function as an expression, not a table of pairs")
     free = (not task.start_input) + (not task.start_output)
-    fitted = free == 2 and len(task) > 5
+    fitted = free == 2 and len(task) > MOST_PAIRS
     if fitted and wanted.tolerance <= EXACT:
         wanted = replace(wanted, tolerance=NEAR)
     met = (
@@ -185,7 +191,7 @@ def _by_free_starts(task: FunctionTask, wanted: Demands, number: int, sort: Sequ
     """By the dyads between crank and output, with both starts free; families are searched unless ``sort`` is None."""
     dyads = _connecting(task, number)
     notes: tuple[Message, ...] = ()
-    turning = sampled_by_starts(task) if sort is not None and len(task) < 5 else []
+    turning = sampled_by_starts(task) if sort is not None and len(task) < MOST_PAIRS else []
     near, family = partial(near_by_starts, task), None
     ratios = len(wanted.lengths) - 1
     if turning and task.output == "angle" and 0 < ratios <= family_dimension(task):
@@ -199,7 +205,7 @@ def _by_free_starts(task: FunctionTask, wanted: Demands, number: int, sort: Sequ
         dyads = (best or some) + [dyad for dyad in dyads if dyad.slides]
     theorem: int | None = None
     nearest: list[Design] = []
-    if len(task) > 5:
+    if len(task) > MOST_PAIRS:
         theorem, dyads = 0, [dyad for dyad in dyads if dyad.slides]
         nearest = _nearest_pairs(task, wanted)
         notes = (
@@ -209,13 +215,13 @@ def _by_free_starts(task: FunctionTask, wanted: Demands, number: int, sort: Sequ
                 tolerance=wanted.tolerance,
             ),
         )
-    elif len(task) == 5:
+    elif len(task) == MOST_PAIRS:
         theorem = 3  # four dyads less the frame
     else:
         notes = (*notes, family or _FAMILIES[len(task)].filled(count=max(len(turning), len(dyads))))
     candidates = nearest + [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
     real = len(nearest) + len(dyads)
-    complex_count = 3 if len(task) == 5 else real
+    complex_count = 3 if len(task) == MOST_PAIRS else real
     return _Candidates(
         candidates, SolutionCount(what=message("linkages"), theorem=theorem, found=complex_count, real=real), notes
     )

@@ -21,6 +21,8 @@ from gruebler.design.synthesis.coordination import (
 from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.tasks import FunctionTask
 
+MOST_PAIRS = 5
+"""So many pairs a four-bar or slider-crank with free starts can meet exactly."""
 _STARTS = {2: 24, 3: 96, 4: 360}
 """By the number of pairs: how many starts of each side are tried."""
 _STEPS = 40
@@ -67,7 +69,7 @@ def near_by_starts(task: FunctionTask, dyad: GuidingDyad, width: float) -> list[
 
 def family_dimension(task: FunctionTask) -> int:
     """The dimension of the family of two to four pairs."""
-    return 5 - len(task)
+    return MOST_PAIRS - len(task)
 
 
 def with_ratios(
