@@ -173,3 +173,75 @@ def swept(swing, angle):
         least = np.pi / 2 - np.abs(np.pi / 2 - np.arccos(np.clip(cosines, -1, 1))).max(axis=0)
         best = max(best, least[fits].max(initial=0.0))
     return best
+
+
+def by_hand(task, ratios):
+    """Lengths (members, 4) of crank, coupler, rocker, frame and least transmission angles, for coupler by crank.
+
+    By the law of cosines in the triangles A0 B1 B2 and A0 B1 B0; members fold over when a rocker passes the frame line.
+    """
+    delta, swing = task.angle - np.pi, task.swing
+    chord = 2 * np.sin(swing / 2)
+    a = chord / np.sqrt((ratios + 1) ** 2 + (ratios - 1) ** 2 - 2 * (ratios**2 - 1) * np.cos(delta))
+    b = ratios * a
+    first, second = b + a, (b - a) * np.exp(1j * delta)
+    pivot = (second - np.exp(1j * swing) * first) / (1 - np.exp(1j * swing))
+    same_side = np.sign((np.conj(pivot) * first).imag) == np.sign((np.conj(pivot) * second).imag)
+    d = np.abs(pivot)
+    cosines = np.array([(b * b + 1 - (d + sign * a) ** 2) / (2 * b) for sign in (1, -1)])
+    angles = np.arccos(np.clip(np.abs(cosines).max(axis=0), 0, 1))
+    return np.stack([a, b, np.ones_like(a), d], axis=1)[same_side], angles[same_side]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_no_member_of_a_dense_sample_is_better_with_or_without_demands(seed):
+    rng = np.random.default_rng(seed)
+    swing = rng.uniform(10, 150)
+    task = DeadCentreTask(
+        swing=np.radians(swing), crank_angle=np.radians(90 + swing / 2 + 180 * rng.uniform(0.02, 0.98))
+    )
+    lengths, angles = by_hand(task, 1 + np.exp(np.linspace(-8, 8, 20_001)))
+    assert dead_centre_family(task).best.transmission >= angles.max() - 1e-12
+    ratios = lengths.max(axis=1) / lengths.min(axis=1)
+    limit, least = np.quantile(ratios, rng.uniform(0.05, 0.9)), np.quantile(angles, rng.uniform(0.05, 0.9))
+    good = (ratios < limit) & (angles > least)
+    found = synthesise_dead_centres(task, Demands(size_ratio=limit, transmission=least), sort=["size"])
+    assert bool(found.designs) == good.any()
+    if not good.any():
+        assert "Proved: no member meets all demands." in map(str, found.notes)
+        return
+    best = found.designs[0]
+    assert best.verdict.size_ratio <= limit
+    assert best.verdict.transmission >= least
+    assert best.linkage.size <= lengths[good].max(axis=1).min() + 1e-9
+    (said,) = [str(note) for note in found.notes if "Crank lengths" in str(note)]
+    low, high = float(said.split("from ")[1].split(" to")[0]), float(said.split(" to ")[-1].split(";")[0])
+    assert (low, high) == pytest.approx((lengths[good, 0].min(), lengths[good, 0].max()), rel=3e-3)
+
+
+@pytest.mark.parametrize("position", [0.31, 0.57, 0.83])
+def test_demands_that_hardly_any_member_meets_are_met(position):
+    """Ratio and angle of one member, of which the one is better on one side of it and the other on the other side."""
+    task = DeadCentreTask(swing=np.radians(40), crank_angle=np.radians(195))
+    lengths, angles = by_hand(task, 1 + np.exp(np.linspace(-8, 8, 20_001)))
+    ratios, best = lengths.max(axis=1) / lengths.min(axis=1), int(angles.argmax())
+    k = int(np.argmin(np.abs(ratios[:best] - ratios[best] * (1 + position)))) if ratios[0] > ratios[best] else None
+    k = int(best * position) if k is None else k
+    demands = Demands(size_ratio=ratios[k] * (1 + 1e-7), transmission=angles[k] - 1e-7)
+    (design, *_) = synthesise_dead_centres(task, demands).designs
+    assert design.linkage.length("crank", 0, 1) == pytest.approx(lengths[k, 0], rel=1e-5)
+
+
+def test_the_angle_grows_with_the_coupler_where_the_dead_centres_are_half_a_turn_apart():
+    """a² + d² = b² + c²: cos(mu) = a d / (b c) tends to a / c = sin(swing / 2)."""
+    task = DeadCentreTask(swing=np.radians(50), crank_angle=np.pi)
+    found = synthesise_dead_centres(task, Demands(transmission=np.radians(64.9), size_ratio=100.0))
+    assert "always stays below 65°" in str(found.notes[0])
+    lengths = sorted(design.linkage.length("coupler", 1, 2) for design in found.designs)
+    a = np.sin(np.radians(25))
+    # cos(mu)² b² = a² (b² + 1 - a²)
+    least = a * np.sqrt(1 - a * a) / np.sqrt(np.cos(np.radians(64.9)) ** 2 - a * a)
+    assert lengths[0] >= least - 1e-9
+    assert f"from {least:.4g} to" in next(str(note) for note in found.notes if "Coupler lengths" in str(note))
+    none = synthesise_dead_centres(task, Demands(transmission=np.radians(65.1)))
+    assert any("Proved: no member with a coupler of up to" in str(note) for note in none.notes)

@@ -5,7 +5,7 @@ docs/theory/synthesis-dead-centres.md derives the one-parameter family and its l
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
-from gruebler.base.text import Message, message
+from gruebler.base.text import Message, joined_by_and, message
+from gruebler.design.synthesis.dead_centre_extremes import LONGEST, LengthSquares, is_half_turn
 from gruebler.design.synthesis.demands import Demands, tightest
 from gruebler.design.synthesis.given_lengths import scale_to_length
 from gruebler.design.synthesis.judging import faults_of_size, pivots_inside, size_ratio, transmission_fault
@@ -27,6 +28,7 @@ from gruebler.mechanics.fourbar import FourBar, SliderCrank
 
 _SAMPLES = 720
 _FINEST = 1e-10  # of the parameter: so near to the best of its neighbours a member is
+_BESIDE = 1e-11  # of the square of the parameter: where a limit is, rounding does not decide
 _SAME = 1e-9  # dead centres of a member agree with the task to this
 
 
@@ -67,8 +69,6 @@ def dead_centre_family(task: DeadCentreTask) -> DeadCentreFamily:
     >>> round(degrees(family.best.transmission), 2), str(family.best.linkage.type)
     (25.01, 'crank-rocker')
     """
-    from scipy.optimize import minimize_scalar
-
     if task.swing is not None:
         low, high = pi / 2 + task.swing / 2, 3 * pi / 2 + task.swing / 2
         if not low < task.angle < high:
@@ -90,18 +90,8 @@ def dead_centre_family(task: DeadCentreTask) -> DeadCentreFamily:
     members = tuple(member for value in grid if (member := _member(task, float(value))) is not None)
     if not members:
         raise SynthesisError("no linkage with these dead centres was found")
-    best = max(members, key=lambda member: member.transmission)
-    k = int(np.argmin(np.abs(grid - best.parameter)))
-    bounds = (float(grid[max(k - 1, 0)]), float(grid[min(k + 1, len(grid) - 1)]))
-
-    def cost(value: float) -> float:
-        member = _member(task, float(value))
-        return 0.0 if member is None else -member.transmission
-
-    answer = minimize_scalar(cost, bounds=bounds, method="bounded", options={"xatol": 1e-12})
-    refined = _member(task, float(answer.x))
-    if refined is not None and refined.transmission > best.transmission:
-        best = refined
+    squares = LengthSquares.of(task)
+    best = max((*members, *_members_at(task, squares, squares.extremes())), key=lambda member: member.transmission)
     return DeadCentreFamily(task, members, best)
 
 
@@ -110,8 +100,8 @@ def _parameters(task: DeadCentreTask) -> Reals:
     share = (1 - np.cos(np.pi * (np.arange(_SAMPLES) + 0.5) / _SAMPLES)) / 2
     chord = _chord(task)
     half = (task.angle - pi) / 2
-    if abs(half) < 1e-12:
-        return np.asarray(chord * (0.5 + 20 * share**2))  # the coupler, up to twenty times the chord
+    if is_half_turn(task):
+        return np.asarray(chord * (0.5 + (LONGEST - 0.5) * share**2))  # the coupler, up to twenty times the chord
     return np.asarray(chord / (2 * cos(half)) * share)
 
 
@@ -122,7 +112,7 @@ def _chord(task: DeadCentreTask) -> float:
 def _lengths(task: DeadCentreTask, parameter: float) -> tuple[float, float] | None:
     """Crank and coupler: chord^2 = 4 a^2 cos^2(h) + 4 b^2 sin^2(h), with h half of what exceeds half a turn."""
     chord, half = _chord(task), (task.angle - pi) / 2
-    if abs(half) < 1e-12:
+    if is_half_turn(task):
         return chord / 2, parameter
     square = chord**2 / 4 - (parameter * cos(half)) ** 2
     return (parameter, sqrt(square) / abs(sin(half))) if square > 0 else None
@@ -131,9 +121,13 @@ def _lengths(task: DeadCentreTask, parameter: float) -> tuple[float, float] | No
 def _member(task: DeadCentreTask, parameter: float) -> FamilyMember | None:
     """The linkage of a parameter, checked by its closed form; None if it has other dead centres."""
     sizes = _lengths(task, parameter)
-    if sizes is None or not 0 < sizes[0] < sizes[1]:
+    return None if sizes is None else _member_of_lengths(task, *sizes)
+
+
+def _member_of_lengths(task: DeadCentreTask, a: float, b: float) -> FamilyMember | None:
+    """The linkage of crank and coupler, likewise."""
+    if not 0 < a < b:
         return None
-    a, b = sizes
     outer, inner, pivot = _places(task, a, b)
     chord = inner - outer
     try:
@@ -153,7 +147,7 @@ def _member(task: DeadCentreTask, parameter: float) -> FamilyMember | None:
             return None
         if pivot is not None and not _same_sense(pivot, outer, inner):
             return None
-        return FamilyMember(parameter, linkage, float(linkage.transmission_angle.smallest.mu))
+        return FamilyMember(b if is_half_turn(task) else a, linkage, float(linkage.transmission_angle.smallest.mu))
     except LinkageError:
         return None
 
@@ -212,14 +206,16 @@ def synthesise_dead_centres(
     low, high = family.range
     scale = task.stroke or 1.0
     notes = [
-        _NOTES[abs(task.angle - pi) < 1e-12, task.swing is not None].filled(
-            low=low * scale, high=high * scale, angle=degrees(family.best.transmission)
+        _NOTES[is_half_turn(task), task.swing is not None].filled(
+            low=low * scale,
+            high=high * scale,
+            angle=degrees(family.best.transmission),
+            limit=90 - degrees(task.swing or 0.0) / 2,
         )
     ]
     notes += _other_sense(task)
     chosen = _spread(family.members, family.best, number)
-    lengths = _named_lengths(family.best.linkage).values()
-    if wanted.limits_of_size or orders or max(lengths) > wanted.size_ratio * min(lengths):
+    if wanted.limits_of_size or orders or not _design(task, family.best, wanted).verdict.accepted:
         chosen = _searched(family, wanted, orders, number, notes)
     designs = [_design(task, member, wanted) for member in chosen]
     accepted = in_order_of((d for d in designs if d.verdict.accepted), (*orders, "transmission"))
@@ -253,30 +249,65 @@ def _spread(members: Sequence[FamilyMember], best: FamilyMember, number: int) ->
 def _searched(
     family: DeadCentreFamily, demands: Demands, orders: Sequence[str], number: int, notes: list[Message]
 ) -> list[FamilyMember]:
-    """Members that meet the demands, the best of them improved; some of all where none does, with the reason."""
-    task = family.task
-    of_lengths = _of_given_lengths(family, demands)
-    members = [*family.members, family.best] if of_lengths is None else of_lengths
-    designs = [_design(task, member, demands) for member in members]
-    good = [k for k, design in enumerate(designs) if design.verdict.accepted]
-    if of_lengths == []:
-        notes.append(message("No member has the given lengths."))
-        return _spread(family.members, family.best, number)
-    notes.append(
-        message(
-            "Linkages of the family that meet all demands: {count:,} of {members:,}.",
-            members=len(members),
-            count=len(good),
-        )
-    )
-    if not good:
-        notes += tightest(_met(designs, demands))
-        return _spread(members, max(members, key=lambda member: member.transmission), number)
+    """Members that meet the demands, the best of them first; some of all where none does, with the reason."""
+    task, squares, half_turn = family.task, LengthSquares.of(family.task), is_half_turn(family.task)
+    of_lengths = _of_given_lengths(task, squares, demands)
     if of_lengths is not None:
+        members = _members_at(task, squares, of_lengths)
+        if not members:
+            notes.append(message("No member has the given lengths."))
+            return _spread(family.members, family.best, number)
         return members
+    limits = squares.limits(demands, task.stroke or 1.0)
+    ends = [squares.low, *limits, squares.high]
+    middles = [(first + second) / 2 for first, second in pairwise(ends)]
+    meets = [any(_design(task, m, demands).verdict.accepted for m in _members_at(task, squares, [t])) for t in middles]
+    beside = [t for limit in limits for t in (limit * (1 - _BESIDE), limit, limit * (1 + _BESIDE))]
+    tried = _members_at(task, squares, [*middles, *beside, squares.high * (1 - _BESIDE)])
+    designs = [_design(task, member, demands) for member in tried]
+    good = [k for k, design in enumerate(designs) if design.verdict.accepted]
+    if not good:
+        members = [*family.members, family.best]
+        notes.append(_PROVED_NONE[half_turn].filled(most=(task.stroke or 1.0) * sqrt(squares.high)))
+        notes += tightest(_met([_design(task, member, demands) for member in members], demands))
+        return _spread(members, max(members, key=lambda member: member.transmission), number)
+    of_coupler = [[squares.crank_and_coupler(t)[half_turn] for t in pair] for pair in _joined(ends, meets)]
+    ranges = sorted((min(pair), max(pair)) for pair in of_coupler)
+    scale = task.stroke or scale_to_length(tried[good[0]].linkage.linkage(), demands)
+    said = [_RANGE.filled(low=scale * low, high=scale * high) for low, high in ranges]
+    notes.append(_MEET[half_turn].filled(ranges=joined_by_and(said), most=scale * sqrt(squares.high)))
     orders = (*orders, "transmission")
-    best = members[next(k for k in good if designs[k] is in_order_of([designs[k] for k in good], orders)[0])]
-    width = (family.range[1] - family.range[0]) / 50  # more than between any two members
+    first = in_order_of([designs[k] for k in good], orders)[0]
+    best = tried[next(k for k in good if designs[k] is first)]
+    if _UNEVEN in orders:
+        best = _improved(task, best, demands, orders, family.range[1] - family.range[0])
+        notes.append(_ON_GRIDS)
+    within = [m for m in family.members if any(low < m.parameter < high for low, high in ranges)]
+    return _spread(within, best, number) if within else [best]
+
+
+def _members_at(task: DeadCentreTask, squares: LengthSquares, places: Iterable[float]) -> list[FamilyMember]:
+    """The members whose couplers have these squares."""
+    members = (_member_of_lengths(task, *squares.crank_and_coupler(t)) for t in places)
+    return [member for member in members if member is not None]
+
+
+def _joined(ends: Sequence[float], meets: Sequence[bool]) -> list[tuple[float, float]]:
+    """The ranges between ends in which the demands are met, neighbours as one."""
+    ranges: list[tuple[float, float]] = []
+    for low, high, good in zip(ends, ends[1:], meets, strict=False):
+        if good and ranges and ranges[-1][1] == low:
+            ranges[-1] = ranges[-1][0], high
+        elif good:
+            ranges.append((low, high))
+    return ranges
+
+
+def _improved(
+    task: DeadCentreTask, best: FamilyMember, demands: Demands, orders: Sequence[str], width: float
+) -> FamilyMember:
+    """The best beside one by what has no extremes in closed form, on ever finer grids."""
+    width /= 50
     while width > _FINEST * best.parameter:
         places = best.parameter + np.linspace(-1, 1, 9) * width
         near = [m for place in places if place > 0 and (m := _member(task, float(place))) is not None]
@@ -284,7 +315,7 @@ def _searched(
         first = in_order_of([design for design in nearby if design.verdict.accepted], orders)[0]
         best = (best, *near)[next(k for k, design in enumerate(nearby) if design is first)]
         width /= 3
-    return _spread([members[k] for k in good], best, number)
+    return best
 
 
 def _met(designs: Sequence[Design], demands: Demands) -> list[tuple[Message, NDArray[np.bool_]]]:
@@ -302,45 +333,31 @@ def _met(designs: Sequence[Design], demands: Demands) -> list[tuple[Message, NDA
     return met
 
 
-_LINKS = {"a": "crank", "b": "coupler", "c": "rocker", "d": "frame"}
-
-
-def _named_lengths(linkage: FourBar | SliderCrank) -> dict[str, float]:
-    return {_LINKS[letter]: length for letter, length in linkage.named.items() if letter in _LINKS}
-
-
-def _of_given_lengths(family: DeadCentreFamily, demands: Demands) -> list[FamilyMember] | None:
-    """The members with the given lengths: two of them fix a crank-rocker, one a slider-crank; None where fewer do."""
-    from scipy.optimize import brentq
-
-    task = family.task
-    known = [row for row in demands.lengths if row[0] in _named_lengths(family.best.linkage)]
+def _of_given_lengths(task: DeadCentreTask, squares: LengthSquares, demands: Demands) -> list[float] | None:
+    """Where members have the given lengths: two of them fix a crank-rocker, one a slider-crank; None where fewer do."""
+    known = [row for row in demands.lengths if row[0] in squares.squares]
     if len(known) < (1 if task.swing is None else 2):
         return None
     link, wanted = known[0]
-
-    def gap(member: FamilyMember) -> float:
-        lengths = _named_lengths(member.linkage)
-        if task.stroke is not None:
-            return lengths[link] * task.stroke / wanted - 1
-        other, its = known[1]
-        return lengths[link] * its / (lengths[other] * wanted) - 1
-
-    def gap_at(parameter: float) -> float:
-        member = _member(task, parameter)
-        return float("nan") if member is None else gap(member)
-
-    exact: list[FamilyMember] = []
-    gaps = [gap(member) for member in family.members]
-    for k, (first, second) in enumerate(pairwise(gaps)):
-        if first * second <= 0:
-            ends = family.members[k].parameter, family.members[k + 1].parameter
-            member = _member(task, float(brentq(gap_at, *ends, xtol=1e-15 * ends[1], rtol=1e-15)))
-            if member is not None and abs(gap(member)) < _SAME:
-                exact.append(member)
-    return exact
+    other, its = ("stroke", task.stroke) if task.stroke is not None else known[1]
+    return squares.with_ratio(link, other, wanted / its)
 
 
+_PROVED_NONE = {
+    False: message("Proved: no member meets all demands."),
+    True: message("Proved: no member with a coupler of up to {most:.4g} meets all demands."),
+}
+_MEET = {
+    False: message("Crank lengths that meet all demands: {ranges}; no others do."),
+    True: message("Coupler lengths that meet all demands: {ranges}; no others up to {most:.4g} do."),
+}
+"""By whether the dead centres are half a turn apart."""
+_RANGE = message("from {low:.4g} to {high:.4g}")
+_UNEVEN = "sensitivity"
+_ON_GRIDS = message(
+    "The best was sought on ever finer grids about the best of the members at which something changes: of the "
+    "sensitivity another one may be better."
+)
 _NOTES = {
     (False, False): message(
         "There are infinitely many solutions, one for each crank length from {low:.4g} to {high:.4g}; the best minimum "
@@ -351,12 +368,12 @@ _NOTES = {
         "best minimum transmission angle is {angle:.2f}°."
     ),
     (True, False): message(
-        "There are infinitely many solutions, one for each coupler length, here from {low:.4g} to {high:.4g}; the best "
-        "minimum transmission angle is {angle:.2f}°."
+        "There are infinitely many solutions, one for each coupler length, here from {low:.4g} to {high:.4g}; the "
+        "minimum transmission angle grows with it, here to {angle:.2f}°, and always stays below {limit:.4g}°."
     ),
     (True, True): message(
         "There are infinitely many solutions, one for each coupler length, here from {low:.4g} to {high:.4g} (rocker "
-        "1); the best minimum transmission angle is {angle:.2f}°."
+        "1); the minimum transmission angle grows with it, here to {angle:.2f}°, and always stays below {limit:.4g}°."
     ),
 }
 """By whether the dead centres are half a turn apart, and whether the output is a rocker."""
