@@ -25,28 +25,22 @@ function half(list: readonly Pair[]): Pair[] {
   return out.slice(0, -1);
 }
 
-/** How far a point is from a convex polygon: 0 within it. */
+/** How far a point is from a convex polygon: 0 within it. Asked some thousand times a frame, so nothing is made. */
 export function toHull(hull: readonly Pair[], x: number, y: number): number {
-  if (inside(hull, x, y)) return 0;
-  return Math.min(...hull.map((p, k) => toSegment(x, y, p, hull[(k + 1) % hull.length]!)));
-}
-
-function inside(hull: readonly Pair[], x: number, y: number): boolean {
-  return (
-    hull.length > 2 &&
-    hull.every(([ax, ay], k) => {
-      const [bx, by] = hull[(k + 1) % hull.length]!;
-      return (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0;
-    })
-  );
-}
-
-function toSegment(x: number, y: number, [ax, ay]: Pair, [bx, by]: Pair): number {
-  const dx = bx - ax;
-  const dy = by - ay;
-  const d = dx * dx + dy * dy;
-  const part = d ? Math.max(0, Math.min(1, ((x - ax) * dx + (y - ay) * dy) / d)) : 0;
-  return Math.hypot(x - ax - part * dx, y - ay - part * dy);
+  let within = hull.length > 2;
+  let least = Infinity;
+  for (let k = 0; k < hull.length; k++) {
+    const p = hull[k]!;
+    const q = hull[(k + 1) % hull.length]!;
+    const dx = q[0] - p[0];
+    const dy = q[1] - p[1];
+    const u = x - p[0];
+    const v = y - p[1];
+    if (dx * v < dy * u) within = false;
+    const part = Math.max(0, Math.min(1, (u * dx + v * dy) / (dx * dx + dy * dy || 1)));
+    least = Math.min(least, Math.hypot(u - part * dx, v - part * dy));
+  }
+  return within ? 0 : least;
 }
 
 /** Of places so far from another, or twice as far, the one that is clearest of hulls, with some room at its sides. The

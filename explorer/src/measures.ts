@@ -4,7 +4,7 @@ import { principal, TURN, wrapped } from "./cycle";
 import type { Rows } from "./kernel";
 import type { Linkage } from "./linkage";
 import type { Leg, Model, Place } from "./model";
-import { direction, leastRoot, origin, type Pair, place, rate, turn } from "./rows";
+import { direction, leastRoot, origin, type Pair, place, rate, speed, turn } from "./rows";
 
 const STILL = 1e-9; // of the natural speed: an output that is never faster does not move
 const NOISE = 1e-6; // radians, or sizes: what moves less does not move, as in the plots of Python
@@ -112,34 +112,36 @@ function between([real, imag]: Pair): number {
 /** Cosine and sine between the force of a leg and the way of the point on which it acts. */
 function forceAndWay(linkage: Linkage, rows: Rows, row: number, leg: Leg): Pair {
   const { across, guide, pushed } = leg;
-  const from = legPlace(linkage, rows, row, leg.from);
   const pin = legPlace(linkage, rows, row, leg.pin);
-  const [fx, fy] = across ? [-from.ly, from.lx] : [pin.x - from.x, pin.y - from.y];
-  const held = guide && legPlace(linkage, rows, row, guide.at);
-  let [wx, wy] = held ? [held.lx, held.ly] : wayOf(linkage, rows, row, pushed, [pin.x, pin.y], leg.pin);
-  if (held && !guide.slides) [wx, wy] = [held.y - pin.y, pin.x - held.x];
+  const force = across ? legLine(linkage, rows, row, leg.from) : legPlace(linkage, rows, row, leg.from);
+  const [fx, fy] = across ? [-force[1], force[0]] : [pin[0] - force[0], pin[1] - force[1]];
+  let way: Pair;
+  if (!guide) way = wayOf(linkage, rows, row, pushed, pin, leg.pin);
+  else if (guide.slides) way = legLine(linkage, rows, row, guide.at);
+  else {
+    const held = legPlace(linkage, rows, row, guide.at);
+    way = [held[1] - pin[1], pin[0] - held[0]];
+  }
+  const [wx, wy] = way;
   const length = Math.hypot(fx, fy) * Math.hypot(wx, wy);
   return [(fx * wx + fy * wy) / length, (fx * wy - fy * wx) / length];
 }
 
-/** Where an end of a leg lies, and the direction there. */
-function legPlace(
-  linkage: Linkage,
-  rows: Rows,
-  row: number,
-  at: Place,
-): { x: number; y: number; lx: number; ly: number } {
-  const [link, , , dx, dy, element] = at;
-  const { lines } = linkage.program;
-  const local: Pair = element < 0 ? [dx, dy] : [lines[2 * element]!, lines[2 * element + 1]!];
-  const [x, y] = place(rows, row, link, ...legPoint(linkage, at));
-  const [lx, ly] = direction(rows, row, link, local);
-  return { x, y, lx, ly };
+/** Where an end of a leg lies. */
+function legPlace(linkage: Linkage, rows: Rows, row: number, at: Place): Pair {
+  const [px, py] = legPoint(linkage, at);
+  return place(rows, row, at[0], px, py);
+}
+
+/** The direction of the line at an end of a leg. */
+function legLine({ program: p }: Linkage, rows: Rows, row: number, [link, , , dx, dy, element]: Place): Pair {
+  return direction(rows, row, link, element < 0 ? [dx, dy] : [p.lines[2 * element]!, p.lines[2 * element + 1]!]);
 }
 
 /** The point of an end of a leg on its link. */
-function legPoint({ program: p }: Linkage, [, px, py, , , element]: Place): Pair {
-  return element < 0 ? [px, py] : [p.points[2 * element]!, p.points[2 * element + 1]!];
+function legPoint({ program: p }: Linkage, at: Place): Pair {
+  const element = at[5];
+  return element < 0 ? [at[1], at[2]] : [p.points[2 * element]!, p.points[2 * element + 1]!];
 }
 
 /** The velocity of the place of a link where a point is; at rest the way in which it leaves. */
@@ -153,8 +155,7 @@ function wayOf(linkage: Linkage, rows: Rows, row: number, link: number, point: P
   const vy = v + w * dx;
   let fastest = 0;
   for (let k = 0; k < rows.links; k++) {
-    const speed = Math.hypot(...origin(rows, row, k, 1));
-    fastest = Math.max(fastest, speed, linkage.size * Math.abs(rate(rows, row, k)));
+    fastest = Math.max(fastest, speed(rows, row, k), linkage.size * Math.abs(rate(rows, row, k)));
   }
   if (Math.hypot(vx, vy) >= 1e-7 * fastest) return [vx, vy];
   const [px, py] = place(rows, row, from[0], ...legPoint(linkage, from), 1);
@@ -171,8 +172,8 @@ function wayOf(linkage: Linkage, rows: Rows, row: number, link: number, point: P
 export function deadCentres(linkage: Linkage): DeadCentre[] {
   const { values } = linkage.cycle;
   const every = [...values.keys()];
-  const speed = every.map((row) => output(linkage, linkage.cycle.rows, row, 1));
-  const usual = Math.max(0, ...speed.map((v) => (Number.isFinite(v) ? Math.abs(v) : 0)));
+  const speeds = every.map((row) => output(linkage, linkage.cycle.rows, row, 1));
+  const usual = Math.max(0, ...speeds.map((v) => (Number.isFinite(v) ? Math.abs(v) : 0)));
   const out: DeadCentre[] = [];
   const { drive, size } = linkage;
   const natural = (isAngle(linkage) ? 1 : size) / (drive?.turning ? 1 : size);
@@ -181,8 +182,8 @@ export function deadCentres(linkage: Linkage): DeadCentre[] {
   const outputs = outputAlong(linkage, every);
   let last = -1;
   for (let row = 0; row < values.length; row++) {
-    if (!(Math.abs(speed[row]!) > still)) continue;
-    if (last >= 0 && speed[last]! * speed[row]! < 0 && row - last <= 2) {
+    if (!(Math.abs(speeds[row]!) > still)) continue;
+    if (last >= 0 && speeds[last]! * speeds[row]! < 0 && row - last <= 2) {
       const found = turningBack(linkage, values[last]!, values[row]!, last);
       if (found !== null) {
         // in the lap of the row beside it, so that the difference of two angles is how far the output goes
@@ -220,11 +221,11 @@ export function travelOf(linkage: Linkage, dead: readonly DeadCentre[]): number 
 
 /** The drive value between two at which the output turns back, found from a row of the cycle. */
 function turningBack(linkage: Linkage, from: number, to: number, row: number): DeadCentre | null {
-  const speed = (drive: number) => {
+  const speedAt = (drive: number) => {
     const rows = linkage.from(row, drive);
     return rows.reached < 2 ? NaN : output(linkage, rows, 1, 1);
   };
-  const value = zero(speed, from, to, linkage.quick ? 1e-5 : undefined);
+  const value = zero(speedAt, from, to, linkage.quick ? 1e-5 : undefined);
   if (value === null) return null;
   const rows = linkage.from(row, value);
   if (rows.reached < 2 || leastRoot(rows, 1) < CHANGE) return null;

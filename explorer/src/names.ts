@@ -88,11 +88,13 @@ export function clearSpot(
   const worth = (spot: Pair | undefined) => {
     if (!spot) return -Infinity;
     const [x, y] = spot;
-    const nearer = [-half, 0, half].map((d) => {
-      const off = (hull: readonly Pair[]) => toHull(hull, x + d, y - 4);
-      return Math.min(1e3, ...others.map(off)) - off(own);
-    });
-    return Math.min(...nearer) - (free(spot) ? 0 : 1e4);
+    let least = Infinity;
+    for (const d of [-half, 0, half]) {
+      let gap = 1e3;
+      for (const hull of others) gap = Math.min(gap, toHull(hull, x + d, y - 4));
+      least = Math.min(least, gap - toHull(own, x + d, y - 4));
+    }
+    return least - (free(spot) ? 0 : 1e4);
   };
   const good = (spot: Pair | undefined) => worth(spot) > INK && clear(spot!);
   if (good(spots[before])) return before;

@@ -25,13 +25,26 @@ export function rate(rows: Rows, row: number, link: number, k = 1): number {
 
 /** A point of a link in a row, or its velocity (1) or acceleration (2). */
 export function place(rows: Rows, row: number, link: number, x: number, y: number, k = 0): Pair {
-  const [ax, ay] = direction(rows, row, link, [x, y]);
-  const [ox, oy] = origin(rows, row, link, k);
+  const count = countOf(rows);
+  const at = 2 * (link * count + row);
+  const c = rows.turns[at]!;
+  const s = rows.turns[at + 1]!;
+  const ax = c * x - s * y; // by hand: this is asked for each row of a motion
+  const ay = c * y + s * x;
+  const own = at + 2 * k * rows.links * count;
+  const ox = rows.places[own]!;
+  const oy = rows.places[own + 1]!;
   if (k === 0) return [ox + ax, oy + ay];
   const w = rate(rows, row, link, 1);
   if (k === 1) return [ox - w * ay, oy + w * ax];
   const a = rate(rows, row, link, 2);
   return [ox - w * w * ax - a * ay, oy - w * w * ay + a * ax];
+}
+
+/** How fast the origin of a link is in a row. */
+export function speed(rows: Rows, row: number, link: number): number {
+  const at = 2 * ((rows.links + link) * countOf(rows) + row);
+  return Math.hypot(rows.places[at]!, rows.places[at + 1]!);
 }
 
 /** The places of a point of a link in all rows, x and y in turn. */
