@@ -21,6 +21,8 @@ export interface Design extends Moving {
   /** Whether a better one is much like it. */
   variant?: boolean;
   error: number | null;
+  /** Of the task, in millimetres, by which errors and shifts are measured; of angles 1. */
+  extent?: number | null;
   size: number;
   /** Of a function crank and output in each frame, in degrees as its pairs count them. */
   angles?: Pair[];
@@ -74,7 +76,7 @@ function worth({ error, range, shift, size, transmission }: Design, by: Value): 
 export class DesignCards {
   readonly element = h("div.designs", {});
   /** By how much the design that plays misses its pairs. */
-  readonly #missed = new Plot(DEGREE, () => {});
+  readonly #missed = new Plot("°", () => {});
   #found: Found | null = null;
   #order: Order = "error";
   /** Exact ones do not differ in their deviation. */
@@ -108,7 +110,7 @@ export class DesignCards {
   #plot(): void {
     if (!this.#playing?.stems) return;
     const [drives, values, marks] = this.#playing.stems;
-    const series = { title: t("Wanted − reached (°)"), colour: "--purple", values: Float64Array.from(values), marks };
+    const series = { title: t("Wanted − reached [°]"), colour: "--purple", values: Float64Array.from(values), marks };
     this.#missed.show(Float64Array.from(drives), series, [drives[0]!, drives.at(-1)!]);
   }
 
@@ -207,11 +209,15 @@ export class DesignCards {
   }
 
   #card(design: Design): HTMLElement {
-    const { form, lengths, stems, range, shift, transmission, error, size } = design;
+    const { extent, form, lengths, stems, range, shift, transmission, error, size } = design;
     const degrees = (mu: number | null | undefined) => typeof mu === "number" && angle(mu * DEGREE, 3);
     const [way, all] = [transmission, range].map(degrees);
     const names = design.names[currentLanguage()]!;
-    const value = stems ? angle(error!, 2) : `${number(100 * error!, 2)} %`;
+    const off = (part: number) => {
+      const far = part * (extent ?? 1);
+      return this.#found!.relative ? angle(far, 2) : `${number(far, 2)} mm`;
+    };
+    const value = stems ? angle(error!, 2) : off(error!);
     const deviation = exact(error) ? t("met exactly") : t("deviation {value}", { value });
     const millimetres = (length: number, k: number) => number(length, 3) + (lengths[k + 1] ? "" : " mm");
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
@@ -245,7 +251,7 @@ export class DesignCards {
           : all && t("μ ≥ {all} in all positions", { all }),
       ),
       h("span", {}, !this.#found!.relative && t("longest link {value} mm", { value: number(size, 3) })),
-      h("span", {}, !!shift && t("sensitivity {value} %", { value: number(100 * shift, 2) })),
+      h("span", {}, !!shift && t("sensitivity {value}", { value: off(shift) })),
     );
     return card;
   }

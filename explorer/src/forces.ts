@@ -6,11 +6,12 @@ import { FactList } from "./factlist";
 import type { Fall } from "./falling";
 import { number, t } from "./language";
 import type { Linkage } from "./linkage";
-import { LoadForm, RPM } from "./loads";
+import { LoadForm } from "./loads";
 import type { Model } from "./model";
 import type { PlaneTransport } from "./planetransport";
 import { Plot } from "./plot";
 import { Polar, type Vectors, vectorAt } from "./polar";
+import type { Pair } from "./rows";
 import type { Spring } from "./springs";
 import { driveText } from "./track";
 import type { Page } from "./view";
@@ -25,11 +26,13 @@ type Numbers = (number | null)[];
 /** What the library says; without anything that acts only masses and speed. */
 interface Answer {
   masses: number[];
-  assumed: number[];
   speed: number | null;
   springs: Spring[];
   drives?: number[];
   effort: Numbers;
+  effective: number;
+  /** In watts: the largest, and the mean. */
+  power: Pair;
   /** By joint, with the link on which it acts. */
   forces: { joint: number; link: number; force: [Numbers, Numbers] }[];
   lines: string[];
@@ -54,11 +57,13 @@ export class Forces {
   readonly #acting = h("details.words", {}, this.#summary, this.#form.element);
   readonly #result = h("div", {});
   readonly #facts = new FactList();
+  /** The force of each joint where the drive is, and its largest. */
+  readonly #joints = new FactList();
   readonly #polar = new Polar();
   readonly #joint = h("select", { "data-field": "force-joint", onchange: () => this.#showJoint() });
   #plot: Plot | null = null;
   #model: Model | null = null;
-  #forces: (Vectors & { joint: number })[] = [];
+  #forces: (Vectors & { joint: number; name: string; note: string })[] = [];
   #timer = 0;
   /** Whether the next forces are brought to sight. */
   #brings = false;
@@ -86,7 +91,7 @@ export class Forces {
       this.#acting.open = false;
       renew(this.#result);
     }
-    this.#summary.textContent = t("Speed, masses, loads");
+    this.#summary.textContent = t("Masses, loads");
     if (!this.#acting.isConnected) renew(this.element, this.#acting, this.#result);
     this.#result.classList.add("waiting");
     if (!this.#opened()) return;
@@ -115,80 +120,87 @@ export class Forces {
     this.#result.classList.remove("waiting");
   }
 
-  #show(linkage: Linkage, { assumed, drives, effort, forces, lines, masses, speed, springs }: Answer): void {
+  #show(linkage: Linkage, answer: Answer): void {
+    const { drives, effective, effort, forces, lines, masses, power, speed, springs } = answer;
     const { drive, model } = linkage;
     this.#form.show(linkage, masses, speed ?? 0, springs);
     this.#plot = null;
     this.#forces = [];
     const assume = () => {
-      this.#form.masses = assumed;
+      this.#form.steel = true;
       this.#brings = true;
       this.changed();
     };
-    const button = h(
-      "button.plain",
-      { "data-act": "assume", onclick: assume },
-      t("Assume steel: bars 20 mm × 5 mm to each joint, sliders 20 mm long"),
-    );
-    const offer = masses.some(Boolean) ? [] : [h("div.form", {}, button)];
+    const steel = t("steel, bars 20 mm × 5 mm to each joint, sliders 20 mm long");
+    const button = h("button.plain", { "data-act": "assume", onclick: assume }, `${t("Assume masses:")} ${steel}`);
+    const told = this.#form.steel ? `${t("Assumed masses:")} ${steel}` : this.#form.origin;
+    const offer = masses.some(Boolean) ? h("p.note", {}, told) : h("div.form", {}, button);
     if (!drives) {
       const note = t("Nothing acts yet: type masses or loads.");
-      renew(this.#result, h("p.note", {}, note), ...offer);
+      renew(this.#result, h("p.note", {}, note), offer);
     } else {
       const places = Float64Array.from(drives);
       const turning = drive!.turning;
       const title = turning ? `${t("Drive torque")} [${momentUnit(model)}]` : `${t("Drive force")} [N]`;
-      this.#plot = new Plot(turning ? Math.PI / 180 : 1, (value) => this.#view.transport.pick(value));
+      this.#plot = new Plot(turning ? "°" : lengthUnit(model), (value) => this.#view.transport.pick(value));
       this.#plot.show(places, { title, colour: "--motion", values: numbers(effort) }, this.#view.transport.range);
-      this.#forces = forces.map(({ joint, force }) => {
+      const largestOf = (sizes: ArrayLike<number | null>) => {
+        const all = Array.from(sizes, (one) => Math.abs(one ?? 0) || 0);
+        return all.indexOf(Math.max(...all));
+      };
+      const at = (row: number) => t("at {place}", { place: driveText(linkage, drives[row]!, 4) });
+      this.#forces = forces.map(({ joint, link, force }) => {
         const [x, y] = force.map(numbers) as [Float64Array, Float64Array];
-        const sizes = x.map((one, k) => Math.hypot(one, y[k]!)).filter(Number.isFinite);
-        return { joint, drives: places, x, y, most: Math.max(...sizes) || 1 };
-      });
-      const chosen = this.#joint.selectedIndex;
-      const options = forces.map(({ joint, link }, value) => {
+        const sizes = x.map((one, k) => Math.hypot(one, y[k]!));
         const links = model.joints[joint]!.links.filter((other) => other !== link);
         const others = links.map((other) => linkage.linkName(other)).join(", ");
-        const text = t("{others} on {link}", { others, link: linkage.linkName(link) });
-        return h("option", { value }, text);
+        const name = t("{others} on {link}", { others, link: linkage.linkName(link) });
+        const row = largestOf(sizes);
+        return { joint, drives: places, x, y, most: sizes[row] || 1, name, note: at(row) };
       });
-      renew(this.#joint, ...options);
+      const chosen = this.#joint.selectedIndex;
+      renew(this.#joint, ...this.#forces.map(({ name }, value) => h("option", { value }, name)));
       const fallen = h("div.form", {});
       const onclick = () => void this.#fall(fallen);
       const play = () => this.#view.transport.playAt(speed!);
       const release = t("Release the drive: free motion");
-      const largestOf = (sizes: number[]) => sizes.indexOf(Math.max(...sizes));
-      const most = largestOf(effort.map((one) => Math.abs(one ?? 0)));
-      const largest = `${number(effort[most] ?? 0, 4)} ${turning ? momentUnit(model) : "N"}`;
-      const at = (row: number) => t("at {place}", { place: driveText(linkage, drives[row]!, 4) });
-      const rate = turning ? `${number(speed! / RPM)}/min` : `${number(speed!)} ${lengthUnit(model)}/s`;
+      const most = largestOf(effort);
+      const unit = turning ? momentUnit(model) : "N";
       const strong = largestOf(this.#forces.map((force) => force.most));
-      const { most: strongest, x, y } = this.#forces[strong]!;
-      const where = largestOf(Array.from(x, (one, k) => Math.hypot(one, y[k]!) || 0));
+      const strongest = this.#forces[strong]!;
       this.#joint.selectedIndex = chosen < 0 ? strong : chosen;
       this.#facts.show([
-        { name: turning ? t("Largest drive torque") : t("Largest drive force"), text: largest, note: at(most) },
+        {
+          name: turning ? t("Largest drive torque") : t("Largest drive force"),
+          text: `${number(effort[most] ?? 0)} ${unit}`,
+          note: at(most),
+        },
+        { name: t("Effective (RMS)"), text: `${number(effective)} ${unit}` },
+        { name: t("Largest drive power"), text: `${number(power[0])} W` },
+        { name: t("Mean drive power"), text: `${number(power[1])} W` },
+        {
+          name: t("Drive work"),
+          text: `${number((power[1] * (drives.at(-1)! - drives[0]!)) / speed!)} J`,
+          note: [0, -1].map((row) => driveText(linkage, drives.at(row)!, 4)).join(" … "),
+        },
         {
           name: t("Largest joint force"),
-          text: `${number(strongest, 4)} N`,
-          note: `${at(where)}, ${options[strong]!.textContent}`,
+          text: `${number(strongest.most)} N`,
+          note: `${strongest.note}, ${strongest.name}`,
         },
       ]);
       renew(
         this.#result,
-        ...offer,
-        h(
-          "div.form",
-          {},
-          h("span.note", {}, t("Forces at {rate}", { rate })),
-          h("button.plain", { "data-act": "play", onclick: play }, t("Play at this speed")),
-        ),
+        this.#form.rate,
         this.#facts.element,
         this.#plot.element,
-        h("p.note", {}, t("Arrow length: square root of the force")),
-        h("div.form", {}, h("label", {}, t("Force"), this.#joint)),
+        h("div.form", {}, h("button.plain", { "data-act": "play", onclick: play }, t("Play at this speed"))),
+        offer,
+        h("p.note", {}, t("Joint forces in this pose. Arrow length: square root of the force")),
+        this.#joints.element,
+        h("div.form", {}, h("label", {}, t("Force vector"), this.#joint)),
         this.#polar.element,
-        h("details.words", {}, h("summary", {}, t("In words")), ...lines.map((line) => h("p.note", {}, line))),
+        ...lines.map((line) => h("p.note", {}, line)),
         h("div.form", {}, h("button.plain", { "data-act": "fall", onclick }, release)),
         fallen,
       );
@@ -211,6 +223,13 @@ export class Forces {
   at(drive: number): void {
     if (!this.#opened()) return;
     this.#plot?.at(drive);
+    this.#joints.show(
+      this.#forces.map((force) => ({
+        name: force.name,
+        text: `${number(force.most * Math.hypot(...vectorAt(force, drive)), 3)} N`,
+        note: `max. ${number(force.most, 3)} N ${force.note}`,
+      })),
+    );
     this.#polar.at(drive);
   }
 

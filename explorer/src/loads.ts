@@ -7,7 +7,7 @@ import { type End, endsOf, type Spring } from "./springs";
 import { lengthUnit, momentUnit } from "./wording";
 
 /** A turn a minute, in rad/s. */
-export const RPM = Math.PI / 30;
+const RPM = Math.PI / 30;
 const MOST = 1e9;
 
 /** A force on a joint or a point, or a moment, as x, on a link. */
@@ -20,6 +20,12 @@ interface Load {
 
 export class LoadForm {
   readonly element = h("div", {});
+  /** At which speed of the drive the forces are. */
+  readonly rate = h("div.rows", {});
+  /** Whether the links are taken as bars of steel. */
+  steel = false;
+  /** Where masses and loads come from, if not from here. */
+  origin = "";
   /** Of each link, in kilograms; as the library knows them where there is none. */
   masses: number[] = [];
   /** In rad/s or lengths a second; the usual one if there is none. */
@@ -35,13 +41,20 @@ export class LoadForm {
   /** Nothing is typed yet. */
   clear(): void {
     [this.masses, this.#loads, this.shown] = [[], [], []];
+    this.steel = false;
     this.speed = this.#springs = null;
     renew(this.element);
   }
 
   /** As the library is told of it. */
   get record(): Record<string, unknown> {
-    return { masses: this.masses, gravity: this.#weight, loads: this.#loads, springs: this.#springs };
+    return {
+      steel: this.steel,
+      masses: this.masses,
+      gravity: this.#weight,
+      loads: this.#loads,
+      springs: this.#springs,
+    };
   }
 
   show(linkage: Linkage, masses: number[], speed: number, springs: readonly Spring[]): void {
@@ -49,19 +62,25 @@ export class LoadForm {
     const { drive, model, sizes } = linkage;
     const links = [...Array(model.own).keys()].filter((link) => link !== model.frame);
     const factor = drive?.turning ? RPM : 1;
-    const rows = this.#row(
-      "speed",
-      drive?.turning ? t("Drive speed") : t("Speed of the driven slide"),
-      drive?.turning ? "1/min" : `${lengthUnit(model)}/s`,
-      speed / factor,
-      (v) => {
-        this.speed = v > 0 ? v * factor : null;
-      },
+    this.origin = this.masses.length ? "" : t("Masses as in the file or the catalog.");
+    renew(
+      this.rate,
+      ...this.#row(
+        "speed",
+        drive?.turning ? t("Forces at drive speed") : t("Speed of the driven slide"),
+        drive?.turning ? "1/min" : `${lengthUnit(model)}/s`,
+        speed / factor,
+        (v) => {
+          this.speed = v > 0 ? v * factor : null;
+        },
+      ),
     );
+    const rows: HTMLElement[] = [];
     for (const link of links)
       rows.push(
         ...this.#row(`mass-${link}`, t("Mass {link}", { link: linkage.linkName(link) }), "kg", masses[link]!, (v) => {
           this.masses = masses.map((mass, k) => (k === link ? Math.max(0, v) : mass));
+          this.steel = false;
         }),
       );
     const places: [string, string][] = [

@@ -1,8 +1,9 @@
 /** Small plots over the drive, linked with it by a cursor; the value at the drive or pointer stands above the curve. */
 
+import { DEGREE } from "./cycle";
 import { put, svg } from "./dom";
 import { degreeStep, gridStep } from "./grid";
-import { number } from "./language";
+import { number, t } from "./language";
 import type { Pair } from "./rows";
 import { Span } from "./span";
 
@@ -23,13 +24,13 @@ export interface Series {
 }
 
 const WIDTH = 300;
-const HEIGHT = 128;
+const HEIGHT = 140;
 const LEFT = 44;
 const RIGHT = 10;
 const TOP = 20;
-const BOTTOM = 18;
+const BOTTOM = 30;
 const WIDE = WIDTH - LEFT - RIGHT;
-const LONG = 39; // letters of a title and a unit beside which a value has no room
+const LONG = 39; // letters of a title beside which a value has no room
 const EVEN = 200; // places of the drive at which values are compared
 const PART = 0.05; // of the drive: where values may be without bound
 const FLAT = 0.1; // pixels: the second difference below which a line is nearly straight
@@ -46,10 +47,10 @@ export class Plot {
   readonly #here = svg("circle.here", { r: 3, cy: -9 });
   readonly #title = svg("text.title", { x: 2, y: 13 });
   readonly #value = svg("text.read", { x: WIDTH - RIGHT, y: 13, "text-anchor": "end" });
-  #measure = "";
   readonly #beyond = svg("path.here", {});
   readonly #mesh = svg("path.mesh", {});
   readonly #marks = svg("path.curve", { stroke: "var(--purple)" });
+  readonly #along = svg("text", { x: WIDTH - RIGHT, y: HEIGHT - 3, "text-anchor": "end" });
   readonly #upward = svg("g");
   readonly #across = svg("g");
   #ticked = "";
@@ -64,7 +65,8 @@ export class Plot {
   #high = 1;
 
   constructor(
-    private readonly unit: number,
+    /** Of the drive: "°", else one of length. */
+    private readonly unit: string,
     pick: (drive: number) => void,
     private readonly span = new Span(() => this.redraw()),
   ) {
@@ -80,6 +82,7 @@ export class Plot {
       this.#mesh,
       this.#upward,
       this.#across,
+      this.#along,
       frame,
       this.#zero,
       svg("svg", inner, this.#curve, this.#beyond, this.#marks),
@@ -175,9 +178,8 @@ export class Plot {
       floor === undefined ? 0 : Math.max(0, Math.min(HEIGHT - BOTTOM - TOP, HEIGHT - BOTTOM - this.#y(floor)));
     put(this.#band, { height: shaded.toFixed(1), y: (HEIGHT - BOTTOM - shaded).toFixed(1) });
     if (this.element.getAttribute("aria-label") !== series.title) {
-      const [text, unit = ""] = series.title.split(/ \[|\]/);
-      this.#title.textContent = text!;
-      this.#measure = unit === "°" ? unit : ` ${unit}`;
+      this.#title.textContent = series.title;
+      this.#along.textContent = `${t("Drive")} [${this.unit}]`;
       put(this.#value, { y: series.title.length > LONG ? TOP + 10 : 13 });
       this.#curve.style.stroke = `var(${series.colour})`;
       put(this.element, { "aria-label": series.title });
@@ -188,7 +190,7 @@ export class Plot {
 
   /** Round values at both axes; they are made anew where they are others. */
   #showTicks(domain: Pair): void {
-    const { unit } = this;
+    const unit = this.#scale;
     const [first, last] = [domain[0] / unit, domain[1] / unit];
     const [low, high] = [this.#low, this.#high];
     const across = unit === 1 ? roundValues(first, last, 4) : degreeValues(first, last);
@@ -208,7 +210,7 @@ export class Plot {
     );
     relabel(
       this.#across,
-      across.map((value) => [this.#x(value * unit), HEIGHT - 4, number(value, 4)]),
+      across.map((value) => [this.#x(value * unit), HEIGHT - BOTTOM + 14, number(value, 4)]),
       "middle",
     );
   }
@@ -224,10 +226,15 @@ export class Plot {
     put(this.#cursor, { d: `M${x} ${TOP}V${HEIGHT - BOTTOM}` });
     const y = Number.isFinite(value) ? Math.max(TOP, Math.min(HEIGHT - BOTTOM, this.#y(value))) : -9;
     put(this.#here, { cx: x, cy: y.toFixed(1) });
-    const told = (place === drive && series.now?.()) || value; // of a pose without rates that at the drive
+    const exact = place === drive ? series.now?.() : NaN;
+    const told = Number.isFinite(exact) ? exact! : value; // of a pose without rates that at the drive
     const read = number(Math.abs(told) < series.same! ? 0 : told, 4);
-    const where = `${number(place / this.unit, 4)}${this.unit === 1 ? "" : "°"}: ${read}`;
-    this.#value.textContent = place === drive ? read + this.#measure : where;
+    const where = `${number(place / this.#scale, 4)}${this.#scale === 1 ? "" : "°"}: ${read}`;
+    this.#value.textContent = place === drive ? read : where;
+  }
+
+  get #scale(): number {
+    return this.unit === "°" ? DEGREE : 1;
   }
 
   #x(drive: number): number {

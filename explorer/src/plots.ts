@@ -58,7 +58,7 @@ export class Plots {
         colour: "--ink",
         ...over(linkage, rows, (all, row) => Math.hypot(...place(all, row, link, ...at, 1))),
       }));
-    const unit = drive?.turning ? DEGREE : 1;
+    const unit = drive?.turning ? "°" : lengthUnit(model);
     this.parts = series.map((make) => ({ plot: new Plot(unit, this.pick, this.#span), make }));
     const note = record?.note[currentLanguage()];
     const notes = note ? [h("p.note", {}, note)] : [];

@@ -55,9 +55,9 @@ def test_a_plot_says_the_value_at_the_pointer(tab, crank_rocker):
     plot = page.page.locator(".plot").first
     read = plot.locator("text.read")
     here = read.text_content()
-    assert float(here.strip("°")) == pytest.approx(
-        float(page.page.locator(".facts dd").first.text_content().strip("°")), abs=0.02
-    )
+    assert plot.locator(".title").text_content() == "Output rocker [°]"
+    assert plot.get_by_text("Drive [°]", exact=True).count() == 1
+    assert float(here) == pytest.approx(float(page.page.locator(".facts dd").first.text_content().strip("°")), abs=0.02)
     assert plot.locator("g text").all_text_contents() == [
         "60",
         "80",

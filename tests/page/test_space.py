@@ -250,7 +250,7 @@ def check_sizes_plots_and_files(page):
     assert told.inner_text() == f"{swing.degrees:.4g}°"
     drive_to(page, "90")
     turned = page.locator('[data-panel="measures"] dd').first.inner_text()
-    assert page.locator(".plot .read").text_content().lstrip("−") == turned
+    assert page.locator(".plot .read").text_content().lstrip("−") + "°" == turned
     page.locator('[data-icon="save"]').click()
     saved = {}
     for kind in ("STL", "JSON"):

@@ -38,7 +38,7 @@ export class OutputPlots {
       const values = upward(turning.has(link) ? turns(poses) : shifts(poses));
       [this.#first, this.#step] = [range[0], step];
       this.#values.push(values);
-      const plot = new Plot(drive?.turning ? TURN / 360 : 1, pick, span);
+      const plot = new Plot(drive?.turning ? "°" : data.unit, pick, span);
       const title = `${names[link]} [${unit}]`;
       plot.show(drives, { title, values, colour: "--motion", same: 1e-6 * (unit === "°" ? 1 : data.size) }, range);
       return plot;

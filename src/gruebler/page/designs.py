@@ -168,7 +168,7 @@ def _words(task: Task, items: Sequence[dict[str, Any]], relative: bool) -> Itera
     if items and relative:
         yield message("Of lengths only the ratios count; the longest is 100 mm.")
     if sensitive:
-        yield message("Sensitivity: how far a target is off if lengths are 0.1 % wrong.")
+        yield message("Sensitivity: how far a target is off at most if lengths are 0.1 % wrong.")
 
 
 def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
@@ -184,6 +184,7 @@ def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
         "range": degrees(over_range) if isfinite(over_range := design.transmission_over_range) else None,
         "shift": shift if isfinite(shift := design.relative_sensitivity) else None,
         "error": verdict.error if isfinite(verdict.error) else None,
+        "extent": None if design.targets is None else design.targets.size,
         "size": linkage.size,
         **_frames(linkage, posed, _played(design, task, posed)),
         **_met_angles(design, task, posed),

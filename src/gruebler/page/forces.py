@@ -27,6 +27,7 @@ from gruebler.teaching.catalog import entries
 
 _BESIDES = message("Besides, loads or masses as they stand in the file or the catalog act on {places}.")
 _FREE = message("Free motion: in {seconds:n} s the drive goes from {start} to {end}.")
+_BALANCE = message("The energy balance is off by {part:n} % at most.")
 _STEEL_BAR = 7850 * 0.020 * 0.005  # kg/m: a cross-section of 20 mm by 5 mm
 _BLOCK = 0.020  # m: what a slider and other short links are long
 _ROWS = 180  # of a turn
@@ -50,10 +51,10 @@ class _Laden(NamedTuple):
 def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     """Effort of the drive and forces of the joints over a range of the drive that runs at constant speed.
 
-    Without anything that acts only masses are there, and those that could be assumed, of bars of steel.
+    Without anything that acts only masses are there.
     """
     linkage, loads, usual, besides = _laden(asked, lang)
-    record: dict[str, Any] = {"masses": _masses(linkage, loads), "assumed": _assumed(linkage)}
+    record: dict[str, Any] = {"masses": _masses(linkage, loads)}
     own = asked.springs
     record["springs"] = _springs(linkage, loads) if own is None else msgspec.to_builtins(own)
     record["speed"] = asked.speed or usual
@@ -78,13 +79,16 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         for number, each in enumerate(chain.joints)
         for link in (each.links if len(each.links) > 2 else each.links[1:])
     ]
-    lines = run.explain(lang).splitlines()
+    lines = [*run.remarks(lang)]
+    power = _short(metres_of(linkage.unit) * np.append(run.power[:, active], run.mean_power[active]))
     if besides:
         lines.append(_BESIDES.filled(places=joined(besides)).in_language(lang))
     return record | {
         "speed": speed,
         "drives": motion.drives[:, active].tolist(),
         "effort": _short(run.drive[:, active]).tolist(),
+        "effective": float(run.root_mean_square[active]),
+        "power": [float(max(power[:-1], key=abs)), float(power[-1])],
         "forces": forces,
         "lines": lines,
     }
@@ -97,14 +101,17 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     times = np.arange(round(asked.until * _A_SECOND) + 1) / _A_SECOND
     run = simulate(linkage, free, at=asked.drives, until=asked.until, times=times, tolerance=_ENOUGH)
     start, end = (_drive_texts(linkage, run.drives[row]) for row in (0, -1))
-    free_motion = _FREE.filled(seconds=float(run.times[-1]), start=start, end=end)
+    said = [
+        _FREE.filled(seconds=float(run.times[-1]), start=start, end=end),
+        _BALANCE.filled(part=float(f"{100 * run.defect:.2g}")),
+    ]
     places = np.stack([run.places[0].real, run.places[0].imag], axis=-1)
     turns = np.stack([run.turns.real, run.turns.imag], axis=-1)
     return {
         "rate": _A_SECOND,
         "places": _short(places).reshape(len(run), -1).tolist(),
         "turns": _short(turns).reshape(len(run), -1).tolist(),
-        "lines": [free_motion.in_language(lang), *run.explain(lang).splitlines()[1:]],
+        "lines": [*(line.in_language(lang) for line in said), *filter(None, [run.message(lang)])],
     }
 
 
@@ -130,7 +137,7 @@ def _laden(asked: LoadedLinkage, lang: str) -> _Laden:
     elif entry is not None and entry.loads is not None and entry.chain().links == plain.mechanism.chain.links:
         _, loads, speed = entry.in_language(lang).loaded()
     bodies = dict(loads.bodies)
-    for link, mass in zip(links, asked.masses, strict=False):
+    for link, mass in zip(links, _assumed(linkage) if asked.steel else asked.masses, strict=False):
         if mass is None:
             continue
         known = bodies.pop(link, None)

@@ -113,6 +113,8 @@ class DescribeDrawing(Params):
     drives: Annotated[list[Number], msgspec.Meta(max_length=20)] = []
     names: Annotated[list[Word], msgspec.Meta(max_length=200)] = []
     ends: Annotated[dict[Word, Word], msgspec.Meta(max_length=200)] = {}
+    cylinders: Annotated[list[Number], msgspec.Meta(max_length=200)] = []
+    """Joints that are drawn as cylinders."""
 
 
 class ListModes(Params):
@@ -166,6 +168,8 @@ class LoadedLinkage(Params):
     source: Word = ""
     masses: Annotated[list[Annotated[float, msgspec.Meta(ge=0, le=1e9)] | None], msgspec.Meta(max_length=200)] = []
     """Of each link, in kilograms; without one those of the document or the catalog entry."""
+    steel: bool = False
+    """Whether the links are bars of steel, in place of their masses."""
     gravity: bool = True
     loads: Annotated[list[OuterLoad], msgspec.Meta(max_length=20)] = []
     """Forces on one place add up, as do moments on one link."""

@@ -124,10 +124,14 @@ def test_the_effective_effort_is_a_mean_over_time():
     wheel = inverse_dynamics(motion, Loads(bodies={"crank": RigidBody(0.0, (0, 0), 300)}, gravity=(0, 0)))
     # rows at 0, 1, 2, 3 s, so half, one, one, half a second: 0.6 N mm in the first two of the four
     assert wheel.root_mean_square == pytest.approx(0.6 * np.sqrt(1.5 / 3), rel=1e-12)
+    assert wheel.mean_power == pytest.approx(0.6 * 2 / 3, rel=1e-12)  # at 2 rad/s in the row at 1 s, at rest before
     for rows in (5, 13):
         motion = move(FourBar(25, 70, 40, 70), np.linspace(0, 2 * np.pi, rows), speed=3.0)
         weight = inverse_dynamics(motion, Loads(bodies={"crank": RigidBody(1.0, (10, 0))}, gravity=(0, -10)))
         assert weight.root_mean_square == pytest.approx(100 / np.sqrt(2), rel=1e-10)
+        assert weight.mean_power == pytest.approx(0, abs=1e-10)  # what goes up comes down
+        brake = inverse_dynamics(motion, Loads(moments={"crank": -7.0}))
+        assert brake.mean_power == pytest.approx(7.0 * 3.0, rel=1e-12)
 
 
 def test_a_crank_alone_shakes_with_m_r_w2():

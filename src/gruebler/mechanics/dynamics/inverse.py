@@ -86,6 +86,11 @@ class InverseDynamics(Tabled):
         return np.asarray(self.drive * speeds_of(self.motion))
 
     @cached_property
+    def mean_power(self) -> Reals:
+        """The mean of each drive's power over time; (drives,). 0 over a closed turn on which only masses act."""
+        return self._mean(self.power)
+
+    @cached_property
     def shaking_force(self) -> Reals:
         """The force of inertia of all links together, which shakes the foundation, in newtons; (rows, 2)."""
         total = sum((wrench.force for wrench in self.inertia), np.zeros(len(self.motion), np.complex128))
@@ -110,12 +115,10 @@ class InverseDynamics(Tabled):
 
         The mean over time, by the trapezoidal rule: a closed turn counts its first row, which is its last, once.
         """
-        held = np.where(np.isfinite(self.drive), self._durations[:, None], 0.0)
-        with np.errstate(invalid="ignore"):
-            return np.asarray(np.sqrt((held * np.nan_to_num(self.drive) ** 2).sum(axis=0) / held.sum(axis=0)))
+        return np.asarray(np.sqrt(self._mean(self.drive**2)))
 
     def explain(self, lang: str = "en") -> str:
-        """Each drive's largest effort and where, how well two methods agree, where forces are not determined."""
+        """Each drive's largest effort and where, and what `remarks` has."""
         linkage, lines = self.motion.linkage, list[Message]()
         for k, drive in enumerate(linkage.mechanism.drives):
             if not np.isfinite(self.drive[:, k]).any():
@@ -130,10 +133,19 @@ class InverseDynamics(Tabled):
                     rms=float(self.root_mean_square[k]),
                 )
             )
-        if np.isfinite(self.disagreement):
-            lines.append(_AGREE.filled(part=max(self.disagreement, _ROUNDING)))
-        texts = [*(line.in_language(lang) for line in lines), self.motion.message(lang), self.statics.message(lang)]
-        return "\n".join(filter(None, texts))
+        return "\n".join([*(line.in_language(lang) for line in lines), *self.remarks(lang)])
+
+    def remarks(self, lang: str = "en") -> tuple[str, ...]:
+        """How well two methods agree, where the motion ends, and where forces are not determined."""
+        known = np.isfinite(self.disagreement)
+        agree = _AGREE.filled(part=max(self.disagreement, _ROUNDING)).in_language(lang) if known else ""
+        return tuple(filter(None, [agree, self.motion.message(lang), self.statics.message(lang)]))
+
+    def _mean(self, values: Reals) -> Reals:
+        """Over time, of the rows where the drives' efforts are known; (drives,)."""
+        held = np.where(np.isfinite(values), self._durations[:, None], 0.0)
+        with np.errstate(invalid="ignore"):
+            return np.asarray((held * np.nan_to_num(values)).sum(axis=0) / held.sum(axis=0))
 
     @property
     def _durations(self) -> Reals:
