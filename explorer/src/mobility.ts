@@ -7,6 +7,7 @@ import {
   driven,
   jointName,
   jointsOf,
+  type Knot,
   knotName,
   linksOf,
   type Spot,
@@ -77,10 +78,12 @@ export class MobilityPanel {
     const joints = numbers.map((k) => jointName(drawing, k)).join(" ");
     const names = numbers.map((k) => knotName(drawing, k));
     const drives = drawing.drives.map((k) => numbers.indexOf(k));
+    const drawnAs = ({ between, part }: Knot) => between && part === undefined;
+    const cylinders = [...numbers.keys()].filter((k) => drawnAs(drawing.knots[numbers[k]!]!));
     const ends: Record<string, string> = {};
     for (const [k, { links }] of drawing.knots.entries()) if (!links[1]) ends[links[0]!] ??= knotName(drawing, k);
     try {
-      const told = await page.ask<Told>("drawing", { joints, names, frame, drives, ends });
+      const told = await page.ask<Told>("drawing", { joints, names, frame, drives, ends, cylinders });
       if (asked !== this.#asked) return;
       const { fixed: good, generic, reason } = told;
       if (generic !== told.counted)

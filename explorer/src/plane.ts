@@ -4,7 +4,7 @@ import { type Backdrop, backdropElement, cornersOf, gripsOf, putBackdrop } from 
 import { DEGREE } from "./cycle";
 import { svg } from "./dom";
 import { type Drawing, isPin, type Knot, knotName, lengthsOf, linksOf, type Spot, same, unitOf } from "./drawing";
-import { gridOf, stepOf } from "./grid";
+import { gridOf } from "./grid";
 import { away, clearAbout, convexHull, nearest, onLine, toHull } from "./hull";
 import { driving } from "./labels";
 import { angle, number, spaced } from "./language";
@@ -116,7 +116,7 @@ export function planePicture(plane: Plane): SVGElement[] {
   for (const element of behind) putBackdrop(element, picture!, viewport);
   return [
     ...behind,
-    ...grid(plane),
+    ...gridOf(viewport, unitOf(drawing)),
     svg("path.guide", { d: guides.map((ends) => path(ends.map((at) => viewport.screen(...at)))).join("") }),
     ...knots.filter((_, k) => !isPin(drawing.knots[k]!)),
     ...links,
@@ -140,6 +140,7 @@ function lettersOf({ drawing, viewport }: Plane, hulls: readonly Pair[][]): { at
   // above the joint of a link that has one stands its name, above one that is driven an arrow
   const drawn = [
     ...ends,
+    ...knots.flatMap((knot) => rimsOf(knot, viewport)),
     ...hulls.map((hull) =>
       hull[1]
         ? hull
@@ -161,11 +162,26 @@ function lettersOf({ drawing, viewport }: Plane, hulls: readonly Pair[][]): { at
         [x + side * below, y + foot],
       ]),
     );
-    const name = here.map((one) => knotName(drawing, one)).join(", ");
+    const radii = knot.part === undefined ? [] : knot.between!.map((at) => number(away(at, ...knot.at), 3));
+    const letters = here.map((one) => knotName(drawing, one)).join(", ");
+    const name = radii[0] ? `${letters} ${radii.join(" : ")}` : letters;
     const around = has(({ links }) => links.includes(frame!)) ? [...drawn, under] : drawn;
     const [u, v] = clearAbout([x, y], -20, around, halfOf(name) - 2);
     drawn.push([[u, v]]); // others keep clear of it
     return [{ at: [u, v + 4], name }];
+  });
+}
+
+/** Strokes around the wheels of a knot that has some. */
+function rimsOf({ at, between, part }: Knot, viewport: Viewport): Pair[][] {
+  const [x, y] = viewport.screen(...at);
+  return (part === undefined ? [] : between!).flatMap((centre) => {
+    const [u, v] = viewport.screen(...centre);
+    const on = (k: number): Pair => {
+      const [c, s] = [Math.cos((k * Math.PI) / 18), Math.sin((k * Math.PI) / 18)];
+      return [u + c * (x - u) - s * (y - v), v + s * (x - u) + c * (y - v)];
+    };
+    return Array.from({ length: 36 }, (_, k) => [on(k), on(k + 1)]);
   });
 }
 
@@ -217,16 +233,4 @@ function knotElement({ chosen, drawing, viewport }: Plane, k: number, at: Pair):
   if (slide === undefined && !between) element.append(svg("circle.joint", { r: links.length > 1 || ground ? 5 : 3.2 }));
   if (drawing.drives.includes(k)) element.append(svg("path.driven", { d: DRIVEN }));
   return element;
-}
-
-/** The grid, and a bar as long as a step. */
-function grid({ drawing, viewport }: Plane): SVGElement[] {
-  const { width } = viewport;
-  const unit = unitOf(drawing);
-  const right = width - 64; // beside the buttons
-  const step = stepOf(viewport);
-  const long = step * viewport.scale;
-  const d = `M${right - long} 24v6h${long}v-6`;
-  const told = svg("text.tick", { x: right - long / 2, y: 22, "text-anchor": "middle" }, `${number(step)} ${unit}`);
-  return [...gridOf(viewport, unit), svg("path.scale", { d }), told];
 }

@@ -137,7 +137,8 @@ export class StructureView implements View {
     const drawn = chainPicture(found, this.#joint, (joint) => this.#pick(joint));
     const { links, own, generic } = found;
     const lines = [...found.drives.split("\n"), ...found.lines.slice(1)].filter(Boolean);
-    const fact = (key: "counted" | "generic" | "own", name: string, mark?: string) =>
+    const moves = (mobility: number) => mobility > 0 && "good";
+    const fact = (key: "counted" | "generic" | "own", name: string, mark?: string | false) =>
       h("div", {}, h("dt", {}, name), h("dd", { "data-fact": key, class: mark }, `F = ${found[key]}`));
     renew(
       this.#shown,
@@ -157,8 +158,8 @@ export class StructureView implements View {
             "dl.facts",
             {},
             fact("counted", t("Counted")),
-            fact("generic", t("Generic"), generic === found.counted ? "good" : "bad"),
-            own != null && fact("own", t("These sizes"), "good"),
+            fact("generic", t("Generic"), generic === found.counted ? moves(generic) : "bad"),
+            own != null && fact("own", t("These sizes"), moves(own)),
           ),
           ...lines.map((line) => {
             const [, label, text] = /^([^.:]*:)?(.*)/s.exec(line)!;

@@ -34,7 +34,9 @@ def test_what_is_offered_mends_it():
     # a link on two grounds does not move: its joints are no drives, neither offered nor taken
     # what drives a lever on a cylinder is the cylinder; of a slider-crank, whose slide is on the ground, the crank
     lever = "R(0-1) R(0-2) R(1-3) P(2-3)"
-    assert [offer["joint"] for offer in drawing_record(lever, "0", [], "en")["offers"]] == [3, 0, 1]
+    assert [offer["joint"] for offer in drawing_record(lever, "0", [], "en", cylinders=[3])["offers"]] == [3, 0, 1]
+    # drawn with a block on a rod the same chain is an inverted slider-crank
+    assert [offer["joint"] for offer in drawing_record(lever, "0", [], "en")["offers"]] == [0, 1]
     assert drawing_record("R(0-1) R(1-2) R(2-3) P(0-3)", "0", [], "en")["offers"][0]["joint"] == 0
     held = "R(0-1) R(0-1) R(0-2)"
     assert [offer["joint"] for offer in drawing_record(held, "0", [], "en")["offers"]] == [2]

@@ -207,6 +207,38 @@ def test_links_are_called_by_the_names_of_the_machine():
     assert all(each["text"].startswith("R(frame-crank)") for each in record["inversions"])
 
 
+def test_links_that_have_numbers_have_them_on_the_cards_of_frames_too():
+    """Numbers of a list below the large picture, without this list; and those of a drawing, whose frame has a name."""
+
+    def written(text: str, names: dict[str, str]) -> list[list[str]]:
+        record = answer("structure", {"text": text, "names": names}, "en", print)
+        pictures = [record["picture"], *(each["picture"] for each in record["inversions"])]
+        assert {each["frame"] for each in record["inversions"]} <= {name.replace("_", " ") for name in names.values()}
+        return [sorted(re.findall(r"<text[^>]*>([^<]*)</text>", picture)) for picture in pictures]
+
+    leg = entries()["klann"].linkage().mechanism
+    large, *cards = written(leg.text(), {link: link for link in leg.chain.links})
+    assert "5  upper rocker" in large
+    assert cards[0] == list("123456")
+    watt = "R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)"
+    large, *cards = written(watt, {"0": "frame", **{str(k): str(k) for k in range(1, 6)}})
+    assert "frame" in large
+    assert cards == [list("12345")] * 2
+
+
+def test_mobility_is_no_good_news_where_nothing_moves(tab, server):
+    """Two triangles with a common side count right, and do not move."""
+    page = tab().open(server.address)
+    page.page.click('[data-view="structure"]')
+    facts = page.page.locator(".described dd")
+    facts.first.wait_for()
+    assert facts.evaluate_all("all => all.map((one) => one.className)") == ["", "good"]
+    page.page.locator('[data-page="structure"] .words summary').click()
+    page.page.locator('[data-field="chain"]').fill("R(0-1) R(1-2) R(2-0)")
+    page.page.locator('[data-fact="generic"]', has_text="F = 0").wait_for()
+    assert facts.evaluate_all("all => all.map((one) => one.className)") == ["", ""]
+
+
 def test_names_of_another_chain_say_nothing():
     names = {"frame": "Gestell", "crank": "Kurbel"}
     assert structure_record("R(0-1) R(1-2) R(2-0)", "de", names=names)["frame"] == "0"

@@ -34,13 +34,14 @@ def drawing_record(
     lang: str,
     names: Sequence[str] = (),
     ends: Mapping[str, str] = MappingProxyType({}),
+    cylinders: Sequence[int] = (),
 ) -> dict[str, Any]:
     """Mobility, reason and offers of a chain that is drawn, as plain data.
 
     Joints are given by their numbers in the text, and called by the names given; ends are the names of open ends by
-    their links. An offer is a change after which as many drives as there are give a definite motion, or a step towards
-    it. Each that changes the chain was tried: the drives move what it leads to, nothing more of it is rigid, and its
-    generic mobility stands beside it.
+    their links. Cylinders are joints that one drives before pins on the frame. An offer is a change after which as many
+    drives as there are give a definite motion, or a step towards it. Each that changes the chain was tried: the drives
+    move what it leads to, nothing more of it is rigid, and its generic mobility stands beside it.
 
     Raises `GrueblerError` for a text that is no chain.
 
@@ -74,7 +75,7 @@ def drawing_record(
         "lines": named(report.explain(lang)).splitlines()[1:],
         "fixed": driven.fixed and report.generic > 0,
         "reason": named((driven.message if clash else short).in_language(lang)),
-        "offers": [worded(offer) for offer in islice(_offers(report, driven, drives, ends), _MOST_OFFERS)],
+        "offers": [worded(offer) for offer in islice(_offers(report, driven, drives, ends, cylinders), _MOST_OFFERS)],
     }
 
 
@@ -92,7 +93,7 @@ def _drive_name(chain: Chain, frame: str, number: int) -> str:
 
 
 def _offers(
-    report: MobilityReport, driven: DriveReport, drives: list[int], ends: Iterable[str]
+    report: MobilityReport, driven: DriveReport, drives: list[int], ends: Iterable[str], cylinders: Sequence[int]
 ) -> Iterator[dict[str, Any]]:
     chain, frame, generic = report.chain, report.frame, report.generic
     if generic < 1:
@@ -109,24 +110,13 @@ def _offers(
     if generic > 1:
         yield from _grounds(report, drives, ends)
         yield from _bars(report, drives)
-    cylinders = [number for number in range(len(chain.joints)) if _is_cylinder(chain, frame, number)]
     grounded = [number for number, joint in enumerate(chain.joints) if frame in joint.links]
-    for number in cylinders + grounded:
+    for number in [*cylinders, *(k for k in grounded if k not in cylinders)]:
         movable = number not in drives and number not in report.immobile_joints
         if not (movable and len(chain.joints[number].links) == _BINARY):
             continue
         if not _driven(chain, frame, [*drives, number]).redundant_drives:
             yield {"kind": "drive", "joint": number, "generic": generic}
-
-
-def _is_cylinder(chain: Chain, frame: str, number: int) -> bool:
-    """Whether a joint is a slide of two links off the frame that have nothing but a pin at their other ends."""
-    joint = chain.joints[number]
-    beside = [
-        [other for k, other in enumerate(chain.joints) if link in other.links and k != number] for link in joint.links
-    ]
-    pins = all(len(own) == 1 and own[0].pair.is_turning for own in beside)
-    return joint.pair.is_sliding and frame not in joint.links and pins
 
 
 def _closed(report: MobilityReport, drives: list[int], joints: str) -> MobilityReport | None:

@@ -201,7 +201,7 @@ def _structure(asked: DescribeStructure, lang: str, _: Progress) -> dict[str, An
 def _drawing(asked: DescribeDrawing, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.page.drawings import drawing_record
 
-    return drawing_record(asked.joints, asked.frame, asked.drives, lang, asked.names, asked.ends)
+    return drawing_record(asked.joints, asked.frame, asked.drives, lang, asked.names, asked.ends, asked.cylinders)
 
 
 def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:

@@ -15,7 +15,7 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.mobility_report import Freedoms, freedoms
 from gruebler.pictures.canvas.figure import Figure
-from gruebler.pictures.canvas.labels import labels_or_numbers
+from gruebler.pictures.canvas.labels import labels_with_names, legend
 from gruebler.pictures.canvas.shapes import Point, Shape, bounds, moved_shape
 from gruebler.pictures.canvas.svg import svg_element
 from gruebler.pictures.linkage.element_pictures import contact_shapes
@@ -91,7 +91,9 @@ def structure_record(
         "joints": list(_joints(mechanism, shown, drawn, lang)),
         "links": list(_links(chain, drawn, report)),
         "frame": mechanism.frame,
-        "chosen": next(orbit[0] for orbit in symmetry(shown.chain).link_orbits if shown.frame in orbit),
+        "chosen": next(orbit[0] for orbit in symmetry(shown.chain).link_orbits if shown.frame in orbit).replace(
+            "_", " "
+        ),
         "driver": "" if like is None else like.text(),
         "counted": report.counted,
         "generic": report.generic,
@@ -161,7 +163,7 @@ class DrawnFrame:
     picture: str
     """With the names of the links, or numbers."""
     card: str
-    """Without names that are too long for a small picture, and as much smaller."""
+    """Without the list of names, or names that are too long for a small picture, and as much smaller."""
     shift: list[float]
     """How far the card lies from the picture."""
     at: list[list[float]]
@@ -212,11 +214,17 @@ def drawn_frame(
     held = held_outlines(placed)
     outlines = {link: held[link] for link in chain.links}
     around = {link: (*corners, *corners[: placed.closed[link]]) for link, corners in outlines.items()}
-    labelled = labels_or_numbers(outlines, placed.closed, bodies, called)
-    corner, picture = _picture(labelled, heads.values())
-    small, card = (
-        (corner, picture) if max(map(len, chain.links)) <= _LONGEST_LABEL else _picture(bodies, heads.values())
-    )
+    names = {link: called.get(link, link).replace("_", " ") for link in chain.links}
+    texts, numbered = labels_with_names(outlines, placed.closed, bodies, names)
+    labelled = [*bodies, *texts]
+    held_at = [point for outline in outlines.values() for point in outline]
+    listed = legend(numbered, held_at, labelled) if numbered else ()
+    corner, picture = _picture([*labelled, *listed], heads.values())
+    if not numbered:
+        brief = {link: outline for link, outline in outlines.items() if len(names[link]) <= _LONGEST_LABEL}
+        most = len(brief) >= chain.n - 1  # of a drawing the frame alone has a name
+        labelled = [*bodies, *(labels_with_names(brief, placed.closed, bodies, names)[0] if most else ())]
+    small, card = _picture(labelled, heads.values())
     back = Point(-corner.x, -corner.y)
 
     def spots(points: Iterable[Point]) -> list[list[float]]:
@@ -253,8 +261,8 @@ def _choice(mechanism: Mechanism, drawn: DrawnFrame, lang: str, called: Mapping[
     shown = mechanism.renamed(called)
     return {
         "text": mechanism.text(),
-        "frame": shown.frame,
-        "drives": list(shown.drive_names(Alphabet.of_language(lang))),
+        "frame": shown.frame.replace("_", " "),
+        "drives": [name.replace("_", " ") for name in shown.drive_names(Alphabet.of_language(lang))],
         "family": family(mechanism, lang) or "",
         "picture": drawn.card_with_drives(mechanism),
     }
