@@ -77,6 +77,11 @@ export function knotName({ knots }: Drawing, number: number): string {
   return name;
 }
 
+/** Of two wheels that meet in a knot. */
+export function radiiOf({ at, between, part }: Knot): number[] {
+  return part === undefined ? [] : between!.map((centre) => away(at, ...centre));
+}
+
 /** Whether two spots or knots are at the same place. */
 export function same(one: Pick<Spot, "at">, two: Pick<Spot, "at">): boolean {
   return one.at[0] === two.at[0] && one.at[1] === two.at[1];

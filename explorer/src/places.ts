@@ -2,8 +2,8 @@
 
 import { backdropOf } from "./backdrop";
 import { h, option } from "./dom";
-import { isPin, knotName, moved } from "./drawing";
-import { t } from "./language";
+import { isPin, knotName, moved, radiiOf, unitOf } from "./drawing";
+import { number, t } from "./language";
 import type { Drawn } from "./mobility";
 import type { Pair } from "./rows";
 import { rowsTable } from "./targets";
@@ -32,6 +32,11 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty()
     ...(rows.length
       ? [rowsTable(rows, t("Joint"), ["x", "y"], false, typed, (k) => knotName(drawing, numbers[k]!))]
       : []),
+    ...knots.flatMap((knot, k) => {
+      const [one, two] = radiiOf(knot).map((radius) => number(radius));
+      const radii = `${one}, ${two} ${unitOf(drawing)}`;
+      return one ? [h("p.note", {}, t("{joint}: radii {radii}", { joint: knotName(drawing, k), radii }))] : [];
+    }),
     ...(picture
       ? [
           rowsTable(frame, t("Picture"), ["x", "y", t("Width"), "φ [°]"], true, framed),

@@ -3,7 +3,18 @@
 import { type Backdrop, backdropElement, cornersOf, gripsOf, putBackdrop } from "./backdrop";
 import { DEGREE } from "./cycle";
 import { svg } from "./dom";
-import { type Drawing, isPin, type Knot, knotName, lengthsOf, linksOf, type Spot, same, unitOf } from "./drawing";
+import {
+  type Drawing,
+  isPin,
+  type Knot,
+  knotName,
+  lengthsOf,
+  linksOf,
+  radiiOf,
+  type Spot,
+  same,
+  unitOf,
+} from "./drawing";
 import { gridOf } from "./grid";
 import { away, clearAbout, convexHull, nearest, onLine, toHull } from "./hull";
 import { driving } from "./labels";
@@ -97,7 +108,10 @@ export function planePicture(plane: Plane): SVGElement[] {
     const name = spaced(link);
     const places = nameSpots(viewport, namePlace(joints, [], name, viewport.scale), name);
     const others = [...hulls, ...arrows].filter((one) => one !== hull && one.length);
-    const free = (spot: Pair) => letters.every(({ at }) => away(at, ...spot) > 14 + halfOf(name));
+    const free = (spot: Pair) =>
+      letters.every(({ at: [u, v], name: letter }) => {
+        return Math.abs(v - spot[1]) > 14 || Math.abs(u - spot[0]) > 8 + halfOf(name) + halfOf(letter);
+      });
     const [x, y] = places[clearSpot(places, name, [hull, others], free)]!;
     return [svg("path", { class: `outline${mark}`, d, "data-link": link }), svg("path.bar", { d }), text(name, [x, y])];
   });
@@ -136,7 +150,9 @@ function text(name: string, [x, y]: Pair): SVGElement {
 /** What the knots are called, beside them; of those at one place, such as a block and its slide, all of them. */
 function lettersOf({ drawing, viewport }: Plane, hulls: readonly Pair[][]): { at: Pair; name: string }[] {
   const { frame, knots } = drawing;
-  const ends = knots.flatMap(({ between }) => (between ? [between.map((at) => viewport.screen(...at))] : []));
+  const ends = knots.flatMap((knot) =>
+    knot.between && knot.part === undefined ? [knot.between.map((at) => viewport.screen(...at))] : [],
+  );
   // above the joint of a link that has one stands its name, above one that is driven an arrow
   const drawn = [
     ...ends,
@@ -162,9 +178,11 @@ function lettersOf({ drawing, viewport }: Plane, hulls: readonly Pair[][]): { at
         [x + side * below, y + foot],
       ]),
     );
-    const radii = knot.part === undefined ? [] : knot.between!.map((at) => number(away(at, ...knot.at), 3));
     const letters = here.map((one) => knotName(drawing, one)).join(", ");
-    const name = radii[0] ? `${letters} ${radii.join(" : ")}` : letters;
+    const radii = radiiOf(knot);
+    const told = `${letters} ${radii.map((radius) => number(radius, 3)).join(" : ")}`;
+    // in the larger wheel, if it has room
+    const name = Math.max(0, ...radii) * viewport.scale > 2 * halfOf(told) + 40 ? told : letters;
     const around = has(({ links }) => links.includes(frame!)) ? [...drawn, under] : drawn;
     const [u, v] = clearAbout([x, y], -20, around, halfOf(name) - 2);
     drawn.push([[u, v]]); // others keep clear of it

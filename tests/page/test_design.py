@@ -581,3 +581,19 @@ def test_a_large_design_leaves_its_targets_in_sight(design):
     view.locator("[data-ghost] .joint").first.wait_for()
     wide = float(view.locator(".plane").get_attribute("viewBox").split()[2])
     assert 5 < wide < 6 * 5
+
+
+def test_deviation_and_sensitivity_are_lengths(design):
+    """Of positions 50 mm apart, of which the library tells parts."""
+    from gruebler.page.requests import answer
+
+    rows = [[0, 0, 0], [30, 40, 30], [20, 10, 50]]
+    asked = {"kind": "positions", "rows": rows, "crank": False, "transmission": 30}
+    items = answer("synthesise", asked, "en", print)["items"]
+    assert [item["extent"] for item in items] == pytest.approx([50] * len(items))
+    view = design.page
+    view.evaluate(f"(rows) => {{ {VIEW}.rows.positions = rows; }}", rows)
+    view.click('[data-value="function"]')
+    view.click('[data-value="positions"]')
+    shown = [re.search(r"sensitivity (\S+) mm", text)[1] for text in found_designs(view).all_inner_texts()[:3]]
+    assert {float(one) for one in shown} <= {float(f"{50 * item['shift']:.2g}") for item in items}

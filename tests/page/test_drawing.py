@@ -718,3 +718,43 @@ def test_the_name_of_the_machine_at_hand_is_cut_between_words(plane):
     plane.page.click('[data-view="build"]')
     card = plane.page.locator("[data-begin=hand]", has_text="Kurbelschwinge")
     assert card.inner_text().strip() == "Edit Kurbelschwinge als …"
+
+
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (390, 844)])
+def test_a_gear_pair_has_its_radii_and_a_letter_clear_of_the_rims(tab, server, width, height):
+    page = tab(width=width, height=height, locale="de-DE").open(server.address)
+    page.page.click('[data-view="build"]')
+    page.page.click('[data-tool="gears"]')
+    click(page, (0, 0), (60, 0), (20, 0))
+    boxes = page.page.locator(".drawing text.name").evaluate_all(
+        """all => all.map((one) => one.getBBox()).map(({ x, y, width, height }) => [x, y, width, height])"""
+    )
+    texts = page.page.locator(".drawing text.name").all_text_contents()
+    scale = page.page.evaluate("gruebler.views.build.viewport.scale")
+    at = next(k for k, text in enumerate(texts) if text.startswith("C"))
+    assert texts[at] == ("C 20 : 40" if width > 500 else "C")  # a small wheel has no room for more
+    assert page.page.get_by_text("C: Radien 20, 40 mm").count() == 1
+    x, y, wide, high = boxes[at]
+    for centre, radius in ((0, 20), (60, 40)):
+        u, v = page.page.evaluate(f"gruebler.views.build.viewport.screen({centre}, 0)")
+        far = [math.hypot(p - u, q - v) for p in (x, x + wide) for q in (y, y + high)]
+        assert all(one < radius * scale for one in far) or all(one > radius * scale for one in far)
+    for k, (p, q, other, tall) in enumerate(boxes):
+        assert k == at or p > x + wide or p + other < x or q > y + high or q + tall < y, texts[k]
+    # the ruler alone tells the scale
+    assert page.page.locator(".drawing text.tick").get_by_text("mm").count() == 1
+
+
+def test_no_tool_of_a_german_phone_touches_its_border(tab, server):
+    page = tab(width=390, height=844, touch=True, locale="de-DE").open(server.address)
+    page.page.tap('[data-view="build"]')
+    gaps = page.page.locator("[data-tool]").evaluate_all(
+        """all => all.map((one) => {
+            const range = document.createRange();
+            range.selectNodeContents(one);
+            const [text, box] = [range.getBoundingClientRect(), one.getBoundingClientRect()];
+            return Math.min(text.left - box.left, box.right - text.right);
+        })"""
+    )
+    assert len(gaps) == 7
+    assert min(gaps) >= 4

@@ -330,7 +330,7 @@ def test_tools_of_a_phone_stand_in_one_row(tab, server):
     assert all(0 <= box["left"] < box["right"] <= 390 for box in boxes)
     page.page.locator('[data-tool="gears"]').click()
     hint = page.page.locator("[data-page] .hint, .drawing + .hint").first
-    assert hint.inner_text().startswith("Zahnradpaar: Beide Mitten")
+    assert hint.inner_text().startswith("Radpaar: Beide Mitten")
 
 
 def test_tools_stand_in_one_row_on_a_small_desk(tab, server):
