@@ -8,6 +8,7 @@ import type { PointRecord, Target } from "./model";
 import type { OtherModes } from "./modes";
 import { origin, type Pair, place, placesOf, turn } from "./rows";
 import { ownColour, type Shown } from "./shown";
+import { markSize, numberOf } from "./targets";
 import type { Viewport } from "./viewport";
 
 const DASHES = [6, 4];
@@ -76,21 +77,24 @@ export class Painter {
     pen.lineWidth = 2;
     pen.font = "12px system-ui, sans-serif";
     pen.textAlign = "center";
+    const ring = markSize(targets, 6, 1 / viewport.scale);
     const arrows = targets.map(([x, y, degrees]) => {
       const phi = (degrees ?? 0) * DEGREE;
       const [u, v] = viewport.screen(x, y);
-      return [6, degrees === undefined ? 6 : 26].map((far): Pair => [u + far * Math.cos(phi), v - far * Math.sin(phi)]);
+      return [ring, degrees === undefined ? ring : 26].map(
+        (far): Pair => [u + far * Math.cos(phi), v - far * Math.sin(phi)],
+      );
     });
     for (const [k, [x, y]] of targets.entries()) {
       const [u, v] = viewport.screen(x, y);
       pen.beginPath();
-      pen.arc(u, v, 6, 0, 7);
+      pen.arc(u, v, ring, 0, 7);
       const [from, to] = arrows[k] as [Pair, Pair];
       pen.moveTo(...from);
       pen.lineTo(...to);
       pen.stroke();
       const [left, middle] = clearAbout([u, v], -14, arrows);
-      pen.fillText(String(k + 1), left, middle + 4);
+      pen.fillText(numberOf(k, targets.length), left, middle + 4);
     }
   }
 

@@ -8,10 +8,13 @@ export class Demands {
   #least = 20; // degrees
   /** Places of the targets in the order, as they are typed. */
   order = "";
+  /** How far fixed pivots may lie outside the places, as it is typed. */
+  #reach: string | null = null;
 
-  /** The fields, in the language of the page; that of places if there are such; the angle is that on the way
-   * from target to target, or that of all positions of a crank that turns fully in any case. */
-  form(closed: HTMLElement | false, way: boolean, places: boolean): HTMLElement {
+  /** The fields, in the language of the page; those of places if there are such; the angle is that on the way
+   * from target to target, or that of all positions of a crank that turns fully in any case. A curve so large has its
+   * own order, and pivots no farther off as long as nothing else is typed. */
+  form(closed: HTMLElement | false, way: boolean, places: boolean, curve: number): HTMLElement {
     const least = h("input", {
       type: "number",
       min: 0,
@@ -19,6 +22,14 @@ export class Demands {
       value: this.#least,
       "data-field": "least",
       onchange: () => (this.#least = Number(least.value)),
+    });
+    const reach = h("input", {
+      type: "number",
+      min: 0,
+      value: this.#far(curve),
+      placeholder: "∞",
+      "data-field": "reach",
+      onchange: () => (this.#reach = reach.value),
     });
     const order = h("input", {
       value: this.order,
@@ -33,7 +44,9 @@ export class Demands {
       closed,
       way && option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
       h("label", {}, way ? t("transmission angle on the way at least") : t("transmission angle at least"), least, "°"),
+      places && h("label", {}, t("fixed pivots within"), reach, t("mm of the targets")),
       places &&
+        (!curve || !!this.order) &&
         h(
           "details.words",
           { open: this.order !== "" },
@@ -44,10 +57,16 @@ export class Demands {
     );
   }
 
-  /** What the library is told of them; the order only of places. */
-  asked(places: boolean) {
+  #far(curve: number): string {
+    return this.#reach ?? String(curve || "");
+  }
+
+  /** What the library is told of them; what is of places only of these. */
+  asked(places: boolean, curve: number) {
     const ranks = places ? (this.order.match(/[^\s,;]+/g) ?? []) : [];
+    const far = places && this.#far(curve);
     return {
+      reach: far ? +far : null,
       order: ranks.map((rank) => (/\d/.test(rank) ? +rank : null)),
       crank: this.#crank,
       transmission: this.#least,

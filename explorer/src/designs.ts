@@ -16,13 +16,12 @@ export interface Design extends Moving {
   transmission: number | null;
   /** The same over all positions that it can take. */
   range?: number | null;
-  /** How far targets move at most, as a part of the size of the task, if all lengths are wrong by 0.1 %. */
+  /** How far targets move at most if all lengths are wrong by 0.1 %, in millimetres or radians. */
   shift?: number | null;
   /** Whether a better one is much like it. */
   variant?: boolean;
+  /** By how much targets are missed at most, in the same unit; 0 but for rounding. */
   error: number | null;
-  /** Of the task, in millimetres, by which errors and shifts are measured; of angles 1. */
-  extent?: number | null;
   size: number;
   /** Of a function crank and output in each frame, in degrees as its pairs count them. */
   angles?: Pair[];
@@ -50,21 +49,16 @@ export interface Found {
   note: string;
 }
 
-/** Whether what is asked for is met, to rounding. */
-function exact(error: number | null): boolean {
-  return Math.abs(error ?? 0) < 1e-9;
-}
-
 /** By what designs are sorted; "balanced" is by the sum of their places by those in LEVEL. */
 type Value = "error" | "size" | "transmission" | "range" | "shift";
 type Order = Value | "balanced";
-const LEVEL: Value[] = ["range", "size", "shift"];
+const LEVEL: Value[] = ["error", "range", "size", "shift"];
 const ORDERS: Order[] = ["error", "range", "transmission", "size", "shift", "balanced"];
 
 /** What a design is worth, the less the better. */
 function worth({ error, range, shift, size, transmission }: Design, by: Value): number {
   const worths = {
-    error: exact(error) ? 0 : Math.abs(error!),
+    error: Math.abs(error ?? 0),
     size: +size.toPrecision(9), // all of one length, to rounding, are as large
     transmission: -(transmission ?? 0),
     range: -(range ?? transmission ?? 0),
@@ -95,7 +89,7 @@ export class DesignCards {
   show(found: Found | null): Design | null {
     this.#found = found;
     this.#form = this.#forms()[0] ?? "";
-    this.#exact = !!found?.items.every(({ error }) => exact(error));
+    this.#exact = !!found?.items.every(({ error }) => !error);
     // by which they are numbered, those that are much like others last
     if (found) {
       const orders = this.#orders();
@@ -177,7 +171,8 @@ export class DesignCards {
     renew(
       this.element,
       h("h2", {}, t("{count} designs", { count: items.length })),
-      h("p.note", {}, `${found.note} ${sorted} ${found.words}`),
+      h("p.note", {}, `${found.note} ${sorted}`),
+      found.words && h("details.words", {}, h("summary", {}, t("What the cards tell")), h("p.note", {}, found.words)),
       items[0]?.stems ? this.#missed.element : "",
       h(
         "div.form",
@@ -209,16 +204,12 @@ export class DesignCards {
   }
 
   #card(design: Design): HTMLElement {
-    const { extent, form, lengths, stems, range, shift, transmission, error, size } = design;
+    const { form, lengths, range, shift, transmission, error, size } = design;
     const degrees = (mu: number | null | undefined) => typeof mu === "number" && angle(mu * DEGREE, 3);
     const [way, all] = [transmission, range].map(degrees);
     const names = design.names[currentLanguage()]!;
-    const off = (part: number) => {
-      const far = part * (extent ?? 1);
-      return this.#found!.relative ? angle(far, 2) : `${number(far, 2)} mm`;
-    };
-    const value = stems ? angle(error!, 2) : off(error!);
-    const deviation = exact(error) ? t("met exactly") : t("deviation {value}", { value });
+    const measured = (value: number) => (this.#found!.relative ? angle(value, 2) : `${number(value, 2)} mm`);
+    const deviation = error ? t("deviation {value}", { value: measured(error) }) : t("met exactly");
     const millimetres = (length: number, k: number) => number(length, 3) + (lengths[k + 1] ? "" : " mm");
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
     const play = () => {
@@ -251,7 +242,7 @@ export class DesignCards {
           : all && t("μ ≥ {all} in all positions", { all }),
       ),
       h("span", {}, !this.#found!.relative && t("longest link {value} mm", { value: number(size, 3) })),
-      h("span", {}, !!shift && t("sensitivity {value}", { value: off(shift) })),
+      h("span", {}, !!shift && t("sensitivity {value}", { value: measured(shift) })),
     );
     return card;
   }

@@ -63,7 +63,7 @@ export class Ghost {
     const hatched = (k: number) => (still(k) ? ["rail", "rail-hatch"] : ["rail"]).map((name) => svg(`path.${name}`));
     const bodies = [...rails.map(([end]) => hatched(end!)), ...bodiesOf(members)];
     const driven = drive === undefined ? [] : [mark("driven", DRIVEN, first[drive]!, unit)];
-    renew(this.element, ...curves, ...grounds, ...bodies.flat(), ...pins, ...driven);
+    renew(this.element, ...curves, ...bodies.flat(), ...grounds, ...pins, ...driven);
     const calm = wantsStill();
     const tick = (now: number) => {
       const frame = Math.floor((now / 1000) * PACE) % frames.length;

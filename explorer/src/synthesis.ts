@@ -108,6 +108,16 @@ export class SynthesisView implements View {
     return this.kind === "points" || this.kind === "positions";
   }
 
+  /** How large a curve is all of which is wanted; 0 of single points. */
+  get #curve(): number {
+    if (this.kind !== "points" || !(this.#puts || this.points[NINE])) return 0;
+    const spans = [0, 1].map((axis) => {
+      const values = this.points.map((row) => row[axis]!);
+      return Math.max(...values) - Math.min(...values);
+    });
+    return +Math.max(0, ...spans).toPrecision(2);
+  }
+
   arrange(): void {
     const kinds = (["points", "positions", "function", "dead-centres"] as const).map((kind): [Kind, string] => [
       kind,
@@ -131,6 +141,10 @@ export class SynthesisView implements View {
     const close = (on: boolean) => {
       this.#closed = on;
       this.#draw();
+    };
+    const put = (value: string) => {
+      this.#puts = value as Puts;
+      this.arrange();
     };
     renew(
       this.#doing,
@@ -161,8 +175,17 @@ export class SynthesisView implements View {
           h(
             "div",
             {},
-            h("p.note", {}, wordsOf(this.kind).hint),
-            this.#planar && choice(t("What is to be met"), clicks, this.#puts, (value) => (this.#puts = value as Puts)),
+            h(
+              "p.note",
+              {},
+              this.#puts === "curve"
+                ? t(
+                    "Draw the curve in one stroke; if it ends near its start, it is closed. " +
+                      "The nearest coupler curves are looked for.",
+                  )
+                : wordsOf(this.kind).hint,
+            ),
+            this.#planar && choice(t("What is to be met"), clicks, this.#puts, put),
             this.#doing,
           ),
           h(
@@ -172,6 +195,7 @@ export class SynthesisView implements View {
               this.kind === "points" && option(t("closed curve"), this.#closed, close, "closed"),
               this.kind !== "dead-centres",
               this.#planar && this.#page.served,
+              this.#curve,
             ),
             this.#list,
             this.designs.element,
@@ -325,16 +349,18 @@ export class SynthesisView implements View {
     const former =
       this.designs.element.firstChild && this.#asked !== this.#state[1] && t("Designs for the former targets");
     this.#told.textContent = lacks || former || "";
+    const tables = h(
+      "div.points",
+      {},
+      table(this.points, row, heads),
+      this.kind === "positions" && !!this.#pivots.length && table(this.#pivots, t("Fixed pivot"), ["x", "y"]),
+    );
+    const { open } = this.#list.querySelector("details") ?? {};
+    const folds = this.#puts === "curve";
+    const set = folds ? h("details.words", { open }, h("summary", {}, `${t("Points")} · ${count}`), tables) : tables;
     renew(
       this.#list,
-      this.points.length
-        ? h(
-            "div.points",
-            {},
-            table(this.points, row, heads),
-            this.kind === "positions" && !!this.#pivots.length && table(this.#pivots, t("Fixed pivot"), ["x", "y"]),
-          )
-        : "",
+      count ? set : "",
       this.kind === "function" && h("button.plain", { "data-act": "pair", onclick: add }, t("Another pair")),
     );
   }
@@ -352,7 +378,7 @@ export class SynthesisView implements View {
       rows: this.points,
       pivots: this.kind === "positions" ? this.#pivots : [],
       closed: this.kind === "points" && this.#closed,
-      ...this.#demands.asked(this.#planar),
+      ...this.#demands.asked(this.#planar, this.#curve),
     };
     this.#told.textContent = "";
     const [, asked] = this.#state;

@@ -15,6 +15,7 @@ import { cross } from "./shell";
 const ARM = 14; // of the arrow that shows the angle of a position
 const LONG = 100; // millimetres of a rocker of which only the swing is known
 const AWAY = 6; // from a point to the middle of its number
+const CROWD = 9; // targets, of more only some have their numbers
 
 /** A table whose cells change the rows; each row may be removed. */
 export function rowsTable(
@@ -144,6 +145,19 @@ export function swingMark(
   ];
 }
 
+/** What a target is called beside it; of many every fifth. */
+export function numberOf(k: number, count: number): string {
+  return count > CROWD && k % 5 ? "" : String(k + 1);
+}
+
+/** How large the marks of targets are that may be so large: of many as small as the way to the next ones asks. */
+export function markSize(rows: readonly (readonly (number | undefined)[])[], largest: number, unit: number): number {
+  if (!rows[CROWD]) return largest;
+  const ways = rows.slice(1).map(([x, y], k) => Math.hypot(x! - rows[k]![0]!, y! - rows[k]![1]!));
+  const mean = ways.reduce((sum, way) => sum + way) / ways.length;
+  return Math.max(0.4 * largest, Math.min(largest, (0.22 * mean) / unit));
+}
+
 /** Where the number of each target has its middle: near its point, as clear as possible of other points, of what is
  * drawn besides, and of all arrows, else of the way from point to point. */
 export function numberPlaces(
@@ -166,7 +180,7 @@ export function numberPlaces(
 }
 
 /** A point with its number, and the arrow of a position; all of it in units that are so long. */
-export function targetMark([x, y, turn]: number[], k: number, [at, up]: Pair, unit: number, mute = false): SVGElement {
+export function targetMark([x, y, turn]: number[], k: number, [at, up]: Pair, unit: number, r: number, name: string) {
   const [u, v] = tip([0, 0, turn ?? 0], 1);
   return svg(
     "g",
@@ -174,7 +188,7 @@ export function targetMark([x, y, turn]: number[], k: number, [at, up]: Pair, un
     ...(turn === undefined
       ? []
       : [svg("path.arm", { d: `M0 0L${u} ${-v!}` }), svg("circle.tip", { r: 1.8, cx: u!, cy: -v! })]),
-    svg("circle", { r: 2.6 }),
-    svg("text", { x: (at - x!) / unit, y: (y! - up) / unit + 2, "text-anchor": "middle" }, mute ? "" : String(k + 1)),
+    svg("circle", { r }),
+    svg("text", { x: (at - x!) / unit, y: (y! - up) / unit + 2, "text-anchor": "middle" }, name),
   );
 }

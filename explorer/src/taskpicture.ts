@@ -6,12 +6,12 @@ import { h, put, renew, svg } from "./dom";
 import { Ghost, pathOf } from "./ghost";
 import { away } from "./hull";
 import type { Pair } from "./rows";
-import { numberPlaces, swingMark, swingOf, targetMark } from "./targets";
+import { markSize, numberOf, numberPlaces, swingMark, swingOf, targetMark } from "./targets";
 import { type Kind, wordsOf } from "./tasks";
 
 const WIDE = 240; // of the plane, in millimetres; that of a phone is narrower
 const PART = 0.64; // of the height of the window, at most
-const CROWD = 9; // points, of more only some have their numbers
+const DOT = 2.6; // units: the radius of a target
 const LOW = 0.32; // the same on a phone, where designs need room
 
 /** What is met, and by what. */
@@ -103,6 +103,8 @@ export class TaskPicture {
     const parts = curve.slice(1).map((next, k): Pair[] => [curve[k]!, next]);
     const at = numberPlaces(points, closed, unit, [...(angles ? axes : []), ...parts, ...grounds]);
     put(this.#here, { r: 1.5 * unit });
+    const dot = markSize(points, DOT, unit);
+    const mark = (row: number[], k: number) => targetMark(row, k, at[k]!, unit, dot, numberOf(k, points.length));
     const wanted = svg("path.polygon", { d: kind === "positions" ? "" : pathOf(way) + loop });
     renew(
       this.#marks,
@@ -111,7 +113,7 @@ export class TaskPicture {
         ? swingMark(swing, points[0]!, unit, design)
         : [charted ? svg("path.curve", { d: pathOf(charted) }) : wanted]),
       ...(charted ? [this.#here] : [this.#ghost.element]),
-      ...(swing ? [] : points.map((row, k) => targetMark(row, k, at[k]!, unit, !!points[CROWD] && k % 5 > 0))),
+      ...(swing ? [] : points.map(mark)),
       ...pivots.map((place) => svg("g", { "data-pivot": "" }, groundMark(place, unit))),
     );
     put(this.plane, { viewBox: viewBoxOf(this.#area) });

@@ -19,10 +19,7 @@ export function wordsOf(kind: Kind): TaskWords {
   const words: Record<Kind, TaskWords> = {
     points: {
       name: t("Points"),
-      hint: t(
-        "Put points in the order in which a coupler point passes them, or draw a curve: " +
-          "up to nine points are met exactly if possible.",
-      ),
+      hint: t("Put points in the order in which a coupler point passes them: up to nine are met exactly if possible."),
       row: t("Point"),
       heads: ["x", "y"],
     },

@@ -161,15 +161,15 @@ def browsed(chromium, path, wanted="canvas"):
     return browsed_at(chromium, path.as_uri(), wanted)
 
 
-def browsed_at(chromium, address, wanted="canvas"):
-    """The same at an address."""
+def browsed_at(chromium, address, wanted="canvas", *, touch=False):
+    """The same at an address, for fingers if it is touched."""
     from tests.page.conftest import find_browser
 
     if not (found := find_browser(chromium)):
         pytest.skip("no browser")
     options = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]
     browser = chromium.launch(executable_path=found, args=options)
-    page = browser.new_page(viewport={"width": 900, "height": 700})
+    page = browser.new_page(viewport={"width": 900, "height": 700}, has_touch=touch)
     errors = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.on("console", lambda line: errors.append(line.text) if line.type == "error" else None)

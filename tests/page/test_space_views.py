@@ -28,10 +28,12 @@ DRAWN = f"""boxes => {{
 """From where to where across something is drawn; nothing if it is in one of the boxes."""
 
 
-@pytest.mark.parametrize("id", ["bennett", "gough"])
-def test_a_machine_keeps_clear_of_buttons_and_words_all_the_way(server, chromium, id):
-    """On a phone, over the whole range of its drive."""
-    browser, page, errors = browsed_at(chromium, f"{server.address}space/{id}.html")
+@pytest.mark.parametrize(
+    ("id", "touch"), [("bennett", False), ("bennett", True), ("cardan_shaft", True), ("gough", False)]
+)
+def test_a_machine_keeps_clear_of_buttons_and_words_all_the_way(server, chromium, id, touch):
+    """On a phone, over the whole range of its drive; buttons that are touched are larger."""
+    browser, page, errors = browsed_at(chromium, f"{server.address}space/{id}.html", touch=touch)
     page.set_viewport_size({"width": 390, "height": 844})
     page.get_by_role("button", name="Pause").click()
     page.evaluate("gruebler.scene.shown.floor = false")  # a click would scroll the page, and the picture be low
@@ -41,13 +43,16 @@ def test_a_machine_keeps_clear_of_buttons_and_words_all_the_way(server, chromium
         box["y"] = picture["y"] + picture["height"] - box["y"] - box["height"]
         box["x"] -= picture["x"]
     assert min(min(box["width"], box["height"]) for box in boxes) > 30
+    track, value = (page.locator(f".transport {part}").bounding_box() for part in (".track", "input.value"))
+    if id != "gough":  # whose drive is chosen there
+        assert value["y"] >= track["y"] + track["height"]  # below, as for machines in the plane
     low, high = page.evaluate("[gruebler.linkage.cycle.low, gruebler.linkage.cycle.high]")
     ends = []
     for part in np.linspace(0, 1, 13):
         page.evaluate("value => gruebler.transport.pick(value)", low + part * (high - low))
         ends.append(page.evaluate(DRAWN, boxes))
         assert ends[-1], part
-    if id == "bennett":  # it lies below the buttons, not beside them
+    if id == "bennett" and not touch:  # it lies below the buttons, not beside them
         assert max(right for _, right in ends) - min(left for left, _ in ends) > 0.8 * picture["width"]
     assert errors == []
     browser.close()

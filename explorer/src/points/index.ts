@@ -71,7 +71,7 @@ export async function answered(question: Question, progress: (done: number, tota
   return { found: { total: accepted.length, items, words: "", note: "" }, real: real.length, missing: best.missing };
 }
 
-function designOf({ model, cycle, full, transmission, error }: Judged, targets: readonly Complex[]) {
+function designOf({ model, cycle, full, transmission }: Judged, targets: readonly Complex[]) {
   const { rows, values, home } = cycle;
   const [{ link, at }] = model.points as [Model["points"][number]];
   const pins = model.joints.map((_, joint) => model.elements.find((e) => e.joint === joint)!);
@@ -99,7 +99,7 @@ function designOf({ model, cycle, full, transmission, error }: Judged, targets: 
     picture: pictureOf({ places: placesAt(home), members, fixed, cycle, point: { link, at }, targets }),
     form: "RR-RR",
     transmission,
-    error,
+    error: 0, // but for rounding
     size: model.program.size,
     frames: full ? shown : [...shown, ...shown.slice(1, -1).reverse()],
     members,

@@ -25,7 +25,7 @@ import { type Drawn, Painter } from "./painter";
 
 const ARM = 26; // pixels of the axes in the corner
 const ROOM = 16; // pixels around the machine
-const BUTTONS = 56; // pixels, of which there are three
+const BUTTONS = 56; // pixels
 const MOST_ROOM = 0.3; // of the picture
 const STEEP = 1.5; // radians: no farther up or down
 
@@ -48,6 +48,7 @@ export class Scene {
   readonly canvas = h("canvas", { "aria-hidden": "true" });
   readonly root = svg("svg", { role: "application", tabindex: "0" });
   readonly #hint = h("div.hint", {});
+  #tools = h("div.tools", {});
   readonly #painter: Painter | null = null;
   #camera: Camera;
   #whole = true;
@@ -125,9 +126,9 @@ export class Scene {
     this.root.setAttribute("aria-label", `${title}. ${words.hint}`);
     this.#hint.textContent = words.hint!;
     const grid = unit ? `${words.grid} ${number(this.#step)} ${unit}` : "";
-    const tools = h("div.tools", {}, ...zoomButtons(this));
+    this.#tools = h("div.tools", {}, ...zoomButtons(this));
     const picture = this.#painter ? [this.canvas, this.root] : [h("p.note.flat", { role: "alert" }, words.flat)];
-    this.element.replaceChildren(...picture, tools, this.#hint, h("div.hint.unit", {}, grid));
+    this.element.replaceChildren(...picture, this.#tools, this.#hint, h("div.hint.unit", {}, grid));
   }
 
   // --- where from ----------------------------------------------------------------------------------------------------
@@ -159,7 +160,13 @@ export class Scene {
     const [left, top, bottom] = [across(ROOM), down(ROOM), down(told)];
     return [
       { left, right: across(BUTTONS + ROOM), top, bottom },
-      { left, right: left, top: down(3 * BUTTONS), bottom },
+      // as high as fingers need them
+      {
+        left,
+        right: left,
+        top: Math.min((this.#tools.offsetHeight + 2 * ROOM) / Math.max(clientHeight, 1), 0.5),
+        bottom,
+      },
     ];
   }
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from math import degrees, isfinite, radians
+from math import degrees, hypot, isfinite, radians
 from typing import Any
 
 import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError
-from gruebler.base.text import LANGUAGES, Message, message, translate
+from gruebler.base.text import LANGUAGES, Message, joined_by_and, message, translate
 from gruebler.design.synthesis import (
     DeadCentreTask,
     Demands,
@@ -24,6 +24,7 @@ from gruebler.design.synthesis import (
     synthesise,
 )
 from gruebler.design.synthesis.start_families import MOST_PAIRS
+from gruebler.design.synthesis.targets import GuidedCurve
 from gruebler.design.synthesis.tasks import gives_lengths
 from gruebler.files import linkage_to_json
 from gruebler.mechanics.analysis.measuring import measures
@@ -47,12 +48,18 @@ _LIKE = 0.1
 """Of the size: designs of one form whose pivots and lengths differ by less are variants of one another."""
 _LONGEST = 100.0
 """Of designs of which only the ratios count: so long is the longest distance of joints on a link, in mm."""
-BALANCED = message("Balanced: transmission angle, longest link and sensitivity count alike.")
+_BALANCED = message("Balanced: {criteria} count alike.")
+_ANGLE, _SIZE, _SENSITIVITY = message("transmission angle"), message("longest link"), message("sensitivity")
+BALANCED = _BALANCED.filled(criteria=joined_by_and([_ANGLE, _SIZE, _SENSITIVITY]))
 BEST = message("The best of {count}.")
 EXACT = message("All meet the targets exactly.")
 NONE = message("None does: ask for less, or try other targets.")
 _ROUNDING = 1e-9
 """Of the size: a target that is missed by less is met."""
+_CURVES = 12
+"""So many designs for a whole curve: a choice between near ones and small ones."""
+_SLENDER = 8
+"""Where space is limited, too: the longest length by the shortest."""
 _FRAMES = 144  # of a motion, there and back if it does not turn fully
 
 
@@ -87,9 +94,18 @@ def task_of(
 
 
 def design_records(
-    task: Task, crank: bool, transmission: float, lang: str, progress: Callable[[str], object]
+    task: Task,
+    crank: bool,
+    transmission: float,
+    lang: str,
+    progress: Callable[[str], object],
+    reach: float | None = None,
 ) -> dict[str, Any]:
     """The accepted designs for a task, the best of them with pictures; transmission angles in degrees.
+
+    Fixed pivots lie within a reach of the rectangle about places, if one is given, and no link is longer than the
+    diagonal of that space, nor much longer than another: the curve that comes nearest to a drawn one often belongs to
+    a linkage many times as large.
 
     For positions through which a crank that turns fully carries a body the angle over the whole turn decides, and is
     what is asked for where a design has it. A design
@@ -103,6 +119,7 @@ def design_records(
     """
     progress(translate("Looking for four-bars", lang))
     sort = ("range-transmission",) if crank and isinstance(task, PositionTask) else ()
+    space = _region(task, reach)
 
     def counted(done: int, total: int) -> None:
         if done < total:
@@ -110,16 +127,23 @@ def design_records(
         else:
             progress(translate("Judging the linkages found", lang))
 
+    demands = Demands(crank=crank, transmission=radians(transmission))
+    if space is not None:
+        demands = replace(demands, region=space, size_ratio=_SLENDER)
     result = synthesise(
         task,
-        demands=Demands(crank=crank, transmission=radians(transmission)),
+        demands=demands,
         sort=sort,
+        number=_CURVES if _is_curve(task) else None,
         progress=counted if isinstance(task, PathTask | PositionTask) else None,
     )
     designs = [design for design in result.designs if design.verdict.accepted]
     if sort:  # those that have the angle in all positions, if there are any
         whole = [each for each in designs if degrees(each.transmission_over_range) >= transmission]
         designs = whole or designs
+    if space is not None:
+        longest = hypot(space[2] - space[0], space[3] - space[1])
+        designs = [each for each in designs if each.linkage.size <= longest]
     relative = not gives_lengths(task)
     if relative:
         designs = [replace(each, linkage=each.linkage.scaled(_LONGEST / each.linkage.size)) for each in designs]
@@ -129,9 +153,27 @@ def design_records(
         items.append(_record(design, task, lang))
     _mark_variants(items)
     refused = len(result.designs) - len(designs)
-    texts = {"note": _notes(task, items, len(designs), refused), "words": _words(task, items, relative)}
+    texts = {"note": _notes(task, items, len(designs), refused), "words": _words(task, items, relative, space)}
     said = {key: " ".join(text.in_language(lang) for text in some) for key, some in texts.items()}
     return {"total": len(designs), "relative": relative, "items": items} | said
+
+
+def _is_curve(task: Task) -> bool:
+    """Whether all of a curve is wanted, which is approached, and not single points of it."""
+    return isinstance(task, PathTask) and GuidedCurve.of(task) is not GuidedCurve.NONE
+
+
+def _region(task: Task, reach: float | None) -> tuple[float, float, float, float] | None:
+    """The rectangle about places and given pivots, so much wider on every side.
+
+    >>> _region(task_of("points", [[0, 0], [1, 5], [2, 0]]), 10)
+    (-10.0, -10.0, 12.0, 15.0)
+    """
+    if reach is None or not isinstance(task, PathTask | PositionTask):
+        return None
+    places = task.z if isinstance(task, PathTask) else task.origins
+    x, y = np.array([*((z.real, z.imag) for z in places), *task.fixed_pivots]).T
+    return float(x.min()) - reach, float(y.min()) - reach, float(x.max()) + reach, float(y.max()) + reach
 
 
 def _notes(task: Task, items: Sequence[dict[str, Any]], total: int, refused: int) -> Iterator[Message]:
@@ -149,22 +191,31 @@ def _notes(task: Task, items: Sequence[dict[str, Any]], total: int, refused: int
         yield BEST.filled(count=total)
     if not total:
         yield NONE
-    elif all(abs(item["error"] or 0) < _ROUNDING for item in items):
+    elif not any(item["error"] for item in items):
         yield EXACT
+    elif _is_curve(task):
+        yield message("Deviation: the largest distance of a point wanted (purple) from the curve reached (blue).")
     if refused:
         yield message("Left out, as they do not meet what is asked: {count}.", count=refused)
 
 
-def _words(task: Task, items: Sequence[dict[str, Any]], relative: bool) -> Iterator[Message]:
+def _words(
+    task: Task, items: Sequence[dict[str, Any]], relative: bool, space: tuple[float, ...] | None
+) -> Iterator[Message]:
     """What stands on the cards of designs, explained."""
     sensitive = any(item["shift"] is not None for item in items)
-    if items and not relative:
-        yield BALANCED
-    elif sensitive:
-        yield message("Balanced: transmission angle and sensitivity count alike.")
+    approached = any(item["error"] for item in items)
+    if items and (sensitive or not relative):
+        each = [*[message("deviation")] * approached, _ANGLE, *[_SIZE] * (not relative), *[_SENSITIVITY] * sensitive]
+        yield _BALANCED.filled(criteria=joined_by_and(each))
     angles = [(item["range"], item["transmission"]) for item in items]
     if not isinstance(task, DeadCentreTask) and any(None not in both and both[0] < both[1] for both in angles):
         yield message("On the way: from the first target to the last.")
+    if space is not None:
+        yield message(
+            "No link is longer than the diagonal of the space for fixed pivots, nor {ratio} times as long as another.",
+            ratio=_SLENDER,
+        )
     if items and relative:
         yield message("Of lengths only the ratios count; the longest is 100 mm.")
     if sensitive:
@@ -175,6 +226,7 @@ def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
     linkage, verdict = design.linkage, design.verdict
     posed = posed_linkage(linkage)
     angle = degrees(verdict.transmission)
+    size = design.targets.size if design.targets else 1.0
     marks = _target_marks(task, linkage.mechanism.frame, posed.scale)
     return {
         "document": linkage_to_json(linkage),
@@ -182,13 +234,23 @@ def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
         "form": capitalised(replace(design, form=_NAMES.get(design.form, design.form)).form_in_language(lang)),
         "transmission": angle if isfinite(angle) else None,
         "range": degrees(over_range) if isfinite(over_range := design.transmission_over_range) else None,
-        "shift": shift if isfinite(shift := design.relative_sensitivity) else None,
-        "error": verdict.error if isfinite(verdict.error) else None,
-        "extent": None if design.targets is None else design.targets.size,
+        "shift": shift * size if isfinite(shift := design.relative_sensitivity) else None,
+        "error": _size_of(verdict.error, size),
         "size": linkage.size,
         **_frames(linkage, posed, _played(design, task, posed)),
         **_met_angles(design, task, posed),
     }
+
+
+def _size_of(error: float, size: float) -> float | None:
+    """A deviation in the unit of the task, radians of a function; none of what is met but for rounding.
+
+    >>> _size_of(0.01, 120.0), _size_of(1e-12, 120.0), _size_of(float("nan"), 1.0)
+    (1.2, 0.0, None)
+    """
+    if not isfinite(error):
+        return None
+    return error * size if abs(error) >= _ROUNDING else 0.0
 
 
 def capitalised(text: str) -> str:

@@ -207,6 +207,8 @@ class SynthesiseTask(Params):
     """Whether the drive must turn fully."""
     transmission: Annotated[float, msgspec.Meta(ge=0, le=90)] = 0.0
     """The least transmission angle, in degrees."""
+    reach: Annotated[float, msgspec.Meta(ge=0, le=1e9)] | None = None
+    """How far fixed pivots lie outside the rectangle about all places at most; anywhere without one."""
 
 
 class Export(Params):
