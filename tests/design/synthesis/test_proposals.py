@@ -11,7 +11,15 @@ import pytest
 
 from gruebler.base.errors import SynthesisError
 from gruebler.cli.design import _type_row
-from gruebler.design.synthesis import DeadCentreTask, Demands, PathTask, PositionTask, pareto, synthesise_positions
+from gruebler.design.synthesis import (
+    DeadCentreTask,
+    Demands,
+    PathTask,
+    PositionTask,
+    pareto,
+    synthesise_path,
+    synthesise_positions,
+)
 from gruebler.design.synthesis.clearances import guided_link, stays_clear
 from gruebler.design.synthesis.dyad_structures import dyad_structure, link_motions
 from gruebler.design.synthesis.fitting import links_moved_by_all
@@ -179,6 +187,29 @@ def test_what_stays_clear_is_that_by_a_fine_walk(hinges, distance):
     sure = [k for k, gap in enumerate(gaps) if abs(gap - distance) > 0.05]  # points of the walk are so far apart
     assert len(sure) > len(hinges) // 2
     assert [stays_clear(hinges[k], clearance) for k in sure] == [gaps[k] > distance for k in sure]
+
+
+def _coupler_point(phi, lengths=(30, 80, 75, 90), place=40 + 30j):
+    """By hand: where two circles meet."""
+    a, b, c, d = lengths
+    pin = a * np.exp(1j * phi)
+    to_pivot = d - pin
+    distance = abs(to_pivot)
+    along = (b**2 - c**2 + distance**2) / (2 * distance)
+    coupler = (along + 1j * math.sqrt(b**2 - along**2)) * to_pivot / distance
+    return pin + place * coupler / b
+
+
+def test_a_body_on_a_closed_path_keeps_clear_between_the_last_target_and_the_first():
+    points = [_coupler_point(math.radians(angle)) for angle in range(0, 300, 30)]
+    task = PathTask([(z.real, z.imag) for z in points], closed=True)
+    exact = synthesise_path(task, Demands(crank=True), number=1).designs[0]
+    assert exact.verdict.error < 1e-9
+    body = [(points[0].real, points[0].imag), (points[0].real, points[0].imag + 0.1)]
+    for angle, clear in ((285, False), (315, False), (345, False), (135, False), (315.0 + 15j, True)):
+        at = _coupler_point(math.radians(angle.real)) + angle.imag
+        post = Clearance(body, obstacle=[(at.real - 1, at.imag), (at.real + 1, at.imag)], distance=0.5)
+        assert stays_clear(exact, post) == clear
 
 
 def test_an_obstacle_on_the_way_rejects_what_it_touches():

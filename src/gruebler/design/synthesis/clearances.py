@@ -40,11 +40,22 @@ def stays_clear(design: Design, clearance: Clearance) -> bool:
     return False
 
 
+def _drive_values(design: Design) -> Reals:
+    """At the targets; where the drive turns on to the first one, also there."""
+    values = np.array(design.drives)
+    if design.targets is None or not design.targets.all_round or not design.verdict.turns_fully:
+        return values
+    travel = values[-1] - values[0]
+    turns = np.copysign(np.ceil(np.abs(travel) / (2 * np.pi)), travel)
+    return np.append(values, values[0] + 2 * np.pi * turns)
+
+
 def _on_the_way(design: Design, clearance: Clearance, count: int) -> Complexes | None:
     """(poses, points) the outline of the body from the first target to the last; None if it does not get there."""
     if not design.drives:
         return None
-    values = np.interp(np.linspace(0, 1, count), np.linspace(0, 1, len(design.drives)), design.drives)
+    drives = _drive_values(design)
+    values = np.interp(np.linspace(0, 1, count), np.linspace(0, 1, len(drives)), drives)
     link = guided_link(design)
     try:
         motion = move_quietly(design.linkage, values)
