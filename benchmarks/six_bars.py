@@ -1,14 +1,17 @@
 """How many six-bars turn through pairs of angles: by monodromy, with a trace test; docs/theory/synthesis-functions.md.
 
-Of Watt I: how many carry a body through 6 positions, or 7, without a trace test. Through eleven pairs, or eight
-positions: estimated from how often random ones are the same, until the 95 % are within 2 %.
+Of Watt I: how many carry a body through 6 positions, or 7. Through eleven pairs, or eight positions: estimated from how
+often random ones are the same, until the 95 % are within 2 %.
 
 `python -m benchmarks.six_bars FAMILY PAIRS FOLDER SEED` keeps what is found in a folder and goes on from there. The
-family "Watt I, one angle": those that turn the body between 6 positions of one angle.
+family "Watt I, one angle": those that turn the body between 6 positions of one angle. `--plane`: of nine pairs and
+seven positions those of a general plane, which takes longer and has a trace test; the others always have one.
+`--curve`: all planes cut one curve, which is quicker.
 """
 
-import sys
+import argparse
 import time
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -53,7 +56,7 @@ def estimate(problem: Problem, folder: str, seed: int) -> None:
             break
 
 
-def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 1) -> None:
+def main(family: str, pairs: int, folder: str, seed: int, tasks: int, plane: bool, curve: bool) -> None:
     kind, _, one_angle = family.partition(", ")
     poses, points = (pairs - 1, 0) if kind == "Watt I" else (0, pairs - 1)
     problem = Problem(
@@ -65,11 +68,18 @@ def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 
         family=kind,
         one_angle=bool(one_angle),
     )
-    plane = (kind, pairs) != ("Watt I", 7)
-    search = Search(problem, seed) if plane else Search(problem, seed, tasks=2, general=False)
-    for _ in range(0 if plane else 2):
-        search.add_way(0, 1)
-    file = Path(folder or ".") / f"{family.replace(', ', '_').replace(' ', '_')}_{pairs}_{seed}.npz"
+    general = plane or pairs in (6, 8)
+    search = Search(problem, seed, tasks=tasks, general=general, one_curve=curve)
+    between = list(combinations(range(tasks), 2))
+
+    def begin() -> None:
+        search.begin_again()
+        while len(search.ways) < 3:
+            search.add_way(0, 1)
+
+    begin()
+    name = f"{family.replace(', ', '_').replace(' ', '_')}_{pairs}{'_plane' * plane}{'_curve' * curve}_{seed}.npz"
+    file = Path(folder or ".") / name
     file.parent.mkdir(parents=True, exist_ok=True)
     if folder and file.exists():
         search.load(file)
@@ -80,27 +90,44 @@ def main(family: str = "Watt II", pairs: int = 8, folder: str = "", seed: int = 
                 saved = time.time()
                 search.save(file)
                 print(search, flush=True)
-        if pairs == 9 or (not plane and len(search.found[0]) >= FEW):
-            break
         if len(search.found[0]) < FEW:
-            search.begin_again()
-        else:
-            if folder:
-                search.save(file)
-            print(search, flush=True)
-            tested = trace(search)
-            told = f"trace test: {tested.residual:.1e}, without one solution {tested.without_one:.1e}"
-            print(f"{told}; {tested.lost} paths lost", flush=True)
-            if tested.residual < LINEAR and search.alike:
-                print(f"with the arm, or the positions, given: {len(on_special_plane(search)[1]):,} finite", flush=True)
-                break
-            search.add_way(*search.ways[len(search.ways) % 6][:2])
+            begin()
+            continue
+        if folder:
+            search.save(file)
+        print(search, flush=True)
+        if not general:
+            break
+        tested = [trace(search, node) for node in range(tasks)]
+        for each in tested:
+            told = f"trace test: {each.residual:.1e}, without one solution {each.without_one:.1e}"
+            print(f"{told}; {each.lost} paths lost", flush=True)
+        if all(each.residual < LINEAR for each in tested) and search.alike:
+            print(f"with the arm, or all targets, given: {len(on_special_plane(search)[1]):,} finite", flush=True)
+            break
+        search.add_way(*between[len(search.ways) % len(between)])
     print(search, f"{time.process_time():.0f} s of processor", sep="; ")
 
 
 if __name__ == "__main__":
-    family, pairs, folder, seed = [*sys.argv[1:], *["Watt II", "8", "", "1"][len(sys.argv) - 1 :]]
-    if pairs == "11" or (family, pairs) == ("Watt I", "8"):
-        estimate(EIGHT_POSITIONS if family == "Watt I" else ELEVEN[family], folder, int(seed))
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.six_bars")
+    parser.add_argument("family", nargs="?", default="Watt II")
+    parser.add_argument("pairs", nargs="?", type=int, default=8)
+    parser.add_argument("folder", nargs="?", default="")
+    parser.add_argument("seed", nargs="?", type=int, default=1)
+    parser.add_argument("--tasks", type=int)
+    parser.add_argument("--plane", action="store_true")
+    parser.add_argument("--curve", action="store_true")
+    given = parser.parse_args()
+    if given.pairs == 11 or (given.family, given.pairs) == ("Watt I", 8):
+        problem = EIGHT_POSITIONS if given.family == "Watt I" else ELEVEN[given.family]
+        estimate(problem, given.folder, given.seed)
     else:
-        main(family, int(pairs), folder, int(seed))
+        main(
+            given.family,
+            given.pairs,
+            given.folder,
+            given.seed,
+            given.tasks or (2 if given.pairs == 7 else 4),
+            given.plane,
+        )

@@ -78,7 +78,9 @@ inline constexpr Loops stephenson_2{3, {With::input, With::input, With::output},
 inline constexpr Loops stephenson_3{3, {With::input, With::output, With::nothing}, {{1, 0, 0}, {1, -1, -1}}, {-1, 0}};
 
 // The rows of a task: turns of input and output; of the last equation, which is there if seven pairs leave one unknown
-// free, sum c_k z_k + product p p* = constant, the c_k; then constant, product, k and k*.
+// free, sum c_k z_k + product p p* = constant, the c_k; then constant, product, k and k*. Where the pairs leave nothing
+// free, the last turn of the output is less by the first unknown times the first number of the third row: other planes
+// that cut the curve of all six-bars through the other pairs.
 template <const Loops& loops, int own_unknowns = 8>
 struct SixBarSystem {
     static constexpr int unknowns = own_unknowns, arm = 2 * loops.vectors;  // the unknown of the first loop's arm
@@ -101,7 +103,7 @@ struct SixBarSystem {
         rates.clear();
         const Arms<Complex> arms = arms_of(z, p);
         for (int j = 0; j < pairs; ++j) {
-            const Turns<Complex> turns = turns_of<Complex>(p, j);
+            const Turns<Complex> turns = turns_of(z, p, j);
             const LoopVectors<Complex> l = vectors<0>(z, turns), m = vectors<1>(z, turns);
             const Coefficients<Complex> k = coefficients(arms.p, arms.pc, l), n = coefficients(arms.q, arms.qc, m);
             const Minors<Complex> minor = minors(k, n);
@@ -110,7 +112,8 @@ struct SixBarSystem {
             const LoopVectors<Complex> by[2] = {by_vectors(arms.p, arms.pc, l, u), by_vectors(arms.q, arms.qc, m, v)};
             const Complex by_p = by_arm(l, u), by_pc = by_conjugate_arm(l, u);
             const Complex by_q = by_arm(m, v), by_qc = by_conjugate_arm(m, v);
-            Complex rate{0, 0};
+            const Complex speeds[2] = {speed.row[0].at(j), tilted(j) ? tilted_turn(z, speed, j) : speed.row[1].at(j)};
+            Complex rate{0, 0}, by_output{0, 0};
             if constexpr (other_arm) {
                 set(jacobian, j, arm, by_p, by_pc);
                 set(jacobian, j, arm + 2, by_q, by_qc);
@@ -133,8 +136,11 @@ struct SixBarSystem {
                 const int row = loops.with[i] == With::input ? 0 : 1;
                 const Complex turn = turns.turn[row], back = turns.back[row];
                 set(jacobian, j, 2 * i, turn * sum.w + sum.first, back * sum.wc + sum.first_c);
-                rate = rate + (z[2 * i] * sum.w - z[2 * i + 1] * sum.wc * back * back) * speed.row[row].at(j);
+                const Complex by_turn = z[2 * i] * sum.w - z[2 * i + 1] * sum.wc * back * back;
+                rate = rate + by_turn * speeds[row];
+                if (row == 1) by_output = by_output + by_turn;
             }
+            if (tilted(j)) jacobian.column[0].set(j, jacobian.column[0].at(j) - p.row[2].at(0) * by_output);
             rates.set(j, rate);
         }
         if (pairs == unknowns) return;
@@ -150,7 +156,7 @@ struct SixBarSystem {
         for (int i = 0; i < unknowns; ++i) sharp[i] = SharpComplex(z[i]);
         const Arms<SharpComplex> arms = arms_of(sharp, p);
         for (int j = 0; j < pairs; ++j) {
-            const Turns<SharpComplex> turns = turns_of<SharpComplex>(p, j);
+            const Turns<SharpComplex> turns = turns_of(sharp, p, j);
             const Coefficients<SharpComplex> k = coefficients(arms.p, arms.pc, vectors<0>(sharp, turns));
             out.set(j, of_turn(minors(k, coefficients(arms.q, arms.qc, vectors<1>(sharp, turns)))).rounded());
         }
@@ -174,9 +180,17 @@ private:
         return {own, own_c, k * own, kc * own_c, k, kc};
     }
 
+    bool tilted(int j) const { return pairs == unknowns && j == pairs - 1; }
+
     template <class Number>
-    static Turns<Number> turns_of(const Task& p, int j) {
-        const Number one(Complex{1, 0}), turn(p.row[0].at(j)), out(p.row[1].at(j));
+    static Number tilted_turn(const Number* z, const Task& p, int j) {
+        return Number(p.row[1].at(j)) - Number(p.row[2].at(0)) * z[0];
+    }
+
+    template <class Number>
+    Turns<Number> turns_of(const Number* z, const Task& p, int j) const {
+        const Number one(Complex{1, 0}), turn(p.row[0].at(j));
+        const Number out = tilted(j) ? tilted_turn(z, p, j) : Number(p.row[1].at(j));
         return {{turn, out}, {one / turn, one / out}};
     }
 

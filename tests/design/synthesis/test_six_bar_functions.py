@@ -10,7 +10,15 @@ from gruebler.design.synthesis.alt_burmester import load_generic_solutions
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.six_bar_census import ELEVEN, Census, kept_census
 from gruebler.design.synthesis.six_bar_functions import NINE_PAIRS, common_turns, drawn_six_bar, keeps_modes
-from gruebler.design.synthesis.six_bar_monodromy import Search, Trace, follow, known_solutions, loop_vectors
+from gruebler.design.synthesis.six_bar_monodromy import (
+    Search,
+    Trace,
+    follow,
+    known_solutions,
+    loop_vectors,
+    on_special_plane,
+    trace,
+)
 from gruebler.design.synthesis.six_bar_starts import StartSet, eight_pairs, save_start_set, start_set
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.linkages import Linkage
@@ -47,6 +55,27 @@ def test_every_six_bar_is_among_the_generic_solutions():
             arrived += 1
             assert np.abs(base.z - end).max(axis=1).min() < 1e-6 * (1 + np.abs(end).max())
     assert arrived > 55
+
+
+@pytest.mark.parametrize("one_curve", [False, True])
+def test_a_part_of_the_list_for_nine_pairs_has_a_sum_that_is_not_linear(one_curve):
+    """And solutions of a general plane are led to given pairs, where they are among the stored ones."""
+    search = Search(NINE_PAIRS, 3, one_curve=one_curve)
+    search.step()
+    search.begin_again()  # with ways that lead aside
+    while len(search.found[0]) < 12 and search.step():
+        pass
+    pairs = [task[:2, :7] for task in search.tasks]
+    assert (pairs[1] == pairs[0]).all() == one_curve
+    assert trace(search).residual > 1e-3
+    task, z = on_special_plane(search)
+    assert len(z) > 1
+    assert not task[2].any()
+    base = load_generic_solutions(NINE_PAIRS)
+    ends, good = follow(NINE_PAIRS, z, task, base.parameters)
+    assert good.all()
+    gaps = np.abs(base.z[:, None] - ends).max(axis=2).min(axis=0)
+    assert (gaps < 1e-6 * (1 + np.abs(ends).max(axis=1))).all()
 
 
 ARMS = np.array([-0.07 + 0.46j, 0.45 - 0.17j, 0.39 - 0.44j, -0.4 + 0.37j])  # a, f, p, q

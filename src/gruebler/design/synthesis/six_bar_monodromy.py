@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 from zipfile import BadZipFile
@@ -105,7 +105,8 @@ def known_solutions(
 ) -> tuple[Complexes, Complexes]:
     """Random complex tasks of one solution each that is chosen, and how outputs turn; the rest by Newton's method.
 
-    Of positions in a general plane, if that is wanted: the last displacement depends on the solution.
+    In a general plane, if that is wanted: the last displacement, or the last turn of the output where the pairs leave
+    nothing free, depends on the solution.
     Returns (count, unknowns) and the tasks, complex[count, 4, unknowns] as `_core.track` takes them.
     """
     if problem.guides:
@@ -140,6 +141,9 @@ def known_solutions(
         arm = arm_of(problem)
         tasks[:, 2, arm], tasks[:, 3, 1] = random_numbers(rng, count, 2), 1
         tasks[:, 3, 0] = (tasks[:, 2, arm] * z[:, arm]).sum(axis=1) + z[:, arm].prod(axis=1)
+    elif general:
+        tasks[:, 2, 0] = random_numbers(rng, count)
+        tasks[:, 1, problem.points - 1] += tasks[:, 2, 0] * z[:, 0]
     return z, tasks
 
 
@@ -147,6 +151,32 @@ def arm_of(problem: Problem) -> slice:
     """Which unknowns are the arm of the first loop and its conjugate."""
     at = 2 * LOOPS[problem.family].vectors
     return slice(at, at + 2)
+
+
+class Plane(NamedTuple):
+    """What of a task is a plane that cuts the curve of the six-bars through its other targets."""
+
+    moved: tuple[int, int]
+    """The place of the number by which it moves parallel to itself."""
+    slopes: tuple[int, ...]
+    """The place of what is zero of a task with given targets, or with the length of the arm given."""
+    summed: slice
+    """The unknowns whose sum over all solutions is linear in that number."""
+    numbers: Flags
+    """(4, unknowns) where a task has the numbers of the plane."""
+
+
+def plane_of(problem: Problem) -> Plane:
+    """Of positions the last displacement's conjugate moves, of pairs that leave nothing free the last output."""
+    moved, summed = (2, problem.poses - 1), slice(0, 1)
+    slopes: tuple[int, ...] = 0, TILT
+    if problem.points == 7:
+        moved, slopes, summed = (3, 0), (2,), arm_of(problem)
+    elif not problem.guides:
+        moved, slopes = (1, problem.points - 1), (2, 0)
+    numbers = np.zeros((4, problem.unknowns), bool)
+    numbers[moved] = numbers[slopes] = True
+    return Plane(moved, slopes, summed, numbers)
 
 
 def follow(
@@ -194,19 +224,31 @@ def merged(known: Complexes, more: Complexes) -> tuple[Complexes, Integers]:
 class Search:
     """Solutions of some tasks, found along ways between them.
 
-    A way from task u to task v, each solution of u to one of v, is followed once for each pair of ends, from either of
-    them; first on the ways between all tasks. Other ways lead to equivalents of v: of eight pairs its last equation
-    may have any factor; positions may be turned by any complex angle, and their six-bars with them.
+    The tasks may be planes that cut one curve, since ways between these take a quarter of the time. A way from task u
+    to task v, each solution of u to one of v, is followed once for each pair of ends, from either of them; first on the
+    ways between all tasks. Other ways lead to equivalents of v: of eight pairs its last equation may have any factor;
+    positions may be turned by any complex angle, and their six-bars with them. Where v has none, or one on another
+    curve, they lead aside.
     """
 
     def __init__(
-        self, problem: Problem, seed: int, threads: int | None = None, *, tasks: int = _TASKS, general: bool = True
+        self,
+        problem: Problem,
+        seed: int,
+        threads: int | None = None,
+        *,
+        tasks: int = _TASKS,
+        general: bool = True,
+        one_curve: bool = False,
     ) -> None:
         rng = np.random.default_rng(seed)
-        z, (task,) = known_solutions(problem, rng, 1, general=problem.guides and general)
+        z, (task,) = known_solutions(problem, rng, 1, general=general)
         self.problem, self.threads, self.lost, self.clashes, self.paths = problem, threads, 0, 0, 0
+        self.aside = one_curve or problem.points == problem.unknowns
         used = np.abs(task) > 0
         used[0, : problem.poses * problem.one_angle] = False
+        if one_curve:
+            used &= plane_of(problem).numbers
         self.tasks: list[Complexes] = [task] + [
             np.where(used, random_numbers(rng, *task.shape), task) for _ in range(tasks - 1)
         ]
@@ -225,7 +267,7 @@ class Search:
     def add_way(self, u: int, v: int) -> None:
         """One more way from task u to task v."""
         again = self.paths > 0 or any((a, b) == (u, v) for a, b, _ in self.ways)
-        factor = self.problem.points == 7 or (self.problem.guides and again)
+        factor = again or (self.problem.points == 7 and not self.aside)
         self.ways.append((u, v, complex(random_numbers(self.rng)) if factor else 1.0))
         self.matched.append([np.zeros(len(self.found[k]), bool) for k in (u, v)])
 
@@ -240,10 +282,11 @@ class Search:
             return False
         begin, end = (self.ways[number][:2][k] for k in (side, 1 - side))
         some = np.flatnonzero(~self.matched[number][side])[:_PIECE]
-        task, by = self._equivalent(number)
-        tasks, unit = [self.tasks[self.ways[number][0]], task], np.ones_like(by)
-        starts = self.found[begin][some] * (by if side else unit)
-        ends, good = follow(self.problem, starts, tasks[side], tasks[1 - side], self.threads)
+        stops, by = self._way(number)
+        unit = np.ones_like(by)
+        ends, good = self.found[begin][some] * (by if side else unit), np.ones(len(some), bool)
+        for here, there in pairwise(stops[::-1] if side else stops):
+            ends[good], good[good] = follow(self.problem, ends[good], here, there, self.threads)
         ends = ends / (unit if side else by)
         self.matched[number][side][some] = True
         known = len(self.found[end])
@@ -263,10 +306,12 @@ class Search:
         """Of all ways together, how many pairs of ends are known."""
         return sum(int(ends[0].sum()) for ends in self.matched)
 
-    def _equivalent(self, number: int) -> tuple[Complexes, Complexes]:
-        """The end of a way, equivalent to its second task by its factor, and what multiplies solutions of that."""
-        _, v, factor = self.ways[number]
-        task, by = self.tasks[v].copy(), np.ones(self.problem.unknowns, np.complex128)
+    def _way(self, number: int) -> tuple[list[Complexes], Complexes]:
+        """The tasks of a way in turn, and what multiplies solutions of its end where that is an equivalent."""
+        u, v, factor = self.ways[number]
+        first, task, by = self.tasks[u], self.tasks[v].copy(), np.ones(self.problem.unknowns, np.complex128)
+        if self.aside:
+            return [first, *([first + factor * (task - first)] if factor != 1 else []), task], by
         if self.problem.guides:
             by[2::2], by[3::2] = factor, 1 / factor
             task[1] *= factor
@@ -277,7 +322,7 @@ class Search:
         else:
             task[2] *= factor
             task[3, :2] *= factor
-        return task, by
+        return [first, task], by
 
     def save(self, file: Path) -> None:
         """What is found and followed, to go on from."""
@@ -322,7 +367,7 @@ class Trace(NamedTuple):
     """The trace test of a list."""
 
     residual: float
-    """How far the sum of all arms is from linear as the last equation moves, relative to its change."""
+    """How far the sum over all solutions is from linear as the plane moves, relative to its change."""
     without_one: float
     """The same without one of the solutions."""
     lost: int
@@ -331,17 +376,16 @@ class Trace(NamedTuple):
 
 def trace(search: Search, node: int = 0) -> Trace:
     """The trace test of the list for one of the tasks: a list that lacks some has a sum that is not linear."""
-    task, z, problem = search.tasks[node], search.found[node], search.problem
-    # The number by which the plane moves, and the unknowns that are summed.
-    plane, arm = ((2, problem.poses - 1), slice(0, 1)) if problem.guides else ((3, 0), arm_of(problem))
-    step, sets, kept = 0.3j * abs(task[plane]), [], np.ones(len(z), bool)
+    task, z, plane = search.tasks[node], search.found[node], plane_of(search.problem)
+    step, sets, kept = 0.3j * abs(task[plane.moved]), [], np.ones(len(z), bool)
     for sign in (-1, 1):
         moved = task.copy()
-        moved[plane] += sign * step
+        moved[plane.moved] += sign * step
         ends, good = follow(search.problem, z, task, moved, search.threads)
         sets.append(ends)
         kept &= good
-    before, now, after = (row[kept][:, arm] @ _MARK[: arm.stop - arm.start] for row in (sets[0], z, sets[1]))
+    weights = _MARK[: plane.summed.stop - plane.summed.start]
+    before, now, after = (row[kept][:, plane.summed] @ weights for row in (sets[0], z, sets[1]))
     bends, ways = before + after - 2 * now, after - before
 
     def of(part: slice) -> float:
@@ -351,13 +395,10 @@ def trace(search: Search, node: int = 0) -> Trace:
 
 
 def on_special_plane(search: Search) -> tuple[Complexes, Complexes]:
-    """The first task as its plane becomes p p* = r, or that of a given position, and its solutions that stay finite."""
-    task, number = search.tasks[0].copy(), complex(random_numbers(search.rng))
-    if search.problem.guides:
-        task[0, TILT], task[2, search.problem.poses - 1] = 0, number
-    else:
-        task[2], task[3, 0] = 0, number
-    # Most paths of guides go to infinity, the longer the finer the steps.
-    steps = (QUICK,) if search.problem.guides else (QUICK, CAREFUL)
+    """The first task as its plane becomes p p* = r, or that of a given target, and its solutions that stay finite."""
+    task, plane = search.tasks[0].copy(), plane_of(search.problem)
+    task[plane.slopes], task[plane.moved] = 0, complex(random_numbers(search.rng))
+    # Most paths to given targets go to infinity, the longer the finer the steps.
+    steps = (QUICK, CAREFUL) if search.problem.points == 7 else (QUICK,)
     ends, good = follow(search.problem, search.found[0], search.tasks[0], task, search.threads, steps=steps)
     return task, merged(ends[:0], ends[good])[0]
