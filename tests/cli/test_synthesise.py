@@ -357,6 +357,7 @@ SIX_BARS = ["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--s
         (["dead-centres", "--stroke", "5", "--time-ratio", "0.5"], "--time-ratio: expected slow to quick"),
         (["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--points", "0"], "expected 2 to 11"),
         ([*SIX_BARS, "--minimax"], "not with --six"),
+        ([*SIX_BARS, "--scheduler", "local"], "--jobs, --scheduler: only of eleven pairs"),
         ([*SIX_BARS, "--six-bar-type", "watt ii", "--shape", "1", "30"], "--shape: only with a type of Stephenson's"),
         (["function", "x", "--interval", "1", "2", "--swings", "0", "60"], "--swings: expected a number that is not 0"),
         (
@@ -392,6 +393,7 @@ def test_wrong_input_is_one_sentence(words, sentence, capsys):
         ("positions", FIVE, "--design 2 -o x.toml", "--design: expected 1 to 1, but found 2"),
         ("positions", FIVE, "--jobs 2", "--jobs: only with --structure"),
         ("positions", FIVE, "--scheduler tcp://host:8786", "--scheduler: only with --structure"),
+        ("positions", FIVE, "--six-bars --link coupler", "--link: only with --structure"),
         ("positions", FIVE, "--structure quad --jobs 0", "at least one process, not 0"),
         ("positions", FIVE, "--number 0", "--number: expected at least 1"),
         ("positions", FIVE, "--start-solutions 9", "--start-solutions: only with --six-bars"),

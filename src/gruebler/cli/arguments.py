@@ -113,7 +113,8 @@ _SHARED = {
         --curve POINT ...  the path of a named point, a joint, or LINK:X,Y (repeatable)
         --view {isometric,oblique}  of a linkage in space: the view (default: oblique for bevel wheels, else isometric)
         --jobs N int =1  number of processes (default: 1)
-        --scheduler ADDRESS  send the work to a Dask scheduler, such as tcp://host:8786
+        --scheduler ADDRESS  send the work to a Dask scheduler, such as tcp://host:8786; local: one with a worker for
+            each processor of this machine
         --crank  only designs whose drive turns fully
         --transmission DEG float =0  minimum transmission angle on the way through the targets
         --size-ratio R float =20  limit of longest to shortest length

@@ -42,7 +42,7 @@ def add(parser: Parser) -> None:
         --sliding-joints N int  largest number of sliding joints (default: that of the file, else what the output needs)
         --initial-designs N int =2  improve N initial designs of each mechanism of more than four links (default: 2)
         --jobs N int =1  number of processes (default: 1)
-        --scheduler ADDRESS  send the work to a Dask scheduler, such as tcp://host:8786
+        --scheduler
         """
     )
     parser.add_json(help="print an object with all linkages")

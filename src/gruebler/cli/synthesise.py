@@ -68,6 +68,7 @@ _OPTIONS = {
     "frame_direction": "--frame-direction",
     "tolerance": "--tolerance",
     "starts": "--start-solutions",
+    "executor": "--jobs, --scheduler",
 }
 """The options for keys of task files."""
 _TASK_OPTIONS = {
@@ -79,8 +80,10 @@ _TASK_OPTIONS = {
 """The options that are a task by themselves."""
 _ALONE = ("--jobs", 1)
 """The default: this process does the work."""
-_STRUCTURE_OPTIONS = ("--link", "--initial-designs", "--jobs", "--scheduler")
+_STRUCTURE_OPTIONS = ("--link", "--initial-designs")
 """The options that only --structure uses."""
+_SHARING = ("--jobs", "--scheduler")
+"""Those that --structure uses, and --six-bars where start solutions are made at random."""
 _SIX_BARS_BESIDE = {
     "function": ("--minimax", "--travel", "--structure"),
     "positions": ("--curve-parameter", "--structure"),
@@ -261,8 +264,10 @@ def add(parser: Parser) -> None:
             --initial-designs N int  with --structure: improve N initial designs of each mechanism (default: 24 of an
                 atlas, else 4)
             --link LINK =  with --structure: the link that is guided, or the output
-            --jobs N int =1  with --structure: number of processes (default: 1)
-            --scheduler ADDRESS  with --structure: send the work to a Dask scheduler, such as tcp://host:8786
+            --jobs N int =1  with --structure, or where --six-bars takes --start-solutions: number of processes
+                (default: 1)
+            --scheduler ADDRESS  likewise: send the work to a Dask scheduler, such as tcp://host:8786; local: one with
+                a worker for each processor of this machine
             --crank
             --transmission
             --size-ratio
@@ -349,7 +354,8 @@ def _demands(arguments: argparse.Namespace) -> Demands:
     alone = _SIX_BAR_OPTIONS.get(arguments.action, ())
     if alone and not arguments.six_bars and (idle := _given(arguments, alone)):
         raise SynthesisError("{options}: only with --six-bars", options=joined_by_and(idle))
-    if not arguments.structure and (idle := _given(arguments, _STRUCTURE_OPTIONS)):
+    unused = _STRUCTURE_OPTIONS if alone and arguments.six_bars else (*_STRUCTURE_OPTIONS, *_SHARING)
+    if not arguments.structure and (idle := _given(arguments, unused)):
         raise SynthesisError("{options}: only with --structure", options=joined_by_and(idle))
     if arguments.clearance is not None and not 0 <= arguments.clearance < math.inf:
         raise SynthesisError("--clearance: expected at least 0, but found {clearance:g}", clearance=arguments.clearance)
@@ -516,9 +522,12 @@ def _six_bars(
     arguments: argparse.Namespace, task: PositionTask | FunctionTask, demands: Demands, progress: Progress | None
 ) -> SynthesisResult:
     """Six-bars that meet the task exactly."""
+    executor = executor_of(arguments)
     if isinstance(task, PositionTask):
-        return synthesise_guiding_six_bars(task, demands, starts=arguments.start_solutions, progress=progress)
-    return synthesise_six_bars(task, demands, kind=_six_bar_type(arguments), progress=progress)
+        return synthesise_guiding_six_bars(
+            task, demands, starts=arguments.start_solutions, executor=executor, progress=progress
+        )
+    return synthesise_six_bars(task, demands, kind=_six_bar_type(arguments), executor=executor, progress=progress)
 
 
 def _six_bar_type(arguments: argparse.Namespace) -> SixBarType | None:

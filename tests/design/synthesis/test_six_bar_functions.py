@@ -8,7 +8,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, FunctionTask, SixBarType, function_task, synthesise, synthesise_six_bars
 from gruebler.design.synthesis.alt_burmester import load_generic_solutions
 from gruebler.design.synthesis.formulas import FunctionLaw
-from gruebler.design.synthesis.six_bar_census import ELEVEN, Census, kept_census
+from gruebler.design.synthesis.six_bar_census import ELEVEN, Census
 from gruebler.design.synthesis.six_bar_functions import NINE_PAIRS, common_turns, drawn_six_bar, keeps_modes
 from gruebler.design.synthesis.six_bar_monodromy import (
     Search,
@@ -208,81 +208,6 @@ def test_eleven_pairs_of_a_six_bar_find_it_again(family, tmp_path, monkeypatch):
     assert best.linkage.length("crank", 0, 1) == pytest.approx(abs(vectors[0]), abs=1e-8)
     motion = move(best.linkage, best.drives)
     assert motion.angle("rocker") - motion.angle("rocker")[0] == pytest.approx(output, abs=1e-8)
-
-
-def census_of(numbers):
-    """A census in which these were met."""
-    census = Census(ELEVEN["Stephenson III"], 1)
-    census.met = np.unique(numbers, return_counts=True)[1]
-    return census.estimate()
-
-
-def test_as_many_are_estimated_as_there_are():
-    """Of 3,000 numbers 600 are drawn, two hundred times: 190 intervals hold the number, as 95 % says, up to 8."""
-    rng = np.random.default_rng(1)
-    worlds = [census_of(rng.integers(3000, size=600)) for _ in range(200)]
-    assert 182 <= sum(world.least <= 3000 <= world.most for world in worlds) <= 199
-    assert np.mean([3000 / world.number for world in worlds]) == pytest.approx(1, abs=0.03)
-    # Half of the numbers three times as likely: two alike 1.25 times as often, three alike 1.75 / 1.25 ** 2 - 1.
-    uneven = census_of(np.concatenate([rng.integers(3000, size=10_000), rng.integers(1500, size=10_000)]))
-    assert uneven.number == pytest.approx(3000 / 1.25, rel=0.02)
-    assert uneven.unlike == pytest.approx(0.12, abs=0.02)
-
-
-def test_a_census_goes_on_where_it_was_interrupted(tmp_path, monkeypatch):
-    monkeypatch.setattr("gruebler.design.synthesis.six_bar_census._PIECE", 6)
-    whole, part, rest = (Census(ELEVEN["Stephenson II"], 5) for _ in range(3))
-    whole.step()
-    whole.step()
-    part.step()
-    part.save(tmp_path / "census.npz")
-    rest.load(tmp_path / "census.npz")
-    rest.step()
-    assert rest.count == whole.count > 8
-    assert rest.z == pytest.approx(whole.z, rel=1e-12)
-    other = Census(ELEVEN["Stephenson III"], 5)
-    with pytest.raises(ValueError, match="no census"):
-        other.load(tmp_path / "census.npz")
-    assert other.count == 0
-
-
-def test_a_damaged_census_begins_anew_and_says_so(tmp_path, monkeypatch):
-    def step(census):
-        census.z, census.met = np.ones((2, census.problem.unknowns), complex), np.array([2, 1])
-
-    monkeypatch.setattr("gruebler.design.synthesis.six_bar_census.private_folder", lambda: tmp_path)
-    monkeypatch.setattr(Census, "step", step)
-    assert kept_census(ELEVEN["Stephenson III"], 2).damaged is None
-    (file,) = tmp_path.iterdir()
-    file.write_bytes(b"no census")
-    assert kept_census(ELEVEN["Stephenson III"], 2).damaged == file
-
-
-@pytest.mark.parametrize("usable", [True, False])
-def test_an_interrupt_says_where_a_census_goes_on_only_if_something_is_kept(usable, tmp_path, monkeypatch):
-    def step(census):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("gruebler.design.synthesis.six_bar_census.private_folder", lambda: tmp_path)
-    monkeypatch.setattr(Census, "step", step)
-    file = tmp_path / "six_bars_Stephenson_III_eleven.npz"
-    Census(ELEVEN["Stephenson III"], 1).save(file)
-    if not usable:
-        file.write_bytes(b"no census")
-    with pytest.raises(KeyboardInterrupt) as stop:
-        kept_census(ELEVEN["Stephenson III"], 2)
-    assert stop.value.args == ((file,) if usable else ())
-
-
-@pytest.mark.slow
-def test_the_number_that_monodromy_lists_is_estimated():
-    """Of Watt's second kind through nine pairs: 26,370."""
-    census = Census(NINE_PAIRS, 2)
-    for _ in range(3):
-        census.step()
-    estimate = census.estimate()
-    assert estimate.least < NINE_PAIRS.classes < estimate.most
-    assert estimate.most - estimate.least < 0.2 * estimate.number
 
 
 def test_a_start_set_goes_on_where_it_was_interrupted(tmp_path, monkeypatch):

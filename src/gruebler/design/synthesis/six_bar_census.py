@@ -6,8 +6,12 @@ task. The fewer solutions this has, the more often two of them end alike. docs/t
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Generator
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import closing
 from dataclasses import dataclass
+from functools import partial
+from itertools import count
 from os import cpu_count
 from pathlib import Path
 
@@ -20,6 +24,7 @@ from gruebler.base.private_folder import goes_on_from, private_folder
 from gruebler.design.synthesis.alt_burmester import Problem, sharpened
 from gruebler.design.synthesis.results import Progress
 from gruebler.design.synthesis.six_bar_monodromy import UNUSABLE, follow, known_solutions, merged, random_numbers
+from gruebler.structure.enumeration.worker_pool import run_work
 
 ELEVEN = {
     family: Problem(name="eleven pairs", poses=0, points=10, classes=0, members=1, family=family)
@@ -36,6 +41,7 @@ START_SOLUTIONS = 20_000
 """So many are followed to a task unless it is said how many."""
 _MOST = 500_000  # of more of them most would be found again
 _PIECE = 2048  # six-bars at a time
+_AHEAD = 4  # pieces that executors have at first: what is on its way when enough are known is lost
 _SEED = 1
 
 
@@ -80,21 +86,22 @@ class Census:
         self.pieces = 0
         self.lost = 0
 
-    def step(self) -> None:
-        """Some more six-bars; always the same ones after as many pieces."""
-        self.pieces += 1
-        starts, tasks = known_solutions(self.problem, np.random.default_rng([self.seed, self.pieces]), _PIECE)
+    def pieces_followed(self, executor: Executor | Callable[[], Executor] | None = None) -> Generator[None]:
+        """Some more six-bars at a time, as long as more are asked for; always the same ones after as many pieces.
 
-        def arrived(k: int) -> tuple[Complexes, bool]:
-            ends, good = follow(self.problem, starts[k : k + 1], tasks[k], self.task, threads=1)
-            return ends, bool(good[0])
-
-        with ThreadPoolExecutor(self.threads or cpu_count() or 1) as pool:
-            followed = list(pool.map(arrived, range(_PIECE)))
-        ends = np.concatenate([self.z[:0], *(end for end, good in followed if good)])
-        self.lost += _PIECE - len(ends)
-        self.z, where = merged(self.z, ends)
-        self.met = np.bincount(where, minlength=len(self.z)) + np.pad(self.met, (0, len(self.z) - len(self.met)))
+        An executor shares the pieces; they are taken up in their order, so that the answer is the same.
+        """
+        threads = 1 if executor is not None else self.threads or cpu_count() or 1
+        ends_of = partial(_ends_of_piece, self.problem, self.seed, self.task, _PIECE, threads)
+        with closing(run_work(ends_of, count(self.pieces + 1), executor, ahead=_AHEAD)) as followed:
+            for ends in followed:
+                self.pieces += 1
+                self.lost += _PIECE - len(ends)
+                self.z, where = merged(self.z, ends)
+                self.met = np.bincount(where, minlength=len(self.z)) + np.pad(
+                    self.met, (0, len(self.z) - len(self.met))
+                )
+                yield
 
     @property
     def count(self) -> int:
@@ -105,13 +112,13 @@ class Census:
         """The number of solutions; infinite as long as none was met twice."""
         from scipy.stats import chi2
 
-        count, twice = self.count, float((self.met * (self.met - 1)).sum() / 2)
-        pairs = count * (count - 1) / 2
+        arrived, twice = self.count, float((self.met * (self.met - 1)).sum() / 2)
+        pairs = arrived * (arrived - 1) / 2
         thrice = float((self.met * (self.met - 1) * (self.met - 2)).sum() / 6)
         with np.errstate(divide="ignore", invalid="ignore"):
             least, most = pairs / (chi2.ppf([0.975, 0.025], [2 * twice + 2, 2 * twice]) / 2)
             number = np.float64(pairs) / twice
-            unlike = thrice * number**2 / (pairs * (count - 2) / 3) - 1
+            unlike = thrice * number**2 / (pairs * (arrived - 2) / 3) - 1
         return CountEstimate(number=float(number), least=float(least), most=float(most), unlike=float(unlike))
 
     def save(self, file: Path) -> None:
@@ -128,12 +135,30 @@ class Census:
         self.z, self.met, self.pieces, self.lost = z, met, pieces, lost
 
 
+def _ends_of_piece(problem: Problem, seed: int, task: Complexes, size: int, threads: int, number: int) -> Complexes:
+    """Where the six-bars of a piece arrive; the lost ones are missing. Of plain data, so that any process can do it."""
+    starts, tasks = known_solutions(problem, np.random.default_rng([seed, number]), size)
+
+    def arrived(k: int) -> Complexes:
+        ends, good = follow(problem, starts[k : k + 1], tasks[k], task, threads=1)
+        return ends[good]
+
+    with ThreadPoolExecutor(threads) as pool:
+        return np.concatenate([starts[:0], *pool.map(arrived, range(size))])
+
+
 def kept_census(
-    problem: Problem, solutions: int, *, threads: int | None = None, progress: Progress | None = None
+    problem: Problem,
+    solutions: int,
+    *,
+    threads: int | None = None,
+    executor: Executor | Callable[[], Executor] | None = None,
+    progress: Progress | None = None,
 ) -> Census:
     """A census with so many solutions or more, of which one at least was met twice; kept in the user's cache folder.
 
-    It goes on from what is kept there. Cost: 4 ms of processor time for each solution that is new.
+    It goes on from what is kept there. An executor, if there is one, shares the work: see `worker_pool.run_work`. Cost:
+    4 ms of processor time for each solution that is new.
     """
     census, folder = Census(problem, _SEED, threads), private_folder()
     name = f"six_bars_{problem.family} {problem.name.split()[0]}.npz".replace(" ", "_")
@@ -144,9 +169,9 @@ def kept_census(
         except UNUSABLE:
             census.damaged = file
             file.unlink()
-    with goes_on_from(file):
+    with goes_on_from(file), closing(census.pieces_followed(executor)) as more:
         while len(census.z) < solutions or census.met.max() < 2:
-            census.step()
+            next(more)
             if file is not None:
                 census.save(file)
             if progress is not None:

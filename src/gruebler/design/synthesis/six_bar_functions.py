@@ -7,7 +7,8 @@ docs/theory/synthesis-functions.md.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -91,6 +92,7 @@ def synthesise_six_bars(
     *,
     kind: SixBarType | None = None,
     threads: int | None = None,
+    executor: Executor | Callable[[], Executor] | None = None,
     progress: Progress | None = None,
 ) -> SynthesisResult:
     """All six-bars that coordinate eight pairs of angles, or nine (Watt II), some for eleven; their starts are free.
@@ -101,6 +103,7 @@ def synthesise_six_bars(
         kind: of eight pairs: the type, and the arm that is given; Watt II with an arm of 0.8 frames by default. Of
             eleven pairs: a type of Stephenson's, and how many solutions are followed.
         threads: that follow paths.
+        executor: of eleven pairs: what follows random six-bars to know more start solutions; the answer is the same.
         progress: called with the paths followed and their number; of the first eight pairs of a type at first with the
             ends of ways that are known and about how many there are; of eleven with the start solutions that are known.
 
@@ -121,6 +124,8 @@ def synthesise_six_bars(
         raise SynthesisError(
             "six-bars meet eight, nine or eleven pairs exactly, but the task has {count}", count=len(task)
         )
+    if executor is not None and len(task) != 11:
+        raise SynthesisError("{name}: only of eleven pairs; of others all solutions are followed", name="executor")
     if len(task) == 9 and kind is not None:
         raise SynthesisError("nine pairs leave nothing of a six-bar free; give its type and an arm with eight pairs")
     of = kind or SixBarType()
@@ -137,7 +142,9 @@ def synthesise_six_bars(
                 "eleven pairs need a type, {types}, and leave no arm or shape to choose",
                 types=joined_by_or(list(ELEVEN)),
             )
-        census = kept_census(ELEVEN[of.family], of.start_solutions, threads=threads, progress=progress)
+        census = kept_census(
+            ELEVEN[of.family], of.start_solutions, threads=threads, executor=executor, progress=progress
+        )
         problem, base = census.problem, GenericSolutions(census.task, census.z[: of.start_solutions])
         known, damaged = [how_many(message("eleven pairs"), census)], census.damaged
     else:

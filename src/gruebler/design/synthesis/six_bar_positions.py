@@ -6,6 +6,8 @@ data of the package; of seven and eight some are made at random (`six_bar_census
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from concurrent.futures import Executor
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
@@ -64,6 +66,7 @@ def synthesise_guiding_six_bars(
     *,
     starts: int | None = None,
     threads: int | None = None,
+    executor: Executor | Callable[[], Executor] | None = None,
     progress: Progress | None = None,
 ) -> SynthesisResult:
     """Six-bars of Watt's first kind that carry a body through five to eight positions: all of five and six.
@@ -75,6 +78,8 @@ def synthesise_guiding_six_bars(
         demands: what a design has to do besides; by default one branch and the order of the task.
         starts: of seven and eight positions: how many of the generic solutions are followed; 20,000 by default.
         threads: that follow paths.
+        executor: of seven and eight positions: what follows random six-bars to know more start solutions; the answer
+            is the same.
         progress: called with the paths followed and their number; of the first seven or eight positions at first with
             the start solutions that are known.
 
@@ -107,7 +112,7 @@ def synthesise_guiding_six_bars(
     one_angle = len(task) > 5 and bool(np.abs(place.turns - 1).max() <= ALIKE)
     if one_angle and ((shifted := _shifted(task, place, wanted)).designs or len(task) > 6):
         return shifted
-    generic = _generic(len(task), one_angle, starts, threads, progress)
+    generic = _generic(len(task), one_angle, starts, threads, executor, progress)
     z = six_bar_solutions(
         generic.problem, generic.base, place.parameters, special=_SENSITIVE, threads=threads, progress=progress
     )
@@ -160,13 +165,18 @@ class _Generic(NamedTuple):
 
 
 def _generic(
-    positions: int, one_angle: bool, starts: int | None, threads: int | None, progress: Progress | None
+    positions: int,
+    one_angle: bool,
+    starts: int | None,
+    threads: int | None,
+    executor: Executor | Callable[[], Executor] | None,
+    progress: Progress | None,
 ) -> _Generic:
     """Those of so many positions."""
     if positions <= 6:
-        if starts is not None:
+        if idle := "starts" if starts is not None else "executor" if executor is not None else "":
             raise SynthesisError(
-                "{name}: only of seven and eight positions; of others all solutions are followed", name="starts"
+                "{name}: only of seven and eight positions; of others all solutions are followed", name=idle
             )
         problem = ONE_ANGLE if one_angle else SIX_POSITIONS if positions == 6 else FIVE_POSITIONS
         text = message("Watt I, {count} general positions with these pivots: {classes:,} complex solutions.")
@@ -178,7 +188,7 @@ def _generic(
         return _Generic(problem, load_generic_solutions(problem), text.filled(count=positions, classes=problem.classes))
     number = START_SOLUTIONS if starts is None else as_start_solutions(starts)
     problem = SEVEN_POSITIONS if positions == 7 else EIGHT_POSITIONS
-    census = kept_census(problem, number, threads=threads, progress=progress)
+    census = kept_census(problem, number, threads=threads, executor=executor, progress=progress)
     targets = message("seven positions") if positions == 7 else message("eight positions")
     return _Generic(
         problem, GenericSolutions(census.task, census.z[:number]), how_many(targets, census), census.damaged

@@ -61,7 +61,8 @@ def synthesise(
             how many generic solutions are followed.
         link: of structures: that is guided, or whose motion is the output.
         threads: of a path: how many follow it; as many as there are processors by default.
-        executor: of structures: what runs the work; the answer is the same with any.
+        executor: of structures, and of six-bars whose start solutions are made at random (eleven pairs, seven and eight
+            positions): what runs the work; the answer is the same with any.
         progress: of positions, a path, a rest, six-bars or structures: called with the work done and its amount.
 
     Returns:

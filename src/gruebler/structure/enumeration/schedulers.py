@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 import warnings
 from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, Executor, Future
@@ -16,6 +17,8 @@ from gruebler.base.text import Message, message
 P = ParamSpec("P")
 R = TypeVar("R")
 
+LOCAL = "local"
+"""In place of an address: the workers are processes of this machine."""
 _LOSSES = ("KilledWorker", "CommClosedError", "FutureCancelledError")
 _PATIENCE = 30.0  # seconds to wait for a scheduler, and for a worker before the lack of one is reported
 _INTERVAL = 5.0  # seconds from one look at the workers to the next
@@ -25,7 +28,8 @@ class DaskScheduler:
     """Creates executors for the workers of a Dask scheduler, one after another: see `worker_pool.run_work`.
 
     Args:
-        address: such as ``tcp://host:8786``.
+        address: such as ``tcp://host:8786``; ``local`` for a scheduler of its own with a worker for each processor of
+            this machine, which end with the work.
         report: called with a text if the scheduler has no worker for half a minute, once for each connection; the run
             goes on waiting. By default a warning is issued.
 
@@ -50,7 +54,11 @@ class DaskScheduler:
             raise GrueblerError("a scheduler needs Dask: pip install 'gruebler[cluster]'") from None
         try:
             connect: Any = distributed.Client
-            client = connect(self.address, timeout=_PATIENCE, set_as_default=False)
+            where: dict[str, Any] = {"address": self.address}
+            if self.address == LOCAL:
+                own_workers = {"n_workers": os.cpu_count() or 1, "threads_per_worker": 1}
+                where = {**own_workers, "dashboard_address": None, "silence_logs": logging.CRITICAL}
+            client = connect(**where, timeout=_PATIENCE, set_as_default=False)
         except (OSError, ValueError, TypeError):
             raise RunError("no Dask scheduler answers at {address}", address=self.address) from None
         # Dask logs the traceback of a lost connection; here it ends in a new one or in the error above.

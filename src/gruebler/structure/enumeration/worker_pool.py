@@ -9,7 +9,7 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
 from dataclasses import dataclass
 from multiprocessing import get_context
@@ -109,7 +109,7 @@ def run_work(
     finished: Callable[[int, R], None] | None = None,
     ahead: int = 32,
     retries: int = 3,
-) -> Iterator[R]:
+) -> Generator[R]:
     """The results of a function for every piece of work, in the order of the pieces.
 
     Args:
@@ -149,7 +149,7 @@ def _done_here(
     work: Iterable[P],
     known: Callable[[int], R | None],
     finished: Callable[[int, R], None],
-) -> Iterator[R]:
+) -> Generator[R]:
     for number, piece in enumerate(work):
         result = known(number)
         if result is None:
@@ -164,7 +164,7 @@ def _done_by(
     known: Callable[[int], R | None],
     finished: Callable[[int, R], None],
     ahead: int,
-) -> Iterator[R]:
+) -> Generator[R]:
     crew = gather()
     ready: dict[int, R] = {}
     source = enumerate(work)
