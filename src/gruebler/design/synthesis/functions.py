@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Reals
+from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.coordination import (
@@ -32,6 +32,7 @@ from gruebler.design.synthesis.dyad_families import guiding_dyads
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, GuidingDyad
 from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.design.synthesis.freudenstein import output_errors
+from gruebler.design.synthesis.function_bounds import improved_couplers, seen_from_crank
 from gruebler.design.synthesis.given_lengths import scale_to_length
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.law_motion import over_interval
@@ -50,7 +51,7 @@ from gruebler.design.synthesis.start_families import (
 )
 from gruebler.design.synthesis.structural_errors import coordination_of, links_turned_round
 from gruebler.design.synthesis.targets import Probe, Targets
-from gruebler.design.synthesis.tasks import FunctionTask, PositionTask
+from gruebler.design.synthesis.tasks import FunctionTask
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
 
@@ -201,6 +202,9 @@ def _by_free_starts(task: FunctionTask, wanted: Demands, number: int, sort: Sequ
     if turning:
         best, search = best_dyads(turning, partial(_facts, task), wanted, near, orders=sort or (), number=number)
         notes = tuple(each for each in search if each is not IMPROVED or family is None or family.text != _FEW.text)
+        if ratios < 1:
+            better, proved = improved_couplers(task, wanted, partial(_facts_of_pivots, task), best, len(turning))
+            best, notes = [*better, *best], (*notes, *proved)
         some = turning[:: max(1, len(turning) // number)]
         dyads = (best or some) + [dyad for dyad in dyads if dyad.slides]
     theorem: int | None = None
@@ -253,11 +257,17 @@ def _nearest_pairs(task: FunctionTask, wanted: Demands) -> list[Design]:
 
 def _facts(task: FunctionTask, dyads: Sequence[GuidingDyad]) -> PairFacts:
     """What the linkages of crank, RR dyad and output do, in closed form: (dyads, 1)."""
+    moving, fixed = (np.array([getattr(dyad, name) for dyad in dyads]) for name in ("moving", "fixed"))
+    return _facts_of_pivots(task, moving, fixed)
+
+
+def _facts_of_pivots(task: FunctionTask, moving: Complexes, fixed: Complexes) -> PairFacts:
+    """The same, from the moving pivots of output and crank in the first position."""
     phi, output = pair_arrays(task)
-    pins, far_pins = (np.array([getattr(dyad, name) for dyad in dyads])[:, None, None] for name in ("fixed", "moving"))
+    far_pins, pins = moving[:, None, None], fixed[:, None, None]
     moved = output - output[0]
     pins = pins * np.exp(1j * (phi - phi[0]))
-    none, inside = np.zeros((1, 1), np.complex128), np.ones((len(dyads), 1), bool)
+    none, inside = np.zeros((1, 1), np.complex128), np.ones((len(moving), 1), bool)
     if task.output == "angle":
         other = 1 + (far_pins - 1) * np.exp(1j * moved), none + 1
         return facts_of_pins((pins, none), other, none[..., None], CRANK, inside=inside, size=1.0)
@@ -367,20 +377,9 @@ def _design(task: FunctionTask, demands: Demands, solution: Coordination) -> Des
     return _judged_function(task, demands, 0j, far, dyad, solution.kind)
 
 
-def _seen_from_crank(task: FunctionTask) -> PositionTask:
-    """The positions of the output link as seen from the crank, in its first position; frame 0 and 1, or the travel."""
-    phi, output = pair_arrays(task)
-    turned, moved = np.exp(-1j * (phi - phi[0])), output - output[0]
-    if task.output == "angle":
-        q, t = turned * np.exp(1j * moved), turned * (1 - np.exp(1j * moved))
-    else:
-        q, t = turned, turned * moved
-    return PositionTask(tuple((z.real, z.imag, a) for z, a in zip(t, np.angle(q), strict=True)))
-
-
 def _connecting(task: FunctionTask, number: int) -> list[GuidingDyad]:
     """The dyads between crank and output, without the frame, which connects them too."""
-    seen = _seen_from_crank(task)
+    seen = seen_from_crank(task)
     size = 1.0 if task.output == "angle" else seen.size
     family = guiding_dyads(seen, number)
     connecting = []

@@ -7,14 +7,14 @@ positions a dyad of the best linkage is held. docs/theory/synthesis-positions.md
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil, cos, degrees, pi, radians
 from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Complexes, Flags, Reals
+from gruebler.base.arrays import Complexes, Flags, Integers, Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.demands import Demands, inside_region
@@ -219,49 +219,110 @@ def left_of_cranks(task: PositionTask, demands: Demands, dyad: GuidingDyad, budg
 def _fails(seen: DyadCells, given: Displacements, slide: GuidingDyad, tests: PairTests) -> Flags:
     """Cells all of whose cranks certainly fail with the slide."""
     q, t = given.with_first
-    demands = tests.demands
     pins = seen.moving.column * q + t
-    a, least = seen.length, cos(demands.transmission)
+    a, cranks = seen.length, (seen, np.arange(len(seen.cells)))
     if slide.kind == SLIDER:
-        # From B to A, along the slide and across; the crank angle is counted from the normal of the slide.
         arms = _slack((pins - given.images(slide.moving)) * np.conj(slide.direction))
         across = _slack((slide.moving - seen.fixed) * np.conj(slide.direction))
-        b, e = _first(arms).modulus, across.imaginary
-        links, fails = {"crank": a, "coupler": b}, np.zeros(len(seen.cells), bool)
-        flat = off(arms.imaginary, least * b.column)
-        at_zero, at_pi = off(a - e, least * b), off(a + e, least * b)
-        to_zero, to_pi = b - a + e, b - a - e
-        pi_free, pi_shut = to_pi.low > 0, to_pi.high <= 0
         phi = seen.angle - float(np.angle(1j * slide.direction))
-    else:
-        frame = slide.fixed - seen.fixed
-        arms = _slack((slide.fixed - pins) * np.conj(slide.direction * q))
-        d, e = frame.modulus, _first(arms).imaginary
-        links, fails = {"crank": a, "frame": d}, tests.has_other_direction(frame)
-        flat = off(e.column, least * arms.modulus)
-        at_zero, at_pi = off(e, least * (a - d)) & off(e, least * (d - a)), off(e, least * (a + d))
-        to_zero = (a - d) * (a - d) - e * e
-        pi_free, pi_shut = np.ones(len(seen.cells), bool), np.zeros(len(seen.cells), bool)
-        phi = seen.angle - frame.angle.column
-    zero_free, zero_shut = to_zero.low > 0, to_zero.high <= 0
-    along = arms.real
+        return fails_on_slide(arms, a, across.imaginary, phi, cranks, tests)
+    least = cos(tests.demands.transmission)
+    frame = slide.fixed - seen.fixed
+    arms = _slack((slide.fixed - pins) * np.conj(slide.direction * q))
+    d, e = frame.modulus, _first(arms).imaginary
+    flat = off(e.column, least * arms.modulus)
+    at_zero, at_pi = off(e, least * (a - d)) & off(e, least * (d - a)), off(e, least * (a + d))
+    to_zero = (a - d) * (a - d) - e * e
+    ranges = Ranges(
+        pi_free=np.ones(len(seen.cells), bool),
+        pi_shut=np.zeros(len(seen.cells), bool),
+        zero_free=to_zero.low > 0,
+        zero_shut=to_zero.high <= 0,
+    )
+    motion = _SlideMotion(
+        along=arms.real, flat=flat, flat_at=(at_zero, at_pi), ranges=ranges, phi=seen.angle - frame.angle.column
+    )
+    fails = _moves_not(motion, {"crank": a, "frame": d}, cranks, tests)
+    return np.asarray(fails | tests.has_other_direction(frame))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _SlideMotion:
+    """What is known of linkages with a slide."""
+
+    along: Enclosure
+    """(cells, positions) of the slide."""
+    flat: Flags
+    """Whether the transmission angle at a position is certainly too small."""
+    flat_at: tuple[Flags, Flags]
+    """The same where the crank passes 0, and pi."""
+    ranges: Ranges
+    phi: Enclosure
+
+
+def fails_on_slide(
+    arms: Enclosure,
+    a: Enclosure,
+    e: Enclosure,
+    phi: Enclosure,
+    cranks: tuple[DyadCells, Integers],
+    tests: PairTests,
+    weight: Enclosure | float = 1.0,
+) -> Flags:
+    """Cells all of whose cranks certainly fail with a slider.
+
+    Args:
+        arms: (cells, positions) from the slider's pin to that of the crank, along the slide and across.
+        a: the lengths of the cranks.
+        e: how far the line of the slide lies from the crank's pivot.
+        phi: (cells, positions) the crank angles, counted from the normal of the slide.
+        cranks: the cells of the cranks, and which of them.
+        tests: the demands.
+        weight: above zero, times which all lengths are taken.
+    """
+    least, b = cos(tests.demands.transmission), _first(arms).modulus
+    to_zero, to_pi = b - a + e, b - a - e
+    motion = _SlideMotion(
+        along=arms.real,
+        flat=off(arms.imaginary, least * b.column),
+        flat_at=(off(a - e, least * b), off(a + e, least * b)),
+        ranges=Ranges(
+            pi_free=to_pi.low > 0,
+            pi_shut=to_pi.high <= 0,
+            zero_free=to_zero.low > 0,
+            zero_shut=to_zero.high <= 0,
+        ),
+        phi=phi,
+    )
+    return _moves_not(motion, {"crank": a, "coupler": b}, cranks, tests, weight)
+
+
+def _moves_not(
+    motion: _SlideMotion,
+    links: dict[str, Enclosure],
+    cranks: tuple[DyadCells, Integers],
+    tests: PairTests,
+    weight: Enclosure | float = 1.0,
+) -> Flags:
+    """Whether lengths are others than demanded, or no way leads through the positions as is demanded."""
+    demands, ranges, (cells, rows) = tests.demands, motion.ranges, cranks
+    fails = np.zeros(len(rows), bool)
     for link, length in tests.lengths:
-        fails |= is_other(links[link], 1.0, length)
+        fails |= is_other(links[link], weight, length)
     if demands.crank:
-        fails |= pi_shut | zero_shut
+        fails |= ranges.pi_shut | ranges.zero_shut
         if tests.ordered:
-            fails |= seen.keeps_no_order
+            fails |= cells.keeps_no_order[rows]
+    flat_at = motion.flat_at
     if demands.transmission:
-        fails |= flat.any(axis=1)
+        fails |= motion.flat.any(axis=1)
     else:
-        at_zero, at_pi = np.zeros((2, len(seen.cells)), bool)
+        flat_at = np.zeros(len(rows), bool), np.zeros(len(rows), bool)
     if demands.one_branch or demands.transmission:
-        fails |= (along.low > 0).any(axis=1) & (along.high < 0).any(axis=1)
+        fails |= (motion.along.low > 0).any(axis=1) & (motion.along.high < 0).any(axis=1)
     if not demands.one_branch:
         return fails
-    ranges = Ranges(pi_free=pi_free, pi_shut=pi_shut, zero_free=zero_free, zero_shut=zero_shut)
-    closed = no_way(phi, seen, np.arange(len(seen.cells)), ranges, (at_zero, at_pi), tests.order)
-    return np.asarray(fails | closed)
+    return np.asarray(fails | no_way(motion.phi, cells, rows, ranges, flat_at, tests.order))
 
 
 def _slack(measured: Enclosure) -> Enclosure:
