@@ -56,6 +56,14 @@ def estimate(problem: Problem, folder: str, seed: int, scheduler: str) -> None:
             break
 
 
+def is_linear(search: Search, node: int) -> bool:
+    """Whether the trace test of a task passes; it is printed."""
+    tested = trace(search, node)
+    told = f"trace test: {tested.residual:.1e}, without one solution {tested.without_one:.1e}"
+    print(f"{told}; {tested.lost} paths lost", flush=True)
+    return tested.residual < LINEAR
+
+
 def main(family: str, pairs: int, folder: str, seed: int, tasks: int, plane: bool, curve: bool) -> None:
     kind, _, one_angle = family.partition(", ")
     poses, points = (pairs - 1, 0) if kind == "Watt I" else (0, pairs - 1)
@@ -98,11 +106,7 @@ def main(family: str, pairs: int, folder: str, seed: int, tasks: int, plane: boo
         print(search, flush=True)
         if not general:
             break
-        tested = [trace(search, node) for node in range(tasks)]
-        for each in tested:
-            told = f"trace test: {each.residual:.1e}, without one solution {each.without_one:.1e}"
-            print(f"{told}; {each.lost} paths lost", flush=True)
-        if all(each.residual < LINEAR for each in tested) and search.alike:
+        if is_linear(search, 0) and search.alike and all(is_linear(search, node) for node in range(1, tasks)):
             print(f"with the arm, or all targets, given: {len(on_special_plane(search)[1]):,} finite", flush=True)
             break
         search.add_way(*between[len(search.ways) % len(between)])
@@ -131,4 +135,5 @@ if __name__ == "__main__":
             given.seed,
             given.tasks or (2 if given.pairs == 7 else 4),
             given.plane,
+            given.curve,
         )
