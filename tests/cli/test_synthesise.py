@@ -342,7 +342,7 @@ def test_dead_centres_in_german(capsys):
     assert main(["synthesise", "dead-centres", "--swing", "60", "--crank-angle", "200", "--lang", "de"]) == 0
     out = capsys.readouterr().out
     assert "unendlich viele" in out
-    assert "Verschiebung" not in out  # the drive value of a dead centre holds nothing: no column
+    assert "Kurbelwinkel zwischen den Totlagen ändern" in out
 
 
 SIX_BARS = ["function", "x", "--interval", "1", "2", "--swings", "5", "60", "--six-bars"]

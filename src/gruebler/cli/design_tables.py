@@ -27,15 +27,23 @@ _COLUMNS = (
     *(message("design"), message("drive"), message("full turn"), message("µ on the way"), message("µ of range")),
     message("lengths"),
 )
-_ERROR, _SHIFTED = message("error"), message("shift")
+_ERROR, _SHIFTED, _AWAY = message("error"), message("shift"), message("from preferred pivots")
 _OF_FUNCTION = message("error at pairs"), message("over interval")
 _SHIFT = message(
     "Shift: how far the most sensitive target moves if all lengths are wrong by 0.1 %, in the worst case; each drive "
     "keeps its value."
 )
+_SHIFT_OF_DEAD_CENTRES = message(
+    "Shift: by how much swing or stroke and the crank angle between the dead centres change if all lengths are wrong "
+    "by 0.1 %, in the worst case."
+)
 _PLAY = message(
     "Lengths wrong by up to 0.1 %, pins {clearance:g} beside the middle of their holes, to first order; each drive "
     "keeps its value."
+)
+_PLAY_OF_DEAD_CENTRES = message(
+    "Lengths wrong by up to 0.1 %, pins {clearance:g} beside the middle of their holes, to first order; in each dead "
+    "centre they may lie in another direction."
 )
 _ANGLES = message(
     "µ on the way: the smallest transmission angle on the way through all targets, at them and between them; "
@@ -60,8 +68,11 @@ def print_designs(result: SynthesisResult, shown: SynthesisResult, rejected: boo
         headers = [*_COLUMNS, *_error_headers(shown), _SHIFTED]
         rows = [_row(k, design, shown, lang) for k, design in enumerate(shown.designs, 1)]
         if isinstance(result.task, PositionTask | PathTask):  # they stand in the plane of the task
-            headers.append(message("fixed pivots"))
-            rows = [[*row, _pivots(design, lang)] for row, design in zip(rows, shown.designs, strict=True)]
+            headers += [message("fixed pivots"), _AWAY]
+            rows = [
+                [*row, _pivots(design, lang), _away(design, lang)]
+                for row, design in zip(rows, shown.designs, strict=True)
+            ]
         print_table(*_without_empty(headers, rows), lang=lang)
         more = len(result.designs) - len(shown.designs)
         if more:
@@ -123,9 +134,13 @@ def print_notes(shown: SynthesisResult, lang: str) -> None:
     low = [_LOW] if any(mu < GOOD for mu in angles) else []
     print_text(joined([_ANGLES, *low], " ").in_language(lang))
     if any(design.sensitivity is not None for design in shown.designs):
-        print_text(_SHIFT.in_language(lang))
+        print_text((_SHIFT_OF_DEAD_CENTRES if _of_dead_centres(shown) else _SHIFT).in_language(lang))
     if _turning_before_better([design.verdict for design in shown.designs]):
         print_text(_FULL_TURNS.in_language(lang))
+
+
+def _of_dead_centres(shown: SynthesisResult) -> bool:
+    return any(design.reach is not None for design in shown.designs)
 
 
 def _turning_before_better(verdicts: Sequence[DesignVerdict]) -> bool:
@@ -148,6 +163,7 @@ def print_pareto(result: SynthesisResult, lang: str) -> None:
             number(row.size, lang, "n"),
             str(row.links),
             _shift(row.design, lang),
+            _away(row.design, lang),
             _structure(row.design.linkage, lang),
         ]
         for row in pareto(result)
@@ -156,13 +172,13 @@ def print_pareto(result: SynthesisResult, lang: str) -> None:
     print()
     print(translate("Not beaten in error, transmission angle, size and number of links at once:", lang))
     errors = _error_headers(result)
-    headers = [message("design"), *errors, *_PARETO, size, message("links"), _SHIFTED, message("structure")]
+    headers = [message("design"), *errors, *_PARETO, size, message("links"), _SHIFTED, _AWAY, message("structure")]
     print_table(*_without_empty(headers, rows), numbers=range(5 + len(errors)), lang=lang)
 
 
 def _without_empty(headers: list[Message], rows: list[list[Cell]]) -> tuple[list[Message], list[list[Cell]]]:
-    """A table without the column of shifts where no row has one, as of dead centres."""
-    kept = [k for k in range(len(headers)) if headers[k] is not _SHIFTED or any(row[k] for row in rows)]
+    """A table without columns of shifts and of distances of pivots where no row has one."""
+    kept = [k for k in range(len(headers)) if headers[k] not in (_SHIFTED, _AWAY) or any(row[k] for row in rows)]
     return [headers[k] for k in kept], [[row[k] for k in kept] for row in rows]
 
 
@@ -200,14 +216,19 @@ def _shift(design: Design, lang: str) -> str:
     return _by_probe(design, design.sensitivity.worst, lang)
 
 
+def _away(design: Design, lang: str) -> str:
+    """How far its pivots lie from those that are preferred; nothing where there are none."""
+    away = design.verdict.pivot_distance
+    return "" if isnan(away) else number(_without_rounding(away, design.linkage), lang, ".3g")
+
+
 def _by_probe(design: Design, moved: Reals, lang: str) -> str:
     """The largest over the targets of what each quantity moves by, (targets, probes)."""
-    assert design.targets is not None
-    shifts = zip(design.targets.probes, map(float, moved.max(axis=0, initial=0.0)), strict=True)
+    shifts = zip(design.probes, map(float, moved.max(axis=0, initial=0.0)), strict=True)
     return " ".join(
         f"{number(degrees(shift / probe.length), lang, '.2g')}°" if probe.link else number(shift, lang, ".2g")
         for probe, shift in shifts
-        if shift > EXACT * design.targets.size
+        if shift > EXACT * design.task_size
     )
 
 
@@ -222,7 +243,8 @@ def print_clearance(shown: SynthesisResult, clearance: float, lang: str) -> None
     if rows:
         print()
         print_table((message("design"), message("worst case"), message("99 % of random linkages")), rows, lang=lang)
-        print_text(_PLAY.filled(clearance=clearance).in_language(lang))
+        said = _PLAY_OF_DEAD_CENTRES if _of_dead_centres(shown) else _PLAY
+        print_text(said.filled(clearance=clearance).in_language(lang))
 
 
 def transmission_text(mu: float, lang: str) -> str:

@@ -42,7 +42,7 @@ from gruebler.design.synthesis import (
     synthesise_six_bars,
     synthesise_structures,
 )
-from gruebler.design.synthesis.results import Progress, in_order_of
+from gruebler.design.synthesis.results import Progress
 from gruebler.design.synthesis.six_bar_monodromy import LOOPS
 from gruebler.files.designs import result_to_json
 from gruebler.files.linkages import write_linkage
@@ -66,6 +66,7 @@ _OPTIONS = {
     "region": "--region",
     "lengths": "--length",
     "frame_direction": "--frame-direction",
+    "near_pivots": "--near-pivot",
     "tolerance": "--tolerance",
     "starts": "--start-solutions",
     "executor": "--jobs, --scheduler",
@@ -259,6 +260,8 @@ def add(parser: Parser) -> None:
             --length LINK L ...  a given distance of the pins of crank, coupler, rocker, frame (or another link);
                 repeatable
             --frame-direction DEG float  the angle of the line through two fixed pivots with the x axis
+            --near-pivot X Y float ...  a place near which a fixed pivot is preferred; give it twice for both: designs
+                are sought and sorted by the distance of their pivots from it unless --sort says otherwise
             --structure MECHANISM ...  fit this mechanism instead: a text, a family such as "Watt I", or a catalog
                 entry; several are compared
             --initial-designs N int  with --structure: improve N initial designs of each mechanism (default: 24 of an
@@ -275,7 +278,7 @@ def add(parser: Parser) -> None:
                 or 0.05 where targets are approached)
             --any-order  the targets may be met in any order
             --sort KEY[,KEY] =  sort the designs by error, transmission, range-transmission, size, size-ratio,
-                sensitivity, links, full-turn; of equal ones the second key decides
+                sensitivity, near-pivots, links, full-turn; of equal ones the second key decides
             --clearance C float  print how far targets move, lengths wrong by a thousandth and pins C beside their holes
             --number N int  give the N best designs only, where there are infinitely many or targets are approached
             --rejected
@@ -309,9 +312,9 @@ def _run(arguments: argparse.Namespace) -> int:
         check_picture(arguments.draw)
     demands = _demands(arguments)
     task = _task(arguments)
-    orders = _orders(arguments)
-    in_order_of((), orders)  # a wrong name is refused before the work
-    result = _solved(arguments, task, demands)
+    with _keys_as_options():
+        orders = demands.orders(_orders(arguments))
+    result = _solved(arguments, task, demands, orders)
     if orders:
         result = result.sorted_by(*orders)
     shown = result if result.count.theorem else replace(result, designs=result.designs[: arguments.number])
@@ -367,6 +370,7 @@ def _demands(arguments: argparse.Namespace) -> Demands:
             transmission=radians(arguments.transmission),
             size_ratio=arguments.size_ratio,
             region=region,
+            near_pivots=tuple(map(tuple, arguments.near_pivot)),
             tolerance=Demands.tolerance if arguments.tolerance is None else arguments.tolerance,
             in_order=not arguments.any_order,
         )
@@ -498,7 +502,7 @@ def _law(arguments: argparse.Namespace) -> FunctionLaw:
     )
 
 
-def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> SynthesisResult:
+def _solved(arguments: argparse.Namespace, task: Task, demands: Demands, orders: Sequence[str]) -> SynthesisResult:
     progress = count_line(_COUNTED.get("" if arguments.structure else arguments.action, _IMPROVED), arguments.lang)
     more = {} if arguments.number is None else {"number": max(arguments.number, _LEAST[type(task)])}
     with _keys_as_options():
@@ -510,11 +514,11 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
             guided: Callable[..., SynthesisResult] = (
                 synthesise_path if isinstance(task, PathTask) else synthesise_positions
             )
-            return guided(task, demands, sort=_orders(arguments), progress=progress, **more)
+            return guided(task, demands, sort=orders, progress=progress, **more)
         if isinstance(task, FunctionTask):
-            return synthesise_function(task, demands, minimax=arguments.minimax, sort=_orders(arguments), **more)
+            return synthesise_function(task, demands, minimax=arguments.minimax, sort=orders, **more)
         if isinstance(task, DeadCentreTask):
-            return synthesise_dead_centres(task, demands, sort=_orders(arguments), **more)
+            return synthesise_dead_centres(task, demands, sort=orders, **more)
         return synthesise_dwells(task, demands, progress=progress, **more)
 
 

@@ -21,7 +21,7 @@ def design_to_json(design: Design) -> dict[str, Any]:
     """
     drives, verdict = design.linkage.mechanism.drives, design.verdict
     turning = bool(drives) and drives[0].turning
-    keys = "accepted reasons assembles one_circuit one_branch in_order turns_fully size_ratio inside"
+    keys = "accepted reasons assembles one_circuit one_branch in_order turns_fully size_ratio inside pivot_distance"
     errors = "error over_interval between"
     sensitivity = design.sensitivity if verdict.accepted else None
     over_range = plain(design, "transmission_over_range", units=_ANGLES) if verdict.accepted else {}

@@ -26,6 +26,7 @@ class _Demands(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
     region: tuple[float, float, float, float] | None = None
     lengths: dict[str, float] = {}
     frame_direction: float | None = None
+    near_pivots: list[tuple[float, float]] = []
     tolerance: float = Demands.tolerance
     one_branch: bool = True
     in_order: bool = True

@@ -45,8 +45,7 @@ def with_dead_centres(design: Design, task: DeadCentreTask, limit: float) -> Des
         reason = message("until its motion repeats the output has {count} dead centres, not two", count=len(back))
         return replace(design, targets=None, verdict=replace(verdict, reasons=(*verdict.reasons, reason)))
     low, high = sorted(back, key=lambda centre: centre.output)
-    reach = task.stroke if task.swing is None else task.swing
-    assert reach is not None
+    reach = task.reach
     unit = reach if task.swing is None else 1.0
     turned = (high.drive - low.drive) % cycle.span.period
     ways = turned, cycle.span.period - turned
@@ -58,7 +57,9 @@ def with_dead_centres(design: Design, task: DeadCentreTask, limit: float) -> Des
     if missed > limit:
         reasons = (*reasons, _OTHERS.filled(error=missed))
     drives = (low.drive, low.drive + turned)
-    return replace(design, targets=None, drives=drives, verdict=replace(verdict, error=missed, reasons=reasons))
+    return replace(
+        design, targets=None, reach=reach, drives=drives, verdict=replace(verdict, error=missed, reasons=reasons)
+    )
 
 
 def _apart(ways: tuple[float, float], angle: float) -> float:

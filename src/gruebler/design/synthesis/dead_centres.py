@@ -21,7 +21,7 @@ from gruebler.base.text import Message, joined_by_and, message
 from gruebler.design.synthesis.dead_centre_extremes import LONGEST, LengthSquares, is_half_turn
 from gruebler.design.synthesis.demands import Demands, tightest
 from gruebler.design.synthesis.given_lengths import scale_to_length
-from gruebler.design.synthesis.judging import faults_of_size, pivots_inside, size_ratio, transmission_fault
+from gruebler.design.synthesis.judging import transmission_fault, verdict_at_rest
 from gruebler.design.synthesis.results import PASSED, Design, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.tasks import DeadCentreTask
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
@@ -279,10 +279,10 @@ def _searched(
     orders = (*orders, "transmission")
     first = in_order_of([designs[k] for k in good], orders)[0]
     best = tried[next(k for k in good if designs[k] is first)]
-    if _UNEVEN in orders:
-        best = _improved(task, best, demands, orders, family.range[1] - family.range[0])
-        notes.append(_ON_GRIDS)
     within = [m for m in family.members if any(low < m.parameter < high for low, high in ranges)]
+    if _UNEVEN in orders:
+        best = _improved(task, [best, *within[::4]], demands, orders, family.range[1] - family.range[0])
+        notes.append(_ON_GRIDS)
     return _spread(within, best, number) if within else [best]
 
 
@@ -304,16 +304,20 @@ def _joined(ends: Sequence[float], meets: Sequence[bool]) -> list[tuple[float, f
 
 
 def _improved(
-    task: DeadCentreTask, best: FamilyMember, demands: Demands, orders: Sequence[str], width: float
+    task: DeadCentreTask, begun: Sequence[FamilyMember], demands: Demands, orders: Sequence[str], width: float
 ) -> FamilyMember:
-    """The best beside one by what has no extremes in closed form, on ever finer grids."""
-    width /= 50
+    """The best of some by what has no extremes in closed form, and then on ever finer grids about it."""
+
+    def best_of(some: Sequence[FamilyMember]) -> FamilyMember:
+        designs = [_design(task, member, demands) for member in some]
+        first = in_order_of([design for design in designs if design.verdict.accepted], orders)[0]
+        return some[next(k for k, design in enumerate(designs) if design is first)]
+
+    best = best_of(begun)
+    width /= 50  # more than between two that were begun with
     while width > _FINEST * best.parameter:
         places = best.parameter + np.linspace(-1, 1, 9) * width
-        near = [m for place in places if place > 0 and (m := _member(task, float(place))) is not None]
-        nearby = [_design(task, member, demands) for member in (best, *near)]
-        first = in_order_of([design for design in nearby if design.verdict.accepted], orders)[0]
-        best = (best, *near)[next(k for k, design in enumerate(nearby) if design is first)]
+        best = best_of([best, *(m for place in places if place > 0 and (m := _member(task, float(place))) is not None)])
         width /= 3
     return best
 
@@ -355,8 +359,8 @@ _MEET = {
 _RANGE = message("from {low:.4g} to {high:.4g}")
 _UNEVEN = "sensitivity"
 _ON_GRIDS = message(
-    "The best was sought on ever finer grids about the best of the members at which something changes: of the "
-    "sensitivity another one may be better."
+    "The least sensitive one was sought among members spread over these and then on ever finer grids about the best of "
+    "them; that no other is less sensitive is not proved."
 )
 _NOTES = {
     (False, False): message(
@@ -382,8 +386,8 @@ _NOTES = {
 def _design(task: DeadCentreTask, member: FamilyMember, demands: Demands) -> Design:
     linkage = member.linkage.linkage(unit=task.unit)
     linkage = linkage.scaled(task.stroke or scale_to_length(linkage, demands))
-    ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
-    reasons = faults_of_size(linkage, ratio, inside, demands)
+    known = verdict_at_rest(linkage, demands)
+    reasons = [*known.reasons]
     if member.transmission < demands.transmission:
         reasons.append(transmission_fault(member.transmission))
     centres = member.linkage.dead_centres
@@ -393,10 +397,12 @@ def _design(task: DeadCentreTask, member: FamilyMember, demands: Demands) -> Des
         PASSED,
         turns_fully=True,
         transmission=member.transmission,
-        size_ratio=ratio,
-        inside=inside,
+        size_ratio=known.size_ratio,
+        inside=known.inside,
         error=error,
         reasons=tuple(reasons),
     )
     kind = "four-bar" if task.swing is not None else "slider-crank"
-    return Design(linkage=linkage, verdict=verdict, form=kind, drives=(centres.outer.drive, centres.inner.drive))
+    return Design(
+        linkage=linkage, verdict=verdict, form=kind, drives=(centres.outer.drive, centres.inner.drive), reach=task.reach
+    )

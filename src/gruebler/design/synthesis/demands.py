@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import permutations
 from math import degrees
 from typing import Any
 
@@ -17,7 +18,7 @@ from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.base.immutable import settle
 from gruebler.base.text import Message, joined_by_and, message
-from gruebler.design.synthesis.results import EXACT
+from gruebler.design.synthesis.results import EXACT, NEAR_PIVOTS, in_order_of
 from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.targets import GuidedCurve
 from gruebler.design.synthesis.tasks import PathTask, PositionTask, Task, output_travels
@@ -52,6 +53,8 @@ class Demands:
     """Links with the given distance of their pins: crank, coupler, rocker, frame, or other names of links."""
     frame_direction: float | None = None
     """The angle of the line through two pivots of the frame with the x axis, in radians; half turns do not count."""
+    near_pivots: tuple[tuple[float, float], ...] = ()
+    """One or two places near which fixed pivots are preferred: no demand, but what designs are sought by."""
     tolerance: float = EXACT
     """How far a target may be missed, relative to the size of the task."""
     one_branch: bool = True
@@ -97,7 +100,7 @@ class Demands:
             raise SynthesisError(
                 "{name}: expected an angle, but found {value!r}", name="frame_direction", value=self.frame_direction
             )
-        settle(self, lengths=_given_lengths(self.lengths))
+        settle(self, lengths=_given_lengths(self.lengths), near_pivots=_places(self.near_pivots))
 
     @property
     def given_sizes(self) -> int:
@@ -118,6 +121,18 @@ class Demands:
         """The links of a four-bar whose length or direction is given: these have two pins."""
         links = [link for link, _ in self.lengths]
         return tuple(dict.fromkeys([*links, *([] if self.frame_direction is None else ["frame"])]))
+
+    def orders(self, sort: Sequence[str]) -> tuple[str, ...]:
+        """By what designs are sought and sorted: as asked, else by the distance of their pivots from preferred ones.
+
+        >>> Demands(near_pivots=[(0, 0)]).orders(()), Demands().orders(["size"])
+        (('near-pivots',), ('size',))
+        """
+        orders = tuple(sort) or (NEAR_PIVOTS,) * bool(self.near_pivots)
+        in_order_of((), orders)  # a wrong name is refused before the work
+        if NEAR_PIVOTS in orders and not self.near_pivots:
+            raise SynthesisError("{name}: needed to sort by the distance from them", name="near_pivots")
+        return orders
 
     @property
     def limits_of_size(self) -> bool:
@@ -146,6 +161,11 @@ class Demands:
                 )
         if self.frame_direction is not None and not isinstance(task, PositionTask | PathTask):
             raise SynthesisError("{name}: only for tasks with positions or points", name="frame_direction")
+        if self.near_pivots and not isinstance(task, PositionTask | PathTask):
+            raise SynthesisError(
+                "{name}: only for tasks with positions or points; any other linkage can be put there",
+                name="near_pivots",
+            )
         x1, y1, x2, y2 = self.region or (-np.inf, -np.inf, np.inf, np.inf)
         for x, y in getattr(task, "fixed_pivots", ()):
             if not (x1 <= x <= x2 and y1 <= y <= y2):
@@ -182,6 +202,17 @@ def _given_lengths(value: object) -> tuple[tuple[str, float], ...]:
     return tuple(pairs.items())
 
 
+def _places(value: object) -> tuple[tuple[float, float], ...]:
+    """At most two places of the plane."""
+    rows: list[Any] = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else [None]
+    good = all(isinstance(row, Sequence | np.ndarray) and len(row) == 2 and all(map(_is_number, row)) for row in rows)
+    if not good or len(rows) > 2 or not np.isfinite(np.array(rows, np.float64)).all():
+        raise SynthesisError(
+            "{name}: expected one or two places x, y, but found {value!r}", name="near_pivots", value=value
+        )
+    return tuple((float(x), float(y)) for x, y in rows)
+
+
 def _is_number(value: object) -> bool:
     return isinstance(value, int | float | np.number) and not isinstance(value, bool) and not np.isnan(value)
 
@@ -203,9 +234,31 @@ def sought_order(task: PositionTask | PathTask, demands: Demands) -> TargetOrder
 def inside_region(pivots: Complexes, demands: Demands) -> Flags:
     """Whether pivots lie in the region that is demanded, all if there is none."""
     if demands.region is None:
-        return np.ones(len(pivots), bool)
+        return np.ones(np.shape(pivots), bool)
     x1, y1, x2, y2 = demands.region
     return np.asarray((x1 <= pivots.real) & (pivots.real <= x2) & (y1 <= pivots.imag) & (pivots.imag <= y2))
+
+
+def distance_of_pivots(pivots: Sequence[Complexes], demands: Demands) -> Reals:
+    """How far fixed pivots lie from those that are preferred: the root of the sum of squares, each taken by its own.
+
+    Args:
+        pivots: each of one linkage, or of many.
+        demands: with one or two places; of two assignments the nearer one counts.
+
+    Infinite where there are fewer pivots than places, NaN where none are preferred.
+
+    >>> float(distance_of_pivots([np.array(4 + 3j), np.array(0j)], Demands(near_pivots=[(0, 0), (4, 0)])))
+    3.0
+    """
+    places = [complex(*place) for place in demands.near_pivots]
+    if not places:
+        return np.full(np.broadcast_shapes(*(np.shape(pivot) for pivot in pivots)), np.nan)
+    squares = [
+        np.asarray(sum(np.abs(pivot - place) ** 2 for pivot, place in zip(some, places, strict=True)))
+        for some in permutations(pivots, len(places))
+    ]
+    return np.sqrt(np.minimum.reduce(np.broadcast_arrays(*squares))) if squares else np.asarray(np.inf)
 
 
 def across_direction(gaps: NDArray[Any], direction: float) -> NDArray[Any]:

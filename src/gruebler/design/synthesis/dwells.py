@@ -25,7 +25,7 @@ from gruebler.design.synthesis.dwell_search import (
     with_least_deviation,
     with_swing,
 )
-from gruebler.design.synthesis.judging import faults_of_size, size_ratio, transmission_fault
+from gruebler.design.synthesis.judging import transmission_fault, verdict_at_rest
 from gruebler.design.synthesis.results import EXACT, PASSED, Design, Progress, SolutionCount, SynthesisResult
 from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import DwellTask
@@ -80,7 +80,12 @@ def synthesise_dwells(
         docs/theory/synthesis-dwells.md
     """
     wanted = demands or Demands(tolerance=NEAR)
-    refused = {"region": wanted.region, "lengths": wanted.lengths or None, "frame_direction": wanted.frame_direction}
+    refused: dict[str, object] = {
+        "region": wanted.region,
+        "lengths": wanted.lengths or None,
+        "frame_direction": wanted.frame_direction,
+        "near_pivots": wanted.near_pivots or None,
+    }
     if key := next((name for name, value in refused.items() if value is not None), None):
         raise SynthesisError("{key}: a rest is designed without given lengths or places of pivots", key=key)
     tolerance = NEAR if wanted.tolerance == Demands.tolerance else wanted.tolerance
@@ -173,13 +178,13 @@ def _linkage(task: DwellTask, six_bar: RestingSixBar) -> Linkage:
 def _judged(task: DwellTask, six_bar: RestingSixBar, demands: Demands, tolerance: float) -> Design:
     """The design with its verdict: by its motion through a turn of the crank, not by the formulas of the search."""
     linkage = _linkage(task, six_bar)
-    ratio, output = size_ratio(linkage), find_output(linkage, "output")
+    known, output = verdict_at_rest(linkage, demands), find_output(linkage, "output")
     wanted = task.swing or task.stroke or 1.0
     start = linkage.required_pose["crank"].angle
     resting, turning = (
         move_quietly(linkage, start + np.linspace(0, angle, _ROWS + 1)) for angle in (task.dwell, 2 * pi)
     )
-    reasons = faults_of_size(linkage, ratio, True, demands)
+    reasons = [*known.reasons]
     error = transmission = float("nan")
     if not (resting.complete and turning.complete):
         reasons.append(message("the drive does not turn fully"))
@@ -196,7 +201,7 @@ def _judged(task: DwellTask, six_bar: RestingSixBar, demands: Demands, tolerance
         PASSED,
         turns_fully=turning.complete,
         transmission=transmission,
-        size_ratio=ratio,
+        size_ratio=known.size_ratio,
         error=error,
         reasons=tuple(reasons),
     )

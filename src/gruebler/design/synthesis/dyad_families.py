@@ -13,6 +13,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis.burmester import burmester_curves
 from gruebler.design.synthesis.demands import Demands
@@ -43,7 +44,9 @@ _BULGES = (0.25, -0.25, 1.0, -1.0)
 """How far a third position between two lies beside them, by their distance: four pivots for a point of the plane."""
 _ENDS = 64
 """Dyads of a pivot that are taken of two positions."""
-_PLANE = 40.0  # sizes of the task: the plane in which pivots are sought counts as so long
+_RINGS = np.array([0.03 * 2.5**k for k in range(6)])
+"""Sizes: circles about a pivot that is preferred on which others are taken."""
+PLANE = 40.0  # sizes of the task: the plane in which pivots are sought counts as so long
 
 
 def guiding_dyads(
@@ -110,6 +113,52 @@ def dyads_of_one_pivot(task: PositionTask) -> list[GuidingDyad]:
         with suppress(SynthesisError):  # it serves any dyad
             dyads.append(construct(part, (pivot - origin) / size).moved(size, origin))
     return dyads
+
+
+def dyads_near_pivots(task: PositionTask, demands: Demands) -> list[GuidingDyad]:
+    """Dyads of two to four positions whose fixed pivots are those that are preferred, or lie about them."""
+    places = [complex(*place) for place in demands.near_pivots]
+    if len(task) == 4:
+        curves = burmester_curves(task)
+        return [curves.nearest(place, fixed=True) for place in places if curves.pieces]
+    return [dyad for place in places for dyad in _with_fixed_pivots(task, place, _RINGS * task.size)]
+
+
+def near_fixed_in_plane(task: PositionTask, dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
+    """As `near_in_plane`, with dyads whose pivots on the frame lie about its own besides."""
+    others = near_in_plane(task, dyad, width)
+    if dyad.slides:
+        return others
+    radii = np.array([0.5, 1.0]) * (PLANE * width * task.size)
+    if len(task) > 2:
+        return others + _with_fixed_pivots(task, dyad.fixed, radii)
+    turn = task.turns[1] / task.turns[0]
+    for fixed in _about(dyad.fixed, radii):  # the pivot on the body lies on a line: that of the nearest place is taken
+        seen = task.origins[0] + (fixed - task.origins[1]) / turn
+        along = 1j * (seen - fixed)
+        if along:
+            middle, gap = (seen + fixed) / 2, dyad.moving - (seen + fixed) / 2
+            moving = middle + along * np.real(np.conj(along) * gap) / abs(along) ** 2
+            others.append(replace(dyad, fixed=fixed, moving=complex(moving)))
+    return others
+
+
+def _about(place: complex, radii: Reals) -> list[complex]:
+    """A place and others on circles about it."""
+    turns = np.exp(2j * np.pi * np.arange(8) / 8)
+    return [place, *map(complex, (place + radii[:, None] * turns).ravel())]
+
+
+def _with_fixed_pivots(task: PositionTask, place: complex, radii: Reals) -> list[GuidingDyad]:
+    """Dyads with a fixed pivot at a place and on circles about it; of two positions some of each."""
+    given, origin, size = Displacements.of(task.origins, task.turns)
+    parts = [given] if len(task) > 2 else [_with_third(given, bulge) for bulge in _BULGES]
+    dyads = []
+    for pivot in _about(place, radii):
+        for part in parts:
+            with suppress(SynthesisError):  # it serves any dyad
+                dyads.append(dyad_of_fixed_pivot(part, (pivot - origin) / size).moved(size, origin))
+    return [dyad for dyad in dyads if not dyad.slides]
 
 
 def _with_third(given: Displacements, bulge: float) -> Displacements:
@@ -198,7 +247,7 @@ def near_on_curve(task: PositionTask) -> Nearby:
 
 def near_in_plane(task: PositionTask, dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
     """Dyads of two or three positions near one: their pivots on the body, or the directions of their slides."""
-    reach = _PLANE * width * task.size
+    reach = PLANE * width * task.size
     if dyad.slides and len(task) == 3:
         turns = (dyad.direction * np.exp(1j * np.pi * width * share) for share in (-1.0, -0.5, 0.5, 1.0))
         return sliding_family(task, dyad.kind, map(complex, turns))

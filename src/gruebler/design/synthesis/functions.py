@@ -40,6 +40,7 @@ from gruebler.design.synthesis.minimax_search import minimax as minimax_near
 from gruebler.design.synthesis.nearest_functions import nearest_linkages
 from gruebler.design.synthesis.pair_facts import PairFacts, facts_of_pins
 from gruebler.design.synthesis.pair_search import IMPROVED, best_dyads
+from gruebler.design.synthesis.pair_shifts import output_shifts
 from gruebler.design.synthesis.positions import NEAR
 from gruebler.design.synthesis.results import EXACT, Design, SolutionCount, SynthesisResult, in_order_of, ranked
 from gruebler.design.synthesis.start_families import (
@@ -270,10 +271,28 @@ def _facts_of_pivots(task: FunctionTask, moving: Complexes, fixed: Complexes) ->
     none, inside = np.zeros((1, 1), np.complex128), np.ones((len(moving), 1), bool)
     if task.output == "angle":
         other = 1 + (far_pins - 1) * np.exp(1j * moved), none + 1
-        return facts_of_pins((pins, none), other, none[..., None], CRANK, inside=inside, size=1.0)
+        return facts_of_pins(
+            (pins, none),
+            other,
+            none[..., None],
+            CRANK,
+            inside=inside,
+            size=1.0,
+            shifts=partial(output_shifts, size=1.0),
+            pivot_distance=none.real,
+        )
     other = far_pins + moved, far_pins[..., 0]
     size = float(np.ptp(output)) or np.inf
-    return facts_of_pins((pins, none), other, 1 + none[..., None], SLIDER, inside=inside, size=size)
+    return facts_of_pins(
+        (pins, none),
+        other,
+        1 + none[..., None],
+        SLIDER,
+        inside=inside,
+        size=size,
+        shifts=partial(output_shifts, size=float(np.ptp(output)) or 1.0),
+        pivot_distance=none.real,
+    )
 
 
 def _optima(exact: SynthesisResult, law: FunctionLaw, demands: Demands) -> SynthesisResult:

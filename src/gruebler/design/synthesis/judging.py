@@ -17,8 +17,14 @@ from numpy.typing import NDArray
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, joined, message
-from gruebler.design.synthesis.demands import EXACT_AT_MOST, Demands, across_direction
-from gruebler.design.synthesis.results import EXACT, PASSED, TOO_SLENDER, Design, DesignVerdict, ranked
+from gruebler.design.synthesis.demands import (
+    EXACT_AT_MOST,
+    Demands,
+    across_direction,
+    distance_of_pivots,
+    inside_region,
+)
+from gruebler.design.synthesis.results import EXACT, TOO_SLENDER, Design, DesignVerdict, ranked
 from gruebler.design.synthesis.target_paths import TargetPath, limit_before, path_through
 from gruebler.design.synthesis.target_places import places_approached, places_met
 from gruebler.design.synthesis.targets import GuidedCurve, Targets
@@ -64,9 +70,14 @@ def decided_by_path(verdict: DesignVerdict, demands: Demands) -> bool:
 
 def rejected_alike(linkage: Linkage, other: Design, demands: Demands) -> Design:
     """The design of a linkage whose point has the path of another one, a cognate of it, that its path decided."""
-    ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
-    reasons = (*faults_of_size(linkage, ratio, inside, demands), other.verdict.reasons[-1])
-    verdict = replace(other.verdict, size_ratio=ratio, inside=inside, reasons=reasons)
+    own = verdict_at_rest(linkage, demands)
+    verdict = replace(
+        other.verdict,
+        size_ratio=own.size_ratio,
+        inside=own.inside,
+        pivot_distance=own.pivot_distance,
+        reasons=(*own.reasons, other.verdict.reasons[-1]),
+    )
     return replace(other, linkage=linkage, verdict=verdict)
 
 
@@ -110,8 +121,8 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     >>> judge_design(bar, point_targets("P", motion.complex_point("P"), 1.0), Demands(), "four-bar").verdict.accepted
     True
     """
-    ratio, inside = size_ratio(linkage, targets.travel), pivots_inside(linkage, demands.region)
-    reasons, known = faults_of_size(linkage, ratio, inside, demands), DesignVerdict(size_ratio=ratio, inside=inside)
+    known = verdict_at_rest(linkage, demands, travel=targets.travel)
+    reasons = [*known.reasons]
     if targets.in_any_order:
         demands = replace(demands, in_order=False)
     try:
@@ -236,8 +247,8 @@ def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form
         form: of the design.
         drives: (targets, drives) their values at the targets; between two targets they go evenly.
     """
-    ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
-    reasons = faults_of_size(linkage, ratio, inside, demands)
+    known = verdict_at_rest(linkage, demands)
+    reasons = [*known.reasons]
     between = np.linspace(0, len(drives) - 1, _ROWS * (len(drives) - 1) + 1)
     rows = np.stack([np.interp(between, np.arange(len(drives)), column) for column in drives.T], axis=1)
     misses, rounding = np.full(len(drives), np.inf), _ROUNDING * linkage.size / targets.size
@@ -259,11 +270,14 @@ def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form
         reasons.append(message("with several drives none has to turn fully"))
     if demands.transmission > 0:
         reasons.append(message("with several drives there is no transmission angle"))
+    moved = bool(np.isfinite(error))
     verdict = replace(
-        PASSED if np.isfinite(error) else DesignVerdict(),
-        size_ratio=ratio,
-        inside=inside,
-        error=error if np.isfinite(error) else np.nan,
+        known,
+        assembles=moved,
+        one_circuit=moved,
+        one_branch=moved,
+        in_order=moved,
+        error=error if moved else np.nan,
         reasons=tuple(reasons),
     )
     return Design(
@@ -275,8 +289,23 @@ def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form
     )
 
 
-def faults_of_size(linkage: Linkage, ratio: float, inside: bool, demands: Demands) -> list[Message]:
-    """What speaks against a linkage before it moves: the place of its pivots, its lengths and their ratio."""
+def verdict_at_rest(linkage: Linkage, demands: Demands, *, travel: float = np.inf) -> DesignVerdict:
+    """What is known of a linkage before it moves: the place of its pivots, its lengths and their ratio."""
+    frame = linkage.mechanism.frame
+    pins = [e for (_, owner), e in linkage.elements.items() if owner == frame and not e.is_line]
+    pivots = [np.array(complex(e.x, e.y)) for e in pins]
+    ratio, inside = size_ratio(linkage, travel), all(inside_region(pivot, demands) for pivot in pivots)
+    away = float(distance_of_pivots(pivots, demands))
+    return DesignVerdict(
+        size_ratio=ratio,
+        inside=inside,
+        pivot_distance=away if np.isfinite(away) else np.nan,
+        reasons=tuple(_faults_of_size(linkage, ratio, inside, demands)),
+    )
+
+
+def _faults_of_size(linkage: Linkage, ratio: float, inside: bool, demands: Demands) -> list[Message]:
+    """What speaks against it."""
     faults = []
     for link, wanted in demands.lengths:
         distances = distances_of_pins(linkage, link)
@@ -392,15 +421,6 @@ def gaps_of_pins(linkage: Linkage, link: str) -> list[tuple[float, float]]:
     """From the pins of a link to each before, x and y."""
     pins = [(e.x, e.y) for (_, owner), e in linkage.elements.items() if owner == link and e.is_pin]
     return [(x - u, y - v) for k, (u, v) in enumerate(pins) for x, y in pins[:k]]
-
-
-def pivots_inside(linkage: Linkage, region: tuple[float, float, float, float] | None) -> bool:
-    """Whether all pins of the frame lie in a rectangle; the boundary belongs to it."""
-    if region is None:
-        return True
-    frame = linkage.mechanism.frame
-    pins = [e for (_, owner), e in linkage.elements.items() if owner == frame and not e.is_line]
-    return all(region[0] <= e.x <= region[2] and region[1] <= e.y <= region[3] for e in pins)
 
 
 def _turns_fully(course: Circuit) -> bool:

@@ -18,7 +18,6 @@ from gruebler.design.synthesis.demands import (
     Demands,
     across_direction,
     demands_failed,
-    inside_region,
     sought_order,
     tightest,
 )
@@ -33,7 +32,7 @@ from gruebler.design.synthesis.dyads import (
     guiding_conditions,
     line_conditions,
 )
-from gruebler.design.synthesis.pair_facts import PairFacts, facts_of_pins
+from gruebler.design.synthesis.pair_facts import GuidedBody, PairFacts
 from gruebler.design.synthesis.pair_search import FoundPairs, Pair, SoughtPairs, best_pairs, distinct_pairs
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
@@ -57,6 +56,7 @@ _NOTHING = 1e-13  # of the squares of slopes: below it they are dependent
 _RANK = 1e-7  # of the largest slope: an equation below it is none
 _TURNS = 4  # with each width
 _WIDTHS = tuple(0.16 * 0.4**k for k in range(9))  # sizes
+FINEST_STEP = _WIDTHS[-1]
 _FOUND = {
     True: message("Linkages {form} ({given}) that meet all demands: {count:,} of {pairs:,} that were found."),
     False: message("Linkages {form} ({given}) that meet all demands: {count:,} of a sample of {pairs:,}."),
@@ -183,15 +183,13 @@ class PairFamily:
         q, t = given.with_first
         places = _places(rows, self.points)
         driven, other = (
-            ((places[:, side, None] * q + t)[:, None], places[:, [last]]) for side, last in ((0, 1), (2, -1))
+            (origin + size * (places[:, side, None] * q + t)[:, None], origin + size * places[:, [last]])
+            for side, last in ((0, 1), (2, -1))
         )
         angle = rows[:, -1:] if self.kind.slides else np.zeros((len(rows), 1))
         slides = np.exp(1j * angle) * (np.ones_like(q) if self.kind == SLIDER else q)
-        frame = [1] if self.kind == SLIDER else [1, -1]
-        inside = np.all([inside_region(places[:, k] * size + origin, demands) for k in frame], axis=0)
-        order = sought_order(self.task, demands)
-        reach = 1.0 if np.ptp(self.task.origins) else np.inf
-        return facts_of_pins(driven, other, slides[:, None], self.kind, inside=inside[:, None], size=reach, order=order)
+        guided = GuidedBody(self.task.origins, size, self.kind)
+        return guided.facts(driven, other, slides[:, None], demands, sought_order(self.task, demands))
 
     def about(self, row: Reals, held: Flags) -> Reals:
         """(directions, numbers) in which linkages of the family lie about one: along, and between, all its freedoms."""
@@ -325,7 +323,7 @@ def _improved(
     def judged(some: Reals) -> tuple[Reals, Flags]:
         facts = family.facts(some, demands)
         fails = demands_failed(facts.met(demands))
-        return np.concatenate([fails, *facts.costs(orders)], axis=1), (fails == 0).ravel()
+        return np.concatenate([fails, *facts.costs(orders, np.ones(fails.shape, bool))], axis=1), (fails == 0).ravel()
 
     costs, meets = judged(rows)
     for width in _WIDTHS:

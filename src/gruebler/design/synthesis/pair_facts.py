@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -14,8 +15,10 @@ from numpy.typing import NDArray
 
 from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.base.text import Message, message
-from gruebler.design.synthesis.demands import Demands, demands_met, inside_region, sought_order
+from gruebler.design.synthesis.demands import Demands, demands_met, distance_of_pivots, inside_region, sought_order
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, DyadKind, GuidingDyad
+from gruebler.design.synthesis.pair_shifts import PairPlaces, body_shifts
+from gruebler.design.synthesis.results import NEAR_PIVOTS
 from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.tasks import PositionTask
 
@@ -45,6 +48,11 @@ class PairFacts:
     """Both fixed pivots lie in the region."""
     travel: float
     """The size of the task, which counts as a length of linkages that slide: they have few others."""
+    places: PairPlaces
+    shifts_of: Callable[[PairPlaces], Reals]
+    """How far the most sensitive target of linkages moves, as `Design.relative_sensitivity`."""
+    pivot_distance: Reals
+    """(n, m) from the pivots that are preferred, infinite where there are fewer; NaN without any."""
 
     @property
     def longest(self) -> Reals:
@@ -58,6 +66,11 @@ class PairFacts:
         shortest = np.where(np.isnan(self.lengths).any(axis=0), np.minimum(shortest, self.travel), shortest)
         return np.asarray(self.longest / np.maximum(shortest, 1e-200), np.float64)
 
+    @property
+    def targets(self) -> int:
+        """How many there are."""
+        return int(max(part.shape[-1] for part in self.places))
+
     def met(self, demands: Demands) -> list[tuple[Message, Flags]]:
         """The demands by their names, each with the pairs that meet it."""
         met = [(message("one branch"), self.branch if demands.one_branch else np.ones_like(self.branch))]
@@ -65,20 +78,31 @@ class PairFacts:
             met.append((message("the order of the targets"), self.moves))
         return met + demands_met(demands, self.turns, self.transmission, self.size_ratio, self.inside)
 
-    def costs(self, orders: Sequence[str]) -> list[Reals]:
-        """(n, m) what is to be small, the most important first."""
-        known: Mapping[str, Reals] = {
-            "transmission": -self.transmission,
-            "range-transmission": -self.transmission,
-            "size": self.longest,
-            "size-ratio": self.size_ratio,
-            "full-turn": np.asarray(1.0 - self.turns, np.float64),
+    def shifts(self, which: Flags) -> Reals:
+        """(n, m) how far the most sensitive target moves, infinite where it is not asked for. Cost: 10 us each."""
+        shifts = np.full(which.shape, np.inf)
+        each = (*which.shape, self.targets)
+        some = PairPlaces(*(np.broadcast_to(part, each)[which] for part in self.places))
+        shifts[which] = np.nan_to_num(self.shifts_of(some), nan=np.inf)
+        return shifts
+
+    def costs(self, orders: Sequence[str], which: Flags) -> list[Reals]:
+        """(n, m) what is to be small, the most important first; some only where it is asked for."""
+        known: Mapping[str, Callable[[], Reals]] = {
+            "transmission": lambda: -self.transmission,
+            "range-transmission": lambda: -self.transmission,
+            "size": lambda: self.longest,
+            "size-ratio": lambda: self.size_ratio,
+            "full-turn": lambda: np.asarray(1.0 - self.turns, np.float64),
+            "sensitivity": lambda: self.shifts(which),
+            NEAR_PIVOTS: lambda: self.pivot_distance,
         }
-        return [_rounded(known[name]) for name in (*orders, *USUAL) if name in known]
+        return [_rounded(known[name]()) for name in (*orders, *USUAL) if name in known]
 
     def ranks(self, fails: Reals, orders: Sequence[str]) -> NDArray[np.intp]:
         """The pairs in a row, those first that fail in the fewest demands, then what is best."""
-        return np.lexsort([cost.ravel() for cost in reversed([fails, *self.costs(orders)])])
+        costs = [fails, *self.costs(orders, fails == fails.min())]
+        return np.lexsort([cost.ravel() for cost in reversed(costs)])
 
 
 def _rounded(values: Reals) -> Reals:
@@ -94,12 +118,36 @@ def pair_facts(
     directions = np.array([dyad.direction for dyad in second], np.complex128)
     slides = directions[None, :, None] * (1 if second[0].kind == SLIDER else task.turns / task.turns[0])
     driven, other = (pins[:, None], own[:, None]), (far_pins[None], far[None])
-    reached = np.ones(len(far), bool) if second[0].kind.pairs[0].is_sliding else inside_region(far, demands)
-    inside = np.asarray(inside_region(own, demands)[:, None] & reached[None, :])
-    size = task.size if np.ptp(task.origins) else np.inf
-    return facts_of_pins(
-        driven, other, slides, second[0].kind, inside=inside, size=size, order=sought_order(task, demands)
-    )
+    guided = GuidedBody(task.origins, task.size, second[0].kind)
+    return guided.facts(driven, other, slides, demands, sought_order(task, demands))
+
+
+class GuidedBody(NamedTuple):
+    """A body in its positions, guided by a crank and a dyad of some kind."""
+
+    point: Complexes
+    """(positions,)"""
+    size: float
+    """Of the task."""
+    kind: DyadKind
+
+    def facts(
+        self, driven: Places, other: Places, slides: Complexes, demands: Demands, order: TargetOrder | None
+    ) -> PairFacts:
+        """As `facts_of_pins`, of pivots in the plane of the task."""
+        pivots = [driven[1], *([] if self.kind == SLIDER else [other[1]])]
+        inside = np.logical_and.reduce(np.broadcast_arrays(*(inside_region(pivot, demands) for pivot in pivots)))
+        return facts_of_pins(
+            driven,
+            other,
+            slides,
+            self.kind,
+            inside=inside,
+            size=self.size if np.ptp(self.point) else np.inf,
+            order=order,
+            shifts=partial(body_shifts, body=self.point, size=self.size),
+            pivot_distance=distance_of_pivots(pivots, demands),
+        )
 
 
 def facts_of_pins(
@@ -111,8 +159,11 @@ def facts_of_pins(
     inside: Flags,
     size: float,
     order: TargetOrder | None = None,
+    shifts: Callable[[DyadKind, PairPlaces], Reals],
+    pivot_distance: Reals,
 ) -> PairFacts:
     """What cranks do with rockers, sliders or blocks, from the pins of both in all positions and their pivots."""
+    places = PairPlaces(driven[0], driven[1][..., None], other[0], other[1][..., None], slides)
     with np.errstate(divide="ignore", invalid="ignore"):
         closure = _CLOSURES[kind](driven, other, slides)
         branch, moves, turns, transmission = motion_of_pairs(closure, order)
@@ -125,8 +176,11 @@ def facts_of_pins(
         moves=np.asarray(moves & usable),
         turns=np.asarray(turns & usable),
         transmission=np.where(usable, transmission, 0.0),
-        inside=inside,
+        inside=np.broadcast_to(inside, usable.shape),
         travel=size,
+        places=places,
+        shifts_of=partial(shifts, kind),
+        pivot_distance=np.broadcast_to(pivot_distance, usable.shape),
     )
 
 

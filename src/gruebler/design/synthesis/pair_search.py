@@ -24,9 +24,13 @@ Nearby = Callable[[GuidingDyad, float], list[GuidingDyad]]
 """Dyads of the family near one, within a width: part of the family's own length or size."""
 
 _WIDTHS = tuple(0.004 * 0.4**k for k in range(6))
+FINE_WIDTHS = tuple(0.004 * 0.4**k for k in range(11))
+"""Of the best by what is asked for."""
+_ASIDE = 0.3  # sizes of the task: the same in all of their pivots
 _APART = 4  # places in the sample: designs nearer to a better one are not listed
 _LOOKED_AT = 2000  # pairs for each design that is wanted
 _STEPS = tuple(0.04 * 0.4**k for k in range(8))  # widths of a family with one dyad to choose
+_MOVES, _DEEP = 8, 8  # to a better pair of each of these widths; pairs that are so improved
 _CLIMBS = 16  # moves to a better dyad of each width
 _VALLEY = 0.1  # sizes: places from which such searches begin differ by more
 _TRIED = 3  # such places for each design that is wanted
@@ -92,28 +96,57 @@ def best_pairs(sought: SoughtPairs) -> FoundPairs:
             count=int(np.count_nonzero(good)),
         )
     ]
+    asked = sought.orders
     if demands.transmission > 0 and not good.any():
         sought = replace(sought, orders=("transmission", *sought.orders))  # those that are nearly good come first
     ranks = facts.ranks(fails, sought.orders)
     ranks = ranks[usable.ravel()[ranks]]
+    ranks = ranks if not good.any() else ranks[good.ravel()[ranks]]
+    chosen = _different(sought, ranks[: _LOOKED_AT * sought.number], asked=bool(asked))
+    improved = (_improved(sought, pair) for pair in chosen)  # where none of the sample is good, one beside it may be
+    pairs: list[Pair] = []
+    known = bool(good.any())
+    for pair, meets in improved:
+        known |= meets
+        pairs = [*pairs, pair] if asked else distinct_pairs([*pairs, pair], sought.task.size)
+        if not asked and len(pairs) == sought.number:
+            break
+    if asked:
+        pairs = _distinct_best(sought, pairs, asked)
+        pairs[:_DEEP] = [_improved(sought, pair, FINE_WIDTHS, _MOVES)[0] for pair in pairs[:_DEEP]]
+        pairs = _distinct_best(sought, pairs, asked)
+    return FoundPairs(pairs=tuple(pairs), notes=(*notes, *([] if known else tightest(met))))
+
+
+def _distinct_best(sought: SoughtPairs, pairs: Iterable[Pair], orders: Sequence[str]) -> list[Pair]:
+    """The best of pairs by what is asked for, as many as are wanted."""
+    return distinct_pairs(best_first(sought.task, sought.demands, pairs, orders), sought.task.size)[: sought.number]
+
+
+def _different(sought: SoughtPairs, ranks: NDArray[np.intp], *, asked: bool) -> list[Pair]:
+    """The first pairs that differ: twice as many as are wanted.
+
+    In the sample by their places; by their pivots and by what drives where something is asked for, since some dyads are
+    no neighbours there and the drive decides which demands are met.
+    """
+    dyads, others = sought.dyads, sought.others
+    pivots, far_pivots = (np.array([(each.moving, each.fixed) for each in some]) for some in (dyads, others))
     chosen: list[tuple[int, int]] = []
-    for rank in ranks[: _LOOKED_AT * sought.number]:
+    taken = np.empty((2 * sought.number, 4), np.complex128)
+    for rank in ranks:
         i, j = divmod(int(rank), len(others))
-        same = [(i, j)] if sought.second else [(i, j), (j, i)]
-        apart = all(abs(p - k) + abs(q - m) > _APART for k, m in chosen for p, q in same)
-        if apart and (good[i, j] or not good.any()):
+        if asked:
+            own = np.concatenate([pivots[i], far_pivots[j]])
+            apart = bool((np.abs(taken[: len(chosen)] - own).sum(axis=1) > _ASIDE * sought.task.size).all())
+        else:
+            same = [(i, j)] if sought.second else [(i, j), (j, i)]
+            apart = all(abs(p - k) + abs(q - m) > _APART for k, m in chosen for p, q in same)
+        if apart:
+            taken[len(chosen)] = [*pivots[i], *far_pivots[j]]
             chosen.append((i, j))
         if len(chosen) == 2 * sought.number:
             break
-    pairs: list[Pair] = []
-    known = bool(good.any())
-    for i, j in chosen:  # where none of the sample is good, one beside it may be
-        pair, meets = _improved(sought, (dyads[i], others[j]))
-        known |= meets
-        pairs = distinct_pairs([*pairs, pair], sought.task.size)
-        if len(pairs) == sought.number:
-            break
-    return FoundPairs(pairs=tuple(pairs), notes=(*notes, *([] if known else tightest(met))))
+    return [(dyads[i], others[j]) for i, j in chosen]
 
 
 def best_dyads(
@@ -134,11 +167,10 @@ def best_dyads(
         return facts.ranks(fails, orders), (fails == 0).ravel(), met
 
     ranks, good, met = ranked(dyads)
+    count = int(np.count_nonzero(good))
     notes = [
         message(
-            "Linkages of the family that meet all demands: {count:,} of {members:,}.",
-            members=len(dyads),
-            count=int(np.count_nonzero(good)),
+            "Linkages of the family that meet all demands: {count:,} of {members:,}.", members=len(dyads), count=count
         ),
         IMPROVED,
     ]
@@ -173,6 +205,8 @@ def best_dyads(
     while len(left) and len(best) < number:  # few searches end at different places: others stand beside them
         best.append(dyads[left[0]])
         left = apart(left, best[-1])
+    if not count:
+        notes = [(_NONE_BESIDE, _SOME_BESIDE)[bool(best)].filled(members=len(dyads), count=len(best))]
     return best, notes if best else notes + tightest(met)
 
 
@@ -181,6 +215,18 @@ def _reach(dyad: GuidingDyad) -> float:
     return abs(dyad.moving) + abs(dyad.fixed)
 
 
+_NONE_BESIDE = message(
+    "None of {members:,} linkages taken of the family meets all demands, nor does any beside those that come nearest "
+    "to it."
+)
+_SOME_BESIDE = message(
+    "None of {members:,} linkages taken of the family meets all demands; beside those that come nearest to it "
+    "{count:,} that differ do."
+)
+RESOLUTION = message(
+    "The best by {measure} are improved in steps down to {step:.1g} sizes of the task; that no other is better is not "
+    "proved."
+)
 IMPROVED = message(
     "The best of these are improved: their pivots are moved within the family, in ever smaller steps; of those that "
     "are then nearly the same one is listed."
@@ -219,6 +265,17 @@ def distinct_pairs(pairs: Iterable[Pair], size: float) -> list[Pair]:
     return kept
 
 
+def best_first(task: PositionTask, demands: Demands, pairs: Iterable[Pair], orders: Sequence[str]) -> list[Pair]:
+    """Pairs in their order: those first that meet the demands, then what is best."""
+
+    def cost(pair: Pair) -> list[float]:
+        facts = pair_facts(task, pair[:1], pair[1:], demands)
+        costs = facts.costs(orders, np.ones((1, 1), bool))
+        return [float(part[0, 0]) for part in (demands_failed(facts.met(demands)), *costs)]
+
+    return sorted(pairs, key=cost)
+
+
 def _gap(first: Pair, second: Pair) -> float:
     """The sum of the distances of the pivots of two linkages, whichever dyad drives; infinite for two kinds."""
     if {dyad.kind.form for dyad in first} != {dyad.kind.form for dyad in second}:
@@ -229,13 +286,16 @@ def _gap(first: Pair, second: Pair) -> float:
     )
 
 
-def _improved(sought: SoughtPairs, pair: Pair) -> tuple[Pair, bool]:
+def _improved(sought: SoughtPairs, pair: Pair, widths: Sequence[float] = _WIDTHS, moves: int = 1) -> tuple[Pair, bool]:
     """The best pair nearby, on finer and finer grids about the best so far, and whether it meets all demands."""
     meets = False
-    for width in _WIDTHS:
-        first, second = ([dyad, *sought.near(dyad, width)] for dyad in pair)
-        facts = pair_facts(sought.task, first, second, sought.demands)
-        fails = demands_failed(facts.met(sought.demands))
-        i, j = divmod(int(facts.ranks(fails, sought.orders)[0]), len(second))
-        pair, meets = (first[i], second[j]), fails[i, j] == 0
+    for width in widths:
+        for _ in range(moves):
+            first, second = ([dyad, *sought.near(dyad, width)] for dyad in pair)
+            facts = pair_facts(sought.task, first, second, sought.demands)
+            fails = demands_failed(facts.met(sought.demands))
+            i, j = divmod(int(facts.ranks(fails, sought.orders)[0]), len(second))
+            pair, meets = (first[i], second[j]), bool(fails[i, j] == 0)
+            if i == j == 0:
+                break
     return pair, meets

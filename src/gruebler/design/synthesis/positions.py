@@ -11,18 +11,21 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from itertools import combinations, permutations
-from math import comb
+from math import comb, degrees, radians
 
 import numpy as np
 
 from gruebler.base.errors import LinkageError, SynthesisError
-from gruebler.base.text import Message, message
+from gruebler.base.text import Message, joined_by_and, message
 from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyad_families import (
+    PLANE,
     SLIDES,
     SLIDES_BESIDE,
+    dyads_near_pivots,
     dyads_of_one_pivot,
     guiding_dyads,
+    near_fixed_in_plane,
     near_in_plane,
     near_on_curve,
     sliding_sample,
@@ -39,8 +42,16 @@ from gruebler.design.synthesis.dyads import (
 from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.given_pivots import notes_on_pivots
 from gruebler.design.synthesis.judging import best_of, judge_design, judged_by_drive, order_notes
-from gruebler.design.synthesis.length_search import best_linkages, best_members, has_lengths
-from gruebler.design.synthesis.pair_search import IMPROVED, Pair, SoughtPairs, distinct_pairs
+from gruebler.design.synthesis.length_search import FINEST_STEP, best_linkages, best_members, has_lengths
+from gruebler.design.synthesis.pair_search import (
+    FINE_WIDTHS,
+    IMPROVED,
+    RESOLUTION,
+    Pair,
+    SoughtPairs,
+    best_first,
+    distinct_pairs,
+)
 from gruebler.design.synthesis.partner_bounds import (
     angle_of_pair,
     best_beside,
@@ -49,6 +60,7 @@ from gruebler.design.synthesis.partner_bounds import (
     slide_notes,
 )
 from gruebler.design.synthesis.results import (
+    NEAR_PIVOTS,
     Design,
     Progress,
     SolutionCount,
@@ -91,6 +103,12 @@ _PAIRS = message(
     "{dyads} complex dyads are {pairs} solutions as ordered pairs, each dyad also with itself, and {linkages} linkages."
 )
 
+_LEAST_ANGLE = radians(5)
+"""The pivots nearest to preferred ones lie where a demand is just met: without one of these in a dead centre."""
+_MEASURES = {
+    NEAR_PIVOTS: message("the distance from the preferred pivots"),
+    "sensitivity": message("the sensitivity to wrong lengths"),
+}
 THEOREM = {2: None, 3: None, 4: None, 5: 4}
 """How many complex dyads a general task has, by the number of positions."""
 
@@ -125,6 +143,8 @@ def synthesise_positions(
     wanted = (demands or Demands()).of_task(task)
     if len(task) > 4 and task.fixed_pivots:
         raise SynthesisError("four-bars have no pivots to choose for more than four positions; six-bars have some")
+    if NEAR_PIVOTS in sort:
+        wanted = replace(wanted, transmission=max(wanted.transmission, _LEAST_ANGLE))
     refuse_one_joint(task, wanted)
     refuse_parallelograms(task)
     chosen = len(task.moving_pivots) + len(task.fixed_pivots) + len(task.curve_parameters)
@@ -132,8 +152,7 @@ def synthesise_positions(
     given = dyads_of_one_pivot(task) if searched and chosen else []
     free = replace(task, moving_pivots=(), fixed_pivots=(), curve_parameters=()) if searched else task
     dyads = (*given, *guiding_dyads(free, _SAMPLE[len(task)] if searched else number, wanted.region))
-    if given and len(task) == 2 and wanted.region is None:
-        dyads += tuple(dyad for reach in _FARTHER for dyad in guiding_dyads(free, _SAMPLE[2], reach=reach))
+    dyads += tuple(_more_dyads(free, wanted, given)) if searched else ()
     if len(task) > 5:
         return _approximate(task, wanted, dyads, progress)
     notes = [*nearly_one_joint(task)]
@@ -141,7 +160,7 @@ def synthesise_positions(
     finite = searched and _freedoms(task) <= wanted.given_sizes
     if searched:
         candidates = _judged_best(free, wanted, dyads, given, number, sort, progress, notes)
-        notes += [] if finite or not candidates else [IMPROVED]
+        notes += [] if finite or not candidates else [IMPROVED, *_resolution(task, wanted, given, sort)]
     elif len(task) == 2:
         candidates = _judged_ends(task, wanted, number, sort, progress, notes)
     else:
@@ -170,6 +189,26 @@ def synthesise_positions(
         ),
         notes=tuple(notes),
     )
+
+
+def _more_dyads(task: PositionTask, demands: Demands, given: Sequence[GuidingDyad]) -> Iterator[GuidingDyad]:
+    """Dyads besides those near the positions: about pivots that are preferred, and far ones beside a given pivot."""
+    if given and len(task) == 2 and demands.region is None:
+        for reach in _FARTHER:
+            yield from guiding_dyads(task, _SAMPLE[2], reach=reach)
+    yield from dyads_near_pivots(task, demands)
+
+
+def _resolution(
+    task: PositionTask, demands: Demands, given: Sequence[GuidingDyad], sort: Sequence[str]
+) -> Iterator[Message]:
+    """How finely the best is sought by measures of which nothing is proved."""
+    measures = [_MEASURES[name] for name in sort if name in _MEASURES]
+    if measures:
+        step = FINEST_STEP if demands.given_sizes or (given and len(task) == 2) else PLANE * FINE_WIDTHS[-1]
+        yield RESOLUTION.filled(measure=joined_by_and(measures), step=step)
+    if NEAR_PIVOTS in sort and demands.transmission == _LEAST_ANGLE:
+        yield message("Transmission angles below {angle:g}° are left out.", angle=degrees(_LEAST_ANGLE))
 
 
 def _freedoms(task: PositionTask) -> int:
@@ -231,7 +270,8 @@ def _judged_best(
     """
     turning = [dyad for dyad in dyads if not dyad.slides]
     sliding: list[GuidingDyad] = []
-    of_family = near_on_curve(task) if len(task) == 4 and turning else partial(near_in_plane, task)
+    in_plane = near_fixed_in_plane if sort else near_in_plane
+    of_family = near_on_curve(task) if len(task) == 4 and turning else partial(in_plane, task)
 
     def near(dyad: GuidingDyad, width: float) -> list[GuidingDyad]:
         return [] if dyad in given else of_family(dyad, width)
@@ -280,7 +320,10 @@ def _best_pairs(sought: SoughtPairs) -> tuple[list[Pair], list[Message]]:
     else:
         improved, proved = improved_pair(task, demands, search.pairs)
         better = [improved] if improved else []
-    return distinct_pairs([*better, *search.pairs], task.size), [*search.notes, *proved]
+    pairs = [*better, *search.pairs]
+    if sought.orders:
+        pairs = best_first(task, demands, pairs, sought.orders)
+    return distinct_pairs(pairs, task.size), [*search.notes, *proved]
 
 
 def _judged_ends(

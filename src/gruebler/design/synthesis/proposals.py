@@ -183,7 +183,8 @@ def _made(
     none = SolutionCount(what=message("linkages"), theorem=0, found=0, real=0)
     try:
         if isinstance(task, PathTask):
-            four_links = synthesise_path(task, demands, sliders=specification.slides > 0)
+            sliders = specification.slides > 0
+            four_links = synthesise_path(task, demands, sliders=sliders, sort=demands.orders(()))
         else:
             four_links = synthesise(task, demands=demands)
     except NoFourBarError as error:

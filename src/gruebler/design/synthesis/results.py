@@ -14,9 +14,10 @@ from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.notebook import brief, html_table, text_table
 from gruebler.base.text import Message, joined, message, number, plural, translate
 from gruebler.design.synthesis.coordination import Minimax
+from gruebler.design.synthesis.dead_centre_shifts import dead_centre_sensitivity
 from gruebler.design.synthesis.sensitivity import Sensitivity, length_sensitivity
 from gruebler.design.synthesis.target_orders import TargetOrder
-from gruebler.design.synthesis.targets import Targets
+from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import PathTask, PositionTask, Task, gives_lengths
 from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.analysis.outputs import find_output
@@ -47,6 +48,8 @@ class DesignVerdict:
     """The longest length of a link by the shortest."""
     inside: bool = True
     """Whether the fixed pivots lie in the region."""
+    pivot_distance: float = float("nan")
+    """How far the fixed pivots lie from those that are preferred: the root of the sum of squares; NaN without any."""
     error: float = float("nan")
     """The largest deviation from a target, relative to the size of the task."""
     over_interval: float = float("nan")
@@ -136,6 +139,8 @@ class Design:
     """Of a function that is followed as well as possible: lengths, starts and largest error."""
     targets: Targets | None = field(default=None, compare=False)
     """What it was judged by; None of dead centres, which no drive value keeps."""
+    reach: float | None = field(default=None, compare=False)
+    """Of dead centres: the swing in radians, or the stroke."""
 
     def _repr_svg_(self) -> str | None:
         """The linkage to scale, for notebooks."""
@@ -161,12 +166,15 @@ class Design:
     def sensitivity(self) -> Sensitivity | None:
         """How far each target moves per 0.1 % of each length while the drives keep their values at the targets.
 
-        None of dead centres, and where the drives do not lead through the targets. Cost: 5 ms, once.
+        Of dead centres how far these move. None where the drives do not lead through the targets. Cost: 5 ms, once.
         """
         rows = self.drive_rows or tuple((value,) for value in self.drives)
-        if self.targets is None or not rows:
-            return None
         try:
+            if self.reach is not None and len(self.drives) == 2:
+                low, high = self.drives
+                return dead_centre_sensitivity(self.linkage, find_output(self.linkage), (low, high), self.task_size)
+            if self.targets is None or not rows:
+                return None
             return length_sensitivity(self.linkage, self.targets.probes, np.array(rows))
         except (SynthesisError, np.linalg.LinAlgError):  # the latter: a drive that stands still while the linkage moves
             return None
@@ -177,11 +185,27 @@ class Design:
 
         Place and angle of a target count together as in its error; NaN where there is no sensitivity.
         """
-        if self.targets is None or (found := self.sensitivity) is None:
+        if (found := self.sensitivity) is None:
             return float("nan")
-        free = np.isnan(self.targets.values)
+        free = False if self.targets is None else np.isnan(self.targets.values)
         moved = np.sqrt(np.sum(np.where(free, 0, found.worst) ** 2, axis=1))
-        return float(moved.max() / self.targets.size)
+        return float(moved.max() / self.task_size)
+
+    @property
+    def task_size(self) -> float:
+        """The size by which deviations count; 1 where only angles are wanted."""
+        if self.targets is not None:
+            return self.targets.size
+        return self.reach if self.reach is not None and not find_output(self.linkage).turning else 1.0
+
+    @property
+    def probes(self) -> tuple[Probe, ...]:
+        """The quantities whose sensitivity is told; of dead centres reach and angle of the drive."""
+        if self.targets is not None:
+            return self.targets.probes
+        output = find_output(self.linkage)
+        reach = Probe(link=output.link) if output.joint is None else Probe(joint=output.joint)
+        return reach, Probe(link=self.linkage.mechanism.drives[0].between[-1], length=self.task_size)
 
     def explain(self, lang: str = "en") -> str:
         """Its form, its mechanism and the verdict, a line each, in English or German (``de``)."""
@@ -207,6 +231,8 @@ def _error(design: Design) -> float:
     return 0.0 if error < EXACT else error
 
 
+NEAR_PIVOTS = "near-pivots"
+"""The order of designs by the distance of their pivots from those that are preferred."""
 ORDERS: Mapping[str, Callable[[Design], float]] = {
     "error": _error,
     "transmission": lambda design: -design.verdict.transmission,
@@ -214,6 +240,7 @@ ORDERS: Mapping[str, Callable[[Design], float]] = {
     "size": lambda design: design.linkage.size,
     "size-ratio": lambda design: design.verdict.size_ratio,
     "sensitivity": lambda design: design.relative_sensitivity,
+    NEAR_PIVOTS: lambda design: design.verdict.pivot_distance,
     "links": lambda design: float(design.links),
     "full-turn": lambda design: float(not design.verdict.turns_fully),
 }
@@ -351,6 +378,8 @@ class ParetoRow:
     size: float
     """Its own; of a task of angles alone, which linkages of any size meet, the longest length by the shortest."""
     links: int
+    pivot_distance: float
+    """From the pivots that are preferred; NaN without any."""
     design: Design
 
     def dominates(self, other: ParetoRow) -> bool:
@@ -362,11 +391,15 @@ class ParetoRow:
     def _costs(self) -> tuple[float, ...]:
         mu = 0.0 if isnan(self.transmission) else self.transmission
         error = 0.0 if self.error < EXACT else self.error
-        return float(f"{error:.1e}"), -round(degrees(mu), 1), float(f"{self.size:.4g}"), float(self.links)
+        away = 0.0 if isnan(self.pivot_distance) else float(f"{self.pivot_distance:.3g}")
+        return float(f"{error:.1e}"), -round(degrees(mu), 1), float(f"{self.size:.4g}"), float(self.links), away
 
 
 def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
-    """The accepted designs that no other one dominates, by error, transmission angle, size, number of links in turn."""
+    """The accepted designs that no other one dominates, by error, transmission angle, size, number of links in turn.
+
+    Where pivots are preferred, by the distance from them, too.
+    """
     rows = [
         ParetoRow(
             structure=design.linkage.mechanism.text(),
@@ -374,6 +407,7 @@ def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
             transmission=design.verdict.transmission,
             size=design.linkage.size if gives_lengths(found.task) else design.verdict.size_ratio,
             links=design.links,
+            pivot_distance=design.verdict.pivot_distance,
             design=design,
         )
         for design in found.designs

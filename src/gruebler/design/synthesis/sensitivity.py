@@ -13,7 +13,8 @@ from gruebler.design.synthesis.targets import Probe
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 
-_CHANGE = 1e-3  # of each length
+LENGTH_ERROR = 1e-3
+"""Of each length."""
 _NONE = 1e-9  # of the size of the linkage: so short is no length
 _ROWS = 16  # poses from one target to the next
 _PARALLEL = 1e-12
@@ -103,7 +104,7 @@ class Sensitivity:
     """(targets, probes, joints, 2) for a pin that lies one unit of length beside its hole along x or y of a link; a
     slide lies beside its guide only, its second entry is 0."""
 
-    def of_errors(self, error: float = _CHANGE, clearance: float = 0.0) -> Reals:
+    def of_errors(self, error: float = LENGTH_ERROR, clearance: float = 0.0) -> Reals:
         """(targets, probes) a bound of how far at most, with lengths wrong by a part and joints that have play.
 
         Args:
@@ -114,9 +115,11 @@ class Sensitivity:
         """
         parts = np.stack([self.plays.real, self.plays.imag], axis=-1)
         along = np.linalg.svd(parts, compute_uv=False)[..., 0].sum(axis=2) if parts.size else 0.0
-        return np.asarray(self.worst * (error / _CHANGE) + clearance * along)
+        return np.asarray(self.worst * (error / LENGTH_ERROR) + clearance * along)
 
-    def sampled(self, error: float = _CHANGE, clearance: float = 0.0, *, samples: int = 10_000, seed: int = 0) -> Reals:
+    def sampled(
+        self, error: float = LENGTH_ERROR, clearance: float = 0.0, *, samples: int = 10_000, seed: int = 0
+    ) -> Reals:
         """(samples, targets, probes) how far, in random linkages: a Monte Carlo study to first order.
 
         Every length is wrong by up to a part of itself, evenly distributed; every pin lies on the rim of its play, as a
@@ -129,7 +132,7 @@ class Sensitivity:
             seed: of the random numbers.
         """
         rng = np.random.default_rng(seed)
-        wrong = rng.uniform(-error / _CHANGE, error / _CHANGE, (samples, len(self.lengths)))
+        wrong = rng.uniform(-error / LENGTH_ERROR, error / LENGTH_ERROR, (samples, len(self.lengths)))
         moved = np.einsum("tpl,sl->stp", self.moves, wrong)
         targets, _, joints, _ = self.plays.shape
         turns = rng.uniform(0, 2 * np.pi, (samples, targets, joints))
@@ -140,20 +143,29 @@ class Sensitivity:
     @property
     def worst(self) -> Reals:
         """(targets, probes) how far at most if every length is wrong by up to 0.1 %."""
-        worst = np.zeros(self.moves.shape[:2])
-        for k in range(self.moves.shape[2]):
-            edge = self.moves[:, :, k : k + 1]
-            turned = np.conj(edge) * self.moves
-            flat = np.abs(turned.imag) <= _PARALLEL * np.abs(turned)
-            signed = np.where(flat, np.sign(turned.real), np.sign(turned.imag)) * self.moves
-            aligned, others = np.where(flat, signed, 0).sum(axis=2), np.where(flat, 0, signed).sum(axis=2)
-            worst = np.maximum(worst, np.maximum(np.abs(others + aligned), np.abs(others - aligned)))
-        return worst
+        return farthest_sum(self.moves)
 
     @property
     def statistical(self) -> Reals:
         """(targets, probes) the root of the sum of squares: independent errors of 0.1 % as standard deviations."""
         return np.asarray(np.sqrt(np.sum(np.abs(self.moves) ** 2, axis=2)))
+
+
+def farthest_sum(moves: Complexes) -> Reals:
+    """How far the sum of moves of the last axis leads at most, each taken forwards or backwards.
+
+    >>> float(farthest_sum(np.array([3, 4j, -1])))
+    5.65...
+    """
+    worst = np.zeros(moves.shape[:-1])
+    for k in range(moves.shape[-1]):
+        edge = moves[..., k : k + 1]
+        turned = np.conj(edge) * moves
+        flat = np.abs(turned.imag) <= _PARALLEL * np.abs(turned)
+        signed = np.where(flat, np.sign(turned.real), np.sign(turned.imag)) * moves
+        aligned, others = np.where(flat, signed, 0).sum(axis=-1), np.where(flat, 0, signed).sum(axis=-1)
+        worst = np.maximum(worst, np.maximum(np.abs(others + aligned), np.abs(others - aligned)))
+    return worst
 
 
 def length_sensitivity(linkage: Linkage, probes: tuple[Probe, ...], drives: Reals) -> Sensitivity:
@@ -180,22 +192,15 @@ def length_sensitivity(linkage: Linkage, probes: tuple[Probe, ...], drives: Real
     count, freedoms = drives.shape
     if closure.unknowns - closure.equations != freedoms:
         raise SynthesisError("the drives do not fix the pose of this linkage")
-    try:
-        motion = move_quietly(closure.linkage, _between(drives))
-    except LinkageError as error:
-        raise SynthesisError("it cannot be followed through the targets: {error}", error=error) from None
-    if not motion.complete:
-        raise SynthesisError("`move` does not lead through all targets")
-    poses = [motion.pose(k * _ROWS) for k in range(count)]
-    q = np.array([[value for link in closure.links for value in pose[link]] for pose in poses], np.float64)
-    lengths, changes, shifts = _lengths(closure, probes)
-    play = _plays(closure)
+    q = reached_poses(closure, drives)
+    lengths, changes, shifts = changed_lengths(closure, probes)
+    play = joint_plays(closure)
     points: dict[str, Complexes] = {
         name: np.concatenate([shift, np.zeros(play.shape[1], np.complex128)]) for name, shift in shifts.items()
     }
     changes = np.concatenate([changes, play], axis=1)
     by_pose, direct = _of_probes(closure, q, probes, changes, points)
-    held, held_direct = _of_drives(closure, q, changes)
+    held, held_direct = drive_rates(closure, q, changes)
     pose = closure.derivatives(q, closure.sizes, size=linkage.size)
     parts = np.concatenate([by_pose.real, by_pose.imag, held], axis=1)
     # The joints stay closed, and then the drives are brought back to their values along the freedoms.
@@ -206,10 +211,25 @@ def length_sensitivity(linkage: Linkage, probes: tuple[Probe, ...], drives: Real
     moves = rates - (along[:, :n] + 1j * along[:, n : 2 * n]) @ back
     known = len(lengths)
     plays = moves[:, :, known:].reshape(count, n, -1, 2)
-    return Sensitivity(lengths=lengths, moves=_CHANGE * moves[:, :, :known], plays=plays)
+    return Sensitivity(lengths=lengths, moves=LENGTH_ERROR * moves[:, :, :known], plays=plays)
 
 
-def _plays(closure: DesignClosure) -> Reals:
+def reached_poses(closure: DesignClosure, drives: Reals) -> Reals:
+    """(targets, unknowns) the poses to which `move` leads through the values of the drives.
+
+    Raises `SynthesisError` where it does not.
+    """
+    try:
+        motion = move_quietly(closure.linkage, _between(drives))
+    except LinkageError as error:
+        raise SynthesisError("it cannot be followed through the targets: {error}", error=error) from None
+    if not motion.complete:
+        raise SynthesisError("`move` does not lead through all targets")
+    poses = [motion.pose(k * _ROWS) for k in range(len(drives))]
+    return np.array([[value for link in closure.links for value in pose[link]] for pose in poses], np.float64)
+
+
+def joint_plays(closure: DesignClosure) -> Reals:
     """(dimensions, 2 joints) a pin moved by one along x and y of its first link; a slide across itself."""
     joints = closure.linkage.mechanism.chain.joints
     changes = np.zeros((len(closure.sizes), 2 * len(joints)))
@@ -229,7 +249,7 @@ def _between(drives: Reals) -> Reals:
     return np.stack([np.interp(at, np.arange(len(drives)), column) for column in drives.T], axis=1)
 
 
-def _lengths(
+def changed_lengths(
     closure: DesignClosure, probes: tuple[Probe, ...]
 ) -> tuple[tuple[LinkLength, ...], Reals, dict[str, Complexes]]:
     """The lengths; (dimensions, lengths) and for each point (lengths,) their changes, when each grows by itself."""
@@ -282,21 +302,21 @@ def _of_probes(
             turn = _point_by_pose(closure, q, point.link, complex(point.x, point.y), by_pose[:, k])
             direct[:, k] = turn[:, None] * shifts[probe.point]
         elif probe.joint >= 0:
-            by_pose[:, k], direct[:, k] = _travel(closure, q, probe.joint, changes)
+            by_pose[:, k], direct[:, k] = travel_rates(closure, q, probe.joint, changes)
         elif probe.link in closure.column:
             c = closure.column[probe.link] + 2
             by_pose[:, k, c] = 1j * probe.length * np.exp(1j * q[:, c])
     return by_pose, direct
 
 
-def _of_drives(closure: DesignClosure, q: Reals, changes: Reals) -> tuple[Reals, Reals]:
+def drive_rates(closure: DesignClosure, q: Reals, changes: Reals) -> tuple[Reals, Reals]:
     """The same of the values of the drives."""
     mechanism = closure.linkage.mechanism
     by_pose = np.zeros((len(q), len(mechanism.drives), closure.unknowns))
     direct = np.zeros((len(q), len(mechanism.drives), changes.shape[1]))
     for k, drive in enumerate(mechanism.drives):
         if not drive.turning:
-            by_pose[:, k], direct[:, k] = _travel(closure, q, drive.joint, changes)
+            by_pose[:, k], direct[:, k] = travel_rates(closure, q, drive.joint, changes)
             continue
         for link, sign in zip(closure.linkage.reference(k), (-1.0, 1.0), strict=True):
             if link in closure.column:
@@ -304,7 +324,7 @@ def _of_drives(closure: DesignClosure, q: Reals, changes: Reals) -> tuple[Reals,
     return by_pose, direct
 
 
-def _travel(closure: DesignClosure, q: Reals, joint: int, changes: Reals) -> tuple[Reals, Reals]:
+def travel_rates(closure: DesignClosure, q: Reals, joint: int, changes: Reals) -> tuple[Reals, Reals]:
     """Of the travel of a slide on closed poses, where the gap lies along it: its turn changes nothing."""
     first, other = closure.linkage.mechanism.chain.joints[joint].links
     at = closure.start[joint, first]

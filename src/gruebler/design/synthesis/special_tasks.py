@@ -53,7 +53,10 @@ def solved_where_it_lies(method: Callable[_P, SynthesisResult]) -> Callable[_P, 
         demands = given.arguments.get("demands")
         if demands is not None and demands.region is not None:
             region = tuple(edge - by for edge, by in zip(demands.region, (x, y, x, y), strict=True))
-            given.arguments["demands"] = replace(demands, region=region)
+            given.arguments["demands"] = demands = replace(demands, region=region)
+        if demands is not None and demands.near_pivots:
+            places = [(u - x, v - y) for u, v in demands.near_pivots]
+            given.arguments["demands"] = replace(demands, near_pivots=places)
         given.arguments["task"] = task.shifted(-x, -y)
         try:
             result = method(*given.args, **given.kwargs)

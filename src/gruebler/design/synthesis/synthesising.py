@@ -17,7 +17,7 @@ from gruebler.design.synthesis.dwells import synthesise_dwells
 from gruebler.design.synthesis.functions import synthesise_function
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions
-from gruebler.design.synthesis.results import MOST_DESIGNS, Progress, SynthesisResult, in_order_of
+from gruebler.design.synthesis.results import MOST_DESIGNS, Progress, SynthesisResult
 from gruebler.design.synthesis.six_bar_functions import SixBarType, synthesise_six_bars
 from gruebler.design.synthesis.six_bar_positions import synthesise_guiding_six_bars
 from gruebler.design.synthesis.structures import synthesise_structures
@@ -49,9 +49,10 @@ def synthesise(
         demands: what a design must do besides the task, such as a crank or a least transmission angle.
         sort: one or several of ``error``, ``transmission`` (on the way through the targets), ``range-transmission``
             (over the whole range of the drive), ``size``, ``size-ratio``, ``sensitivity`` (to wrong lengths),
-            ``links``, ``full-turn``; of designs that are equal in the first the second decides. By default a full turn
-            comes first, then the transmission angle; where targets are only approached, the error. Families of two to
-            four positions or pairs, and of dead centres, are searched for the best by these.
+            ``near-pivots`` (distance from `Demands.near_pivots`), ``links``, ``full-turn``; of designs that are equal
+            in the first the second decides. By default ``near-pivots`` where such are given, else a full turn comes
+            first, then the transmission angle; where targets are only approached, the error. Families of two to four
+            positions or pairs, and of dead centres, are searched for the best by these.
         number: without structures: how many dyads or designs are taken from each infinite family.
         minimax: of a function: the linkages whose largest structural error is as small as possible.
         six_bars: of a function: all six-bars that meet nine pairs of angles with free starts, of Watt's second kind, or
@@ -89,8 +90,7 @@ def synthesise(
     Theory:
         docs/theory/synthesis.md
     """
-    orders = (sort,) if isinstance(sort, str) else tuple(sort)
-    in_order_of((), orders)  # a wrong name is refused before the work
+    orders = (demands or Demands()).orders((sort,) if isinstance(sort, str) else tuple(sort))
     if number is not None and not 1 <= number <= MOST_DESIGNS:
         raise SynthesisError(
             "{key}: expected a whole number from 1 to {most:,}, but found {found}",

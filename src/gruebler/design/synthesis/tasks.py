@@ -452,6 +452,13 @@ class DeadCentreTask:
             )
 
     @property
+    def reach(self) -> float:
+        """The swing in radians, or the stroke."""
+        reach = self.stroke if self.swing is None else self.swing
+        assert reach is not None
+        return reach
+
+    @property
     def angle(self) -> float:
         """The crank angle between the dead centres, in radians."""
         if self.crank_angle is not None:
