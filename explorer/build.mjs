@@ -95,7 +95,7 @@ const own = `
   pan paused picked playAt plottedAngle pointed pointName poleAside possible present recoloured runAlong
   fitted measured nudge recall spots
   inSpace advance destroy elsewhere emit follow heads letterOf posed showKeys taken undoing
-  served setAdding setLength setTheme shiftLine shownDesign showPose showRange showValue
+  keepInside served setAdding setLength setTheme shiftLine shownDesign showPose showRange showValue
   sized snapping switchMode toLocal turnTo upright writeSizes
 `.match(/\w+/g);
 

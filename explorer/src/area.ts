@@ -8,6 +8,7 @@ import type { Box } from "./viewport";
 
 export const MARK = 3.2; // pixels that a mark has for each of its units
 const AROUND = 45; // pixels around a mark
+const CLOSE = 30; // the same in a narrow element
 const LINES = 36; // pixels between lines of the grid, at least
 
 export interface Area extends Box {
@@ -25,7 +26,8 @@ export function areaOf(wide: number, part: number, places: readonly (readonly nu
     return [Math.min(...values), Math.max(...values)] as const;
   });
   const widest = Math.max(wide, ...ends.map(([low, most], axis) => (most - low) / (axis ? ratio : 1)));
-  const room = (AROUND * widest) / (pixels - 2 * AROUND); // for marks and their numbers
+  const around = pixels > 500 ? AROUND : CLOSE;
+  const room = (around * widest) / (pixels - 2 * around); // for marks and their numbers
   let [[left, right], [bottom, top]] = ends.map(([low, most], axis) => {
     const half = (axis ? ratio * wide : wide) / 2;
     return [Math.min(-half, low - room), Math.max(half, most + room)];

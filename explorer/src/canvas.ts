@@ -13,6 +13,7 @@ import type { Viewport } from "./viewport";
 
 const DASHES = [6, 4];
 const GHOST = 0.3; // how much is seen of the curves of other assembly modes; half of it while they may be old
+const COARSE = 64; // square pixels: a corner between longer chords is rounded, from middle to middle
 const FARTHEST = 1e5; // pixels: what is farther off is not drawn
 
 export class Painter {
@@ -62,10 +63,13 @@ export class Painter {
         continue;
       }
       const [x, y] = here;
-      if (last && (x - last[0]) ** 2 + (y - last[1]) ** 2 < near) pen.lineTo(x, y);
-      else pen.moveTo(x, y);
+      const chord = last && (x - last[0]) ** 2 + (y - last[1]) ** 2;
+      if (!last || !(chord! < near)) pen.moveTo(x, y);
+      else if (chord! < COARSE) pen.lineTo(x, y);
+      else pen.quadraticCurveTo(...last, (x + last[0]) / 2, (y + last[1]) / 2);
       last = here;
     }
+    if (last) pen.lineTo(...last);
     pen.stroke();
   }
 

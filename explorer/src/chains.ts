@@ -110,8 +110,10 @@ export class ChainList {
     if (!found) return renew(this.#list, moment());
     const { items, total } = found;
     const one = total === 1 ? t("one chain") : t("{total} chains", { total });
+    const beside = own && own.size === this.#links && !items.some(({ code }) => code === own.code);
     const shown = items.length;
-    this.#count.textContent = shown < total ? t("{shown} of {total} chains", { shown, total }) : one;
+    const chains = shown < total ? t("{shown} of {total} chains", { shown, total }) : one;
+    this.#count.textContent = beside ? t("{chains} and yours", { chains }) : chains;
     const cardOf = (drawn: Structure, name: string) => {
       // without a list of names, if there is one
       const { picture } = drawn.inversions.find(({ frame }) => frame === drawn.chosen) ?? drawn;

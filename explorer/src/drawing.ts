@@ -287,8 +287,8 @@ export function lengthsOf(drawing: Drawing): number[] {
   });
 }
 
-/** With a point whose curve is shown, in the middle of a link that is not on the frame: of one beside a drive, else of
- * the first; as it is if there is a point. */
+/** With a point whose curve is shown, in the middle of a link that is not on the frame, or of two of its joints where a
+ * joint is there: of one beside a drive, else of the first; as it is if there is a point. */
 export function traced(drawing: Drawing): Drawing {
   const { drives, frame, knots } = drawing;
   if (knots.some(({ links }) => !links[1] && links[0] !== frame)) return drawing;
@@ -299,7 +299,10 @@ export function traced(drawing: Drawing): Drawing {
   const driving = drives.flatMap((k) => knots[k]!.links);
   const carrier = afloat.find((one) => meets(one, driving)) ?? afloat[0];
   if (!carrier) return drawing;
-  const at = middleOf(pinsOf(carrier).map((knot) => knot.at));
+  const pins = pinsOf(carrier).map((knot) => knot.at);
+  const spots = [middleOf(pins), ...pins.map((pin) => middleOf([pin, pins[0]!]))];
+  const clear = (spot: Pair) => pins.every((pin) => away(pin, ...spot) > 0.1 * away(pins[0]!, ...pins[1]!));
+  const at = spots.find(clear) ?? spots[0]!;
   return { ...drawing, knots: [...knots, { at, links: [carrier], name: "K1" }] };
 }
 

@@ -11,6 +11,8 @@ const PACE = 48; // frames of a motion in a second
 export interface Moving {
   /** Places of the joints, then of the points, evenly in time. */
   frames: Pair[][];
+  /** With which of them it begins, that of its picture. */
+  first?: number;
   /** Which of them each moving link has. */
   members: number[][];
   joints: number;
@@ -51,7 +53,7 @@ export class Ghost {
   play(moving: Moving | null, unit: number, shown: (frame: number) => void): void {
     cancelAnimationFrame(this.#frame);
     if (!moving) return renew(this.element);
-    const { drive, frames, joints, points, rails = [] } = moving;
+    const { drive, first: from = 0, frames, joints, points, rails = [] } = moving;
     const members = [...moving.members].sort((one, other) => other.length - one.length); // plates lie below bars
     const [first] = frames as [Pair[]];
     const curves = first
@@ -65,14 +67,15 @@ export class Ghost {
     const driven = drive === undefined ? [] : [mark("driven", DRIVEN, first[drive]!, unit)];
     renew(this.element, ...curves, ...bodies.flat(), ...grounds, ...pins, ...driven);
     const calm = wantsStill();
+    const begun = performance.now();
     const tick = (now: number) => {
-      const frame = Math.floor((now / 1000) * PACE) % frames.length;
+      const frame = (from + Math.floor((Math.max(0, now - begun) / 1000) * PACE)) % frames.length;
       const places = frames[frame]!;
       putBodies(bodies, [...rails, ...members], places);
       for (const [k, pin] of pins.entries()) put(pin, { cx: places[k]![0], cy: -places[k]![1] });
       shown(frame);
       if (!calm && this.seen()) this.#frame = requestAnimationFrame(tick);
     };
-    tick(performance.now());
+    tick(begun);
   }
 }

@@ -183,10 +183,11 @@ export class MotionView implements View, Editor, Driven {
 
   // --- changes -------------------------------------------------------------------------------------------------------
 
-  attempt(change: () => void, anywhere = false): void {
+  attempt(change: (part?: number) => void, told?: (part: number) => string): void {
     this.#begin();
-    this.#tryTo(change, anywhere);
+    this.#tryTo(change, told);
     this.#end();
+    if (told) this.stage.keepInside();
   }
 
   edit(change: () => void): void {
@@ -220,8 +221,9 @@ export class MotionView implements View, Editor, Driven {
     this.page.changed();
   }
 
-  /** Change the sizes; what is refused at this drive value is offered where it fits, if it is to be looked for. */
-  #tryTo(change: () => void, anywhere = false): void {
+  /** Change the sizes; what is refused at this drive value is offered where it fits, if it is to be looked for, else how
+   * much of it fits is told. */
+  #tryTo(change: (part?: number) => void, told?: (part: number) => string): void {
     const start = performance.now();
     try {
       change();
@@ -230,12 +232,21 @@ export class MotionView implements View, Editor, Driven {
       if (!(error instanceof Refused)) throw error;
       const { linkage } = this;
       const before = linkage.snapshot();
-      const tried = error.stop && anywhere;
-      const fits = tried && linkage.elsewhere(change);
-      if (fits) linkage.restore(before);
+      const tried = (part: number) => {
+        const fits = linkage.elsewhere(() => change(part));
+        if (fits) linkage.restore(before);
+        return fits;
+      };
+      const fits = error.stop && told && tried(1);
+      let text = refusedText(linkage, error, this.transport.drive);
+      if (error.stop && told && !fits) {
+        let most = 0;
+        for (let step = 0.5; step > 0.005; step /= 2) if (tried(most + step)) most += step;
+        text = t("{all} fits at no position of the drive, but {some} does.", { all: told(1), some: told(0.99 * most) });
+      }
       const onclick = () => this.attempt(() => linkage.elsewhere(change));
       this.page.say(
-        tried && !fits ? t("It fits at no position of the drive.") : refusedText(linkage, error, this.transport.drive),
+        text,
         "error",
         fits ? h("button.plain", { "data-act": "elsewhere", onclick }, t("Move the drive there")) : undefined,
       );

@@ -76,9 +76,9 @@ export function palette(chosen: Tool, take: (tool: Tool) => void): HTMLElement[]
 /** What is to be done with a tool. */
 export function hintOf(tool: Tool): (Node | string)[] {
   const hints: Record<Tool, string> = {
-    move: t("Drag joints; click a joint or link to edit it."),
-    ground: t("Click the plane or a joint."),
-    slider: t("Click the plane or a joint."),
+    move: t("Drag joints; choose a joint or link to edit it."),
+    ground: t("Place it on the plane or on a joint."),
+    slider: t("Place it on the plane or on a joint."),
     link: t("Place joint after joint, or drag from end to end."),
     cylinder: t("Place both ends, or drag from end to end."),
     dyad: t("Place an end, the middle, the other end."),

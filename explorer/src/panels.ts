@@ -31,9 +31,9 @@ export interface Editor {
   readonly dragging: Dragging;
   readonly shown: Shown;
   readonly stage: { fit(): void };
-  /** Change sizes; where that is impossible, say why, and offer other drive values if they are asked for. It can be
-   * undone. */
-  attempt(change: () => void, anywhere?: boolean): void;
+  /** Change sizes, or make a part of the change; where that is impossible, say why, and if the sizes can be told offer
+   * other drive values. It can be undone. */
+  attempt(change: (part?: number) => void, told?: (part: number) => string): void;
   /** Change the points; it can be undone. */
   edit(change: () => void): void;
   addPoint(link: number, x: number, y: number): void;
@@ -116,7 +116,10 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
     onchange: () => {
       const wanted = parsed(input.value);
       const right = wanted >= 0 && wanted < LONGEST;
-      if (right) editor.attempt(() => editor.dragging.setLength(first, second, wanted), true);
+      const here = editor.dragging.lengths().find((one) => one.first === first && one.second === second)!;
+      const at = (part: number) => here.value + part * (wanted - here.value);
+      const told = (part: number) => `${name} ${number(at(part), 4)} ${unit}`;
+      if (right) editor.attempt((part = 1) => editor.dragging.setLength(first, second, at(part)), told);
       input.setAttribute("aria-invalid", String(!right));
       if (right) return;
       editor.page.say(
@@ -191,7 +194,7 @@ export function pointsPanel(editor: Editor): HTMLElement {
     {},
     h("div.point-rows", {}, ...rows),
     h("div.form", {}, link, h("button.plain", { "data-act": "add-point", onclick: add }, t("Add a point"))),
-    h("p.note", {}, t("Double-click a link to add a point.")),
+    h("p.note", {}, t("Double-click or double-tap a link to add a point.")),
   );
 }
 

@@ -138,6 +138,14 @@ export class Stage implements Board {
     this.sized();
   }
 
+  /** Show everything again, if nothing else was chosen, where a part of it would be outside. */
+  keepInside(): void {
+    const { fitted, height, width } = this.viewport;
+    const { left, right, bottom, top } = reachOf(this.linkage!);
+    const [[x, y], [u, v]] = [this.viewport.screen(left, top), this.viewport.screen(right, bottom)];
+    if (fitted && (x < 0 || y < 0 || u > width || v > height)) this.fit();
+  }
+
   zoom(factor: number, x?: number, y?: number): void {
     this.viewport.zoom(factor, x, y);
     this.sized();

@@ -69,6 +69,8 @@ test("a link joins spots on it, and one that is not on the frame gets a point", 
   assert.deepEqual(made.knots.at(-1)!.links, ["2"]); // the coupler, from (0, 20) to (60, 40)
   near(made.knots.at(-1)!.at, [30, 30], 1e-12); // on the bar, which stays one
   assert.equal(traced(made), made); // it has one
+  const six = withDyad(drawing, on("2", 30, 30), place(30, 90), on("frame", 120, 0));
+  near(traced(six).knots.at(-1)!.at, [15, 25], 1e-12); // a joint is in the middle of the coupler
   assert.equal(traced(EMPTY), EMPTY);
 });
 

@@ -638,3 +638,35 @@ def test_deviation_and_sensitivity_are_lengths(design):
     view.click('[data-value="positions"]')
     shown = [re.search(r"sensitivity (\S+) mm", text)[1] for text in found_designs(view).all_inner_texts()[:3]]
     assert {float(one) for one in shown} <= {float(f"{item['shift']:.2g}") for item in items}
+
+
+def test_a_design_begins_to_play_in_the_pose_of_its_picture(design):
+    """That is its reference pose, in which its joints lie where its document has them."""
+    from gruebler.page.designs import design_records, task_of
+
+    found = design_records(task_of("function", [[0, 0], [45, 25], [90, 60]]), True, 20.0, "en", lambda _: None)
+    for item in found["items"][:4]:
+        linkage = linkage_from_json(item["document"])
+        mechanism, poses = linkage.mechanism, linkage.required_pose
+        seen = item["frames"][item["first"]]
+        for k, joint in enumerate(mechanism.chain.joints):
+            link = joint.links[0]
+            own = linkage.elements[k, link]
+            place = complex(poses[link].x, poses[link].y) + np.exp(1j * poses[link].angle) * complex(own.x, own.y)
+            assert abs(complex(*seen[k]) - place) < 4.5  # of 100 mm: a frame is 2.5 degrees from the next one
+    view = design.page
+    view.click('[data-value="function"]')
+    found_designs(view)
+    start = """() => {
+        const { prototype } = Element, { setAttribute } = prototype, ways = [];
+        prototype.setAttribute = function (name, value) {
+            if (name === "cx" && this.matches("[data-ghost] .joint")) ways.push(Number(value));
+            return setAttribute.call(this, name, value);
+        };
+        gruebler.root.querySelectorAll(".designs .card")[1].focus();
+        prototype.setAttribute = setAttribute;
+        return ways;
+    }"""
+    shown = view.evaluate(start)
+    begun = [sorted(x for x, _ in item["frames"][item["first"]][:4]) for item in found["items"]]
+    assert any(sorted(shown) == pytest.approx(places, abs=0.01) for places in begun)

@@ -3,6 +3,7 @@
 import io
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -231,9 +232,55 @@ def test_a_length_that_fits_elsewhere_only_is_offered_there(tab, crank_rocker):
     assert lengths(page) == pytest.approx([70, 25, 70, 40])
     field.fill("200")  # longer than the three others together: nowhere, and nothing is offered
     field.press("Enter")
-    assert "at no position of the drive" in told(page)
+    text = told(page)
+    assert text.startswith("coupler 200 mm fits at no position of the drive, but coupler ")
+    most = float(re.search(r"but coupler ([\d.]+) mm", text)[1])
+    assert 130 < most <= 135  # 70 + 25 + 40, all in one line
     assert page.page.locator('[data-act="elsewhere"]').count() == 0
     assert page.page.evaluate("gruebler.motion.linkage.drives[0]") == pytest.approx(0.9)
+    field.fill(str(most))
+    field.press("Enter")
+    page.page.click('[data-act="elsewhere"]')
+    assert lengths(page) == pytest.approx([70, 25, most, 40])
+
+
+def test_with_a_typed_size_all_of_the_motion_stays_in_sight_and_its_curve_round(tab, tmp_path):
+    """The crank of the lambda mechanism three times as long: twice as far down, with steps of 50 pixels."""
+    path = tmp_path / "lambda.html"
+    assert main(["explore", "lambda", "-o", str(path)]) == 0
+    page = tab().open(path.as_uri())
+    page.page.evaluate("""() => {
+        const { prototype } = CanvasRenderingContext2D;
+        let here = [0, 0];
+        window.straight = 0;
+        for (const name of ["moveTo", "lineTo", "quadraticCurveTo"]) {
+            const old = prototype[name];
+            prototype[name] = function (...at) {
+                const [x, y] = at.slice(-2);
+                const far = Math.hypot(x - here[0], y - here[1]);
+                if (name === "lineTo") window.straight = Math.max(window.straight, far);
+                here = [x, y];
+                return old.apply(this, at);
+            };
+        }
+    }""")
+    field = page.page.locator(".rows.sizes input").nth(1)
+    field.fill("60")
+    field.press("Enter")
+    page.page.evaluate("window.straight = 0, gruebler.motion.transport.pick(1)")
+    assert 0 < page.page.evaluate("window.straight") < 9  # pixels
+    seen = """(() => {
+        const { linkage: { cycle: { rows, values }, model, jointAt }, linkage, stage: { viewport } } = gruebler.motion;
+        const all = Array.from(values, (_, row) => model.joints.map((_, joint) => linkage.jointAt(joint, rows, row)));
+        return all.flat().map((at) => viewport.screen(...at)).every(([x, y]) =>
+            x > 0 && x < viewport.width && y > 0 && y < viewport.height);
+    })()"""
+    assert page.page.evaluate(seen)
+    page.page.locator(".tools button").nth(1).click()  # another part was chosen: it stays
+    scale = page.page.evaluate("gruebler.motion.stage.viewport.scale")
+    field.fill("20")
+    field.press("Enter")
+    assert page.page.evaluate("gruebler.motion.stage.viewport.scale") == scale
 
 
 def test_the_drive_is_typed_and_walked_by_keys(tab, crank_rocker):

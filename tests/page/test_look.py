@@ -157,6 +157,25 @@ def test_names_of_a_phone_are_nearer_to_their_own_bar_than_to_another(tab, crank
     assert sharpest < 30
 
 
+@pytest.mark.parametrize(("locale", "name"), [("en-US", "crank"), ("de-DE", "Kurbel")])
+def test_the_name_of_a_short_crank_does_not_lie_on_the_hatching_of_its_ground(tab, tmp_path, locale, name):
+    """The lambda mechanism on a phone: with its crank along the ground there is room below that."""
+    from gruebler.cli import main
+
+    path = tmp_path / "lambda.html"
+    assert main(["explore", "lambda", "-o", str(path), "--lang", locale[:2]]) == 0
+    page = tab(width=390, height=844, touch=True, locale=locale).open(path.as_uri())
+    overlap = """(name) => {
+        const texts = [...gruebler.motion.stage.root.querySelectorAll("text.name")];
+        const box = texts.find((one) => one.textContent === name).getBoundingClientRect();
+        return [...gruebler.root.querySelectorAll(".stage path.support")].map((one) => one.getBoundingClientRect())
+            .some((g) => box.left < g.right && g.left < box.right && box.top + 3 < g.bottom && g.top < box.bottom - 3);
+    }"""
+    for drive in (0, np.pi):
+        page.page.evaluate(f"gruebler.motion.transport.pick({drive})")
+        assert not page.page.evaluate(overlap, name), drive
+
+
 def test_arrows_say_how_much_the_longest_of_them_is(tab, crank_rocker):
     """The end of the crank, 25 mm long, has 25 mm/rad; nothing of a rocker of 40 mm that swings 80 degrees has more at
     90 degrees of the crank."""

@@ -394,11 +394,13 @@ def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, An
     measured = [*rows[0, joints[chain.links.index(frame)]].ravel(), *(_apart(rows[0], k, m) for k, m in apart)]
     bars = sorted(zip(chain.links, joints, strict=True), key=lambda row: row[0] != frame)  # the frame comes first
     called = {lang: link_names(linkage, "", lang) for lang in LANGUAGES}
+    shown = np.abs(rows[:, : len(carried)] - _seen(linkage, posed.pose)).sum(axis=(1, 2)).argmin()
     blocks = [[k, k + 1] for k in range(len(carried), rows.shape[1], 4)]
     for joint, block in zip(sliding, blocks, strict=True):
         rows[:, joint] = rows[:, block].mean(axis=1)
     return {
         "frames": _there_and_back(rows, posed),
+        "first": int(shown),
         "members": [*members, *blocks],
         "rails": [[k + 2 for k in block] for block in blocks],
         "joints": len(chain.joints),
