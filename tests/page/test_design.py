@@ -670,3 +670,16 @@ def test_a_design_begins_to_play_in_the_pose_of_its_picture(design):
     shown = view.evaluate(start)
     begun = [sorted(x for x, _ in item["frames"][item["first"]][:4]) for item in found["items"]]
     assert any(sorted(shown) == pytest.approx(places, abs=0.01) for places in begun)
+
+
+def test_what_goes_on_is_told_while_designs_are_looked_for():
+    """Six points: curves that are alike, then what was found, then the cards; it never says that it looks again."""
+    from gruebler.page.designs import design_records, task_of
+
+    said: list[str] = []
+    rows = [[-40, 0], [-20, 14], [0, 20], [20, 16], [38, 5], [44, -10]]
+    design_records(task_of("points", rows), True, 20.0, "en", said.append)
+    phases = [re.sub(r"[: ]*\d+ of \d+", "", text) for text in said]
+    assert list(dict.fromkeys(phases)) == ["Looking for four-bars", "Judging the linkages found", "Drawing design"]
+    assert phases == sorted(phases, key=["Looking for four-bars", "Judging the linkages found", "Drawing design"].index)
+    assert any(re.search(r"Judging the linkages found: \d+ of \d+", text) for text in said)

@@ -121,11 +121,16 @@ def design_records(
     sort = ("range-transmission",) if crank and isinstance(task, PositionTask) else ()
     space = _region(task, reach)
 
+    totals: list[int] = []
+
     def counted(done: int, total: int) -> None:
-        if done < total:
-            progress(translate("Looking for four-bars: {number} of {total}", lang, number=done, total=total))
-        else:
+        totals.append(total)
+        if done == total:
             progress(translate("Judging the linkages found", lang))
+        elif total == totals[0]:
+            progress(translate("Looking for four-bars: {number} of {total}", lang, number=done, total=total))
+        else:  # what was found is counted anew
+            progress(translate("Judging the linkages found: {number} of {total}", lang, number=done, total=total))
 
     demands = Demands(crank=crank, transmission=radians(transmission))
     if space is not None:
