@@ -1,6 +1,10 @@
 #include <complex>
 
+#include "base/processor.hpp"
 #include "design/crank_dyads.hpp"
+#include "design/limited_steps.hpp"
+#include "design/pose_closing.hpp"
+#include "design/sampled_curves.hpp"
 #include "doors.hpp"
 
 namespace gruebler::doors {
@@ -21,9 +25,37 @@ static_assert(sizeof(Crank) == 4 * sizeof(std::int64_t) && sizeof(CrankDyad) == 
 
 const Complex* complex_of(const Elements& elements) { return reinterpret_cast<const Complex*>(elements.data()); }
 
+struct LevelOfLanes {
+    Level level;
+    const char* name;
+    Lanes lanes;
+};
+
+// The least level first.
+constexpr LevelOfLanes levels[] = {
+    {Level::baseline, "baseline", {design::baseline::turn_crank, design::baseline::place_rrr}},
+#ifdef GRUEBLER_X86_LEVELS
+    {Level::v3, "v3", {design::v3::turn_crank, design::v3::place_rrr}},
+    {Level::v4, "v4", {design::v4::turn_crank, design::v4::place_rrr}},
+#endif
+};
+
+// The best level of this processor, or the one that is named.
+Lanes lanes_of(const std::string& name) {
+    const Level highest = highest_level();
+    const Lanes* best = nullptr;
+    for (const LevelOfLanes& each : levels) {
+        if (each.level > highest) break;
+        if (name.empty() || name == each.name) best = &each.lanes;
+    }
+    expect(best != nullptr, "this processor has no level " + name);
+    return *best;
+}
+
 Linkages linkages_of(const Drive& drive, const Dyads& dyads, const Elements& points, const Elements& lines,
-                     const Table& sides, const Table& turned) {
+                     const Table& sides, const Table& turned, const std::string& level = "") {
     Linkages all{};
+    all.lanes = lanes_of(level);
     all.crank = *reinterpret_cast<const Crank*>(drive.data());
     all.dyads = reinterpret_cast<const CrankDyad*>(dyads.data());
     all.dyad_count = static_cast<std::int64_t>(dyads.shape(0));
@@ -67,8 +99,8 @@ void expect_tops(const std::vector<std::int64_t>& watched, const Linkages& all) 
 }
 
 nb::tuple move_planes(const Drive& drive, const Dyads& dyads, const Elements& points, const Elements& lines,
-                      const Table& sides, const Table& turned) {
-    const Linkages all = linkages_of(drive, dyads, points, lines, sides, turned);
+                      const Table& sides, const Table& turned, const std::string& level) {
+    const Linkages all = linkages_of(drive, dyads, points, lines, sides, turned, level);
     const auto links = static_cast<std::size_t>(all.link_count), count = points.shape(0), angles = turned.shape(1);
     std::vector<Complex> turns(links * count * angles), shifts(turns.size());
     run([&](Watch& watch) { return design::move_planes(all, turns.data(), shifts.data(), watch); });
@@ -136,18 +168,134 @@ nb::tuple trace_slopes(const Drive& drive, const Dyads& dyads, const Elements& p
                           hand_over<Pair>(std::move(slopes), {numbers, count, angles}));
 }
 
+using Joints = Array<std::int64_t, -1, 5>;
+using Row = Array<double, -1>;
+using Block = Array<double, -1, -1, -1>;
+
+static_assert(sizeof(ClosedJoint) == 5 * sizeof(std::int64_t));
+
+Closing closing_of(const Joints& joints, const Table& q, const Row& p, double size) {
+    expect(q.shape(1) % 3 == 0, "q must have three numbers for each body");
+    const Closing closing{reinterpret_cast<const ClosedJoint*>(joints.data()),
+                          static_cast<std::int64_t>(joints.shape(0)),
+                          static_cast<std::int64_t>(q.shape(1) / 3),
+                          static_cast<std::int64_t>(p.shape(0)),
+                          static_cast<std::int64_t>(q.shape(0)),
+                          q.data(),
+                          p.data(),
+                          size};
+    const std::string message = fault(closing);
+    expect(message.empty(), message);
+    return closing;
+}
+
+nb::tuple close_poses(const Joints& joints, const Table& q, const Row& p, double size, std::int64_t steps) {
+    const Closing closing = closing_of(joints, q, p, size);
+    std::vector<double> closed(q.size());
+    std::vector<std::uint8_t> reached(q.shape(0));
+    run([&](Watch& watch) { return design::close_poses(closing, steps, closed.data(), reached.data(), watch); });
+    return nb::make_tuple(hand_over<double>(std::move(closed), {q.shape(0), q.shape(1)}),
+                          hand_over<bool>(std::move(reached), {q.shape(0)}));
+}
+
+nb::tuple pose_slopes(const Joints& joints, const Table& q, const Row& p) {
+    const Closing closing = closing_of(joints, q, p, 1.0);
+    const auto equations = static_cast<std::size_t>(closing.equations());
+    std::vector<double> by_pose(q.size() * equations), by_sizes(q.shape(0) * equations * p.shape(0));
+    run([&](Watch& watch) { return design::pose_slopes(closing, by_pose.data(), by_sizes.data(), watch); });
+    return nb::make_tuple(hand_over<double>(std::move(by_pose), {q.shape(0), equations, q.shape(1)}),
+                          hand_over<double>(std::move(by_sizes), {q.shape(0), equations, p.shape(0)}));
+}
+
+NewArray<double> move_poses(const Joints& joints, const Table& q, const Row& p, double size) {
+    const Closing closing = closing_of(joints, q, p, size);
+    const auto freedoms = static_cast<std::size_t>(closing.freedoms());
+    std::vector<double> motion(q.size() * freedoms);
+    run([&](Watch& watch) { return design::move_poses(closing, motion.data(), watch); });
+    return hand_over<double>(std::move(motion), {q.shape(0), q.shape(1), freedoms});
+}
+
+NewArray<double> pose_gradients(const Joints& joints, const Table& q, const Row& p, double size, const Block& by_pose) {
+    const Closing closing = closing_of(joints, q, p, size);
+    expect(by_pose.shape(0) == q.shape(0) && by_pose.shape(2) == q.shape(1),
+           "by_pose must have a block for each pose and a column for each unknown");
+    std::vector<double> gradients(q.shape(0) * by_pose.shape(1) * p.shape(0));
+    const auto quantities = static_cast<std::int64_t>(by_pose.shape(1));
+    run([&](Watch& watch) { return design::pose_gradients(closing, quantities, by_pose.data(), gradients.data(), watch); });
+    return hand_over<double>(std::move(gradients), {q.shape(0), by_pose.shape(1), p.shape(0)});
+}
+
+NewArray<double> settle_arcs(const Row& arcs, const Elements& values, const Elements& rates, bool closed, const Elements& targets,
+                             const Numbers& target, const Row& low, const Row& high, const Row& start, const Row& levels,
+                             double rises) {
+    const std::size_t count = target.shape(0);
+    expect(arcs.shape(0) > 1 && values.shape(0) == arcs.shape(0) && rates.shape(0) == arcs.shape(0),
+           "a curve has two samples or more, each with its value and rate");
+    expect(rates.shape(1) == values.shape(1) && targets.shape(1) == values.shape(1), "targets have the parts of the curve");
+    expect(low.shape(0) == count && high.shape(0) == count && start.shape(0) == count,
+           "each bracket has two ends and a start");
+    expect(levels.shape(0) == count || levels.shape(0) == 0, "levels must be as many as brackets, or none");
+    for (std::size_t n = 0; n < count; ++n)
+        expect(target.data()[n] >= 0 && target.data()[n] < static_cast<std::int64_t>(targets.shape(0)), "a target is none");
+    const SmoothCurve curve{arcs.data(),
+                            complex_of(values),
+                            complex_of(rates),
+                            static_cast<std::int64_t>(arcs.shape(0)),
+                            static_cast<std::int64_t>(values.shape(1)),
+                            closed};
+    const Brackets brackets{complex_of(targets), target.data(), low.data(), high.data(), start.data(),
+                            levels.shape(0) == count ? levels.data() : nullptr, rises, static_cast<std::int64_t>(count)};
+    std::vector<double> settled(count);
+    run([&](Watch& watch) { return design::settle_arcs(curve, brackets, settled.data(), watch); });
+    return hand_over<double>(std::move(settled), {count});
+}
+
+NewArray<double> spread_evenly(const Elements& z, const Row& parameters, std::int64_t places) {
+    expect(z.shape(1) > 1 && parameters.shape(0) == z.shape(1), "a curve has two samples or more, each with its parameter");
+    expect(places >= 0, "places must not be negative");
+    std::vector<double> spread(z.shape(0) * static_cast<std::size_t>(places));
+    run([&](Watch& watch) {
+        return design::spread_evenly(complex_of(z), parameters.data(), static_cast<std::int64_t>(z.shape(0)),
+                                     static_cast<std::int64_t>(z.shape(1)), places, spread.data(), watch);
+    });
+    return hand_over<double>(std::move(spread), {z.shape(0), static_cast<std::size_t>(places)});
+}
+
+nb::tuple limit_steps(const Block& gram, const Table& step, const Table& values, const Block& slopes, double slack) {
+    const std::size_t count = step.shape(0), numbers = step.shape(1);
+    expect(gram.shape(0) == count && gram.shape(1) == numbers && gram.shape(2) == numbers,
+           "gram must be square for each step");
+    expect(values.shape(1) == count && slopes.shape(2) == count && slopes.shape(0) == values.shape(0),
+           "each limit has a value and slopes for each step");
+    expect(slopes.shape(1) <= numbers, "limits have no more unknowns than a step has numbers");
+    const Steps steps{static_cast<std::int64_t>(count),
+                      static_cast<std::int64_t>(numbers),
+                      static_cast<std::int64_t>(values.shape(0)),
+                      static_cast<std::int64_t>(slopes.shape(1)),
+                      gram.data(),
+                      step.data(),
+                      values.data(),
+                      slopes.data(),
+                      slack};
+    std::vector<double> limited(step.size());
+    std::vector<std::uint8_t> changed(count);
+    run([&](Watch& watch) { return design::limit_steps(steps, limited.data(), changed.data(), watch); });
+    return nb::make_tuple(hand_over<double>(std::move(limited), {count, numbers}), hand_over<bool>(std::move(changed), {count}));
+}
+
 }  // namespace
 
 void add_design(nb::module_& module) {
     module.def("move_planes", move_planes, nb::arg("drive").noconvert(), nb::arg("dyads").noconvert(),
                nb::arg("points").noconvert(), nb::arg("lines").noconvert(), nb::arg("sides").noconvert(),
-               nb::arg("turned").noconvert(),
+               nb::arg("turned").noconvert(), nb::arg("level") = "",
                "How the planes of linkages of a crank and dyads move: a point w of a link goes to turn w + shift. Turns and "
                "shifts, complex128[links, linkages, angles]; NaN where a dyad cannot be assembled.\n\n"
                "drive: int64[4], frame, crank and the element of the pivot on each. dyads: int64[dyads, 11] in solving order: "
                "form (0 RRR, 1 RRP, 2 RPR, 3 PRP, 4 RPP), two links, their bases, then two elements on the bases, on the "
                "links at these, and on the links at the inner joint. points, lines: complex128[linkages, elements], lines of "
-               "modulus 1, of size 0 where nothing slides. sides: float64[dyads, linkages]. turned: float64[linkages, angles].");
+               "modulus 1, of size 0 where nothing slides. sides: float64[dyads, linkages]. turned: float64[linkages, angles].\n\n"
+               "level: of the processor, as for `run_path`; the best by default.");
     module.def("find_tops", find_tops, nb::arg("drive").noconvert(), nb::arg("dyads").noconvert(),
                nb::arg("points").noconvert(), nb::arg("lines").noconvert(), nb::arg("sides").noconvert(),
                nb::arg("turned").noconvert(), nb::arg("watched").noconvert(), nb::arg("between"),
@@ -174,6 +322,44 @@ void add_design(nb::module_& module) {
                nb::arg("link"), nb::arg("by_places"),
                "The same, and how it changes with x, y of each place, if wanted, and last with the crank: complex128[2 places + "
                "1 or 1, linkages, angles].");
+    module.def("close_poses", close_poses, nb::arg("joints").noconvert(), nb::arg("q").noconvert(), nb::arg("p").noconvert(),
+               nb::arg("size"), nb::arg("steps"),
+               "The nearest closed poses of a linkage by Newton's method with least steps, float64[poses, unknowns], and which of "
+               "them were reached, bool[poses].\n\n"
+               "joints: int64[joints, 5]: two bodies, the frame after all others; which dimension is x of the joint on each, y and "
+               "of a slide the angle of its line follow; 1 if it slides. q: float64[poses, 3 bodies], x, y, angle. p: "
+               "float64[dimensions]. size: at this distance a point moves as far as its body turns.");
+    module.def("pose_slopes", pose_slopes, nb::arg("joints").noconvert(), nb::arg("q").noconvert(), nb::arg("p").noconvert(),
+               "How the closing conditions change with poses, float64[poses, equations, unknowns], and with the dimensions, "
+               "float64[poses, equations, dimensions].\n\n"
+               "The arguments are those of `close_poses`; two equations for each joint.");
+    module.def("move_poses", move_poses, nb::arg("joints").noconvert(), nb::arg("q").noconvert(), nb::arg("p").noconvert(),
+               nb::arg("size"),
+               "How poses move while no dimension changes: float64[poses, unknowns, freedoms].\n\n"
+               "The arguments are those of `close_poses`.");
+    module.def("pose_gradients", pose_gradients, nb::arg("joints").noconvert(), nb::arg("q").noconvert(), nb::arg("p").noconvert(),
+               nb::arg("size"), nb::arg("by_pose").noconvert(),
+               "How quantities of poses change with the dimensions while the poses do not move along their freedom: "
+               "float64[poses, quantities, dimensions].\n\n"
+               "by_pose: float64[poses, quantities, unknowns]; the others as for `close_poses`.");
+    module.def("settle_arcs", settle_arcs, nb::arg("arcs").noconvert(), nb::arg("values").noconvert(),
+               nb::arg("rates").noconvert(), nb::arg("closed"), nb::arg("targets").noconvert(), nb::arg("target").noconvert(),
+               nb::arg("low").noconvert(), nb::arg("high").noconvert(), nb::arg("start").noconvert(),
+               nb::arg("levels").noconvert(), nb::arg("rises"),
+               "Where in brackets half the squared distance of a target from a curve has a level, or, without levels, does not "
+               "change: float64[brackets], arcs.\n\n"
+               "arcs: float64[samples]; values, rates: complex128[samples, parts], rates by the arc. targets: complex128[targets, "
+               "parts], NaN where free. target: int64[brackets]. low, high, start: float64[brackets]. levels: float64[brackets or "
+               "0]. rises: 1 or -1, the sign at the upper ends.");
+    module.def("spread_evenly", spread_evenly, nb::arg("z").noconvert(), nb::arg("parameters").noconvert(), nb::arg("places"),
+               "The parameters of so many places evenly along closed curves: float64[curves, places].\n\n"
+               "z: complex128[curves, samples], the last sample is the first one. parameters: float64[samples].");
+    module.def("limit_steps", limit_steps, nb::arg("gram").noconvert(), nb::arg("step").noconvert(),
+               nb::arg("values").noconvert(), nb::arg("slopes").noconvert(), nb::arg("slack"),
+               "Steps changed, at least cost, to the nearest within linear limits, float64[steps, numbers], and which lay beyond "
+               "one, bool[steps].\n\n"
+               "gram: float64[steps, numbers, numbers]. step: float64[steps, numbers]. values: float64[limits, steps]. slopes: "
+               "float64[limits, unknowns, steps]; unknowns are the first numbers. slack: so far beyond a limit counts as within.");
 }
 
 }  // namespace gruebler::doors

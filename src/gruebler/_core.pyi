@@ -82,6 +82,7 @@ def move_planes(
     lines: NDArray[np.complex128],
     sides: NDArray[np.float64],
     turned: NDArray[np.float64],
+    level: str = "",
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]: ...
 def find_tops(
     drive: NDArray[np.int64],
@@ -127,6 +128,45 @@ def trace_slopes(
     link: int,
     by_places: bool,
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]: ...
+
+# design: joints of `DesignClosure`
+def close_poses(
+    joints: NDArray[np.int64], q: NDArray[np.float64], p: NDArray[np.float64], size: float, steps: int
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]: ...
+def pose_slopes(
+    joints: NDArray[np.int64], q: NDArray[np.float64], p: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+def move_poses(
+    joints: NDArray[np.int64], q: NDArray[np.float64], p: NDArray[np.float64], size: float
+) -> NDArray[np.float64]: ...
+def pose_gradients(
+    joints: NDArray[np.int64],
+    q: NDArray[np.float64],
+    p: NDArray[np.float64],
+    size: float,
+    by_pose: NDArray[np.float64],
+) -> NDArray[np.float64]: ...
+def settle_arcs(
+    arcs: NDArray[np.float64],
+    values: NDArray[np.complex128],
+    rates: NDArray[np.complex128],
+    closed: bool,
+    targets: NDArray[np.complex128],
+    target: NDArray[np.int64],
+    low: NDArray[np.float64],
+    high: NDArray[np.float64],
+    start: NDArray[np.float64],
+    levels: NDArray[np.float64],
+    rises: float,
+) -> NDArray[np.float64]: ...
+def spread_evenly(z: NDArray[np.complex128], parameters: NDArray[np.float64], places: int) -> NDArray[np.float64]: ...
+def limit_steps(
+    gram: NDArray[np.float64],
+    step: NDArray[np.float64],
+    values: NDArray[np.float64],
+    slopes: NDArray[np.float64],
+    slack: float,
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]: ...
 
 # structure
 class MultipleJoints:

@@ -69,14 +69,25 @@ SLIDING = (
     np.array([[0, 0, 1, 0, 3, 0, 0.2j, 0]]), np.ones((1, 8), complex),
 )  # fmt: skip
 MODE, TURNED = np.ones((1, 1)), np.array([[0.0, 0.5]])
-CALLS_OF_DYADS = (
+# A body on a pin of the frame.
+PINNED = np.array([[1, 0, 0, 2, 0]]), np.zeros((1, 3)), np.zeros(4), 1.0
+CALLS_OF_DESIGN = (
     ("move_planes", (*SLIDING, MODE, TURNED)),
     ("find_tops", (*SLIDING, MODE, TURNED, np.zeros(1, np.int64), True)),
     ("find_cosines", (*SLIDING, MODE, TURNED, np.zeros(1, np.int64))),
     ("cosine_slopes", (*DRAWN, MODE, TURNED, np.zeros(1, np.int64))),
     ("trace_point", (*DRAWN, MODE, TURNED, 2)),
     ("trace_slopes", (*DRAWN, MODE, TURNED, 2, True)),
-)
+    ("close_poses", (*PINNED, 12)),
+    ("pose_slopes", PINNED[:3]),
+    ("move_poses", PINNED),
+    ("pose_gradients", (*PINNED, np.ones((1, 2, 3)))),
+    ("settle_arcs", (np.arange(3.0), np.arange(3.0)[:, None] + 0j, np.ones((3, 1), complex), False,
+                     np.array([[0.7 + 1j]]), np.zeros(1, np.int64), np.zeros(1), np.ones(1), np.ones(1) / 2,
+                     np.zeros(0), 1.0)),
+    ("spread_evenly", (np.exp(1j * np.arange(8.0))[None], np.arange(8.0), 5)),
+    ("limit_steps", (np.tile(np.eye(2), (2, 1, 1)), np.ones((2, 2)), np.zeros((1, 2)), np.ones((1, 2, 2)), 0.0)),
+)  # fmt: skip
 ROWS = np.array([0, 2, 3]), np.array([0, 1, 1]), np.array([1, 2, 3])
 UNKNOWNS, TASK = np.ones((3, 8), complex), np.ones((4, 8), complex)
 
@@ -137,7 +148,7 @@ def good_calls():
     yield "eliminate", (*ROWS, 2, 1e9, 1e9)
     yield "solve_back", (np.array([0]), np.array([0, 1]), np.array([1]), np.array([5]), np.ones((2, 1), np.int64))
     yield "reduce", (np.arange(6).reshape(2, 3),)
-    yield from CALLS_OF_DYADS
+    yield from CALLS_OF_DESIGN
     yield from CALLS_IN_SPACE
     series = np.array([[-1.0, 1, 0, 1], [1, 3, 2, 1]]), np.arange(1.0, 25).reshape(2, 2, 6), -1.0
     yield "reduced_forces", (*series, 0.5, 2.0)

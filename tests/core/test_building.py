@@ -96,13 +96,14 @@ def test_no_product_is_fused_with_a_sum(level):
 
 
 SWEEP = ROOT / "core" / "src" / "motion" / "sweep.cpp"
+DYADS = ROOT / "core" / "src" / "design" / "lanes.cpp"
 TRACKER = ROOT / "core" / "src" / "algebra" / "tracking.cpp"
 
 
-def lane_loops():
+def lane_loops(source):
     """The line of each loop marked EACH_LANE, and how often it is compiled: templates for four orders."""
     copies, found = 1, {}
-    for number, line in enumerate(SWEEP.read_text(encoding="utf-8").splitlines(), 1):
+    for number, line in enumerate(source.read_text(encoding="utf-8").splitlines(), 1):
         if line.startswith(("template", "}")):
             copies = 4 if line.startswith("template <int order>") else 1
         elif line.strip() == "EACH_LANE":
@@ -136,11 +137,12 @@ def vectorised(source, level, file, width):
     return Counter(map(int, re.findall(where, report)))
 
 
+@pytest.mark.parametrize("source", [SWEEP, DYADS], ids=lambda source: source.stem)
 @pytest.mark.parametrize(("level", "width"), [("", 16), ("_v3", 32), ("_v4", 64)])
-def test_loops_of_the_sweep_are_vectorised(level, width):
+def test_loops_over_lanes_are_vectorised(source, level, width):
     """A branch or a call too many in a lane, and they go one by one."""
-    seen = vectorised(SWEEP, level, SWEEP, width)
-    loops = lane_loops()
+    seen = vectorised(source, level, source, width)
+    loops = lane_loops(source)
     assert loops
     assert {line: copies for line, copies in loops.items() if seen[line] < copies} == {}
 

@@ -49,6 +49,22 @@ def test_the_derivatives_of_a_point_against_differences(core, structure):
     assert np.array_equal(core.trace_slopes(drive, dyads, places, own, TURN, POINT, False)[1][0], exact[-1])
 
 
+def test_all_levels_of_the_processor_give_the_same_bits(core):
+    """Angles beyond those that are reduced in lanes, and dyads that cannot be assembled, too."""
+    places = np.concatenate([WATT[2], 1.5 * WATT[2] - 0.4j * WATT[2] ** 2])
+    turned = np.stack([np.linspace(-4, 300, 77), np.linspace(-1e6, 2, 77)])
+    call = *WATT[:2], places, NO_LINES, np.array([[1.0, -1], [-1, 1]]), turned
+    first, *others = (core.move_planes(*call, level) for level in core.level_names())
+    assert np.isnan(first[0]).any()
+    spins = first[0][1]
+    assert spins == pytest.approx(np.exp(1j * turned), abs=1e-9)
+    for other in others:
+        for own, far in zip(first, other, strict=True):
+            assert np.array_equal(own.view(np.int64), far.view(np.int64))
+    with pytest.raises(ValueError, match="no level v9"):
+        core.move_planes(*call, "v9")
+
+
 @pytest.mark.parametrize("structure", [WATT, STEPHENSON], ids=["Watt I", "Stephenson III"])
 def test_cosines_are_those_of_arms_and_largest_at_their_tops(core, structure):
     """Second method: the arms of both links as their planes lie, at many angles."""

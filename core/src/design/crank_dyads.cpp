@@ -20,7 +20,7 @@ Complex quotient(Complex a, Complex b) { return a * inverse(b, dot(b, b)); }
 class Moved {
 public:
     explicit Moved(const Linkages& all)
-        : all_(all), turns_(all.link_count * all.angles), shifts_(turns_.size()), cosines_(all.dyad_count * all.angles) {}
+        : all_(all), planes_(4 * all.link_count * all.angles), cosines_(all.dyad_count * all.angles) {}
 
     void place(std::int64_t number) {
         number_ = number;
@@ -28,7 +28,7 @@ public:
         for (std::int64_t d = 0; d < all_.dyad_count; ++d) {
             const CrankDyad& dyad = all_.dyads[d];
             switch (dyad.form) {
-                case Form::rrr: place_rrr(dyad, d); break;
+                case Form::rrr: all_.lanes.place_rrr(at(dyad, d)); break;
                 case Form::rrp: place_rrp(dyad, d); break;
                 case Form::rpr: place_rpr(dyad, d); break;
                 case Form::prp: place_prp(dyad, d); break;
@@ -37,83 +37,67 @@ public:
         }
     }
 
-    const Complex* turns(std::int64_t link) const { return &turns_[link * all_.angles]; }
-    const Complex* shifts(std::int64_t link) const { return &shifts_[link * all_.angles]; }
-    const double* cosines(std::int64_t dyad) const { return &cosines_[dyad * all_.angles]; }
+    Complex turn(std::int64_t link, std::int64_t angle) const {
+        const double* own = planes_.data() + 4 * link * all_.angles;
+        return {own[angle], own[all_.angles + angle]};
+    }
+    Complex shift(std::int64_t link, std::int64_t angle) const {
+        const double* own = planes_.data() + (4 * link + 2) * all_.angles;
+        return {own[angle], own[all_.angles + angle]};
+    }
+    const double* cosines(std::int64_t dyad) const { return cosines_.data() + dyad * all_.angles; }
     const double* angles() const { return all_.turned + number_ * all_.angles; }
     Complex point(std::int64_t element) const { return all_.points[number_ * all_.element_count + element]; }
 
     bool assembled(std::int64_t angle) const {
         bool good = true;
-        for (std::int64_t link = 0; link < all_.link_count; ++link) good &= std::isfinite(turns(link)[angle].x);
+        for (std::int64_t link = 0; link < all_.link_count; ++link) good &= std::isfinite(turn(link, angle).x);
         return good;
     }
 
 private:
     Complex line(std::int64_t element) const { return all_.lines[number_ * all_.element_count + element]; }
     double side(std::int64_t dyad) const { return all_.sides[dyad * all_.count + number_]; }
-    Complex* turn_of(std::int64_t link) { return &turns_[link * all_.angles]; }
-    Complex* shift_of(std::int64_t link) { return &shifts_[link * all_.angles]; }
-    double* cosine_of(std::int64_t dyad) { return &cosines_[dyad * all_.angles]; }
+    PlaneRows plane(std::int64_t link) {
+        double* own = planes_.data() + 4 * link * all_.angles;
+        return {own, own + all_.angles, own + 2 * all_.angles, own + 3 * all_.angles};
+    }
 
     void turn_crank() {
-        const Complex own = point(all_.crank.on_frame), far = point(all_.crank.on_link);
-        const double* angle = angles();
-        Complex *fixed = turn_of(all_.crank.frame), *still = shift_of(all_.crank.frame);
-        Complex *turn = turn_of(all_.crank.link), *shift = shift_of(all_.crank.link);
-        for (std::int64_t i = 0; i < all_.angles; ++i) {
-            fixed[i] = {1, 0};
-            still[i] = {0, 0};
-            turn[i] = unit_vector(angle[i]);
-            shift[i] = own - turn[i] * far;
-        }
+        const PlaneRows frame = plane(all_.crank.frame);
+        std::fill_n(frame.turn_x, all_.angles, 1.0);
+        std::fill_n(frame.turn_y, 3 * all_.angles, 0.0);
+        all_.lanes.turn_crank(angles(), point(all_.crank.on_frame), point(all_.crank.on_link), plane(all_.crank.link),
+                              all_.angles);
     }
 
     // Arrays of one dyad at hand, so that loops over angles need no table.
-    struct At {
-        const Complex *base_turn[2], *base_shift[2];
-        Complex *turn[2], *shift[2];
-        Complex on_base[2], on_link[2], inner[2];
-        double* cosine;
-        double side;
-
-        Complex outer(int k, std::int64_t i) const { return base_turn[k][i] * on_base[k] + base_shift[k][i]; }
-        void hang(int k, std::int64_t i, Complex end) const { shift[k][i] = end - turn[k][i] * on_link[k]; }
+    struct At : RrrRows {
+        Complex turned(int k, std::int64_t i) const { return {bases[k].turn_x[i], bases[k].turn_y[i]}; }
+        Complex outer(int k, std::int64_t i) const {
+            return turned(k, i) * on_base[k] + Complex{bases[k].shift_x[i], bases[k].shift_y[i]};
+        }
+        // Link k turned so that its outer joint lies at an end.
+        void hang(int k, std::int64_t i, Complex turn, Complex end) const {
+            const Complex shift = end - turn * on_link[k];
+            links[k].turn_x[i] = turn.x, links[k].turn_y[i] = turn.y;
+            links[k].shift_x[i] = shift.x, links[k].shift_y[i] = shift.y;
+        }
     };
 
     At at(const CrankDyad& dyad, std::int64_t number) {
         At each{};
         for (int k = 0; k < 2; ++k) {
-            each.base_turn[k] = turns(dyad.bases[k]);
-            each.base_shift[k] = shifts(dyad.bases[k]);
-            each.turn[k] = turn_of(dyad.links[k]);
-            each.shift[k] = shift_of(dyad.links[k]);
+            each.bases[k] = plane(dyad.bases[k]);
+            each.links[k] = plane(dyad.links[k]);
             each.on_base[k] = point(dyad.on_base[k]);
             each.on_link[k] = point(dyad.on_link[k]);
             each.inner[k] = point(dyad.inner[k]);
         }
-        each.cosine = cosine_of(number);
+        each.cosine = cosines_.data() + number * all_.angles;
         each.side = side(number);
+        each.angles = all_.angles;
         return each;
-    }
-
-    void place_rrr(const CrankDyad& dyad, std::int64_t number) {
-        const At e = at(dyad, number);
-        const Complex first = e.inner[0] - e.on_link[0], second = e.inner[1] - e.on_link[1];
-        const double r = dot(first, first), s = dot(second, second), product = 2 * std::sqrt(r * s);
-        const Complex by_first = inverse(first, r), by_second = inverse(second, s);
-        for (std::int64_t i = 0; i < all_.angles; ++i) {
-            const Complex end = e.outer(0, i), other = e.outer(1, i), gap = other - end;
-            const double square = dot(gap, gap), distance = std::sqrt(square);
-            const double along = (r - s + square) / (2 * distance);
-            const double across = e.side * std::sqrt(r - along * along);
-            const Complex arm = (1 / distance) * (gap * Complex{along, across});
-            e.turn[0][i] = arm * by_first;
-            e.turn[1][i] = (arm - gap) * by_second;
-            e.hang(0, i, end);
-            e.hang(1, i, other);
-            e.cosine[i] = (r + s - square) / product;
-        }
     }
 
     // The second link slides along a line of its base; the side is that of the inner joint seen along this line.
@@ -123,14 +107,12 @@ private:
         const Complex first = e.inner[0] - e.on_link[0], second = e.inner[1] - e.on_link[1];
         const double r = dot(first, first), length = std::sqrt(r);
         for (std::int64_t i = 0; i < all_.angles; ++i) {
-            const Complex end = e.outer(0, i), guide = e.base_turn[1][i] * along_base;
-            e.turn[1][i] = guide * own;
-            const Complex reach = e.outer(1, i) + e.turn[1][i] * second - end;
+            const Complex end = e.outer(0, i), guide = e.turned(1, i) * along_base, turn = guide * own;
+            const Complex reach = e.outer(1, i) + turn * second - end;
             const double beside = cross(guide, reach);
             const double travel = e.side * std::sqrt(r - beside * beside) - dot(guide, reach);
-            e.turn[0][i] = (reach + travel * guide) * inverse(first, r);
-            e.hang(0, i, end);
-            e.hang(1, i, e.outer(1, i) + travel * guide);
+            e.hang(0, i, (reach + travel * guide) * inverse(first, r), end);
+            e.hang(1, i, turn, e.outer(1, i) + travel * guide);
             e.cosine[i] = beside / length;
         }
     }
@@ -144,10 +126,8 @@ private:
             const Complex end = e.outer(0, i), far = e.outer(1, i), gap = far - end;
             const double square = dot(gap, gap);
             const Complex slide = quotient(gap, {e.side * std::sqrt(square - beside * beside), beside});
-            e.turn[0][i] = slide * own;
-            e.turn[1][i] = slide * other;
-            e.hang(0, i, end);
-            e.hang(1, i, far);
+            e.hang(0, i, slide * own, end);
+            e.hang(1, i, slide * other, far);
             e.cosine[i] = beside / std::sqrt((square + beside * beside) / 2);
         }
     }
@@ -158,16 +138,16 @@ private:
         const Complex lines[2] = {line(dyad.on_base[0]), line(dyad.on_base[1])};
         const Complex own[2] = {conjugate(line(dyad.on_link[0])), conjugate(line(dyad.on_link[1]))};
         for (std::int64_t i = 0; i < all_.angles; ++i) {
-            Complex guide[2], start[2];
+            Complex guide[2], turn[2], start[2];
             for (int k = 0; k < 2; ++k) {
-                guide[k] = e.base_turn[k][i] * lines[k];
-                e.turn[k][i] = guide[k] * own[k];
-                start[k] = e.outer(k, i) + e.turn[k][i] * (e.inner[k] - e.on_link[k]);
+                guide[k] = e.turned(k, i) * lines[k];
+                turn[k] = guide[k] * own[k];
+                start[k] = e.outer(k, i) + turn[k] * (e.inner[k] - e.on_link[k]);
             }
             const double sine = cross(guide[0], guide[1]);
             const Complex miss = start[1] - start[0];
-            e.hang(0, i, e.outer(0, i) + (cross(miss, guide[1]) / sine) * guide[0]);
-            e.hang(1, i, e.outer(1, i) + (cross(miss, guide[0]) / sine) * guide[1]);
+            e.hang(0, i, turn[0], e.outer(0, i) + (cross(miss, guide[1]) / sine) * guide[0]);
+            e.hang(1, i, turn[1], e.outer(1, i) + (cross(miss, guide[0]) / sine) * guide[1]);
             e.cosine[i] = 1 - e.side * sine;
         }
     }
@@ -178,23 +158,21 @@ private:
         const Complex along_base = line(dyad.on_base[1]), own = conjugate(line(dyad.on_link[1]));
         const Complex inner = line(dyad.inner[1]), first = conjugate(line(dyad.inner[0]));
         for (std::int64_t i = 0; i < all_.angles; ++i) {
-            const Complex end = e.outer(0, i), guide = e.base_turn[1][i] * along_base;
-            e.turn[1][i] = guide * own;
-            const Complex slide = e.turn[1][i] * inner;
-            e.turn[0][i] = slide * first;
-            e.hang(0, i, end);
-            const Complex miss = e.outer(1, i) + e.turn[1][i] * (e.inner[1] - e.on_link[1]) - end -
-                                 e.turn[0][i] * (e.inner[0] - e.on_link[0]);
+            const Complex end = e.outer(0, i), guide = e.turned(1, i) * along_base, turn = guide * own;
+            const Complex slide = turn * inner, other = slide * first;
+            e.hang(0, i, other, end);
+            const Complex miss =
+                e.outer(1, i) + turn * (e.inner[1] - e.on_link[1]) - end - other * (e.inner[0] - e.on_link[0]);
             const double sine = cross(slide, guide);
-            e.hang(1, i, e.outer(1, i) - (cross(slide, miss) / sine) * guide);
+            e.hang(1, i, turn, e.outer(1, i) - (cross(slide, miss) / sine) * guide);
             e.cosine[i] = 1 - e.side * sine;
         }
     }
 
     const Linkages& all_;
     std::int64_t number_ = 0;
-    std::vector<Complex> turns_, shifts_;  // [links, angles]
-    std::vector<double> cosines_;          // [dyads, angles]
+    std::vector<double> planes_;   // [links, 4, angles] turns and shifts
+    std::vector<double> cosines_;  // [dyads, angles]
 };
 
 // Work on each linkage in turn; about as many steps of a nanosecond for each dyad and angle.
@@ -230,9 +208,9 @@ double beside_top(const double* values, std::int64_t count, std::int64_t at) {
 
 // Where the last element goes with a link; NaN where any dyad cannot be assembled.
 void write_trace(const Linkages& linkages, std::int64_t link, const Moved& moved, Complex* z) {
-    const Complex *turns = moved.turns(link), *shifts = moved.shifts(link), point = moved.point(linkages.element_count - 1);
+    const Complex point = moved.point(linkages.element_count - 1);
     for (std::int64_t i = 0; i < linkages.angles; ++i) {
-        z[i] = turns[i] * point + shifts[i];
+        z[i] = moved.turn(link, i) * point + moved.shift(link, i);
         if (!moved.assembled(i)) z[i] = {none, none};
     }
 }
@@ -256,7 +234,7 @@ public:
         Complex *turn = &turns_[crank.link * count_], *shift = &shifts_[crank.link * count_];
         std::fill_n(turn, count_, Complex{0, 0});
         std::fill_n(shift, count_, Complex{0, 0});
-        const Complex spin = moved.turns(crank.link)[angle], pivot = moved.point(crank.on_frame);
+        const Complex spin = moved.turn(crank.link, angle), pivot = moved.point(crank.on_frame);
         turn[count_ - 1] = left(spin);
         shift[count_ - 1] = -left(spin * pivot);
         add(shift, crank.on_frame, Complex{1, 0} - spin);
@@ -268,7 +246,7 @@ public:
         const Complex place = moved.point(element);
         for (std::int64_t n = 0; n < count_; ++n)
             slopes[n] = turns_[link * count_ + n] * place + shifts_[link * count_ + n];
-        add(slopes, element, moved.turns(link)[angle]);
+        add(slopes, element, moved.turn(link, angle));
     }
 
 private:
@@ -287,7 +265,7 @@ private:
             double* along = &along_[k * count_];
             of_place(moved, angle, dyad.bases[k], dyad.on_base[k], outer);
             arms[k] = moved.point(dyad.inner[k]) - moved.point(dyad.on_link[k]);
-            across[k] = moved.turns(dyad.links[k])[angle] * arms[k];
+            across[k] = moved.turn(dyad.links[k], angle) * arms[k];
             for (std::int64_t n = 0; n < count_; ++n) along[n] = dot(across[k], outer[n]);
             if (places_ == 0) continue;
             along[2 * dyad.inner[k]] += arms[k].x;
@@ -306,7 +284,7 @@ private:
                 const Complex inner = along_[count_ + n] * first - along_[n] * second;
                 turn[n] = (inner - outer[n]) * by_arm;
             }
-            const Complex rotation = moved.turns(link)[angle], outer_place = moved.point(dyad.on_link[k]);
+            const Complex rotation = moved.turn(link, angle), outer_place = moved.point(dyad.on_link[k]);
             add(turn, dyad.inner[k], -(rotation * by_arm));
             add(turn, dyad.on_link[k], rotation * by_arm);
             for (std::int64_t n = 0; n < count_; ++n) shift[n] = outer[n] - turn[n] * outer_place;
@@ -329,7 +307,7 @@ void differentiate_cosine(const CrankDyad& dyad, const Moved& moved, const Slope
     double lengths[2];
     for (int k = 0; k < 2; ++k) {
         slopes.of_place(moved, angle, dyad.bases[k], dyad.on_base[k], &rows[k * count]);
-        outer[k] = moved.turns(dyad.bases[k])[angle] * moved.point(dyad.on_base[k]) + moved.shifts(dyad.bases[k])[angle];
+        outer[k] = moved.turn(dyad.bases[k], angle) * moved.point(dyad.on_base[k]) + moved.shift(dyad.bases[k], angle);
         arms[k] = moved.point(dyad.inner[k]) - moved.point(dyad.on_link[k]);
         lengths[k] = std::sqrt(dot(arms[k], arms[k]));
     }
@@ -380,8 +358,8 @@ bool move_planes(const Linkages& linkages, Complex* turns, Complex* shifts, Watc
     return each(linkages, 20, watch, [&](std::int64_t n, const Moved& moved) {
         for (std::int64_t link = 0; link < linkages.link_count; ++link) {
             const std::int64_t row = (link * linkages.count + n) * linkages.angles;
-            std::copy_n(moved.turns(link), linkages.angles, turns + row);
-            std::copy_n(moved.shifts(link), linkages.angles, shifts + row);
+            for (std::int64_t i = 0; i < linkages.angles; ++i)
+                turns[row + i] = moved.turn(link, i), shifts[row + i] = moved.shift(link, i);
         }
     });
 }

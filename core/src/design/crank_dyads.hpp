@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "base/watch.hpp"
+#include "design/lanes.hpp"
 #include "motion/complex.hpp"
 
 namespace gruebler::design {
-
-using motion::Complex;
 
 // The five dyads by their joints: outer, inner, outer; turning or sliding.
 enum class Form : std::int64_t { rrr, rrp, rpr, prp, rpp };
@@ -38,6 +37,7 @@ struct Linkages {
     const double* sides;    // [dyads, count]: 1 or -1, the assembly mode
     const double* turned;   // [count, angles] of the crank
     std::int64_t angles;
+    Lanes lanes;            // of a level of the processor
 };
 
 // A message for linkages that are none, else empty: numbers of links and elements that are none, links placed twice or never.

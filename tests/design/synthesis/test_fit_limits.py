@@ -5,12 +5,11 @@ from math import cos, degrees, hypot, radians, sin
 
 import numpy as np
 import pytest
-from scipy.optimize import minimize
 
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis import Demands, PathTask, synthesise_path
 from gruebler.design.synthesis.curves import fit_curve, linkages_of
-from gruebler.design.synthesis.fit_limits import FourBarLimits, _nearest_within
+from gruebler.design.synthesis.fit_limits import FourBarLimits
 from gruebler.design.synthesis.four_bar_curves import curve_points
 from gruebler.design.synthesis.four_bar_kinds import FOUR_BAR, SLIDER_CRANK
 
@@ -157,18 +156,6 @@ def test_slopes_of_limits_against_differences(kind):
             step[k] = 1e-7
             ends = [limits.values(rows + s * step, phi) for s in (1, -1)]
             assert slope[:, k] == pytest.approx((ends[0] - ends[1]) / 2e-7, abs=1e-5)
-
-
-def test_the_nearest_step_within_limits_against_another_program():
-    rng = np.random.default_rng(5)
-    for _ in range(20):  # five limits of five numbers can always be kept
-        root, normal, beyond = rng.normal(size=(5, 5)), rng.normal(size=(5, 5)), rng.uniform(-1, 1, 5)
-        gram = root @ root.T + 0.1 * np.eye(5)
-        (mine,) = _nearest_within(gram[None], normal[None], beyond[None])
-        conditions = {"type": "ineq", "fun": lambda s, n=normal, b=beyond: n @ s - b}
-        other = minimize(lambda s, g=gram: s @ g @ s, np.zeros(5), constraints=conditions, tol=1e-13).x
-        assert (normal @ mine >= beyond - 1e-9).all()
-        assert mine @ gram @ mine == pytest.approx(other @ gram @ other, rel=1e-5, abs=1e-9)
 
 
 def test_lengths_that_no_link_can_have_are_refused():

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler import _core
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 
 PLACES = 64
@@ -59,9 +60,7 @@ def resampled(z: Complexes, count: int, *, closed: bool) -> tuple[Complexes, Rea
 
 def evenly_along(z: Complexes, phi: Reals) -> Reals:
     """(curves, PLACES) drive angles of places evenly along closed curves, given at angles of a whole turn."""
-    arcs = np.concatenate([np.zeros((len(z), 1)), np.cumsum(np.abs(np.diff(z, axis=1)), axis=1)], axis=1)
-    places = np.arange(PLACES) / PLACES
-    return np.stack([np.interp(places * row[-1], row, phi) for row in arcs])
+    return _core.spread_evenly(np.ascontiguousarray(z), phi, PLACES)
 
 
 def drive_angles(phi: Reals, at: Reals) -> Reals:

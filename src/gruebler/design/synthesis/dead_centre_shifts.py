@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler import _core
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import SynthesisError
 from gruebler.design.synthesis.closure import DesignClosure
@@ -81,11 +82,10 @@ def dead_centre_sensitivity(linkage: Linkage, output: Output, drives: tuple[floa
 
 def _dead_centre(closure: DesignClosure, q: Reals, output: Output, changes: Reals) -> Reals:
     """(2, changes) how fast output and drive change in one dead centre with each change of the dimensions."""
-    joined = closure.joined(q, closure.sizes)
+    by_pose, by_sizes = (part[0] for part in _core.pose_slopes(closure.joints, q, closure.sizes))
     of_drive, drive_itself = (part[0] for part in drive_rates(closure, q, changes))
-    matrix = np.concatenate([closure.by_pose(joined)[0], of_drive])
-    by_sizes = closure.weighted_by_sizes(joined, np.eye(closure.equations)[None])[0] @ changes
-    moved = -np.linalg.solve(matrix, np.concatenate([by_sizes, drive_itself]))
+    matrix = np.concatenate([by_pose, of_drive])
+    moved = -np.linalg.solve(matrix, np.concatenate([by_sizes @ changes, drive_itself]))
     motion = np.linalg.solve(matrix, np.eye(closure.unknowns)[:, -1:])
     still = np.zeros((len(closure.sizes), 1))
     onward = _Direction(motion, still)

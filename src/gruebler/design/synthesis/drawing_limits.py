@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import permutations
 
 import numpy as np
@@ -42,12 +43,12 @@ class DrawingLimits(FitLimits):
         demands = self.places.demands
         return demands.limits_of_size or self.turning
 
-    @property
+    @cached_property
     def free(self) -> Reals:
         """(numbers,) 1 for each that may change, else 0."""
         return np.array([float(k not in self.places.held) for k in range(2 * self.structure.joints + 2)])
 
-    @property
+    @cached_property
     def _bounds(self) -> dict[int, float]:
         """The dyads by their numbers whose angle is limited, with the largest cosine of it."""
         path, angle = self.structure.force_path(self.link), self.places.demands.transmission
@@ -98,7 +99,8 @@ class _TopCosines:
     def slopes(self) -> Reals:
         """(2 dyads, numbers, starts) how this changes with the numbers; 0 where a dyad cannot be assembled."""
         slopes = _core.cosine_slopes(*self.program, self.sides, self.tops, self.watched)
-        return np.concatenate(SIGNS[:, None, None] * np.nan_to_num(slopes))
+        slopes[np.isnan(slopes)] = 0.0
+        return np.concatenate(SIGNS[:, None, None] * slopes)
 
 
 def beyond_cosines(cosines: Reals, most: Reals | float) -> Reals:

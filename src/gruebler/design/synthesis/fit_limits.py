@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler import _core
 from gruebler.base.arrays import Reals
 from gruebler.design.synthesis.demands import across_direction
 from gruebler.design.synthesis.four_bar_kinds import FourBarKind
@@ -64,8 +65,9 @@ class FitLimits(ABC):
         values, slopes = self.linearised(rows, phi)
         if not len(values):
             return step
-        step, unknowns = step.copy(), len(rows)
-        beyond = self._within(gram, step, np.where(values > 0, share * values, values), slopes)
+        unknowns, slack = len(rows), MARGIN / 4
+        held = np.where(values > 0, share * values, values)
+        step, beyond = _core.limit_steps(gram, step, held, np.ascontiguousarray(slopes), slack)
         at = np.flatnonzero(beyond & (share == 1))
         for _ in range(_PUT_BACK):
             moved = rows[:, at] + step[at, :unknowns].T
@@ -73,34 +75,12 @@ class FitLimits(ABC):
             at, moved = at[passed], moved[:, passed]
             if not len(at):
                 break
-            back = np.zeros((len(at), unknowns))
-            self._within(
-                np.broadcast_to(np.eye(unknowns), (len(at), unknowns, unknowns)), back, *self.linearised(moved, phi[at])
-            )
+            alike = np.ascontiguousarray(np.broadcast_to(np.eye(unknowns), (len(at), unknowns, unknowns)))
+            values, slopes = self.linearised(moved, phi[at])
+            still = np.zeros((len(at), unknowns))
+            back, _ = _core.limit_steps(alike, still, values, np.ascontiguousarray(slopes), slack)
             step[at, :unknowns] += back
         return step
-
-    @staticmethod
-    def _within(gram: Reals, step: Reals, values: Reals, slopes: Reals) -> NDArray[np.bool_]:
-        """Change steps in place to the nearest within linear limits; which were changed."""
-        normal = np.zeros((len(step), len(values), step.shape[1]))
-        normal[:, :, : slopes.shape[1]] = slopes.transpose(2, 0, 1)
-        beyond = values.T + np.einsum("nik,nk->ni", normal, step)
-        changed = np.asarray((beyond > 0).any(axis=1) & np.isfinite(normal).all(axis=(1, 2)))
-        at = np.flatnonzero(changed)
-        worst = beyond[at].argmax(axis=1)
-        only = normal[at, worst]
-        along = np.linalg.solve(gram[at], only[:, :, None])[:, :, 0]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            shift = along * (beyond[at, worst] / np.einsum("nk,nk->n", only, along))[:, None]
-        shift = np.nan_to_num(shift, posinf=0.0, neginf=0.0)
-        # One limit is enough for most; where another one is passed then, all are looked at together.
-        others = ((beyond[at] - np.einsum("nik,nk->ni", normal[at], shift)) > MARGIN / 4).any(axis=1)
-        if others.any():
-            rest = at[others]
-            shift[others] = _nearest_within(gram[rest], normal[rest], beyond[rest])
-        step[at] -= shift
-        return changed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -183,33 +163,6 @@ def complex_slopes(limits: FitLimits, rows: Reals, phi: Reals) -> Reals:
     """(limits, unknowns, starts) how analytic limits change with all numbers."""
     moved = rows[:, None, :] + 1j * _STEP * np.eye(len(rows))[:, :, None]
     return np.asarray(limits.values(moved, phi).imag / _STEP)
-
-
-def _nearest_within(gram: Reals, normal: Reals, beyond: Reals) -> Reals:
-    """(starts, numbers) the shifts s of least s' gram s with normal s >= beyond; 0 where there is no such shift.
-
-    A problem of least distance, solved by least squares that are not negative: Lawson and Hanson, Solving Least Squares
-    Problems, chapter 23.
-    """
-    from scipy.optimize import nnls
-
-    root = np.linalg.cholesky(gram)
-    systems = np.concatenate([np.linalg.solve(root, normal.transpose(0, 2, 1)), beyond[:, None]], axis=1)
-    scale = np.linalg.norm(systems[:, :-1], axis=1) + np.abs(beyond)
-    aim = np.zeros(systems.shape[1])
-    aim[-1] = 1.0
-    rests = np.zeros((len(gram), len(aim) - 1))
-    for k, (system, lengths) in enumerate(zip(systems, scale, strict=True)):
-        kept = np.isfinite(lengths) & (lengths > 0)
-        scaled = system[:, kept] / lengths[kept]
-        try:
-            multipliers, _ = nnls(scaled, aim)
-        except RuntimeError:  # it takes too many steps: the step is left, and refused if it passes a limit
-            continue
-        rest = scaled @ multipliers - aim
-        if abs(rest[-1]) >= 1e-12:
-            rests[k] = -rest[:-1] / rest[-1]
-    return np.asarray(np.linalg.solve(root.transpose(0, 2, 1), rests[:, :, None])[:, :, 0])
 
 
 def crank_turns(kind: FourBarKind, rows: Reals) -> NDArray[np.bool_]:

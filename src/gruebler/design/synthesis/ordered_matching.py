@@ -7,13 +7,14 @@ and whether places in order can be chosen from them is decided by one sweep alon
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from gruebler import _core
 from gruebler.base.arrays import Complexes, Flags, Integers, Reals
 from gruebler.design.synthesis.ordered_places import Places, lap_about, with_free
 from gruebler.design.synthesis.target_orders import Groups, TargetOrder
@@ -22,7 +23,6 @@ _PARTS = 2  # of the curve from sample to sample, in each of which a distance ha
 _SHARP = 1e-10  # of the natural size: so narrow is the bracket of the ordered distance in the end
 _EQUAL = 1e-9  # of the natural size: errors that differ by less are equal
 _ENTRIES = 2_000_000  # distances that are looked at together
-_TRIES = 100  # steps of a bracketed search, which halves in the worst case
 
 
 class SmoothCurve(NamedTuple):
@@ -82,36 +82,6 @@ def preferred(matches: Sequence[OrderedMatch], size: float) -> OrderedMatch:
     return matches[rest[0]]
 
 
-def _bracketed(
-    function: Callable[[Integers, Reals], tuple[Reals, Reals]], low: Reals, high: Reals, start: Reals, rises: Reals
-) -> Reals:
-    """Zeros by Newton's method, halving where a step leaves its bracket.
-
-    Args:
-        function: from numbers of brackets and places to values and derivatives.
-        low: (k,) lower ends, where the sign is that of -``rises``.
-        high: (k,) upper ends.
-        start: (k,) where to begin.
-        rises: (k,) 1 or -1, the sign of the value at the upper end.
-    """
-    low, high, at = low.copy(), high.copy(), start.copy()
-    active = np.flatnonzero(high > low)
-    for _ in range(_TRIES):
-        if not len(active):
-            break
-        value, slope = function(active, at[active])
-        before = value * rises[active] < 0
-        low[active] = np.where(before, at[active], low[active])
-        high[active] = np.where(before, high[active], at[active])
-        with np.errstate(invalid="ignore", divide="ignore"):
-            step = at[active] - value / slope
-        inside = (step >= low[active]) & (step <= high[active])
-        moved = np.where(inside, step, (low[active] + high[active]) / 2)
-        change, at[active] = np.abs(moved - at[active]), moved
-        active = active[change > 1e-13 * (1 + np.abs(moved))]
-    return at
-
-
 @dataclass(frozen=True, eq=False)
 class TargetDistances:
     """Where the distances of targets from a curve fall and rise."""
@@ -125,6 +95,34 @@ class TargetDistances:
     @cached_property
     def _free(self) -> Flags:
         return np.isnan(self.targets)
+
+    def _settled(
+        self, target: Integers, low: Reals, high: Reals, start: Reals, *, rises: float, levels: Reals | None = None
+    ) -> Reals:
+        """Where half the squared distances in brackets of arcs have a level, by default where they do not change.
+
+        Args:
+            target: (k,) the targets.
+            low: (k,) lower ends, where the sign is that of -``rises``.
+            high: (k,) upper ends.
+            start: (k,) where to begin.
+            rises: 1 or -1, the sign of the value at the upper ends.
+            levels: (k,)
+        """
+        curve, none = self.curve, np.zeros(0)
+        return _core.settle_arcs(
+            np.ascontiguousarray(curve.arcs),
+            np.ascontiguousarray(curve.values),
+            np.ascontiguousarray(curve.rates),
+            curve.closed,
+            np.ascontiguousarray(self.targets),
+            target,
+            low,
+            high,
+            start,
+            none if levels is None else levels,
+            rises,
+        )
 
     def _gaps(self, target: Integers, arcs: Reals) -> tuple[Complexes, Complexes, Complexes]:
         """What separates places from targets, with its derivatives; 0 where a part is free."""
@@ -192,12 +190,7 @@ class TargetDistances:
 
     def _stationary(self, target: Integers, low: Reals, high: Reals, *, rises: float) -> tuple[Integers, Reals, Reals]:
         """Targets, places and half squared distances where these are smallest (``rises`` 1) or largest (-1)."""
-
-        def slope(which: Integers, arcs: Reals) -> tuple[Reals, Reals]:
-            _, first, second = self._square(target[which], arcs)
-            return first, second
-
-        at = _bracketed(slope, low, high, (low + high) / 2, np.full(len(low), rises))
+        at = self._settled(target, low, high, (low + high) / 2, rises=rises)
         return target, at, self._square(target, at)[0]
 
     def _joined(self, bottoms: tuple[Integers, Reals, Reals], tops: tuple[Integers, Reals, Reals]) -> _Valleys:
@@ -250,13 +243,9 @@ class TargetDistances:
         target, at, beyond, level = low.target[own], low.at[own], far[own], level[own]
         part = (level - low.least[own]) / (top[own] - low.least[own])
         guess = at + (beyond - at) * np.arccos(1 - 2 * part) / np.pi  # flat at both ends, as a cosine
-
-        def height(which: Integers, arcs: Reals) -> tuple[Reals, Reals]:
-            square, slope, _ = self._square(target[which], arcs)
-            return square - level[which], slope
-
-        signs = np.full(len(own), rises)
-        edge[own] = _bracketed(height, np.minimum(at, beyond), np.maximum(at, beyond), guess, signs)
+        edge[own] = self._settled(
+            target, np.minimum(at, beyond), np.maximum(at, beyond), guess, rises=rises, levels=level
+        )
         return edge
 
     def within(self, piece: tuple[float, float] | None, order: TargetOrder, most: Reals) -> bool:
