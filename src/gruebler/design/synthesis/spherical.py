@@ -167,17 +167,22 @@ def _best_pairs(
 
 
 def _improved(
-    pair: tuple[SphericalDyad, SphericalDyad], turns: Reals, demands: Demands, *, given_first: bool = False
+    pair: tuple[SphericalDyad, SphericalDyad],
+    turns: Reals,
+    demands: Demands,
+    *,
+    given_first: bool = False,
+    to_turn: bool = False,
 ) -> tuple[SphericalDyad, SphericalDyad]:
     """The best pair nearby: dyads are moved within the family, in ever smaller steps, as long as that helps.
 
-    Both are, or the second alone if the first is given.
+    Both are, or the second alone if the first is given; `to_turn` as of `_costs`.
     """
     for width in _WIDTHS:
         for _ in range(_MOVES):
             first, second = ([dyad, *near_dyads(turns, dyad, width)] for dyad in pair)
             first = first[:1] if given_first else first
-            costs = _costs(first, second, turns, demands, given_first=given_first)
+            costs = _costs(first, second, turns, demands, given_first=given_first, to_turn=to_turn)
             best = int(np.lexsort([cost.ravel() for cost in reversed(costs)])[0])
             if best == 0:
                 break
@@ -195,14 +200,20 @@ def improved_function_dyads(
         dyads: the sample: couplers, likewise.
         turns: of the output link as seen from the crank.
         demands: what counts first.
-        number: how many of the sample are improved.
+        number: how many of the sample are improved; as many more are led to where their crank turns fully first, since
+            that part of the family may be narrower than the sample is fine.
     """
-    costs = _costs([frame], dyads, turns, demands, given_first=True)
-    chosen: list[tuple[SphericalDyad, SphericalDyad]] = []
-    for k in np.lexsort([cost[0] for cost in reversed(costs)]):
-        if len(chosen) < number and _differs((frame, dyads[int(k)]), chosen):
-            chosen.append((frame, dyads[int(k)]))
-    return [_improved(pair, turns, demands, given_first=True)[1] for pair in chosen]
+    better = []
+    for to_turn in (False, True):
+        costs = _costs([frame], dyads, turns, demands, given_first=True, to_turn=to_turn)
+        chosen: list[tuple[SphericalDyad, SphericalDyad]] = []
+        for k in np.lexsort([cost[0] for cost in reversed(costs)]):
+            if len(chosen) < number and _differs((frame, dyads[int(k)]), chosen):
+                chosen.append((frame, dyads[int(k)]))
+        for pair in chosen:
+            led = _improved(pair, turns, demands, given_first=True, to_turn=True) if to_turn else pair
+            better.append(_improved(led, turns, demands, given_first=True)[1])
+    return better
 
 
 def _costs(
@@ -212,8 +223,12 @@ def _costs(
     demands: Demands,
     *,
     given_first: bool = False,
+    to_turn: bool = False,
 ) -> list[Reals]:
-    """(first, second) what is to be small, the most important first: demands that are not met, then what is better."""
+    """(first, second) what is to be small, the most important first: demands that are not met, then what is better.
+
+    Where cranks are led to turn fully, what they lack of it comes before all but the branch.
+    """
     closure = _closures(first, second, turns)
     with np.errstate(invalid="ignore", divide="ignore"):
         branch, moves, full, transmission = motion_of_pairs(closure)
@@ -232,7 +247,11 @@ def _costs(
     fails = np.where(folded > LEAST_ARC, np.sum(~good, axis=0), 99)
     # An arc near 0 or half a circle folds the linkage to a point, as a large ratio does in the plane.
     worst = np.where(np.isnan(transmission), 0.0, np.round(transmission, 6))
-    return [fails.astype(np.float64), 1.0 - full, -worst, -folded]
+    costs = [fails.astype(np.float64), 1.0 - full, -worst, -folded]
+    if not to_turn:
+        return costs
+    lack = np.where(full, 0.0, np.maximum(closure.low + 1, 0) + np.maximum(1 - closure.high, 0))
+    return [1.0 - (path & (folded > LEAST_ARC)), np.nan_to_num(lack, nan=np.inf), *costs]
 
 
 def _differs(pair: tuple[SphericalDyad, SphericalDyad], others: Iterable[tuple[SphericalDyad, SphericalDyad]]) -> bool:

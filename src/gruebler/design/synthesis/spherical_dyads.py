@@ -142,17 +142,18 @@ def _polished(turns: Reals, moving: Reals) -> SphericalDyad:
     return SphericalDyad(fixed=fixed, moving=moving)
 
 
-def family_dyads(turns: Reals) -> tuple[SphericalDyad, ...]:
-    """A sample of the dyads of three or four orientations."""
+def family_dyads(turns: Reals, *, times: int = 1) -> tuple[SphericalDyad, ...]:
+    """A sample of the dyads of three or four orientations, or so many times as many."""
     if np.linalg.svd(np.concatenate(turns - np.eye(3)), compute_uv=False)[-1] < _REAL:  # an axis that stays
         raise SynthesisError(_INFINITELY_MANY)
     if len(turns) == 2:
-        k = np.arange(_SAMPLE[3]) + 0.5
-        height, around = 1 - k / _SAMPLE[3], pi * (1 + 5**0.5) * k  # a spiral over half the sphere
+        count = times * _SAMPLE[3]
+        k = np.arange(count) + 0.5
+        height, around = 1 - k / count, pi * (1 + 5**0.5) * k  # a spiral over half the sphere
         across = np.sqrt(1 - height**2)
         axes = np.stack([across * np.cos(around), across * np.sin(around), height], axis=1)
     else:
-        axes = _curve(_cubic(turns))
+        axes = _curve(_cubic(turns), times * _SAMPLE[4])
     dyads = _serving(turns, axes)
     if not dyads:
         raise SynthesisError(_INFINITELY_MANY)
@@ -199,15 +200,15 @@ def _cubic_at(cubic: Reals, axes: Reals) -> tuple[Reals, Reals]:
     return value, np.stack(slopes, axis=-1)
 
 
-def _curve(cubic: Reals) -> Reals:
-    """(points, 3) of a cubic cone, where great circles through one point cut it."""
+def _curve(cubic: Reals, circles: int) -> Reals:
+    """(points, 3) of a cubic cone, where so many great circles through one point cut it."""
     if np.abs(cubic).max() < _RANK:
         raise SynthesisError(_INFINITELY_MANY)
     pole = np.array([0.48, 0.6, 0.64])
     first, second = np.linalg.svd(pole[None])[2][1:]
     t = np.array([-1.0, -1 / 3, 1 / 3, 1.0])
     points = []
-    for angle in pi * (np.arange(_SAMPLE[4]) + 0.5) / _SAMPLE[4]:
+    for angle in pi * (np.arange(circles) + 0.5) / circles:
         across = cos(angle) * first + sin(angle) * second
         places = pole + t[:, None] * across
         values = np.prod(places[:, None, :] ** np.array(_CUBIC), axis=2) @ cubic

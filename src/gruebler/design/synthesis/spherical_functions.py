@@ -44,6 +44,7 @@ _IMPROVED = message(
     "The best of these are improved: the axes of their couplers are moved within the family, in ever smaller steps; of "
     "those that are then nearly the same one is listed."
 )
+_FINER = 16  # times the sample that is judged: the one from which the best are improved, by closed forms
 _RANK = 1e-12  # of the largest singular value: below it conditions depend on one another
 
 
@@ -177,8 +178,9 @@ def _with_free_starts(phi: Reals, psi: Reals, frame: float, demands: Demands, nu
         count=len(result.designs),
     )
     between_pivots = SphericalDyad(fixed=np.array([0.0, 0, 1]), moving=seen[0][:, 2])
+    finer = family_dyads(turns, times=_FINER)
     better = result_of(
-        judged(improved_function_dyads(between_pivots, dyads, turns, demands, number)), result.count, [notes]
+        judged(improved_function_dyads(between_pivots, finer, turns, demands, number)), result.count, [notes]
     )
     # Linkages of the sample stand beside those that are improved from them.
     designs, rejected = (
