@@ -283,3 +283,17 @@ def test_both_four_bars_keep_the_angle_where_the_force_goes_through_both():
         for dyad in path:
             arms = [*zip(dyad.links, dyad.outer, strict=True)]
             assert least_angle(design.linkage, dyad.inner, arms) >= 60 - 0.01
+
+
+def test_where_no_drawing_of_the_atlas_turns_designs_are_realised(monkeypatch):
+    """As if every dyad of every drawing were near its limit; there was a division by zero."""
+    atlas = "gruebler.design.synthesis.structure_atlas."
+    for name, value in (("_SAFE", 1.0), ("_TRIALS", 1000), ("_BLOCKS_OF_TRIALS", 1)):
+        monkeypatch.setattr(atlas + name, value)
+    empty = structure_atlas.__wrapped__(dyad_structure(WATT))
+    assert empty.z.shape == (0, PLACES)
+    assert empty.drawn.shape == (0, 7)
+    monkeypatch.setattr("gruebler.design.synthesis.structure_curves.structure_atlas", lambda _: empty)
+    points = [(0, 0), (2, 1), (3, 3), (2, 5), (0, 4)]
+    found = synthesise(PathTask(points), structures=[WATT], link="5", starts=1)
+    assert found.designs or found.rejected

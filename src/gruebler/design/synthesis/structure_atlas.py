@@ -46,15 +46,22 @@ class StructureAtlas:
 
 @cache
 def structure_atlas(structure: DyadStructure) -> StructureAtlas:
-    """The atlas of a structure, made at its first use from evenly spread drawings. Cost: 2 s, 40 MB for six links."""
+    """The atlas of a structure, made at its first use from evenly spread drawings. Cost: 1 s, 40 MB for six links.
+
+    Without curves where no drawing turns.
+    """
     links, chain = structure.coupler_links, structure.mechanism.chain
     each = _CURVES // max(1, len(links))
-    parts = []
+    parts, kinds = [], []
     for short in (True, False):
         drawn, chance = _turning_drawings(structure, each, short=short)
+        if not drawn.shape[1]:
+            continue
         row, lap = np.arange(each) % drawn.shape[1], np.arange(each) // drawn.shape[1]
         parts.append((drawn[:, row], (chance[:, row] + np.array([[0.618034], [0.754878]]) * lap) % 1.0))
-    drawn, (reach, angle) = (np.concatenate(both, axis=1) for both in zip(*parts, strict=True))
+        kinds += [short] * each
+    nothing = np.zeros((structure.joints, 0), np.complex128), np.zeros((2, 0))
+    drawn, (reach, angle) = (np.concatenate(both, axis=1) for both in zip(*(parts or [nothing]), strict=True))
     points = []
     for link in links:
         near = [n for n, joint in enumerate(chain.joints) if link in joint.links]
@@ -62,7 +69,7 @@ def structure_atlas(structure: DyadStructure) -> StructureAtlas:
         points.append(middle + 1.5 * spread * np.sqrt(reach) * np.exp(2j * np.pi * angle))
     places = in_rows(np.concatenate([np.tile(drawn, len(links)), np.concatenate(points)[None]]))
     turned, z = np.empty((len(places), PLACES), np.float32), np.empty((len(places), PLACES), np.complex64)
-    phi, every = np.linspace(0, 2 * np.pi, 2 * PLACES + 1), 2 * each
+    phi, every = np.linspace(0, 2 * np.pi, 2 * PLACES + 1), len(kinds)
     for number, link in enumerate(links):
         for block in _blocks(every, len(phi)):
             rows = slice(number * every + block.start, number * every + min(block.stop, every))
@@ -72,7 +79,7 @@ def structure_atlas(structure: DyadStructure) -> StructureAtlas:
     return StructureAtlas(
         structure=structure,
         drawn=places[:, :-1],
-        short=np.tile(np.arange(every) < each, len(links)),
+        short=np.tile(np.array(kinds, np.bool_), len(links)),
         link=np.repeat(np.arange(len(links)), every),
         point=places[:, -1],
         turned=turned,

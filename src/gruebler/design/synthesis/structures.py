@@ -339,9 +339,12 @@ def _jobs(task: Task, targets: FitTargets, mechanism: Mechanism, starts: int | N
 
 
 def _fitted(task: Task, demands: Demands, limits: Demands, link: str, job: _Job) -> list[Design]:
+    def realised(seeds: Iterable[int], link: str) -> list[Design]:
+        fit = partial(fit_structure, task, job.mechanism, demands, limits=limits, link=link)
+        return [design for design in (fit(seed=seed) for seed in seeds) if design is not None]
+
     if not job.drawn_link:
-        design = fit_structure(task, job.mechanism, demands, limits=limits, seed=job.seed, link=link)
-        return [] if design is None else [design]
+        return realised([job.seed], link)
     assert isinstance(task, PathTask)
     structure = dyad_structure(job.mechanism)
     assert structure is not None
@@ -351,6 +354,8 @@ def _fitted(task: Task, demands: Demands, limits: Demands, link: str, job: _Job)
     ]
     number = -(-_NEIGHBOURS * job.kept // len(every))
     fits = together([fit_drawings(each, job.drawn_link, task.z, closed=task.closed, number=number) for each in every])
+    if not len(fits.cost):  # of no drawing the crank turns
+        return realised(range(_REALISATIONS), job.drawn_link)
     names = job.mechanism.chain.joint_names()
     fitted = fit_targets(task)
     targets = replace(point_targets("P", task.z, fitted.size), curve=fitted.curve, ranks=task.order)
