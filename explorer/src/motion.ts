@@ -221,8 +221,8 @@ export class MotionView implements View, Editor, Driven {
     this.page.changed();
   }
 
-  /** Change the sizes; what is refused at this drive value is offered where it fits, if it is to be looked for, else how
-   * much of it fits is told. */
+  /** Change the sizes; what is refused at this drive value is offered where it fits, if it is to be looked for; else it
+   * is told how much of it fits. */
   #tryTo(change: (part?: number) => void, told?: (part: number) => string): void {
     const start = performance.now();
     try {
