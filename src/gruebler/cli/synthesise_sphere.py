@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from math import degrees, radians
 from typing import Any
 
+import numpy as np
+
 from gruebler.base.errors import SynthesisError
 from gruebler.base.plain_data import plain
 from gruebler.base.text import joined, message, number, translate
@@ -14,7 +16,7 @@ from gruebler.cli.design_files import check_demands, check_picture, chosen_desig
 from gruebler.cli.design_tables import print_rejected, print_solutions, transmission_text
 from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
-from gruebler.cli.tables import Cell, print_table
+from gruebler.cli.tables import Cell, print_table, print_text
 from gruebler.design.synthesis import (
     Demands,
     FunctionTask,
@@ -33,9 +35,18 @@ _COLUMNS = (
     message("µ on the way"),
     message("arcs"),
     message("error"),
+    message("shift"),
     message("crank angles"),
 )
 _OUTPUTS = message("output angles")
+_SHIFT = message(
+    "Shift: how far the most sensitive target turns if all arcs are wrong by 0.1 %, in the worst case; the crank keeps "
+    "its angle."
+)
+_PLAY = message(
+    "Arcs wrong by up to 0.1 %, axes tilted by {clearance:g}° in their bearings, to first order; the crank keeps its "
+    "angle."
+)
 
 
 def add(parser: Parser) -> None:
@@ -45,6 +56,10 @@ def add(parser: Parser) -> None:
         --crank
         --transmission
         --size-ratio
+        --sort KEY[,KEY] =  sort the designs by transmission, size-ratio, sensitivity, full-turn; of equal ones the
+            second key decides
+        --clearance DEG float  print how far targets turn, arcs wrong by a thousandth and axes tilted by DEG in their
+            bearings
         --number N int =16  give the N best designs only, where there are infinitely many or targets are approached
         --rejected
         """
@@ -62,7 +77,9 @@ def add(parser: Parser) -> None:
 def turn_body(arguments: argparse.Namespace) -> int:
     """The designs for orientations. Status 1: no design was accepted."""
     demands = _demands(arguments)
-    result = synthesise_orientations(read_orientations(arguments.task), demands, number=arguments.number)
+    result = synthesise_orientations(
+        read_orientations(arguments.task), demands, number=arguments.number, sort=_orders(arguments)
+    )
     return _tell(arguments, result, coordinates=False)
 
 
@@ -80,14 +97,24 @@ def coordinate(arguments: argparse.Namespace, task: FunctionTask) -> int:
         frame=None if arguments.frame is None else radians(arguments.frame),
         free_starts=not task.start_input,
         number=arguments.number,
+        sort=_orders(arguments),
     )
     return _tell(arguments, result, coordinates=True)
+
+
+def _orders(arguments: argparse.Namespace) -> list[str]:
+    return [name.strip() for name in arguments.sort.split(",") if name.strip()]
 
 
 def _demands(arguments: argparse.Namespace) -> Demands:
     if arguments.draw is not None:
         check_picture(arguments.draw, SUFFIXES)
     check_demands(arguments)
+    if arguments.clearance is not None and not 0 <= arguments.clearance < 90:
+        raise SynthesisError(
+            "--clearance: expected at least 0 and less than 90 degrees, but found {clearance:g}",
+            clearance=arguments.clearance,
+        )
     return Demands(crank=arguments.crank, transmission=radians(arguments.transmission), size_ratio=arguments.size_ratio)
 
 
@@ -103,6 +130,8 @@ def _tell(arguments: argparse.Namespace, result: SphericalResult, *, coordinates
         print_json(_document(result))
     else:
         _print(result, arguments.rejected, arguments.lang, coordinates=coordinates)
+        if arguments.clearance is not None and result.designs:
+            _print_clearance(result.designs, arguments.clearance, arguments.lang)
     return 0 if result.designs else 1
 
 
@@ -123,6 +152,23 @@ def _arcs(design: SphericalDesign, lang: str) -> str:
     return ", ".join(f"{arc} = {number(degrees(getattr(design.four_bar, arc)), lang, 'n')}°" for arc in "abcd")
 
 
+def _turned(angle: float, lang: str) -> str:
+    return f"{number(degrees(angle), lang, '.2g')}°"
+
+
+def _print_clearance(designs: Sequence[SphericalDesign], clearance: float, lang: str) -> None:
+    """How far targets turn with wrong arcs and play: at most, and in random linkages."""
+    rows: list[list[Cell]] = []
+    for k, design in enumerate(designs, 1):
+        worst = float(design.sensitivity.of_errors(clearance=radians(clearance)).max())
+        sampled = design.sensitivity.sampled(clearance=radians(clearance))
+        usual = float(np.quantile(sampled, 0.99, axis=0).max())
+        rows.append([str(k), _turned(worst, lang), _turned(usual, lang)])
+    print()
+    print_table((message("design"), message("worst case"), message("99 % of random linkages")), rows, lang=lang)
+    print_text(_PLAY.filled(clearance=clearance).in_language(lang))
+
+
 def _document(result: SphericalResult) -> dict[str, Any]:
     def listed(designs: Sequence[SphericalDesign]) -> list[dict[str, Any]]:
         return [
@@ -133,6 +179,10 @@ def _document(result: SphericalResult) -> dict[str, Any]:
                 "branch": design.branch,
                 "drives": [degrees(value) for value in design.drives],
                 "outputs": [degrees(value) for value in design.outputs],
+                "sensitivity": {
+                    "relative": design.relative_sensitivity,
+                    "worst": [degrees(value) for value in design.sensitivity.worst],
+                },
                 "linkage": screws_to_json(design.linkage),
             }
             for design in designs
@@ -155,6 +205,7 @@ def _print(result: SphericalResult, rejected: bool, lang: str, *, coordinates: b
             transmission_text(design.verdict.transmission, lang),
             _arcs(design, lang),
             "< 1e-9" if design.verdict.error < 1e-9 else number(design.verdict.error, lang, ".1e"),
+            _turned(design.relative_sensitivity, lang),
             *(
                 joined((f"{number(degrees(value), lang, '.1f')}°" for value in values), " ")
                 for values in (design.drives, design.outputs)[: 1 + coordinates]
@@ -164,6 +215,7 @@ def _print(result: SphericalResult, rejected: bool, lang: str, *, coordinates: b
     ]
     if rows:
         print_table((*_COLUMNS, _OUTPUTS) if coordinates else _COLUMNS, rows, lang=lang)
+        print_text(_SHIFT.in_language(lang))
     else:
         print(translate("None of the designs examined meets the task.", lang))
     print_rejected([(f"RR-RR {_arcs(d, lang)}", d.verdict.reasons) for d in result.rejected], not rows, rejected, lang)

@@ -5,15 +5,16 @@ docs/theory/synthesis-sphere.md has the equations and the counts.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import permutations
 from math import pi
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gruebler.base.arrays import Reals, compared_by_value
+from gruebler.base.arrays import Flags, Reals, compared_by_value
 from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.demands import Demands
@@ -28,6 +29,12 @@ from gruebler.design.synthesis.spherical_dyads import (
     family_dyads,
     five_orientation_dyads,
     near_dyads,
+)
+from gruebler.design.synthesis.spherical_shifts import (
+    SphericalSensitivity,
+    arc_moves,
+    largest_turn,
+    spherical_sensitivity,
 )
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.spherical_four_bar import SphericalFourBar
@@ -47,8 +54,10 @@ class SphericalDesign:
     """A four-bar on the sphere, with what it really does."""
 
     four_bar: SphericalFourBar
-    axes: Reals
-    """(4, 3) of A0, A, B, B0 at the first target."""
+    pins: Reals
+    """(targets, 4, 3) the axes A0, A, B, B0 at each target."""
+    coordinates: bool
+    """Whether it coordinates angles, not turns a body."""
     branch: str
     """+ or -, as of `SphericalFourBar`."""
     drives: tuple[float, ...]
@@ -58,10 +67,36 @@ class SphericalDesign:
     verdict: DesignVerdict
 
     @property
+    def axes(self) -> Reals:
+        """(4, 3) of A0, A, B, B0 at the first target."""
+        return np.asarray(self.pins[0])
+
+    @property
+    def sensitivity(self) -> SphericalSensitivity:
+        """How far each target turns per 0.1 % of each arc while the crank keeps its angle."""
+        bar = self.four_bar
+        return spherical_sensitivity(self.pins, np.array([bar.a, bar.b, bar.c, bar.d]), coordinates=self.coordinates)
+
+    @property
+    def relative_sensitivity(self) -> float:
+        """How far the most sensitive target turns at most, in radians, if every arc is wrong by up to 0.1 %."""
+        return float(self.sensitivity.worst.max())
+
+    @property
     def linkage(self) -> SpatialLinkage:
         """The linkage at its first target, for `move`, `draw` and files."""
         places: dict[str | int, object] = {k: {"z": tuple(axis)} for k, axis in enumerate(self.axes.tolist())}
         return SpatialLinkage(Mechanism.parse(_TEXT), places, outputs=["rocker"])
+
+
+SPHERICAL_ORDERS: Mapping[str, Callable[[SphericalDesign], float]] = {
+    "transmission": lambda design: -design.verdict.transmission,
+    "size-ratio": lambda design: design.verdict.size_ratio,
+    "sensitivity": lambda design: design.relative_sensitivity,
+    "full-turn": lambda design: float(not design.verdict.turns_fully),
+}
+"""What designs on the sphere can be sorted by, the better first: the smaller value."""
+_USUAL = ("full-turn", "transmission")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,7 +110,7 @@ class SphericalResult:
 
 
 def synthesise_orientations(
-    orientations: ArrayLike, demands: Demands | None = None, *, number: int = 16
+    orientations: ArrayLike, demands: Demands | None = None, *, number: int = 16, sort: Sequence[str] = ()
 ) -> SphericalResult:
     """Four-bars on the sphere whose coupler takes three to five orientations, judged by their motion.
 
@@ -83,6 +118,8 @@ def synthesise_orientations(
         orientations: (targets, 3, 3) rotation matrices.
         demands: a full turn, a transmission angle, a ratio of the arcs; lengths and regions belong to the plane.
         number: of designs that are listed where there are infinitely many.
+        sort: by what the best are sought and sorted: some of ``transmission``, ``size-ratio``, ``sensitivity`` (to
+            wrong arcs), ``full-turn``; by default the full turn, then the transmission angle.
 
     Raises:
         SynthesisError: what is no rotation, fewer than three or more than five, orientations that infinitely many
@@ -105,7 +142,7 @@ def synthesise_orientations(
     Theory:
         docs/theory/synthesis-sphere.md
     """
-    wanted = checked_demands(demands)
+    wanted, sought = checked_demands(demands), checked_orders(sort)
     turns = displacements(orientations)
     count = len(turns) + 1
     notes: list[Message] = []
@@ -116,17 +153,18 @@ def synthesise_orientations(
     else:
         dyads = family_dyads(turns)
         theorem, complex_dyads = None, len(dyads)
-        pairs = _best_pairs(dyads, turns, wanted, number, notes)
+        pairs = _best_pairs(dyads, turns, wanted, number, notes, sought)
     designs = [_judged(_axes_of(*pair), turns, wanted) for pair in pairs]
     if theorem is not None:  # each linkage once, driven where it does more
         halves = {frozenset(map(id, pair)): list[SphericalDesign]() for pair in pairs}
         for pair, design in zip(pairs, designs, strict=True):
             halves[frozenset(map(id, pair))].append(design)
-        designs = [min(both, key=order_of_designs) for both in halves.values()]
+        designs = [min(both, key=partial(order_of_designs, sought)) for both in halves.values()]
     return result_of(
         designs,
         SolutionCount(what=message("dyads"), theorem=theorem, found=complex_dyads, real=len(dyads)),
         notes,
+        sought,
     )
 
 
@@ -136,10 +174,15 @@ def arc_between(first: Reals, second: Reals) -> float:
 
 
 def _best_pairs(
-    dyads: Sequence[SphericalDyad], turns: Reals, demands: Demands, number: int, notes: list[Message]
+    dyads: Sequence[SphericalDyad],
+    turns: Reals,
+    demands: Demands,
+    number: int,
+    notes: list[Message],
+    sort: Sequence[str],
 ) -> list[tuple[SphericalDyad, SphericalDyad]]:
     """The pairs of a family that meet the demands, in closed form: the best that differ; those that fail least."""
-    costs = _costs(dyads, dyads, turns, demands)
+    costs = _costs(dyads, dyads, turns, demands, sort)
     fails = costs[0]
     notes.append(
         message(
@@ -150,6 +193,7 @@ def _best_pairs(
             count=int(np.count_nonzero(fails == 0)),
         )
     )
+    notes += resolution(sort)
     ranks = np.lexsort([cost.ravel() for cost in reversed(costs)])
     sampled: list[tuple[SphericalDyad, SphericalDyad]] = []
     for rank in ranks[: 200 * number]:
@@ -160,7 +204,9 @@ def _best_pairs(
         if len(sampled) == number:
             break
     best: list[tuple[SphericalDyad, SphericalDyad]] = []
-    for pair in [*(_improved(pair, turns, demands) for pair in sampled), *sampled]:
+    for pair in _best_first(
+        [*(_improved(pair, turns, demands, sort) for pair in sampled), *sampled], turns, demands, sort
+    ):
         if len(best) < number and _differs(pair, best):
             best.append(pair)
     return best
@@ -170,6 +216,7 @@ def _improved(
     pair: tuple[SphericalDyad, SphericalDyad],
     turns: Reals,
     demands: Demands,
+    sort: Sequence[str],
     *,
     given_first: bool = False,
     to_turn: bool = False,
@@ -182,7 +229,7 @@ def _improved(
         for _ in range(_MOVES):
             first, second = ([dyad, *near_dyads(turns, dyad, width)] for dyad in pair)
             first = first[:1] if given_first else first
-            costs = _costs(first, second, turns, demands, given_first=given_first, to_turn=to_turn)
+            costs = _costs(first, second, turns, demands, sort, given_first=given_first, to_turn=to_turn)
             best = int(np.lexsort([cost.ravel() for cost in reversed(costs)])[0])
             if best == 0:
                 break
@@ -191,7 +238,12 @@ def _improved(
 
 
 def improved_function_dyads(
-    frame: SphericalDyad, dyads: Sequence[SphericalDyad], turns: Reals, demands: Demands, number: int
+    frame: SphericalDyad,
+    dyads: Sequence[SphericalDyad],
+    turns: Reals,
+    demands: Demands,
+    number: int,
+    sort: Sequence[str],
 ) -> list[SphericalDyad]:
     """Couplers better than those of a sample, in a family that coordinates pairs: the best that differ, each improved.
 
@@ -202,17 +254,18 @@ def improved_function_dyads(
         demands: what counts first.
         number: how many of the sample are improved; as many more are led to where their crank turns fully first, since
             that part of the family may be narrower than the sample is fine.
+        sort: what is asked for.
     """
     better = []
     for to_turn in (False, True):
-        costs = _costs([frame], dyads, turns, demands, given_first=True, to_turn=to_turn)
+        costs = _costs([frame], dyads, turns, demands, sort, given_first=True, to_turn=to_turn)
         chosen: list[tuple[SphericalDyad, SphericalDyad]] = []
         for k in np.lexsort([cost[0] for cost in reversed(costs)]):
             if len(chosen) < number and _differs((frame, dyads[int(k)]), chosen):
                 chosen.append((frame, dyads[int(k)]))
         for pair in chosen:
-            led = _improved(pair, turns, demands, given_first=True, to_turn=True) if to_turn else pair
-            better.append(_improved(led, turns, demands, given_first=True)[1])
+            led = _improved(pair, turns, demands, sort, given_first=True, to_turn=True) if to_turn else pair
+            better.append(_improved(led, turns, demands, sort, given_first=True)[1])
     return better
 
 
@@ -221,6 +274,7 @@ def _costs(
     second: Sequence[SphericalDyad],
     turns: Reals,
     demands: Demands,
+    sort: Sequence[str],
     *,
     given_first: bool = False,
     to_turn: bool = False,
@@ -247,11 +301,52 @@ def _costs(
     fails = np.where(folded > LEAST_ARC, np.sum(~good, axis=0), 99)
     # An arc near 0 or half a circle folds the linkage to a point, as a large ratio does in the plane.
     worst = np.where(np.isnan(transmission), 0.0, np.round(transmission, 6))
-    costs = [fails.astype(np.float64), 1.0 - full, -worst, -folded]
+    known: Mapping[str, Callable[[], Reals]] = {
+        "transmission": lambda: -worst,
+        "size-ratio": lambda: ratio,
+        "sensitivity": lambda: _shifts(first, second, turns, arcs, fails == fails.min(), given_first=given_first),
+        "full-turn": lambda: np.asarray(1.0 - full, np.float64),
+    }
+    costs = [fails.astype(np.float64), *(known[name]() for name in (*sort, *_USUAL)), -folded]
     if not to_turn:
         return costs
     lack = np.where(full, 0.0, np.maximum(closure.low + 1, 0) + np.maximum(1 - closure.high, 0))
     return [1.0 - (path & (folded > LEAST_ARC)), np.nan_to_num(lack, nan=np.inf), *costs]
+
+
+def _shifts(
+    first: Sequence[SphericalDyad],
+    second: Sequence[SphericalDyad],
+    turns: Reals,
+    arcs: Reals,
+    which: Flags,
+    *,
+    given_first: bool,
+) -> Reals:
+    """(first, second) how far the most sensitive target turns; infinite where it is not asked for."""
+    every = np.concatenate([np.eye(3)[None], turns])
+    (own, moving), (far, far_moving) = (
+        (np.array([dyad.fixed for dyad in dyads]), np.einsum("kij,nj->nki", every, [dyad.moving for dyad in dyads]))
+        for dyads in (first, second)
+    )
+    parts = own[:, None, None], moving[:, None], far_moving[None], far[None, :, None]
+    own, pins, far_pins, far = (np.broadcast_to(part, (*which.shape, len(every), 3))[which] for part in parts)
+    # Seen from the crank, the frame is the first dyad and the crank the link between the fixed axes.
+    axes = np.stack([own, far, far_pins, pins] if given_first else [own, pins, far_pins, far], axis=-2)
+    lengths = np.moveaxis(arcs[[3, 2, 1, 0]] if given_first else arcs, 0, -1)[which]
+    shifts = np.full(which.shape, np.inf)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        turned = largest_turn(arc_moves(axes, lengths[:, None], coordinates=given_first))
+    shifts[which] = np.nan_to_num(turned.max(axis=-1), nan=np.inf)
+    return shifts
+
+
+def _best_first(
+    pairs: Sequence[tuple[SphericalDyad, SphericalDyad]], turns: Reals, demands: Demands, sort: Sequence[str]
+) -> list[tuple[SphericalDyad, SphericalDyad]]:
+    """The pairs by what is asked for; as they are where nothing is."""
+    costs = [[float(cost[0, 0]) for cost in _costs(pair[:1], pair[1:], turns, demands, sort)] for pair in pairs if sort]
+    return [pairs[k] for k in sorted(range(len(pairs)), key=costs.__getitem__)] if sort else list(pairs)
 
 
 def _differs(pair: tuple[SphericalDyad, SphericalDyad], others: Iterable[tuple[SphericalDyad, SphericalDyad]]) -> bool:
@@ -313,10 +408,12 @@ def _judged(axes: Reals, turns: Reals, demands: Demands) -> SphericalDesign:
     moved = np.concatenate([axes[None, 1:3], np.einsum("kij,nj->kni", turns, axes[1:3])])
     ends = np.broadcast_to(axes[[0, 3]], (len(moved), 2, 3))
     pins = np.stack([ends[:, 0], moved[:, 0], moved[:, 1], ends[:, 1]], axis=1)
-    return judged_four_bar(SphericalFourBar(*arcs), pins, demands)
+    return judged_four_bar(SphericalFourBar(*arcs), pins, demands, coordinates=False)
 
 
-def judged_four_bar(bar: SphericalFourBar, pins: Reals, demands: Demands) -> SphericalDesign:
+def judged_four_bar(
+    bar: SphericalFourBar, pins: Reals, demands: Demands, *, coordinates: bool = True
+) -> SphericalDesign:
     """What a four-bar does whose axes lie so at the targets, (targets, 4, 3): by `SphericalFourBar.motion`."""
     a0, first, b0 = pins[0, 0], pins[:, 1], pins[0, 3]
     x = (b0 - (a0 @ b0) * a0) / np.linalg.norm(np.cross(a0, b0))
@@ -368,7 +465,8 @@ def judged_four_bar(bar: SphericalFourBar, pins: Reals, demands: Demands) -> Sph
         reasons.append(TOO_SLENDER.filled(ratio=ratio))
     return SphericalDesign(
         four_bar=bar,
-        axes=pins[0],
+        pins=pins,
+        coordinates=coordinates,
         branch="+" if sides[0] > 0 else "-",
         drives=tuple(map(float, path)),
         outputs=tuple(map(float, psi)),
@@ -386,15 +484,17 @@ def judged_four_bar(bar: SphericalFourBar, pins: Reals, demands: Demands) -> Sph
     )
 
 
-def order_of_designs(design: SphericalDesign) -> tuple[int, bool, float]:
+def order_of_designs(sort: Sequence[str], design: SphericalDesign) -> list[float]:
     """By how many reasons it is rejected, then the better ones first."""
-    verdict = design.verdict
-    return len(verdict.reasons), not verdict.turns_fully, -np.nan_to_num(verdict.transmission)
+    values = (SPHERICAL_ORDERS[name](design) for name in (*sort, *_USUAL))
+    return [len(design.verdict.reasons), *(float(np.nan_to_num(value, nan=0.0)) for value in values)]
 
 
-def result_of(designs: Iterable[SphericalDesign], count: SolutionCount, notes: Iterable[Message]) -> SphericalResult:
+def result_of(
+    designs: Iterable[SphericalDesign], count: SolutionCount, notes: Iterable[Message], sort: Sequence[str] = ()
+) -> SphericalResult:
     """Accepted designs and rejected ones, the best first."""
-    ranked = sorted(designs, key=order_of_designs)
+    ranked = sorted(designs, key=partial(order_of_designs, sort))
     return SphericalResult(
         designs=tuple(design for design in ranked if design.verdict.accepted),
         rejected=tuple(design for design in ranked if not design.verdict.accepted),
@@ -403,11 +503,30 @@ def result_of(designs: Iterable[SphericalDesign], count: SolutionCount, notes: I
     )
 
 
+def resolution(sort: Sequence[str]) -> Iterator[Message]:
+    """How finely the least sensitive are sought, where these are asked for."""
+    if "sensitivity" in sort:
+        yield message(
+            "The least sensitive ones are improved in steps down to {step:.1g} radians; that no other is better is not "
+            "proved.",
+            step=_WIDTHS[-1],
+        )
+
+
+def checked_orders(sort: Sequence[str]) -> tuple[str, ...]:
+    """What is asked for; `SynthesisError` for what designs on the sphere are not sorted by."""
+    if wrong := next((name for name in sort if name not in SPHERICAL_ORDERS), None):
+        raise SynthesisError(
+            "designs are sorted by {orders}, not by {name!r}", orders=", ".join(SPHERICAL_ORDERS), name=wrong[:40]
+        )
+    return tuple(sort)
+
+
 def checked_demands(demands: Demands | None) -> Demands:
     """The demands, none by default; `SynthesisError` for those that belong to the plane."""
     wanted = demands or Demands()
-    if wanted.given_sizes or wanted.region is not None:
+    if wanted.given_sizes or wanted.region is not None or wanted.near_pivots:
         raise SynthesisError(
-            "lengths, frame_direction and region: demands for the plane; on the sphere arcs have no unit"
+            "lengths, frame_direction, region and near_pivots: demands for the plane; on the sphere arcs have no unit"
         )
     return wanted

@@ -5,8 +5,9 @@ docs/theory/synthesis-sphere.md has the equations and the counts.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from functools import partial
 from math import acos, atan2, cos, pi, sin
 
 import numpy as np
@@ -23,9 +24,11 @@ from gruebler.design.synthesis.spherical import (
     SphericalResult,
     arc_between,
     checked_demands,
+    checked_orders,
     improved_function_dyads,
     judged_four_bar,
     order_of_designs,
+    resolution,
     result_of,
 )
 from gruebler.design.synthesis.spherical_dyads import (
@@ -56,6 +59,7 @@ def synthesise_spherical_function(
     frame: float | None = None,
     free_starts: bool = False,
     number: int = 16,
+    sort: Sequence[str] = (),
 ) -> SphericalResult:
     """Four-bars on the sphere that coordinate pairs of angles, judged by their motion.
 
@@ -69,6 +73,7 @@ def synthesise_spherical_function(
         frame: the arc between the fixed axes, in radians.
         free_starts: the angles are counted from starts that are sought, too; the frame must be given.
         number: of designs that are listed where there are infinitely many.
+        sort: as for `synthesise_orientations`.
 
     Raises:
         SynthesisError: other numbers of pairs, free starts without a frame, pairs whose conditions depend on one
@@ -89,7 +94,7 @@ def synthesise_spherical_function(
     Theory:
         docs/theory/synthesis-sphere.md
     """
-    wanted = checked_demands(demands)
+    wanted, sought = checked_demands(demands), checked_orders(sort)
     phi, psi = (np.array(list(values), np.float64) for values in (inputs, outputs))
     if free_starts and frame is None:
         raise SynthesisError("on the sphere pairs with free starts need the arc of the frame")
@@ -112,7 +117,7 @@ def synthesise_spherical_function(
             angle=np.degrees(frame),
         )
     if free_starts:
-        return _with_free_starts(phi, psi, frame, wanted, number)
+        return _with_free_starts(phi, psi, frame, wanted, number, sought)
     return _with_given_starts(phi, psi, frame, wanted)
 
 
@@ -141,7 +146,9 @@ def _with_given_starts(phi: Reals, psi: Reals, frame: float | None, demands: Dem
     )
 
 
-def _with_free_starts(phi: Reals, psi: Reals, frame: float, demands: Demands, number: int) -> SphericalResult:
+def _with_free_starts(
+    phi: Reals, psi: Reals, frame: float, demands: Demands, number: int, sort: Sequence[str]
+) -> SphericalResult:
     """As seen from the crank the output link takes known orientations: the couplers are their dyads, less the frame."""
     cranks, links = _frames(frame, phi, psi)
     seen = np.swapaxes(cranks, 1, 2) @ links
@@ -169,7 +176,7 @@ def _with_free_starts(phi: Reals, psi: Reals, frame: float, demands: Demands, nu
         return designs
 
     sample = judged(dyads)
-    result = result_of(sample, _number_of_linkages(theorem, linkages, len(dyads)), [])
+    result = result_of(sample, _number_of_linkages(theorem, linkages, len(dyads)), [], sort)
     if theorem is not None:
         return result
     notes = message(
@@ -180,11 +187,14 @@ def _with_free_starts(phi: Reals, psi: Reals, frame: float, demands: Demands, nu
     between_pivots = SphericalDyad(fixed=np.array([0.0, 0, 1]), moving=seen[0][:, 2])
     finer = family_dyads(turns, times=_FINER)
     better = result_of(
-        judged(improved_function_dyads(between_pivots, finer, turns, demands, number)), result.count, [notes]
+        judged(improved_function_dyads(between_pivots, finer, turns, demands, number, sort)),
+        result.count,
+        [notes, *resolution(sort)],
+        sort,
     )
     # Linkages of the sample stand beside those that are improved from them.
     designs, rejected = (
-        _distinct(sorted([*improved, *sampled], key=order_of_designs))[:number]
+        _distinct(sorted([*improved, *sampled], key=partial(order_of_designs, sort)))[:number]
         for improved, sampled in ((better.designs, result.designs), (better.rejected, result.rejected))
     )
     return replace(better, designs=tuple(designs), rejected=tuple(rejected))
