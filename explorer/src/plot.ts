@@ -11,7 +11,7 @@ export interface Series {
   title: string;
   values: Float64Array;
   /** The value of the pose that is shown. */
-  now?: () => number;
+  now?: (() => number) | undefined;
   colour: string;
   /** Below this value the ground is shaded. */
   floor?: number;

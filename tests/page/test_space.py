@@ -1,6 +1,7 @@
 """The page of a linkage in space: it moves, is gone round and pulled, without a server and without the network."""
 
 import json
+import math
 from urllib.error import HTTPError
 from urllib.request import Request, urlopen
 
@@ -250,7 +251,7 @@ def check_sizes_plots_and_files(page):
     assert told.inner_text() == f"{swing.degrees:.4g}°"
     drive_to(page, "90")
     turned = page.locator('[data-panel="measures"] dd').first.inner_text()
-    assert page.locator(".plot .read").text_content().lstrip("−") + "°" == turned
+    assert page.locator(".plot .read").first.text_content().lstrip("−") + "°" == turned
     page.locator('[data-icon="save"]').click()
     saved = {}
     for kind in ("STL", "JSON"):
@@ -661,4 +662,50 @@ def test_a_cell_of_a_notebook_has_the_page(tmp_path, chromium):
     assert drive_to(frame, "90").input_value() == "90°"
     assert page.locator("iframe").bounding_box()["height"] == 300
     assert errors == []
+    browser.close()
+
+
+def test_joints_and_the_transfer_function_are_measured_and_plotted(server, chromium):
+    """Of a universal joint the ratio of any textbook, cos b / (1 - sin² b cos² q) from where the fork of the input lies
+    in the plane of the shafts; the joints of Bennett's linkage as the library has them.
+    """
+    browser, page, errors = browsed_at(chromium, server.address + "space/universal_joint.html#en")
+    page.get_by_role("button", name="Pause").click()
+    bend = math.radians(30)
+    measured = page.locator('[data-panel="measures"]')
+    ratios = []
+    for degrees in (20, 70, 200):
+        drive_to(page, str(degrees))
+        told = measured.locator('dt:text-is("Transfer function ψ′") + dd').inner_text()
+        ratios.append(float(told))
+        assert page.locator(".plot .read").nth(1).text_content() == told
+    wanted = np.cos(bend) / (1 - np.sin(bend) ** 2 * np.cos(np.radians((20, 70, 200))) ** 2)
+    assert ratios == pytest.approx(wanted.tolist(), rel=2e-3)
+    titles = page.locator(".plot .title").all_text_contents()
+    assert titles == ["output [°]", "Transfer function ψ′", "R(input-cross) [°]", "R(cross-output) [°]"]
+    browser.close()
+
+    browser, page, more = browsed_at(chromium, server.address + "space/bennett.html#de")
+    page.get_by_role("button", name="Anhalten").click()
+    drive_to(page, "50")
+    linkage = entry("bennett").placed()
+    motion = move(linkage, [math.radians(50)])
+    names = space_model(linkage)["texts"]["de"]["joints"]
+    chain = linkage.mechanism.chain
+    facts = dict(
+        page.locator('[data-panel="measures"] .facts > div').evaluate_all(
+            "all => all.map((one) => [one.querySelector('dt').textContent, one.querySelector('dd').textContent])"
+        )
+    )
+    found = [
+        float(text.replace(",", ".").replace("−", "-").rstrip("°")) for name, text in facts.items() if "D(" in name
+    ]
+    wanted = [
+        math.degrees(motion.joint(each, "Rz")[0])
+        for each, joint in zip(chain.joint_names(), chain.joints, strict=True)
+        if "frame" not in joint.links
+    ]
+    assert len(names) == len(found) == 2
+    assert found == pytest.approx(wanted, abs=2e-2)
+    assert errors == more == []
     browser.close()

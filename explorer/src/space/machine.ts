@@ -3,8 +3,8 @@
 import { type Reach, TURN } from "../cycle";
 import { currentLanguage } from "../language";
 import type { Drivable } from "../transport";
-import { type Camera, moved, projection, seen, type Vector } from "./algebra";
-import type { Model, Motion, Spot } from "./model";
+import { type Camera, dot, minus, moved, projection, seen, type Vector } from "./algebra";
+import type { Model, Motion, ReadJoint, Spot } from "./model";
 import { type Pose, Solver } from "./solver";
 
 /** Radians: a link that is turned less only shifts. */
@@ -173,6 +173,17 @@ export class Machine implements Drivable {
 /** By what angle a link is turned: its cosine alone would not tell small ones. */
 export function turnOf(pose: ArrayLike<number>): number {
   return Math.atan2(Math.hypot(...axisOf(pose)), pose[0]! + pose[5]! + pose[10]! - 1);
+}
+
+/** By how much a joint is turned, in radians, or shifted. */
+export function jointValue({ axis, frame, links, sign, turns }: ReadJoint, poses: ArrayLike<number>[]): number {
+  const [one, two] = links.map((link) => poses[link]!) as [Pose, Pose];
+  const column = (k: number): Vector => [frame[k]!, frame[k + 4]!, frame[k + 8]!];
+  const turned = (pose: Pose, k: number) => minus(moved(pose, column(k % 3)), moved(pose, [0, 0, 0]));
+  const [u, v] = [turned(one, axis + 1), turned(one, axis + 2)];
+  const other = turned(two, axis + 1);
+  const shift = minus(moved(two, column(3)), moved(one, column(3)));
+  return sign * (turns ? Math.atan2(dot(other, v), dot(other, u)) : dot(shift, turned(one, axis)));
 }
 
 /** About which axis a link is turned: a vector of twice the sine of the angle. */

@@ -30,10 +30,20 @@ export interface Motion {
   arrow: { link: number; at: Vector; along: Vector };
 }
 
+/** A joint in which the second link turns about or shifts along an axis of a frame, which is given by rows. */
+export interface ReadJoint {
+  links: [number, number];
+  frame: number[];
+  axis: 0 | 1 | 2;
+  turns: boolean;
+  sign: number;
+}
+
 interface Texts {
   title: string;
   drives: string[];
   links: string[];
+  joints: string[];
   /** What only this page says, by short keys. */
   words: Record<string, string>;
 }
@@ -63,6 +73,7 @@ export interface Model {
   sizes: { link: number; distance: number | null; angle: number | null }[];
   /** The links whose motion is wanted. */
   outputs: number[];
+  joints: ReadJoint[];
   motions: Motion[];
   /** What moves several drives together; with one drive its motion is there. */
   live: Live | null;

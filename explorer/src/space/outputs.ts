@@ -1,48 +1,86 @@
 /** The plots of what a machine in space drives: how far its outputs turn or shift, over the only drive. */
 
 import { TURN, wrapped } from "../cycle";
+import type { Fact } from "../facts";
+import { number, t } from "../language";
 import { Plot } from "../plot";
 import { Span } from "../span";
+import { inBrackets } from "../wording";
 import type { Vector } from "./algebra";
-import { axisOf, endsOf, type Machine, turnOf } from "./machine";
+import { axisOf, endsOf, jointValue, type Machine, turnOf } from "./machine";
 
 type Pose = ArrayLike<number>;
 
+const DEGREES = 360 / TURN; // of a radian
+const EVEN = 1e-5; // values that differ by less are the same but for the digits of poses
 const SAME = 1e-4; // of the longest: directions that differ by less are one
 
 export class OutputPlots {
   readonly elements: Element[];
-  readonly #plots: Plot[];
-  /** What they show, in the order of the outputs, from the first value of the drive on in such steps. */
+  readonly #plots: Plot[] = [];
+  /** What they show, in the order of the outputs, then of the joints, from the first value of the drive on in such
+   * steps. */
   readonly #values: Float64Array[] = [];
+  readonly #rates: { name: string; note: string; now: () => number }[] = [];
   #first = 0;
   #step = 1;
 
   constructor(
     private readonly machine: Machine,
     names: string[],
+    joints: string[],
     pick: (value: number) => void,
   ) {
     const { data, drive, turning } = machine;
     const [motion, ...more] = data.motions;
     const rows = more.length ? [] : (motion?.poses ?? []);
-    const span = new Span(() => {
-      for (const plot of this.#plots) plot.redraw();
-    });
-    this.#plots = (rows.length ? data.outputs : []).map((link) => {
+    if (rows.length) {
+      const span = new Span(() => {
+        for (const plot of this.#plots) plot.redraw();
+      });
       const range = endsOf(motion!);
       const step = (range[1] - range[0]) / (rows.length - 1);
       const drives = Float64Array.from(rows, (_, row) => range[0] + row * step);
-      const poses = rows.map((row) => row[link]!);
-      const unit = turning.has(link) ? "°" : data.unit;
-      const values = upward(turning.has(link) ? turns(poses) : shifts(poses));
       [this.#first, this.#step] = [range[0], step];
-      this.#values.push(values);
-      const plot = new Plot(drive?.turning ? "°" : data.unit, pick, span);
-      const title = `${names[link]} [${unit}]`;
-      plot.show(drives, { title, values, colour: "--motion", same: 1e-6 * (unit === "°" ? 1 : data.size) }, range);
-      return plot;
-    });
+      const show = (name: string, unit: string, values: Float64Array, colour: string, now?: () => number) => {
+        const same = EVEN * (unit === data.unit ? data.size : Math.max(1, ...values.filter(Number.isFinite)));
+        const plot = new Plot(drive?.turning ? "°" : data.unit, pick, span);
+        plot.show(drives, { title: name + inBrackets(unit), values, colour, same, now }, range);
+        this.#plots.push(plot);
+      };
+      for (const [k, link] of data.outputs.entries()) {
+        const turns = turning.has(link);
+        const [values, signed] = wayOf(
+          rows.map((row) => row[link]!),
+          turns,
+        );
+        this.#values.push(values);
+        const name = names[link]!;
+        const turned = () => this.plotted(k, turnOf(machine.poses[link]!)) * DEGREES;
+        show(name, turns ? "°" : data.unit, values, "--motion", turns ? turned : undefined);
+        if (!signed) continue;
+        const rates = slopes(turns ? values.map((value) => value / DEGREES) : values, step, motion!.round);
+        const [above, below] = [turns, drive!.turning].map((one) => (one ? "rad" : data.unit));
+        const note = above === below ? "" : `${above}/${below}`;
+        const told = t("Transfer function {sign}", { sign: `${turns ? "ψ" : "s"}′` });
+        const title = data.outputs[1] ? `${told}, ${name}` : told;
+        const now = () => cubicAt(rates, (this.#drive - range[0]) / step, motion!.round);
+        this.#rates.push({ name: title, note, now });
+        show(title, note, rates, "--green", now);
+      }
+      for (const [k, joint] of data.joints.entries()) {
+        const values = unwound(
+          rows.map((row) => jointValue(joint, row)),
+          joint.turns,
+        );
+        this.#values.push(values);
+        const now = () => {
+          const value = jointValue(joint, machine.poses);
+          return joint.turns ? this.near(data.outputs.length + k, value) * DEGREES : value;
+        };
+        show(joints[k]!, joint.turns ? "°" : data.unit, values, "--purple", now);
+      }
+    }
     this.elements = this.#plots.map(({ element }) => element);
   }
 
@@ -65,13 +103,25 @@ export class OutputPlots {
   }
 
   /** An angle of an output with the sign and the full turns that its plot has there, in radians. */
-  plotted(output: number, angle: number): number {
-    const values = this.#values[output];
-    if (!values) return angle;
-    const about = (values[Math.round((this.#drive - this.#first) / this.#step)]! * TURN) / 360;
-    const near = (one: number) => one + TURN * Math.round((about - one) / TURN);
-    const [same, other] = [near(angle), near(-angle)];
-    return Math.abs(same - about) <= Math.abs(other - about) ? same : other;
+  plotted(output: number, turned: number): number {
+    const away = (value: number) => Math.abs(value - this.#about(output));
+    const [same, other] = [this.near(output, turned), this.near(output, -turned)];
+    return away(other) < away(same) ? other : same;
+  }
+
+  /** An angle with the full turns that a plot has where the drive stands, in radians. */
+  near(plot: number, turned: number): number {
+    const about = this.#about(plot);
+    return turned + (Number.isNaN(about) ? 0 : TURN * Math.round((about - turned) / TURN));
+  }
+
+  #about(plot: number): number {
+    return (this.#values[plot]?.[Math.round((this.#drive - this.#first) / this.#step)] ?? NaN) / DEGREES;
+  }
+
+  /** What the transfer functions are where the drive stands. */
+  get rates(): Fact[] {
+    return this.#rates.map(({ name, note, now }) => ({ name, note, text: number(now(), 4) }));
   }
 }
 
@@ -84,27 +134,51 @@ function highest(values: Float64Array): number {
   return most + (at && at < values.length - 1 && bend ? (after - before) ** 2 / (8 * bend) : 0);
 }
 
-/** Values with the sign for which most of their range is positive: an axis has no sense of its own. */
-function upward(values: Float64Array): Float64Array {
-  return Math.max(...values) < -Math.min(...values) ? values.map((value) => -value) : values;
+/** How far a link is turned, in degrees, or shifted, and whether that has a sign: where it turns about one axis, or
+ * shifts along a line. The sign is that for which most of the range is positive: an axis has no sense of its own. */
+function wayOf(poses: Pose[], turns: boolean): [Float64Array, boolean] {
+  const vectors = poses.map((pose): Vector => (turns ? axisOf(pose) : [pose[3]!, pose[7]!, pose[11]!]));
+  const along = partsAlong(vectors);
+  if (!along) {
+    const far = turns ? poses.map((pose) => turnOf(pose) * DEGREES) : vectors.map((way) => Math.hypot(...way));
+    return [Float64Array.from(far), false];
+  }
+  const cosines = poses.map((pose) => pose[0]! + pose[5]! + pose[10]! - 1);
+  const values = unwound(turns ? along.map((part, row) => Math.atan2(part, cosines[row]!)) : along, turns);
+  return [Math.max(...values) < -Math.min(...values) ? values.map((value) => -value) : values, true];
 }
 
-/** Degrees by which a link is turned, with a sign and over full turns where its axis stays the same. */
-function turns(poses: Pose[]): Float64Array {
-  const along = partsAlong(poses.map(axisOf));
+/** Angles in degrees, over full turns; lengths as they are. */
+function unwound(values: number[], turns: boolean): Float64Array {
   let last = 0;
-  return Float64Array.from(poses, (pose, row) => {
-    if (!along) return turnOf(pose) * (360 / TURN);
-    const angle = Math.atan2(along[row]!, pose[0]! + pose[5]! + pose[10]! - 1);
-    last = angle + TURN * Math.round((last - angle) / TURN);
-    return last * (360 / TURN);
+  return Float64Array.from(values, (value) => {
+    last = turns ? value + TURN * Math.round((last - value) / TURN) : value;
+    return turns ? last * DEGREES : last;
   });
 }
 
-/** How far a link is shifted, with a sign where it shifts along a line. */
-function shifts(poses: Pose[]): Float64Array {
-  const ways = poses.map((pose): Vector => [pose[3]!, pose[7]!, pose[11]!]);
-  return Float64Array.from(partsAlong(ways) ?? ways.map((way) => Math.hypot(...way)));
+/** A value of a row; beyond a full turn it goes on by as much as that adds. */
+function rowAt(values: Float64Array, row: number, round: boolean): number {
+  const last = values.length - 1;
+  const whole = values[last]! - values[0]!;
+  return values[row] ?? (round ? values[(row + last) % last]! + (row < 0 ? -whole : whole) : NaN);
+}
+
+/** The derivative of values that are a step apart, over a full turn or not; unknown at ends. */
+function slopes(values: Float64Array, step: number, round: boolean): Float64Array {
+  const at = (row: number) => rowAt(values, row, round);
+  return values.map((_, row) => {
+    const [near, far] = [at(row + 1) - at(row - 1), at(row + 2) - at(row - 2)];
+    return (Number.isNaN(far) ? near : (8 * near - far) / 6) / (2 * step);
+  });
+}
+
+/** A value between rows: on the cubic through four of them. */
+function cubicAt(values: Float64Array, at: number, round: boolean): number {
+  const low = Math.max(0, Math.min(Math.floor(at), values.length - 2));
+  const x = at - low;
+  const [a, b, c, d] = [-1, 0, 1, 2].map((k) => rowAt(values, low + k, round)) as [number, number, number, number];
+  return ((x - 1) * (x - 2) * (b * (3 * x + 3) - a * x) + (x + 1) * x * (d * (x - 1) - c * (3 * x - 6))) / 6;
 }
 
 /** The parts of vectors along the longest of them; null if they have several directions. */

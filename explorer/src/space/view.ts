@@ -15,7 +15,7 @@ import { driveText } from "../track";
 import { type Driven, Transport } from "../transport";
 import { moved } from "./algebra";
 import { asked } from "./asking";
-import { endsOf, Machine, turnOf } from "./machine";
+import { endsOf, jointValue, Machine, turnOf } from "./machine";
 import type { Model } from "./model";
 import { OutputPlots } from "./outputs";
 import { Resizing } from "./resizing";
@@ -276,7 +276,7 @@ export class SpaceView implements Driven {
       panels.push(panelOf("sizes", t("Sizes"), true, shown, ...said));
       this.#resizing.arrange();
     }
-    this.#plots = new OutputPlots(linkage, texts.links, (value) => this.transport.pick(value));
+    this.#plots = new OutputPlots(linkage, texts.links, texts.joints, (value) => this.transport.pick(value));
     const { elements } = this.#plots;
     if (elements.length) panels.push(panelOf("plots", t("Plots"), true, ...elements));
     const chips = texts.links.map((name, link) => {
@@ -418,6 +418,13 @@ export class SpaceView implements Driven {
         ...(goes ? [{ name: `${t(turns ? "Swing" : "Stroke")} ${texts.links[link]!}`, text: goes }] : []),
       ];
     });
+    facts.push(...(this.#plots?.rates ?? []));
+    for (const [k, joint] of data.joints.entries()) {
+      const value = jointValue(joint, poses);
+      const far = `${number(Math.abs(value) < 1e-6 * data.size ? 0 : value, DIGITS)} ${data.unit}`;
+      const turned = this.#plots?.near(data.outputs.length + k, value) ?? value;
+      facts.push({ name: texts.joints[k]!, text: joint.turns ? angle(turned, DIGITS) : far });
+    }
     for (const { name, link, at } of linkage.spots) {
       const text = moved(poses[link]!, at).map((v) => number(Math.abs(v) < 1e-9 * data.size ? 0 : v, DIGITS));
       facts.push({

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from math import pi
@@ -22,12 +22,12 @@ from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.link_sizes import link_sizes
 from gruebler.mechanics.screws.resizing import can_be_resized
 from gruebler.mechanics.screws.wheels import gear_rows
-from gruebler.mechanics.space.outputs import against_frame
+from gruebler.mechanics.space.outputs import against_frame, valued_freedoms
 from gruebler.page.page import WHOLE_WINDOW, data_page, module_text, page_styles, shadow_tree
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
 from gruebler.pictures.structure.messages import title
 from gruebler.structure.chain.pairs import Alphabet
-from gruebler.structure.chain.spaces import Space
+from gruebler.structure.chain.spaces import Freedom, Space
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 
@@ -126,6 +126,7 @@ def space_model(
     ]
     spherical = chain.space is Space.SPHERICAL
     turning = [drive.turning for drive in mechanism.drives]
+    read = list(_read_joints(linkage))
     return {
         "texts": {
             lang: {
@@ -136,6 +137,7 @@ def space_model(
                     for name in (drives or {}).get(lang, mechanism.drive_names(Alphabet.of_language(lang)))
                 ],
                 "links": [*names],
+                "joints": [_titled(linkage, names, joint, lang) for joint, _ in read],
                 "words": {key: text.in_language(lang) for key, text in words.items()},
             }
             for lang in LANGUAGES
@@ -157,6 +159,16 @@ def space_model(
             for size in link_sizes(linkage)
         ],
         "outputs": [chain.index(link) for link in linkage.outputs],
+        "joints": [
+            {
+                "links": [chain.index(link) for link in chain.joints[joint].links],
+                "frame": linkage.frames[joint, :3].ravel().tolist(),
+                "axis": "xyz".index(freedom.axis),
+                "turns": freedom.turns,
+                "sign": against_frame(linkage, joint),
+            }
+            for joint, freedom in read
+        ],
         "middle": [0.0, 0.0, 0.0] if spherical else linkage.centre.tolist(),
         "size": 1.0 if spherical else linkage.size,
         "bodies": bodies,
@@ -175,6 +187,26 @@ def space_model(
         ],
         "live": live,
     }
+
+
+def _read_joints(linkage: SpatialLinkage) -> Iterator[tuple[int, Freedom]]:
+    """Turns and shifts in joints about or along one axis; not those of drives, nor of outputs against the frame."""
+    known = {drive.joint for drive in linkage.mechanism.drives}
+    ends = {linkage.mechanism.frame, *linkage.outputs}
+    freedoms: dict[int, list[Freedom]] = {}
+    for number, freedom in valued_freedoms(linkage):
+        freedoms.setdefault(number, []).append(Freedom(freedom))
+    for number, own in freedoms.items():
+        apart = number not in known and not ends >= set(linkage.mechanism.chain.joints[number].links)
+        if apart and len({each.axis for each in own}) == 1:
+            yield from ((number, each) for each in own)
+
+
+def _titled(linkage: SpatialLinkage, names: Sequence[str], number: int, lang: str) -> str:
+    """The name of a joint with links that are called by names."""
+    links = dict(zip(linkage.mechanism.chain.links, names, strict=True))
+    joint = linkage.mechanism.chain.joints[number]
+    return f"{joint.pair.symbol(Alphabet.of_language(lang))}({'-'.join(links[link] for link in joint.links)})"
 
 
 def _arrow(linkage: SpatialLinkage, drive: int) -> dict[str, Any]:
