@@ -91,7 +91,7 @@ def main(family: str, pairs: int, folder: str, seed: int, tasks: int, plane: boo
     file.parent.mkdir(parents=True, exist_ok=True)
     if folder and file.exists():
         search.load(file)
-    saved = time.time()
+    saved, known = time.time(), 0
     while True:
         while search.step():
             if folder and time.time() - saved > 30:
@@ -106,6 +106,10 @@ def main(family: str, pairs: int, folder: str, seed: int, tasks: int, plane: boo
         print(search, flush=True)
         if not general:
             break
+        if curve and len(search.found[0]) > known:  # ways on one curve are cheap: more of them before a test
+            known = len(search.found[0])
+            search.add_way(*between[len(search.ways) % len(between)])
+            continue
         if is_linear(search, 0) and search.alike and all(is_linear(search, node) for node in range(1, tasks)):
             print(f"with the arm, or all targets, given: {len(on_special_plane(search)[1]):,} finite", flush=True)
             break

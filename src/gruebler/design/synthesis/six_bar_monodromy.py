@@ -268,7 +268,8 @@ class Search:
         """One more way from task u to task v."""
         again = self.paths > 0 or any((a, b) == (u, v) for a, b, _ in self.ways)
         factor = again or (self.problem.points == 7 and not self.aside)
-        self.ways.append((u, v, complex(random_numbers(self.rng)) if factor else 1.0))
+        far = 10 ** self.rng.uniform(0, 2) if self.aside else 1.0  # large solutions are moved by wide ways only
+        self.ways.append((u, v, far * complex(random_numbers(self.rng)) if factor else 1.0))
         self.matched.append([np.zeros(len(self.found[k]), bool) for k in (u, v)])
 
     def left(self) -> list[tuple[int, int, int]]:
