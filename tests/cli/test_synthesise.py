@@ -338,6 +338,17 @@ def test_the_best_dead_centres_are_the_same_however_many_are_listed(capsys):
     assert angles[2] == angles[12][:2]
 
 
+def test_no_more_rows_are_printed_than_are_asked_for(capsys):
+    """Of finitely many, too."""
+    law = ["x^2", "--interval", "0", "1", "--swings", "60", "10", "--points", "5", "--travel"]
+    assert main(["synthesise", "function", *law, "--json"]) == 0
+    assert len(json.loads(capsys.readouterr().out)["designs"]) > 1
+    assert main(["synthesise", "function", *law, "--number", "1"]) == 0
+    rows = capsys.readouterr().out.splitlines()
+    assert [row.split()[0] for row in rows if row[:1].isdigit()] == ["1"]
+    assert any(row.startswith("and ") for row in rows)
+
+
 def test_dead_centres_in_german(capsys):
     assert main(["synthesise", "dead-centres", "--swing", "60", "--crank-angle", "200", "--lang", "de"]) == 0
     out = capsys.readouterr().out

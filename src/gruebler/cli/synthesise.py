@@ -280,7 +280,7 @@ def add(parser: Parser) -> None:
             --sort KEY[,KEY] =  sort the designs by error, transmission, range-transmission, size, size-ratio,
                 sensitivity, near-pivots, links, full-turn; of equal ones the second key decides
             --clearance C float  print how far targets move, lengths wrong by a thousandth and pins C beside their holes
-            --number N int  give the N best designs only, where there are infinitely many or targets are approached
+            --number N int  give the N best designs only
             --rejected
             """
         )
@@ -317,7 +317,7 @@ def _run(arguments: argparse.Namespace) -> int:
     result = _solved(arguments, task, demands, orders)
     if orders:
         result = result.sorted_by(*orders)
-    shown = result if result.count.theorem else replace(result, designs=result.designs[: arguments.number])
+    shown = replace(result, designs=result.designs[: arguments.number])
     written = design_to_write(arguments, shown)
     drawn = arguments.draw is not None and bool(result.designs or result.rejected)
     if written is not None:

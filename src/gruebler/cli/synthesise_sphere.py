@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
 from math import degrees, radians
 from typing import Any
 
@@ -60,7 +61,7 @@ def add(parser: Parser) -> None:
             second key decides
         --clearance DEG float  print how far targets turn, arcs wrong by a thousandth and axes tilted by DEG in their
             bearings
-        --number N int =16  give the N best designs only, where there are infinitely many or targets are approached
+        --number N int =16  give the N best designs only
         --rejected
         """
     )
@@ -120,6 +121,7 @@ def _demands(arguments: argparse.Namespace) -> Demands:
 
 def _tell(arguments: argparse.Namespace, result: SphericalResult, *, coordinates: bool) -> int:
     """Print the designs, write and draw the best."""
+    result = replace(result, designs=result.designs[: arguments.number])
     written = chosen_design(arguments, result.designs)
     if written is not None:
         write_screws(arguments.out, written.linkage)

@@ -7,7 +7,15 @@ import pytest
 
 from gruebler.base.errors import SynthesisError
 from gruebler.cli import main
-from gruebler.design.synthesis import Demands, FunctionTask, PathTask, PositionTask, synthesise
+from gruebler.design.synthesis import (
+    Demands,
+    FunctionLaw,
+    FunctionTask,
+    PathTask,
+    PositionTask,
+    function_task,
+    synthesise,
+)
 from gruebler.design.synthesis.dyad_families import guiding_dyads, sliding_sample
 from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
 from gruebler.design.synthesis.dyads import BLOCK, SLIDER
@@ -178,3 +186,22 @@ def test_the_table_names_the_distance(tmp_path, capsys):
     assert main([*command, "--json"]) == 0
     first = json.loads(capsys.readouterr().out)["designs"][0]
     assert first["pivot_distance"] < 1e-6
+
+
+@pytest.mark.parametrize("pairs", [5, 8])
+def test_what_a_slider_travels_counts_as_a_length_of_linkages_that_follow_a_function(pairs):
+    """Of optima and of least squares, too: one ten times as long as its way is not said to have a ratio of 1.2."""
+    law = FunctionLaw("log10(x)", interval=(1, 2), input_swing=np.radians(60), output_swing=10.0)
+    task = function_task(law, 5, output="travel")
+    if pairs > 5:
+        x = np.linspace(1, 2, pairs)
+        inputs, outputs = np.radians(60) * (x - 1), 10 * np.log10(x) / np.log10(2)
+        task = FunctionTask(inputs, outputs=outputs, output="travel", start_input=False, start_output=False)
+    found = synthesise(task, minimax=pairs == 5)
+    assert found.designs
+    for design in found.designs:
+        linkage = design.linkage
+        lengths = [linkage.length("crank", 0, 1), linkage.length("coupler", 1, 2)]
+        assert design.verdict.size_ratio == pytest.approx(max(lengths) / min(*lengths, 10.0), rel=1e-9)
+    limited = synthesise(task, minimax=pairs == 5, demands=Demands(size_ratio=5))
+    assert not any(max(each.linkage.length("crank", 0, 1), 0) > 50 for each in limited.designs)

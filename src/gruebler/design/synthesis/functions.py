@@ -384,7 +384,8 @@ def _judged_at_starts(
     else:
         probes, values = (Probe(link="crank", length=size), Probe(joint=3)), [size * np.exp(1j * phi), output + 0j]
     linkage = _scaled(task, demands, solution).placed(task.unit)
-    targets = Targets(probes, np.stack(values, axis=1), size)
+    travel = np.inf if task.output == "angle" else float(np.ptp(moved)) or np.inf
+    targets = Targets(probes, np.stack(values, axis=1), size, travel=travel)
     met = replace(demands, tolerance=max(demands.tolerance, error))
     design = judge_design(linkage, targets, met, solution.kind)
     return replace(design, drives=tuple(map(float, phi)), targets=targets)
