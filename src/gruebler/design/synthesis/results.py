@@ -30,7 +30,10 @@ from gruebler.structure.chain.pairs import PAIRS, Alphabet, SymbolText, in_alpha
 @brief
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class DesignVerdict:
-    """What a design does when it moves. ``reasons`` is empty for an accepted design."""
+    """What a design does when it moves. ``reasons`` is empty for an accepted design.
+
+    Of a rejected one what was no longer asked is False or NaN.
+    """
 
     assembles: bool = False
     """Whether it reaches every target of the task on some circuit of its own."""
