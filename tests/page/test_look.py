@@ -610,3 +610,15 @@ def test_features_to_search_for_are_in_line_on_a_phone(tab, server, locale):
     assert fields.count() > 9
     edges = "all => all.map((one) => one.getBoundingClientRect()).map(({ left, right }) => [left, right].join())"
     assert len(set(fields.evaluate_all(edges))) == 1
+
+
+def test_a_print_has_name_picture_measures_sizes_and_plots(tab, server):
+    """On a sheet that is 190 mm wide: nothing to press, nothing that is folded, nothing beyond its right edge."""
+    page = tab(width=1440, height=900).open(server.address).page
+    page.emulate_media(media="print")
+    page.set_viewport_size({"width": 718, "height": 1040})
+    for part in ("header h1", ".stage svg", '[data-panel="measures"]', '[data-panel="sizes"]', '[data-panel="plots"]'):
+        box = page.locator(part).first.bounding_box()
+        assert 0 <= box["x"] < box["x"] + box["width"] <= 718, part
+    for part in ("nav", "header button", ".transport", ".tools", '[data-panel="forces"]', ".plot-tools"):
+        assert not page.locator(part).first.is_visible(), part
