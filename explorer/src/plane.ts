@@ -223,7 +223,7 @@ function alongEnds({ between, part }: Knot, scale: number): SVGElement {
   const turned = svg("g", { transform: `rotate(${-Math.atan2(dy, dx) / DEGREE})` });
   if (part === undefined)
     turned.append(
-      svg("path.bar", { d: `M0 0H${long / 2}` }),
+      ...["outline", "bar"].map((kind) => svg(`path.${kind}`, { d: `M0 0H${long / 2}` })),
       svg("rect.block", { x: -long / 2, y: -7, width: 0.6 * long, height: 14, rx: 3 }),
     );
   else for (const cx of [-part * long, (1 - part) * long]) turned.append(svg("circle.wheel", { cx, r: Math.abs(cx) }));
