@@ -83,6 +83,18 @@ def test_no_random_dyad_of_forty_tasks_beats_what_is_proved(positions):
     assert sum(_never_better(seed, positions, 20_000) for seed in range(100, 140)) > 40
 
 
+@pytest.mark.parametrize(("seed", "wish"), [(101, WISHES[0]), (102, WISHES[0]), (100, WISHES[3])])
+def test_two_positions_are_decided_by_the_shorter_way(seed, wish):
+    """Each way from one of two positions to the other is in order; a linkage is judged on the shorter one.
+
+    The last one needs more cells than three positions.
+    """
+    rng = np.random.default_rng(seed)
+    task = _task(rng, 2)
+    held, *_ = _dyads(task, rng, 3)
+    assert not PartnerSearch(task, wish, held, driven=wish.crank).partner(0.0, MARGIN[2]).left
+
+
 THREE = PositionTask([(0, 0, 0), (0.548, -0.921, -1.102), (-1.934, 1.253, 0.991)])
 
 

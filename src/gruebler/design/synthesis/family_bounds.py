@@ -62,14 +62,14 @@ class WayOrder(Enum):
 
     LISTED = auto()
     ANY = auto()
-    """That with the least travel."""
+    """That with the least travel, as of two positions, which each way meets in order."""
     OWN = auto()
     """One that is given: what is excluded without it is excluded all the more."""
 
     @classmethod
     def of(cls, task: PositionTask, demands: Demands) -> WayOrder:
         """That of a task."""
-        if not demands.in_order:
+        if not demands.in_order or len(task) == 2:
             return cls.ANY
         return cls.OWN if task.order else cls.LISTED
 

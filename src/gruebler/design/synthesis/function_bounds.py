@@ -23,7 +23,7 @@ from gruebler.design.synthesis.dyad_planes import crank_family
 from gruebler.design.synthesis.dyads import CRANK, Displacements, GuidingDyad
 from gruebler.design.synthesis.family_bounds import PairTests, WayOrder, beside_best
 from gruebler.design.synthesis.pair_facts import PairFacts
-from gruebler.design.synthesis.partner_bounds import MARGIN, Tried, branch_and_bound, fails_on_slide
+from gruebler.design.synthesis.partner_bounds import BUDGET, MARGIN, Tried, branch_and_bound, fails_on_slide
 from gruebler.design.synthesis.tasks import FunctionTask, PositionTask
 
 FactsOf = Callable[[Complexes, Complexes], PairFacts]
@@ -93,8 +93,7 @@ class FunctionSearch:
     def possible(self, seen: DyadCells, angle: float) -> Flags:
         """Cells that may have a linkage with such a transmission angle."""
         wanted = replace(self.demands, transmission=angle)
-        order = WayOrder.LISTED if wanted.in_order else WayOrder.ANY
-        tests = PairTests(wanted, order, self.origin, self.size)
+        tests = PairTests(wanted, WayOrder.of(self.seen, wanted), self.origin, self.size)
         _, others = tests.kept(seen)
         rows, own = np.arange(len(seen.cells)), np.zeros(len(seen.cells), np.int64)
         if self.moved is None:
@@ -126,7 +125,8 @@ class FunctionSearch:
             return None, pi / 2, begin
         if self.family is None or (isinstance(self.family, DyadCurve) and not self.family.fits):
             return None, None, begin
-        left, best, place = branch_and_bound(self.family, self.possible, self.tried, begin, margin)
+        budget = BUDGET[len(self.seen)]
+        left, best, place = branch_and_bound(self.family, self.possible, self.tried, begin, margin, budget)
         dyad = None if place is None else GuidingDyad(CRANK, *place)
         if dyad is not None and not known:
             _, bound, best = self.improved(best)

@@ -30,8 +30,9 @@ from gruebler.design.synthesis.pair_search import Pair
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
 
-_BUDGET = 80_000  # cells that are looked at
-_ON_A_CURVE = 20_000  # those of four positions
+BUDGET = {2: 400_000, 3: 80_000, 4: 80_000}
+"""Cells that are looked at, by the number of positions."""
+_ON_A_CURVE = 20_000  # those of four positions beside a slide
 _HALVINGS = 60  # of each parameter
 _TURNS = 6  # in which one dyad is held
 _WIDER = 10.0  # by what the margin grows where it was too narrow for a proof
@@ -106,7 +107,7 @@ Tries = Callable[[DyadCells], Tried]
 
 
 def branch_and_bound(
-    family: DyadFamily, possible: Tests, tries: Tries | None, begin: float, margin: float, budget: int = _BUDGET
+    family: DyadFamily, possible: Tests, tries: Tries | None, begin: float, margin: float, budget: int
 ) -> tuple[float, float, tuple[complex, complex] | None]:
     """Branch and bound over the cells of a family.
 
@@ -196,12 +197,12 @@ class PartnerSearch:
         pivots = np.ascontiguousarray(rows[:, 4 - side : 8 - side]).view(np.complex128)
         return Tried(np.where(good, facts.transmission[:, 0], -np.inf), pivots[:, 0], pivots[:, 1])
 
-    def partner(self, begin: float, margin: float, budget: int = _BUDGET, *, improves: bool = True) -> Partner:
+    def partner(self, begin: float, margin: float, budget: int | None = None, *, improves: bool = True) -> Partner:
         """What is left of the family above the best transmission angle, or `begin`, and a margin."""
         if self.family is None or (isinstance(self.family, DyadCurve) and not self.family.fits):
             return Partner(left=1.0, angle=begin, dyad=None)
-        tries = self.tried if improves else None
-        left, best, place = branch_and_bound(self.family, self.possible, tries, begin, margin, budget)
+        tries, most = self.tried if improves else None, budget or BUDGET[len(self.task)]
+        left, best, place = branch_and_bound(self.family, self.possible, tries, begin, margin, most)
         dyad = None if place is None else GuidingDyad(CRANK, *place).moved(self.size, self.origin)
         return Partner(left=left, angle=best, dyad=dyad)
 
