@@ -365,7 +365,7 @@ def fit_open_points(
     accepted, rejected = _judged_fits(task, demands, exact or fits[:number], len(fits), progress)
     note = message(
         "There are infinitely many solutions (free parameters: {parameters}): {count} of them were found by least "
-        "squares from linkages with similar curves."
+        "squares from linkages with similar curves; others may be better."
         if exact
         else "Without demands there are infinitely many solutions (free parameters: {parameters}); least squares from "
         "linkages with similar curves led to none that passes the points within the demands.",

@@ -223,9 +223,13 @@ def _sampled(run: _Run) -> SynthesisResult:
             progress(done + 1, len(choices))
     note = message(
         "There are infinitely many solutions (free parameters: {parameters}): for all crank angles at the points "
-        "there are linkages. Those for {count} choices were taken; fixed_pivots or crank_angles choose others.",
+        "there are linkages. Those for {count} choices were taken, in which the crank turns from {least:g}° to "
+        "{most:g}° in all, evenly with the way between the points; others may be better: fixed_pivots or crank_angles "
+        "choose them.",
         parameters=MOST_POINTS - len(run.task),
         count=len(choices),
+        least=min(_TURNS),
+        most=max(_TURNS),
     )
     accepted, rejected = ranked(designs)
     return SynthesisResult(
