@@ -38,6 +38,7 @@ _ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage fo
 _FAR = 100.0
 """Sizes of linkage and targets: an open circuit is followed so far, and farther only where it is still near them."""
 _STEP = 0.05  # along a circuit, in sizes and radians
+_FINE = 64
 _ROWS = 16  # poses from one target to the next, with several drives
 OTHER_LENGTH = message("the length of the {link} is not {wanted}, but {found}")
 NO_LENGTH = message("{link}: no length, since this link has fewer than two pins")
@@ -473,13 +474,19 @@ def _misses(motion: Motion, targets: Targets, rows: NDArray[np.int64], begin: in
 def _least_transmission(motion: Motion, drive: Reals) -> float:
     """Over a motion, its ends included; NaN where there is none.
 
-    Between poses the cosine is followed by the parabola through the largest one and its neighbours.
+    About the pose with the smallest one the motion is run again, in `_FINE` steps; between these the cosine is followed
+    by a parabola.
     """
     try:
         mu = transmission_angle(motion)
+        if not np.isfinite(mu).any():
+            return float("nan")
+        k = int(np.nanargmin(mu))
+        first, last = max(k - 1, 0), min(k + 1, len(mu) - 1)
+        rows = np.append(drive[: first + 1], np.linspace(drive[first], drive[last], _FINE + 1)[1:])
+        if last > first and (again := move_quietly(motion.linkage, rows, order=2)).complete:
+            drive, mu = rows[first:], transmission_angle(again)[first:]
     except LinkageError:
-        return float("nan")
-    if not np.isfinite(mu).any():
         return float("nan")
     k, cosines = int(np.nanargmin(mu)), np.cos(mu)
     most = cosines[k]

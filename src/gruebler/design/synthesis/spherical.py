@@ -36,6 +36,7 @@ from gruebler.design.synthesis.spherical_shifts import (
     largest_turn,
     spherical_sensitivity,
 )
+from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.mechanics.screws.model import SpatialLinkage
 from gruebler.mechanics.space.spherical_four_bar import SphericalFourBar
 from gruebler.structure.mechanism import Mechanism
@@ -285,7 +286,8 @@ def _costs(
     """
     closure = _closures(first, second, turns)
     with np.errstate(invalid="ignore", divide="ignore"):
-        branch, moves, full, transmission = motion_of_pairs(closure)
+        order = None if demands.in_order else TargetOrder.of((None,) * (len(turns) + 1), len(turns) + 1)
+        branch, moves, full, transmission = motion_of_pairs(closure, order)
     # Of each axis the end is taken that is nearer to the axis before, as `_axes_of` does; beside a given arc both
     # neighbours are shorter than a quarter of a circle.
     cosines = np.cos(closure.lengths)
@@ -434,7 +436,7 @@ def judged_four_bar(
         steps = np.diff(path)
         onward, back = (steps % (2 * pi)).sum(), ((-steps) % (2 * pi)).sum()
         in_order = bool(min(onward, back) < 2 * pi if full else (steps > 0).all() or (steps < 0).all())
-        if full and in_order:
+        if full and in_order and demands.in_order:
             turned = np.cumsum(steps % (2 * pi)) if onward <= back else -np.cumsum((-steps) % (2 * pi))
             path = path[0] + np.append(0.0, turned)
         elif full:
