@@ -14,14 +14,17 @@ from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.curve_matching import PLACES, Anchors, best_matches, resampled
 from gruebler.design.synthesis.drawing_limits import limits_of_drawings
 from gruebler.design.synthesis.dyad_structures import dyad_structure
+from gruebler.design.synthesis.fitting import FitState, compared, fit_targets
 from gruebler.design.synthesis.leg_angles import LegAngles
 from gruebler.design.synthesis.size_limits import limits_of_sizes
 from gruebler.design.synthesis.structure_atlas import structure_atlas
 from gruebler.design.synthesis.structures import fit_structure
+from gruebler.design.synthesis.turning_poses import with_turn, without_turn
 from gruebler.mechanics.analysis import transmission_angle
 from gruebler.mechanics.kinematics import circuit, move
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
+from tests.core.plain.pose_gaps import pose_gaps
 
 WATT = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3); frame=0; drive=R(0-1)")
 STEPHENSON = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2); frame=0; drive=R(0-1)")
@@ -297,3 +300,45 @@ def test_where_no_drawing_of_the_atlas_turns_designs_are_realised(monkeypatch):
     points = [(0, 0), (2, 1), (3, 3), (2, 5), (0, 4)]
     found = synthesise(PathTask(points), structures=[WATT], link="5", starts=1)
     assert found.designs or found.rejected
+
+
+TRIAD = Mechanism.parse("R(0-2) R(2-1) R(0-3) R(3-1) R(0-4) R(4-5) R(5-1); frame=4; drive=R(0-4)")
+
+
+def test_a_crank_with_a_larger_group_is_led_to_turn_fully(monkeypatch):
+    """Without poses round its turn the same start ends at a crank that swings. Second method: `move`, twice round."""
+    task, wanted = FunctionTask([0, 0.8, 1.6, 2.4], outputs=[0.38, 0.39, 0.95, 1.18]), Demands(crank=True)
+    design = fit_structure(task, TRIAD, wanted)
+    assert design.verdict.accepted
+    drive = circuit(design.linkage).drive[0]
+    assert move(design.linkage, drive + np.linspace(0, 4 * np.pi, 1001)).complete
+    monkeypatch.setattr("gruebler.design.synthesis.structures.turns_by_poses", lambda _: False)
+    assert not fit_structure(task, TRIAD, wanted).verdict.turns_fully
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_poses_round_the_turn_are_closed_and_lack_what_the_crank_lacks(seed):
+    """Second method: the limits of the drive, which the circuit finds by root finding."""
+    linkage = realise(TRIAD, seed=seed, budget=300).linkage
+    closure, course = DesignClosure(linkage), circuit(linkage)
+    task = FunctionTask([0.1, 0.2, 0.3], outputs=[0.1, 0.2, 0.25])
+    targets = fit_targets(task)
+    q = closure.poses(course.at(np.array([0.0, 0.01, 0.02]) * course.length))
+    state = FitState(closure.sizes, q=q, crank="0", output="2", free=np.array([0.4, 0.2]))
+    more, every = with_turn(closure, state, targets)
+    assert len(more.q) == len(every) > len(targets)
+    gaps = [pose_gaps(closure.joints, each, closure.sizes) for each in more.q]
+    assert np.abs(gaps).max() < 1e-9 * linkage.size
+    lacks = np.abs(compared(closure, every, more).errors[len(targets) :, 0])
+    own = [each for each in course.monotone_pieces if each.start <= 0 <= each.end or each.end >= course.length]
+    reach = abs(own[0].drives[1] - own[0].drives[0])
+    assert lacks.max() == pytest.approx(max(0.0, (2 * np.pi - reach) / 2), abs=0.2)  # angles are 15 degrees apart
+    back = without_turn(more, targets)
+    assert np.array_equal(back.q, q)
+    assert np.array_equal(back.free, state.free)
+    path = fit_targets(PathTask([(0, 0), (2, 1), (3, 3)]))
+    point = replace(state, link="5", free=np.array([0.1, 0.2]))
+    longer, points = with_turn(closure, point, path)
+    assert longer.free.tolist() == [0.1, 0.2, 0.0]
+    assert np.isnan(points.z[3:]).all()
+    assert without_turn(longer, path).free.tolist() == [0.1, 0.2]

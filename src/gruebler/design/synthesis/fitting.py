@@ -293,10 +293,12 @@ def compared(closure: DesignClosure, targets: FitTargets, state: FitState) -> _C
         c, angle = closure.column[state.output], closure.start[state.slide] + 2
         along = np.exp(1j * state.p[angle])
         place = state.q[:, c] + 1j * state.q[:, c + 1]
-        errors[:, at] = np.real(np.conj(along) * place) - targets.outputs - state.free[free]
-        by_pose[:, at, c], by_pose[:, at, c + 1] = along.real, along.imag
-        by_sizes[:, at, angle] = np.imag(np.conj(along) * place)
-        by_free[:, at, free] = -1.0
+        given = ~np.isnan(targets.outputs)
+        travel = np.real(np.conj(along) * place) - targets.outputs - state.free[free]
+        errors[:, at] = np.where(given, travel, 0)
+        by_pose[:, at, c], by_pose[:, at, c + 1] = along.real * given, along.imag * given
+        by_sizes[:, at, angle] = np.imag(np.conj(along) * place) * given
+        by_free[:, at, free] = -1.0 * given
     slopes = np.concatenate([by_pose, by_sizes, by_free], axis=2)
     if targets.bands is not None:
         errors, slopes = targets.bands.weighed(errors, slopes)
@@ -316,14 +318,15 @@ def improved(
     demands: Demands | None = None,
     *,
     steps: int = _STEPS,
+    exact: bool = True,
 ) -> FitState:
     """The state at a minimum nearby of the sum of squared errors: where it vanishes, if that can be reached.
 
     What is demanded of pivots and lengths is kept, as far as the task can be approached with it. The transmission angle
     at the targets is one more error of each, which counts where it is too small.
 
-    Few targets are met exactly by many linkages: Newton's method looks for the nearest of them, again after some
-    steps of least squares if that fails at first. Cost: for a six-bar 2 ms a step.
+    Few targets are met exactly by many linkages: if wanted, Newton's method looks for the nearest of them, again after
+    some steps of least squares if that fails at first. Cost: for a six-bar 1 ms a step.
     """
     # Errors are in the task's size; the poses of a function task have that of the linkage.
     size = closure.linkage.size if targets.z is None else float(np.nanmax(np.abs(targets.z - np.nanmean(targets.z))))
@@ -340,7 +343,7 @@ def improved(
     freedoms = start.by_motion.shape[2]
     alike = targets.bands is None or bool(targets.bands.exact.all())
     same = 3 * (len(closure.linkage.mechanism.chain.links) - 1)  # numbers that place a link's own coordinates on it
-    if not alike or targets.given - len(targets) * freedoms > len(units) - len(state.held) - same:
+    if not exact or not alike or targets.given - len(targets) * freedoms > len(units) - len(state.held) - same:
         return _least_squares(closure, targets, start, limits, units, steps).state
     for more in (0, min(steps, _FEW_STEPS), steps):
         start = _least_squares(closure, targets, start, limits, units, more)

@@ -58,6 +58,7 @@ from gruebler.design.synthesis.special_tasks import solved_where_it_lies
 from gruebler.design.synthesis.structure_curves import fit_drawings, together
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets, point_targets
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
+from gruebler.design.synthesis.turning_poses import turns_by_poses, with_turn, without_turn
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
 from gruebler.mechanics.kinematics.solve import cached_plan
@@ -93,7 +94,8 @@ def synthesise_structures(
             centres only differences count, since a structure has no line from which angles are measured.
         structures: driven mechanisms of turning and sliding joints; with several drives for positions and points.
         demands: what a design has to do besides: pivots, lengths and their ratio are kept by every step, of
-            a crank and dyads a crank that turns, too; the transmission angle as far as the targets allow it.
+            a crank and dyads a crank that turns, too, and of larger groups a second try of starts whose crank does
+            not; the transmission angle as far as the targets allow it.
         starts: how many are improved to the end of each mechanism: by default the best 24 of 1,920 neighbours from the
             atlas of its structure (a crank and dyads of turning joints, for a path), or 4 realisations of any other.
         link: that is guided, or whose motion is the output; for each start the one that is most alike without it.
@@ -408,20 +410,47 @@ def fit_structure(
     state = first_state(closure, stages[0], np.random.default_rng(seed), link, pivots)
     if state is None:
         return None
+    fit = partial(_fit_from, task, closure, state, stages, demands or Demands(), limits)
+    design = fit(turning=False)
+    asked = limits.crank and stages[-1].bands is None and turns_by_poses(first.linkage.mechanism)
+    if asked and not (design is not None and design.verdict.turns_fully and design.verdict.one_circuit):
+        other = fit(turning=True)
+        if design is None or (other is not None and len(other.verdict.reasons) < len(design.verdict.reasons)):
+            design = other
+    return design
+
+
+def _fit_from(
+    task: Task,
+    closure: DesignClosure,
+    state: FitState,
+    stages: Sequence[FitTargets],
+    demands: Demands,
+    limits: Demands,
+    *,
+    turning: bool,
+) -> Design | None:
+    """The design to which a state leads, with poses all round the turn of its crank or without them."""
+
+    def improved_at(state: FitState, targets: FitTargets, limits: Demands) -> FitState:
+        if turning:
+            every = with_turn(closure, state, targets)
+            state = without_turn(improved(closure, *every, limits, exact=False), targets)
+        return improved(closure, state, targets, limits)
+
     for targets in stages:
-        state = improved(closure, state, targets, limits)
-    outputs = (state.output,) if state.output else guided_output(first.linkage, state.link)
-    wanted = demands or Demands()
-    design = _judged(task, stages[-1], wanted, closure, state, outputs)
+        state = improved_at(state, targets, limits)
+    outputs = (state.output,) if state.output else guided_output(closure.linkage, state.link)
+    design = _judged(task, stages[-1], demands, closure, state, outputs)
     for _ in range(_RAISED):  # between the targets the angle may be smaller than at them
         if design is None or not limits.transmission > 0:
             break
-        missing = wanted.transmission - design.verdict.transmission
+        missing = demands.transmission - design.verdict.transmission
         if not missing > 0:
             break
         limits = replace(limits, transmission=min(limits.transmission + missing, _STEEPEST))
-        state = improved(closure, state, stages[-1], limits)
-        design = _judged(task, stages[-1], wanted, closure, state, outputs)
+        state = improved_at(state, stages[-1], limits)
+        design = _judged(task, stages[-1], demands, closure, state, outputs)
     return design
 
 
