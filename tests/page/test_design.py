@@ -627,9 +627,10 @@ def test_deviation_and_sensitivity_are_lengths(design):
     from gruebler.page.requests import answer
 
     rows = [[0, 0, 0], [30, 40, 30], [20, 10, 50]]
-    asked = {"kind": "positions", "rows": rows, "crank": False, "transmission": 30}
+    asked = {"kind": "positions", "rows": rows, "crank": True, "transmission": 20}
     items = answer("synthesise", asked, "en", print)["items"]
-    found = synthesise(task_of("positions", rows), demands=Demands(transmission=np.radians(30)))
+    demands = Demands(crank=True, transmission=np.radians(20))
+    found = synthesise(task_of("positions", rows), demands=demands, sort=["range-transmission"])
     parts = [one.relative_sensitivity for one in found.designs if one.verdict.accepted]
     assert {f"{item['shift']:.6g}" for item in items} <= {f"{50 * part:.6g}" for part in parts}
     view = design.page
