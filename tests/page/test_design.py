@@ -306,9 +306,10 @@ def test_dead_centres_are_those_that_were_asked_for(design):
     assert plane["y"] >= 0
     assert plane["y"] + plane["height"] <= view.viewport_size["height"]
     scaled_in_millimetres(view)
-    # their longest link is as long in all, and all turn fully: only the angle tells them apart
-    assert view.locator('[data-field="sorted"]').count() == 0
-    assert "Sorted by μ in all positions." in view.locator(".designs .note").first.inner_text()
+    # their longest link is as long in all, and all turn fully: the angle and the sensitivity tell them apart
+    orders = view.locator('[data-field="sorted"] option').evaluate_all("all => all.map((one) => one.value)")
+    assert orders == ["range", "shift", "balanced"]
+    view.locator('[data-field="sorted"]').select_option("range")
     angles = [float(text.split("≥")[1].split("°")[0]) for text in cards.locator("span:text('≥')").all_text_contents()]
     assert len(angles) > 2
     assert angles == sorted(angles, reverse=True)
