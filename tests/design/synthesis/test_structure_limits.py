@@ -228,7 +228,7 @@ def test_tasks_from_six_bars_that_meet_demands(mechanism, seed):
 
 def test_positions_with_a_pivot_a_region_and_lengths():
     """Four and five positions of a known six-bar, met exactly within what is given of it."""
-    linkage, _, _ = known(1, WATT, "4", 6)
+    linkage, _, _ = known(1, WATT, "4", 6, radians(15))
     start = circuit(linkage).drive[0]
     motion = move(linkage, start + np.linspace(0, 2.1, 5))
     rows = [(*map(float, p), float(a)) for p, a in zip(motion.point("P"), motion.angle("4"), strict=True)]

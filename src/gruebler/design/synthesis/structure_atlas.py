@@ -20,7 +20,7 @@ from gruebler.design.synthesis.dyad_structures import NO_LINES, DyadStructure, a
 
 _TRIALS, _BLOCKS_OF_TRIALS = 60_000, 16  # drawings at once; how often at most, until enough of them turn
 _LARGEST = 6.0  # places of joints, in crank lengths, where the crank is short
-_SAFE = 0.15  # the least sine of an angle between two links of a dyad, so that small changes do not stop the motion
+_SAFE, _SAFE_WHERE_SHORT = 0.05, 0.15  # the least sine of an angle between two links of a dyad
 _CURVES = 24_000  # of each kind of drawings
 _BLOCK = 1 << 15  # places of linkages that are looked at together
 
@@ -103,6 +103,7 @@ def _turning_drawings(structure: DyadStructure, count: int, *, short: bool) -> t
     coarse, fine = np.linspace(0, 2 * np.pi, 25)[:-1], np.linspace(0, 2 * np.pi, 2 * PLACES + 1)[:-1]
     kept: list[Complexes] = []
     spread: list[Reals] = []
+    safe_sine = _SAFE_WHERE_SHORT if short else _SAFE
     for block in range(_BLOCKS_OF_TRIALS):
         unit = _evenly_spread(np.arange(1, _TRIALS + 1) + block * _TRIALS, 2 * joints + 3)
         away, spin = unit[0::2][:joints], np.exp(2j * np.pi * unit[1::2][:joints])
@@ -113,7 +114,7 @@ def _turning_drawings(structure: DyadStructure, count: int, *, short: bool) -> t
             drawn = np.sqrt(-2 * np.log1p(-away)) * spin
             drawn = (drawn - drawn[pivot]) / np.abs(drawn[own[0]] - drawn[pivot])
         for angles in (coarse[::6], coarse, fine):  # most fail at the first ones
-            safe = _safe(structure, drawn, angles)
+            safe = _safe(structure, drawn, angles, safe_sine, between=angles is fine)
             drawn, unit = drawn[:, safe], unit[:, safe]
         kept.append(drawn)
         spread.append(unit[-3:-1])
@@ -131,14 +132,14 @@ def _evenly_spread(numbers: NDArray[np.int64], dimensions: int) -> Reals:
     return np.asarray((0.5 + steps[:, None] * numbers) % 1.0)
 
 
-def _safe(structure: DyadStructure, drawn: Complexes, phi: Reals) -> NDArray[np.bool_]:
-    """Which linkages the crank turns fully, with no dyad near its limit."""
+def _safe(structure: DyadStructure, drawn: Complexes, phi: Reals, sine: float, *, between: bool) -> NDArray[np.bool_]:
+    """Which linkages the crank turns fully, so that the angle of no dyad has a smaller sine."""
     points, sides = in_rows(drawn), assembled_sides(structure, drawn)
     linkages = *structure.drawn_program, points, NO_LINES, sides
     every = np.arange(len(structure.dyads))
-    tops = _core.find_tops(*linkages, np.tile(phi, (len(points), 1)), every, between=False)
+    tops = _core.find_tops(*linkages, np.tile(phi, (len(points), 1)), every, between=between)
     cosines = _core.find_cosines(*linkages, tops, every)
-    return np.asarray((np.abs(cosines) < np.sqrt(1 - _SAFE**2)).all(axis=(0, 1)))
+    return np.asarray((np.abs(cosines) < np.sqrt(1 - sine**2)).all(axis=(0, 1)))
 
 
 def _blocks(count: int, each: int) -> Iterator[slice]:

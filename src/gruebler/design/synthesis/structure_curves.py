@@ -5,6 +5,7 @@ A linkage is its drawing in one position, with the point that traces the curve; 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,8 +20,11 @@ from gruebler.design.synthesis.structure_atlas import structure_atlas
 
 _FIRST, _SECOND, _LAST = (1, 10), (3, 30), (16, 300)
 """Of the neighbours each so many-th is improved, by so many steps; the first two at some points of the target."""
+_ISLAND = 400  # neighbours whose descendants do not mix with those of others, until all have some
+_NEAR = 1e-6  # of the size: a linkage that is nearer and passes all targets in order ends the search
 _BRED, _BRED_ON_PIVOTS = 4, 8  # times: new linkages from those that there are; those of the atlas have other pivots
 _CHILDREN, _POOL = 400, 100  # at most, and no more than there are neighbours; those that have descendants
+_BRED_OF_ALL, _POOL_OF_ALL = 6, 30  # the same of all islands together; of each island
 _APART = 0.03  # of the size: those of the pool differ by more
 _FAVOUR = 1.5  # the better half of the pool has 63 % of the descendants
 _SHARES, _STEPS = (0.3, 0.5, 0.7), (0.5, 0.8)  # of places from another one; of a difference of two
@@ -62,8 +66,8 @@ def fit_drawings(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool
         closed: whether the last is followed by the first.
         number: how many neighbours from the atlas are improved.
 
-    Each stands at the first target. None where the atlas has no curves. Cost: 1 to 2 ms a neighbour, and 1 s for what
-    descends from them.
+    Each stands at the first target. None where the atlas has no curves. Cost: 2 to 3 ms a neighbour with what descends
+    from it, less where one meets the curve soon.
     """
     thin = np.unique(np.linspace(0, len(z) - 1, min(_THIN, len(z))).round().astype(np.int64))
     structure = limits.structure
@@ -80,24 +84,51 @@ def fit_drawings(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool
             curves = replace(curves, turned=_spread(curves.turned, thin, before))
         return _each_once(_at_first_target(structure, link, curves, sides), _APART * fit.size)
 
-    neighbours = _neighbours(limits, link, z, closed=closed, number=number)
-    if not len(neighbours.cost):
-        return neighbours
-    first = pool = improved(neighbours)
-    if not len(first.cost):
-        return first
-    chance = np.random.default_rng(1)
-    for _ in range(_BRED_ON_PIVOTS if limits.pivots else _BRED):
-        pool = _chosen(structure, pool, _POOL, closed=closed)
-        both = [pool, improved(_bred(limits, pool, min(number, _CHILDREN), chance))]
-        pool = _each_once(together(both), _APART * fit.size)
-    chosen = [_chosen(structure, each, max(1, number // _LAST[0]), closed=closed) for each in (first, pool)]
-    best = _each_once(together(chosen), _APART * fit.size)
+    def bred(pool: DrawnCurves, size: int, times: int) -> DrawnCurves:
+        """The pool after so many times descendants, of which so many linkages have some."""
+        chance = np.random.default_rng(1)
+        for _ in range(times if len(pool.cost) else 0):
+            pool = _chosen(structure, pool, size, closed=closed)
+            both = [pool, improved(_bred(limits, pool, min(number, _CHILDREN), chance))]
+            pool = _each_once(together(both), _APART * fit.size)
+        return pool
+
+    def met(pool: DrawnCurves) -> bool:
+        near = pool.cost < len(thin) * (_NEAR * fit.size) ** 2
+        return bool((near & _led_through(structure, pool, closed=closed)).any())
+
+    times = _BRED_ON_PIVOTS if limits.pivots else _BRED
+    pools: list[DrawnCurves] = []
+    kinds = _neighbours(limits, link, z, closed=closed, number=number)
+    if not kinds:
+        nothing = np.zeros((0, structure.joints + 1), np.complex128)
+        return DrawnCurves(places=nothing, turned=np.zeros((0, len(z))), cost=np.zeros(0))
+    for island in _islands(kinds, number):
+        first = improved(island)
+        pools += [first, bred(first, _POOL, times)]
+        if met(pools[-1]):
+            break
+    else:
+        parts = [_chosen(structure, pool, _POOL_OF_ALL, closed=closed) for pool in pools[1::2]]
+        pools.append(bred(_each_once(together(parts), _APART * fit.size), _POOL_OF_ALL * len(parts), _BRED_OF_ALL))
+    share = max(1, min(number, _ISLAND) // _LAST[0])
+    best = _each_once(together([_chosen(structure, each, share, closed=closed) for each in pools]), _APART * fit.size)
+    if not len(best.cost):
+        return best
     sides = assembled_sides(structure, best.places[:, :-1].T)
     best = fit.improved_in_parts(best.places, best.turned, sides, _LAST[1])
     best = _at_first_target(structure, link, best, sides)
     beyond = limits.passed(_rows(best.places), best.turned) > 0
     return _each_once(replace(best, cost=np.where(beyond, np.inf, best.cost)), _SAME * fit.size)
+
+
+def _islands(kinds: list[DrawnCurves], number: int) -> Iterator[DrawnCurves]:
+    """Parts of the neighbours whose descendants do not mix, the most similar ones first, of each kind in turn."""
+    each = min(number, _ISLAND)
+    for begin in range(0, number, each):
+        for curves in kinds:
+            if begin < len(curves.cost):
+                yield curves[np.arange(begin, min(begin + each, len(curves.cost)))]
 
 
 def _bred(limits: DrawingLimits, pool: DrawnCurves, count: int, chance: np.random.Generator) -> DrawnCurves:
@@ -114,14 +145,12 @@ def _bred(limits: DrawingLimits, pool: DrawnCurves, count: int, chance: np.rando
     return DrawnCurves(places=places, turned=pool.turned[own], cost=np.zeros(count))
 
 
-def _neighbours(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool, number: int) -> DrawnCurves:
+def _neighbours(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool, number: int) -> list[DrawnCurves]:
     """So many of each kind of drawings: curves are more alike among some kinds than after the improvement."""
     book = structure_atlas(limits.structure)
     of_link = book.link == limits.structure.coupler_links.index(link)
-    kinds = [np.flatnonzero(of_link & (book.short == short)) for short in (True, False)]
-    nothing = np.zeros((0, limits.structure.joints + 1), np.complex128)
-    none = DrawnCurves(places=nothing, turned=np.zeros((0, len(z))), cost=np.zeros(0))
-    return together([none, *(_alike(limits, own, z, closed=closed, number=number) for own in kinds if len(own))])
+    kinds = [np.flatnonzero(of_link & (book.short == short)) for short in (False, True)]
+    return [_alike(limits, own, z, closed=closed, number=number) for own in kinds if len(own)]
 
 
 def _alike(limits: DrawingLimits, own: NDArray[np.int64], z: Complexes, *, closed: bool, number: int) -> DrawnCurves:

@@ -68,7 +68,7 @@ from gruebler.structure.mechanism import Mechanism, check_drives
 
 _KEPT, _REALISATIONS = 24, 4  # designs of one mechanism
 _SAME = 1e-6  # of the size of a linkage: two that are drawn nearer to each other are one
-_NEIGHBOURS = 80  # from the atlas for each design that is kept
+_NEIGHBOURS = 50  # of each kind from the atlas for each design that is kept
 _RAISED, _STEEPEST = 3, 1.5  # times a transmission angle at the targets; radians
 ACCEPTED = 0.05
 _SEARCHED_AGAIN = message(
@@ -96,7 +96,7 @@ def synthesise_structures(
         demands: what a design has to do besides: pivots, lengths and their ratio are kept by every step, of
             a crank and dyads a crank that turns, too, and of larger groups a second try of starts whose crank does
             not; the transmission angle as far as the targets allow it.
-        starts: how many are improved to the end of each mechanism: by default the best 24 of 1,920 neighbours from the
+        starts: how many are improved to the end of each mechanism: by default the best 24 of 1,200 neighbours from the
             atlas of its structure (a crank and dyads of turning joints, for a path), or 4 realisations of any other.
         link: that is guided, or whose motion is the output; for each start the one that is most alike without it.
         executor: see `enumeration.worker_pool.run_work`; the answer is the same with any.
