@@ -1,6 +1,6 @@
 """Thirty closed and open curves by name: how near four-bars and six-bars come, with the measures of learners.
 
-`python -m benchmarks.yardstick FILE ...` takes curves of others instead: .npy of (curves, points, 2), closed;
+`python -m benchmarks.yardstick FILE ...` takes curves of others instead: .npy of (curves, points, 2);
 `--drawn SEED ...` fits paths that random six-bars drew, `--pivots SEED ...` on two of their own pivots;
 `--evolution NAME ...` asks scipy's differential evolution, too;
 `--challenge FILE` tells the hypervolume of our four-bars as the challenge of MIT 2.156 (2025) does.
@@ -10,6 +10,7 @@ import sys
 import time
 from itertools import chain, product
 from math import pi
+from pathlib import Path
 
 import numpy as np
 from scipy.optimize import differential_evolution
@@ -32,7 +33,7 @@ SIX_BARS = {
     "Watt I, ternary crank": ("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2); frame=0; drive=R(0-1)", "5"),
     "Stephenson I": ("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-3); frame=0; drive=R(0-1)", "4"),
 }
-NEIGHBOURS, NEIGHBOURS_ON_PIVOTS = 400, 960
+NEIGHBOURS, NEIGHBOURS_OF_OWN, NEIGHBOURS_ON_PIVOTS = 400, 1200, 960  # of each kind; 1,200 without `starts`
 MET = 1e-6  # of the longer side: the path is taken as met
 LONGER = 1.1  # than the polygon of the points: a path that is, leaves it between them
 SIZE_RATIOS = (1.5, 2.0, 3.0, 6.0)  # of four-bars for the challenge
@@ -60,6 +61,13 @@ def thirty() -> dict[str, tuple[np.ndarray, bool]]:
     }
 
 
+def given(row: np.ndarray) -> tuple[np.ndarray, bool]:
+    """64 points evenly along a curve, and whether it is closed: LInK's program asks its ends so."""
+    z = row[:, 0] + 1j * row[:, 1]
+    closed = bool(np.abs(z[-1] - z[0]) <= 1.1 * np.abs(z[1] - z[0]))
+    return resampled(z, 64, closed=closed)[0], closed
+
+
 def distance(z: np.ndarray, path: np.ndarray, *, closed: bool) -> float:
     """The root mean square distance of points from a path of places, by the longer side of the points."""
     first, second = path, np.roll(path, -1)
@@ -71,20 +79,21 @@ def distance(z: np.ndarray, path: np.ndarray, *, closed: bool) -> float:
     return float(np.sqrt(np.mean(gaps**2)) / max(np.ptp(z.real), np.ptp(z.imag)))
 
 
-def learners_measures(z: np.ndarray, path: np.ndarray) -> tuple[float, float]:
-    """Chamfer distance as LInK computes it, and the ordered distance of the challenge, of closed curves.
+def learners_measures(z: np.ndarray, path: np.ndarray, *, closed: bool = True) -> tuple[float, float]:
+    """Chamfer distance as LInK computes it, and the ordered distance of the challenge.
 
     Both of 200 points evenly along each curve, in units of the target's root mean square radius: the mean distance to
-    the nearest point, both ways added; and 2 pi times the mean distance of points in order, the best of all beginnings.
+    the nearest point, both ways added; and 2 pi times the mean distance of points in order, in the better sense, of
+    closed curves the best of all beginnings.
     """
-    target, own = resampled(z, EVEN, closed=True)[0], resampled(path, EVEN, closed=True)[0]
+    target, own = resampled(z, EVEN, closed=closed)[0], resampled(path, EVEN, closed=closed)[0]
     size = np.sqrt(np.mean(np.abs(target - target.mean()) ** 2))
     gaps = np.abs(target[:, None] - own) / size
     chamfer = gaps.min(axis=0).mean() + gaps.min(axis=1).mean()
     ordered = [
         gaps[np.arange(EVEN), (begin + sense * np.arange(EVEN)) % EVEN].mean()
-        for begin in range(EVEN)
         for sense in (1, -1)
+        for begin in (range(EVEN) if closed else [0 if sense == 1 else -1])
     ]
     return float(chamfer), 2 * pi * min(ordered)
 
@@ -257,8 +266,7 @@ def main(files: tuple[str, ...] = ()) -> None:
         structures[name] = structure, link
     curves = thirty()
     if files:
-        rows = [(f"{file} {k + 1}", row) for file in files for k, row in enumerate(np.load(file))]
-        curves = {name: (row[:, 0] + 1j * row[:, 1], True) for name, row in rows}
+        curves = {f"{Path(file).stem} {k + 1}": given(row) for file in files for k, row in enumerate(np.load(file))}
     heads = f"{'six links':>9}{'time':>8}{'chamfer':>10}{'ordered':>10}"
     print(f"{'curve':22}{'':>14}{'four links':>11}{'time':>8}  {'':22}{heads}")
     for name, (z, closed) in curves.items():
@@ -272,7 +280,7 @@ def main(files: tuple[str, ...] = ()) -> None:
                 best, six, own = each, error, found
         second = time.process_time() - start - first
         near = path if four < six else own
-        told = "".join(f"{value:>10.4f}" for value in learners_measures(z, near)) if closed else ""
+        told = "".join(f"{value:>10.4f}" for value in learners_measures(z, near, closed=closed))
         print(
             f"{name:22}{kind:>14}{four:>11.4%}{first:>6.1f} s  {best:22}{six:>9.4%}{second:>6.1f} s{told}", flush=True
         )
@@ -284,7 +292,7 @@ if __name__ == "__main__":
     elif sys.argv[1:2] == ["--evolution"]:
         evolution(tuple(sys.argv[2:]))
     elif sys.argv[1:2] == ["--drawn"]:
-        drawn_again(tuple(map(int, sys.argv[2:])) or (1,), 3, NEIGHBOURS, pivots=False)
+        drawn_again(tuple(map(int, sys.argv[2:])) or (1,), 3, NEIGHBOURS_OF_OWN, pivots=False)
     elif sys.argv[1:2] == ["--pivots"]:
         drawn_again(tuple(map(int, sys.argv[2:])) or (5, 6, 7), 2, NEIGHBOURS_ON_PIVOTS, pivots=True)
     else:
