@@ -18,6 +18,11 @@ _RATIO = 50
 STEP = np.radians(0.05)
 """Of the crank; shorter where its pin would go by more than `SHARE` of coupler or rocker, so that no fold is jumped."""
 SHARE = 0.02
+MET = 1e-9
+"""Sizes, by which a place may be missed, divided by the sine of the transmission angle: so much lengths that are off by
+1e-9 move it."""
+MOST = 1e-6
+"""Near a fold both places of the pin lie nearer to each other than that; by so much no place may be missed."""
 
 
 def pivots_of(design):
@@ -78,7 +83,9 @@ def simulated(pivots, moved):
                 share = (due[rows, j] - at[rows]) / step[rows]
                 wanted = here[rows] + share * (here - last)[rows]
                 there = _nearest(cut_circles(pins, b0[rows], coupler[rows], rocker[rows]), wanted)
-                hit = np.abs(there - moved[1][rows, j]) < 1e-6 * size[rows]
+                area = np.imag(np.conj(there - pins) * (there - b0[rows]))
+                sine = np.abs(area) / (coupler[rows] * rocker[rows])
+                hit = np.abs(there - moved[1][rows, j]) < np.minimum(MET / sine, MOST) * size[rows]
                 reached[rows[hit], j] = due[rows[hit], j]
             pins = a0 + (a - a0) * np.exp(1j * sense * (at + step))
             there = _nearest(cut_circles(pins, b0, coupler, rocker), 2 * here - last)
