@@ -47,6 +47,7 @@ SOURCE = Path(gr.__file__).parent
 TUPLES = {
     "Branches": "arrays over the same rows, joined one by one",
     "LeverPose": "what draws a lever, unpacked where it is drawn",
+    "PairPlaces": "arrays over the same linkages, from which some are taken one by one",
     "SolvedRows": "the arrays that a kernel fills",
 }
 """Named tuples with more than four fields that are no arguments of kernels, and why each is a tuple by nature."""
