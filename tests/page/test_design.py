@@ -544,6 +544,16 @@ def test_a_slide_of_a_design_has_its_block_on_its_guide():
             assert part.real.min() > -1e-3
             assert part.real.max() < 1 + 1e-3
         assert np.abs(z[:, start] + z[:, end] - 2 * pin[:, 0]).max() < 1e-3 * design["size"]
+        # the longest link is as long as its pins and its point lie apart, a rod as far as it slides
+        moving = design["members"][:-1]
+        far = [np.abs(z[0, k] - z[0, m]) for own in moving for k in own for m in own]
+        apart = {(k, end): np.ptp(np.abs(z[:, k] - z[:, end])) for own in moving for k in own for end in (low, high)}
+        rods = [own for own in moving if all(apart[k, end] < 5e-3 for k in own for end in (low, high))]
+        assert len(rods) == (design["form"] == "Inverted slider-crank")
+        far += [np.abs(z[:, k] - pin[:, 0]).max() for own in rods for k in own]
+        still = [at[0] for at in z.T[: design["joints"]] if np.ptp(np.abs(at)) < 1e-4]
+        far += [abs(one - other) for one in still for other in still]
+        assert design["size"] == pytest.approx(max(far), rel=2e-3)
 
 
 def test_after_all_four_bars_are_followed_it_is_said_that_they_are_judged():

@@ -148,7 +148,7 @@ def design_records(
         designs = whole or designs
     if space is not None:
         longest = hypot(space[2] - space[0], space[3] - space[1])
-        designs = [each for each in designs if each.linkage.size <= longest]
+        designs = [each for each in designs if _longest(posed_linkage(each.linkage)) <= longest]
     relative = not gives_lengths(task)
     if relative:
         designs = [replace(each, linkage=each.linkage.scaled(_LONGEST / each.linkage.size)) for each in designs]
@@ -223,6 +223,8 @@ def _words(
         )
     if items and relative:
         yield message("Of lengths only the ratios count; the longest is 100 mm.")
+    elif items:
+        yield message("The longest link counts its points, too, and how far a rod slides.")
     if sensitive:
         yield message("Sensitivity: how far a target is off at most if lengths are 0.1 % wrong.")
 
@@ -241,10 +243,27 @@ def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
         "range": degrees(over_range) if isfinite(over_range := design.transmission_over_range) else None,
         "shift": shift * size if isfinite(shift := design.relative_sensitivity) else None,
         "error": _size_of(verdict.error, size),
-        "size": linkage.size,
+        "size": _longest(posed),
         **_frames(linkage, posed, _played(design, task, posed)),
         **_met_angles(design, task, posed),
     }
+
+
+def _longest(posed: PosedLinkage) -> float:
+    """The longest link: as far as its joints, its points and what slides along it lie apart; of the frame the pins.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> _longest(posed_linkage(FourBar(25, 70, 40, 70).linkage({"K": (200.0, 0.0)})))
+    200.0
+    """
+    frame = posed.linkage.mechanism.frame
+    places = {link: pins_of(posed.lower, link) for link in posed.linkage.mechanism.chain.links}
+    more = [(point.link, complex(point.x, point.y)) for point in posed.linkage.points.values()]
+    more += [(slide.guide, end) for slide in slides(posed) for end in (slide.low, slide.high)]
+    for link, place in more:
+        if link != frame and link in places:
+            places[link].append(place)
+    return max(abs(one - other) for own in places.values() for one in own for other in own)
 
 
 def _size_of(error: float, size: float) -> float | None:
