@@ -172,11 +172,11 @@ export class Forces {
       this.#facts.show([
         {
           name: turning ? t("Largest drive torque") : t("Largest drive force"),
-          text: `${number(effort[most] ?? 0)} ${unit}`,
+          text: `${number(effort[most] ?? 0, 3)} ${unit}`,
           note: at(most),
         },
         { name: t("Effective (RMS)"), text: `${number(effective)} ${unit}` },
-        { name: t("Largest drive power"), text: `${number(power[0])} W` },
+        { name: t("Largest drive power"), text: `${number(power[0], 3)} W` },
         { name: t("Mean drive power"), text: `${number(power[1])} W` },
         {
           name: t("Drive work"),
@@ -185,7 +185,7 @@ export class Forces {
         },
         {
           name: t("Largest joint force"),
-          text: `${number(strongest.most)} N`,
+          text: `${number(strongest.most, 3)} N`,
           note: `${strongest.note}, ${strongest.name}`,
         },
       ]);

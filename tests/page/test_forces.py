@@ -273,12 +273,12 @@ def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_field
     torque, effective, power, mean, work, force = result.first.locator("dd").all_text_contents()
     told = answer("forces", asked(entries()["crankrocker"].linkage(), steel=True), "en", print)
     largest = max(told["effort"], key=abs)
-    assert torque.startswith(f"\N{MINUS SIGN}{-largest:.4g} N·mm at ")
+    assert torque.startswith(f"\N{MINUS SIGN}{-largest:.3g} N·mm at ")
     places = [drive for drive, effort in zip(told["drives"], told["effort"], strict=True) if effort == largest]
     assert torque.endswith(f" at {math.degrees(places[0]):.4g}°")
     assert effective == f"{told['effective']:.4g} N·mm"
     watts = 1e-3 * 2 * math.pi * largest  # at 60/min
-    assert (power, mean) == (f"\N{MINUS SIGN}{-watts:.4g} W", "0 W")
+    assert (power, mean) == (f"\N{MINUS SIGN}{-watts:.3g} W", "0 W")
     assert work == "0 J 0° … 360°"
     assert panel.get_by_label("Forces at drive speed").input_value() == "60"
     assert panel.get_by_text("Assumed masses: steel, bars 20 mm × 5 mm").count() == 1
@@ -287,7 +287,7 @@ def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_field
         (math.hypot(x, y), k) for one in told["forces"] for k, (x, y) in enumerate(zip(*one["force"], strict=True))
     ]
     strongest, row = max(forces)
-    assert force == f"{strongest:.4g} N at {math.degrees(told['drives'][row]):.4g}°, frame on rocker"
+    assert force == f"{strongest:.3g} N at {math.degrees(told['drives'][row]):.4g}°, frame on rocker"
     rings = [float(text.split()[0]) for text in panel.locator(".polar text").all_text_contents()]
     assert len(rings) >= 3
     assert rings == pytest.approx([rings[0] * (k + 1) for k in range(len(rings))])
