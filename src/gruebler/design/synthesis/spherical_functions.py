@@ -18,17 +18,13 @@ from gruebler.base.text import joined_by_or, message
 from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.results import SolutionCount
 from gruebler.design.synthesis.spherical import (
-    APART,
-    LEAST_ARC,
     SphericalDesign,
     SphericalResult,
     arc_between,
     checked_demands,
     checked_orders,
-    improved_function_dyads,
     judged_four_bar,
     order_of_designs,
-    resolution,
     result_of,
 )
 from gruebler.design.synthesis.spherical_dyads import (
@@ -39,6 +35,7 @@ from gruebler.design.synthesis.spherical_dyads import (
     family_dyads,
     five_orientation_dyads,
 )
+from gruebler.design.synthesis.spherical_search import APART, LEAST_ARC, improved_function_dyads, resolution
 from gruebler.mechanics.space.spherical_four_bar import SphericalFourBar
 
 PAIRS = 4
