@@ -263,7 +263,7 @@ def _longest(posed: PosedLinkage) -> float:
     for link, place in more:
         if link != frame and link in places:
             places[link].append(place)
-    return max(abs(one - other) for own in places.values() for one in own for other in own)
+    return max(abs(here - there) for own in places.values() for here in own for there in own)
 
 
 def _size_of(error: float, size: float) -> float | None:
