@@ -6,6 +6,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from gruebler.base.errors import GrueblerError
@@ -34,6 +35,14 @@ def test_masses_are_offered_before_there_are_any():
     # 7850 kg/m³ · 20 mm · 5 mm · 70 mm
     told = answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), steel=True), "en", print)
     assert told["masses"] == [0, pytest.approx(0.0196, abs=1e-4), pytest.approx(0.05495, abs=1e-4), 0.0314]
+
+
+def test_what_is_read_between_rows_has_four_digits():
+    """At one radian of the start machine, a turn in a second: the torque is the rate of the kinetic energy of its steel
+    bars by the angle, 3.121 N mm, the largest of a turn 32.37 N mm; the page draws a line from row to row."""
+    told = answer("forces", asked(entries()["lambda"].linkage(), steel=True), "en", print)
+    assert np.interp(1.0, told["drives"], told["effort"]) == pytest.approx(3.121, abs=1e-3)
+    assert max(told["effort"], key=abs) == pytest.approx(32.37, abs=5e-3)
 
 
 def test_what_a_motor_has_to_give():
