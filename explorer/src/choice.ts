@@ -1,7 +1,7 @@
 /** What is chosen in the drawing, and what can be done with it. */
 
 import { digits } from "./digits";
-import { h } from "./dom";
+import { action, h } from "./dom";
 import {
   type Drawing,
   driven,
@@ -82,9 +82,7 @@ function lengthField(view: Changing, link: string): HTMLElement[] {
 
 export function choiceOf(view: Changing): HTMLElement[] {
   const { chosen, drawing } = view;
-  const button = (key: string, text: string, act: () => void) =>
-    h("button.plain", { "data-act": key, onclick: act }, text);
-  const removing = button("remove", t("Remove"), () => removeChosen(view));
+  const removing = action("remove", () => removeChosen(view), t("Remove"));
   const note = (text: string) => h("b", {}, text);
   if (!chosen) return [];
   const { link } = chosen;
@@ -103,7 +101,7 @@ export function choiceOf(view: Changing): HTMLElement[] {
           t("Expected a new name without spaces and brackets."),
         ),
     });
-    const frame = button("frame", t("Hold as frame"), () => view.change({ ...drawing, frame: link, drives: [] }));
+    const frame = action("frame", () => view.change({ ...drawing, frame: link, drives: [] }), t("Hold as frame"));
     return [h("label", {}, t("Name"), name), ...lengthField(view, link), frame, removing];
   }
   const knot = chosen.knot!;
@@ -111,9 +109,9 @@ export function choiceOf(view: Changing): HTMLElement[] {
   const parts: HTMLElement[] = [removing];
   if (links.length > 1) {
     const is = drawing.drives.includes(knot);
-    parts.unshift(button("drive", is ? t("Not driven") : t("Drive"), () => view.change(driven(drawing, knot))));
+    parts.unshift(action("drive", () => view.change(driven(drawing, knot)), is ? t("Not driven") : t("Drive")));
     if (isPin(drawing.knots[knot]!))
-      parts.push(button("split", t("Split"), () => view.change(split(drawing, knot, view.step / 2))));
+      parts.push(action("split", () => view.change(split(drawing, knot, view.step / 2)), t("Split")));
   }
   const places = (["x", "y"] as const).map((key, axis) =>
     field(view, key, key, at[axis]!, (value) => {

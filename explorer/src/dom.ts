@@ -93,6 +93,11 @@ export function ownPage(): boolean {
   return document.querySelector("[data-gruebler]") !== null;
 }
 
+/** A button that does something, which is called so. */
+export function action(called: string, onclick: () => void, text = ""): HTMLButtonElement {
+  return h("button.plain", { "data-act": called, onclick }, text);
+}
+
 /** Buttons of which one is pressed: values with their texts. */
 export function choice(
   label: string,

@@ -1,6 +1,6 @@
 /** The sheet of what can be taken away: files, the link, pictures, tables, the same on a command line and in Python. */
 
-import { h, menu } from "./dom";
+import { action, h, menu } from "./dom";
 import { showOver } from "./help";
 import { currentLanguage, t } from "./language";
 import { chainText, type LinkageDocument } from "./model";
@@ -112,7 +112,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
     group(
       t("For others"),
       "",
-      h("button.plain", { "data-act": "share", onclick: () => void page.share() }, t("Copy the link")),
+      action("share", () => void page.share(), t("Copy the link")),
       served("HTML"),
     ),
     group(
@@ -185,7 +185,7 @@ function programs(page: Page, ask: (kind: string) => void): HTMLElement[] {
       ),
     () => kinds.delete(lang), // it is asked again
   );
-  return [kind, h("button.plain", { "data-act": "save", onclick: () => ask(kind.value) }, t("Save"))];
+  return [kind, action("save", () => ask(kind.value), t("Save"))];
 }
 
 async function png(file: string): Promise<Blob> {

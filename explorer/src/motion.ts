@@ -2,7 +2,7 @@
 
 import type { Stop } from "./cycle";
 import { applyDocument, savedDocument } from "./document";
-import { h, wantsStill } from "./dom";
+import { action, h, wantsStill } from "./dom";
 import { Dragging } from "./dragging";
 import type { Found } from "./facts";
 import type { Arrow } from "./forces";
@@ -245,11 +245,7 @@ export class MotionView implements View, Editor, Driven {
         text = t("{all} fits at no position of the drive, but {some} does.", { all: told(1), some: told(0.99 * most) });
       }
       const onclick = () => this.attempt(() => linkage.elsewhere(change));
-      this.page.say(
-        text,
-        "error",
-        fits ? h("button.plain", { "data-act": "elsewhere", onclick }, t("Move the drive there")) : undefined,
-      );
+      this.page.say(text, "error", fits ? action("elsewhere", onclick, t("Move the drive there")) : undefined);
     }
     this.#followed();
     this.timed(start);

@@ -3,7 +3,7 @@
 import type { Ruler } from "./beside";
 import { digits, showDigits } from "./digits";
 import { applyDocument, documentOf } from "./document";
-import { h, option, renew } from "./dom";
+import { action, h, option, renew } from "./dom";
 import { type Dragging, type Length, LONGEST } from "./dragging";
 import { middleOf } from "./hull";
 import { icon } from "./icons";
@@ -193,7 +193,7 @@ export function pointsPanel(editor: Editor): HTMLElement {
     "div",
     {},
     h("div.point-rows", {}, ...rows),
-    h("div.form", {}, link, h("button.plain", { "data-act": "add-point", onclick: add }, t("Add a point"))),
+    h("div.form", {}, link, action("add-point", add, t("Add a point"))),
     h("p.note", {}, t("Double-click or double-tap a link to add a point.")),
   );
 }
@@ -277,7 +277,7 @@ export function rulersPanel(editor: Editor): HTMLElement {
     "details.words",
     {},
     h("summary", {}, t("Measurement lines")),
-    h("div.form", {}, from, to, h("button.plain", { "data-act": "measure", onclick: add }, t("Add"))),
+    h("div.form", {}, from, to, action("measure", add, t("Add"))),
     ...rulers.map((ruler, k) => {
       const name = ruler.map(called).join(" – ");
       return h(
@@ -305,11 +305,7 @@ export function modesPanel(editor: Editor): HTMLElement {
   const own = h("div.chips", {}, ...chips);
   if (!editor.page.served || groups.every((group) => group.dyad)) return own;
   const onclick = () => void listModes(editor, all);
-  const all = h(
-    "div.chips",
-    {},
-    h("button.plain", { "data-act": "modes", onclick }, t("All assembly modes at this position")),
-  );
+  const all = h("div.chips", {}, action("modes", onclick, t("All assembly modes at this position")));
   return h("div", {}, own, all);
 }
 

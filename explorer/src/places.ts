@@ -1,7 +1,7 @@
 /** The panel in which the places of joints are typed, and that of a picture behind them. */
 
 import { backdropOf } from "./backdrop";
-import { h, option } from "./dom";
+import { action, h, option } from "./dom";
 import { isPin, knotName, moved, radiiOf, unitOf } from "./drawing";
 import { number, t } from "./language";
 import type { Drawn } from "./mobility";
@@ -44,9 +44,15 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty()
         ]
       : []),
     file,
-    h("button.plain", { "data-act": "picture", onclick: () => file.click() }, t("Background picture")),
+    action("picture", () => file.click(), t("Background picture")),
     ...(knots.length
-      ? [h("div.form", {}, h("button.plain", { "data-act": "empty", onclick: () => view.empty() }, t("Clear drawing")))]
+      ? [
+          h(
+            "div.form",
+            {},
+            action("empty", () => view.empty(), t("Clear drawing")),
+          ),
+        ]
       : []),
   ];
 }

@@ -3,7 +3,7 @@
 import { DEGREE } from "./cycle";
 import { Demands } from "./demands";
 import { type Design, DesignCards, type Found } from "./designs";
-import { choice, h, option, renew } from "./dom";
+import { action, choice, h, option, renew } from "./dom";
 import { History } from "./history";
 import { t } from "./language";
 import type { Model, Target } from "./model";
@@ -66,7 +66,7 @@ export class SynthesisView implements View {
   private readonly status = h("div.told", {});
   /** What stays in sight beside the designs. */
   readonly #doing = h("div.doing", {});
-  readonly #clearing = h("button.plain", { "data-act": "clear", onclick: () => this.#clear() });
+  readonly #clearing = action("clear", () => this.#clear());
   readonly #page: Page;
 
   constructor(page: Page) {
@@ -358,11 +358,7 @@ export class SynthesisView implements View {
     const { open } = this.#list.querySelector("details") ?? {};
     const folds = this.#puts === "curve";
     const set = folds ? h("details.words", { open }, h("summary", {}, `${t("Points")} · ${count}`), tables) : tables;
-    renew(
-      this.#list,
-      count ? set : "",
-      this.kind === "function" && h("button.plain", { "data-act": "pair", onclick: add }, t("Another pair")),
-    );
+    renew(this.#list, count ? set : "", this.kind === "function" && action("pair", add, t("Another pair")));
   }
 
   /** Meanwhile its buttons do nothing. */

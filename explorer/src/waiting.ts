@@ -1,6 +1,6 @@
 /** What takes time. */
 
-import { h, renew } from "./dom";
+import { action, h, renew } from "./dom";
 import { Cancelled, type Request } from "./host";
 import { t } from "./language";
 
@@ -29,7 +29,7 @@ export async function awaited<Result>(
     if (all && !more) Object.assign(bar, { max: all, value: done });
     else bar.removeAttribute("value");
   });
-  const cancel = h("button.plain", { "data-act": "cancel", onclick: () => request.cancel() }, t("Cancel"));
+  const cancel = action("cancel", () => request.cancel(), t("Cancel"));
   renew(place, bar, said, cancel);
   try {
     const found = await request;
