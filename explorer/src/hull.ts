@@ -25,6 +25,11 @@ function half(list: readonly Pair[]): Pair[] {
   return out.slice(0, -1);
 }
 
+/** From each corner to the next. */
+export function sidesOf(hull: readonly Pair[]): [Pair, Pair][] {
+  return hull.map((one, k) => [one, hull[(k + 1) % hull.length]!]);
+}
+
 /** How far a point is from a convex polygon: 0 within it. Asked some thousand times a frame, so nothing is made. */
 export function toHull(hull: readonly Pair[], x: number, y: number): number {
   let within = hull.length > 2;

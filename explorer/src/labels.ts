@@ -42,7 +42,7 @@ export function labelsOf(linkage: Linkage): Label[] {
     const spots = (viewport: Viewport) => {
       const { at, away, along, ...more } = on;
       const turned = (way: Pair) => direction(linkage.pose, 0, link, way);
-      const where = { at: place(linkage.pose, 0, link, ...at), away: away && turned(away) };
+      const where = { at: at.map((one) => place(linkage.pose, 0, link, ...one)), away: away && turned(away) };
       return nameSpots(viewport, { ...where, ...more, along: turned(along ?? [0, 0]) }, name);
     };
     const hull = (viewport: Viewport) =>

@@ -1,6 +1,6 @@
 /** Where the name of a link stands: in its body if that has room, else beside it. */
 
-import { convexHull, away as distance, middleOf, toHull } from "./hull";
+import { convexHull, away as distance, middleOf, sidesOf, toHull } from "./hull";
 import type { Pair } from "./rows";
 import type { Viewport } from "./viewport";
 
@@ -9,11 +9,12 @@ const BODY = 9; // pixels from the line between two joints to a name: half the w
 const ALONE = 22; // pixels from the only joint of a body, such as a block, to its name
 const GROUND = 22; // the height of a ground, but for where a name is near its bar
 const INK = 6; // half the height of a name, in pixels
+const GOOD = 300; // of a place at which nothing is wrong
 const ROOM = 15; // pixels between a name in a body and the lines between its joints
 
 export interface NamePlace {
-  /** In the coordinates of the link. */
-  at: Pair;
+  /** In the coordinates of the link: of a name in its body all that have room, its middle first. */
+  at: Pair[];
   /** Away from its body, of length 1; none for a name within it. */
   away: Pair | null;
   /** From there to the end of the side beside which it stands; a bar has its name on either side. */
@@ -31,27 +32,35 @@ export function halfOf(name: string): number {
 export function namePlace(joints: readonly Pair[], points: readonly Pair[], name: string, scale: number): NamePlace {
   const hull = convexHull([...joints, ...points]);
   const mean = middleOf(hull);
-  if (hull.length < 2) return { at: mean, away: [0, 1] };
-  const sides = hull.map((one, k) => [one, hull[(k + 1) % hull.length]!]);
+  if (hull.length < 2) return { at: [mean], away: [0, 1] };
+  const sides = sidesOf(hull);
   const room = (halfOf(name) + ROOM) / scale;
-  if (sides.every((one) => toHull(one, ...mean) > room)) return { at: mean, away: null };
+  const at = [0, 0.3, 0.6]
+    .flatMap((part) => hull.map((one) => between(mean, one, part)))
+    .filter((spot) => sides.every((one) => toHull(one, ...spot) > room));
+  if (at[0]) return { at, away: null };
   const isJoint = (p: Pair) => joints.some((one) => one[0] === p[0] && one[1] === p[1]);
-  const between = sides.filter((one) => one.every(isJoint));
-  const long = ([p, q]: Pair[]) => distance(q!, ...p!);
-  const side = (between.length ? between : sides).reduce((a, b) => (long(b) > 1.001 * long(a) ? b : a));
-  const [[x, y], [u, v]] = side as [Pair, Pair];
+  const held = sides.filter((one) => one.every(isJoint));
+  const long = ([p, q]: [Pair, Pair]) => distance(q, ...p);
+  const side = (held.length ? held : sides).reduce((a, b) => (long(b) > 1.001 * long(a) ? b : a));
+  const [[x, y], [u, v]] = side;
   return {
-    at: [(x + u) / 2, (y + v) / 2],
+    at: [between(...side, 0.5)],
     away: [(v - y) / long(side), (x - u) / long(side)],
     along: [(u - x) / 2, (v - y) / 2],
     bar: hull.length === 2,
   };
 }
 
+function between([x, y]: Pair, [u, v]: Pair, part: number): Pair {
+  return [x + part * (u - x), y + part * (v - y)];
+}
+
 /** The pixels where a name may stand, the first of them in the middle of its side. */
 export function nameSpots(viewport: Viewport, { at, away, along = [0, 0], bar }: NamePlace, name: string): Pair[] {
-  const [x, y] = viewport.screen(...at);
-  if (!away) return [[x, y + 4]];
+  const spots = at.map((one) => viewport.screen(...one));
+  const [x, y] = spots[0]!;
+  if (!away) return spots.map(([left, top]) => [left, top + 4]);
   if (bar === undefined) {
     const side = ALONE + halfOf(name);
     return [
@@ -89,8 +98,7 @@ export function clearSpot(
   clear = (_: Pair) => true,
 ): number {
   const half = halfOf(name);
-  const worth = (spot: Pair | undefined) => {
-    if (!spot) return -Infinity;
+  const score = (spot: Pair) => {
     const [x, y] = spot;
     let least = Infinity;
     for (const d of [-half, 0, half]) {
@@ -98,18 +106,13 @@ export function clearSpot(
       for (const hull of others) gap = Math.min(gap, toHull(hull, x + d, y - 4));
       least = Math.min(least, gap - toHull(own, x + d, y - 4));
     }
-    return least - (free(spot) ? 0 : 1e4);
+    if (!free(spot)) least -= 1e4;
+    const lost = clear(spot) ? 0 : 99;
+    if (least > INK && !lost) return GOOD;
+    return (least > 1 ? 200 : least) - lost;
   };
-  const good = (spot: Pair | undefined) => worth(spot) > INK && clear(spot!);
-  if (good(spots[before])) return before;
-  const best = spots.findIndex(good);
-  if (best >= 0) return best;
-  const worths = spots.map(worth);
-  const clearer = worths.map((value, k) => value - (clear(spots[k]!) ? 0 : 99));
-  for (const values of [clearer, worths]) {
-    const fair = values.findIndex((value) => value > 1);
-    if (fair >= 0) return fair;
-  }
-  const most = Math.max(...clearer);
-  return clearer[before]! > most - INK ? before : clearer.indexOf(most);
+  if (spots[before] && score(spots[before]) === GOOD) return before;
+  const scores = spots.map(score);
+  const most = Math.max(...scores);
+  return most < GOOD && scores[before]! > most - INK ? before : scores.indexOf(most);
 }

@@ -4,7 +4,7 @@ import { backdropElement, putBackdrop } from "./backdrop";
 import { Bodies } from "./bodies";
 import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
-import { clearAbout, convexHull } from "./hull";
+import { clearAbout, convexHull, middleOf, sidesOf, toHull } from "./hull";
 import { clearOf, driving, type Label, labelsOf, standing } from "./labels";
 import { number as numberText } from "./language";
 import type { Linkage } from "./linkage";
@@ -63,7 +63,7 @@ export class Scene {
   }
 
   /** The length of the longest arrow: in a low picture others would be covered by it. */
-  get #longest(): number {
+  get longest(): number {
     return Math.min(LONGEST_ARROW, 0.3 * this.viewport.height);
   }
 
@@ -254,7 +254,12 @@ export class Scene {
       const seen = ([u, v]: Pair) => u > half && u + half < width - (v < low ? BESIDE : 0);
       const free = clear(hulls[k]!.length ? arrows : drawn);
       if (hulls[k]!.length) {
-        const others = hulls.filter((one, other) => other !== k && one.length);
+        // of a plate upon which it lies only the edges are others
+        const mine = middleOf(hulls[k]!);
+        const others = hulls.flatMap((one, other) => {
+          if (other === k) return [];
+          return toHull(one, ...mine) ? [one] : sidesOf(one);
+        });
         label.taken = clearSpot(
           places,
           name,
@@ -290,7 +295,7 @@ export class Scene {
   #forceArrows(linkage: Linkage, shown: Shown): Vector[] {
     return shown.forces().map(([joint, x, y, force]): Vector => {
       const [u, v] = this.viewport.screen(...linkage.jointAt(joint));
-      return [u, v, this.#longest * x, -this.#longest * y, force];
+      return [u, v, this.longest * x, -this.longest * y, force];
     });
   }
 
@@ -311,7 +316,7 @@ export class Scene {
     });
     if (wanted) for (const point of sizes.points) add(point.link, ...point.at);
     const most = Math.max(...places.map((one) => one[4]).filter(Number.isFinite), 1e-12);
-    const shortened = (value: number) => (this.#longest * value) / most;
+    const shortened = (value: number) => (this.longest * value) / most;
     return places.map(([x, y, dx, dy, size]): Vector => [x, y, shortened(dx), shortened(dy), size]);
   }
 
@@ -319,7 +324,7 @@ export class Scene {
   #putValue(k: number, arrows: readonly Vector[], unit: string, drawn: readonly (readonly Pair[])[]): void {
     const text = this.#values[k]!;
     const [x, y, dx, dy, most] = arrows.reduce((a, b) => (b[4] > a[4] ? b : a), [0, 0, 0, 0, 0]);
-    text.textContent = most > 0 ? `${numberText(most, 3)} ${unit.trim()}` : "";
+    text.textContent = most > 0 ? `${numberText(most)} ${unit.trim()}` : "";
     if (!(most > 0)) return;
     const [left, top] = clearAbout([x + dx, y + dy], 18, drawn, halfOf(text.textContent));
     move(text, [left, top + 4]);

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { toHull } from "../src/hull";
+import { convexHull, toHull } from "../src/hull";
 import { clearSpot, halfOf, namePlace, nameSpots } from "../src/names";
 import type { Pair } from "../src/rows";
 import { Viewport } from "../src/viewport";
@@ -14,7 +14,7 @@ test("the name of a thin body stands beside its longest side, away from it", () 
     [100, 0],
   ];
   const below = namePlace(thin, [], "coupler", 1);
-  assert.deepEqual([below.at, below.away, below.bar], [[50, 0], [0, -1], false]);
+  assert.deepEqual([below.at, below.away, below.bar], [[[50, 0]], [0, -1], false]);
   const [[x, y]] = nameSpots(new Viewport(), below, "coupler") as [Pair]; // of a picture whose y grows downward
   assert.ok(x === 50 && y > 15);
 });
@@ -25,8 +25,31 @@ test("a body with room has its name in its middle, but not if the picture is sma
     [300, 0],
     [150, 300],
   ];
-  assert.deepEqual(namePlace(wide, [], "coupler", 1), { at: [150, 100], away: null });
+  const { at, away } = namePlace(wide, [], "coupler", 1);
+  assert.deepEqual([at[0], away], [[150, 100], null]);
   assert.ok(namePlace(wide, [], "coupler", 0.1).away);
+});
+
+test("a body with room has its name beside a bar that lies on its middle", () => {
+  const viewport = new Viewport();
+  const corners: Pair[] = [
+    [0, 0],
+    [300, 0],
+    [150, 300],
+  ];
+  const spots = nameSpots(viewport, namePlace(corners, [], "coupler", 1), "coupler");
+  const put = (places: Pair[]) => places.map((at) => viewport.screen(...at));
+  const plate = convexHull(put(corners));
+  const bar = put([
+    [150, 20],
+    [150, 180],
+  ]);
+  const [x, y] = spots[clearSpot(spots, "coupler", [plate, [bar]], () => true)]!;
+  for (const side of [-1, 0, 1]) {
+    const at: Pair = [x + side * halfOf("coupler"), y - 4];
+    assert.ok(toHull(bar, ...at) > 6);
+    assert.equal(toHull(plate, ...at), 0);
+  }
 });
 
 test("a free point beside a bar leaves the name on the other side", () => {
@@ -43,13 +66,13 @@ test("one place alone has its name above", () => {
     [3, 4],
     [3, 4],
   ];
-  assert.deepEqual(namePlace(pin, [], "block", 1), { at: [3, 4], away: [0, 1] });
+  assert.deepEqual(namePlace(pin, [], "block", 1), { at: [[3, 4]], away: [0, 1] });
 });
 
 test("between its rail and a force across it the name of a block stands in a corner", () => {
   const viewport = new Viewport();
   const [x, y] = viewport.screen(0, 0);
-  const spots = nameSpots(viewport, { at: [0, 0], away: [0, 1] }, "slider");
+  const spots = nameSpots(viewport, { at: [[0, 0]], away: [0, 1] }, "slider");
   // the rail goes to both sides, the force up and down: neither is met by the letters
   const free = (at: Pair) => Math.abs(at[1] - 4 - y) > 12 && Math.abs(at[0] - x) > halfOf("slider");
   const block: Pair[] = [[x, y]];
