@@ -94,7 +94,7 @@ const own = `
   jointName leftOf lineFirst linkList linkName moveJointBy movePointBy openDocument openFile
   pan paused picked playAt plottedAngle pointed pointName poleAside possible present recoloured runAlong
   fitted measured nudge recall spots
-  inSpace advance destroy elsewhere emit follow heads letterOf posed showKeys taken undoing
+  longest margin inSpace advance destroy elsewhere emit follow heads letterOf posed showKeys taken undoing
   keepInside served setAdding setLength setTheme shiftLine shownDesign showPose showRange showValue
   sized snapping switchMode toLocal turnTo upright writeSizes
 `.match(/\w+/g);

@@ -20,7 +20,7 @@ export interface Area extends Box {
  * places; only these if the width is -Infinity. It is as wide as the element, and as high whatever the places are. */
 export function areaOf(wide: number, part: number, places: readonly (readonly number[])[], element: Element): Area {
   const pixels = element.clientWidth || 840;
-  const ratio = Math.min(1, Math.max(0.5, (part * window.innerHeight) / pixels));
+  const ratio = Math.min(1, Math.max(0.3, (part * window.innerHeight) / pixels));
   const ends = ([0, 1] as const).map((axis) => {
     const values = places.map((place) => place[axis]!);
     return [Math.min(...values), Math.max(...values)] as const;

@@ -1,7 +1,7 @@
 /** The panel of forces: what the drive and the joints carry over a turn, and how the linkage falls; by the library. */
 
 import { documentOf } from "./document";
-import { h, renew } from "./dom";
+import { action, h, renew } from "./dom";
 import { FactList } from "./factlist";
 import type { Fall } from "./falling";
 import { number, t } from "./language";
@@ -132,7 +132,7 @@ export class Forces {
       this.changed();
     };
     const steel = t("steel, bars 20 mm × 5 mm to each joint, sliders 20 mm long");
-    const button = h("button.plain", { "data-act": "assume", onclick: assume }, `${t("Assume masses:")} ${steel}`);
+    const button = action("assume", assume, `${t("Assume masses:")} ${steel}`);
     const told = this.#form.steel ? `${t("Assumed masses:")} ${steel}` : this.#form.origin;
     const offer = masses.some(Boolean) ? h("p.note", {}, told) : h("div.form", {}, button);
     if (!drives) {
@@ -194,14 +194,14 @@ export class Forces {
         this.#form.rate,
         this.#facts.element,
         this.#plot.element,
-        h("div.form", {}, h("button.plain", { "data-act": "play", onclick: play }, t("Play at this speed"))),
+        h("div.form", {}, action("play", play, t("Play at this speed"))),
         offer,
         h("p.note", {}, t("Joint forces in this pose. Arrow length: square root of the force")),
         this.#joints.element,
         h("div.form", {}, h("label", {}, t("Force vector"), this.#joint)),
         this.#polar.element,
         ...lines.map((line) => h("p.note", {}, line)),
-        h("div.form", {}, h("button.plain", { "data-act": "fall", onclick }, release)),
+        h("div.form", {}, action("fall", onclick, release)),
         fallen,
       );
       this.#showJoint();

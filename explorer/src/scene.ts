@@ -324,7 +324,7 @@ export class Scene {
   #putValue(k: number, arrows: readonly Vector[], unit: string, drawn: readonly (readonly Pair[])[]): void {
     const text = this.#values[k]!;
     const [x, y, dx, dy, most] = arrows.reduce((a, b) => (b[4] > a[4] ? b : a), [0, 0, 0, 0, 0]);
-    text.textContent = most > 0 ? `${numberText(most)} ${unit.trim()}` : "";
+    text.textContent = most > 0 ? `${numberText(most, 3)} ${unit.trim()}` : "";
     if (!(most > 0)) return;
     const [left, top] = clearAbout([x + dx, y + dy], 18, drawn, halfOf(text.textContent));
     move(text, [left, top + 4]);

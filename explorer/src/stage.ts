@@ -170,6 +170,11 @@ export class Stage implements Board {
   /** Put everything where the pose has it. */
   draw(): void {
     if (!this.linkage) return;
+    const { viewport } = this;
+    const { margin } = viewport;
+    const { accelerations, forces, velocities } = this.shown;
+    viewport.margin = velocities || accelerations || forces()[0] ? this.#scene.longest + 8 : 60;
+    if (viewport.margin !== margin && viewport.fitted) this.fit();
     this.#rule(this.linkage.model.unit);
     this.#scene.draw(this.linkage, this.shown);
     this.#scene.mark(this.chosen, "chosen");
@@ -177,7 +182,7 @@ export class Stage implements Board {
     if (this.#hint.textContent !== said) this.#hint.textContent = said;
     const pen = this.canvas.getContext("2d");
     if (!pen) return;
-    new Painter(pen, this.viewport, this.#colour).paint(this.linkage, this.shown, this.#modes);
+    new Painter(pen, viewport, this.#colour).paint(this.linkage, this.shown, this.#modes);
   }
 
   /** What can be done next; of a link that is chosen its lengths. */

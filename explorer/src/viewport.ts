@@ -18,6 +18,8 @@ export class Viewport {
   scale = 1;
   /** Whether it shows everything, and goes on doing so in another size. */
   fitted = true;
+  /** Pixels beside all of it. */
+  margin = 60;
   #ox = 0;
   #oy = 0;
 
@@ -34,7 +36,7 @@ export class Viewport {
   /** Show a rectangle, or at least a square of that width; what lies below, so many pixels high, is left out. */
   fit({ left, right, bottom, top }: Box, least: number, below?: number): void {
     const narrow = this.width < 500;
-    const margin = narrow ? 34 : 60;
+    const margin = narrow ? 34 : this.margin;
     const keys = narrow ? 56 : 0; // the buttons on the right
     const foot = below ?? (narrow ? margin : 0); // what can be done, in two lines
     const wide = Math.max(right - left, least);

@@ -398,6 +398,25 @@ def test_arrows_of_a_low_picture_are_shorter_and_their_value_is_not_under_a_butt
         assert max(apart) >= 0, drive
 
 
+def test_arrows_of_forces_stay_in_the_picture(tab, server):
+    """They go out from fixed pivots, which lie at its edges; without them the linkage is as large as before."""
+    page = tab(width=1440, height=900).open(server.address)
+    before = page.page.evaluate("gruebler.motion.stage.viewport.scale")
+    panel = page.page.locator(PANEL)
+    panel.locator("summary").first.click()
+    panel.locator('[data-act="assume"]').click()
+    panel.locator(".plot.polar").wait_for()
+    stage = page.page.locator(".stage").bounding_box()
+    for drive in range(0, 360, 10):
+        page.page.evaluate(f"gruebler.motion.transport.pick({math.radians(drive)})")
+        places = [float(one) for one in re.findall(r"[-\d.]+", page.page.evaluate(ARROWS))]
+        assert 0 < min(places[::2]) <= max(places[::2]) < stage["width"]
+        assert 0 < min(places[1::2]) <= max(places[1::2]) < stage["height"]
+    assert page.page.evaluate("gruebler.motion.stage.viewport.scale") < before
+    panel.locator("summary").first.click()
+    page.until(f"gruebler.motion.stage.viewport.scale === {before}")
+
+
 def test_without_the_library_it_says_so(tab, tmp_path):
     from gruebler.cli import main
 
