@@ -102,7 +102,7 @@ def test_show_in_full(capsys):
     assert status == 0
     for words in (
         "Zählung: F = 3(n - 1)",
-        "Äußere Totlage bei 90°",
+        "Der Abtrieb kehrt um bei 90°",
         "Geführte Punkte:",
         "17,9796 hoch",
         "Kuppelstange",

@@ -279,14 +279,20 @@ class Measures:
         ratio = self.transfer.ratio if self.transfer.uniform else None
         name, turns = self.output.name, self.output_turns
         yield from output_lines(units, name, still=self.transfer.still, ratio=ratio, turns=turns, travel=self.travel)
-        yield from (dead_centre_message(units, centre) for centre in self.dead_centres)
+        mechanism = self.linkage.mechanism
+        floating = self.output.turning and not any(
+            {mechanism.frame, self.output.link} <= {*joint.links} for joint in mechanism.chain.joints
+        )
+        yield from (dead_centre_message(units, centre, floating=floating) for centre in self.dead_centres)
         yield from (dwell_message(units, dwell, self.span.period) for dwell in self.dwells)
         if self.dwells:
             yield dwell_share_message(self.dwell_share)
             if self.output_turns:
                 yield motion_share_message(units, self.moving_span, self.span.period, self.motion_ratio)
         if self.phi_forward is not None and self.phi_back is not None:
-            yield from stroke_lines(units, self.phi_forward, self.phi_back, self.time_ratio, dwells=bool(self.dwells))
+            yield from stroke_lines(
+                units, self.phi_forward, self.phi_back, self.time_ratio, dwells=bool(self.dwells), floating=floating
+            )
         yield from time_lines(
             None if self.speed is None else in_rpm(self.speed), self.times, self.dwell_time if self.dwells else None
         )

@@ -18,6 +18,7 @@ _DEAD_CENTRES = {
     "inner": message("Inner dead centre at {drive}: {output}."),
     "outer": message("Outer dead centre at {drive}: {output}."),
     "": message("Dead centre at {drive}: {output}."),
+    "floating": message("The output turns back at {drive}: {output}."),
     "flat": message("The output pauses at {drive}: {output}."),
 }
 _DWELLS = {
@@ -47,9 +48,9 @@ def output_lines(
         yield message("The output {name} has a stroke of {travel}.", name=name, travel=units.output(travel))
 
 
-def dead_centre_message(units: MeasureUnits, centre: DeadCentre) -> Message:
-    """Where the output turns back, or pauses."""
-    text = _DEAD_CENTRES["flat" if centre.kind == "flat" else centre.side]
+def dead_centre_message(units: MeasureUnits, centre: DeadCentre, *, floating: bool) -> Message:
+    """Where the output turns back, or pauses; a link that floats has no dead centres."""
+    text = _DEAD_CENTRES["flat" if centre.kind == "flat" else "floating" if floating else centre.side]
     return text.filled(drive=units.drive(centre.drive), output=units.output(centre.output))
 
 
@@ -61,14 +62,18 @@ def dwell_message(units: MeasureUnits, dwell: Dwell, period: float) -> Message:
 
 
 def stroke_lines(
-    units: MeasureUnits, phi_forward: float, phi_back: float, ratio: float | None, *, dwells: bool
+    units: MeasureUnits, phi_forward: float, phi_back: float, ratio: float | None, *, dwells: bool, floating: bool
 ) -> Iterator[Message]:
     """The drive angles of both strokes."""
-    if dwells:
+    if floating:
+        text = message("Drive angles: {forward} one way, {back} the other; time ratio {ratio:n}.")
+    elif dwells:
         text = message("Drive angles without dwells: {forward} from inner to outer, {back} back; time ratio {ratio:n}.")
     else:
         text = message("Drive angles: {forward} from inner to outer, {back} back; time ratio {ratio:n}.")
     yield text.filled(forward=units.drive(phi_forward), back=units.drive(phi_back), ratio=ratio)
+    if floating:
+        return
     if phi_forward - phi_back > _CONSTANT:
         yield message("Turning counter-clockwise, the slow stroke is the outward one.")
     elif phi_back - phi_forward > _CONSTANT:
