@@ -107,7 +107,7 @@ export class Bodies {
       return;
     }
     const room = 26 / this.#scale;
-    const pins = frame ? [] : this.#pinsAlong(link, band);
+    const pins = frame ? [] : this.#pinsAlong(k, band);
     const at = (way: number): Pair => [band.x + band.c * way, band.y + band.s * way];
     const from = Math.min(band.low - room, ...pins);
     const to = Math.max(band.high + room, ...pins);
@@ -116,30 +116,29 @@ export class Bodies {
     if (frame) styles = ["rail", "rail-hatch"];
     for (const style of styles) out.push(["path", { class: style, d }]);
     if (frame || pins.length) return;
-    nodes.push([band.x + (band.c * (band.low + band.high)) / 2, band.y + (band.s * (band.low + band.high)) / 2]);
+    nodes.push(at((band.low + band.high) / 2));
   }
 
   /** Where along a line the pins of its link lie that are on it. */
-  #pinsAlong(link: number, { x, y, c, s }: Band): number[] {
+  #pinsAlong(line: number, { x, y, c, s }: Band): number[] {
     const { sizes } = this.#linkage;
     return sizes
-      .elementsOn(link)
+      .elementsOn(sizes.element(line).link)
       .filter((m) => sizes.is(m, "pin"))
-      .map((m): Pair => {
-        const [u, v] = sizes.xy(m);
-        return [c * (u - x) + s * (v - y), c * (v - y) - s * (u - x)];
-      })
-      .filter(([, off]) => Math.abs(off) < 1e-6 * sizes.unit)
-      .map(([way]) => way);
+      .map((m) => sizes.xy(m))
+      .filter((at) => Math.abs(sizes.leftOf(line, ...at)) < 1e-6 * sizes.unit)
+      .map(([u, v]) => c * (u - x) + s * (v - y));
   }
 
-  /** Whether of the two links of a slide this one has the bar: the frame, the one with more joints, or at the frame. */
+  /** Whether of the two links of a slide this one has the bar: the frame, the one with more joints and points;
+   * of equal ones that which is not called a block, as in pictures of the library. */
   #carries(link: number, joint: number): boolean {
     const { model, sizes } = this.#linkage;
     const [one, two] = model.joints[joint]!.links as Pair;
-    const atFrame = (k: number) => model.joints.some(({ links }) => links.includes(k) && links.includes(model.frame));
-    const rank = (k: number) => (k === model.frame ? 100 : 0) + 2 * sizes.elementsOn(k).length + Number(atFrame(k));
-    return rank(one) >= rank(two) ? link === one : link === two;
+    const called = (k: number) => /block|slider|piston|stein|kolben/i.test(model.links[k]!); // a block
+    const carried = (k: number) => sizes.elementsOn(k).length + sizes.points.filter((point) => point.link === k).length;
+    const rank = (k: number) => (k === model.frame ? 100 : 0) + 2 * carried(k) - Number(called(k));
+    return link === (rank(one) < rank(two) ? two : one);
   }
 
   /** A cylinder's barrel, or its rod, from its pin towards the other; null if the slide is no cylinder. */

@@ -39,7 +39,7 @@ export interface Driven {
 /** What is found over a cycle, to be marked. */
 interface Marked {
   dead: { value: number }[];
-  least: { value: number } | null;
+  least: { value: number; leg: unknown } | null;
 }
 
 export class Transport<View extends Driven = Driven> {
@@ -99,7 +99,7 @@ export class Transport<View extends Driven = Driven> {
   showRange({ dead, least }: Marked): void {
     const { cycle, drive, model } = this.view.linkage;
     const places = dead.map(({ value }) => value);
-    this.#track.show(cycle, drive?.turning ?? true, places, least?.value ?? null, model.unit);
+    this.#track.show(cycle, drive?.turning ?? true, places, least?.leg ? least.value : null, model.unit);
   }
 
   /** The value of the drive as it is shown. */

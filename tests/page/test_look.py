@@ -1,11 +1,14 @@
 """What meets the eye: a machine that moves, measures as figures, plots that are read, names beside their links."""
 
+import json
 from math import acos, degrees
 
 import numpy as np
 import pytest
 
 from gruebler.cli import main
+from gruebler.files import linkage_to_json
+from gruebler.mechanics.fourbar import InvertedSliderCrank
 
 
 @pytest.fixture(scope="module")
@@ -622,3 +625,19 @@ def test_a_print_has_name_picture_measures_sizes_and_plots(tab, server):
         assert 0 <= box["x"] < box["x"] + box["width"] <= 718, part
     for part in ("nav", "header button", ".transport", ".tools", '[data-panel="forces"]', ".plot-tools"):
         assert not page.locator(part).first.is_visible(), part
+
+
+@pytest.mark.parametrize("points", [{}, {"C": (70, 10)}])
+def test_the_rod_of_an_inverted_slider_crank_is_its_coupler(tab, tmp_path, points):
+    """As its preview and its names have it: the block swivels about the fixed pivot. Its angle of 90 degrees between
+    guide and block is the transmission angle everywhere, so there is no place at which it is smallest."""
+    file, path = tmp_path / "guide.json", tmp_path / "page.html"
+    file.write_text(json.dumps(linkage_to_json(InvertedSliderCrank(a=30, d=50).linkage(points))))
+    assert main(["explore", str(file), "-o", str(path)]) == 0
+    page = tab(width=1440, height=900).open(path.as_uri()).page
+    assert page.locator('.stage [data-link="coupler"] .rod').count() == 1
+    assert page.locator('.stage [data-link="block"] .block').count() == 1
+    facts = page.locator(".side .facts div", has_text="Smallest μ")
+    assert facts.locator("dd").inner_text() == "90°"
+    assert page.locator(".track .dead").count() == 2
+    assert page.locator(".track .least").count() == 0
