@@ -174,8 +174,8 @@ def test_prose_and_data(linkage: Linkage, output: str | None) -> None:
 
 
 def test_a_link_that_floats_turns_back_and_has_no_dead_centres() -> None:
-    """At 90 degrees the crank of the lambda linkage is parallel to its rocker, neither stretched with the coupler nor over
-    it; the rocker's dead centres are where it is."""
+    """At 90 degrees the crank of the lambda linkage is parallel to its rocker, neither stretched with the coupler nor
+    over it; the rocker's dead centres are where it is."""
     linkage = FourBar(20, 50, 50, 40).linkage()
     words = measures(linkage, output="coupler").explain()
     assert "The output turns back at 90°: 36.87°." in words  # the coupler as the hypotenuse of 30, 40, 50
