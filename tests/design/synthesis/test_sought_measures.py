@@ -157,7 +157,7 @@ def test_the_least_sensitive_positions_are_sought():
     assert any("2e-05 sizes" in note for note in said)
 
 
-@pytest.mark.parametrize("places", [[(0, 0)] * 3, [(0, float("nan"))], [(1,)], "ab", 5])
+@pytest.mark.parametrize("places", [[(0, 0)] * 3, [(0, float("nan"))], [(0, 1e300)], [(1,)], "ab", 5])
 def test_what_is_no_place_is_refused(places):
     with pytest.raises(SynthesisError, match="near_pivots"):
         Demands(near_pivots=places)

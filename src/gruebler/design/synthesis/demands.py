@@ -202,11 +202,15 @@ def _given_lengths(value: object) -> tuple[tuple[str, float], ...]:
     return tuple(pairs.items())
 
 
+_UNBOUNDED = 1e100
+"""Squares of such coordinates leave the numbers of the computer."""
+
+
 def _places(value: object) -> tuple[tuple[float, float], ...]:
     """At most two places of the plane."""
     rows: list[Any] = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else [None]
     good = all(isinstance(row, Sequence | np.ndarray) and len(row) == 2 and all(map(_is_number, row)) for row in rows)
-    if not good or len(rows) > 2 or not np.isfinite(np.array(rows, np.float64)).all():
+    if not good or len(rows) > 2 or not (np.abs(np.array(rows, np.float64)) < _UNBOUNDED).all():
         raise SynthesisError(
             "{name}: expected one or two places x, y, but found {value!r}", name="near_pivots", value=value
         )

@@ -378,8 +378,9 @@ def improved_pair(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -
         best = max(best, partner.angle)  # a gain within the margin is no reason to begin anew
         proved[side] = not partner.left
         if all(proved):
-            if best + margin >= pi / 2:
-                return improved, []
+            if best + margin >= pi / 2:  # no angle is larger, or the margin has become too wide to say so
+                close = best + MARGIN[len(task)] >= pi / 2
+                return improved, [] if close else [_BESIDE_UNKNOWN.filled(form=form)]
             note = _BESIDE_SLIDE if pair[1].slides else _BESIDE
             return improved, [beside_best(note.filled(form=form, far=FAR, angle=_upward(best + margin)), best)]
         if partner.left and partner.dyad is None:
