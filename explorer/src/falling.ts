@@ -15,8 +15,8 @@ export interface Fall {
 export class Falling {
   /** The pose before. */
   readonly start: Rows;
-  /** Seconds since it was let go. */
-  #time = 0;
+  /** Poses since it was let go. */
+  #at = 0;
 
   constructor(
     private readonly fall: Fall,
@@ -26,15 +26,14 @@ export class Falling {
   }
 
   get text(): string {
-    return `${number(this.#time, 3)} s`;
+    return `${number(this.#at / this.fall.rate, 3)} s`;
   }
 
-  /** The pose so many seconds later, without rates; null when it is over. */
-  later(seconds: number): Rows | null {
+  /** The pose so many seconds later, without rates; the first one follows the last. */
+  later(seconds: number): Rows {
     const { rate, places, turns } = this.fall;
-    this.#time = Math.max(0, this.#time + seconds); // the first frame may be older than the answer
-    const row = Math.round(this.#time * rate);
-    if (row >= places.length) return null;
+    this.#at = Math.max(0, this.#at + seconds * rate) % places.length; // the first frame may be older than the answer
+    const row = Math.floor(this.#at);
     const { start } = this;
     const still = new Float64Array(start.places.length).fill(NaN);
     still.set(places[row]!);

@@ -40,7 +40,7 @@ export class PlaneTransport extends Transport<DrivenInPlane> {
     this.view.posed();
   }
 
-  /** Play poses of a free motion once, in real time. */
+  /** Play poses of a free motion in real time, again and again until it is paused. */
   play(fall: Fall): void {
     this.pause();
     this.falling = new Falling(fall, this.view.linkage);
@@ -59,9 +59,7 @@ export class PlaneTransport extends Transport<DrivenInPlane> {
 
   protected override advance(seconds: number): void {
     if (!this.falling) return super.advance(seconds);
-    const pose = this.falling.later(seconds);
-    if (!pose) return this.pause();
-    this.view.linkage.pose = pose;
+    this.view.linkage.pose = this.falling.later(seconds);
     this.view.posed();
   }
 

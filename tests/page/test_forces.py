@@ -230,6 +230,9 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     before = page.page.evaluate(POSE)
     page.page.locator('[data-act="fall"]').click()
     page.until(f"gruebler.motion.transport.player.playing && {POSE} !== '{before}'", 90)
+    seconds = "Number.parseFloat(gruebler.root.querySelector('.transport .value').value.replace(',', '.'))"
+    for part in ("> 1.7", "< 0.5", "> 1.7"):  # again and again, until it is paused
+        page.until(f"{seconds} {part}", 90)
     page.page.locator("button.play").click()
     assert page.page.evaluate(POSE) == before
     assert "12/min" in page.page.locator(".transport .speed").inner_text()
