@@ -31,7 +31,7 @@ function emptyCard(): HTMLElement {
 export class CatalogView implements View {
   readonly element = h("div.view", { "data-page": "catalog" });
   /** What is looked for, as it was typed. */
-  readonly #query: Record<string, string> = {};
+  #query: Record<string, string> = {};
   #refining = false;
   #byLinks = false;
   readonly #cards = h("div.cards", { "data-list": "catalog" });
@@ -157,6 +157,11 @@ export class CatalogView implements View {
       found.sort((a, b) => (this.#byLinks && a.links - b.links) || byName(a, b));
       renew(cards, ...found.map((entry) => this.#card(entry)));
       for (const card of cards.children) this.#watcher.observe(card);
+      const onclick = () => {
+        this.#query = {};
+        this.arrange();
+      };
+      if (!found.length) renew(cards, h("button.plain", { onclick }, t("Show all")));
     } catch (error) {
       if (number !== this.#asked) return;
       this.#note.textContent = (error as Error).message;

@@ -89,6 +89,6 @@ function ends(linkage: Linkage, one: number, two: number): [Pair, Pair] {
 export async function openDrawn(page: Page, drawing: Drawing): Promise<void> {
   const { title } = drawing;
   const document = documentOfDrawing(title === undefined ? traced(drawing) : drawing);
-  const model = await page.ask<Model>("open_document", { document, name: title ?? t("A drawn mechanism") });
+  const model = await page.ask<Model>("open_document", { document, name: title ?? t("New drawing") });
   page.open({ ...model, changed: title !== undefined });
 }

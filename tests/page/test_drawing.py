@@ -132,6 +132,7 @@ def test_a_four_bar_and_then_a_watt_six_bar_are_drawn_and_moved(plane):
     assert view.locator('.palette [aria-pressed="true"]').get_attribute("data-tool") == "move"
     view.click('[data-view="motion"]')  # it shows what is drawn, as "Move it" does
     plane.until("gruebler.motion.linkage.model.links.includes('3') && gruebler.view === 'motion'")
+    assert view.locator("h1 small").inner_text().startswith("New drawing")  # as while it was drawn
     linkage = linkage_from_json(json.loads(view.evaluate("JSON.stringify(gruebler.motion.document())")))
     assert linkage.mechanism.chain.text() == "R(frame-1) R(1-2) R(2-3) R(frame-3)"
     assert linkage.length("1", 0, 1) == pytest.approx(20, abs=1e-9)

@@ -248,6 +248,9 @@ def test_the_verdict_is_in_sight_and_read_out(exercises, width, height):
         )
         == "mark"
     )
+    view.evaluate("gruebler.root.querySelector('.solution').scrollIntoView({ block: 'end' })")
+    last, box = (part.bounding_box() for part in (view.locator(".answer").last, verdict))
+    assert last["y"] + last["height"] + 4 <= box["y"]
     view.locator('[data-answer="F"]').focus()  # what is typed into is not under the bar
     field, bar = (view.locator(part).bounding_box() for part in ('[data-answer="F"]', ".shown .go"))
     assert field["y"] + field["height"] <= bar["y"]

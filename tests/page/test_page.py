@@ -424,6 +424,12 @@ def test_the_catalog_is_searched_by_access_features(tab, server):
     assert names == sorted(names)  # all begin with a capital letter without dots
     page.page.locator('[data-field="joints"]').fill("D7")
     page.until("document.querySelector('.gruebler-explorer').shadowRoot.textContent.includes('D7')")
+    page.page.locator('[data-field="joints"]').fill("")
+    page.page.locator('[data-field="words"]').fill("zzzz")
+    page.page.get_by_role("button", name="Alle zeigen").click()
+    page.until(f"{root}.querySelectorAll('[data-id]').length === {len(answer('catalog', {}, 'de', print))}")
+    fields = page.page.locator('[data-page="catalog"] input')
+    assert set(fields.evaluate_all("all => all.map((one) => one.value)")) == {""}
 
 
 def test_a_four_bar_through_points_that_are_clicked(tab, server):
