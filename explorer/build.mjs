@@ -93,7 +93,7 @@ const own = `
   dragEnd dragPoint dragStart editor element elementAt elementsOf elementsOn falling forget holdJoint knot
   jointName leftOf lineFirst linkList linkName moveJointBy movePointBy openDocument openFile
   pan paused picked playAt plottedAngle pointed pointName poleAside possible present recoloured runAlong
-  fitted measured nudge recall spots
+  degrees fitted measured nudge recall spots
   longest margin inSpace advance destroy elsewhere emit follow heads letterOf posed showKeys taken undoing
   keepInside served setAdding setLength setTheme shiftLine shownDesign showPose showRange showValue
   sized snapping switchMode toLocal turnTo upright writeSizes

@@ -14,7 +14,7 @@ const GOOD = 40 * DEGREE;
 export interface Fact {
   name: string;
   text: string;
-  style?: "good" | "bad";
+  style?: "good" | "bad" | "wide";
   /** Where it is so. */
   note?: string;
 }

@@ -17,6 +17,8 @@ export interface Series {
   floor?: number;
   /** Values that differ by less are the same but for rounding. */
   same?: number;
+  /** Whether values are angles in degrees. */
+  degrees?: boolean;
   /** After which values begin anew, if they do. */
   turn?: number;
   /** Places with rings, of drive and value. */
@@ -33,6 +35,7 @@ const WIDE = WIDTH - LEFT - RIGHT;
 const LONG = 39; // letters of a title beside which a value has no room
 const EVEN = 200; // places of the drive at which values are compared
 const PART = 0.05; // of the drive: where values may be without bound
+const ONE = 1e-5; // of values: those that differ by less are read as one
 const FLAT = 0.1; // pixels: the second difference below which a line is nearly straight
 
 export class Plot {
@@ -173,10 +176,9 @@ export class Plot {
     put(this.#marks, { d: (series.marks ?? []).map(ring).join("") });
     const crossed = this.#low < 0 && this.#high > 0;
     put(this.#zero, { d: crossed ? `M${LEFT} ${this.#y(0).toFixed(1)}H${WIDTH - RIGHT}` : "" });
-    const floor = series.floor;
-    const shaded =
-      floor === undefined ? 0 : Math.max(0, Math.min(HEIGHT - BOTTOM - TOP, HEIGHT - BOTTOM - this.#y(floor)));
-    put(this.#band, { height: shaded.toFixed(1), y: (HEIGHT - BOTTOM - shaded).toFixed(1) });
+    const foot = HEIGHT - BOTTOM;
+    const top = Math.max(TOP, Math.min(foot, this.#y(series.floor ?? -Infinity)));
+    put(this.#band, { height: (foot - top).toFixed(1), y: top.toFixed(1) });
     if (this.element.getAttribute("aria-label") !== series.title) {
       this.#title.textContent = series.title;
       this.#along.textContent = `${t("Drive")} [${this.unit}]`;
@@ -193,9 +195,9 @@ export class Plot {
     const unit = this.#scale;
     const [first, last] = [domain[0] / unit, domain[1] / unit];
     const [low, high] = [this.#low, this.#high];
-    const across = unit === 1 ? roundValues(first, last, 4) : degreeValues(first, last);
-    const upward = this.series!.turn ? degreeValues(low, high) : roundValues(low, high, 3);
-    const told = [first, last, low, high, ...across, ...upward].join();
+    const across = (unit === 1 ? roundValues : degreeValues)(first, last, 4);
+    const upward = (this.series!.degrees ? degreeValues : roundValues)(low, high, 3);
+    const told = [first, last, low, high].join();
     if (told === this.#ticked) return;
     this.#ticked = told;
     const lines = [
@@ -205,12 +207,12 @@ export class Plot {
     put(this.#mesh, { d: lines.join("") });
     relabel(
       this.#upward,
-      upward.map((value) => [LEFT - 4, this.#y(value) + 4, number(value, 4)]),
+      upward.map((value) => [LEFT - 4, this.#y(value) + 4, value]),
       "end",
     );
     relabel(
       this.#across,
-      across.map((value) => [this.#x(value * unit), HEIGHT - BOTTOM + 14, number(value, 4)]),
+      across.map((value) => [this.#x(value * unit), HEIGHT - BOTTOM + 14, value]),
       "middle",
     );
   }
@@ -247,10 +249,12 @@ export class Plot {
   }
 }
 
-/** Texts at places; those that stay are moved, since to write one takes long. */
-function relabel(group: SVGGElement, labels: readonly (readonly [number, number, string])[], anchor: string): void {
+/** Round values at places, with the digits in which they differ; texts that stay are moved, since to write one takes
+ * long. */
+function relabel(group: SVGGElement, labels: [number, number, number][], anchor: string): void {
   while (group.childElementCount > labels.length) group.lastChild!.remove();
-  for (const [k, [x, y, text]] of labels.entries()) {
+  for (const [k, [x, y, value]] of labels.entries()) {
+    const text = number(value, 7);
     const old = group.children[k] ?? group.appendChild(svg("text", { "text-anchor": anchor }));
     put(old, { transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
     if (old.textContent !== text) old.textContent = text;
@@ -310,8 +314,7 @@ export function plotRange(
   const wide = most - least;
   if (wide > same && high > most + 2 * wide) high = most + wide / 2;
   if (wide > same && low < least - 2 * wide) low = least - wide / 2;
-  if (high - low < Math.max(same, 1e-9 * Math.max(Math.abs(high), Math.abs(low), 1e-9)))
-    [low, high] = [low - 1, high + 1];
+  if (high - low <= Math.max(same, ONE * Math.max(high, -low))) [low, high] = [low - 1, high + 1];
   return { low, high };
 }
 
@@ -341,7 +344,8 @@ function multiples(step: number, low: number, high: number): number[] {
   return Array.from({ length: Math.max(0, count) }, (_, k) => (first + k) * step);
 }
 
-/** Angles in degrees that divide a circle. */
-function degreeValues(low: number, high: number): number[] {
-  return high - low < 10 ? roundValues(low, high, 4) : multiples(degreeStep((high - low) / 5), low, high);
+/** Angles in degrees that divide a circle, if there are two of them at least. */
+export function degreeValues(low: number, high: number, count: number): number[] {
+  const wide = high - low;
+  return wide < 60 ? roundValues(low, high, count) : multiples(degreeStep(wide / 5), low, high);
 }

@@ -193,6 +193,7 @@ function outputSeries(linkage: Linkage, record: OutputRecord, inLap: (angle: num
     marks: record.marks,
     same: turning ? degrees(same) : same,
     turn: round ? 360 : 0,
+    degrees: turning,
   });
   const transfer =
     (order: 1 | 2, colour: string): Making =>
@@ -206,6 +207,7 @@ function outputSeries(linkage: Linkage, record: OutputRecord, inLap: (angle: num
     title: `${t("Transmission angle μ")} [°]`,
     colour: "--accent",
     floor: SMALL,
+    degrees: true,
     ...over(linkage, rows, (all, row) => degrees(transmission(linkage, all, row))),
   });
   return [angle, transfer(1, "--green"), transfer(2, "--purple"), ...(record.legs.length ? [mu] : [])];

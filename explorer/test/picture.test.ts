@@ -8,7 +8,7 @@ import { gridStep } from "../src/grid";
 import { clearAbout, convexHull, toHull } from "../src/hull";
 import { Linkage } from "../src/linkage";
 import { later } from "../src/player";
-import { lineThrough, plotRange, roundValues, valueAt } from "../src/plot";
+import { degreeValues, lineThrough, plotRange, roundValues, valueAt } from "../src/plot";
 import { lapOf } from "../src/plots";
 import type { Pair } from "../src/rows";
 import { linesOf } from "../src/shapes";
@@ -113,6 +113,7 @@ test("a plot shows all values, but not how rates grow without bound", () => {
   assert.deepEqual(plotRange(Float64Array.from({ length: 100 }, (_, k) => Number(k > 90))), { low: 0, high: 1 });
   const rounding = plotRange(Float64Array.of(4e-12, -3e-12, 0), 1e-9);
   near([rounding.low, rounding.high], [-1, 1]); // not a curve of its own
+  assert.ok(plotRange(Float64Array.of(1, 1 - 4e-6, 1 + 4e-6)).low < 0.1); // what four digits read as one value
 });
 
 test("a line leaves out what is nearly straight, keeps corners and gaps", () => {
@@ -166,6 +167,8 @@ test("round values at an axis, and the value between two rows", () => {
   near(roundValues(-0.9, 0.65, 3), [-0.5, 0, 0.5]);
   near(roundValues(63.2, 143, 3), [80, 100, 120, 140]);
   near(roundValues(0, 1, 3), [0, 0.5, 1]);
+  near(degreeValues(-20, 380, 3), [0, 90, 180, 270, 360]);
+  near(degreeValues(63, 92, 3), [70, 80, 90]); // quarters of a turn would be too few
   const [places, values] = [Float64Array.of(0, 1, 3), Float64Array.of(4, 6, 0)];
   close(valueAt(places, values, 0.5), 5);
   close(valueAt(places, values, 2), 3);

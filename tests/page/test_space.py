@@ -709,3 +709,23 @@ def test_joints_and_the_transfer_function_are_measured_and_plotted(server, chrom
     assert found == pytest.approx(wanted, abs=2e-2)
     assert errors == more == []
     browser.close()
+
+
+def test_a_transfer_function_of_one_is_a_flat_line_and_angles_have_ticks_of_quarter_turns(server, chromium):
+    """Two universal joints in series turn their shafts alike, in any textbook: poses with six digits do not show."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/cardan_shaft.html#en")
+    page.get_by_role("button", name="Pause").click()
+    plots = page.locator(".plot")
+    titles = plots.locator(".title").all_text_contents()
+    ticks = [plot.locator("g").first.locator("text").all_text_contents() for plot in plots.all()]
+    ratio = next(k for k, title in enumerate(titles) if title.startswith("Transfer function"))
+    line = plots.nth(ratio).locator("path.curve").first.get_attribute("d")
+    heights = [float(place.split()[1]) for place in line.replace("M", "L").split("L")[1:]]
+    assert len(heights) > 10
+    assert max(heights) - min(heights) < 0.2
+    assert len(set(ticks[ratio])) == len(ticks[ratio]) > 2
+    assert ticks[0][:3] == ["0", "90", "180"]
+    one, two = (page.locator('[data-panel="measures"] dt').nth(k).bounding_box() for k in range(2))
+    assert one["y"] == two["y"]  # in two columns
+    assert errors == []
+    browser.close()

@@ -13,6 +13,7 @@ type Pose = ArrayLike<number>;
 
 const DEGREES = 360 / TURN; // of a radian
 const EVEN = 1e-5; // values that differ by less are the same but for the digits of poses
+const EVEN_RATES = 1e-4; // and their slopes, from rows that are hundredths apart
 const SAME = 1e-4; // of the longest: directions that differ by less are one
 
 export class OutputPlots {
@@ -42,10 +43,13 @@ export class OutputPlots {
       const step = (range[1] - range[0]) / (rows.length - 1);
       const drives = Float64Array.from(rows, (_, row) => range[0] + row * step);
       [this.#first, this.#step] = [range[0], step];
-      const show = (name: string, unit: string, values: Float64Array, colour: string, now?: () => number) => {
-        const same = EVEN * (unit === data.unit ? data.size : Math.max(1, ...values.filter(Number.isFinite)));
+      type Now = (() => number) | undefined;
+      const show = (name: string, unit: string, values: Float64Array, colour: string, now: Now, even = EVEN) => {
+        const most = Math.max(1, ...values.map(Math.abs).filter(Number.isFinite));
+        const same = even * (unit === data.unit ? data.size : most);
         const plot = new Plot(drive?.turning ? "°" : data.unit, pick, span);
-        plot.show(drives, { title: name + inBrackets(unit), values, colour, same, now }, range);
+        const title = name + inBrackets(unit);
+        plot.show(drives, { title, values, colour, same, now, degrees: unit === "°" }, range);
         this.#plots.push(plot);
       };
       for (const [k, link] of data.outputs.entries()) {
@@ -66,7 +70,7 @@ export class OutputPlots {
         const title = data.outputs[1] ? `${told}, ${name}` : told;
         const now = () => cubicAt(rates, (this.#drive - range[0]) / step, motion!.round);
         this.#rates.push({ name: title, note, now });
-        show(title, note, rates, "--green", now);
+        show(title, note, rates, "--green", now, EVEN_RATES);
       }
       for (const [k, joint] of data.joints.entries()) {
         const values = unwound(

@@ -430,6 +430,7 @@ export class SpaceView implements Driven {
       facts.push({
         name: name ?? words.traced!.replace("{link}", texts.links[link]!),
         text: text.join(" | "),
+        style: "wide",
         note: data.unit,
       });
     }
