@@ -13,7 +13,6 @@ import type { Viewport } from "./viewport";
 
 const DASHES = [6, 4];
 const GHOST = 0.3; // how much is seen of the curves of other assembly modes; half of it while they may be old
-const COARSE = 64; // square pixels: a corner between longer chords is rounded, from middle to middle
 const FARTHEST = 1e5; // pixels: what is farther off is not drawn
 
 export class Painter {
@@ -63,10 +62,9 @@ export class Painter {
         continue;
       }
       const [x, y] = here;
-      const chord = last && (x - last[0]) ** 2 + (y - last[1]) ** 2;
-      if (!last || !(chord! < near)) pen.moveTo(x, y);
-      else if (chord! < COARSE) pen.lineTo(x, y);
-      else pen.quadraticCurveTo(...last, (x + last[0]) / 2, (y + last[1]) / 2);
+      if (last && (x - last[0]) ** 2 + (y - last[1]) ** 2 < near)
+        pen.quadraticCurveTo(...last, (x + last[0]) / 2, (y + last[1]) / 2); // round, also where steps are long
+      else pen.moveTo(x, y);
       last = here;
     }
     if (last) pen.lineTo(...last);

@@ -85,7 +85,7 @@ def test_joints_lengths_and_points_without_a_mouse(tab, single_file):
     assert field.get_attribute("aria-invalid") == "true"
     field.fill("500")
     field.press("Enter")
-    assert "bei keiner Stellung des Antriebs" in page.page.locator(".message").inner_text()
+    assert "in keiner Stellung des Antriebs" in page.page.locator(".message").inner_text()
     assert page.page.evaluate("gruebler.motion.dragging.lengths()[1].value") == pytest.approx(22.5)
     page.page.locator('[aria-label^="Koppelpunkt"]').click()
     for _ in range(2):  # the link, then the place

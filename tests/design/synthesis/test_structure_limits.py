@@ -291,7 +291,7 @@ def test_both_four_bars_keep_the_angle_where_the_force_goes_through_both():
 def test_where_no_drawing_of_the_atlas_turns_designs_are_realised(monkeypatch):
     """As if every dyad of every drawing were near its limit; there was a division by zero."""
     atlas = "gruebler.design.synthesis.structure_atlas."
-    for name, value in (("_SAFE", 1.0), ("_TRIALS", 1000), ("_BLOCKS_OF_TRIALS", 1)):
+    for name, value in (("_SAFE", 1.0), ("_SAFE_WHERE_SHORT", 1.0), ("_TRIALS", 1000), ("_BLOCKS_OF_TRIALS", 1)):
         monkeypatch.setattr(atlas + name, value)
     empty = structure_atlas.__wrapped__(dyad_structure(WATT))
     assert empty.z.shape == (0, PLACES)
