@@ -33,7 +33,7 @@ export function wordsOf(kind: Kind): TaskWords {
       name: t("Angles"),
       hint: t(
         "Pairs of angles that drive and output turn through together: " +
-          "three to five are met exactly if possible, more only nearly.",
+          "three to five are met exactly if possible, more only approximately.",
       ),
       row: t("Pair"),
       heads: [t("Drive [°]"), t("Output [°]")],
