@@ -478,7 +478,7 @@ def test_a_press_of_no_length_opens_the_choice_of_a_file(tab, server):
 
 
 def test_what_is_chosen_among_drives_stays_where_it_is(tab, server):
-    """What is said of a drive is said of the one that is offered, too, so that no card goes down under a finger."""
+    """With a drive the text above says more; on a phone the cards under the finger would go down by it."""
     page = tab(width=390, height=844, touch=True).open(server.address)
     page.page.set_default_timeout(60_000)
     page.page.locator('[data-view="structure"]').tap()
@@ -490,11 +490,12 @@ def test_what_is_chosen_among_drives_stays_where_it_is(tab, server):
     page.until("gruebler.views.structure.text.includes('frame=0')")
     card = page.page.locator('[data-list="driven"] .card').first
     card.scroll_into_view_if_needed()
+    said = page.page.locator(".said").count()
     before = card.bounding_box()
     card.tap()
     page.until("gruebler.views.structure.structure.drives")
     page.page.locator('[data-list="driven"] .card[aria-pressed="true"]').wait_for()
-    assert page.page.locator(".said").first.inner_text() == "Mobility 1, drives 1. The drives fix the motion."
+    assert page.page.locator(".said").count() > said
     assert abs(card.bounding_box()["y"] - before["y"]) < 1
 
 

@@ -36,8 +36,6 @@ def test_drives_are_arrows_over_the_picture_of_their_frame():
     record = structure_record("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)", "en")
     frames = {each["frame"]: each["picture"] for each in record["inversions"]}
     assert len(record["driven"]) == 4
-    assert record["driver"]
-    assert record["drives"] == "Mobility 1, drives 1. The drives fix the motion."  # of the drive it is given
     for each in record["driven"]:
         assert re.sub(r"<g transform.*?</g>", "", each["picture"], flags=re.DOTALL) == frames[each["frame"]]
         assert each["picture"] != frames[each["frame"]]

@@ -100,7 +100,7 @@ def structure_record(
         "own": None if special is None else special.mobility,
         "verdict": str(report.verdict),
         "lines": shown_report.explain(lang).splitlines(),
-        "drives": "\n".join(_said_of_drives(moved.renamed(called) if special is None else shown, special, lang)),
+        "drives": "\n".join(_said_of_drives(shown, special, lang)),
         "inversions": [_choice(bare, cards[frame], lang, called) for frame, bare in frames.items()],
         "driven": [_choice(each, cards[each.frame], lang, called) for each in driven],
     }
