@@ -139,16 +139,23 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
     np.testing.assert_allclose(np.diff(arms), [23, 35], atol=0.2)
 
 
+def drawn_by_hand(design, along, up):
+    """A curve through places of the plane in one stroke; where they are seen."""
+    x, y = np.transpose([design.target(*place) for place in zip(along, up, strict=True)])
+    mouse = design.page.mouse
+    mouse.move(x[0], y[0])
+    mouse.down()
+    for place in zip(x, y, strict=True):
+        mouse.move(*place)
+    mouse.up()
+    return x, y
+
+
 def test_a_curve_is_drawn_by_hand(design):
     view = design.page
     view.click('[data-value="curve"]')
     angles = np.linspace(0, 6.1, 40)
-    x, y = np.transpose([design.target(40 * np.cos(angle), 25 * np.sin(angle)) for angle in angles])
-    view.mouse.move(x[0], y[0])
-    view.mouse.down()
-    for place in zip(x, y, strict=True):
-        view.mouse.move(*place)
-    view.mouse.up()
+    x, y = drawn_by_hand(design, 40 * np.cos(angles), 25 * np.sin(angles))
     points = np.array(view.evaluate(f"{VIEW}.points"))
     assert view.locator('[data-field="closed"]').is_checked()
     np.testing.assert_allclose(np.hypot(points[:, 0] / 40, points[:, 1] / 25), 1, atol=0.04)  # an ellipse
@@ -168,12 +175,7 @@ def test_a_drawn_curve_is_met_by_a_linkage_of_its_size(design):
     view.click('[data-value="curve"]')
     assert view.locator(".two .note").first.inner_text().startswith("Draw the curve in one stroke")
     angles = np.linspace(0, 2 * np.pi, 60)
-    x, y = np.transpose([design.target(50 * np.cos(angle), 30 * np.sin(angle)) for angle in angles])
-    view.mouse.move(x[0], y[0])
-    view.mouse.down()
-    for place in zip(x, y, strict=True):
-        view.mouse.move(*place)
-    view.mouse.up()
+    drawn_by_hand(design, 50 * np.cos(angles), 30 * np.sin(angles))
     assert view.locator('[data-field="reach"]').input_value() == "100"
     assert view.locator('[data-field="order"]').count() == 0  # it is passed as it is drawn
     assert not view.locator(".points").is_visible()

@@ -260,8 +260,9 @@ def add(parser: Parser) -> None:
             --length LINK L ...  a given distance of the pins of crank, coupler, rocker, frame (or another link);
                 repeatable
             --frame-direction DEG float  the angle of the line through two fixed pivots with the x axis
-            --near-pivot X Y float ...  a place near which a fixed pivot is preferred; give it twice for both: designs
-                are sought and sorted by the distance of their pivots from it unless --sort says otherwise
+            --near-pivot X Y float ...  of positions and points: a place near which a fixed pivot is preferred; give it
+                twice for both: designs are sorted by the distance of their pivots from it, and two to four positions
+                are sought by it, unless --sort says otherwise
             --structure MECHANISM ...  fit this mechanism instead: a text, a family such as "Watt I", or a catalog
                 entry; several are compared
             --initial-designs N int  with --structure: improve N initial designs of each mechanism (default: 24 of an

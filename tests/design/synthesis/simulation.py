@@ -64,9 +64,7 @@ def followed(loop, sense, other=False):
     step = min(STEP, SHARE * loop.arm / loop.crank)
     turned = np.append(np.arange(0, LAP, step), LAP)
     places, sines = loop.both(loop.pin(sense * turned))
-    for _ in range(
-        14
-    ):  # near a fold the way goes quickly, and the other place is near: steps as the square of the sine
+    for _ in range(14):  # near a fold the other place is near, and the way quick: steps as the square of the sine
         least = np.fmin(sines[1:], sines[:-1])
         long = np.flatnonzero(np.diff(turned) > 0.1 * loop.arm / loop.crank * least**2)
         if not len(long):

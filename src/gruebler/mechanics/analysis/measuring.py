@@ -293,9 +293,8 @@ class Measures:
             yield from stroke_lines(
                 units, self.phi_forward, self.phi_back, self.time_ratio, dwells=bool(self.dwells), floating=floating
             )
-        yield from time_lines(
-            None if self.speed is None else in_rpm(self.speed), self.times, self.dwell_time if self.dwells else None
-        )
+        at_rest = self.dwell_time if self.dwells else None
+        yield from time_lines(self.speed_rpm, self.times, at_rest, floating=floating)
         drive_size = 1.0 if self.turning_drive else self.linkage.size
         yield from change_point_lines(units, by_place(self.change_points, self.span, drive_size))
         if self.change_points_error is not None:

@@ -80,15 +80,16 @@ def stroke_lines(
         yield message("Turning counter-clockwise, the slow stroke is the inward one.")
 
 
-def time_lines(rpm: float | None, times: StrokeTimes | None, at_rest: float | None) -> Iterator[Message]:
+def time_lines(
+    rpm: float | None, times: StrokeTimes | None, at_rest: float | None, *, floating: bool
+) -> Iterator[Message]:
     """How long strokes and dwells take at a speed."""
     if times is not None:
-        yield message(
-            "At {rpm:g} revolutions per minute: {forward:n} s from inner to outer, {back:n} s back.",
-            rpm=rpm,
-            forward=times.forward,
-            back=times.back,
-        )
+        if floating:
+            text = message("At {rpm:g} revolutions per minute: {forward:n} s one way, {back:n} s the other.")
+        else:
+            text = message("At {rpm:g} revolutions per minute: {forward:n} s from inner to outer, {back:n} s back.")
+        yield text.filled(rpm=rpm, forward=times.forward, back=times.back)
     if at_rest is not None:
         yield message("At rest: {time:n} s in a period.", time=at_rest)
 
