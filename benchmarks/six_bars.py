@@ -1,7 +1,8 @@
 """How many six-bars turn through pairs of angles: by monodromy, with a trace test; docs/theory/synthesis-functions.md.
 
 Of Watt I: how many carry a body through 6 positions, or 7. Through eleven pairs, or eight positions: estimated from how
-often random ones are the same, until the 95 % are within 2 %; `--scheduler ADDRESS` (or `local`) shares that by Dask.
+often random ones are the same, until the 95 % are within 2 %; `--jobs N` shares that with processes, `--scheduler
+ADDRESS` (or `local`) by Dask.
 
 `python -m benchmarks.six_bars FAMILY PAIRS FOLDER SEED` keeps what is found in a folder and goes on from there. The
 family "Watt I, one angle": those that turn the body between 6 positions of one angle. `--plane`: of nine pairs and
@@ -11,16 +12,18 @@ seven positions those of a general plane, which takes longer and has a trace tes
 
 import argparse
 import time
+from collections.abc import Callable
+from concurrent.futures import Executor
 from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 
+from gruebler.cli.executors import executor_of
 from gruebler.design.synthesis.alt_burmester import Problem
 from gruebler.design.synthesis.six_bar_census import EIGHT_POSITIONS, ELEVEN, Census
 from gruebler.design.synthesis.six_bar_monodromy import Search, follow, known_solutions, merged, on_special_plane, trace
 from gruebler.design.synthesis.six_bar_starts import FEW, LINEAR
-from gruebler.structure.enumeration.schedulers import DaskScheduler
 
 
 def recapture(search: Search, count: int) -> tuple[int, int]:
@@ -34,7 +37,7 @@ def recapture(search: Search, count: int) -> tuple[int, int]:
     return len(new), int((where < len(search.found[0])).sum())
 
 
-def estimate(problem: Problem, folder: str, seed: int, scheduler: str) -> None:
+def estimate(problem: Problem, folder: str, seed: int, executor: Callable[[], Executor] | None) -> None:
     """How many six-bars turn through eleven pairs, or carry a body through eight positions."""
     targets = problem.points + problem.poses + 1
     census, file = (
@@ -44,7 +47,7 @@ def estimate(problem: Problem, folder: str, seed: int, scheduler: str) -> None:
     file.parent.mkdir(parents=True, exist_ok=True)
     if folder and file.exists():
         census.load(file)
-    for _ in census.pieces_followed(DaskScheduler(scheduler) if scheduler else None):
+    for _ in census.pieces_followed(executor):
         if folder:
             census.save(file)
         now = census.estimate()
@@ -126,11 +129,13 @@ if __name__ == "__main__":
     parser.add_argument("--tasks", type=int)
     parser.add_argument("--plane", action="store_true")
     parser.add_argument("--curve", action="store_true")
-    parser.add_argument("--scheduler", default="")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--scheduler")
+    parser.set_defaults(lang="en")
     given = parser.parse_args()
     if given.pairs == 11 or (given.family, given.pairs) == ("Watt I", 8):
         problem = EIGHT_POSITIONS if given.family == "Watt I" else ELEVEN[given.family]
-        estimate(problem, given.folder, given.seed, given.scheduler)
+        estimate(problem, given.folder, given.seed, executor_of(given))
     else:
         main(
             given.family,

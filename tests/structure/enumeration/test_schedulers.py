@@ -31,6 +31,15 @@ def test_no_scheduler_there(monkeypatch, capsys):
     assert "--jobs is for processes of this machine" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("address", ["nonsense", "nowhere.invalid:8786"])
+def test_what_is_no_address_of_a_host_is_refused_before_anything_connects(monkeypatch, address):
+    connected = []
+    monkeypatch.setattr(distributed, "Client", lambda **where: connected.append(where))
+    with pytest.raises(RunError, match=f"no Dask scheduler answers at {address}"):
+        DaskScheduler(address)()
+    assert connected == []
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="Windows has no SIGKILL")
 def test_lost_workers_lose_nothing(tmp_path, capsys):

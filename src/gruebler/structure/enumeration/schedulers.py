@@ -46,10 +46,11 @@ class DaskScheduler:
 
         Raises:
             GrueblerError: distributed is not installed.
-            RunError: no scheduler answers at the address.
+            RunError: no scheduler answers at the address; said at once where this has no port or an unknown host.
         """
         try:
             import distributed
+            from distributed.comm.addressing import resolve_address
         except ImportError:
             raise GrueblerError("a scheduler needs Dask: pip install 'gruebler[cluster]'") from None
         try:
@@ -58,6 +59,8 @@ class DaskScheduler:
             if self.address == LOCAL:
                 own_workers = {"n_workers": os.cpu_count() or 1, "threads_per_worker": 1}
                 where = {**own_workers, "dashboard_address": None, "silence_logs": logging.CRITICAL}
+            else:  # a client of an address without a port would hang for a minute at the end of the process
+                resolve_address(self.address)
             client = connect(**where, timeout=_PATIENCE, set_as_default=False)
         except (OSError, ValueError, TypeError):
             raise RunError("no Dask scheduler answers at {address}", address=self.address) from None
