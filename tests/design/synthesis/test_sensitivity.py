@@ -186,3 +186,12 @@ def test_random_errors_stay_within_the_bound_and_come_near_it():
     )  # of an even distribution the deviation is the half width by the root of 3
     assert third == pytest.approx(found.statistical / np.sqrt(3), rel=0.03)
     assert (found.sampled(1e-3, 1e-3, seed=4) == found.sampled(1e-3, 1e-3, seed=4)).all()
+
+
+def test_a_random_linkage_misses_the_same_pose_alike():
+    """Its pins lie at one place of their holes for all targets."""
+    linkage = FourBar(1.0, 3.0, 2.5, 3.2).linkage({"P": (1.2, 0.8)})
+    found = length_sensitivity(linkage, PROBES, np.array([[0.6], [0.8], [0.6]]))
+    seen = found.sampled(0.0, 1e-3, samples=200)
+    assert seen[:, 0] == pytest.approx(seen[:, 2], rel=1e-6)
+    assert np.abs(seen[:, 1] - seen[:, 0]).max() > 1e-5

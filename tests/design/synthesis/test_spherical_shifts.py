@@ -67,7 +67,7 @@ def test_play_turns_what_follows_a_joint(joint):
     axes, _ = axes_of(ARCS, 1.1)
     found = spherical_sensitivity(axes[None], ARCS, coordinates=False)
     axis = axes[joint]
-    first = np.cross(axis, np.eye(3)[np.abs(axis).argmin()])
+    first = np.cross(axis, axes[(3, 0, 1, 0)[joint]])
     first /= np.linalg.norm(first)
     for k, tilt in enumerate((first, np.cross(axis, first))):
         turns = np.zeros(3)
@@ -99,6 +99,14 @@ def test_bounds_hold_for_random_linkages():
     signs = np.array(np.meshgrid(*[[1, -1]] * 4)).reshape(4, -1)
     every = np.linalg.norm(np.einsum("as,tax->tsx", signs, found.moves), axis=2).max(axis=1)
     assert largest_turn(found.moves) == pytest.approx(every, rel=1e-12)
+
+
+def test_the_axes_of_a_random_linkage_lie_at_one_place_of_their_bearings():
+    """All round the crank neighbouring poses are missed nearly alike: the direction of a tilt moves with its link."""
+    axes = np.array([axes_of(ARCS, phi)[0] for phi in np.radians(np.arange(0, 361))])
+    seen = spherical_sensitivity(axes, ARCS, coordinates=False).sampled(0.0, 0.01, samples=200)
+    assert np.abs(np.diff(seen, axis=1)).max() < 0.1 * seen.max()
+    assert seen[:, 0] == pytest.approx(seen[:, -1], rel=1e-9)
 
 
 TURNS = [rotation(0, 0, 1, 0), rotation(1, 0.5, 2, 0.4), rotation(0.4, 0.2, 1, 0.8), rotation(0, -0.3, 1, 1.2)]

@@ -123,7 +123,7 @@ class Sensitivity:
         """(samples, targets, probes) how far, in random linkages: a Monte Carlo study to first order.
 
         Every length is wrong by up to a part of itself, evenly distributed; every pin lies on the rim of its play, as a
-        loaded one does, in a direction that all targets share or not: it is drawn anew for each.
+        loaded one does, in one direction of its link for all targets: the same pose is always missed alike.
 
         Args:
             error: by which part of itself every length may be wrong.
@@ -134,10 +134,9 @@ class Sensitivity:
         rng = np.random.default_rng(seed)
         wrong = rng.uniform(-error / LENGTH_ERROR, error / LENGTH_ERROR, (samples, len(self.lengths)))
         moved = np.einsum("tpl,sl->stp", self.moves, wrong)
-        targets, _, joints, _ = self.plays.shape
-        turns = rng.uniform(0, 2 * np.pi, (samples, targets, joints))
+        turns = rng.uniform(0, 2 * np.pi, (samples, self.plays.shape[2]))
         for k, share in enumerate((np.cos(turns), np.sin(turns))):
-            moved = moved + clearance * np.einsum("tpj,stj->stp", self.plays[..., k], share)
+            moved = moved + clearance * np.einsum("tpj,sj->stp", self.plays[..., k], share)
         return np.asarray(np.abs(moved))
 
     @property

@@ -13,6 +13,9 @@ import numpy as np
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.design.synthesis.sensitivity import LENGTH_ERROR
 
+_NEIGHBOURS = (3, 0, 1, 0)
+"""For A0, A, B and B0 the other axis on frame, crank, coupler, frame: directions that move with the link."""
+
 
 @compared_by_value
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
@@ -22,7 +25,8 @@ class SphericalSensitivity:
     moves: Reals
     """(targets, 4, 3) a small rotation of the body for each of a, b, c, d; (targets, 4, 1) of an output, its angle."""
     plays: Reals
-    """(targets, 4 joints, 2, 3 or 1) likewise for an axis tilted by one radian in its bearing, about either normal."""
+    """(targets, 4 joints, 2, 3 or 1) likewise for an axis tilted by one radian in its bearing: about the normal of the
+    arc to its neighbour on frame, crank or coupler, and about what is at right angles to both."""
 
     @property
     def worst(self) -> Reals:
@@ -41,9 +45,9 @@ class SphericalSensitivity:
         rng = np.random.default_rng(seed)
         wrong = rng.uniform(-error / LENGTH_ERROR, error / LENGTH_ERROR, (samples, self.moves.shape[1]))
         moved = np.einsum("tax,sa->stx", self.moves, wrong)
-        turns = rng.uniform(0, 2 * np.pi, (samples, *self.plays.shape[:2]))
+        turns = rng.uniform(0, 2 * np.pi, (samples, self.plays.shape[1]))
         tilts = np.stack([np.cos(turns), np.sin(turns)], axis=-1)
-        return np.asarray(np.linalg.norm(moved + clearance * np.einsum("tjkx,stjk->stx", self.plays, tilts), axis=-1))
+        return np.asarray(np.linalg.norm(moved + clearance * np.einsum("tjkx,sjk->stx", self.plays, tilts), axis=-1))
 
 
 def largest_turn(moves: Reals) -> Reals:
@@ -82,10 +86,9 @@ def spherical_sensitivity(axes: Reals, arcs: Reals, *, coordinates: bool) -> Sph
     ((1, 4, 3), (1, 4, 2, 3))
     """
     plays = []
-    for k in range(4):
+    for k, neighbour in enumerate(_NEIGHBOURS):
         axis = axes[:, k]
-        aside = np.eye(3)[np.abs(axis).argmin(axis=1)]
-        first = _unit(np.cross(axis, aside))
+        first = _unit(np.cross(axis, axes[:, neighbour]))
         for tilt in (first, np.cross(axis, first)):
             plays.append(_follow(axes, tilt, before=k < 2, carried=k < 2, coordinates=coordinates))
     stacked = np.stack(plays, axis=1)
