@@ -268,8 +268,19 @@ def add(parser: Parser) -> None:
             --initial-designs N int  with --structure: improve N initial designs of each mechanism (default: 24 of an
                 atlas, else 4)
             --link LINK =  with --structure: the link that is guided, or the output
-            --jobs N int =1  with --structure, or where --six-bars takes --start-solutions: number of processes
-                (default: 1)
+            """
+        )
+        if kind in (positions, function):
+            kind.take(
+                """
+                --jobs N int =1  with --structure, or where --six-bars takes --start-solutions: number of processes
+                    (default: 1)
+                """
+            )
+        else:
+            kind.take("--jobs N int =1  with --structure: number of processes (default: 1)")
+        kind.take(
+            """
             --scheduler ADDRESS  likewise: send the work to a Dask scheduler, such as tcp://host:8786; local: one with
                 a worker for each processor of this machine
             --crank
@@ -358,9 +369,14 @@ def _demands(arguments: argparse.Namespace) -> Demands:
     alone = _SIX_BAR_OPTIONS.get(arguments.action, ())
     if alone and not arguments.six_bars and (idle := _given(arguments, alone)):
         raise SynthesisError("{options}: only with --six-bars", options=joined_by_and(idle))
-    unused = _STRUCTURE_OPTIONS if alone and arguments.six_bars else (*_STRUCTURE_OPTIONS, *_SHARING)
-    if not arguments.structure and (idle := _given(arguments, unused)):
-        raise SynthesisError("{options}: only with --structure", options=joined_by_and(idle))
+    if not arguments.structure:
+        if idle := _given(arguments, _STRUCTURE_OPTIONS if alone else (*_STRUCTURE_OPTIONS, *_SHARING)):
+            raise SynthesisError("{options}: only with --structure", options=joined_by_and(idle))
+        if not (alone and arguments.six_bars) and (idle := _given(arguments, _SHARING)):
+            raise SynthesisError(
+                "{options}: only with --structure, or where --six-bars takes --start-solutions",
+                options=joined_by_and(idle),
+            )
     if arguments.clearance is not None and not 0 <= arguments.clearance < math.inf:
         raise SynthesisError("--clearance: expected at least 0, but found {clearance:g}", clearance=arguments.clearance)
     with _keys_as_options():
