@@ -119,8 +119,12 @@ def test_a_linkage_that_begins_at_a_dead_centre_is_passed_over():
     """Rounding parts some of the nearest at their first pair; the others have their errors, by the triangle."""
     inputs, outputs = np.radians([0, 20, 45, 60, 75, 90]), np.radians([0, 8, 25, 38, 48, 60])
     table = FunctionTask(tuple(inputs), outputs=tuple(outputs), start_input=False, start_output=False)
-    designs = synthesise(table, demands=Demands(crank=False, transmission=0.0)).designs
+    found = synthesise(table, demands=Demands(crank=False, transmission=0.0))
+    designs = found.designs
     assert designs
+    (note,) = (note for note in found.notes if note.text.startswith("Linkages that begin at a dead centre"))
+    assert note.values["count"] >= 1
+    assert note.values["error"] > 0
     for design in designs:
         a, b, c, d = (distances_of_pins(design.linkage, link)[0] for link in ("crank", "coupler", "rocker", "frame"))
         sides = [rockers(a / d, b / d, c / d, np.array(design.drives), side) for side in (1, -1)]

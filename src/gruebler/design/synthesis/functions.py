@@ -64,6 +64,10 @@ _FAMILIES = {
 """By how many pairs, with both starts free: what a dyad between crank and output can be."""
 _FEW = message("The ratios of the given lengths leave finitely many four-bars; {count:,} were found.")
 _MANY = message("There are infinitely many four-bars with the ratio of the given lengths; {count:,} were taken.")
+_DEAD_STARTS = message(
+    "Linkages that begin at a dead centre, where rounding may part them, are passed over: {count}; the nearest of them "
+    "misses a pair by {error:.3g} of the size."
+)
 _FORMS = {"angle": "four-bar", "travel": "slider-crank"}
 """What crank, coupler and output form together; slides between crank and output name themselves."""
 
@@ -212,13 +216,14 @@ def _by_free_starts(task: FunctionTask, wanted: Demands, number: int, sort: Sequ
     nearest: list[Design] = []
     if len(task) > MOST_PAIRS:
         theorem, dyads = 0, [dyad for dyad in dyads if dyad.slides]
-        nearest = _nearest_pairs(task, wanted)
+        nearest, passed_over = _nearest_pairs(task, wanted)
         notes = (
             message(
                 "More than five pairs are met by least squares; designs that come nearer than {tolerance:g} are "
                 "accepted.",
                 tolerance=wanted.tolerance,
             ),
+            *passed_over,
         )
     elif len(task) == MOST_PAIRS:
         theorem = 3  # four dyads less the frame
@@ -237,23 +242,28 @@ def _near_with_ratios(task: FunctionTask, wanted: Demands, dyad: GuidingDyad, wi
     return with_ratios(task, wanted.lengths, near_by_starts(task, dyad, width))
 
 
-def _nearest_pairs(task: FunctionTask, wanted: Demands) -> list[Design]:
-    """The four-bars or slider-cranks that follow more than five pairs most nearly, by the output at crank angles."""
+def _nearest_pairs(task: FunctionTask, wanted: Demands) -> tuple[list[Design], list[Message]]:
+    """The four-bars or slider-cranks that follow more than five pairs most nearly, by the output at crank angles.
+
+    Besides what is said of others that are no designs.
+    """
     phi, output = pair_arrays(task)
     turned, moved = phi - phi[0], output - output[0]
     size = 1.0 if task.output == "angle" else float(np.ptp(output)) or 1.0
-    designs = []
+    designs, unsteady = list[Design](), list[float]()
     for solution in nearest_linkages(turning_kind(task), phi, output):
-        if not solution.can_start:
-            continue
         error = float(np.abs(output_errors(solution, turned, moved)).max()) / size
+        if not solution.can_start:
+            unsteady.append(error)
+            continue
         design = _judged_at_starts(task, wanted, solution, turned, moved, size, error)
         verdict = replace(design.verdict, error=error)
         if error > wanted.tolerance:
             reason = message("a target is missed by {error:.3g} of the size", error=error)
             verdict = replace(verdict, reasons=(*verdict.reasons, reason))
         designs.append(replace(design, verdict=verdict))
-    return designs
+    said = _DEAD_STARTS.filled(count=len(unsteady), error=min(unsteady, default=0.0))
+    return designs, [said] if unsteady else []
 
 
 def _facts(task: FunctionTask, dyads: Sequence[GuidingDyad]) -> PairFacts:
