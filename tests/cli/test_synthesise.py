@@ -3,7 +3,7 @@
 import json
 import re
 import tomllib
-from dataclasses import astuple
+from dataclasses import astuple, replace
 
 import numpy as np
 import pytest
@@ -11,7 +11,8 @@ from scipy.spatial.transform import Rotation
 
 import gruebler as gr
 from gruebler.cli import main
-from gruebler.cli.design_tables import _lengths
+from gruebler.cli.design_tables import _lengths, print_designs
+from gruebler.design.synthesis import DeadCentreTask, synthesise
 from gruebler.design.synthesis.dyad_families import guiding_dyads
 from gruebler.files import linkage_from_json, read_linkage
 from gruebler.files.tasks import task_from_json
@@ -118,6 +119,28 @@ def test_a_region_without_designs_is_status_1_with_the_reason(five, capsys):
     out = capsys.readouterr().out
     assert "None of the designs examined meets the task." in out
     assert "a fixed pivot lies outside the region" in out
+
+
+@pytest.mark.parametrize(
+    ("mu", "cell", "words"),
+    [
+        (40, "40.0°", []),
+        (39.9, "39.9° !", ["!: below 40°."]),
+        (5, "5.0° !", ["!: below 40°."]),
+        (4.9, "4.9° !!", ["!!: below 5°, where friction and play let it jam"]),
+    ],
+)
+def test_angles_are_marked_below_the_rule_of_thumb_and_where_it_jams(mu, cell, words, capsys):
+    """Of a whole turn, too: a design for a closed curve may have its least angle anywhere."""
+    result = synthesise(DeadCentreTask(swing=1.0, time_ratio=1.2), number=1)
+    design = replace(result.designs[0], verdict=replace(result.designs[0].verdict, transmission=np.radians(mu)))
+    vars(design)["transmission_over_range"] = np.pi / 3
+    print_designs(result, replace(result, designs=(design,)), rejected=False, lang="en")
+    out = " ".join(capsys.readouterr().out.split())
+    assert f" {cell} 60.0° " in out
+    assert [
+        mark for mark in ("!: below 40°.", "!!: below 5°, where friction and play let it jam") if mark in out
+    ] == words
 
 
 def test_an_expression_and_its_minimax_optimum(capsys):

@@ -11,6 +11,8 @@ from math import pi, radians
 
 GOOD = radians(40)
 """The rule of thumb: the transmission angle should not fall below."""
+JAMMING = radians(5)
+"""Below this transmission angle friction and play may let a linkage jam, as beside a dead centre."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -116,7 +116,8 @@ _SHARED = {
         --scheduler ADDRESS  send the work to a Dask scheduler, such as tcp://host:8786; local: one with a worker for
             each processor of this machine
         --crank  only designs whose drive turns fully
-        --transmission DEG float =0  minimum transmission angle on the way through the targets
+        --transmission DEG float =0  minimum transmission angle on the way through the targets (default: 0; the table
+            marks angles below 40 and below 5 degrees)
         --size-ratio R float =20  limit of longest to shortest length
         --rejected  also list the rejected designs with their reasons
         --design K int  with -o: write design K of the list (default: 1)

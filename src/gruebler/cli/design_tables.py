@@ -8,7 +8,7 @@ from math import degrees, isnan
 import numpy as np
 
 from gruebler.base.arrays import Reals
-from gruebler.base.events import GOOD
+from gruebler.base.events import GOOD, JAMMING
 from gruebler.base.text import Message, joined, message, number, number_separator, numbers, plural, translate
 from gruebler.cli.tables import Cell, print_table, print_text
 from gruebler.design.synthesis import Design, PathTask, PositionTask, SynthesisResult, pareto
@@ -50,6 +50,7 @@ _ANGLES = message(
     "µ of range: over the whole range of the drive, as `analyse` gives it."
 )
 _LOW = message("!: below 40°.")
+_JAMS = message("!!: below 5°, where friction and play let it jam; a demanded transmission angle leaves these out.")
 _FULL_TURNS = message(
     "Designs whose drive turns fully come first; `--sort transmission` begins with the largest transmission angle."
 )
@@ -131,8 +132,7 @@ def print_rejected(designs: Sequence[tuple[str, Iterable[Message]]], only: bool,
 def print_notes(shown: SynthesisResult, lang: str) -> None:
     """What the columns of transmission angles and shifts mean, if there are such."""
     angles = [mu for design in shown.designs for mu in (design.verdict.transmission, design.transmission_over_range)]
-    low = [_LOW] if any(mu < GOOD for mu in angles) else []
-    print_text(joined([_ANGLES, *low], " ").in_language(lang))
+    print_text(joined([_ANGLES, *marks_in_words(angles)], " ").in_language(lang))
     if any(design.sensitivity is not None for design in shown.designs):
         print_text((_SHIFT_OF_DEAD_CENTRES if _of_dead_centres(shown) else _SHIFT).in_language(lang))
     if _turning_before_better([design.verdict for design in shown.designs]):
@@ -249,7 +249,14 @@ def print_clearance(shown: SynthesisResult, clearance: float, lang: str) -> None
 
 def transmission_text(mu: float, lang: str) -> str:
     """A minimum transmission angle, marked where the motion passes badly; nothing where there is none."""
-    return "" if isnan(mu) else f"{number(degrees(mu), lang, '.1f')}°{' !' if mu < GOOD else ''}"
+    mark = " !!" if mu < JAMMING else " !" if mu < GOOD else ""
+    return "" if isnan(mu) else f"{number(degrees(mu), lang, '.1f')}°{mark}"
+
+
+def marks_in_words(angles: Iterable[float]) -> list[Message]:
+    """What the marks of these transmission angles mean."""
+    low = [mu for mu in angles if mu < GOOD]
+    return [_LOW] * any(mu >= JAMMING for mu in low) + [_JAMS] * any(mu < JAMMING for mu in low)
 
 
 def _named(linkage: Linkage, lang: str) -> Linkage:

@@ -14,7 +14,7 @@ from gruebler.base.errors import SynthesisError
 from gruebler.base.plain_data import plain
 from gruebler.base.text import joined, message, number, translate
 from gruebler.cli.design_files import check_demands, check_picture, chosen_design
-from gruebler.cli.design_tables import print_rejected, print_solutions, transmission_text
+from gruebler.cli.design_tables import marks_in_words, print_rejected, print_solutions, transmission_text
 from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table, print_text
@@ -217,7 +217,8 @@ def _print(result: SphericalResult, rejected: bool, lang: str, *, coordinates: b
     ]
     if rows:
         print_table((*_COLUMNS, _OUTPUTS) if coordinates else _COLUMNS, rows, lang=lang)
-        print_text(_SHIFT.in_language(lang))
+        marks = marks_in_words(design.verdict.transmission for design in result.designs)
+        print_text(joined([*marks, _SHIFT], " ").in_language(lang))
     else:
         print(translate("None of the designs examined meets the task.", lang))
     print_rejected([(f"RR-RR {_arcs(d, lang)}", d.verdict.reasons) for d in result.rejected], not rows, rejected, lang)

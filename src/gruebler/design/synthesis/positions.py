@@ -11,11 +11,12 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from itertools import combinations, permutations
-from math import comb, degrees, radians
+from math import comb, degrees
 
 import numpy as np
 
 from gruebler.base.errors import LinkageError, SynthesisError
+from gruebler.base.events import JAMMING
 from gruebler.base.text import Message, joined_by_and, message
 from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyad_families import (
@@ -103,8 +104,6 @@ _PAIRS = message(
     "{dyads} complex dyads are {pairs} solutions as ordered pairs, each dyad also with itself, and {linkages} linkages."
 )
 
-_LEAST_ANGLE = radians(5)
-"""The pivots nearest to preferred ones lie where a demand is just met: without one of these in a dead centre."""
 _MEASURES = {
     NEAR_PIVOTS: message("the distance from the preferred pivots"),
     "sensitivity": message("the sensitivity to wrong lengths"),
@@ -144,7 +143,7 @@ def synthesise_positions(
     if len(task) > 4 and task.fixed_pivots:
         raise SynthesisError("four-bars have no pivots to choose for more than four positions; six-bars have some")
     if NEAR_PIVOTS in sort:
-        wanted = replace(wanted, transmission=max(wanted.transmission, _LEAST_ANGLE))
+        wanted = replace(wanted, transmission=max(wanted.transmission, JAMMING))
     refuse_one_joint(task, wanted)
     refuse_parallelograms(task)
     chosen = len(task.moving_pivots) + len(task.fixed_pivots) + len(task.curve_parameters)
@@ -207,8 +206,8 @@ def _resolution(
     if measures:
         step = FINEST_STEP if demands.given_sizes or (given and len(task) == 2) else PLANE * FINE_WIDTHS[-1]
         yield RESOLUTION.filled(measure=joined_by_and(measures), step=step)
-    if NEAR_PIVOTS in sort and demands.transmission == _LEAST_ANGLE:
-        yield message("Transmission angles below {angle:g}° are left out.", angle=degrees(_LEAST_ANGLE))
+    if NEAR_PIVOTS in sort and demands.transmission == JAMMING:
+        yield message("Transmission angles below {angle:g}° are left out.", angle=degrees(JAMMING))
 
 
 def _freedoms(task: PositionTask) -> int:
