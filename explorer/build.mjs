@@ -16,16 +16,16 @@ const SIGNS = Array.from({ length: 127 }, (_, k) => String.fromCharCode(k + 1)).
   (sign) => !/["<\\\n\r]/.test(sign),
 );
 
-/** Bytes as text: six in seven of the 122 signs; of the last n, if they are fewer, n + 1. */
+/** Bytes as text: 19 in 22 of the 122 signs, 122^22 > 256^19; of the last n, if they are fewer, n + 3. */
 function written(bytes) {
   let text = "";
-  for (let at = 0; at < bytes.length; at += 6) {
-    const some = bytes.subarray(at, at + 6);
-    let value = some.reduce((sum, byte) => 256 * sum + byte, 0);
+  for (let at = 0; at < bytes.length; at += 19) {
+    const some = bytes.subarray(at, at + 19);
+    let value = some.reduce((sum, byte) => 256n * sum + BigInt(byte), 0n);
     let group = "";
-    for (let k = 0; k <= some.length; k++) {
-      group = SIGNS[value % SIGNS.length] + group;
-      value = Math.floor(value / SIGNS.length);
+    for (let k = 0; k < some.length + 3; k++) {
+      group = SIGNS[value % 122n] + group;
+      value /= 122n;
     }
     text += group;
   }
@@ -62,12 +62,22 @@ function given(source) {
   return source.replace(/\bvoid (?=\w+\.)/g, "");
 }
 
+/** `#name` of a class as a property that gets a short name (`mangleProps`), the most used ones of a file the same ones
+ * everywhere: that nobody looks into it from outside has been checked before. */
+function unveiled(source) {
+  const hidden = /(?<=[\w)]\.|^ +(?:(?:static|readonly|async|get|set) )*)#([a-z]\w*)/gm;
+  const counts = new Map();
+  for (const [, name] of source.matchAll(hidden)) counts.set(name, (counts.get(name) ?? 0) + 1);
+  const names = [...counts.keys()].sort((one, other) => counts.get(other) - counts.get(one));
+  return source.replace(hidden, (_, name) => `hidden${names.indexOf(name)}`);
+}
+
 /** The kernel and tables of texts stand packed in the module; the packer does the same everywhere. */
 const packed = {
   name: "packed",
   setup: ({ onLoad }) => {
     onLoad({ filter: /src.[\w-]+\.ts$/ }, async ({ path: file }) => {
-      return { contents: given(bare(numbered(await readFile(file, "utf8")))), loader: "ts" };
+      return { contents: unveiled(given(bare(numbered(await readFile(file, "utf8"))))), loader: "ts" };
     });
     onLoad({ filter: /\.gz$/ }, async ({ path: file }) => {
       const contents = `import { bytesOf } from "./packed";\nexport default bytesOf(${standIn(await readFile(file))});`;
@@ -144,7 +154,10 @@ function shared(code) {
   for (const [text] of code.matchAll(repeated)) count(text);
   for (const [text, , called, , key] of code.matchAll(member)) count(wanted(text, called ?? key));
   counts.delete(undefined); // of texts
-  const long = [...counts].filter(([text, times]) => (times - 1) * (text.length - 5) > 9).map(([text]) => text);
+  const long = [...counts]
+    .filter(([text, times]) => (times - 1) * (text.length - 5) > 9)
+    .sort(([, one], [, other]) => other - one) // the shortest names are given first
+    .map(([text]) => text);
   const name = (text) => unused[long.indexOf(text)];
   const made = code
     .replace(repeated, (text, _, at) => {
@@ -180,7 +193,7 @@ const { outputFiles } = await build({
   format: "esm",
   target: "es2022",
   minify: true,
-  mangleProps: new RegExp(`^(${own.join("|")})$`),
+  mangleProps: new RegExp(`^(hidden\\d+|${own.join("|")})$`),
   charset: "utf8",
   legalComments: "none",
   plugins: [packed],

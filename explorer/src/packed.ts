@@ -20,22 +20,19 @@ export function fromBase64(text: string): Uint8Array<ArrayBuffer> {
 
 /** The bytes that `written` of build.mjs made a text of. */
 export function bytesOf(text: string): Uint8Array<ArrayBuffer> {
-  const groups = Math.ceil(text.length / 7);
-  const out = new Uint8Array(text.length - groups);
-  for (let group = 0; group < groups; group++) {
-    const signs = text.slice(7 * group, 7 * group + 7);
-    let value = 0;
+  const out: number[] = [];
+  for (let at = 0; at < text.length; at += 22) {
+    const signs = [...text.slice(at, at + 22)];
+    let value = 0n;
     for (const sign of signs) {
       const code = sign.charCodeAt(0);
       const skipped = [0, 10, 13, 34, 60, 92].filter((one) => one < code).length;
-      value = 122 * value + code - skipped;
+      value = 122n * value + BigInt(code - skipped);
     }
-    for (let k = signs.length - 2; k >= 0; k--) {
-      out[6 * group + k] = value;
-      value = Math.floor(value / 256);
-    }
+    const hex = value.toString(16).padStart(2 * signs.length - 6, "0");
+    out.push(...hex.match(/../g)!.map((pair) => Number(`0x${pair}`)));
   }
-  return out;
+  return Uint8Array.from(out);
 }
 
 /** The text of its packed bytes. */
