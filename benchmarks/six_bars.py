@@ -7,7 +7,6 @@ ADDRESS` (or `local`) by Dask.
 `python -m benchmarks.six_bars FAMILY PAIRS FOLDER SEED` keeps what is found in a folder and goes on from there. The
 family "Watt I, one angle": those that turn the body between 6 positions of one angle. `--plane`: of nine pairs and
 seven positions those of a general plane, which takes longer and has a trace test; the others always have one.
-`--curve`: all planes cut one curve, which is quicker.
 """
 
 import argparse
@@ -67,7 +66,7 @@ def is_linear(search: Search, node: int) -> bool:
     return tested.residual < LINEAR
 
 
-def main(family: str, pairs: int, folder: str, seed: int, tasks: int, plane: bool, curve: bool) -> None:
+def main(family: str, pairs: int, folder: str, seed: int, tasks: int, plane: bool) -> None:
     kind, _, one_angle = family.partition(", ")
     poses, points = (pairs - 1, 0) if kind == "Watt I" else (0, pairs - 1)
     problem = Problem(
@@ -80,7 +79,7 @@ def main(family: str, pairs: int, folder: str, seed: int, tasks: int, plane: boo
         one_angle=bool(one_angle),
     )
     general = plane or pairs in (6, 8)
-    search = Search(problem, seed, tasks=tasks, general=general, one_curve=curve)
+    search = Search(problem, seed, tasks=tasks, general=general)
     between = list(combinations(range(tasks), 2))
 
     def begin() -> None:
@@ -89,12 +88,12 @@ def main(family: str, pairs: int, folder: str, seed: int, tasks: int, plane: boo
             search.add_way(0, 1)
 
     begin()
-    name = f"{family.replace(', ', '_').replace(' ', '_')}_{pairs}{'_plane' * plane}{'_curve' * curve}_{seed}.npz"
+    name = f"{family.replace(', ', '_').replace(' ', '_')}_{pairs}{'_plane' * plane}_{seed}.npz"
     file = Path(folder or ".") / name
     file.parent.mkdir(parents=True, exist_ok=True)
     if folder and file.exists():
         search.load(file)
-    saved, known = time.time(), 0
+    saved = time.time()
     while True:
         while search.step():
             if folder and time.time() - saved > 30:
@@ -109,10 +108,6 @@ def main(family: str, pairs: int, folder: str, seed: int, tasks: int, plane: boo
         print(search, flush=True)
         if not general:
             break
-        if curve and len(search.found[0]) > known:  # ways on one curve are cheap: more of them before a test
-            known = len(search.found[0])
-            search.add_way(*between[len(search.ways) % len(between)])
-            continue
         if is_linear(search, 0) and search.alike and all(is_linear(search, node) for node in range(1, tasks)):
             print(f"with the arm, or all targets, given: {len(on_special_plane(search)[1]):,} finite", flush=True)
             break
@@ -128,7 +123,6 @@ if __name__ == "__main__":
     parser.add_argument("seed", nargs="?", type=int, default=1)
     parser.add_argument("--tasks", type=int)
     parser.add_argument("--plane", action="store_true")
-    parser.add_argument("--curve", action="store_true")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--scheduler")
     parser.set_defaults(lang="en")
@@ -144,5 +138,4 @@ if __name__ == "__main__":
             given.seed,
             given.tasks or (2 if given.pairs == 7 else 4),
             given.plane,
-            given.curve,
         )

@@ -5,7 +5,15 @@ import pytest
 
 from gruebler import _core
 from gruebler.base.errors import SynthesisError
-from gruebler.design.synthesis import Demands, FunctionTask, SixBarType, function_task, synthesise, synthesise_six_bars
+from gruebler.design.synthesis import (
+    Demands,
+    FunctionTask,
+    SixBarType,
+    function_task,
+    six_bar_monodromy,
+    synthesise,
+    synthesise_six_bars,
+)
 from gruebler.design.synthesis.alt_burmester import load_generic_solutions
 from gruebler.design.synthesis.formulas import FunctionLaw
 from gruebler.design.synthesis.six_bar_census import ELEVEN, Census
@@ -17,6 +25,7 @@ from gruebler.design.synthesis.six_bar_monodromy import (
     known_solutions,
     loop_vectors,
     on_special_plane,
+    plane_of,
     trace,
 )
 from gruebler.design.synthesis.six_bar_starts import StartSet, eight_pairs, save_start_set, start_set
@@ -57,16 +66,13 @@ def test_every_six_bar_is_among_the_generic_solutions():
     assert arrived > 55
 
 
-@pytest.mark.parametrize("one_curve", [False, True])
-def test_a_part_of_the_list_for_nine_pairs_has_a_sum_that_is_not_linear(one_curve):
+def test_a_part_of_the_list_for_nine_pairs_has_a_sum_that_is_not_linear():
     """And solutions of a general plane are led to given pairs, where they are among the stored ones."""
-    search = Search(NINE_PAIRS, 3, one_curve=one_curve)
+    search = Search(NINE_PAIRS, 3)
     search.step()
     search.begin_again()  # with ways that lead aside
     while len(search.found[0]) < 12 and search.step():
         pass
-    pairs = [task[:2, :7] for task in search.tasks]
-    assert (pairs[1] == pairs[0]).all() == one_curve
     assert trace(search).residual > 1e-3
     task, z = on_special_plane(search)
     assert len(z) > 1
@@ -76,6 +82,20 @@ def test_a_part_of_the_list_for_nine_pairs_has_a_sum_that_is_not_linear(one_curv
     assert good.all()
     gaps = np.abs(base.z[:, None] - ends).max(axis=2).min(axis=0)
     assert (gaps < 1e-6 * (1 + np.abs(ends).max(axis=1))).all()
+
+
+def test_the_plane_moves_another_way_where_a_path_of_the_trace_test_is_lost(monkeypatch):
+    search = Search(NINE_PAIRS, 3)
+    place, moves = plane_of(NINE_PAIRS).moved, []
+
+    def following(problem, starts, begin, end, threads):
+        moves.append((end - begin)[place] / abs(begin[place]))
+        ends, good = follow(problem, starts, begin, end, threads)
+        return ends, good & (abs(moves[-1].real) > 1e-9)  # lost where it moves along the imaginary axis
+
+    monkeypatch.setattr(six_bar_monodromy, "follow", following)
+    assert trace(search).lost == 0
+    assert moves == pytest.approx([-0.3j, 0.3j, -0.3, 0.3])
 
 
 ARMS = np.array([-0.07 + 0.46j, 0.45 - 0.17j, 0.39 - 0.44j, -0.4 + 0.37j])  # a, f, p, q

@@ -23,6 +23,7 @@ from gruebler.design.synthesis.six_bar_guidance import TILT, random_guides
 UNUSABLE = (OSError, ValueError, KeyError, EOFError, RuntimeError, BadZipFile)
 """What is raised where a file of the cache is damaged, or has something else."""
 _TASKS, _PIECE = 4, 2048
+_STEPS = 0.3j, 0.3, 0.2 - 0.1j  # of planes in a trace test, relative
 _SAME = 1e-6  # relative: solutions nearer to each other are one
 _MARK = np.exp(1.234j * np.arange(1, 15) ** 2)  # weights of the numbers of a solution
 
@@ -162,8 +163,6 @@ class Plane(NamedTuple):
     """The place of what is zero of a task with given targets, or with the length of the arm given."""
     summed: slice
     """The unknowns whose sum over all solutions is linear in that number."""
-    numbers: Flags
-    """(4, unknowns) where a task has the numbers of the plane."""
 
 
 def plane_of(problem: Problem) -> Plane:
@@ -174,9 +173,7 @@ def plane_of(problem: Problem) -> Plane:
         moved, slopes, summed = (3, 0), (2,), arm_of(problem)
     elif not problem.guides:
         moved, slopes = (1, problem.points - 1), (2, 0)
-    numbers = np.zeros((4, problem.unknowns), bool)
-    numbers[moved] = numbers[slopes] = True
-    return Plane(moved, slopes, summed, numbers)
+    return Plane(moved, slopes, summed)
 
 
 def follow(
@@ -224,11 +221,11 @@ def merged(known: Complexes, more: Complexes) -> tuple[Complexes, Integers]:
 class Search:
     """Solutions of some tasks, found along ways between them.
 
-    The tasks may be planes that cut one curve, since ways between these take a quarter of the time. A way from task u
-    to task v, each solution of u to one of v, is followed once for each pair of ends, from either of them; first on the
-    ways between all tasks. Other ways lead to equivalents of v: of eight pairs its last equation may have any factor;
-    positions may be turned by any complex angle, and their six-bars with them. Where v has none, or one on another
-    curve, they lead aside.
+    A way from task u to task v, each solution of u to one of v, is followed once for each pair of ends, from either of
+    them; first on the ways between all tasks. Other ways lead to equivalents of v: of eight pairs its last equation may
+    have any factor; positions may be turned by any complex angle, and their six-bars with them. Where v has none, they
+    lead aside. Lines across one curve would take a quarter of the time, but ways between them do not reach the few
+    six-bars that are a hundred times as large as others.
     """
 
     def __init__(
@@ -239,16 +236,13 @@ class Search:
         *,
         tasks: int = _TASKS,
         general: bool = True,
-        one_curve: bool = False,
     ) -> None:
         rng = np.random.default_rng(seed)
         z, (task,) = known_solutions(problem, rng, 1, general=general)
         self.problem, self.threads, self.lost, self.clashes, self.paths = problem, threads, 0, 0, 0
-        self.aside = one_curve or problem.points == problem.unknowns
+        self.aside = problem.points == problem.unknowns
         used = np.abs(task) > 0
         used[0, : problem.poses * problem.one_angle] = False
-        if one_curve:
-            used &= plane_of(problem).numbers
         self.tasks: list[Complexes] = [task] + [
             np.where(used, random_numbers(rng, *task.shape), task) for _ in range(tasks - 1)
         ]
@@ -267,7 +261,7 @@ class Search:
     def add_way(self, u: int, v: int) -> None:
         """One more way from task u to task v."""
         again = self.paths > 0 or any((a, b) == (u, v) for a, b, _ in self.ways)
-        factor = again or (self.problem.points == 7 and not self.aside)
+        factor = again or self.problem.points == 7
         far = 10 ** self.rng.uniform(0, 2) if self.aside else 1.0  # large solutions are moved by wide ways only
         self.ways.append((u, v, far * complex(random_numbers(self.rng)) if factor else 1.0))
         self.matched.append([np.zeros(len(self.found[k]), bool) for k in (u, v)])
@@ -376,12 +370,25 @@ class Trace(NamedTuple):
 
 
 def trace(search: Search, node: int = 0) -> Trace:
-    """The trace test of the list for one of the tasks: a list that lacks some has a sum that is not linear."""
+    """The trace test of the list for one of the tasks: a list that lacks some has a sum that is not linear.
+
+    The plane moves another way where a path is lost; three ways are tried.
+    """
+    tested = _trace(search, node, _STEPS[0])
+    for step in _STEPS[1:]:
+        if not tested.lost:
+            break
+        tested = min(tested, _trace(search, node, step), key=lambda each: each.lost)
+    return tested
+
+
+def _trace(search: Search, node: int, step: complex) -> Trace:
+    """The trace test with the plane moved by a step, relative to where it is, both ways."""
     task, z, plane = search.tasks[node], search.found[node], plane_of(search.problem)
-    step, sets, kept = 0.3j * abs(task[plane.moved]), [], np.ones(len(z), bool)
+    sets, kept = [], np.ones(len(z), bool)
     for sign in (-1, 1):
         moved = task.copy()
-        moved[plane.moved] += sign * step
+        moved[plane.moved] += sign * step * abs(task[plane.moved])
         ends, good = follow(search.problem, z, task, moved, search.threads)
         sets.append(ends)
         kept &= good
