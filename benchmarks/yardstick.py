@@ -33,7 +33,7 @@ SIX_BARS = {
     "Watt I, ternary crank": ("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2); frame=0; drive=R(0-1)", "5"),
     "Stephenson I": ("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-3); frame=0; drive=R(0-1)", "4"),
 }
-NEIGHBOURS, NEIGHBOURS_OF_OWN, NEIGHBOURS_ON_PIVOTS = 400, 1200, 960  # of each kind; 1,200 without `starts`
+NEIGHBOURS, NEIGHBOURS_OF_OWN = 400, 1200  # of each kind of drawings; 1,200 without `starts`
 MET = 1e-6  # of the longer side: the path is taken as met
 LONGER = 1.1  # than the polygon of the points: a path that is, leaves it between them
 SIZE_RATIOS = (1.5, 2.0, 3.0, 6.0)  # of four-bars for the challenge
@@ -149,7 +149,7 @@ def drawn_path(structure: DyadStructure, link: str, rng: np.random.Generator) ->
             return (rotation * point + shift)[0], joints
 
 
-def drawn_again(seeds: tuple[int, ...], each: int, neighbours: int, *, pivots: bool) -> None:
+def drawn_again(seeds: tuple[int, ...], each: int, *, pivots: bool) -> None:
     """Paths that six-bars drew, fitted by six-bars of the same kind, with two of their own pivots if wanted.
 
     Of the ways in which these can be joints at the frame, which share the neighbours, the right one is taken.
@@ -166,7 +166,8 @@ def drawn_again(seeds: tuple[int, ...], each: int, neighbours: int, *, pivots: b
         for _ in range(each):
             (z, joints), start = drawn_path(structure, link, rng), time.process_time()
             limits, ways = unlimited(structure, link, z, {n: complex(joints[n]) for n in fixed})
-            cost = fit_drawings(limits, link, z, closed=True, number=-(-neighbours // ways)).cost.min(initial=np.inf)
+            number = -(-NEIGHBOURS_OF_OWN // ways)
+            cost = fit_drawings(limits, link, z, closed=True, number=number).cost.min(initial=np.inf)
             error = np.sqrt(cost / len(z)) / max(np.ptp(z.real), np.ptp(z.imag))
             met += error < MET
             print(f"{seed} {name:22}{error:>9.1e}{time.process_time() - start:>6.1f} s", flush=True)
@@ -292,8 +293,8 @@ if __name__ == "__main__":
     elif sys.argv[1:2] == ["--evolution"]:
         evolution(tuple(sys.argv[2:]))
     elif sys.argv[1:2] == ["--drawn"]:
-        drawn_again(tuple(map(int, sys.argv[2:])) or (1,), 3, NEIGHBOURS_OF_OWN, pivots=False)
+        drawn_again(tuple(map(int, sys.argv[2:])) or (1,), 3, pivots=False)
     elif sys.argv[1:2] == ["--pivots"]:
-        drawn_again(tuple(map(int, sys.argv[2:])) or (5, 6, 7), 2, NEIGHBOURS_ON_PIVOTS, pivots=True)
+        drawn_again(tuple(map(int, sys.argv[2:])) or (5, 6, 7), 2, pivots=True)
     else:
         main(tuple(sys.argv[1:]))

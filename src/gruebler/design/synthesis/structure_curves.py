@@ -22,6 +22,8 @@ _FIRST, _SECOND, _LAST = (1, 10), (3, 30), (16, 300)
 """Of the neighbours each so many-th is improved, by so many steps; the first two at some points of the target."""
 _ISLAND = 400  # neighbours whose descendants do not mix with those of others, until all have some
 _NEAR = 1e-6  # of the size: a linkage that is nearer and passes all targets in order ends the search
+_TRIES, _TRIES_ON_PIVOTS = 2, 4  # with other descendants of the same neighbours, until the curve is met
+_WORTH = 5e-3  # of the size: only where the best of a try is as near
 _BRED, _BRED_ON_PIVOTS = 4, 8  # times: new linkages from those that there are; those of the atlas have other pivots
 _CHILDREN, _POOL = 400, 100  # at most, and no more than there are neighbours; those that have descendants
 _BRED_OF_ALL, _POOL_OF_ALL = 6, 30  # the same of all islands together; of each island
@@ -67,7 +69,7 @@ def fit_drawings(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool
         number: how many neighbours from the atlas are improved.
 
     Each stands at the first target. None where the atlas has no curves. Cost: 2 to 3 ms a neighbour with what descends
-    from it, less where one meets the curve soon.
+    from it, less where one meets the curve soon, twice as much where the best of them nearly do.
     """
     thin = np.unique(np.linspace(0, len(z) - 1, min(_THIN, len(z))).round().astype(np.int64))
     structure = limits.structure
@@ -84,33 +86,47 @@ def fit_drawings(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool
             curves = replace(curves, turned=_spread(curves.turned, thin, before))
         return _each_once(_at_first_target(structure, link, curves, sides), _APART * fit.size)
 
-    def bred(pool: DrawnCurves, size: int, times: int) -> DrawnCurves:
+    def bred(pool: DrawnCurves, seed: int, size: int, times: int) -> DrawnCurves:
         """The pool after so many times descendants, of which so many linkages have some."""
-        chance = np.random.default_rng(1)
+        chance = np.random.default_rng(seed)
         for _ in range(times if len(pool.cost) else 0):
             pool = _chosen(structure, pool, size, closed=closed)
             both = [pool, improved(_bred(limits, pool, min(number, _CHILDREN), chance))]
             pool = _each_once(together(both), _APART * fit.size)
         return pool
 
-    def met(pool: DrawnCurves) -> bool:
-        near = pool.cost < len(thin) * (_NEAR * fit.size) ** 2
-        return bool((near & _led_through(structure, pool, closed=closed)).any())
+    def grown(seed: int) -> Iterator[DrawnCurves]:
+        """The pools of all islands, then that of their best together."""
+        parts = []
+        for n, island in enumerate(islands):
+            if n == len(firsts):
+                firsts.append(improved(island))
+            parts.append(bred(firsts[n], seed, _POOL, _BRED_ON_PIVOTS if limits.pivots else _BRED))
+            yield parts[-1]
+        if len(parts) > 1:
+            best = [_chosen(structure, pool, _POOL_OF_ALL, closed=closed) for pool in parts]
+            yield bred(_each_once(together(best), _APART * fit.size), seed, _POOL_OF_ALL * len(parts), _BRED_OF_ALL)
 
-    times = _BRED_ON_PIVOTS if limits.pivots else _BRED
-    pools: list[DrawnCurves] = []
+    def within(pool: DrawnCurves, share: float) -> NDArray[np.bool_]:
+        return pool.cost < len(thin) * (share * fit.size) ** 2
+
     kinds = _neighbours(limits, link, z, closed=closed, number=number)
     if not kinds:
         nothing = np.zeros((0, structure.joints + 1), np.complex128)
         return DrawnCurves(places=nothing, turned=np.zeros((0, len(z))), cost=np.zeros(0))
-    for island in _islands(kinds, number):
-        first = improved(island)
-        pools += [first, bred(first, _POOL, times)]
-        if met(pools[-1]):
+    few = number * len(kinds) < _ISLAND
+    islands = [together(kinds)] if few or limits.pivots else _islands(kinds, number)
+    firsts: list[DrawnCurves] = []
+    pools: list[DrawnCurves] = []
+    tries = 1 if few else _TRIES_ON_PIVOTS if limits.pivots else _TRIES
+    for seed in range(1, 1 + tries):
+        for pool in grown(seed):
+            pools.append(pool)
+            if met := bool((within(pool, _NEAR) & _led_through(structure, pool, closed=closed)).any()):
+                break
+        if met or not within(pool, _WORTH).any():
             break
-    else:
-        parts = [_chosen(structure, pool, _POOL_OF_ALL, closed=closed) for pool in pools[1::2]]
-        pools.append(bred(_each_once(together(parts), _APART * fit.size), _POOL_OF_ALL * len(parts), _BRED_OF_ALL))
+    pools += firsts
     share = max(1, min(number, _ISLAND) // _LAST[0])
     best = _each_once(together([_chosen(structure, each, share, closed=closed) for each in pools]), _APART * fit.size)
     if not len(best.cost):
@@ -122,13 +138,10 @@ def fit_drawings(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool
     return _each_once(replace(best, cost=np.where(beyond, np.inf, best.cost)), _SAME * fit.size)
 
 
-def _islands(kinds: list[DrawnCurves], number: int) -> Iterator[DrawnCurves]:
+def _islands(kinds: list[DrawnCurves], number: int) -> list[DrawnCurves]:
     """Parts of the neighbours whose descendants do not mix, the most similar ones first, of each kind in turn."""
-    each = min(number, _ISLAND)
-    for begin in range(0, number, each):
-        for curves in kinds:
-            if begin < len(curves.cost):
-                yield curves[np.arange(begin, min(begin + each, len(curves.cost)))]
+    parts = [(each, np.arange(len(each.cost))[k : k + _ISLAND]) for k in range(0, number, _ISLAND) for each in kinds]
+    return [curves[own] for curves, own in parts if len(own)]
 
 
 def _bred(limits: DrawingLimits, pool: DrawnCurves, count: int, chance: np.random.Generator) -> DrawnCurves:

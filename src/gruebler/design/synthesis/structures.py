@@ -102,7 +102,8 @@ def synthesise_structures(
         executor: see `enumeration.worker_pool.run_work`; the answer is the same with any.
         progress: called with the starts done and their number.
 
-    Cost: a six-bar with an atlas 1 s for the atlas and 5 s for its neighbours; others 1 to 3 s a start.
+    Cost: a six-bar with an atlas 1 s for the atlas and 5 s for its neighbours, twice as much where a curve is nearly
+    met; others 1 to 3 s a start.
     """
     mechanisms = tuple(structures)
     known = [link for mechanism in mechanisms for link in links_with_lengths(mechanism)]
