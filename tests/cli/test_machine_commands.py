@@ -83,6 +83,9 @@ def test_geneva(capsys):
     assert "Treiberwinkel in Bewegung je Umdrehung 240°" in rows
     assert "Bewegungszeit / Rastzeit 2" in rows
     assert out.splitlines()[-1].split()[:3] == ["360°", "60°", "0,3333"]
+    for words, middle in (([], 100 - 50), (["--internal"], 100 + 50)):  # where pin and both axes are in line
+        _, out, _ = run(capsys, "geneva", "6", *words, "--distance", "100")
+        assert re.search(rf"^distance of the pin from the wheel's axis in the middle of a step +{middle}$", out, re.M)
     _, out, _ = run(capsys, "geneva", "4", "--pins", "4", "--json")  # one pin enters as another leaves
     assert json.loads(out)["motion_ratio"] is None
     assert "inf" not in run(capsys, "geneva", "4", "--pins", "4")[1]

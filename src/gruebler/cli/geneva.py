@@ -35,7 +35,7 @@ _ROWS = {
     "entry_acceleration": (message("jump of the angular acceleration at start and stop, Δα/ω²"), ""),
     "crank": (message("crank radius"), ""),
     "wheel": (message("wheel radius at the slot's mouth"), ""),
-    "slot_end": (message("least distance of the pin from the wheel's axis"), ""),
+    "slot_end": (message("distance of the pin from the wheel's axis in the middle of a step"), ""),
     "locking_arc_deg": (message("locking arc of the driver"), "°"),
     "greatest_speed": (message("greatest wheel speed"), " 1/min"),
     "greatest_acceleration_rad_s2": (message("greatest angular acceleration"), " rad/s²"),
