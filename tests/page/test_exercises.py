@@ -47,6 +47,16 @@ def test_every_kind_has_a_figure_and_wrong_answers_a_hint(kind, level):
     assert all(mark["hint"].count(" ") >= 2 for mark in marks)
 
 
+def test_a_wrong_number_after_a_dyad_has_a_hint_of_its_own():
+    """F' and the number of chains are not sent to the solution."""
+    for level in (1, 2, 3):
+        task = task_record(f"dyad-{level}-5", "en")
+        wrong = {one["key"]: "123" for one in task["asked"] if not one["choices"]}
+        hints = {mark["key"]: mark["hint"] for mark in marked_task(task["id"], wrong, "en")["marks"]}
+        assert "F' = 3(n - 1)" in hints["F_after"]
+        assert not [hint for hint in hints.values() if "See the steps" in hint]
+
+
 def test_the_page_shows_kinds_figure_and_hints(exercises):
     page = exercises()
     kinds = page.page.locator('[aria-label="Theory"] button')

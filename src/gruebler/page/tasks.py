@@ -200,7 +200,7 @@ def way(task: Exercise, solution: Solution, result: Result) -> Message:
 
 
 def _counted(task: Exercise) -> dict[str, Message]:
-    """What helps to count links and joints; of the joints only what the chain of the task has, if it has one."""
+    """What helps to count; of the joints only what the chain of the task has, if it has one."""
     text = _chain_of(task)
     joints = Chain.parse(text, space=str(task.given.get("space", "planar"))).joints if text else ()
     several = not text or any(len(joint.links) > 2 for joint in joints)
@@ -215,7 +215,12 @@ def _counted(task: Exercise) -> dict[str, Message]:
         freedom = message("Only joints that roll and slide have f = 2.")
     if sliding:
         counts.append(message("Sliding joints are counted as well."))
-    return {"n": message("Every link counts once, the frame too."), "g1": joined(counts, " "), "g2": freedom}
+    return {
+        "n": message("Every link counts once, the frame too."),
+        "g1": joined(counts, " "),
+        "g2": freedom,
+        "chains": message("Places that are alike up to the names of the links give the same chain: they count once."),
+    }
 
 
 def tried_task(id: str) -> list[dict[str, Any]]:

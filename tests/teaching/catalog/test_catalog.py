@@ -111,6 +111,12 @@ def test_machines_in_space_are_found_as_such(word):
     assert "lambda" not in found
 
 
+def test_space_is_found_in_both_languages():
+    """Also where only a remark has the word: all these machines move in space."""
+    english, german = ({e.id for e in search(Query(words=(word,)))} for word in ("space", "Raum"))
+    assert english == german == {e.id for e in entries().values() if e.in_space}
+
+
 def test_search_by_purpose():
     """The entries that a reader of the teaching documents looks for and did not find by this word."""
     guides = {e.id for e in search(Query(words=("Führungsgetriebe",)))}

@@ -5,6 +5,7 @@ import math
 import pytest
 
 from gruebler.base.errors import LinkageError
+from gruebler.pictures.canvas.shapes import TextShape
 from gruebler.teaching.exercises import Mark, exercise, generate, grade, solve
 from gruebler.teaching.exercises.grading import common_mistakes
 from gruebler.teaching.exercises.in_space import (
@@ -100,6 +101,16 @@ def test_fresh_tasks_in_space_have_figures(kind):
     arcs = [sum(generate("spherical-grashof", seed, 2).given[key] for key in "abcd") for seed in range(5)]
     assert min(arcs) > 360
     assert all(check.holds for check in solve(generate(kind, 6, 3)).checks)
+
+
+@pytest.mark.parametrize("level", [1, 2, 3])
+def test_a_differential_is_named_as_its_speeds_are(level):
+    """The task asks for n_1, n_2, n_C and, with teeth, for the planets' n_p; no other number stands in its figure."""
+    task = generate("differential", 3, level)
+    named = [shape.text for shape in exercise_figure(task).shapes if isinstance(shape, TextShape)]
+    assert sorted({*named}) == ["1", "2", "C", "p"]
+    indices = {key.removeprefix("n_") for key in (*task.given, *(one.key for one in task.asked)) if key[:2] == "n_"}
+    assert indices <= {*named}
 
 
 def test_mistakes_of_a_sum_beyond_a_turn_are_numbers():

@@ -94,7 +94,7 @@ def _add_before(builder: SolutionBuilder, start: Chain) -> int:
 def _add_after(builder: SolutionBuilder, start: Chain, extensions: list[Extension]) -> None:
     first = extensions[0].chain
     parts = count_freedoms(first).formula().removeprefix("F = ").split(" = ")
-    builder.parts.append(SolutionStep(text=_AFTER, formula=f"F = {parts[0]}", numbers=parts[1], value=counted(first)))
+    builder.parts.append(SolutionStep(text=_AFTER, formula=f"F' = {parts[0]}", numbers=parts[1], value=counted(first)))
     builder.keep("F_after", _AFTER, counted(first), symbol="F'")
     change = counted(first) - counted(start)
     builder.keep("change", message("change of F"), CHANGES.get(change, str(change)), symbol="ΔF")

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import cos, pi, radians, sin
 
-from gruebler.base.text import Text, message
+from gruebler.base.text import Text, translate
 from gruebler.files import Exercise
 from gruebler.machines.gears import read_train
 from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
@@ -16,8 +16,10 @@ from gruebler.mechanics.linkages.gear_trains import linkage_of_train
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space import SphericalFourBar
 from gruebler.pictures.canvas.figure import Figure
+from gruebler.pictures.canvas.moving_picture import Body, still_picture
 from gruebler.pictures.linkage.picture import draw_linkage
-from gruebler.pictures.machines.train_picture import draw_train
+from gruebler.pictures.machines.bevel_views import bevel_shapes
+from gruebler.pictures.machines.train_layout import gear_stages
 from gruebler.pictures.space import draw_spatial
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
@@ -245,15 +247,16 @@ def _spherical_four_bar(exercise: Exercise, lang: str) -> Figure:
 
 
 def _differential(exercise: Exercise, lang: str) -> Figure:
-    """From the side and the front, with the teeth of the task or equal wheels."""
+    """From the side and the front, the teeth of the task or equal wheels; named as the speeds are, by their indices."""
     number = _numbers(exercise)
     sun, planet = number.get("z_s", 16.0), number.get("z_p", 10.0)
-    first, star, second, carrier = (word.in_language(lang) for word in _WHEELS)
-    text = f"bevel {first}:{sun:g} {star}:{planet:g} {second}:-{sun:g} on {carrier}"
-    return draw_train(read_train(text).train, planets={star: 2}, lang=lang)
+    (stage,) = gear_stages(read_train(f"bevel 1:{sun:g} p:{planet:g} 2:-{sun:g} on C").train, {"p": 2})
+    shapes = bevel_shapes(stage)
+    assert shapes is not None
+    about = translate("Shafts 1 and 2, planets p, carrier C, from the side and along the axis of the shafts.", lang)
+    return still_picture([Body(tuple(shapes))], translate("Bevel differential", lang), about)
 
 
-_WHEELS = message("shaft1"), message("planet"), message("shaft2"), message("carrier")
 _IN_SPACE: Mapping[str, Callable[[Exercise, str], Figure]] = {
     "in_space.universal_joint": _universal_joint,
     "in_space.spherical_grashof": _spherical_four_bar,
