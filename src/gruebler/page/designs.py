@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import degrees, hypot, isfinite, radians
 from typing import Any
@@ -12,7 +12,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError
-from gruebler.base.text import LANGUAGES, Message, joined_by_and, message, translate
+from gruebler.base.text import LANGUAGES, Message, message, translate
 from gruebler.design.synthesis import (
     DeadCentreTask,
     Demands,
@@ -24,12 +24,12 @@ from gruebler.design.synthesis import (
     synthesise,
 )
 from gruebler.design.synthesis.start_families import MOST_PAIRS
-from gruebler.design.synthesis.targets import GuidedCurve
 from gruebler.design.synthesis.tasks import gives_lengths
 from gruebler.files import linkage_to_json
 from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.page.design_words import SLENDER, is_curve, notes, words
 from gruebler.page.model import link_names
 from gruebler.pictures.linkage.bodies import CarriedLine, pins_of, slides
 from gruebler.pictures.linkage.picture import draw_linkage
@@ -48,18 +48,12 @@ _LIKE = 0.1
 """Of the size: designs of one form whose pivots and lengths differ by less are variants of one another."""
 _LONGEST = 100.0
 """Of designs of which only the ratios count: so long is the longest distance of joints on a link, in mm."""
-_BALANCED = message("Balanced: {criteria} count alike.")
-_ANGLE, _SIZE, _SENSITIVITY = message("transmission angle"), message("longest link"), message("sensitivity")
-BALANCED = _BALANCED.filled(criteria=joined_by_and([_ANGLE, _SIZE, _SENSITIVITY]))
-BEST = message("The best of {count}.")
-EXACT = message("All meet the targets exactly.")
-NONE = message("None does: ask for less, or try other targets.")
 _ROUNDING = 1e-9
 """Of the size: a target that is missed by less is met."""
 _CURVES = 12
 """So many designs for a whole curve: a choice between near ones and small ones."""
-_SLENDER = 8
-"""Where space is limited, too: the longest length by the shortest."""
+_LOW = message("Left out, as the transmission angle falls below {angle:g}° in other positions: {count}.")
+_LONG = message("Left out, as a link is longer than {length:.3g} mm: {count}.")
 _FRAMES = 144  # of a motion, there and back if it does not turn fully
 
 
@@ -134,21 +128,25 @@ def design_records(
 
     demands = Demands(crank=crank, transmission=radians(transmission))
     if space is not None:
-        demands = replace(demands, region=space, size_ratio=_SLENDER)
+        demands = replace(demands, region=space, size_ratio=SLENDER)
     result = synthesise(
         task,
         demands=demands,
         sort=sort,
-        number=_CURVES if _is_curve(task) else None,
+        number=_CURVES if is_curve(task) else None,
         progress=counted if isinstance(task, PathTask | PositionTask) else None,
     )
-    designs = [design for design in result.designs if design.verdict.accepted]
+    designs = list(result.designs)
+    left: list[Message] = []
     if sort:  # those that have the angle in all positions, if there are any
         whole = [each for each in designs if degrees(each.transmission_over_range) >= transmission]
-        designs = whole or designs
+        if whole and whole != designs:
+            left.append(_LOW.filled(angle=transmission, count=len(designs) - len(whole)))
+            designs = whole
     if space is not None:
         longest = hypot(space[2] - space[0], space[3] - space[1])
-        designs = [each for each in designs if _longest(posed_linkage(each.linkage)) <= longest]
+        designs, too_long = _short_enough(designs, longest)
+        left += too_long
     relative = not gives_lengths(task)
     if relative:
         designs = [replace(each, linkage=each.linkage.scaled(_LONGEST / each.linkage.size)) for each in designs]
@@ -157,15 +155,9 @@ def design_records(
         progress(translate("Drawing design {number} of {total}", lang, number=number, total=len(designs)))
         items.append(_record(design, task, lang))
     _mark_variants(items)
-    refused = len(result.designs) - len(designs)
-    texts = {"note": _notes(task, items, len(designs), refused), "words": _words(task, items, relative, space)}
+    texts = {"note": [*notes(result, items, len(designs)), *left], "words": words(task, items, relative, space)}
     said = {key: " ".join(text.in_language(lang) for text in some) for key, some in texts.items()}
     return {"total": len(designs), "relative": relative, "items": items} | said
-
-
-def _is_curve(task: Task) -> bool:
-    """Whether all of a curve is wanted, which is approached, and not single points of it."""
-    return isinstance(task, PathTask) and GuidedCurve.of(task) is not GuidedCurve.NONE
 
 
 def _region(task: Task, reach: float | None) -> tuple[float, float, float, float] | None:
@@ -179,54 +171,6 @@ def _region(task: Task, reach: float | None) -> tuple[float, float, float, float
     places = task.z if isinstance(task, PathTask) else task.origins
     x, y = np.array([*((z.real, z.imag) for z in places), *task.fixed_pivots]).T
     return float(x.min()) - reach, float(y.min()) - reach, float(x.max()) + reach, float(y.max()) + reach
-
-
-def _notes(task: Task, items: Sequence[dict[str, Any]], total: int, refused: int) -> Iterator[Message]:
-    """How complete and how exact the designs are that are shown.
-
-    >>> shifted = task_of("positions", [[0, 0, 30], [1, 1, 30], [2, 0, 30]])
-    >>> for text in _notes(shifted, [], 0, 0):
-    ...     print(text)
-    All at one angle: the link is shifted and does not turn.
-    None does: ask for less, or try other targets.
-    """
-    if isinstance(task, PositionTask) and len({angle for *_, angle in task.positions}) == 1:
-        yield message("All at one angle: the link is shifted and does not turn.")
-    if len(items) < total:
-        yield BEST.filled(count=total)
-    if not total:
-        yield NONE
-    elif not any(item["error"] for item in items):
-        yield EXACT
-    elif _is_curve(task):
-        yield message("Deviation: the largest distance of a point wanted (purple) from the curve reached (blue).")
-    if refused:
-        yield message("Left out, as they do not meet what is asked: {count}.", count=refused)
-
-
-def _words(
-    task: Task, items: Sequence[dict[str, Any]], relative: bool, space: tuple[float, ...] | None
-) -> Iterator[Message]:
-    """What stands on the cards of designs, explained."""
-    sensitive = any(item["shift"] is not None for item in items)
-    approached = any(item["error"] for item in items)
-    if items and (sensitive or not relative):
-        each = [*[message("deviation")] * approached, _ANGLE, *[_SIZE] * (not relative), *[_SENSITIVITY] * sensitive]
-        yield _BALANCED.filled(criteria=joined_by_and(each))
-    angles = [(item["range"], item["transmission"]) for item in items]
-    if not isinstance(task, DeadCentreTask) and any(None not in both and both[0] < both[1] for both in angles):
-        yield message("On the way: from the first target to the last.")
-    if space is not None:
-        yield message(
-            "No link is longer than the diagonal of the space for fixed pivots, nor {ratio} times as long as another.",
-            ratio=_SLENDER,
-        )
-    if items and relative:
-        yield message("Of lengths only the ratios count; the longest is 100 mm.")
-    elif items:
-        yield message("The longest link counts its points, too, and how far a rod slides.")
-    if sensitive:
-        yield message("Sensitivity: how far a target is off at most if lengths are 0.1 % wrong.")
 
 
 def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
@@ -264,6 +208,21 @@ def _longest(posed: PosedLinkage) -> float:
         if link != frame and link in places:
             places[link].append(place)
     return max(abs(here - there) for own in places.values() for here in own for there in own)
+
+
+def _short_enough(designs: list[Design], longest: float) -> tuple[list[Design], list[Message]]:
+    """The designs none of whose links is longer, and how many are left out, if any.
+
+    >>> from gruebler.design.synthesis import DesignVerdict
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> made = FourBar(25, 70, 40, 70).linkage({"K": (200.0, 0.0)})
+    >>> design = Design(linkage=made, verdict=DesignVerdict(), form="four-bar")
+    >>> [str(text) for length in (201.0, 199.0) for text in _short_enough([design], length)[1]]
+    ['Left out, as a link is longer than 199 mm: 1.']
+    """
+    fitting = [each for each in designs if _longest(posed_linkage(each.linkage)) <= longest]
+    more = len(designs) - len(fitting)
+    return fitting, [_LONG.filled(length=longest, count=more)] * bool(more)
 
 
 def _size_of(error: float, size: float) -> float | None:

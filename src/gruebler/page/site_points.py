@@ -18,7 +18,8 @@ from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
 from gruebler.design.synthesis.finite_points import ON_CIRCLE, ON_LINE, UNRESOLVED
 from gruebler.design.synthesis.tasks import EQUAL_POINTS
 from gruebler.mechanics.fourbar import FourBar
-from gruebler.page.designs import BALANCED, BEST, EXACT, NONE, capitalised
+from gruebler.page.design_words import BALANCED, BEST, EXACT, NONE
+from gruebler.page.designs import capitalised
 from gruebler.page.model import link_names, model_of
 from gruebler.page.page import module_text
 

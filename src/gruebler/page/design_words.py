@@ -1,0 +1,92 @@
+"""What is said of designs on the page: how complete and exact they are, why others are left out, what cards tell."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import inf, isnan
+from typing import Any
+
+from gruebler.base.text import Message, joined, joined_by_and, message
+from gruebler.design.synthesis import DeadCentreTask, DesignVerdict, PathTask, PositionTask, SynthesisResult, Task
+from gruebler.design.synthesis.demands import WITHOUT
+from gruebler.design.synthesis.targets import GuidedCurve
+
+_BALANCED = message("Balanced: {criteria} count alike.")
+_ANGLE, _SIZE, _SENSITIVITY = message("transmission angle"), message("longest link"), message("sensitivity")
+BALANCED = _BALANCED.filled(criteria=joined_by_and([_ANGLE, _SIZE, _SENSITIVITY]))
+BEST = message("The best of {count}.")
+EXACT = message("All meet the targets exactly.")
+NONE = message("None does: ask for less, or try other targets.")
+_AT_BEST = message("Rejected ({count}), at best: {reasons}.")
+_MOST_REASONS = 3
+"""Kinds of rejections that are told."""
+SLENDER = 8
+"""Where space is limited, too: the longest length by the shortest."""
+
+
+def is_curve(task: Task) -> bool:
+    """Whether all of a curve is wanted, which is approached, and not single points of it."""
+    return isinstance(task, PathTask) and GuidedCurve.of(task) is not GuidedCurve.NONE
+
+
+def notes(result: SynthesisResult, items: Sequence[dict[str, Any]], total: int) -> Iterator[Message]:
+    """How complete and how exact the designs are that are shown, of so many, and why others are rejected.
+
+    >>> from gruebler.design.synthesis import Demands, synthesise
+    >>> five = ((-40, 0, 0.2), (-15, 18, 0.4), (5, 24, 0.6), (22, 20, 0.8), (35, 10, 1.1))
+    >>> for text in notes(synthesise(PositionTask(five), demands=Demands(crank=True)), [], 0):
+    ...     print(text)
+    None does: ask for less, or try other targets.
+    Rejected (1): the drive does not turn fully.
+    """
+    task = result.task
+    if isinstance(task, PositionTask) and len({angle for *_, angle in task.positions}) == 1:
+        yield message("All at one angle: the link is shifted and does not turn.")
+    if len(items) < total:
+        yield BEST.filled(count=total)
+    if not total:
+        yield NONE
+    elif not any(item["error"] for item in items):
+        yield EXACT
+    elif is_curve(task):
+        yield message("Deviation: the largest distance of a point wanted (purple) from the curve reached (blue).")
+    if not total or result.count.theorem:  # of a family there are as many others as one likes
+        yield from _rejections(result)
+
+
+def _rejections(result: SynthesisResult) -> Iterator[Message]:
+    """The demand without which the most remain; reasons with how many have them, those that lack the least first."""
+    yield from (note for note in result.notes if note.text == WITHOUT.text)
+    kinds: dict[tuple[str, ...], list[DesignVerdict]] = {}
+    for verdict in (design.verdict for design in result.rejected):
+        kinds.setdefault(tuple(reason.text for reason in verdict.reasons), []).append(verdict)
+    for _, some in sorted(kinds.items(), key=lambda kind: (len(kind[0]), -len(kind[1])))[:_MOST_REASONS]:
+        best = max(some, key=lambda verdict: -inf if isnan(verdict.transmission) else verdict.transmission)
+        told = {joined(verdict.reasons).in_language("en") for verdict in some}
+        text = message("Rejected ({count}): {reasons}.") if len(told) == 1 else _AT_BEST
+        yield text.filled(count=len(some), reasons=joined_by_and(best.reasons))
+
+
+def words(
+    task: Task, items: Sequence[dict[str, Any]], relative: bool, space: tuple[float, ...] | None
+) -> Iterator[Message]:
+    """What stands on the cards of designs, explained."""
+    sensitive = any(item["shift"] is not None for item in items)
+    approached = any(item["error"] for item in items)
+    if items and (sensitive or not relative):
+        each = [*[message("deviation")] * approached, _ANGLE, *[_SIZE] * (not relative), *[_SENSITIVITY] * sensitive]
+        yield _BALANCED.filled(criteria=joined_by_and(each))
+    angles = [(item["range"], item["transmission"]) for item in items]
+    if not isinstance(task, DeadCentreTask) and any(None not in both and both[0] < both[1] for both in angles):
+        yield message("On the way: from the first target to the last.")
+    if space is not None:
+        yield message(
+            "No link is longer than the diagonal of the space for fixed pivots, nor {ratio} times as long as another.",
+            ratio=SLENDER,
+        )
+    if items and relative:
+        yield message("Of lengths only the ratios count; the longest is 100 mm.")
+    elif items:
+        yield message("The longest link counts its points, too, and how far a rod slides.")
+    if sensitive:
+        yield message("Sensitivity: how far a target is off at most if lengths are 0.1 % wrong.")
