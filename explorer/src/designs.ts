@@ -73,8 +73,6 @@ export class DesignCards {
   readonly #missed = new Plot("°", () => {});
   #found: Found | null = null;
   #order: Order = "error";
-  /** Exact ones do not differ in their deviation. */
-  #exact = false;
   /** The form of those that are shown, at first the most frequent one; all if empty. */
   #form = "";
   /** What is shown in the plane. */
@@ -89,7 +87,6 @@ export class DesignCards {
   show(found: Found | null): Design | null {
     this.#found = found;
     this.#form = this.#forms()[0] ?? "";
-    this.#exact = !!found?.items.every(({ error }) => !error);
     // by which they are numbered, those that are much like others last
     if (found) {
       const orders = this.#orders();
@@ -147,31 +144,36 @@ export class DesignCards {
     return [...forms].sort((one, other) => this.#of(other).length - this.#of(one).length);
   }
 
+  /** What cards tell and are sorted by, in the language of the page. */
+  get #names(): Record<Order, string> {
+    return {
+      error: t("deviation"),
+      range: t("μ in all positions"),
+      transmission: t("μ on the way"),
+      size: t("longest link"),
+      shift: t("sensitivity"),
+      balanced: t("balanced"),
+    };
+  }
+
   /** Write them, in the language of the page. */
   arrange(): void {
     const found = this.#found;
     if (!found) return renew(this.element);
     this.#plot();
     const { items } = found;
-    const names: Record<Order, string> = {
-      error: t("by deviation"),
-      transmission: t("by μ on the way"),
-      range: t("by μ in all positions"),
-      size: t("by longest link"),
-      shift: t("by sensitivity"),
-      balanced: t("balanced"),
-    };
-    const orders = this.#orders().map((by): [Order, string] => [by, names[by]]);
-    const sorted = orders.length === 1 ? t("Sorted {order}.", { order: orders[0]![1] }) : "";
+    const orders = this.#orders().map((by): [Order, string] => [by, this.#names[by]]);
     const mine = this.#shown.filter(({ variant }) => !variant);
     const more = this.#shown.filter(({ variant }) => variant);
     const forms = this.#forms();
     const kinds = forms.map((form): [string, string] => [form, `${form} · ${this.#of(form).length}`]);
     kinds.unshift(["", t("All")]);
+    const list = (name: string, designs: Design[]) =>
+      h("div.cards.sorted", { "data-list": name }, ...designs.map((design) => this.#card(design)));
     renew(
       this.element,
       h("h2", {}, t("{count} designs", { count: items.length })),
-      h("p.note", {}, `${found.note} ${sorted}`),
+      h("p.note", {}, found.note),
       found.words && h("details.words", {}, h("summary", {}, t("What the cards tell")), h("p.note", {}, found.words)),
       items[0]?.stems ? this.#missed.element : "",
       h(
@@ -181,18 +183,23 @@ export class DesignCards {
           menu(t("Kinds of machines"), kinds, this.#form, (form) => this.#choose(() => (this.#form = form)), {
             "data-field": "form",
           }),
-        orders.length > 1 &&
-          menu(t("Order"), orders, this.#order, (order) => this.#choose(() => (this.#order = order as Order)), {
-            "data-field": "sorted",
-          }),
+        orders.length > 0 &&
+          h(
+            "label",
+            {},
+            t("Order"),
+            menu(t("Order"), orders, this.#order, (order) => this.#choose(() => (this.#order = order as Order)), {
+              "data-field": "sorted",
+            }),
+          ),
       ),
-      h("div.cards.sorted", { "data-list": "designs" }, ...mine.map((design) => this.#card(design))),
+      list("designs", mine),
       more.length
         ? h(
             "details.words",
             {},
             h("summary", {}, t("{count} more, much like these", { count: more.length })),
-            h("div.cards.sorted", { "data-list": "variants" }, ...more.map((design) => this.#card(design))),
+            list("variants", more),
           )
         : "",
     );
@@ -203,14 +210,27 @@ export class DesignCards {
     this.arrange();
   }
 
+  /** What a design is worth, as it is read. */
+  #told(design: Design, by: Value): string {
+    const value = design[by];
+    if (typeof value !== "number") return "–";
+    if (by === "transmission" || by === "range") return `≥ ${angle(value * DEGREE, 3)}`;
+    const digits = by === "size" ? 3 : 2;
+    return this.#found!.relative ? angle(value, digits) : `${number(value, digits)} mm`;
+  }
+
+  /** What tells designs apart or is known of them: the same in the same places of all cards. */
+  get #facts(): Value[] {
+    const { items, relative } = this.#found!;
+    const alike = (one: Design) => this.#told(one, "transmission") === this.#told(one, "range");
+    const needless = [relative && "size", items.every(alike) && "transmission", "balanced"];
+    return ORDERS.filter((by): by is Value => !needless.includes(by) && items.some((one) => one[by as Value]));
+  }
+
   #card(design: Design): HTMLElement {
-    const { form, lengths, range, shift, transmission, error, size } = design;
-    const degrees = (mu: number | null | undefined) => typeof mu === "number" && angle(mu * DEGREE, 3);
-    const [way, all] = [transmission, range].map(degrees);
-    const names = design.names[currentLanguage()]!;
-    const measured = (value: number) => (this.#found!.relative ? angle(value, 2) : `${number(value, 2)} mm`);
-    const deviation = error ? t("deviation {value}", { value: measured(error) }) : t("met exactly");
-    const millimetres = (length: number, k: number) => number(length, 3) + (lengths[k + 1] ? "" : " mm");
+    const { form, lengths, names } = design;
+    const { items } = this.#found!;
+    const millimetres = (length: number, k: number) => number(length, 3) + (lengths[k + 1] ? "" : "\u00a0mm");
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
     const play = () => {
       this.#playing = design;
@@ -231,18 +251,14 @@ export class DesignCards {
       h(
         "span.lengths",
         {},
-        ...lengths.map((one, k) => h("span", {}, spaced(names[k]!), h("strong", {}, millimetres(one, k)))),
+        ...lengths.map((one, k) =>
+          h("span", {}, spaced(names[currentLanguage()]![k]!), h("i", {}, millimetres(one, k))),
+        ),
       ),
-      h("span", {}, error === null || this.#exact ? "" : deviation),
-      h(
-        "span",
-        {},
-        way && way !== all
-          ? t("μ ≥ {way} on the way", { way }) + (all ? t(", else {all}", { all }) : "")
-          : all && t("μ ≥ {all} in all positions", { all }),
-      ),
-      h("span", {}, !this.#found!.relative && t("longest link {value} mm", { value: number(size, 3) })),
-      h("span", {}, !!shift && t("sensitivity {value}", { value: measured(shift) })),
+      ...this.#facts.map((by) => {
+        const best = items[1] && !this.#places(by)[items.indexOf(design)];
+        return h("span", {}, this.#names[by], h(best ? "strong" : "i", {}, this.#told(design, by)));
+      }),
     );
     return card;
   }

@@ -156,9 +156,9 @@ export class SynthesisView implements View {
         this.#planar && this.#clearing,
         h("button.plain", { "data-act": "back", title: t("To the targets"), onclick: back }, "↑"),
         this.status,
-        this.#told,
       ),
     );
+    this.#picture.element.prepend(this.#told);
     renew(
       this.element,
       h(
@@ -331,11 +331,11 @@ export class SynthesisView implements View {
   }
 
   #drawList(): void {
-    const { row, heads } = wordsOf(this.kind);
+    const { name, row, heads } = wordsOf(this.kind);
     const single = this.kind === "dead-centres";
     const last = this.points.at(-1) ?? [];
-    const table = (rows: number[][], name: string, head: string[]) =>
-      rowsTable(rows, name, head, !single, () => this.#draw(), single ? () => "" : undefined);
+    const table = (rows: number[][], title: string, head: string[]) =>
+      rowsTable(rows, title, head, !single, () => this.#draw(), single ? () => "" : undefined);
     const add = () => {
       this.points.push(last.map((value) => value + 30));
       this.#draw();
@@ -356,9 +356,10 @@ export class SynthesisView implements View {
       this.kind === "positions" && !!this.#pivots.length && table(this.#pivots, t("Fixed pivot"), ["x", "y"]),
     );
     const { open } = this.#list.querySelector("details") ?? {};
-    const folds = this.#puts === "curve";
-    const set = folds ? h("details.words", { open }, h("summary", {}, `${t("Points")} · ${count}`), tables) : tables;
-    renew(this.#list, count ? set : "", this.kind === "function" && action("pair", add, t("Another pair")));
+    if (this.kind === "function") tables.append(action("pair", add, t("Another pair")));
+    const folds = this.points[NINE] || (!single && this.designs.element.querySelector("b"));
+    const set = folds ? h("details.words", { open }, h("summary", {}, `${name} · ${count}`), tables) : tables;
+    renew(this.#list, count ? set : "");
   }
 
   /** Meanwhile its buttons do nothing. */
@@ -386,7 +387,7 @@ export class SynthesisView implements View {
     this.#drawList();
     // on a phone below the plane, which stays in sight
     const { element } = this.designs;
-    element.style.scrollMarginTop = `${this.#doing.offsetHeight}px`;
+    element.style.scrollMarginTop = `${this.#doing.offsetHeight - this.#key.offsetHeight}px`;
     if (element.offsetLeft < this.#doing.offsetWidth) element.scrollIntoView();
   }
 

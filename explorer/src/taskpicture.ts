@@ -12,7 +12,7 @@ import { type Kind, wordsOf } from "./tasks";
 const WIDE = 240; // of the plane, in millimetres; that of a phone is narrower
 const PART = 0.64; // of the height of the window, at most
 const DOT = 2.6; // units: the radius of a target
-const LOW = 0.32; // the same on a phone, where designs need room
+const LOW = 0.28; // the same on a phone, where designs need room
 
 /** What is met, and by what. */
 interface Task {
@@ -74,7 +74,9 @@ export class TaskPicture {
       const targets: readonly (readonly number[])[] = swing ?? points;
       const off = ([x, y]: readonly number[]) => away(targets[0] as Pair, x!, y!);
       const far = 2.5 * Math.max(...targets.map(off));
-      const places = [...targets, ...pivots, ...(charted ? [] : moving).filter((one) => off(one) < far)];
+      // what the swing is stands above it
+      const above = swing ? [[0, 1].map((axis) => 1.2 * swing[3]![axis]! - 0.2 * swing[0]![axis]!)] : [];
+      const places = [...targets, ...above, ...pivots, ...(charted ? [] : moving).filter((one) => off(one) < far)];
       const wide = angles || swing ? 0 : home || (narrow ? 0.6 : 1) * WIDE;
       this.#area = areaOf(design && !angles ? -Infinity : wide, part, places, this.plane);
     }

@@ -62,8 +62,8 @@ def _rejections(result: SynthesisResult) -> Iterator[Message]:
         kinds.setdefault(tuple(reason.text for reason in verdict.reasons), []).append(verdict)
     for _, some in sorted(kinds.items(), key=lambda kind: (len(kind[0]), -len(kind[1])))[:_MOST_REASONS]:
         best = max(some, key=lambda verdict: -inf if isnan(verdict.transmission) else verdict.transmission)
-        told = {joined(verdict.reasons).in_language("en") for verdict in some}
-        text = message("Rejected ({count}): {reasons}.") if len(told) == 1 else _AT_BEST
+        texts = {joined(verdict.reasons).in_language("en") for verdict in some}
+        text = message("Rejected ({count}): {reasons}.") if len(texts) == 1 else _AT_BEST
         yield text.filled(count=len(some), reasons=joined_by_and(best.reasons))
 
 
