@@ -172,7 +172,7 @@ export class DesignCards {
       h("div.cards.sorted", { "data-list": name }, ...designs.map((design) => this.#card(design)));
     renew(
       this.element,
-      h("h2", {}, t("{count} designs", { count: items.length })),
+      h("h2", {}, items.length === 1 ? t("1 design") : t("{count} designs", { count: items.length })),
       h("p.note", {}, found.note),
       found.words && h("details.words", {}, h("summary", {}, t("What the cards tell")), h("p.note", {}, found.words)),
       items[0]?.stems ? this.#missed.element : "",

@@ -102,6 +102,7 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
     view.locator('[data-field="least"]').fill("0")
     found_designs(view)
     shows_the_first_card(view, lengths=["frame", "60", "crank"])  # from pivot to pivot
+    assert view.locator(".designs h2").inner_text() == "1 design"
     # it plays over the targets: three moving links, one curve
     assert view.locator("[data-ghost] .bar").count() == 3
     assert view.locator("[data-ghost] .support").count() == 2
@@ -671,6 +672,7 @@ def test_stems_are_drawn_beside_the_designs(design):
     assert plot.get_attribute("aria-label") == "Wanted − reached [°]"
     assert plot.locator("path[stroke]").get_attribute("d").count("M") == len(TABLE)
     assert values_of(view, "deviation")[0] == "0.96°"
+    assert "difference between the output wanted and that reached" in view.locator(".designs .note").first.inner_text()
     before = plot.locator("path.curve").first.get_attribute("d")
     cards.last.hover()
     design.until(f"gruebler.root.querySelector('.designs .plot path.curve').getAttribute('d') !== '{before}'")

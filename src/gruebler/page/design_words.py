@@ -7,7 +7,15 @@ from math import inf, isnan
 from typing import Any
 
 from gruebler.base.text import Message, joined, joined_by_and, message
-from gruebler.design.synthesis import DeadCentreTask, DesignVerdict, PathTask, PositionTask, SynthesisResult, Task
+from gruebler.design.synthesis import (
+    DeadCentreTask,
+    DesignVerdict,
+    FunctionTask,
+    PathTask,
+    PositionTask,
+    SynthesisResult,
+    Task,
+)
 from gruebler.design.synthesis.demands import WITHOUT
 from gruebler.design.synthesis.targets import GuidedCurve
 
@@ -50,6 +58,8 @@ def notes(result: SynthesisResult, items: Sequence[dict[str, Any]], total: int) 
         yield EXACT
     elif is_curve(task):
         yield message("Deviation: the largest distance of a point wanted (purple) from the curve reached (blue).")
+    elif isinstance(task, FunctionTask):
+        yield message("Deviation: the largest difference between the output wanted and that reached.")
     if not total or result.count.theorem:  # of a family there are as many others as one likes
         yield from _rejections(result)
 
