@@ -29,6 +29,7 @@ from gruebler.design.synthesis.target_paths import TargetPath, limit_before, pat
 from gruebler.design.synthesis.target_places import places_approached, places_met
 from gruebler.design.synthesis.targets import GuidedCurve, Targets
 from gruebler.mechanics.analysis import transmission_angle
+from gruebler.mechanics.fourbar import grashof
 from gruebler.mechanics.kinematics import Circuit, circuit
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.solve import move_quietly
@@ -39,6 +40,7 @@ _FAR = 100.0
 """Sizes of linkage and targets: an open circuit is followed so far, and farther only where it is still near them."""
 _STEP = 0.05  # along a circuit, in sizes and radians
 _FINE = 64
+_APART = 1e-6  # of the drive: poses that are not one and the same
 _ROWS = 16  # poses from one target to the next, with several drives
 OTHER_LENGTH = message("the length of the {link} is not {wanted}, but {found}")
 NO_LENGTH = message("{link}: no length, since this link has fewer than two pins")
@@ -74,12 +76,21 @@ def rejected_alike(linkage: Linkage, other: Design, demands: Demands) -> Design:
     own = verdict_at_rest(linkage, demands)
     verdict = replace(
         other.verdict,
+        turns_fully=_crank_turns(linkage),
         size_ratio=own.size_ratio,
         inside=own.inside,
         pivot_distance=own.pivot_distance,
         reasons=(*own.reasons, other.verdict.reasons[-1]),
     )
     return replace(other, linkage=linkage, verdict=verdict)
+
+
+def _crank_turns(four_bar: Linkage) -> bool:
+    """Whether the crank of a four-bar turns fully, by Grashof's condition, whatever its circuit."""
+    crank, coupler, rocker, frame = (
+        distances_of_pins(four_bar, link)[0] for link in ("crank", "coupler", "rocker", "frame")
+    )
+    return "a" in grashof(crank, coupler, rocker, frame).turning
 
 
 def order_notes(designs: Iterable[Design], demands: Demands) -> tuple[Message, ...]:
@@ -128,12 +139,16 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         demands = replace(demands, in_order=False)
     try:
         course = circuit_near(linkage, targets)
+        known = replace(known, turns_fully=_turns_fully(course))
         limit = demands.tolerance + _ROUNDING * linkage.size / targets.size
-        met = (places_met if demands.tolerance <= EXACT_AT_MOST else places_approached)(course, targets, limit)
+        if demands.tolerance <= EXACT_AT_MOST:
+            met = places_met(course, targets, limit)
+        else:
+            met = places_approached(course, targets, limit, in_order=demands.in_order)
         if met.places.empty:
             reasons.append(_missed([k + 1 for k in met.places.empty], met.error))
             verdict = replace(known, assembles=True, error=met.error, reasons=tuple(reasons))
-            return Design(linkage=linkage, verdict=verdict, form=form)
+            return Design(linkage=linkage, verdict=verdict, form=form, targets=targets)
         if demands.in_order and not met.ordered:
             reasons.append(_in_another_order(np.nan))
             verdict = replace(known, assembles=True, one_circuit=True, error=met.error, reasons=tuple(reasons))
@@ -143,7 +158,6 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         any_order = targets.curve is GuidedCurve.NONE and (both_ways or not demands.in_order)
         shortest = targets.order if any_order else None
         path = path_through(course, met, limit, in_order=demands.in_order, shortest=shortest)
-        full = _turns_fully(course)
         drives: tuple[float, ...] = ()
         missed_by, transmission = met.error if path.in_order else path.error, np.nan
         misses = np.full(len(targets.values), np.nan)
@@ -158,15 +172,7 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     if not path.in_order and demands.in_order:
         reasons.append(_in_another_order(path.error))
         missed_by = max(missed_by, path.error)
-    if not path.one_branch and demands.one_branch:
-        reasons.append(message("the drive has to turn back between the targets (two branches)"))
-    carried = float(misses.max())
-    if path.one_branch and not np.isfinite(carried):
-        reasons.append(message("`move` does not lead through all targets"))
-    elif path.one_branch and not carried <= limit:
-        reasons.append(message("a target is missed by {error:.3g} of the size", error=carried))
-    elif path.one_branch and targets.allowed is not None:
-        reasons += _beyond_tolerance(misses, targets.allowed, limit - demands.tolerance)
+    reasons += _faults_of_way(path, misses, targets, demands, limit)
     piece = _way_between(course, path, targets)
     if piece.excess > limit:
         reasons.append(
@@ -178,14 +184,13 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
                 distance=piece.distance,
             )
         )
-    reasons += _faults_of_drive(demands, full=full, transmission=float(transmission))
+    reasons += _faults_of_drive(path, misses, demands, full=known.turns_fully, transmission=float(transmission))
     verdict = replace(
         known,
         assembles=True,
         one_circuit=True,
         one_branch=path.one_branch,
         in_order=path.in_order,
-        turns_fully=full,
         transmission=float(transmission),
         error=float(missed_by),
         between=piece.distance,
@@ -346,12 +351,32 @@ def _told_apart(wanted: float, *lengths: float) -> list[Message]:
     return [Message(f"{{length:.{digits}g}}", {"length": length}) for length in (wanted, *lengths)]
 
 
-def _faults_of_drive(demands: Demands, *, full: bool, transmission: float) -> Iterator[Message]:
+def _faults_of_way(
+    path: TargetPath, misses: Reals, targets: Targets, demands: Demands, limit: float
+) -> Iterator[Message]:
+    """What speaks against the way through the targets, (targets,) of which are missed by so much."""
+    carried = float(misses.max())
+    if not path.one_branch:
+        if demands.one_branch:
+            yield message("the drive has to turn back between the targets (two branches)")
+    elif not np.isfinite(carried):
+        yield message("`move` does not lead through all targets")
+    elif not carried <= limit:
+        yield message("a target is missed by {error:.3g} of the size", error=carried)
+    elif targets.allowed is not None:
+        yield from _beyond_tolerance(misses, targets.allowed, limit - demands.tolerance)
+
+
+def _faults_of_drive(
+    path: TargetPath, misses: Reals, demands: Demands, *, full: bool, transmission: float
+) -> Iterator[Message]:
     """A drive that does not turn although it should, a transmission angle that is too small."""
     if demands.crank and not full:
         yield message("the drive does not turn fully")
-    if demands.transmission > 0 and not transmission >= demands.transmission:
+    if demands.transmission > 0 and np.isfinite(misses).all() and not transmission >= demands.transmission:
         yield transmission_fault(transmission)
+    elif demands.transmission > 0 and not (path.one_branch or demands.one_branch):
+        yield message("where the drive turns back there is no transmission angle")
 
 
 def _beyond_tolerance(misses: Reals, allowed: Reals, rounding: float) -> Iterator[Message]:
@@ -426,10 +451,12 @@ def gaps_of_pins(linkage: Linkage, link: str) -> list[tuple[float, float]]:
 
 def _turns_fully(course: Circuit) -> bool:
     drives = course.linkage.mechanism.drives
-    if not drives or not drives[0].turning or course.drive_limits or not course.closed:
+    if not drives or not drives[0].turning or not course.closed:
         return False
-    ends = course.drive[[0, -1]]
-    return round(float(ends[1] - ends[0]) / (2 * np.pi)) != 0
+    turned = float(course.drive[-1] - course.drive[0])
+    # Limits are sought last: a drive that turns back, or comes back without a turn, shows it by its samples.
+    back = np.diff(course.drive) * np.sign(turned) < -EXACT
+    return round(turned / (2 * np.pi)) != 0 and not back.any() and not course.drive_limits
 
 
 def _carried(
@@ -482,7 +509,8 @@ def _least_transmission(motion: Motion, drive: Reals) -> float:
         if not np.isfinite(mu).any():
             return float("nan")
         k = int(np.nanargmin(mu))
-        first, last = max(k - 1, 0), min(k + 1, len(mu) - 1)
+        apart = np.flatnonzero(np.abs(drive - drive[k]) > _APART)  # a target at a sample of the circuit is there twice
+        first, last = int(apart[apart < k].max(initial=0)), int(apart[apart > k].min(initial=len(mu) - 1))
         rows = np.append(drive[: first + 1], np.linspace(drive[first], drive[last], _FINE + 1)[1:])
         if last > first and (again := move_quietly(motion.linkage, rows, order=2)).complete:
             drive, mu = rows[first:], transmission_angle(again)[first:]
@@ -491,9 +519,17 @@ def _least_transmission(motion: Motion, drive: Reals) -> float:
     k, cosines = int(np.nanargmin(mu)), np.cos(mu)
     most = cosines[k]
     if 0 < k < len(mu) - 1 and (drive[k] - drive[k - 1]) * (drive[k + 1] - drive[k]) > 0:
+        if _passes_zero(*mu[k - 1 : k + 2]):
+            return 0.0
         before, after = drive[[k - 1, k + 1]] - drive[k]
         low, high = cosines[[k - 1, k + 1]] - most
         slope, bend = low * after / before - high * before / after, (high / after - low / before) * (after - before)
         if bend < 0:
             most -= slope**2 / (4 * bend)
     return float(np.arccos(min(most, 1.0)))
+
+
+def _passes_zero(before: float, least: float, after: float) -> bool:
+    """Whether an angle without sign goes through zero beside the least of three: with a sign it is nearly straight."""
+    bend = abs(before - 2 * least + after) / 4
+    return abs(before - 2 * least - after) < bend or abs(after - 2 * least - before) < bend

@@ -44,7 +44,7 @@ class DesignVerdict:
     in_order: bool = False
     """Whether it meets the targets in the order of the task."""
     turns_fully: bool = False
-    """Whether the drive turns fully."""
+    """Whether the drive turns fully; known of every linkage that was followed, whatever became of its targets."""
     transmission: float = float("nan")
     """The minimum transmission angle on the way through the targets, in radians; NaN where there is none."""
     size_ratio: float = float("nan")

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.base.arrays import Complexes, Reals
+from gruebler.base.arrays import Complexes, Integers, Reals
 from gruebler.design.synthesis.ordered_matching import OrderedMatch, SmoothCurve, TargetDistances, preferred
 from gruebler.design.synthesis.ordered_places import Places, lap_about, with_free
 from gruebler.design.synthesis.targets import Targets
@@ -15,6 +16,7 @@ from gruebler.mechanics.kinematics import Circuit, Poses
 
 _REFINEMENTS = 8
 _ARRIVED = 1e-15  # of the length: steps as short as rounding
+_BENDS = 1e-7  # of the length: the slope over shorter steps is rounding
 _SHARPENINGS = 3
 _OF_CURVE = 1e-8  # of the size: how far a circuit lies from the polynomials between its samples
 _INSIDE = 1e-6  # of the length: `move` cannot be led to a limit of the drive itself
@@ -54,15 +56,7 @@ def places_met(course: Circuit, targets: Targets, limit: float) -> TargetPlaces:
     target, low, high, falls, rises = (v[keep] for v in (target, low, high, falls, rises))
     with np.errstate(invalid="ignore", divide="ignore"):
         at = low + (high - low) * np.nan_to_num(falls / (falls + rises), nan=0.5)
-    for _ in range(_REFINEMENTS):
-        if not len(at):
-            break
-        gap, rate = targets.gaps(course.at(at), target)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            step = np.sum(np.real(np.conj(gap) * rate), axis=1) / np.sum(np.abs(rate) ** 2, axis=1)
-        before, at = at, np.clip(at - np.nan_to_num(step), low, high)
-        if np.abs(at - before).max() <= _ARRIVED * course.length:
-            break
+    at = _refined(course, targets, target, at, (low, high))
     ends = np.full(len(at), np.inf)
     if len(at):
         gap, _ = targets.gaps(course.at(at), target)
@@ -93,10 +87,28 @@ def places_met(course: Circuit, targets: Targets, limit: float) -> TargetPlaces:
     return TargetPlaces(places, error, in_order, not places.empty and in_order(whole) is not None)
 
 
-def places_approached(course: Circuit, targets: Targets, limit: float) -> TargetPlaces:
+def _refined(course: Circuit, targets: Targets, target: Integers, at: Reals, within: tuple[Reals, Reals]) -> Reals:
+    """Arcs near which targets are nearest, put right by steps of Newton's method, within bounds."""
+    moved, level = np.zeros(len(at)), np.zeros(len(at))
+    for _ in range(_REFINEMENTS if len(at) else 0):
+        gap, rate = targets.gaps(course.at(at), target)
+        before, level = level, np.sum(np.real(np.conj(gap) * rate), axis=1)
+        bend = np.sum(np.abs(rate) ** 2, axis=1)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            secant = (level - before) / moved
+            # Far from a target the curve bends towards it or away from it: its distance grows otherwise than its way.
+            bend = np.where((np.abs(moved) > _BENDS * course.length) & (secant > 0), secant, bend)
+            step = np.clip(at - np.nan_to_num(level / bend), *within) - at
+        moved, at = step, at + step
+        if np.abs(moved).max() <= _ARRIVED * course.length:
+            break
+    return at
+
+
+def places_approached(course: Circuit, targets: Targets, limit: float, *, in_order: bool = True) -> TargetPlaces:
     """Where the circuit comes near the targets; in order, so that the farthest of them is as near as possible.
 
-    Where each can be met within its own tolerance, it is.
+    Where each can be met within its own tolerance, it is; in order only if that is asked.
     """
     size, order = targets.size, targets.order
     arcs = np.insert(course.arcs, slice(1, None), (course.arcs[:-1] + course.arcs[1:]) / 2)
@@ -105,17 +117,35 @@ def places_approached(course: Circuit, targets: Targets, limit: float) -> Target
     distances = TargetDistances(SmoothCurve(arcs, values, rates, course.closed), targets.values, size)
 
     most = None if targets.allowed is None else size * np.minimum(np.maximum(targets.allowed, _OF_CURVE), limit)
-    if most is not None and not distances.within(None if course.closed else (0.0, course.length), order, most):
-        most = None
+    whole = None if course.closed else (0.0, course.length)
+    if most is not None:
+        within = distances.within(whole, order, most) if in_order else bool((distances.nearest <= most).all())
+        most = most if within else None
 
-    def in_order(piece: Piece) -> OrderedMatch | None:
+    def best_in_order(piece: Piece) -> OrderedMatch | None:
         if most is not None and not distances.within(piece, order, most):
             return None
         match = distances.best_in_order(piece, order, most)
         arcs = _sharpened(course, targets, distances, match.arcs, piece)
         return OrderedMatch(match.error / size, match.mean / size, arcs)
 
-    return TargetPlaces(distances.places(limit * size), float(distances.nearest.max()) / size, in_order)
+    places = _exactly_met(course, targets, distances.places(limit * size if most is None else most))
+    return TargetPlaces(places, float(distances.nearest.max()) / size, best_in_order)
+
+
+def _exactly_met(course: Circuit, targets: Targets, places: Places) -> Places:
+    """Places whose best ones of targets without tolerance are put right by the circuit itself."""
+    if targets.allowed is None:
+        return places
+    which = np.repeat(np.arange(len(targets.values)), np.diff(places.starts))
+    own = np.flatnonzero(targets.allowed[which] == 0)
+    best, low, high = (np.array(each, np.float64) for each in (places.best, places.low, places.high))
+    for _ in range(_SHARPENINGS if len(own) else 0):
+        gap, rate = targets.gaps(course.at(best[own]), which[own])
+        with np.errstate(invalid="ignore", divide="ignore"):
+            step = np.sum(np.real(np.conj(gap) * rate), axis=1) / np.sum(np.abs(rate) ** 2, axis=1)
+        best[own] -= np.nan_to_num(step)
+    return replace(places, best=np.clip(best, low, high).tolist())
 
 
 def _sharpened(course: Circuit, targets: Targets, distances: TargetDistances, arcs: Reals, piece: Piece) -> Reals:
