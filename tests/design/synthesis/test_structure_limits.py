@@ -196,15 +196,20 @@ def test_a_curve_on_two_pivots_is_met_by_other_descendants_of_the_same_neighbour
     assert np.sqrt(cost / len(z)) < 1e-6 * max(np.ptp(z.real), np.ptp(z.imag))
 
 
-def test_few_neighbours_have_descendants_of_one_chance(monkeypatch):
-    """Who asks for one or two designs of each type waits for four generations, not for those of islands and tries."""
+def test_few_neighbours_are_one_pool(monkeypatch):
+    """Who asks for one or two designs of each type does not wait for islands and tries.
+
+    On given pivots, whose ways share the neighbours, there are more tries where the curve is nearly met.
+    """
     around = np.exp(1j * np.linspace(0, 2 * np.pi, 24, endpoint=False))
-    structure = dyad_structure(WATT)
-    limits, _ = unlimited(structure, "4", z := around + 0.3 / (1.2 - around), {})
-    generations = []
+    z, structure, generations = around + 0.3 / (1.2 - around), dyad_structure(WATT), []
     monkeypatch.setattr(structure_curves, "_bred", lambda *given: generations.append(1) or _bred(*given))
-    assert len(fit_drawings(limits, "4", z, closed=True, number=20).cost)
+    free = fit_drawings(unlimited(structure, "4", z, {})[0], "4", z, closed=True, number=20)
     assert len(generations) == 4
+    limits, _ = unlimited(structure, "4", z, {n: complex(free.places[0, n]) for n in (0, 3)})
+    held = fit_drawings(limits, "4", z, closed=True, number=20)
+    assert np.sqrt(held.cost[0] / len(z)) < 2e-3 * np.ptp(z.real)
+    assert len(generations) > 4 + 8
 
 
 def test_curves_are_compared_with_their_anchors_as_linear_least_squares_does():

@@ -118,7 +118,7 @@ def fit_drawings(limits: DrawingLimits, link: str, z: Complexes, *, closed: bool
     islands = [together(kinds)] if few or limits.pivots else _islands(kinds, number)
     firsts: list[DrawnCurves] = []
     pools: list[DrawnCurves] = []
-    tries = 1 if few else _TRIES_ON_PIVOTS if limits.pivots else _TRIES
+    tries = _TRIES_ON_PIVOTS if limits.pivots else 1 if few else _TRIES
     for seed in range(1, 1 + tries):
         for pool in grown(seed):
             pools.append(pool)
