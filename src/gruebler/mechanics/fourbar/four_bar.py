@@ -47,8 +47,8 @@ from gruebler.structure.mechanism import Mechanism
 class FourBar(Lengths):
     """A four-bar: crank a = A0A, coupler b = AB, rocker c = B0B, frame d = A0B0.
 
-    A0 = (0, 0), B0 = (d, 0), A = a exp(i phi). Of the two assembly modes, branch +1 has B to the left of the line
-    from A to B0, branch -1 to the right. Lengths that close in no position are a result (``type``), not an error.
+    A0 = (0, 0), B0 = (d, 0), A = a exp(i phi). Of the two assembly modes, branch ``+`` has B to the left of the line
+    from A to B0, branch ``-`` to the right. Lengths that close in no position are a result (``type``), not an error.
 
     >>> rocker = FourBar(a=2, b=7, c=4.5, d=5.5)
     >>> print(rocker.type, round(math.degrees(rocker.swing), 3))
@@ -188,7 +188,7 @@ class FourBar(Lengths):
 
     @property
     def dead_centres(self) -> DeadCentres | None:
-        """Where the output turns back, on branch +1 (the other is its mirror image in the frame line).
+        """Where the output turns back, on branch ``+`` (the other is its mirror image in the frame line).
 
         None unless a alone is the shortest link and turns fully: only then a turn of the crank drives the output to and
         fro. At a change point one of the two is the position where the motion may also go on.

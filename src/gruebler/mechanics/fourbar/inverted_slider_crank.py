@@ -43,8 +43,8 @@ class InvertedSliderCrank(Lengths):
     """An inverted slider-crank: crank a = A0A, frame d = A0B0, eccentricity e of the guide.
 
     A0 = (0, 0), B0 = (d, 0), A = a exp(i phi). The guide runs through A in the direction theta and passes B0 on its
-    right at the distance e: B0 = A + (r + i e) exp(i theta), r the displacement of the block. Branch +1 has r > 0,
-    branch -1 r < 0. The same motion belongs to a rod on the crank pin that slides through a block swivelling about B0
+    right at the distance e: B0 = A + (r + i e) exp(i theta), r the displacement of the block. Branch ``+`` has r > 0,
+    ``-`` r < 0. The same motion belongs to a rod on the crank pin that slides through a block swivelling about B0
     (turning and swinging block, conchoid linkage) and to a block on the crank pin in a slotted lever pivoted in B0.
 
     >>> shaper = InvertedSliderCrank(a=30, d=50)
@@ -126,7 +126,7 @@ class InvertedSliderCrank(Lengths):
 
     @property
     def dead_centres(self) -> DeadCentres | None:
-        """Where the guide turns back, on branch +1: the crank is perpendicular to it. None if it turns fully.
+        """Where the guide turns back, on branch ``+``: the crank is perpendicular to it. None if it turns fully.
 
         ``output`` is psi; as with a four-bar it is larger in the inner one.
 

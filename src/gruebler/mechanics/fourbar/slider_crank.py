@@ -72,8 +72,8 @@ class StrokeMidpoint:
 class SliderCrank(Lengths):
     """A slider-crank: crank a = A0A, connecting rod b = AB, eccentricity e.
 
-    A0 = (0, 0), A = a exp(i phi), B = (s, e): the slider's path lies e above A0, below if e is negative. Branch +1 has
-    B to the right of A (s larger), branch -1 to the left.
+    A0 = (0, 0), A = a exp(i phi), B = (s, e): the slider's path lies e above A0, below if e is negative. Branch ``+``
+    has B to the right of A (s larger), branch ``-`` to the left.
 
     >>> compressor = SliderCrank(a=20, b=50)
     >>> print(compressor.type, round(compressor.stroke, 9), compressor.ratio)
@@ -217,7 +217,7 @@ class SliderCrank(Lengths):
 
     @property
     def dead_centres(self) -> DeadCentres | None:
-        """Where the slider turns back, on branch +1; None if the crank does not turn fully, or is as long as the rod.
+        """Where the slider turns back, on branch ``+``; None if the crank does not turn or is as long as the rod.
 
         >>> centres = SliderCrank(a=1.7, b=6, e=1.5).dead_centres
         >>> round(centres.inner.output, 6), round(centres.outer.output, 6)

@@ -35,7 +35,7 @@ class RSSR:
     The crank turns about z, its ball A is at (a cos phi, a sin phi, crank_offset). The rocker's axis is
     (0, -sin twist, cos twist) through (d, 0, 0): d along x is the common normal of the axes. The rocker's ball is
     rocker_offset along that axis and c from it, at the angle psi from x. With twist and offsets 0 it is the `FourBar`
-    of these lengths; branch +1 is that of the four-bar then.
+    of these lengths; branch ``+`` is that of the four-bar then.
 
     Args:
         a: the crank's radius, a length.

@@ -42,7 +42,7 @@ class SphericalFourBar:
     """A four-bar on the sphere: crank a = A0A, coupler b = AB, rocker c = B0B, frame d = A0B0, arcs in radians.
 
     The axis A0 is z, B0 = (sin d, 0, cos d). The crank's angle phi is that at A0 from the arc A0B0 to A0A, the output's
-    psi that at B0 from the arc A0B0, carried on beyond B0, to B0B. Of the two assembly modes, branch +1 has B to the
+    psi that at B0 from the arc A0B0, carried on beyond B0, to B0B. Of the two assembly modes, branch ``+`` has B to the
     left of the arc from A to B0 as seen from outside. On a small cap it is the `FourBar` of these arcs. Arcs that close
     in no position are a result (``type``), not an error.
 
@@ -129,7 +129,7 @@ class SphericalFourBar:
 
     @property
     def dead_centres(self) -> DeadCentres | None:
-        """Where the output turns back, on branch +1 (the other is its mirror image); None unless a alone turns."""
+        """Where the output turns back, on branch ``+`` (the other is its mirror image); None unless a alone turns."""
         if self.turning != ("a",) or self.type is CHANGE_POINT:
             return None
         centres = []
