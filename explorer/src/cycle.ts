@@ -81,7 +81,8 @@ export function findCycle(moved: Moved): Cycle {
     home: 0,
   };
   if (!drive) return still;
-  const { between } = sizes.model.span;
+  const { span } = sizes.model;
+  const between = span.between ?? span.stops?.[active];
   const part = between && between[1] - between[0] < TURN - BACK; // it may turn fully, but is not used so
   const round = drive.turning && !part ? fullTurns(moved, start) : null;
   if (round && "rows" in round) {

@@ -117,7 +117,8 @@ export interface Model {
   shortest: [number, number][];
   released: number[];
   start: { drives: number[]; signs: number[]; unknowns: number[] };
-  span: { turns: number; between: [number, number] | null };
+  /** Where it is used: between two values of its drive, or between the stops of each of several. */
+  span: { turns: number; between: Pair | null; stops?: (Pair | null)[] };
   outputs: OutputRecord[];
   shapes: ShapeRecord[];
 }

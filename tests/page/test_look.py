@@ -639,3 +639,18 @@ def test_the_rod_of_an_inverted_slider_crank_is_its_coupler(tab, tmp_path, point
     assert facts.locator("dd").inner_text() == "90°"
     assert page.locator(".track .dead").count() == 2
     assert page.locator(".track .least").count() == 0
+
+
+def test_cylinders_move_between_their_stops(tab, tmp_path):
+    """Not to the dead centres of boom, stick and bucket."""
+    path = tmp_path / "excavator.html"
+    assert main(["explore", "excavator", "-o", str(path)]) == 0
+    page = tab().open(path.as_uri())
+    for drive, ends in enumerate([(240, 330), (160, 280), (190, 255)]):
+        page.page.evaluate(f"gruebler.motion.linkage.choose({drive})")
+        found = page.page.evaluate("(({ low, high }) => [low, high])(gruebler.motion.linkage.cycle)")
+        assert found == pytest.approx(ends), drive
+    page.page.evaluate("gruebler.motion.linkage.choose(0); gruebler.motion.chosen()")
+    facts = page.page.locator(".facts").inner_text()
+    assert "240" in facts
+    assert "330" in facts

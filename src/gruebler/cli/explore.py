@@ -128,7 +128,8 @@ def _model(word: str, lang: str) -> dict[str, Any]:
         return model_of(realisation.linkage)
     linkage, between = linkage_and_range(word, unit="mm")  # which the page writes into files
     record = entry_of(word)
-    model = model_of(linkage, name=_name(word) if record is None else record.name, source=word, between=between)
+    name, stops = (_name(word), ()) if record is None else (record.name, record.stops)
+    model = model_of(linkage, name=name, source=word, between=between, stops=stops)
     return with_document(model, linkage, document_of(Path(word), linkage)) if Path(word).is_file() else model
 
 

@@ -156,6 +156,8 @@ class Sizes(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """The driven joint of the example, or several, where the machine itself names none."""
     range: tuple[float, float] | None = None
     """Drive values between which it moves, in degrees or in the unit."""
+    stops: dict[str, tuple[float, float]] = msgspec.field(default_factory=dict)
+    """Of several driven joints the least and the largest value each, such as lengths of cylinders."""
 
     @property
     def shown_drives(self) -> tuple[str, ...]:
@@ -246,6 +248,28 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         low, high = sizes.range
         drives = linkage.mechanism.drives
         return (math.radians(low), math.radians(high)) if drives and drives[0].turning else (low, high)
+
+    @property
+    def stops(self) -> list[tuple[float, float] | None]:
+        """By drives the least and the largest value of each, radians of what turns; None where none are known.
+
+        Raises `CatalogError` for stops of a joint that is not driven.
+
+        >>> from gruebler.teaching.catalog import entry
+        >>> entry("excavator").stops[0]
+        (240.0, 330.0)
+        """
+        if self.dimensions is None or not self.dimensions.stops:
+            return []
+        stops, drives = self.dimensions.stops, self.linkage().mechanism.drives
+        names = self.chain().joint_names()
+        if others := stops.keys() - {names[drive.joint] for drive in drives}:
+            raise CatalogError("stops: no joint {joint!r} is driven", joint=min(others))
+        known = [stops.get(names[drive.joint]) for drive in drives]
+        return [
+            ends and ((math.radians(ends[0]), math.radians(ends[1])) if drive.turning else ends)
+            for drive, ends in zip(drives, known, strict=True)
+        ]
 
     def loaded(self) -> tuple[Linkage, Loads, float | None]:
         """The machine, what acts on it, and the speed of its drive if one is usual.

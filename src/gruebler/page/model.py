@@ -74,7 +74,12 @@ def _marked(output: dict[str, Any], pairs: Any) -> dict[str, Any]:
 
 
 def model_of(
-    linkage: Linkage, *, name: str | Text = "", source: str = "", between: tuple[float, float] | None = None
+    linkage: Linkage,
+    *,
+    name: str | Text = "",
+    source: str = "",
+    between: tuple[float, float] | None = None,
+    stops: Sequence[tuple[float, float] | None] = (),
 ) -> dict[str, Any]:
     """Everything that the page needs to show a linkage and to move it by itself, as plain data for `json.dumps`.
 
@@ -83,6 +88,7 @@ def model_of(
         name: what the page calls it.
         source: the word by which the command line finds it, such as ``lambda``; empty if there is none.
         between: drive values between which it is shown; all if None.
+        stops: the least and the largest value of each drive, where they are known.
 
     Raises `LinkageError` if it cannot be moved or assembled. Cost: that of its drive cycle, 10 to 500 ms.
 
@@ -146,7 +152,7 @@ def model_of(
             "signs": np.where(pose.roots[0] < 0, -1, 1).tolist(),
             "unknowns": pose.unknowns[0].tolist(),
         },
-        "span": _span(posed, between),
+        "span": _span(posed, between) | {"stops": list(stops)},
         "outputs": _output(linkage, plan),
         "shapes": list(_shapes(posed)),
     }

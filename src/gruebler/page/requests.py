@@ -179,7 +179,7 @@ def _open(asked: CatalogId, _: str, __: Progress) -> dict[str, Any]:
 
     record = entry(asked.id)
     linkage = record.linkage()  # an entry without dimensions is refused in one sentence
-    return model_of(linkage, name=record.name, source=record.id, between=record.between)
+    return model_of(linkage, name=record.name, source=record.id, between=record.between, stops=record.stops)
 
 
 def _open_document(asked: OpenDocument, _: str, __: Progress) -> dict[str, Any]:

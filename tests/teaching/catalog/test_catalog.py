@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import msgspec
 import numpy as np
 import pytest
 
@@ -149,6 +150,23 @@ def test_search_by_drive():
     driven = {e.id for e in search(Query(drive="P"))}
     assert {"loader", "crane_cyl", "hubpodium_blocks"} <= driven
     assert "vcomp" not in driven
+
+
+def test_stops_are_of_driven_joints_and_about_the_drawing():
+    """A cylinder is as long as its pins lie apart."""
+    arm = entry("excavator")
+    places = arm.dimensions.places
+    cylinders = [
+        ("R(carriage-cylinder1)", "R(piston1-boom)"),
+        ("R(boom-cylinder2)", "R(piston2-stick)"),
+        ("R(stick-cylinder3)", "R(piston3-rocker-push_link)"),
+    ]
+    for (one, other), (low, high) in zip(cylinders, arm.stops, strict=True):
+        assert low < np.hypot(*np.subtract(places[one], places[other])) < high
+        assert high < 2 * low  # a rod has room in its cylinder
+    wrong = msgspec.structs.replace(arm.dimensions, stops={"R(carriage-boom)": (0.0, 1.0)})
+    with pytest.raises(CatalogError, match=r"no joint .R.carriage-boom.. is driven"):
+        _ = msgspec.structs.replace(arm, dimensions=wrong).stops
 
 
 GOOD = """
