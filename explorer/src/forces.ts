@@ -175,12 +175,12 @@ export class Forces {
           text: `${number(effort[most] ?? 0, 3)} ${unit}`,
           note: at(most),
         },
-        { name: t("Effective (RMS)"), text: `${number(effective)} ${unit}` },
+        { name: t("Effective (RMS)"), text: `${number(effective, 3)} ${unit}` },
         { name: t("Largest drive power"), text: `${number(power[0], 3)} W` },
-        { name: t("Mean drive power"), text: `${number(power[1])} W` },
+        { name: t("Mean drive power"), text: `${number(power[1], 3)} W` },
         {
           name: t("Drive work"),
-          text: `${number((power[1] * (drives.at(-1)! - drives[0]!)) / speed!)} J`,
+          text: `${number((power[1] * (drives.at(-1)! - drives[0]!)) / speed!, 3)} J`,
           note: [0, -1].map((row) => driveText(linkage, drives.at(row)!, 4)).join(" … "),
         },
         {

@@ -288,7 +288,7 @@ def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_field
     assert torque.startswith(f"\N{MINUS SIGN}{-largest:.3g} N·mm at ")
     places = [drive for drive, effort in zip(told["drives"], told["effort"], strict=True) if effort == largest]
     assert torque.endswith(f" at {math.degrees(places[0]):.4g}°")
-    assert effective == f"{told['effective']:.4g} N·mm"
+    assert effective == f"{told['effective']:.3g} N·mm"
     watts = 1e-3 * 2 * math.pi * largest  # at 60/min
     assert (power, mean) == (f"\N{MINUS SIGN}{-watts:.3g} W", "0 W")
     assert work == "0 J 0° … 360°"
