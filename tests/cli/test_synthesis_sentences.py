@@ -173,7 +173,7 @@ def test_a_pivot_of_the_body_that_turns_outside_the_region_is_named(said):
 
 def test_german_names_of_demands_and_families(said):
     out = said(3, "--moving-pivot 1 1 --region -1 -1 2 2", "de")
-    assert "Entwürfe, die nur eine Forderung nicht erfüllen (Bereich der Gestellpunkte): " in out
+    assert "Entwürfe, die alle Forderungen bis auf diese erfüllen (Bereich der Gestellpunkte): " in out
     assert "Jeder Punkt des Körpers ist Gelenkpunkt eines Zweischlags, ebenso jeder Punkt des Gestells" in out
     assert "im Umkreis der 30-fachen Aufgabengröße" in out
     assert "ein Gestellpunkt liegt außerhalb des Bereichs" in out

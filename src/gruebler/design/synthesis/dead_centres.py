@@ -22,7 +22,7 @@ from gruebler.design.synthesis.dead_centre_extremes import LONGEST, LengthSquare
 from gruebler.design.synthesis.demands import Demands, tightest
 from gruebler.design.synthesis.given_lengths import scale_to_length
 from gruebler.design.synthesis.judging import transmission_fault, verdict_at_rest
-from gruebler.design.synthesis.results import PASSED, Design, SolutionCount, SynthesisResult, in_order_of
+from gruebler.design.synthesis.results import MEASURES, PASSED, Design, SolutionCount, SynthesisResult, in_order_of
 from gruebler.design.synthesis.tasks import DeadCentreTask
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 
@@ -277,6 +277,8 @@ def _searched(
     said = [_RANGE.filled(low=scale * low, high=scale * high) for low, high in ranges]
     notes.append(_MEET[half_turn].filled(ranges=joined_by_and(said), most=scale * sqrt(squares.high)))
     orders = (*orders, "transmission")
+    if orders[0] in MEASURES and orders[0] != _UNEVEN:
+        notes.append(_FIRST.filled(measure=MEASURES[orders[0]]))
     first = in_order_of([designs[k] for k in good], orders)[0]
     best = tried[next(k for k in good if designs[k] is first)]
     within = [m for m in family.members if any(low < m.parameter < high for low, high in ranges)]
@@ -356,6 +358,7 @@ _MEET = {
     True: message("Coupler lengths that meet all demands: {ranges}; no others up to {most:.4g} do."),
 }
 """By whether the dead centres are half a turn apart."""
+_FIRST = message("All members that can be the best by {measure} were compared: it is the first design.")
 _RANGE = message("from {low:.4g} to {high:.4g}")
 _UNEVEN = "sensitivity"
 _ON_GRIDS = message(

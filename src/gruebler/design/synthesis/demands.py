@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import permutations
+from itertools import combinations, permutations
 from math import degrees
 from typing import Any
 
@@ -28,6 +28,7 @@ BUILDABLE = 20.0
 EXACT_AT_MOST = 1e-6
 """With larger tolerances targets are approached, not met: the whole curve within the tolerance counts."""
 WITHOUT = message("Designs that meet all but the demand of {demand}: {count:,}.")
+_NOT_EVEN = message("None of the designs that were tried meets the demand of {task}, whatever else is demanded.")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -209,10 +210,20 @@ _UNBOUNDED = 1e100
 def _places(value: object) -> tuple[tuple[float, float], ...]:
     """At most two places of the plane."""
     rows: list[Any] = list(value) if isinstance(value, Iterable) and not isinstance(value, str) else [None]
-    good = all(isinstance(row, Sequence | np.ndarray) and len(row) == 2 and all(map(_is_number, row)) for row in rows)
-    if not good or len(rows) > 2 or not (np.abs(np.array(rows, np.float64)) < _UNBOUNDED).all():
+    pairs = all(
+        isinstance(row, Sequence | np.ndarray)
+        and len(row) == 2
+        and all(isinstance(x, int | float | np.number) and not isinstance(x, bool) for x in row)
+        for row in rows
+    )
+    if not pairs or len(rows) > 2 or not (np.abs(np.array(rows, np.float64)) < _UNBOUNDED).all():
         raise SynthesisError(
-            "{name}: expected one or two places x, y, but found {value!r}", name="near_pivots", value=value
+            "{name}: expected one or two places x, y with coordinates below {most:g}, but found {found}",
+            name="near_pivots",
+            most=_UNBOUNDED,
+            found=joined_by_and([Message("({x:g}, {y:g})", {"x": float(x), "y": float(y)}) for x, y in rows])
+            if pairs
+            else Message("{value!r}", {"value": value}),
         )
     return tuple((float(x), float(y)) for x, y in rows)
 
@@ -296,12 +307,20 @@ def demands_failed(met: Sequence[tuple[Message, Flags]]) -> Reals:
 
 
 def tightest(met: Sequence[tuple[Message, Flags]]) -> list[Message]:
-    """The demand without which the most remain; the first, such as one branch, is the task itself and stays."""
-    counts = [
-        int(np.count_nonzero(np.logical_and.reduce([flags for k, (_, flags) in enumerate(met) if k != left])))
-        for left in range(1, len(met))
-    ]
-    best = int(np.argmax(counts))
-    if not counts[best]:
-        return []
-    return [WITHOUT.filled(demand=met[best + 1][0], count=counts[best])]
+    """The demand without which the most remain, or the fewest demands; the first is the task itself and stays.
+
+    >>> flags = [np.array(row, bool) for row in ([1, 1, 1, 0], [0, 0, 1, 1], [0, 1, 0, 1], [0, 1, 0, 1])]
+    >>> met = [(Message(name), each) for name, each in zip("abcd", flags)]
+    >>> print(*tightest(met), tightest(met[:1]), sep=" ")
+    Designs that meet all but the demand of b: 1. []
+    """
+    (_, first), *others = met
+    for count in range(1, len(others) + 1):
+        tried = []
+        for left in combinations(range(len(others)), count):
+            kept = [first, *(flags for k, (_, flags) in enumerate(others) if k not in left)]
+            tried.append((int(np.count_nonzero(np.logical_and.reduce(kept))), left))
+        most, left = max(tried, key=lambda row: row[0])
+        if most:
+            return [WITHOUT.filled(demand=joined_by_and([others[k][0] for k in left]), count=most)]
+    return [] if first.any() else [_NOT_EVEN.filled(task=met[0][0])]

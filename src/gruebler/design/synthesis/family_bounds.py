@@ -19,11 +19,12 @@ from gruebler.base.errors import SynthesisError
 from gruebler.base.text import Message, joined, message
 from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, short_cells
-from gruebler.design.synthesis.dyads import Displacements
+from gruebler.design.synthesis.dyads import CRANK, Displacements
 from gruebler.design.synthesis.enclosures import Enclosure
 from gruebler.design.synthesis.pair_lengths import PairLengths, Ranges
-from gruebler.design.synthesis.results import EXACT
+from gruebler.design.synthesis.results import EXACT, form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
+from gruebler.structure.chain.pairs import SymbolText
 
 _BUDGET = 150_000  # pairs of cells that are looked at
 _CHUNK = 20_000  # of them at a time
@@ -43,6 +44,10 @@ _UNDECIDED = message(
     "({u:.5g}, {v:.5g})."
 )
 _BEST = message("The best one here has {best:.1f}°.")
+_NEARLY_RIGHT = message(
+    "The largest transmission angle of linkages {form} that was found, {best:.1f}°, is a right angle to {margin:g}°: "
+    "none can be larger by more."
+)
 _UNKNOWN = message("No bound of the transmission angle could be proved for this family of four-bars.")
 
 
@@ -134,6 +139,9 @@ def bound_notes(task: PositionTask, demands: Demands, best: float | None) -> Ite
     begin = degrees(demands.transmission if best is None else best)
     for margin in MARGINS:
         angle = ceil(10 * (begin + margin)) / 10
+        if best is not None and angle >= 90:
+            yield nearly_right(form_symbols(f"{CRANK.form}-{CRANK.form}"), best, radians(margin))
+            return
         if angle < 90 and not excluded(task, replace(demands, transmission=radians(angle))).left:
             yield beside_best(_AT_MOST.filled(far=FAR, angle=angle), best)
             return
@@ -147,6 +155,11 @@ def bound_notes(task: PositionTask, demands: Demands, best: float | None) -> Ite
 def beside_best(bound: Message, best: float | None) -> Message:
     """A bound, and the best angle that is known, in radians, to compare."""
     return bound if best is None else joined([bound, _BEST.filled(best=degrees(best))], " ")
+
+
+def nearly_right(form: SymbolText, best: float, margin: float) -> Message:
+    """That a transmission angle in radians is so near to a right angle that none is larger by more than a margin."""
+    return _NEARLY_RIGHT.filled(form=form, best=degrees(best), margin=degrees(margin))
 
 
 def _widths(cells: DyadCells) -> Reals:

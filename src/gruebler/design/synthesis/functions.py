@@ -206,7 +206,8 @@ def _by_free_starts(task: FunctionTask, wanted: Demands, number: int, sort: Sequ
         family = (_FEW if ratios == family_dimension(task) else _MANY).filled(count=len(turning))
     if turning:
         best, search = best_dyads(turning, partial(_facts, task), wanted, near, orders=sort or (), number=number)
-        notes = tuple(each for each in search if each is not IMPROVED or family is None or family.text != _FEW.text)
+        finite = family is not None and family.text == _FEW.text
+        notes = tuple(each for each in search if each.text != IMPROVED.text or not finite)
         if ratios < 1:
             better, proved = improved_couplers(task, wanted, partial(_facts_of_pivots, task), best, len(turning))
             best, notes = [*better, *best], (*notes, *proved)

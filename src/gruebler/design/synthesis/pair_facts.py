@@ -5,7 +5,7 @@ All follow from the lengths and crank angles of each pair. docs/theory/synthesis
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple
@@ -26,6 +26,8 @@ _SAME_WAY = 1e-9  # radians: of two ways that differ by less the first one is ta
 _BITS = 30  # costs that differ behind them are equal: a tie is not decided by how a machine rounds
 USUAL = ("full-turn", "transmission", "size-ratio")
 """By what designs are sorted unless the caller says otherwise."""
+KNOWN = ("transmission", "range-transmission", "size", "size-ratio", "full-turn", "sensitivity", NEAR_PIVOTS)
+"""What tells linkages of a family apart."""
 Places = tuple[Complexes, Complexes]
 """Pins in all positions, (n, m, positions), and their pivots, (n, m); an axis may have the length 1."""
 
@@ -88,15 +90,16 @@ class PairFacts:
 
     def costs(self, orders: Sequence[str], which: Flags) -> list[Reals]:
         """(n, m) what is to be small, the most important first; some only where it is asked for."""
-        known: Mapping[str, Callable[[], Reals]] = {
-            "transmission": lambda: -self.transmission,
-            "range-transmission": lambda: -self.transmission,
-            "size": lambda: self.longest,
-            "size-ratio": lambda: self.size_ratio,
-            "full-turn": lambda: np.asarray(1.0 - self.turns, np.float64),
-            "sensitivity": lambda: self.shifts(which),
-            NEAR_PIVOTS: lambda: self.pivot_distance,
-        }
+        costs: Sequence[Callable[[], Reals]] = (
+            lambda: -self.transmission,
+            lambda: -self.transmission,
+            lambda: self.longest,
+            lambda: self.size_ratio,
+            lambda: np.asarray(1.0 - self.turns, np.float64),
+            lambda: self.shifts(which),
+            lambda: self.pivot_distance,
+        )
+        known = dict(zip(KNOWN, costs, strict=True))
         return [_rounded(known[name]()) for name in (*orders, *USUAL) if name in known]
 
     def ranks(self, fails: Reals, orders: Sequence[str]) -> NDArray[np.intp]:

@@ -16,14 +16,14 @@ from gruebler.base.text import Message, message
 from gruebler.design.synthesis.demands import Demands, demands_failed, tightest
 from gruebler.design.synthesis.dyads import GuidingDyad
 from gruebler.design.synthesis.pair_facts import PairFacts, pair_facts
-from gruebler.design.synthesis.results import form_symbols
+from gruebler.design.synthesis.results import form_symbols, resolution
 from gruebler.design.synthesis.tasks import PositionTask
 
 Pair = tuple[GuidingDyad, GuidingDyad]
 Nearby = Callable[[GuidingDyad, float], list[GuidingDyad]]
 """Dyads of the family near one, within a width: part of the family's own length or size."""
 
-_WIDTHS = tuple(0.004 * 0.4**k for k in range(6))
+WIDTHS = tuple(0.004 * 0.4**k for k in range(6))
 FINE_WIDTHS = tuple(0.004 * 0.4**k for k in range(11))
 """Of the best by what is asked for."""
 _ASIDE = 0.3  # sizes of the task: the same in all of their pivots
@@ -105,9 +105,9 @@ def best_pairs(sought: SoughtPairs) -> FoundPairs:
     chosen = _different(sought, ranks[: _LOOKED_AT * sought.number], asked=bool(asked))
     improved = (_improved(sought, pair) for pair in chosen)  # where none of the sample is good, one beside it may be
     pairs: list[Pair] = []
-    known = bool(good.any())
+    beside = 0
     for pair, meets in improved:
-        known |= meets
+        beside += meets
         pairs = [*pairs, pair] if asked else distinct_pairs([*pairs, pair], sought.task.size)
         if not asked and len(pairs) == sought.number:
             break
@@ -115,7 +115,9 @@ def best_pairs(sought: SoughtPairs) -> FoundPairs:
         pairs = _distinct_best(sought, pairs, asked)
         pairs[:_DEEP] = [_improved(sought, pair, FINE_WIDTHS, _MOVES)[0] for pair in pairs[:_DEEP]]
         pairs = _distinct_best(sought, pairs, asked)
-    return FoundPairs(pairs=tuple(pairs), notes=(*notes, *([] if known else tightest(met))))
+    if not good.any():
+        notes += [_BESIDE_SAMPLE.filled(count=beside)] if beside else tightest(met)
+    return FoundPairs(pairs=tuple(pairs), notes=tuple(notes))
 
 
 def _distinct_best(sought: SoughtPairs, pairs: Iterable[Pair], orders: Sequence[str]) -> list[Pair]:
@@ -172,7 +174,8 @@ def best_dyads(
         message(
             "Linkages of the family that meet all demands: {count:,} of {members:,}.", members=len(dyads), count=count
         ),
-        IMPROVED,
+        IMPROVED.filled(step=_STEPS[-1]),
+        *resolution([name for name in orders if name != "transmission"], _STEPS[-1], OF_EXTENT),
     ]
     places = np.array([(dyad.moving, dyad.fixed) for dyad in dyads])
 
@@ -206,7 +209,7 @@ def best_dyads(
         best.append(dyads[left[0]])
         left = apart(left, best[-1])
     if not count:
-        notes = [(_NONE_BESIDE, _SOME_BESIDE)[bool(best)].filled(members=len(dyads), count=len(best))]
+        notes[0] = (_NONE_BESIDE, _SOME_BESIDE)[bool(best)].filled(members=len(dyads), count=len(best))
     return best, notes if best else notes + tightest(met)
 
 
@@ -223,13 +226,14 @@ _SOME_BESIDE = message(
     "None of {members:,} linkages taken of the family meets all demands; beside those that come nearest to it "
     "{count:,} that differ do."
 )
-RESOLUTION = message(
-    "The best by {measure} are improved in steps down to {step:.1g} sizes of the task; that no other is better is not "
-    "proved."
+_BESIDE_SAMPLE = message("Beside those that come nearest to the demands {count:,} were found that meet them.")
+OF_EXTENT = message(
+    "The best by {measure} are improved in steps down to {step:.1g} of the extent of the family; that no other is "
+    "better is not proved."
 )
 IMPROVED = message(
-    "The best of these are improved: their pivots are moved within the family, in ever smaller steps; of those that "
-    "are then nearly the same one is listed."
+    "The best of these are improved: their pivots are moved within the family, in steps down to {step:.1g} of its "
+    "extent; of those that are then nearly the same one is listed."
 )
 _SEARCHED = {
     (False, False): message(
@@ -286,7 +290,7 @@ def _gap(first: Pair, second: Pair) -> float:
     )
 
 
-def _improved(sought: SoughtPairs, pair: Pair, widths: Sequence[float] = _WIDTHS, moves: int = 1) -> tuple[Pair, bool]:
+def _improved(sought: SoughtPairs, pair: Pair, widths: Sequence[float] = WIDTHS, moves: int = 1) -> tuple[Pair, bool]:
     """The best pair nearby, on finer and finer grids about the best so far, and whether it meets all demands."""
     meets = False
     for width in widths:

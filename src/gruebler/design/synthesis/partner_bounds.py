@@ -6,7 +6,7 @@ positions a dyad of the best linkage is held. docs/theory/synthesis-positions.md
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import ceil, cos, degrees, pi, radians
@@ -22,13 +22,22 @@ from gruebler.design.synthesis.dyad_cells import FAR, DyadCells, DyadCurve, Dyad
 from gruebler.design.synthesis.dyad_planes import crank_family
 from gruebler.design.synthesis.dyads import CRANK, SLIDER, Displacements, GuidingDyad
 from gruebler.design.synthesis.enclosures import Enclosure
-from gruebler.design.synthesis.family_bounds import MARGINS, NARROW, PairTests, WayOrder, beside_best, no_way
+from gruebler.design.synthesis.family_bounds import (
+    MARGINS,
+    NARROW,
+    PairTests,
+    WayOrder,
+    beside_best,
+    nearly_right,
+    no_way,
+)
 from gruebler.design.synthesis.length_search import PairFamily, best_members, dyad_numbers
 from gruebler.design.synthesis.pair_facts import pair_facts
 from gruebler.design.synthesis.pair_lengths import Ranges, is_other, off
 from gruebler.design.synthesis.pair_search import Pair
 from gruebler.design.synthesis.results import form_symbols
 from gruebler.design.synthesis.tasks import PositionTask
+from gruebler.structure.chain.pairs import SymbolText
 
 BUDGET = {2: 400_000, 3: 80_000, 4: 80_000}
 """Cells that are looked at, by the number of positions."""
@@ -38,7 +47,8 @@ _TURNS = 6  # in which one dyad is held
 _WIDER = 10.0  # by what the margin grows where it was too narrow for a proof
 MARGIN = {2: radians(0.5), 3: radians(0.05), 4: radians(0.05)}
 """Above the best transmission angle, by the number of positions: none beyond is proved."""
-_CRANKS = 4  # that are tried where none is known to meet the demands
+_CRANKS = 4  # or slides that are tried where none is known to meet the demands
+_FOUR_BAR = f"{CRANK.form}-{CRANK.form}"
 _SLACK = 1e-9  # of what is measured from the slide: far above the rounding of a dyad
 _NONE = message(
     "Proved: no linkage {form} of this family with a crank within {far:g} sizes of the task meets all demands."
@@ -48,6 +58,10 @@ _AT_MOST = message(
     "transmission angle above {angle:.1f}°."
 )
 _UNKNOWN = message("Not decided: whether a linkage {form} of this family meets all demands.")
+_UNBOUNDED = message(
+    "No bound of the transmission angle could be proved for linkages {form} of this family; the best one here has "
+    "{best:.1f}°."
+)
 _BESIDE = message(
     "Proved: no other dyad beside the crank of the best four-bar, and no other crank beside its second dyad, meets all "
     "demands with a transmission angle above {angle:.1f}° and pivots within {far:g} sizes of the task. Four-bars that "
@@ -57,10 +71,18 @@ _BESIDE_SLIDE = message(
     "Proved: no other crank beside the slide of the best linkage {form} meets all demands with a transmission angle "
     "above {angle:.1f}° and pivots within {far:g} sizes of the task. Other slides were sampled."
 )
-_BESIDE_NONE = message(
-    "Proved: the {count} cranks that came nearest to the demands meet them with no other dyad whose pivots lie within "
-    "{far:g} sizes of the task. Other cranks were sampled."
-)
+_BESIDE_NONE = {
+    False: message(
+        "Proved: the {count} cranks that came nearest to the demands meet them with no other dyad whose pivots lie "
+        "within {far:g} sizes of the task. Other cranks were sampled."
+    ),
+    True: message(
+        "Proved: the {count} slides of linkages {form} that came nearest to the demands meet them with no crank whose "
+        "pivots lie within {far:g} sizes of the task. Other slides were sampled."
+    ),
+}
+"""By whether the dyad that is held slides."""
+_TURNING = message("Of those whose crank turns fully: {said}")
 _GIVEN_PIVOT, _GIVEN_CRANK = message("the given pivot"), message("this crank")
 _NONE_BESIDE = message(
     "Proved: no four-bar with {held} and the other pivots within {far:g} sizes of the task meets all demands."
@@ -70,7 +92,8 @@ _MOST_BESIDE = message(
     "transmission angle above {angle:.1f}°."
 )
 _BESIDE_UNKNOWN = message(
-    "Not decided for linkages {form}: whether exchanging one dyad of the best one gives a larger transmission angle."
+    "Not decided for linkages {form}: whether exchanging one dyad of the best one gives a larger transmission angle "
+    "than its {best:.1f}°; it is at most {most:.1f}° more."
 )
 _GIVEN_UNKNOWN = (
     message("Not decided: whether a four-bar with {held} meets all demands."),
@@ -345,14 +368,16 @@ def slide_notes(
     begin = degrees(demands.transmission if best is None else best)
     for margin in MARGINS:
         angle = ceil(10 * (begin + margin)) / 10
+        if best is not None and angle >= 90:
+            yield nearly_right(symbols, best, radians(margin))
+            return
         if angle >= 90:
             break
         bound = replace(demands, transmission=radians(angle))
         if not any(left_of_cranks(task, bound, dyad) for dyad in dyads):
             yield beside_best(_AT_MOST.filled(form=symbols, far=FAR, angle=angle), best)
             return
-    if best is None:
-        yield _UNKNOWN.filled(form=symbols)
+    yield _UNKNOWN.filled(form=symbols) if best is None else _UNBOUNDED.filled(form=symbols, best=degrees(best))
 
 
 def improved_pair(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -> tuple[Pair | None, list[Message]]:
@@ -364,9 +389,9 @@ def improved_pair(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -
     best, pair = max(((angle_of_pair(task, demands, pair), pair) for pair in pairs), key=lambda row: row[0])
     form, margin = form_symbols(f"{CRANK.form}-{pair[1].kind.form}"), MARGIN[len(task)]
     if best + margin >= pi / 2:
-        return None, []  # no angle is larger
+        return None, [nearly_right(form, best, margin)]
     if best == -np.inf:
-        return (None, []) if pair[1].slides else _first_found(task, demands, pairs)
+        return _first_found(task, demands, pairs)
     improved, proved = None, [False, pair[1].slides]
     for turn in range(_TURNS):
         side = 1 if pair[1].slides else turn % 2
@@ -380,12 +405,37 @@ def improved_pair(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -
         if all(proved):
             if best + margin >= pi / 2:  # no angle is larger, or the margin has become too wide to say so
                 close = best + MARGIN[len(task)] >= pi / 2
-                return improved, [] if close else [_BESIDE_UNKNOWN.filled(form=form)]
+                said = nearly_right(form, best, MARGIN[len(task)]) if close else _beside_unknown(form, best)
+                return improved, [said]
             note = _BESIDE_SLIDE if pair[1].slides else _BESIDE
             return improved, [beside_best(note.filled(form=form, far=FAR, angle=_upward(best + margin)), best)]
         if partner.left and partner.dyad is None:
             margin *= _WIDER
-    return improved, [_BESIDE_UNKNOWN.filled(form=form)]
+    return improved, [_beside_unknown(form, best)]
+
+
+def improved_pairs(
+    task: PositionTask, demands: Demands, pairs: Sequence[Pair], *, turning_first: bool
+) -> tuple[list[Pair], list[Message]]:
+    """As `improved_pair`; first among those whose crank turns fully, if designs are sorted by that and some do."""
+    better: list[Pair] = []
+    notes: list[Message] = []
+    turning = replace(demands, crank=True)
+    if turning_first and not demands.crank and any(angle_of_pair(task, turning, pair) > -np.inf for pair in pairs):
+        improved, said = improved_pair(task, turning, pairs)
+        better += [improved] if improved else []
+        notes += of_turning(said)
+    improved, said = improved_pair(task, demands, [*better, *pairs])
+    return better + ([improved] if improved else []), [*notes, *said]
+
+
+def of_turning(notes: Iterable[Message]) -> list[Message]:
+    """What is said of linkages whose crank turns fully."""
+    return [_TURNING.filled(said=note) for note in notes]
+
+
+def _beside_unknown(form: SymbolText, best: float) -> Message:
+    return _BESIDE_UNKNOWN.filled(form=form, best=degrees(best), most=90 - degrees(best))
 
 
 def best_beside(
@@ -415,7 +465,7 @@ def best_beside(
     if not known:
         return [], [_NONE_BESIDE.filled(held=said, far=FAR)]
     if begin + margin >= pi / 2:
-        return better, []  # no angle is larger
+        return better, [nearly_right(form_symbols(_FOUR_BAR), begin, margin)]
     return better, [beside_best(_MOST_BESIDE.filled(held=said, far=FAR, angle=_upward(begin + margin)), begin)]
 
 
@@ -458,16 +508,19 @@ def _apart(first: GuidingDyad, second: GuidingDyad) -> float:
 
 
 def _first_found(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -> tuple[Pair | None, list[Message]]:
-    """A pair that meets the demands beside the cranks of these, which do not, or that there is none."""
-    cranks = list(dict.fromkeys(first for first, _ in pairs))[:_CRANKS]
-    for crank in cranks:
-        partner = PartnerSearch(task, demands, crank, driven=True).partner(demands.transmission, 0.0)
+    """A pair that meets the demands beside the cranks, or the slides, of these, which do not, or that there is none."""
+    slides = pairs[0][1].slides
+    form = form_symbols(f"{CRANK.form}-{pairs[0][1].kind.form}")
+    held = list(dict.fromkeys(pair[slides] for pair in pairs))[:_CRANKS]
+    for dyad in held:
+        partner = PartnerSearch(task, demands, dyad, driven=not slides).partner(demands.transmission, 0.0)
         if partner.dyad is not None:
-            improved, notes = improved_pair(task, demands, [(crank, partner.dyad)])
-            return improved or (crank, partner.dyad), notes
+            pair = (partner.dyad, dyad) if slides else (dyad, partner.dyad)
+            improved, notes = improved_pair(task, demands, [pair])
+            return improved or pair, notes
         if partner.left:
-            return None, [_UNKNOWN.filled(form=form_symbols(f"{CRANK.form}-{CRANK.form}"))]
-    return None, [_BESIDE_NONE.filled(count=len(cranks), far=FAR)]
+            return None, [_UNKNOWN.filled(form=form)]
+    return None, [_BESIDE_NONE[slides].filled(count=len(held), form=form, far=FAR)]
 
 
 def angle_of_pair(task: PositionTask, demands: Demands, pair: Pair) -> float:

@@ -20,7 +20,15 @@ from gruebler.design.synthesis.demands import Demands, sought_order
 from gruebler.design.synthesis.finite_points import all_four_bars, check_general, crowded, points_between
 from gruebler.design.synthesis.judging import order_notes
 from gruebler.design.synthesis.positions import synthesise_positions
-from gruebler.design.synthesis.results import EXACT, Design, Progress, SolutionCount, SynthesisResult, ranked
+from gruebler.design.synthesis.results import (
+    EXACT,
+    Design,
+    Progress,
+    SolutionCount,
+    SynthesisResult,
+    ranked,
+    sorted_sample,
+)
 from gruebler.design.synthesis.special_tasks import solved_where_it_lies
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask, PositionTask
 from gruebler.design.synthesis.timed_points import (
@@ -136,7 +144,8 @@ def _open_points(run: _Run) -> SynthesisResult:
 
     check_general(run.task)
     free = free_parameters(run.task, run.demands)
-    return fit_open_points(run.task, run.demands, free, number=run.number, sliders=run.sliders, progress=run.progress)
+    fitted = fit_open_points(run.task, run.demands, free, number=run.number, sliders=run.sliders, progress=run.progress)
+    return replace(fitted, notes=(*fitted.notes, *sorted_sample(run.sort)))
 
 
 def free_parameters(task: PathTask, demands: Demands) -> int:
@@ -237,7 +246,7 @@ def _sampled(run: _Run) -> SynthesisResult:
         designs=accepted,
         rejected=rejected,
         count=SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs)),
-        notes=(note, *order_notes(designs, run.demands)),
+        notes=(note, *sorted_sample(run.sort), *order_notes(designs, run.demands)),
     )
 
 

@@ -17,8 +17,8 @@ import numpy as np
 
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.events import JAMMING
-from gruebler.base.text import Message, joined_by_and, message
-from gruebler.design.synthesis.demands import Demands
+from gruebler.base.text import Message, message
+from gruebler.design.synthesis.demands import WITHOUT, Demands
 from gruebler.design.synthesis.dyad_families import (
     PLANE,
     SLIDES,
@@ -44,10 +44,12 @@ from gruebler.design.synthesis.family_bounds import bound_notes
 from gruebler.design.synthesis.given_pivots import notes_on_pivots
 from gruebler.design.synthesis.judging import best_of, judge_design, judged_by_drive, order_notes
 from gruebler.design.synthesis.length_search import FINEST_STEP, best_linkages, best_members, has_lengths
+from gruebler.design.synthesis.pair_facts import KNOWN, USUAL
 from gruebler.design.synthesis.pair_search import (
     FINE_WIDTHS,
     IMPROVED,
-    RESOLUTION,
+    WIDTHS,
+    FoundPairs,
     Pair,
     SoughtPairs,
     best_first,
@@ -57,9 +59,11 @@ from gruebler.design.synthesis.partner_bounds import (
     angle_of_pair,
     best_beside,
     best_beside_ends,
-    improved_pair,
+    improved_pairs,
+    of_turning,
     slide_notes,
 )
+from gruebler.design.synthesis.random_starts import RandomSearch, random_search
 from gruebler.design.synthesis.results import (
     NEAR_PIVOTS,
     Design,
@@ -68,6 +72,7 @@ from gruebler.design.synthesis.results import (
     SynthesisResult,
     in_order_of,
     ranked,
+    resolution,
 )
 from gruebler.design.synthesis.special_tasks import (
     nearly_one_joint,
@@ -104,10 +109,6 @@ _PAIRS = message(
     "{dyads} complex dyads are {pairs} solutions as ordered pairs, each dyad also with itself, and {linkages} linkages."
 )
 
-_MEASURES = {
-    NEAR_PIVOTS: message("the distance from the preferred pivots"),
-    "sensitivity": message("the sensitivity to wrong lengths"),
-}
 THEOREM = {2: None, 3: None, 4: None, 5: 4}
 """How many complex dyads a general task has, by the number of positions."""
 
@@ -159,7 +160,8 @@ def synthesise_positions(
     finite = searched and _freedoms(task) <= wanted.given_sizes
     if searched:
         candidates = _judged_best(free, wanted, dyads, given, number, sort, progress, notes)
-        notes += [] if finite or not candidates else [IMPROVED, *_resolution(task, wanted, given, sort)]
+        if candidates and not finite:
+            notes += [IMPROVED.filled(step=WIDTHS[-1]), *_resolution(task, wanted, given, sort)]
     elif len(task) == 2:
         candidates = _judged_ends(task, wanted, number, sort, progress, notes)
     else:
@@ -178,7 +180,7 @@ def synthesise_positions(
     if not searched:
         notes += order_notes(candidates, wanted)
     if searched and not given and len(task) == 4 and sum(not dyad.slides for dyad in dyads) > 1:
-        notes += _proved(task, wanted, dyads, designs)
+        notes += _proved(task, wanted, dyads, designs, sort)
     return SynthesisResult(
         task=task,
         designs=designs,
@@ -201,11 +203,9 @@ def _more_dyads(task: PositionTask, demands: Demands, given: Sequence[GuidingDya
 def _resolution(
     task: PositionTask, demands: Demands, given: Sequence[GuidingDyad], sort: Sequence[str]
 ) -> Iterator[Message]:
-    """How finely the best is sought by measures of which nothing is proved."""
-    measures = [_MEASURES[name] for name in sort if name in _MEASURES]
-    if measures:
-        step = FINEST_STEP if demands.given_sizes or (given and len(task) == 2) else PLANE * FINE_WIDTHS[-1]
-        yield RESOLUTION.filled(measure=joined_by_and(measures), step=step)
+    """How finely the best is sought by what is asked for."""
+    step = FINEST_STEP if demands.given_sizes or (given and len(task) == 2) else PLANE * FINE_WIDTHS[-1]
+    yield from resolution([name for name in sort if name != "transmission" or given], step)
     if NEAR_PIVOTS in sort and demands.transmission == JAMMING:
         yield message("Transmission angles below {angle:g}° are left out.", angle=degrees(JAMMING))
 
@@ -218,16 +218,34 @@ def _freedoms(task: PositionTask) -> int:
 
 
 def _proved(
-    task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad], designs: Sequence[Design]
+    task: PositionTask,
+    demands: Demands,
+    dyads: Sequence[GuidingDyad],
+    designs: Sequence[Design],
+    sort: Sequence[str],
 ) -> Iterator[Message]:
-    """What no linkage of the family of four positions does better than these designs."""
-    angles = [design.verdict.transmission for design in designs if design.form == _FOUR_BAR]
-    yield from bound_notes(task, demands, max(angles, default=None))
+    """What no linkage of the family of four positions does better than these designs.
+
+    First of those whose crank turns fully, where there are any and designs are sorted by that.
+    """
+
+    def best(form: str, *, crank: bool = False) -> float | None:
+        some = [each.verdict for each in designs if each.form == form and (each.verdict.turns_fully or not crank)]
+        return max((verdict.transmission for verdict in some), default=None)
+
+    turning = replace(demands, crank=True)
+    first = not demands.crank and sort[:1] in ((), ("full-turn",))
+    own = best(_FOUR_BAR, crank=True)
+    if first and own is not None:
+        yield from of_turning(bound_notes(task, turning, own))
+    yield from bound_notes(task, demands, best(_FOUR_BAR))
     for kind in (SLIDER, BLOCK):
         form, slides = f"{CRANK.form}-{kind.form}", [dyad for dyad in dyads if dyad.kind == kind]
-        angles = [design.verdict.transmission for design in designs if design.form == form]
         if slides and has_lengths(kind, demands):
-            yield from slide_notes(task, demands, slides, max(angles, default=None), form)
+            own = best(form, crank=True)
+            if first and own is not None:
+                yield from of_turning(slide_notes(task, turning, slides, own, form))
+            yield from slide_notes(task, demands, slides, best(form), form)
 
 
 def _judged_pairs(
@@ -293,10 +311,6 @@ def _judged_best(
     pairs: list[Pair] = []
     for sought in asked:
         some, said = _best_pairs(sought)
-        if demands.transmission > 0 and not any(angle_of_pair(task, demands, pair) > -np.inf for pair in some):
-            # Where none of the sample has the angle, the best without the demand may have it.
-            freed, _ = _best_pairs(replace(sought, demands=replace(demands, transmission=0.0)))
-            some = [pair for pair in freed if angle_of_pair(task, demands, pair) > -np.inf] + some
         pairs += some
         notes += said
     designs = _judged_as_driven(task, demands, pairs, progress)
@@ -309,6 +323,12 @@ def _best_pairs(sought: SoughtPairs) -> tuple[list[Pair], list[Message]]:
     """The best of a sample, before them better ones that follow from the proof that none is better by much."""
     task, demands, given = sought.task, sought.demands, sought.given
     search = best_linkages(sought)
+    if demands.transmission > 0 and not _having(task, demands, search.pairs):
+        # Where none of the sample has the angle, the best without the demand may have it.
+        freed, _ = _best_pairs(replace(sought, demands=replace(demands, transmission=0.0)))
+        if having := _having(task, demands, freed):
+            said = tuple(note for note in search.notes if note.text != WITHOUT.text)
+            search = FoundPairs(pairs=(*having, *search.pairs), notes=said)
     turns = given and not given[0].slides
     if (turns and sought.second) or (not turns and (len(task) == 4 or not search.pairs)):
         return [*search.pairs], [*search.notes]
@@ -317,12 +337,29 @@ def _best_pairs(sought: SoughtPairs) -> tuple[list[Pair], list[Message]]:
     elif turns:
         better, proved = best_beside(task, demands, given[0], search.pairs)
     else:
-        improved, proved = improved_pair(task, demands, search.pairs)
-        better = [improved] if improved else []
+        random = _random(sought)
+        search = replace(search, pairs=(*(random.best if random else ()), *search.pairs))
+        first = sought.orders[:1] in ((), ("full-turn",))
+        better, proved = improved_pairs(task, demands, search.pairs, turning_first=first)
+        proved += random.note([*better, *search.pairs]) if random else []
     pairs = [*better, *search.pairs]
     if sought.orders:
         pairs = best_first(task, demands, pairs, sought.orders)
     return distinct_pairs(pairs, task.size), [*search.notes, *proved]
+
+
+def _random(sought: SoughtPairs) -> RandomSearch | None:
+    """Four-bars sought from random starts, where the whole family is free and the best one has a size."""
+    demands, orders = sought.demands, [name for name in sought.orders if name in KNOWN] or USUAL
+    smallest = orders[0] == "size" and len(sought.task) == 2  # they shrink to the pole
+    if sought.given or sought.second or demands.given_sizes or smallest:
+        return None
+    return random_search(sought.task, demands, orders)
+
+
+def _having(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -> list[Pair]:
+    """Pairs that meet the demands."""
+    return [pair for pair in pairs if angle_of_pair(task, demands, pair) > -np.inf]
 
 
 def _judged_ends(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import degrees, isnan
@@ -12,7 +12,7 @@ import numpy as np
 from gruebler.base.arrays import compared_by_value
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.notebook import brief, html_table, text_table
-from gruebler.base.text import Message, joined, message, number, plural, translate
+from gruebler.base.text import Message, joined, joined_by_and, message, number, plural, translate
 from gruebler.design.synthesis.coordination import Minimax
 from gruebler.design.synthesis.dead_centre_shifts import dead_centre_sensitivity
 from gruebler.design.synthesis.sensitivity import Sensitivity, length_sensitivity
@@ -248,6 +248,44 @@ ORDERS: Mapping[str, Callable[[Design], float]] = {
     "full-turn": lambda design: float(not design.verdict.turns_fully),
 }
 """What designs can be sorted by, the better first: the smaller value."""
+
+MEASURES: Mapping[str, Message] = {
+    "transmission": message("the transmission angle on the way"),
+    "size": message("the size"),
+    "size-ratio": message("the size ratio"),
+    "sensitivity": message("the sensitivity to wrong lengths"),
+    NEAR_PIVOTS: message("the distance from the preferred pivots"),
+}
+"""What the best of a family is sought by, in words."""
+_RESOLUTION = message(
+    "The best by {measure} are improved in steps down to {step:.1g} sizes of the task; that no other is better is not "
+    "proved."
+)
+_SAMPLE_SORTED = message(
+    "By {measure} the designs that were found are sorted only: the family between them was not searched by it."
+)
+_ONLY_SORTED = message(
+    "Designs are sorted by the transmission angle of the whole range, but sought by the one on the way."
+)
+
+
+def resolution(orders: Sequence[str], step: float, said: Message = _RESOLUTION) -> list[Message]:
+    """How finely the best by what is asked for are sought, where nothing is proved of it.
+
+    Args:
+        orders: the names of `ORDERS` that are asked for.
+        step: the last one.
+        said: with measure and step.
+    """
+    measures = [MEASURES[name] for name in orders if name in MEASURES]
+    notes = [said.filled(measure=joined_by_and(measures), step=step)] if measures else []
+    return notes + [_ONLY_SORTED] * ("range-transmission" in orders)
+
+
+def sorted_sample(orders: Sequence[str]) -> list[Message]:
+    """That designs are only sorted by what is asked for, where it is not sought."""
+    measures = [MEASURES[name] for name in orders if name in MEASURES]
+    return [_SAMPLE_SORTED.filled(measure=joined_by_and(measures))] if measures else []
 
 
 def in_order_of(designs: Iterable[Design], orders: Iterable[str]) -> tuple[Design, ...]:

@@ -20,8 +20,9 @@ from gruebler.base.text import message
 MOST_ORIENTATIONS = 5
 COMPLEX_DYADS = 6
 """Complex dyads of five orientations."""
-_SAMPLE = {3: 150, 4: 60}
-"""Dyads of three orientations, great circles cut with the curve of four."""
+GREAT_CIRCLES = 60
+"""That are cut with the curve of four orientations."""
+_AXES = 150  # of three orientations
 _ROTATION = 1e-9
 _RANK = 1e-12  # of the largest singular value: below it conditions depend on one another
 _REAL = 1e-7
@@ -147,13 +148,13 @@ def family_dyads(turns: Reals, *, times: int = 1) -> tuple[SphericalDyad, ...]:
     if np.linalg.svd(np.concatenate(turns - np.eye(3)), compute_uv=False)[-1] < _REAL:  # an axis that stays
         raise SynthesisError(_INFINITELY_MANY)
     if len(turns) == 2:
-        count = times * _SAMPLE[3]
+        count = times * _AXES
         k = np.arange(count) + 0.5
         height, around = 1 - k / count, pi * (1 + 5**0.5) * k  # a spiral over half the sphere
         across = np.sqrt(1 - height**2)
         axes = np.stack([across * np.cos(around), across * np.sin(around), height], axis=1)
     else:
-        axes = _curve(_cubic(turns), times * _SAMPLE[4])
+        axes = _curve(_cubic(turns), times * GREAT_CIRCLES)
     dyads = _serving(turns, axes)
     if not dyads:
         raise SynthesisError(_INFINITELY_MANY)

@@ -35,15 +35,17 @@ from gruebler.design.synthesis.spherical_dyads import (
     family_dyads,
     five_orientation_dyads,
 )
-from gruebler.design.synthesis.spherical_search import APART, LEAST_ARC, improved_function_dyads, resolution
+from gruebler.design.synthesis.spherical_search import (
+    APART,
+    LEAST_ARC,
+    improved_function_dyads,
+    sphere_resolution,
+    tightest_on_sphere,
+)
 from gruebler.mechanics.space.spherical_four_bar import SphericalFourBar
 
 PAIRS = 4
 """Pairs of angles that a four-bar on the sphere coordinates exactly, both counted from the arc of the frame."""
-_IMPROVED = message(
-    "The best of these are improved: the axes of their couplers are moved within the family, in ever smaller steps; of "
-    "those that are then nearly the same one is listed."
-)
 _FINER = 16  # times the sample that is judged: the one from which the best are improved, by closed forms
 _RANK = 1e-12  # of the largest singular value: below it conditions depend on one another
 
@@ -186,7 +188,7 @@ def _with_free_starts(
     better = result_of(
         judged(improved_function_dyads(between_pivots, finer, turns, demands, number, sort)),
         result.count,
-        [notes, *resolution(sort)],
+        [notes, sphere_resolution(len(finer), len(phi), sort, times=_FINER)],
         sort,
     )
     # Linkages of the sample stand beside those that are improved from them.
@@ -194,7 +196,8 @@ def _with_free_starts(
         _distinct(sorted([*improved, *sampled], key=partial(order_of_designs, sort)))[:number]
         for improved, sampled in ((better.designs, result.designs), (better.rejected, result.rejected))
     )
-    return replace(better, designs=tuple(designs), rejected=tuple(rejected))
+    tight = [] if designs else tightest_on_sphere([between_pivots], finer, turns, demands, given_first=True)
+    return replace(better, designs=tuple(designs), rejected=tuple(rejected), notes=(*better.notes, *tight))
 
 
 def _distinct(designs: Iterable[SphericalDesign]) -> list[SphericalDesign]:

@@ -5,16 +5,18 @@ docs/theory/synthesis-sphere.md has the equations.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import pi
+from typing import NamedTuple
 
 import numpy as np
 
 from gruebler.base.arrays import Flags, Reals
-from gruebler.base.text import Message, message
-from gruebler.design.synthesis.demands import Demands
+from gruebler.base.text import Message, joined_by_and, message
+from gruebler.design.synthesis.demands import Demands, demands_failed, demands_met, tightest
 from gruebler.design.synthesis.pair_facts import PairClosure, motion_of_pairs
-from gruebler.design.synthesis.spherical_dyads import SphericalDyad, near_dyads
+from gruebler.design.synthesis.results import MEASURES
+from gruebler.design.synthesis.spherical_dyads import GREAT_CIRCLES, SphericalDyad, near_dyads
 from gruebler.design.synthesis.spherical_shifts import arc_moves, largest_turn
 from gruebler.design.synthesis.target_orders import TargetOrder
 
@@ -46,7 +48,9 @@ def best_sphere_pairs(
             count=int(np.count_nonzero(fails == 0)),
         )
     )
-    notes += resolution(sort)
+    notes.append(sphere_resolution(len(dyads), len(turns) + 1, sort))
+    if not (fails == 0).any():
+        notes += tightest_on_sphere(dyads, dyads, turns, demands)
     ranks = np.lexsort([cost.ravel() for cost in reversed(costs)])
     sampled: list[tuple[SphericalDyad, SphericalDyad]] = []
     for rank in ranks[: 200 * number]:
@@ -136,6 +140,58 @@ def _costs(
 
     Where cranks are led to turn fully, what they lack of it comes before all but the branch.
     """
+    closure, arcs, met, full, transmission, folded = _looked_at(first, second, turns, demands, given_first=given_first)
+    fails = np.where(folded > LEAST_ARC, demands_failed(met), 99)
+    # An arc near 0 or half a circle folds the linkage to a point, as a large ratio does in the plane.
+    worst = np.where(np.isnan(transmission), 0.0, np.round(transmission, 6))
+    known: Mapping[str, Callable[[], Reals]] = {
+        "transmission": lambda: -worst,
+        "size-ratio": lambda: _ratio(arcs),
+        "sensitivity": lambda: _shifts(first, second, turns, arcs, fails == fails.min(), given_first=given_first),
+        "full-turn": lambda: np.asarray(1.0 - full, np.float64),
+    }
+    costs = [fails.astype(np.float64), *(known[name]() for name in (*sort, *USUAL_ON_SPHERE)), -folded]
+    if not to_turn:
+        return costs
+    lack = np.where(full, 0.0, np.maximum(closure.low + 1, 0) + np.maximum(1 - closure.high, 0))
+    return [1.0 - (met[0][1] & (folded > LEAST_ARC)), np.nan_to_num(lack, nan=np.inf), *costs]
+
+
+def tightest_on_sphere(
+    first: Sequence[SphericalDyad],
+    second: Sequence[SphericalDyad],
+    turns: Reals,
+    demands: Demands,
+    *,
+    given_first: bool = False,
+) -> list[Message]:
+    """The demand without which the most pairs of a sample remain, where none meets all."""
+    *_, met, _, _, folded = _looked_at(first, second, turns, demands, given_first=given_first)
+    (name, path), *others = met
+    return tightest([(name, path & (folded > LEAST_ARC)), *others])
+
+
+class _Looked(NamedTuple):
+    """What the linkages of pairs of dyads do."""
+
+    closure: PairClosure
+    arcs: Reals
+    met: list[tuple[Message, Flags]]
+    """The demands by their names, branch and order first."""
+    full: Flags
+    transmission: Reals
+    folded: Reals
+    """How far the arcs are from none, or half a circle."""
+
+
+def _looked_at(
+    first: Sequence[SphericalDyad],
+    second: Sequence[SphericalDyad],
+    turns: Reals,
+    demands: Demands,
+    *,
+    given_first: bool,
+) -> _Looked:
     closure = _closures(first, second, turns)
     with np.errstate(invalid="ignore", divide="ignore"):
         order = None if demands.in_order else TargetOrder.of((None,) * (len(turns) + 1), len(turns) + 1)
@@ -147,25 +203,17 @@ def _costs(
     signs = np.prod(np.sign(cosines[shorter]), axis=0)
     cosines[shorter], cosines[last] = np.abs(cosines[shorter]), signs * cosines[last]
     arcs = np.arccos(cosines)
-    ratio = arcs.max(axis=0) / np.maximum(arcs.min(axis=0), 1e-300)
     folded = np.minimum(arcs, pi - arcs).min(axis=0)
-    path = moves if demands.in_order else branch
-    met = [path | (not demands.one_branch), full | (not demands.crank), ratio <= demands.size_ratio]
-    good = np.stack([*met, transmission >= demands.transmission]) & (folded > LEAST_ARC)
-    fails = np.where(folded > LEAST_ARC, np.sum(~good, axis=0), 99)
-    # An arc near 0 or half a circle folds the linkage to a point, as a large ratio does in the plane.
-    worst = np.where(np.isnan(transmission), 0.0, np.round(transmission, 6))
-    known: Mapping[str, Callable[[], Reals]] = {
-        "transmission": lambda: -worst,
-        "size-ratio": lambda: ratio,
-        "sensitivity": lambda: _shifts(first, second, turns, arcs, fails == fails.min(), given_first=given_first),
-        "full-turn": lambda: np.asarray(1.0 - full, np.float64),
-    }
-    costs = [fails.astype(np.float64), *(known[name]() for name in (*sort, *USUAL_ON_SPHERE)), -folded]
-    if not to_turn:
-        return costs
-    lack = np.where(full, 0.0, np.maximum(closure.low + 1, 0) + np.maximum(1 - closure.high, 0))
-    return [1.0 - (path & (folded > LEAST_ARC)), np.nan_to_num(lack, nan=np.inf), *costs]
+    path = (moves if demands.in_order else branch) & np.isfinite(transmission)
+    name = message("one branch in the order of the targets") if demands.in_order else message("one branch")
+    met = [(name, path | (not demands.one_branch))]
+    met += demands_met(demands, full, transmission, _ratio(arcs), np.ones_like(full))
+    return _Looked(closure, arcs, met, full, transmission, folded)
+
+
+def _ratio(arcs: Reals) -> Reals:
+    """The longest arc by the shortest."""
+    return np.asarray(arcs.max(axis=0) / np.maximum(arcs.min(axis=0), 1e-300))
 
 
 def _shifts(
@@ -248,11 +296,35 @@ def _closures(first: Sequence[SphericalDyad], second: Sequence[SphericalDyad], t
     )
 
 
-def resolution(sort: Sequence[str]) -> Iterator[Message]:
-    """How finely the least sensitive are sought, where these are asked for."""
-    if "sensitivity" in sort:
-        yield message(
-            "The least sensitive ones are improved in steps down to {step:.1g} radians; that no other is better is not "
-            "proved.",
-            step=_WIDTHS[-1],
-        )
+_SAMPLED = message(
+    "The family was sampled with {dyads:,} dyads, {apart:.1f}° apart on average, and the best that differ by {measure} "
+    "improved in steps from {first:.2g} down to {last:.1g} radians; that no other is better is not proved, and "
+    "narrower parts of the family can be missed."
+)
+_ON_CURVE = message(
+    "The family was sampled with the {dyads:,} dyads on {circles} great circles, and the best that differ by {measure} "
+    "improved in steps from {first:.2g} down to {last:.1g} radians; that no other is better is not proved, and "
+    "narrower parts of the family can be missed."
+)
+_MEASURES = {
+    "transmission": MEASURES["transmission"],
+    "size-ratio": message("the ratio of the arcs"),
+    "sensitivity": message("the sensitivity to wrong arcs"),
+    "full-turn": message("the full turn"),
+}
+
+
+def sphere_resolution(dyads: int, positions: int, sort: Sequence[str], times: int = 1) -> Message:
+    """How finely the best of a family of three or four orientations are sought.
+
+    Args:
+        dyads: how many were taken.
+        positions: the number of orientations.
+        sort: what is asked for.
+        times: how many times the usual sample.
+    """
+    measures = joined_by_and([_MEASURES[name] for name in sort or USUAL_ON_SPHERE])
+    steps = {"measure": measures, "first": _WIDTHS[0], "last": _WIDTHS[-1], "dyads": dyads}
+    if positions > 3:
+        return _ON_CURVE.filled(circles=GREAT_CIRCLES * times, **steps)
+    return _SAMPLED.filled(apart=np.degrees(np.sqrt(2 * pi / dyads)), **steps)

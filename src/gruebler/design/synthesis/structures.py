@@ -165,7 +165,7 @@ def _candidates(
 def _tightest(task: Task, demands: Demands, search: Callable[..., list[Design]]) -> list[Message]:
     """The demand without which there are most designs, sought once more without any limit; none if the task has none.
 
-    Where no single one is enough, all of them together; given pivots last.
+    Where no single one is enough, several; given pivots last.
     """
     free = replace(
         demands, crank=False, transmission=0.0, size_ratio=np.inf, region=None, lengths=(), frame_direction=None
@@ -183,7 +183,7 @@ def _tightest(task: Task, demands: Demands, search: Callable[..., list[Design]])
 
 
 def _counted(designs: Sequence[Design], demands: Demands) -> list[Message]:
-    """How many of the designs are good but for one demand, else but for several."""
+    """How many of the designs are good but for one demand, else but for several; nothing of no good ones."""
     verdicts = [design.verdict for design in designs if design.verdict.one_circuit]
     if not verdicts:
         return []
@@ -199,10 +199,7 @@ def _counted(designs: Sequence[Design], demands: Demands) -> list[Message]:
         met.append((demands.sizes_in_words, wrong == 0))
     good = np.array([len(verdict.reasons) for verdict in verdicts]) == said
     good &= np.array([verdict.in_order or not demands.in_order for verdict in verdicts])
-    if notes := tightest([(message("the targets"), good), *met]):
-        return notes
-    count = int(np.count_nonzero(good))
-    return [message("Designs without any of these demands: {count:,}.", count=count)] if count else []
+    return tightest([(message("the targets"), good), *met]) if good.any() else []
 
 
 def same_machine(first: Linkage, other: Linkage, *, placed: bool) -> bool:

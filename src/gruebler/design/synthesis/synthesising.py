@@ -52,7 +52,7 @@ def synthesise(
             ``near-pivots`` (distance from `Demands.near_pivots`), ``links``, ``full-turn``; of designs that are equal
             in the first the second decides. By default ``near-pivots`` where such are given, else a full turn comes
             first, then the transmission angle; where targets are only approached, the error. Families of two to four
-            positions or pairs, and of dead centres, are searched for the best by these.
+            positions or pairs, and of dead centres, are searched for the best by these; designs for points are sorted.
         number: without structures: how many dyads or designs are taken from each infinite family.
         minimax: of a function: the linkages whose largest structural error is as small as possible.
         six_bars: of a function: all six-bars that meet nine pairs of angles with free starts, of Watt's second kind, or

@@ -1,0 +1,169 @@
+"""Each answer says what is proved or how finely it was sought; random starts against a differential evolution."""
+
+import json
+
+import numpy as np
+import pytest
+from scipy.optimize import differential_evolution
+
+from gruebler.base.errors import SynthesisError
+from gruebler.cli import main
+from gruebler.design.synthesis import (
+    Demands,
+    FunctionTask,
+    PathTask,
+    PositionTask,
+    synthesise,
+    synthesise_orientations,
+    synthesise_spherical_function,
+)
+from gruebler.design.synthesis.dyads import Displacements
+from gruebler.design.synthesis.random_starts import random_search
+
+TWO = PositionTask([(0, 0, 0), (2.1, 0.9, np.radians(20))])
+THREE = PositionTask([(0, 0, 0), (0.8, 0.5, 0.4), (1.5, 0.4, 1.0)])
+FOUR = PositionTask([*THREE.positions, (2.2, 0.1, 1.3)])
+PAIRS = FunctionTask([0.2, 0.9, 1.4], outputs=[0.1, 0.5, 1.3], start_input=False, start_output=False)
+SURE = ("Proved", "Not decided", "right angle", "No bound")
+WORDS = {"sensitivity": "sensitivity to wrong", "size": "the size", "size-ratio": "the size ratio"}
+
+
+@pytest.mark.parametrize("task", [TWO, THREE, FOUR], ids=["two", "three", "four"])
+@pytest.mark.parametrize("demands", [Demands(), Demands(crank=True, transmission=np.radians(80))], ids=["any", "80"])
+def test_every_form_has_its_sentence_on_the_transmission_angle(task, demands):
+    said = [str(note) for note in synthesise(task, demands=demands).notes]
+    sure = [note for note in said if any(word in note for word in SURE)]
+    for form, other in (("RR-RR", "four-bar"), ("RR-PR", "RR-PR"), ("RR-RP", "RR-RP")):
+        assert any(form in note or other in note for note in sure), (form, said)
+
+
+def test_designs_that_turn_fully_come_first_and_are_those_of_which_something_is_said():
+    """The list begins with them: until now the sentence was on others, and they stayed at 81.7 degrees."""
+    found = synthesise(TWO)
+    best = next(design for design in found.designs if design.form == "RR-RR")
+    assert best.verdict.turns_fully
+    assert best.verdict.transmission > np.radians(89)
+    assert any(str(note).startswith("Of those whose crank turns fully: ") for note in found.notes)
+
+
+@pytest.mark.parametrize("task", [THREE, PAIRS, PathTask([(0, 0), (1, 0.4), (2, 0.2)])], ids=["three", "pairs", "path"])
+@pytest.mark.parametrize("sort", WORDS)
+def test_each_measure_that_is_asked_for_is_named_with_what_is_known_of_it(task, sort):
+    said = [str(note) for note in synthesise(task, sort=sort).notes]
+    assert any(WORDS[sort] in note and ("is not proved" in note or "sorted only" in note) for note in said), said
+
+
+def test_on_the_sphere_sample_and_steps_are_named_and_the_tightest_demand():
+    def turned(x, z):
+        about_z = np.array([[np.cos(z), -np.sin(z), 0], [np.sin(z), np.cos(z), 0], [0, 0, 1]])
+        return about_z @ np.array([[1, 0, 0], [0, np.cos(x), -np.sin(x)], [0, np.sin(x), np.cos(x)]])
+
+    turns = [turned(0, 0), turned(0.3, 0.2), turned(0.5, 0.6), turned(0.6, 1.1)]
+    three, four = (" ".join(map(str, synthesise_orientations(turns[:count]).notes)) for count in (3, 4))
+    assert "sampled with 150 dyads, 11.7° apart" in three
+    assert "on 60 great circles" in four
+    for said in (three, four):
+        assert "0.2 down to 0.0008 radians" in said
+        assert "the full turn and the transmission angle" in said
+    none = synthesise_orientations(turns[:3], Demands(crank=True, transmission=np.radians(89.99)))
+    assert not none.designs
+    tight = [str(note) for note in none.notes if "all but the demand of a transmission angle of 89.99°" in str(note)]
+    free = synthesise_orientations(turns[:3], Demands(crank=True)).notes[0].values["count"]
+    assert [note.rsplit(" ", 1)[1] for note in tight] == [f"{free:,}."]
+    pairs = synthesise_spherical_function([0, 0.4, 0.9], [0, 0.3, 0.8], frame=np.pi / 2, free_starts=True)
+    assert any("with 2,400 dyads, 2.9° apart" in str(note) for note in pairs.notes)
+
+
+def angles_of(task, first, second):
+    """The least transmission angles, in degrees, of four-bars with these fixed pivots on the way; -1 of what fails.
+
+    From the centres of the circles through the places of the pivots as the body sees them, on 200 crank angles.
+    """
+    turns = np.exp(1j * (task.angles - task.angles[0]))
+    pins = []
+    for fixed in (first, second):
+        seen = task.origins[0] + (fixed[:, None] - task.origins) / turns
+        u, v = seen[:, 1] - seen[:, 0], seen[:, 2] - seen[:, 0]
+        on_body = seen[:, 0] + 1j * (abs(v) ** 2 * u - abs(u) ** 2 * v) / (2 * np.imag(np.conj(u) * v))
+        pins.append(task.origins + turns * (on_body - task.origins[0])[:, None])
+    near, far = pins
+    a, b, c, d = lengths = np.abs([near[:, 0] - first, far[:, 0] - near[:, 0], far[:, 0] - second, second - first])
+    fails = lengths.max(axis=0) > 20 * lengths.min(axis=0)
+    for pivot in (near[:, 0], far[:, 0], first, second):
+        fails |= abs(pivot - task.origins[0]) > 30 * task.size
+    fails |= abs(np.sign(np.imag(np.conj(far - near) * (second[:, None] - near))).sum(axis=1)) < 3
+    phi = np.angle((near - first[:, None]) / (second - first)[:, None])
+    low, high = (a * a + d * d - (b + c) ** 2) / (2 * a * d), (a * a + d * d - (b - c) ** 2) / (2 * a * d)
+    full = (low < -1) & (high > 1)
+    onward, back = (np.mod(sign * np.diff(phi), 2 * np.pi).sum(axis=1) for sign in (1, -1))
+    within = np.where((low < -1)[:, None], np.mod(phi, 2 * np.pi), phi)
+    parted = (low >= -1) & (high <= 1) & (abs(np.sign(phi).sum(axis=1)) < 3)
+    fails |= np.where(full, np.minimum(onward, back) >= 2 * np.pi, parted | (np.prod(np.diff(within), axis=1) <= 0))
+    begin = np.where(full, phi[:, 0], within[:, 0])
+    travel = np.where(full, np.where(onward <= back, onward, -back), within[:, -1] - within[:, 0])
+    way = begin[:, None] + np.linspace(0, 1, 200) * travel[:, None]
+    cosines = (b * b + c * c - a * a - d * d)[:, None] + 2 * (a * d)[:, None] * np.cos(way)
+    angles = np.degrees(np.arccos(np.clip(np.abs(cosines / (2 * b * c)[:, None]).max(axis=1), 0, 1)))
+    return np.where(fails | ~np.isfinite(angles), -1.0, angles)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_random_starts_find_at_least_what_a_differential_evolution_does(seed):
+    rng = np.random.default_rng(seed)
+    places, angles = np.cumsum(rng.normal(size=(3, 2)), axis=0), np.cumsum(rng.uniform(10, 80, 3))
+    task = PositionTask([(x, y, a) for (x, y), a in zip(places, np.radians(angles), strict=True)])
+    search = random_search(task, Demands(), ["transmission"])
+    (pair,) = search.best
+    own = angles_of(task, np.array([pair[0].fixed]), np.array([pair[1].fixed]))[0]
+    assert own == pytest.approx(np.degrees(-search.costs[0, 1]), abs=0.02)
+
+    def cost(numbers):
+        x, y, u, v = numbers
+        return -angles_of(task, task.origins[0] + x + 1j * y, task.origins[0] + u + 1j * v)
+
+    bounds = [(-30 * task.size, 30 * task.size)] * 4
+    other = differential_evolution(
+        cost, bounds, popsize=40, maxiter=300, seed=0, vectorized=True, polish=False, updating="deferred"
+    )
+    assert own > -other.fun - 0.3
+    assert own > 88.5
+    (note,) = search.note(search.best)
+    same = np.count_nonzero(search.costs[:, 1] < search.costs[0, 1] * (1 - 0.005))
+    assert "256 random four-bars that meet all demands with pivots within 30 sizes of the task were" in str(note)
+    assert f" {same} of them end at the best" in str(note)
+    assert "fewer than 0.01 of" in str(note)
+
+
+@pytest.mark.parametrize("task", [TWO, THREE], ids=["two", "three"])
+def test_ends_of_random_starts_carry_the_body_through_its_positions(task):
+    given = Displacements.of(task.origins, task.turns)[0]
+    search = random_search(task, Demands(region=(-2, -2, 2, 2)), ["sensitivity"])
+    moving, fixed = search.ends.view(np.complex128).reshape(-1, 2).T
+    lengths = np.abs(np.array([given.images(pivot) for pivot in moving]) - fixed[:, None])
+    assert np.ptp(lengths, axis=1).max() < 1e-9 * lengths.max()
+    good = search.costs[:, 0] == 0
+    assert good.any()
+    pivots = fixed.reshape(-1, 2)[good] * task.size
+    assert max(np.abs(pivots.real).max(), np.abs(pivots.imag).max()) <= 2 * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("places", [[(float("nan"), 0)], [(1e300, 1e300)]])
+def test_places_out_of_reach_are_refused_in_words(places):
+    with pytest.raises(
+        SynthesisError, match=r"x, y with coordinates below 1e\+100, but found \((nan|1e\+300), "
+    ) as told:
+        Demands(near_pivots=places)
+    assert "((" not in str(told.value)
+
+
+def test_the_command_line_tells_the_same(tmp_path, capsys):
+    (tmp_path / "two.csv").write_text("x,y,angle\n0,0,0\n2.1,0.9,20\n")
+    command = ["synthesise", "positions", str(tmp_path / "two.csv"), "--transmission", "80", "--crank"]
+    assert main(command) == 0
+    told = capsys.readouterr().out
+    assert "Beside those that come nearest to the demands" in told
+    assert "is a right angle to 0.5°" in told
+    assert "all but the demand of a transmission angle of 80°" in told
+    assert main([*command, "--json"]) == 0
+    notes = " ".join(json.loads(capsys.readouterr().out)["notes"])
+    assert "is a right angle to 0.5°" in notes
