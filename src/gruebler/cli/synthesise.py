@@ -262,7 +262,7 @@ def add(parser: Parser) -> None:
             --frame-direction DEG float  the angle of the line through two fixed pivots with the x axis
             --near-pivot X Y float ...  of positions and points: a place near which a fixed pivot is preferred; give it
                 twice for both: designs are sorted by the distance of their pivots from it, unless --sort says
-                otherwise; those for two to four positions are sought by it, too
+                otherwise; two to four positions and two to eight points are sought by it, too
             --structure MECHANISM ...  fit this mechanism instead: a text, a family such as "Watt I", or a catalog
                 entry; several are compared
             --initial-designs N int  with --structure: improve N initial designs of each mechanism (default: 24 of an
@@ -290,8 +290,9 @@ def add(parser: Parser) -> None:
                 or 0.05 where targets are approached)
             --any-order  the targets may be met in any order
             --sort KEY[,KEY] =  sort the designs by error, transmission, range-transmission, size, size-ratio,
-                sensitivity, near-pivots, links, full-turn; of equal ones the second key decides. For positions, pairs
-                and dead centres the best is sought by it, for points designs that were found are sorted
+                sensitivity, near-pivots, links, full-turn; of equal ones the second key decides. For two to four
+                positions or pairs, two to eight points and dead centres the best is sought by it; others that were
+                found are sorted
             --clearance C float  print how far targets move, lengths wrong by a thousandth and pins C beside their holes
             --number N int  give the N best designs only
             --rejected

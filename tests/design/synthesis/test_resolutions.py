@@ -18,6 +18,7 @@ from gruebler.design.synthesis import (
     synthesise_spherical_function,
 )
 from gruebler.design.synthesis.dyads import Displacements
+from gruebler.design.synthesis.point_families import PointFamily
 from gruebler.design.synthesis.random_starts import random_search
 
 TWO = PositionTask([(0, 0, 0), (2.1, 0.9, np.radians(20))])
@@ -167,3 +168,47 @@ def test_the_command_line_tells_the_same(tmp_path, capsys):
     assert main([*command, "--json"]) == 0
     notes = " ".join(json.loads(capsys.readouterr().out)["notes"])
     assert "is a right angle to 0.5°" in notes
+
+
+POINTS = [(0, 0), (1, 0.4), (2, 0.2), (2.5, -0.5), (2.3, -1.1), (1.5, -1.4)]
+
+
+def test_derivatives_of_the_conditions_of_points_are_difference_quotients():
+    family = PointFamily(task=PathTask(POINTS[:4]), lengths=(("rocker", 0.7),), frame_direction=0.3)
+    rows, step = np.random.default_rng(1).normal(size=(3, 11)), 1e-6
+    values = [[family.equations(rows + sign * step * axis)[0] for sign in (1, -1)] for axis in np.eye(11)]
+    quotients = np.stack([(more - less) / (2 * step) for more, less in values], axis=2)
+    assert np.abs(quotients - family.equations(rows)[1]).max() < 1e-6
+
+
+@pytest.mark.parametrize("count", [3, 4])
+@pytest.mark.parametrize(
+    ("sort", "demands"), [("sensitivity", Demands()), ("near-pivots", Demands(near_pivots=[(0, -2)]))]
+)
+def test_points_are_sought_by_what_is_asked_for(count, sort, demands):
+    """No four-bar of random crank turns is better, all judged by their motion."""
+    task = PathTask(POINTS[:count])
+    found = synthesise(task, demands=demands, sort=sort)
+    assert any("are improved within the family in steps down to 0.0001 sizes" in str(note) for note in found.notes)
+    rng = np.random.default_rng(2)
+    others = []
+    for _ in range(12):
+        turned = np.cumsum(rng.uniform(0.2, 1.2, count)) * rng.choice([1, -1])
+        others += synthesise(PathTask(task.points, crank_angles=(turned - turned[0]).tolist()), demands=demands).designs
+
+    def value(design):
+        return design.relative_sensitivity if sort == "sensitivity" else design.verdict.pivot_distance
+
+    best = [min(map(value, (each for each in some if each.form == "RR-RR"))) for some in (found.designs, others)]
+    assert best[0] < best[1]
+    assert value(found.designs[0]) <= best[0]
+    assert found.designs[0].verdict.error < 1e-9
+
+
+def test_of_six_points_a_preferred_pivot_is_met_and_curves_are_only_sorted():
+    demands = Demands(near_pivots=[(0, -2)])
+    assert synthesise(PathTask(POINTS), demands=demands).designs[0].verdict.pivot_distance < 0.01
+    turns = 2 * np.pi * np.arange(24) / 24
+    closed = PathTask(np.stack([np.cos(turns), 0.5 * np.sin(turns)], axis=1).tolist(), closed=True)
+    notes = synthesise(closed, sort="size-ratio").notes
+    assert any("By the size ratio the designs that were found are sorted only" in str(note) for note in notes)

@@ -6,7 +6,8 @@ that satisfy all of them are found by Gauss and Newton. docs/theory/synthesis-po
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -72,71 +73,52 @@ _WITHOUT = message(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PairFamily:
-    """All linkages of a driven RR dyad and another one that guide a body, with given lengths or direction of the frame.
+class ConditionedRows(ABC):
+    """Linkages that satisfy equations, each a row of numbers: first its pivots in sizes of the task, then others."""
 
-    Rows are linkages in sizes of the task about its origin: both pivots of the crank, on the body first, then those of
-    the other dyad, or the one of a slide and the angle of its line.
-    """
-
-    task: PositionTask
-    kind: DyadKind
-    """Of the dyad that is not driven."""
     lengths: tuple[tuple[str, float], ...]
     """Links between two pins and their lengths, in the unit of the task."""
     frame_direction: float | None = None
     """The angle of the line through both fixed pivots with the x axis."""
 
-    @classmethod
-    def of(cls, task: PositionTask, kind: DyadKind, demands: Demands) -> PairFamily:
-        """With the lengths and the direction of the frame that are demanded."""
-        return cls(task=task, kind=kind, lengths=demands.lengths, frame_direction=demands.frame_direction)
+    @property
+    @abstractmethod
+    def size(self) -> float:
+        """Of the task."""
+
+    @property
+    def ends(self) -> Mapping[str, tuple[int, int]]:
+        """The links with two pins, and between which of the pivots of a row they lie."""
+        return _ENDS[CRANK]
 
     @property
     def points(self) -> int:
         """How many pivots a row has."""
-        return 3 if self.kind.slides else 4
+        return 4
 
-    def rows(self, first: Sequence[GuidingDyad], second: Sequence[GuidingDyad]) -> Reals:
-        """(first x second, numbers) each with each, the driven ones first."""
-        _, origin, size = Displacements.of(self.task.origins, self.task.turns)
-        driven, other = (
-            dyad_numbers([dyad.moved(1 / size, -origin / size) for dyad in some]) for some in (first, second)
-        )
-        return np.concatenate([np.repeat(driven, len(second), axis=0), np.tile(other, (len(first), 1))], axis=1)
+    @abstractmethod
+    def conditions(self, rows: Reals) -> tuple[Reals, Reals]:
+        """(rows, conditions) zero for linkages that do the task, and (rows, conditions, numbers) slopes."""
 
-    def dyads(self, row: Reals) -> Pair:
-        """The linkage of a row, in the unit of the task."""
-        _, origin, size = Displacements.of(self.task.origins, self.task.turns)
-        x, m, *other = map(complex, _places(row, self.points))
-        direction = complex(np.exp(1j * row[-1])) if self.kind.slides else 0j
-        pair = GuidingDyad(CRANK, x, m), GuidingDyad(self.kind, other[0], other[-1], direction)
-        return pair[0].moved(size, origin), pair[1].moved(size, origin)
+    @abstractmethod
+    def facts(self, rows: Reals, demands: Demands) -> PairFacts:
+        """(rows, 1) what these linkages do."""
 
     def equations(self, rows: Reals) -> tuple[Reals, Reals]:
         """(rows, equations) zero for linkages of the family with the lengths, and (rows, equations, numbers) slopes."""
-        given, _, size = Displacements.of(self.task.origins, self.task.turns)
-        places = _places(rows, self.points)
-        count = len(given.q)
-        values = np.zeros((len(rows), 2 * count + len(self.lengths) + (self.frame_direction is not None)))
-        slopes = np.zeros((*values.shape, rows.shape[1]))
-        values[:, :count], slopes[:, :count, :4] = guiding_conditions(given, places[:, 0], places[:, 1])
-        if self.kind.seen is None:
-            values[:, count : 2 * count], slopes[:, count : 2 * count, 4:] = guiding_conditions(
-                given, places[:, 2], places[:, 3]
-            )
-        else:
-            values[:, count : 2 * count], slopes[:, count : 2 * count, 4:] = line_conditions(
-                self.kind.seen(given), places[:, 2], rows[:, -1]
-            )
-        for k, (link, length) in enumerate(self.lengths, 2 * count):
-            begin, end = _ENDS[self.kind][link]
+        done, by_done = self.conditions(rows)
+        places, count = _places(rows, self.points), done.shape[1]
+        sizes = len(self.lengths) + (self.frame_direction is not None)
+        values, slopes = np.zeros((len(rows), count + sizes)), np.zeros((len(rows), count + sizes, rows.shape[1]))
+        values[:, :count], slopes[:, :count] = done, by_done
+        for k, (link, length) in enumerate(self.lengths, count):
+            begin, end = self.ends[link]
             arm = places[:, end] - places[:, begin]
-            values[:, k] = np.abs(arm) ** 2 - (length / size) ** 2
+            values[:, k] = np.abs(arm) ** 2 - (length / self.size) ** 2
             for end_of, sign in ((begin, -2), (end, 2)):
                 slopes[:, k, 2 * end_of], slopes[:, k, 2 * end_of + 1] = sign * arm.real, sign * arm.imag
         if self.frame_direction is not None:
-            begin, end = _ENDS[self.kind]["frame"]
+            begin, end = self.ends["frame"]
             arm = places[:, end] - places[:, begin]
             values[:, -1] = across_direction(np.stack([arm.real, arm.imag], axis=1), self.frame_direction)
             for end_of, sign in ((begin, -1), (end, 1)):
@@ -177,6 +159,78 @@ class PairFamily:
         misses = np.abs(self.equations(rows)[0]).max(axis=1)
         return rows, np.asarray((misses <= _REACHED * (1 + far * far)) & (far < FAR))
 
+    def about(self, row: Reals, held: Flags) -> Reals:
+        """(directions, numbers) in which linkages of the family lie about one: along, and between, all its freedoms."""
+        slopes = self.equations(row[None])[1][0]
+        matrix = np.concatenate([slopes, np.eye(len(row))[held]])
+        *_, sizes, turns = np.linalg.svd(matrix)
+        axes = turns[int(np.count_nonzero(sizes > _RANK * sizes[0])) :]
+        between = [(a + sign * b) / 2 for a, b in combinations(axes, 2) for sign in (1, -1)]
+        return np.array([sign * axis for axis in (*axes, *between) for sign in (1, -1)]).reshape(-1, len(row))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PairFamily(ConditionedRows):
+    """All linkages of a driven RR dyad and another one that guide a body, with given lengths or direction of the frame.
+
+    Rows are linkages in sizes of the task about its origin: both pivots of the crank, on the body first, then those of
+    the other dyad, or the one of a slide and the angle of its line.
+    """
+
+    task: PositionTask
+    kind: DyadKind
+    """Of the dyad that is not driven."""
+
+    @classmethod
+    def of(cls, task: PositionTask, kind: DyadKind, demands: Demands) -> PairFamily:
+        """With the lengths and the direction of the frame that are demanded."""
+        return cls(task=task, kind=kind, lengths=demands.lengths, frame_direction=demands.frame_direction)
+
+    @property
+    def size(self) -> float:
+        """Of the task."""
+        return Displacements.of(self.task.origins, self.task.turns)[2]
+
+    @property
+    def ends(self) -> Mapping[str, tuple[int, int]]:
+        """The links with two pins, and between which of the pivots of a row they lie."""
+        return _ENDS[self.kind]
+
+    @property
+    def points(self) -> int:
+        """How many pivots a row has."""
+        return 3 if self.kind.slides else 4
+
+    def rows(self, first: Sequence[GuidingDyad], second: Sequence[GuidingDyad]) -> Reals:
+        """(first x second, numbers) each with each, the driven ones first."""
+        _, origin, size = Displacements.of(self.task.origins, self.task.turns)
+        driven, other = (
+            dyad_numbers([dyad.moved(1 / size, -origin / size) for dyad in some]) for some in (first, second)
+        )
+        return np.concatenate([np.repeat(driven, len(second), axis=0), np.tile(other, (len(first), 1))], axis=1)
+
+    def dyads(self, row: Reals) -> Pair:
+        """The linkage of a row, in the unit of the task."""
+        _, origin, size = Displacements.of(self.task.origins, self.task.turns)
+        x, m, *other = map(complex, _places(row, self.points))
+        direction = complex(np.exp(1j * row[-1])) if self.kind.slides else 0j
+        pair = GuidingDyad(CRANK, x, m), GuidingDyad(self.kind, other[0], other[-1], direction)
+        return pair[0].moved(size, origin), pair[1].moved(size, origin)
+
+    def conditions(self, rows: Reals) -> tuple[Reals, Reals]:
+        """That both dyads guide the body."""
+        given = Displacements.of(self.task.origins, self.task.turns)[0]
+        places = _places(rows, self.points)
+        count = len(given.q)
+        values = np.zeros((len(rows), 2 * count))
+        slopes = np.zeros((*values.shape, rows.shape[1]))
+        values[:, :count], slopes[:, :count, :4] = guiding_conditions(given, places[:, 0], places[:, 1])
+        if self.kind.seen is None:
+            values[:, count:], slopes[:, count:, 4:] = guiding_conditions(given, places[:, 2], places[:, 3])
+        else:
+            values[:, count:], slopes[:, count:, 4:] = line_conditions(self.kind.seen(given), places[:, 2], rows[:, -1])
+        return values, slopes
+
     def facts(self, rows: Reals, demands: Demands) -> PairFacts:
         """(rows, 1) what these linkages do."""
         given, origin, size = Displacements.of(self.task.origins, self.task.turns)
@@ -190,15 +244,6 @@ class PairFamily:
         slides = np.exp(1j * angle) * (np.ones_like(q) if self.kind == SLIDER else q)
         guided = GuidedBody(self.task.origins, size, self.kind)
         return guided.facts(driven, other, slides[:, None], demands, sought_order(self.task, demands))
-
-    def about(self, row: Reals, held: Flags) -> Reals:
-        """(directions, numbers) in which linkages of the family lie about one: along, and between, all its freedoms."""
-        slopes = self.equations(row[None])[1][0]
-        matrix = np.concatenate([slopes, np.eye(len(row))[held]])
-        *_, sizes, turns = np.linalg.svd(matrix)
-        axes = turns[int(np.count_nonzero(sizes > _RANK * sizes[0])) :]
-        between = [(a + sign * b) / 2 for a, b in combinations(axes, 2) for sign in (1, -1)]
-        return np.array([sign * axis for axis in (*axes, *between) for sign in (1, -1)]).reshape(-1, len(row))
 
 
 def dyad_numbers(dyads: Sequence[GuidingDyad]) -> Reals:
@@ -288,7 +333,7 @@ def best_members(
     ranks = facts.ranks(fails, orders)[: np.count_nonzero(meets) or None][: _LOOKED_AT * number]
     chosen = _different(family, rows[ranks], 100 * _SAME if determined else _APART, 2 * number)
     rows, held = rows[ranks[chosen]], held[ranks[chosen]]
-    rows, meets = _improved(family, rows, held, demands, orders)
+    rows, meets = improved_rows(family, rows, held, demands, orders)
     pairs = [family.dyads(row) for row in rows]
     if not determined:  # of finitely many each is one of its own
         pairs = distinct_pairs(pairs, task.size)
@@ -315,8 +360,8 @@ def _different(family: PairFamily, rows: Reals, apart: float, number: int) -> li
     return chosen
 
 
-def _improved(
-    family: PairFamily, rows: Reals, held: Flags, demands: Demands, orders: Sequence[str]
+def improved_rows(
+    family: ConditionedRows, rows: Reals, held: Flags, demands: Demands, orders: Sequence[str]
 ) -> tuple[Reals, Flags]:
     """Each linkage made better among its neighbours, on finer and finer stars; the best first, and which meet all."""
 

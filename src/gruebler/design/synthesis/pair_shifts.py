@@ -73,12 +73,21 @@ def body_shifts(kind: DyadKind, at: PairPlaces, body: Complexes, size: float) ->
     As `Design.relative_sensitivity`.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
-        rates = _rates(kind, at)
-        arm = body - at.pin
-        moves = [pin + 1j * turn * arm for pin, turn in zip(rates.pins, rates.turns, strict=True)]
-        place = farthest_sum(_side_by_side([*moves, arm, 1j * arm]))
-        turned = sum(map(np.abs, rates.turns))
-        return np.asarray(LENGTH_ERROR * np.hypot(place / size, turned).max(axis=-1))
+        turned = sum(map(np.abs, _rates(kind, at).turns))
+        return np.asarray(LENGTH_ERROR * np.hypot(_moved(kind, at, body) / size, turned).max(axis=-1))
+
+
+def point_shifts(kind: DyadKind, at: PairPlaces, point: Complexes, size: float) -> Reals:
+    """(n, m) the same of pairs that guide a point, whose coupler may turn."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(LENGTH_ERROR * _moved(kind, at, point).max(axis=-1) / size)
+
+
+def _moved(kind: DyadKind, at: PairPlaces, point: Complexes) -> Reals:
+    """How far a point of the coupler moves at most, for lengths that are wrong by themselves."""
+    rates, arm = _rates(kind, at), point - at.pin
+    moves = [pin + 1j * turn * arm for pin, turn in zip(rates.pins, rates.turns, strict=True)]
+    return farthest_sum(_side_by_side([*moves, arm, 1j * arm]))
 
 
 def output_shifts(kind: DyadKind, at: PairPlaces, size: float) -> Reals:

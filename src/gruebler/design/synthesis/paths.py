@@ -19,6 +19,7 @@ from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem
 from gruebler.design.synthesis.demands import Demands, sought_order
 from gruebler.design.synthesis.finite_points import all_four_bars, check_general, crowded, points_between
 from gruebler.design.synthesis.judging import order_notes
+from gruebler.design.synthesis.point_families import improved_designs
 from gruebler.design.synthesis.positions import synthesise_positions
 from gruebler.design.synthesis.results import (
     EXACT,
@@ -73,7 +74,8 @@ def synthesise_path(
         demands: what a design has to do besides.
         number: of dyads taken from an infinite family (crank angles), or of designs for a whole curve.
         sliders: whether slider-cranks are looked for, too, where least squares find the designs.
-        sort: by what the best of a family of dyads are sought: names as for `SynthesisResult.sorted_by`.
+        sort: by what the best of a family are sought, where points are no whole curve: names as for
+            `SynthesisResult.sorted_by`.
         threads: how many follow paths; as many as there are processors if None.
         progress: called with the paths, or the passes through an atlas, that are done, and their number, then with the
             verdicts.
@@ -102,6 +104,11 @@ class _Run:
     sort: Sequence[str]
     threads: int | None
     progress: Progress | None
+
+    @property
+    def orders(self) -> Sequence[str]:
+        """By what the best is sought."""
+        return self.sort or ("full-turn", "transmission")
 
     @cached_property
     def oriented(self) -> list[int]:
@@ -136,7 +143,13 @@ class _Run:
 def _with_crank_angles(run: _Run) -> SynthesisResult:
     if len(run.oriented) == len(run.task) == TIMED_POSITIONS and not run.task.fixed_pivots:
         return timed_positions(run.task, run.demands, run.number, run.sort)
-    return timed_points(run.task, run.demands, run.number)
+    timed = timed_points(run.task, run.demands, run.number)
+    return timed if timed.count.theorem else _only_sorted(run, timed)
+
+
+def _only_sorted(run: _Run, result: SynthesisResult) -> SynthesisResult:
+    """With the note that the designs were not sought by what is asked for."""
+    return replace(result, notes=(*result.notes, *sorted_sample(run.sort)))
 
 
 def _open_points(run: _Run) -> SynthesisResult:
@@ -145,7 +158,10 @@ def _open_points(run: _Run) -> SynthesisResult:
     check_general(run.task)
     free = free_parameters(run.task, run.demands)
     fitted = fit_open_points(run.task, run.demands, free, number=run.number, sliders=run.sliders, progress=run.progress)
-    return replace(fitted, notes=(*fitted.notes, *sorted_sample(run.sort)))
+    better, steps = improved_designs(run.task, run.demands, (*fitted.designs, *fitted.rejected), run.orders)
+    designs, _ = ranked([*better, *fitted.designs])
+    notes = (*fitted.notes, *(steps or sorted_sample(run.sort)))
+    return replace(fitted, designs=designs, notes=notes)
 
 
 def free_parameters(task: PathTask, demands: Demands) -> int:
@@ -163,9 +179,8 @@ def _nearest(run: _Run) -> SynthesisResult:
     through: tuple[Design, ...] = ()
     if len(task) == MOST_POINTS and not task.fixed_pivots and not crowded(task):
         through = _all_four_bars(replace(run, task=replace(task, closed=False)), PROBLEMS[0]).designs
-    return _with_exact(
-        fit_path(task, run.demands, number=run.number, sliders=run.sliders, progress=run.progress), through, run.number
-    )
+    fitted = fit_path(task, run.demands, number=run.number, sliders=run.sliders, progress=run.progress)
+    return _only_sorted(run, _with_exact(fitted, through, run.number))
 
 
 def _finite(run: _Run) -> SynthesisResult:
@@ -240,13 +255,14 @@ def _sampled(run: _Run) -> SynthesisResult:
         least=min(_TURNS),
         most=max(_TURNS),
     )
-    accepted, rejected = ranked(designs)
+    better, steps = improved_designs(run.task, run.demands, designs, run.orders)
+    accepted, rejected = ranked([*better, *designs])
     return SynthesisResult(
         task=run.task,
         designs=accepted,
         rejected=rejected,
         count=SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs)),
-        notes=(note, *sorted_sample(run.sort), *order_notes(designs, run.demands)),
+        notes=(note, *(steps or sorted_sample(run.sort)), *order_notes(accepted or designs, run.demands)),
     )
 
 
@@ -258,7 +274,8 @@ class _Method(NamedTuple):
 def _mixed(run: _Run) -> SynthesisResult:
     from gruebler.design.synthesis.mixed_targets import synthesise_mixed
 
-    return synthesise_mixed(run.task, run.demands, number=run.number, sliders=run.sliders, progress=run.progress)
+    mixed = synthesise_mixed(run.task, run.demands, number=run.number, sliders=run.sliders, progress=run.progress)
+    return _only_sorted(run, mixed)
 
 
 def _needs_least_squares(run: _Run) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Executor
+from dataclasses import replace
 from functools import partial
 from inspect import signature
 from typing import Any
@@ -17,7 +18,7 @@ from gruebler.design.synthesis.dwells import synthesise_dwells
 from gruebler.design.synthesis.functions import synthesise_function
 from gruebler.design.synthesis.paths import synthesise_path
 from gruebler.design.synthesis.positions import synthesise_positions
-from gruebler.design.synthesis.results import MOST_DESIGNS, Progress, SynthesisResult
+from gruebler.design.synthesis.results import MOST_DESIGNS, Progress, SynthesisResult, sorted_sample
 from gruebler.design.synthesis.six_bar_functions import SixBarType, synthesise_six_bars
 from gruebler.design.synthesis.six_bar_positions import synthesise_guiding_six_bars
 from gruebler.design.synthesis.structures import synthesise_structures
@@ -52,7 +53,7 @@ def synthesise(
             ``near-pivots`` (distance from `Demands.near_pivots`), ``links``, ``full-turn``; of designs that are equal
             in the first the second decides. By default ``near-pivots`` where such are given, else a full turn comes
             first, then the transmission angle; where targets are only approached, the error. Families of two to four
-            positions or pairs, and of dead centres, are searched for the best by these; designs for points are sorted.
+            positions or pairs, two to eight points, and of dead centres, are searched for the best by these.
         number: without structures: how many dyads or designs are taken from each infinite family.
         minimax: of a function: the linkages whose largest structural error is as small as possible.
         six_bars: of a function: all six-bars that meet nine pairs of angles with free starts, of Watt's second kind, or
@@ -118,6 +119,8 @@ def synthesise(
     if orders and structures is None:
         given["sort"] = orders
     result = _solved(task, structures, demands, given)
+    if structures is not None:
+        result = replace(result, notes=(*result.notes, *sorted_sample(orders)))
     return _sorted(result, orders)
 
 

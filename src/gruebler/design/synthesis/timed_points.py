@@ -13,14 +13,14 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import message
 from gruebler.design.synthesis.demands import Demands
-from gruebler.design.synthesis.dyad_families import SLIDES_BESIDE, guiding_dyads, near_in_plane, sliding_sample
+from gruebler.design.synthesis.dyad_families import PLANE, SLIDES_BESIDE, guiding_dyads, near_in_plane, sliding_sample
 from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.length_search import best_linkages
-from gruebler.design.synthesis.pair_search import SoughtPairs, distinct_pairs
+from gruebler.design.synthesis.pair_search import FINE_WIDTHS, SoughtPairs, distinct_pairs
 from gruebler.design.synthesis.partner_bounds import best_beside
-from gruebler.design.synthesis.results import Design, SolutionCount, SynthesisResult, ranked
+from gruebler.design.synthesis.results import Design, SolutionCount, SynthesisResult, ranked, resolution
 from gruebler.design.synthesis.targets import Probe, Targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PathTask, PositionTask
 
@@ -71,6 +71,7 @@ def timed_positions(task: PathTask, demands: Demands, number: int, sort: Sequenc
     ]
     accepted, rejected = ranked(designs)
     notes = [*turning.notes, *proved, *(note for search in sliding for note in search.notes)]
+    notes += resolution([name for name in sort if name != "transmission"], PLANE * FINE_WIDTHS[-1])
     notes.append(message("Three positions with crank angles have one crank; the other dyad is any of the positions."))
     count = SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs))
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
