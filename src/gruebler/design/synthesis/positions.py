@@ -345,7 +345,7 @@ def _best_pairs(sought: SoughtPairs) -> tuple[list[Pair], list[Message]]:
     pairs = [*better, *search.pairs]
     if sought.orders:
         pairs = best_first(task, demands, pairs, sought.orders)
-    return distinct_pairs(pairs, task.size), [*search.notes, *proved]
+    return distinct_pairs(pairs, task.size)[: sought.number], [*search.notes, *proved]
 
 
 def _random(sought: SoughtPairs) -> RandomSearch | None:
