@@ -256,8 +256,11 @@ export class DesignCards {
         ),
       ),
       ...this.#facts.map((by) => {
-        const best = items[1] && !this.#places(by)[items.indexOf(design)];
-        return h("span", {}, this.#names[by], h(best ? "strong" : "i", {}, this.#told(design, by)));
+        // as it is read: 90° are 90°, whatever the last digit is; alike in all they are no merit
+        const texts = items.map((one) => this.#told(one, by));
+        const text = this.#told(design, by);
+        const best = text === texts[this.#places(by).indexOf(0)] && texts.some((one) => one !== text);
+        return h("span", {}, this.#names[by], h(best ? "strong" : "i", {}, text));
       }),
     );
     return card;
