@@ -172,10 +172,40 @@ def test_a_watt_linkage_is_as_good_as_the_worse_of_its_four_bars() -> None:
     assert (smallest.mu, smallest.links) == (pytest.approx(worst, abs=1e-9), ("2",))
     assert smallest.drive % (2 * math.pi) == pytest.approx(0, abs=1e-6)
     assert found.transmission.legs == (("4",), ("2",))
-    assert "Transmission angle 47.5° at 0° (link 2)" in found.explain()
+    assert "Smallest transmission angle 47.5° at 0° (link 2, whose largest is " in found.explain()
     first = measures(WATT, output="3").transmission
     assert first is not None
     assert first.legs == (("2",),)
+
+
+PLACES = {"A": (0, 0), "B": (60, 0), "C": (120, 20), "D": (0, 20), "E": (50, 50), "F": (40, 80), "G": (110, 70)}
+
+
+def drawn(text: str, places: str) -> Linkage:
+    mechanism = Mechanism.parse(text)
+    names = mechanism.chain.joint_names()
+    return Linkage.from_drawing(mechanism, {n: PLACES[place] for n, place in zip(names, places, strict=True)})
+
+
+@pytest.mark.parametrize("output", ["3", "6", "7"])
+def test_bars_that_form_a_triangle_are_one_link(output: str) -> None:
+    """The constant angles within it are none of transmission."""
+    plate = drawn("R(0-1) R(1-2) R(2-3) R(0-3) R(2-6) R(6-7) R(0-7); frame=0; drive=R(0-1)", "ADEBFGC")
+    bars = drawn("R(0-1) R(1-2-5) R(2-3-4) R(0-3) R(4-5-6) R(6-7) R(0-7); frame=0; drive=R(0-1)", "ADEBFGC")
+    expected = measures(plate, output=output).transmission
+    found = measures(bars, output=output).transmission
+    assert expected is not None
+    assert found is not None
+    assert found.legs == expected.legs
+    assert (found.smallest.mu, found.largest.mu) == pytest.approx((expected.smallest.mu, expected.largest.mu), abs=1e-7)
+    drives = np.linspace(0.3, 1.2, 50)
+    angles = [transmission_angle(move(linkage, drives, order=2), output) for linkage in (bars, plate)]
+    assert angles[0] == pytest.approx(angles[1], abs=1e-9)
+    place = {name: move(plate, drives, order=2).complex_point(name) for name in plate.mechanism.chain.joint_names()}
+    mu = between_links(place["R(1-2)"], place["R(2-3)"], place["R(0-3)"])
+    if output != "3":
+        mu = np.minimum(mu, between_links(place["R(2-6)"], place["R(6-7)"], place["R(0-7)"]))
+    assert angles[0] == pytest.approx(mu, abs=1e-9)
 
 
 def test_where_it_is_not_defined_on_the_way_that_is_said() -> None:

@@ -131,12 +131,21 @@ def unknown_change_points_message(error: GrueblerError) -> Message:
     return message("Change points of larger groups are not known: {why}", why=error)
 
 
+_TRANSMISSION = message(
+    "Transmission angle {smallest} at {drive} (link {links}) to {largest}; deviation angle up to {deviation}."
+)
+_SMALLEST_TRANSMISSION = message(
+    "Smallest transmission angle {smallest} at {drive} (link {links}, whose largest is {largest}); deviation angle up "
+    "to {deviation}."
+)
+
+
 def transmission_lines(units: MeasureUnits, transmission: TransmissionExtremes) -> Iterator[Message]:
     """The transmission angle, and whether it is good."""
     worst, best = transmission.smallest, transmission.largest
     if best.mu - worst.mu > _CONSTANT:
-        yield message(
-            "Transmission angle {smallest} at {drive} (link {links}) to {largest}; deviation angle up to {deviation}.",
+        text = _TRANSMISSION if len(transmission.legs) == 1 else _SMALLEST_TRANSMISSION
+        yield text.filled(
             smallest=angle_message(worst.mu),
             drive=units.drive(worst.drive),
             links=", ".join(worst.links),

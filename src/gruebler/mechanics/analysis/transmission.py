@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
+from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import Transmission, TransmissionExtremes
 from gruebler.base.jets import turn_derivative
@@ -88,7 +89,7 @@ def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
 
 
 def force_path(plan: Plan, output: Output) -> ForcePath:
-    """Follow the force from the output back to the drive, group by group.
+    """Follow the force from the output back to the drive, group by group; what stands still on a body is part of it.
 
     A leg is a body of a group with one outer and one inner joint. It drives if it hangs on a link that moves, or has
     the drive in itself. The body that is loaded is a leg only if there is no other.
@@ -106,27 +107,65 @@ def force_path(plan: Plan, output: Output) -> ForcePath:
         raise NoTransmissionAngleError(
             "there is no transmission angle: {link!r} is moved by the drive itself", link=output.link
         )
-    path = _legs(plan, groups[own], {output.link})
-    if not path:
-        raise NoTransmissionAngleError("there is no transmission angle: no link with two joints drives the output")
-    if couple := next(filter(_is_couple, path), None):
-        raise NoTransmissionAngleError(
-            "there is no transmission angle: {links} slides at both ends and transmits a couple only",
-            links=", ".join(couple.links),
-        )
-    loaded = _holders(plan, groups[own])
+    fixed = _fixed_groups(plan)
+    path: list[PushingLink] = []
     undefined: list[str] = []
-    for group in reversed(groups[:own]):
+    loaded = {output.link}
+    for k, group in reversed(list(enumerate(groups[: own + 1]))):
         links = [link for body in _bodies(group) for link in body]
         if loaded.isdisjoint(links):
             continue
+        if k in fixed:
+            loaded |= fixed[k]
+            continue
         legs = _legs(plan, group, loaded)
-        if not legs or any(map(_is_couple, legs)):
+        couple = next(filter(_is_couple, legs), None)
+        if not path and not undefined:
+            if not legs:
+                raise NoTransmissionAngleError(
+                    "there is no transmission angle: no link with two joints drives the output"
+                )
+            if couple:
+                raise NoTransmissionAngleError(
+                    "there is no transmission angle: {links} slides at both ends and transmits a couple only",
+                    links=", ".join(couple.links),
+                )
+        if not legs or couple:
             undefined += links
         else:
             path += legs
         loaded |= _holders(plan, group)
+    if not path:
+        raise NoTransmissionAngleError(
+            "there is no transmission angle: {link!r} is moved by the drive itself", link=output.link
+        )
     return ForcePath(tuple(path), tuple(undefined))
+
+
+def _fixed_groups(plan: Plan) -> dict[int, set[str]]:
+    """Groups by number that hang on one body and so stand still on it, and the links of that body that hold them.
+
+    Three bars that form a triangle are such a body: two of them hang on the third.
+    """
+    mechanism = plan.lower.mechanism
+    bodies = DisjointSets(mechanism.chain.links)
+    fixed: dict[int, set[str]] = {}
+    for k, group in enumerate(plan.decomposition.groups):
+        for first, *others in _bodies(group):
+            for other in others:
+                bodies.unite(first, other)
+        inside = {link for body in _bodies(group) for link in body}
+        if any(set(drive.between) <= inside for drive in mechanism.drives):
+            continue
+        outer = [
+            [link for link in mechanism.chain.joints[number].links if link not in inside] for number in group.outer
+        ]
+        common = set.intersection(*({bodies.find(link) for link in links} for links in outer))
+        if common:
+            fixed[k] = {link for links in outer for link in links if bodies.find(link) in common} - {mechanism.frame}
+            for link in inside:
+                bodies.unite(next(iter(common)), link)
+    return fixed
 
 
 def _is_couple(leg: PushingLink) -> bool:
