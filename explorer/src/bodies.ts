@@ -1,7 +1,7 @@
 /** The bodies of links in SVG: bars and plates, rails and blocks, cylinders. */
 
 import { DEGREE } from "./cycle";
-import { convexHull } from "./hull";
+import { away, convexHull } from "./hull";
 import type { Linkage } from "./linkage";
 import { direction, type Pair } from "./rows";
 import { linesOf } from "./shapes";
@@ -19,6 +19,9 @@ interface Band {
 /** An element of the picture: its tag and its attributes, the same ones for all of a tag. */
 type Drawn = [tag: "circle" | "path" | "rect", attributes: Record<string, string | number>];
 
+const SLOT = ["slot-outline", "slot"];
+const ROD = ["rod-outline", "rod"];
+const STROKE = 1.75; // of a cylinder drawn out to drawn in: barrel and rod have room in each other
 const FEW_ROWS = 60; // of a cycle: enough for its extent
 
 export class Bodies {
@@ -26,6 +29,8 @@ export class Bodies {
   readonly #linkage: Linkage;
   /** Pixels a unit of length. */
   readonly #scale: number;
+  /** Of links that are a barrel or a rod the path of it in the pose that is shown. */
+  readonly stretched = new Map<number, () => string>();
 
   constructor(linkage: Linkage, scale: number) {
     this.#linkage = linkage;
@@ -89,16 +94,14 @@ export class Bodies {
   /** Draw the line of a slide: a cylinder, a rail, a bar or a block; add the places that the body reaches to. */
   #addLine(k: number, out: Drawn[], nodes: Pair[]): void {
     const { model, sizes } = this.#linkage;
-    const { joint, link } = sizes.element(k);
+    const { link } = sizes.element(k);
     const cylinder = this.#cylinder(k);
     if (cylinder) {
       out.push(...cylinder);
       return;
     }
-    const frame = link === model.frame;
-    const band = this.#bands.get(k)!;
-    const pinned = sizes.elementsOf(joint).some((m) => m !== k && sizes.is(m, "pin"));
-    if (!frame && !pinned && !this.#carries(link, joint)) {
+    const ends = this.#ends(k);
+    if (!ends) {
       const here = sizes.xy(k);
       const turn = `rotate(${-sizes.angles[k]! / DEGREE})`;
       const transform = `translate(${this.#place(...here)}) ${turn}`;
@@ -106,22 +109,49 @@ export class Bodies {
       nodes.push(here);
       return;
     }
-    const room = 26 / this.#scale;
-    const pins = frame ? [] : this.#pinsAlong(k, band);
-    const at = (way: number): Pair => [band.x + band.c * way, band.y + band.s * way];
-    const from = Math.min(band.low - room, ...pins);
-    const to = Math.max(band.high + room, ...pins);
-    const d = `M${this.#place(...at(from))}L${this.#place(...at(to))}`;
-    let styles = pinned ? ["slot-outline", "slot"] : ["rod-outline", "rod"];
+    const d = `M${ends.map((at) => this.#place(...at)).join("L")}`;
+    const frame = link === model.frame;
+    let styles = this.#pinned(k) ? SLOT : ROD;
     if (frame) styles = ["rail", "rail-hatch"];
     for (const style of styles) out.push(["path", { class: style, d }]);
-    if (frame || pins.length) return;
-    nodes.push(at((band.low + band.high) / 2));
+    if (frame || this.#pinsAlong(k).length) return;
+    const { x, y, c, s, low, high } = this.#bands.get(k)!;
+    const middle = (low + high) / 2;
+    nodes.push([x + c * middle, y + s * middle]);
+  }
+
+  /** The ends of rods and slots that move, each with its link. */
+  get rods(): [link: number, at: Pair][] {
+    const { model, sizes } = this.#linkage;
+    return [...this.#bands.keys()].flatMap((k) => {
+      const { link } = sizes.element(k);
+      const ends = link === model.frame || link >= model.own || this.#cylinder(k) ? null : this.#ends(k);
+      return (ends ?? []).map((at): [number, Pair] => [link, at]);
+    });
+  }
+
+  /** Where what slides on a line begins and ends; null for a block, whose partner bears that. */
+  #ends(k: number): [Pair, Pair] | null {
+    const { model, sizes } = this.#linkage;
+    const { joint, link } = sizes.element(k);
+    const frame = link === model.frame;
+    if (!frame && !this.#pinned(k) && !this.#carries(link, joint)) return null;
+    const { x, y, c, s, low, high } = this.#bands.get(k)!;
+    const room = 26 / this.#scale;
+    const ways = [low - room, high + room, ...(frame ? [] : this.#pinsAlong(k))];
+    return [Math.min(...ways), Math.max(...ways)].map((way) => [x + c * way, y + s * way]) as [Pair, Pair];
+  }
+
+  /** Whether a pin slides along a line. */
+  #pinned(line: number): boolean {
+    const { sizes } = this.#linkage;
+    return sizes.elementsOf(sizes.element(line).joint).some((m) => m !== line && sizes.is(m, "pin"));
   }
 
   /** Where along a line the pins of its link lie that are on it. */
-  #pinsAlong(line: number, { x, y, c, s }: Band): number[] {
+  #pinsAlong(line: number): number[] {
     const { sizes } = this.#linkage;
+    const { x, y, c, s } = this.#bands.get(line)!;
     return sizes
       .elementsOn(sizes.element(line).link)
       .filter((m) => sizes.is(m, "pin"))
@@ -146,30 +176,39 @@ export class Bodies {
     const linkage = this.#linkage;
     const { sizes } = linkage;
     const { joint, link } = sizes.element(k);
-    const found = sizes.cylinder(joint);
+    const found = cylinderOf(linkage, joint);
     if (!found) return null;
-    const [one, , pinOne, pinTwo] = found;
-    const barrel = one === k;
-    const [own, other] = barrel ? [pinOne, pinTwo] : [pinTwo, pinOne];
-    const { rows, values } = linkage.cycle;
-    let [near, far] = [Infinity, 0];
-    for (const row of fewRows(values.length)) {
-      const [ax, ay] = linkage.elementAt(own, rows, row);
-      const [bx, by] = linkage.elementAt(other, rows, row);
-      const gap = Math.hypot(bx - ax, by - ay);
-      if (!Number.isFinite(gap)) continue;
-      near = Math.min(near, gap);
-      far = Math.max(far, gap);
-    }
-    if (far > 1.9 * near) return null; // a rod cannot be drawn in by so much: a block on a bar
-    const [u, v] = linkage.toLocal(link, ...linkage.elementAt(other));
-    const [x, y] = sizes.xy(own);
-    const length = Math.hypot(u - x, v - y) || 1;
-    const reach = barrel ? 0.86 * near : Math.min(far - 0.62 * near, 0.95 * near);
-    const end = this.#place(x + ((u - x) / length) * reach, y + ((v - y) / length) * reach);
-    const styles = barrel ? ["slot-outline", "slot"] : ["rod-outline", "rod"];
-    return styles.map((style) => ["path", { class: style, d: `M${this.#place(x, y)}L${end}` }]);
+    const { ends, near, far } = found;
+    const barrel = sizes.elementsOf(joint)[0] === k;
+    const [own, other] = (barrel ? ends : [...ends].reverse()) as Pair;
+    const [whole, part] = barrel ? [0.86 * near, 0.86] : [Math.min(far - 0.62 * near, 0.95 * near), 0.95];
+    const path = () => {
+      const [x, y] = sizes.xy(own);
+      const [u, v] = linkage.toLocal(link, ...linkage.elementAt(other));
+      const reach = Math.min(whole / (away([x, y], u, v) || 1), part); // drawn in farther than it can, it telescopes
+      return `M${this.#place(x, y)}L${this.#place(x + (u - x) * reach, y + (v - y) * reach)}`;
+    };
+    this.stretched.set(link, path);
+    return (barrel ? SLOT : ROD).map((style) => ["path", { class: style, d: path() }]);
   }
+}
+
+/** The pins of a cylinder and how far they come apart, at least and at most; null if the slide is none. */
+export function cylinderOf(linkage: Linkage, joint: number): { ends: number[]; near: number; far: number } | null {
+  const ends = linkage.sizes.cylinder(joint)?.slice(2);
+  if (!ends) return null;
+  const { rows, values } = linkage.cycle;
+  let [near, far] = [Infinity, 0];
+  for (const row of fewRows(values.length)) {
+    const [one, other] = ends.map((k) => linkage.elementAt(k, rows, row)) as [Pair, Pair];
+    const gap = away(one, ...other);
+    if (!Number.isFinite(gap)) continue;
+    near = Math.min(near, gap);
+    far = Math.max(far, gap);
+  }
+  const meant = linkage.letterOf(joint) || linkage.model.drives.some((drive) => drive.joint === joint);
+  // a rod cannot be drawn in by so much: a block on a bar
+  return far > STROKE * near && !meant ? null : { ends, near: Math.max(near, far / STROKE), far };
 }
 
 function* fewRows(count: number): Generator<number> {

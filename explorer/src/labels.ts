@@ -1,7 +1,8 @@
 /** The names in the picture of a linkage, and where each of them may stand. */
 
+import { cylinderOf } from "./bodies";
 import { svg } from "./dom";
-import { convexHull, spotsAbout, toHull } from "./hull";
+import { convexHull, middleOf, spotsAbout, toHull } from "./hull";
 import type { Linkage } from "./linkage";
 import { halfOf, type NamePlace, namePlace, nameSpots } from "./names";
 import { direction, type Pair, place } from "./rows";
@@ -33,13 +34,19 @@ export function labelsOf(linkage: Linkage): Label[] {
   const links = [...model.links.slice(0, model.own).keys()].filter((link) => link !== model.frame);
   const names = links.map((link): Label => {
     const name = linkage.linkName(link);
-    const joints = () => sizes.elementsOn(link).map((k) => sizes.xy(k));
+    let ends: readonly number[] = []; // of a cylinder, whose half towards the other one is this link
+    const joints = () => [
+      ...sizes.elementsOn(link).map((k) => sizes.xy(k)),
+      ...(ends.length ? [linkage.toLocal(link, ...middleOf(ends.map((k) => linkage.elementAt(k))))] : []),
+    ];
     let on!: NamePlace;
     const points = () => sizes.points.filter((point) => point.link === link).map((point) => point.at);
     const sized = (scale: number) => {
+      ends = sizes.elementsOn(link).flatMap((k) => cylinderOf(linkage, sizes.element(k).joint)?.ends ?? []);
       on = namePlace(joints(), points(), name, scale);
     };
     const spots = (viewport: Viewport) => {
+      if (ends.length) on = namePlace(joints(), [], name, viewport.scale); // it telescopes
       const { at, away, along, ...more } = on;
       const turned = (way: Pair) => direction(linkage.pose, 0, link, way);
       const where = { at: at.map((one) => place(linkage.pose, 0, link, ...one)), away: away && turned(away) };
@@ -48,7 +55,9 @@ export function labelsOf(linkage: Linkage): Label[] {
     const hull = (viewport: Viewport) =>
       convexHull(
         [
-          ...sizes.elementsOn(link).map((k) => linkage.jointAt(sizes.element(k).joint)),
+          ...(ends.length
+            ? joints().map((at) => place(linkage.pose, 0, link, ...at))
+            : sizes.elementsOn(link).map((k) => linkage.jointAt(sizes.element(k).joint))),
           ...points().map((at) => place(linkage.pose, 0, link, ...at)),
         ].map((at) => viewport.screen(...at)),
       );
@@ -80,8 +89,12 @@ export function labelsOf(linkage: Linkage): Label[] {
   const letters = [...model.joints.keys()].flatMap((joint): Label[] => {
     const name = linkage.letterOf(joint);
     if (!name) return [];
+    const at = () => {
+      const ends = sizes.cylinder(joint)?.slice(2);
+      return ends ? middleOf(ends.map((k) => linkage.elementAt(k))) : linkage.jointAt(joint);
+    };
     const spots = (viewport: Viewport) =>
-      spotsAbout(viewport.screen(...linkage.jointAt(joint)), -LETTER).map(([x, y]): Pair => [x, y + 4]);
+      spotsAbout(viewport.screen(...at()), -LETTER).map(([x, y]): Pair => [x, y + 4]);
     const element = svg("text.name", { "text-anchor": "middle" }, name);
     return [{ element, name, spots, taken: 0, half: halfOf(name) }];
   });

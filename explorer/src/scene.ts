@@ -33,6 +33,8 @@ export class Scene {
   /** Where those that move lie, and which of them over which. */
   #bodies!: SVGElement;
   #order = "";
+  /** Barrels and rods of cylinders, with what their paths are in a pose. */
+  #stretched: [SVGElement, () => string][] = [];
   /** The ends of the rails of the frame, in pixels from its origin. */
   #rails: Pair[][] = [];
   #pins: { element: SVGGElement; joint: number }[] = [];
@@ -155,6 +157,7 @@ export class Scene {
     for (const label of this.#labels) label.sized?.(this.viewport.scale);
     const { frame } = linkage.model;
     const bodies = new Bodies(linkage, this.viewport.scale);
+    this.#stretched = [];
     for (const [link, group] of this.#links.entries()) {
       const made = bodies.of(link);
       if (link === frame)
@@ -176,10 +179,17 @@ export class Scene {
         else if (old) old.replaceWith(svg(tag, attributes));
         else group.append(svg(tag, attributes));
       });
+      const path = bodies.stretched.get(link);
+      if (path)
+        for (const part of group.querySelectorAll<SVGElement>("[class^=slot],[class^=rod]"))
+          this.#stretched.push([part, path]);
     }
-    // plates first; a bar with a joint between others goes on over what ends there
+    // plates first; a bar with a joint between others goes on over what ends there, a barrel over its rod
+    const has = (link: number, what: string) => !!this.#links[link]!.querySelector(what);
     const rank = (link: number) =>
-      (this.#links[link]!.querySelector(".plate") ? 0 : 99) + linkage.sizes.elementsOn(link).length;
+      (has(link, ".plate") ? 0 : 99) +
+      linkage.sizes.elementsOn(link).length +
+      +(bodies.stretched.has(link) && has(link, ".slot"));
     const order = [...this.#links.keys()]
       .filter((link) => link !== frame)
       .sort((one, other) => rank(one) - rank(other));
@@ -200,6 +210,7 @@ export class Scene {
       const [cosine, minus, sine] = [c.toFixed(6), (-s).toFixed(6), s.toFixed(6)];
       put(group, { transform: `matrix(${cosine} ${minus} ${sine} ${cosine} ${x.toFixed(2)} ${y.toFixed(2)})` });
     });
+    for (const [part, path] of this.#stretched) put(part, { d: path() });
     if (this.#backdrop && linkage.beside.picture) putBackdrop(this.#backdrop, linkage.beside.picture, viewport);
     for (const { element, joint } of this.#pins) move(element, viewport.screen(...linkage.jointAt(joint)));
     for (const { element, point } of this.#marks) {

@@ -1,5 +1,6 @@
 /** The picture: bodies in SVG, over them curves on one canvas, over these joints, points and names in SVG again. */
 
+import { Bodies } from "./bodies";
 import { Painter } from "./canvas";
 import { h, lowered, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
@@ -32,7 +33,7 @@ export class Stage implements Board {
   /** Of what the grid is: drawn anew each time, it took a third of a frame. */
   #ruled = "";
   readonly #under = svg("svg.grid", { "aria-hidden": "true" });
-  private readonly canvas = h("canvas", { "aria-hidden": "true" });
+  readonly #canvas = h("canvas", { "aria-hidden": "true" });
   readonly #scene: Scene;
   readonly #pointer: Pointer;
   readonly #modes = new OtherModes();
@@ -52,7 +53,7 @@ export class Stage implements Board {
     events: StageEvents,
     private shown: Shown,
   ) {
-    this.element = h("div.stage", {}, this.#grid, this.#under, this.canvas, this.root);
+    this.element = h("div.stage", {}, this.#grid, this.#under, this.#canvas, this.root);
     this.#pointer = new Pointer(this, events);
     this.#scene = new Scene(this.root, this.#under, this.viewport, {
       joint: (event, joint) => {
@@ -117,8 +118,8 @@ export class Stage implements Board {
     this.viewport.width = clientWidth;
     this.viewport.height = clientHeight;
     const ratio = Math.min(devicePixelRatio || 1, 3);
-    this.canvas.width = Math.round(clientWidth * ratio);
-    this.canvas.height = Math.round(clientHeight * ratio);
+    this.#canvas.width = Math.round(clientWidth * ratio);
+    this.#canvas.height = Math.round(clientHeight * ratio);
     this.root.setAttribute("viewBox", `0 0 ${clientWidth} ${clientHeight}`);
     if (this.viewport.fitted) this.fit();
     else this.draw();
@@ -180,7 +181,7 @@ export class Stage implements Board {
     this.#scene.mark(this.chosen, "chosen");
     const said = this.#said(this.linkage, this.chosen);
     if (this.#hint.textContent !== said) this.#hint.textContent = said;
-    const pen = this.canvas.getContext("2d");
+    const pen = this.#canvas.getContext("2d");
     if (!pen) return;
     new Painter(pen, viewport, this.#colour).paint(this.linkage, this.shown, this.#modes);
   }
@@ -261,10 +262,12 @@ function reachOf(linkage: Linkage): Box {
     box.top = Math.max(box.top, y + room);
   };
   for (const [x, y] of linkage.beside.targets ?? []) add([x, y]);
+  const { rods } = new Bodies(linkage, Infinity);
   const step = Math.max(1, Math.floor(values.length / 90));
   for (let row = 0; row < values.length; row += step) {
     for (const joint of model.joints.keys()) add(linkage.jointAt(joint, rows, row));
     for (const point of sizes.points) add(place(rows, row, point.link, ...point.at));
+    for (const [link, at] of rods) add(place(rows, row, link, ...at));
     for (const shape of model.shapes) {
       const at = (x: number, y: number) => place(rows, row, shape.link, x, y);
       if (shape.circle) add(at(shape.circle[0], shape.circle[1]), shape.circle[2]);

@@ -465,6 +465,48 @@ def test_the_library_takes_cylinders_and_gears_as_they_are_drawn():
     assert turns[1] - turns[0] == pytest.approx(3, abs=1e-12)
 
 
+def test_a_drawn_cylinder_is_one_in_motion_however_far_it_is_drawn_out(plane):
+    """From 60 - 51 to 60 + 51 mm, difference and sum of A-B and B-C: no rod is drawn in by so much, it telescopes."""
+    view = plane.page
+    view.click('[data-tool="ground"]')
+    click(plane, (0, 0), (60, 0))
+    view.keyboard.press("l")
+    click(plane, (60, 0), (70, 50))
+    view.keyboard.press("c")
+    click(plane, (0, 0), (70, 50))
+    view.keyboard.press("v")
+    click(plane, (35, 25))
+    view.locator(FREEDOMS).wait_for()
+    view.click('[data-act="drive"]')
+    view.click('[data-act="move"]')
+    plane.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.drives[0]?.name === 'P(2-3)'")
+    view.evaluate("gruebler.motion.transport.pause()")
+    assert view.locator(".bodies .block").count() == 0
+    read = """([part]) => {
+        const { linkage, stage, transport } = gruebler.motion, all = linkage.cycle.values;
+        transport.pick(all[Math.floor(part * (all.length - 1))]);
+        const ends = (name) => {
+            const path = gruebler.root.querySelector(`.bodies ${name}`);
+            const found = path.getAttribute("d").match(/[-.\\d]+/g).map(Number);
+            const { a, b, c, d, e, f } = path.parentElement.transform.baseVal[0].matrix;
+            return [0, 2].map((k) => [a * found[k] + c * found[k + 1] + e, b * found[k] + d * found[k + 1] + f]);
+        };
+        const pins = [[0, 0], linkage.jointAt(2)].map((at) => stage.viewport.screen(...at));
+        const at = ([u, v]) => { // of the way from A to C
+            const [[x, y], [p, q]] = pins;
+            return ((u - x) * (p - x) + (v - y) * (q - y)) / ((p - x) ** 2 + (q - y) ** 2);
+        };
+        const letter = [...stage.root.querySelectorAll("text.name")].find((one) => one.textContent === "D");
+        const { e, f } = letter.transform.baseVal[0].matrix;
+        return [...ends(".slot"), ...ends(".rod"), [e, f]].map(at);
+    }"""
+    for part in (0.02, 0.3, 0.6, 0.98):
+        foot, top, end, inner, letter = view.evaluate(read, [part])
+        assert [foot, end] == pytest.approx([0, 1], abs=0.01)  # barrel at A, rod at C
+        assert 0 < inner < top < 1, part  # the rod ends in the barrel
+        assert part == 0.02 or 0.3 < letter < 0.7, part  # D is the slide
+
+
 def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
     view = plane.page
     view.click('[data-tool="ground"]')

@@ -654,3 +654,23 @@ def test_cylinders_move_between_their_stops(tab, tmp_path):
     facts = page.page.locator(".facts").inner_text()
     assert "240" in facts
     assert "330" in facts
+
+
+def test_a_rod_that_slides_stays_in_the_picture(tab, tmp_path):
+    """Crank 51, frame 60: the rod about the second pivot swings by asin(51/60) = 58 degrees to either side and reaches
+    as far as the crank, 111: it comes to 94, far above the circle of the crank."""
+    file, path = tmp_path / "inverted.json", tmp_path / "inverted.html"
+    file.write_text(json.dumps(linkage_to_json(InvertedSliderCrank(a=51, d=60).linkage())))
+    assert main(["explore", str(file), "-o", str(path)]) == 0
+    page = tab(width=1440, height=900).open(path.as_uri()).page
+    page.evaluate("gruebler.motion.transport.pause()")
+    stage = page.locator(".view.motion .stage").bounding_box()
+    ends = "(({ top, bottom }) => [top, bottom])"
+    read = f"{ends}(gruebler.root.querySelector('.bodies .rod').getBoundingClientRect())"
+    heights = []
+    for drive in range(0, 360, 15):
+        page.evaluate(f"gruebler.motion.transport.pick({drive} * Math.PI / 180)")
+        rod = page.evaluate(read)
+        assert stage["y"] <= rod[0] <= rod[1] <= stage["y"] + stage["height"], drive
+        heights.append(rod[1] - rod[0])
+    assert max(heights) > 0.3 * stage["height"]  # it swings
