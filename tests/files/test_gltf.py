@@ -50,6 +50,15 @@ def test_volumes_by_their_formulas():
     assert 0.9 < ball_solid(start, 3.0).volume / (4 / 3 * pi * 27) < 1
 
 
+def test_the_wall_on_which_a_ball_slides_is_as_long_as_its_way():
+    """Of the wobble plate: 55 from the middle of a plate inclined by 20 degrees it goes from 18.81 up to 18.81 down."""
+    moving = moving_solids(entry("wobble_plate").placed())
+    wall = next(body for body in moving.solids["housing"] if np.ptp(body.vertices[:, 2]) > 35)
+    low, high = wall.vertices[:, 2].min(), wall.vertices[:, 2].max()
+    beyond = 3 * moving.linkage.size / 45
+    assert [low, high] == pytest.approx([-18.811 - beyond, 18.811 + beyond], abs=0.05)
+
+
 def glb(path):
     """Document and binary chunk, by the layout that the specification prints."""
     data = path.read_bytes()

@@ -23,7 +23,7 @@ from gruebler.files.solids import Solid
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space.drive_ranges import followed, spatial_range
 from gruebler.mechanics.space.motion import SpatialMotion
-from gruebler.mechanics.space.sleeves import sleeve_travels
+from gruebler.mechanics.space.sleeves import plane_travels, sleeve_travels
 from gruebler.structure.chain.spaces import Space
 
 _FRAMES = 73
@@ -93,7 +93,7 @@ def moving_solids(
     poses = np.concatenate([still, *(motion.poses[0] for motion in motions)])
     return MovingSolids(
         linkage=linkage,
-        solids=link_solids(linkage, sleeve_travels(linkage, poses)),
+        solids=link_solids(linkage, sleeve_travels(linkage, poses), plane_travels(linkage, poses)),
         motions=tuple(motions),
         round=tuple(full),
     )

@@ -66,13 +66,16 @@ def round_solid(body: TurnedBody) -> Solid:
 
 
 def link_solids(
-    linkage: SpatialLinkage, travels: Mapping[int, tuple[float, float]] | None = None
+    linkage: SpatialLinkage,
+    travels: Mapping[int, tuple[float, float]] | None = None,
+    planes: Mapping[int, Reals] | None = None,
 ) -> dict[str, tuple[Solid, ...]]:
     """The bodies of every link in the reference pose.
 
     Args:
         linkage: in space or on the sphere, where the joints lie on a ball of the radius 1.
         travels: between which values sliding joints move, by number: their rods are so long.
+        planes: least and most along the axes of joints that slide on a plane, (2, 3): it is so large.
     """
     chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
     spherical = chain.space is Space.SPHERICAL
@@ -103,7 +106,8 @@ def link_solids(
                 fork, hold = _fork(cross, link, heading, radius)
                 solids[link] += fork
             elif cross is None:
-                solids[link] += _symbol(linkage, number, at, radius, ends, outer=link == outer)
+                plane = (planes or {}).get(number, np.zeros((2, 3)))
+                solids[link] += _symbol(linkage, number, at, radius, ends, plane, outer=link == outer)
             holds[link].append(hold)
     for cross in crosses:
         solids[cross.body or list(cross.arms)[-1]] += _spider(cross, radius)
@@ -218,7 +222,7 @@ def _side(linkage: SpatialLinkage, number: int) -> float:
 
 
 def _symbol(
-    linkage: SpatialLinkage, number: int, at: Reals, r: float, ends: tuple[float, float], *, outer: bool
+    linkage: SpatialLinkage, number: int, at: Reals, r: float, ends: tuple[float, float], plane: Reals, *, outer: bool
 ) -> Iterator[Solid]:
     """The sleeve, block, ball or fork of one link of a joint."""
     pair = linkage.mechanism.chain.joints[number].pair
@@ -251,7 +255,8 @@ def _symbol(
         half, thick = (_LONG, 1.3) if outer else (_LONG + 1.2, 0.7)
         yield cylinder_solid(at - half * r * axis, at + half * r * axis, thick * r)
     else:
-        yield box_solid(at, axes, (3 * r, 0.3 * r, 3 * r)) if outer else ball_solid(at, r)
+        half = np.array([3, 0.3, 3]) * r + np.ptp(plane, axis=0) / 2
+        yield box_solid(at + axes @ plane.mean(axis=0), axes, half) if outer else ball_solid(at, r)
 
 
 def _thread(start: Reals, end: Reals, r: float) -> Solid:

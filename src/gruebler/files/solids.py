@@ -110,7 +110,7 @@ def ball_solid(middle: Reals, radius: float) -> Solid:
     return turned_solid(middle - up, middle + up, profile)
 
 
-def box_solid(middle: Reals, axes: Reals, halves: tuple[float, float, float]) -> Solid:
+def box_solid(middle: Reals, axes: Reals, halves: Sequence[float] | Reals) -> Solid:
     """A box along the columns of a rotation."""
     signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
