@@ -8,7 +8,7 @@ import type { PointRecord, Target } from "./model";
 import type { OtherModes } from "./modes";
 import { origin, type Pair, place, placesOf, turn } from "./rows";
 import { ownColour, type Shown } from "./shown";
-import { markSize, numberOf } from "./targets";
+import { armOf, markSize, numberOf } from "./targets";
 import type { Viewport } from "./viewport";
 
 const DASHES = [6, 4];
@@ -80,10 +80,11 @@ export class Painter {
     pen.font = "12px system-ui, sans-serif";
     pen.textAlign = "center";
     const ring = markSize(targets, 6, 1 / viewport.scale);
+    const arm = armOf(targets, 26, 1 / viewport.scale);
     const arrows = targets.map(([x, y, degrees]) => {
       const phi = (degrees ?? 0) * DEGREE;
       const [u, v] = viewport.screen(x, y);
-      return [ring, degrees === undefined ? ring : 26].map(
+      return [ring, degrees === undefined ? ring : arm].map(
         (far): Pair => [u + far * Math.cos(phi), v - far * Math.sin(phi)],
       );
     });

@@ -127,7 +127,7 @@ export class CatalogView implements View {
         h("div.form", {}, h("h2", {}, t("Catalog")), this.#note),
         this.#kinds,
         h("div.form.search", {}, words, order),
-        more,
+        h("div.form", {}, more),
         this.#cards,
       ),
     );

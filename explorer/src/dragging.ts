@@ -296,7 +296,7 @@ export class Dragging {
     if (lines.length) {
       const [line, pin] = this.#lineFirst(first, second);
       value = Math.abs(sizes.leftOf(line, ...sizes.xy(pin)));
-      if (value < sizes.near && link !== model.frame) return null;
+      if (value < 1e3 * sizes.near && link !== model.frame) return null;
     } else value = sizes.gap(first, second);
     if (this.#locked[sizes.element(first).joint] && this.#locked[sizes.element(second).joint]) return null;
     return { link, first, second, value: value < 1e3 * sizes.near ? 0 : value };

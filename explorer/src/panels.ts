@@ -129,7 +129,9 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
     onkeydown: (event: KeyboardEvent) => event.stopPropagation(),
   });
   const pins = [first, second].every((k) => linkage.sizes.is(k, "pin"));
-  const name = pins || link !== linkage.model.frame ? linkage.linkName(link) : t("eccentricity");
+  const ofFrame = link === linkage.model.frame;
+  const called = [pins || !ofFrame ? linkage.linkName(link) : "", pins ? "" : t("eccentricity")];
+  const name = called.filter(Boolean).join(", ");
   const lettered = linkage.letterOf(0);
   const ends = `${others(first)}${lettered ? "–" : " – "}${others(second)}`;
   const bold = h("b", {}, lettered ? ends : name);

@@ -30,7 +30,16 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty()
   const file = h("input", { type: "file", accept: "image/*", hidden: true, onchange: read });
   return [
     ...(rows.length
-      ? [rowsTable(rows, t("Joint"), ["x", "y"], false, typed, (k) => knotName(drawing, numbers[k]!))]
+      ? [
+          rowsTable(
+            rows,
+            numbers.every((k) => knots[k]!.links[1]) ? t("Joint") : t("Joint, point"),
+            ["x", "y"],
+            false,
+            typed,
+            (k) => knotName(drawing, numbers[k]!),
+          ),
+        ]
       : []),
     ...knots.flatMap((knot, k) => {
       const [one, two] = radiiOf(knot).map((radius) => number(radius));

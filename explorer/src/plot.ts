@@ -4,6 +4,7 @@ import { DEGREE } from "./cycle";
 import { put, svg } from "./dom";
 import { degreeStep, gridStep } from "./grid";
 import { number, t } from "./language";
+import { halfOf } from "./names";
 import type { Pair } from "./rows";
 import { Span } from "./span";
 
@@ -256,7 +257,8 @@ function relabel(group: SVGGElement, labels: [number, number, number][], anchor:
   for (const [k, [x, y, value]] of labels.entries()) {
     const text = number(value, 7);
     const old = group.children[k] ?? group.appendChild(svg("text", { "text-anchor": anchor }));
-    put(old, { transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})` });
+    const right = anchor === "middle" ? Math.min(x, WIDTH - halfOf(text)) : x; // the last one is not cut
+    put(old, { transform: `translate(${right.toFixed(1)} ${y.toFixed(1)})` });
     if (old.textContent !== text) old.textContent = text;
   }
 }

@@ -7,7 +7,7 @@ import { action, choice, h, option, renew } from "./dom";
 import { History } from "./history";
 import { t } from "./language";
 import type { Model, Target } from "./model";
-import { evenly, rowsTable, tip } from "./targets";
+import { ARM, armOf, evenly, rowsTable, tip } from "./targets";
 import { TaskPicture } from "./taskpicture";
 import { FEWEST, type Kind, wordsOf } from "./tasks";
 import type { Page, View } from "./view";
@@ -235,7 +235,8 @@ export class SynthesisView implements View {
         this.#draw();
       };
     };
-    const turned = this.kind === "positions" && this.points.find((row) => near(tip(row, unit)));
+    const arm = unit * armOf(this.points, ARM, unit);
+    const turned = this.kind === "positions" && this.points.find((row) => near(tip(row, arm)));
     // an arrow points where its end is dragged to, that of a new position from its place on
     const turn = (row: number[]) => {
       this.#held = ([u, v]) => {

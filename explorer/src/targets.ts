@@ -12,7 +12,7 @@ import { valueAt } from "./plot";
 import type { Pair } from "./rows";
 import { cross } from "./shell";
 
-const ARM = 14; // of the arrow that shows the angle of a position
+export const ARM = 14; // of the arrow that shows the angle of a position
 const LONG = 100; // millimetres of a rocker of which only the swing is known
 const AWAY = 6; // from a point to the middle of its number
 const CROWD = 9; // targets, of more only some have their numbers
@@ -88,10 +88,16 @@ export function evenly(line: number[][], count: number): { places: number[][]; c
   return { places, closed };
 }
 
-/** The end of the arrow of a position. */
-export function tip([x, y, turn]: number[], unit: number): number[] {
+/** How long the arrows of positions are: shorter where they are near each other, so that none ends upon another. */
+export function armOf(rows: readonly (readonly (number | undefined)[])[], longest: number, unit: number): number {
+  const gaps = rows.flatMap(([x, y], k) => rows.slice(k + 1).map(([u, v]) => Math.hypot(x! - u!, y! - v!)));
+  return Math.max(0.4 * longest, Math.min(longest, (0.6 * Math.min(...gaps)) / unit));
+}
+
+/** The end of the arrow of a position, which is so long. */
+export function tip([x, y, turn]: number[], arm: number): number[] {
   const phi = (turn ?? 0) * DEGREE;
-  return [x! + ARM * unit * Math.cos(phi), y! + ARM * unit * Math.sin(phi)];
+  return [x! + arm * Math.cos(phi), y! + arm * Math.sin(phi)];
 }
 
 /** The pivot of a rocker, its end at both ends of its swing in degrees, and that between them: of a design, else of a
@@ -166,9 +172,10 @@ export function numberPlaces(
   unit: number,
   drawn: readonly Pair[][] = [],
 ): Pair[] {
+  const arm = unit * armOf(rows, ARM, unit);
   const lines = rows.map((row, k) => {
     const next = rows[k + 1] ?? (closed ? rows[0]! : row);
-    return [row, row.length > 2 ? tip(row, unit) : next].map(([x, y]): Pair => [x!, y!]);
+    return [row, row.length > 2 ? tip(row, arm) : next].map(([x, y]): Pair => [x!, y!]);
   });
   const placed = [...lines, ...drawn];
   return rows.map(([x, y], k) => {
@@ -180,8 +187,9 @@ export function numberPlaces(
 }
 
 /** A point with its number, and the arrow of a position; all of it in units that are so long. */
-export function targetMark([x, y, turn]: number[], k: number, [at, up]: Pair, unit: number, r: number, name: string) {
-  const [u, v] = tip([0, 0, turn ?? 0], 1);
+export function targetMark(rows: readonly number[][], k: number, [at, up]: Pair, unit: number, r: number) {
+  const [x, y, turn] = rows[k]!;
+  const [u, v] = tip([0, 0, turn ?? 0], armOf(rows, ARM, unit));
   return svg(
     "g",
     { "data-point": String(k), transform: `translate(${x} ${-y!}) scale(${unit})` },
@@ -189,6 +197,6 @@ export function targetMark([x, y, turn]: number[], k: number, [at, up]: Pair, un
       ? []
       : [svg("path.arm", { d: `M0 0L${u} ${-v!}` }), svg("circle.tip", { r: 1.8, cx: u!, cy: -v! })]),
     svg("circle", { r }),
-    svg("text", { x: (at - x!) / unit, y: (y! - up) / unit + 2, "text-anchor": "middle" }, name),
+    svg("text", { x: (at - x!) / unit, y: (y! - up) / unit + 2, "text-anchor": "middle" }, numberOf(k, rows.length)),
   );
 }

@@ -786,3 +786,22 @@ def test_of_five_positions_without_a_design_it_is_said_what_is_wanting():
         less = answer("synthesise", asked | {"crank": False, "transmission": least}, "en", print)
         assert less["total"] == found
     assert "Verworfen (1): der Antrieb läuft nicht um und" in answer("synthesise", asked, "de", print)["note"]
+
+
+def test_arrows_of_near_positions_end_before_the_next_ones(design):
+    """In the plane and in Motion: where two are nearer than an arrow is long, both are shorter."""
+    view = design.page
+    view.click('[data-value="positions"]')
+    rows = [[0, 0, 0], [9, 0, 20], [60, 30, 40]]
+    view.evaluate(f"{VIEW}.rows.positions = {rows}")
+    view.click('[data-value="points"]')
+    view.click('[data-value="positions"]')
+    long, gap = view.evaluate("""() => {
+        const middle = (one) => (({ left, right, top, bottom }) => [(left + right) / 2, (top + bottom) / 2])(
+            one.getBoundingClientRect());
+        const marks = [...gruebler.root.querySelectorAll(".plane [data-point]")];
+        const [first, second] = marks.map((one) => middle(one.querySelector("circle:not(.tip)")));
+        const tip = middle(marks[0].querySelector(".tip"));
+        return [tip, second].map(([x, y]) => Math.hypot(x - first[0], y - first[1]));
+    }""")
+    assert 0.3 * gap < long < 0.75 * gap

@@ -232,7 +232,9 @@ def test_bars_stay_bars_and_names_stay_names(plane):
     assert "at 0°, link 2" in view.locator(".facts").first.inner_text()
     view.click('[data-view="build"]')
     view.evaluate("gruebler.views.build.empty()")
+    assert view.locator("th", has_text="Joint").all_inner_texts() == []
     view.click('[data-begin="six-bar"]')
+    assert view.locator("th").first.inner_text() == "Joint, point"  # seven joints, and E
     view.locator('[data-act="move"]').click()
     plane.until("gruebler.view === 'motion' && gruebler.motion.linkage.sizes.points[0]?.name === 'E'")
     letters = "gruebler.motion.linkage.beside.letters"

@@ -674,3 +674,35 @@ def test_a_rod_that_slides_stays_in_the_picture(tab, tmp_path):
         assert stage["y"] <= rod[0] <= rod[1] <= stage["y"] + stage["height"], drive
         heights.append(rod[1] - rod[0])
     assert max(heights) > 0.3 * stage["height"]  # it swings
+
+
+def test_offsets_of_slides_are_called_so_and_none_is_no_size(tab, tmp_path):
+    file, path = tmp_path / "offset.json", tmp_path / "offset.html"
+    for offset, told in ((10.0, ["coupler, eccentricity"]), (2e-8, [])):
+        file.write_text(json.dumps(linkage_to_json(InvertedSliderCrank(a=30, d=50, e=offset).linkage())))
+        assert main(["explore", str(file), "-o", str(path)]) == 0
+        page = tab().open(path.as_uri()).page
+        assert [name for name in page.locator(".rows label b").all_inner_texts() if "," in name] == told
+        assert "coupler" not in page.locator(".rows label b").all_inner_texts()
+
+
+def test_the_last_number_of_an_axis_and_the_room_over_cards_are_whole(tab, server):
+    """Four turns, 1440 degrees, stand at the very end of the axis; cards keep off the features as from each other."""
+    page = tab(width=1440, height=900).open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-id="geneva"]').wait_for()
+    bottom, top = page.page.evaluate("""() => {
+        const [over, cards] = ["details", ".cards"].map((name) =>
+            gruebler.root.querySelector(`[data-page=catalog] ${name}`).getBoundingClientRect());
+        return [over.bottom, cards.top];
+    }""")
+    assert top - bottom >= 8
+    page.page.click('[data-id="geneva"]')
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'geneva'")
+    last = "[...gruebler.root.querySelectorAll('.plot text')].find((one) => one.textContent === '1440')"
+    page.until(f"{last} !== undefined")
+    right, end = page.page.evaluate(f"""(() => {{
+        const last = {last};
+        return [last, last.closest(".plot")].map((one) => one.getBoundingClientRect().right);
+    }})()""")
+    assert right <= end
