@@ -70,7 +70,7 @@ export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap:
   if (linkage.drive) {
     const full = cycle.turns === 1 ? t("full turns") : t("full turns, repeats after {turns}", { turns: cycle.turns });
     const low = linkage.drive.turning ? angle(cycle.low) : number(cycle.low);
-    const part = `${low} … ${driveText(linkage, cycle.high, 4)}`;
+    const part = `${low} … ${driveText(linkage, cycle.high, 4).replace(" ", "\u00a0")}`;
     facts.push({ name: t("Range of the drive"), text: cycle.full ? full : part });
   }
   for (const { name, text } of readingsOf(linkage)) facts.push({ name, text });

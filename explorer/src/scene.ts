@@ -26,6 +26,8 @@ const MOST_CLEAR = 40; // names that look for a place of their own in every pict
 const TOOLS = 218; // down to where names are clear of the buttons over the picture
 const BESIDE = 56; // from the right edge of the picture to the left one of these
 const NEAR = 16; // places of a letter of which others are twice as far
+const RULE = 34; // from the left edge to where the numbers of the grid end
+const RING = 6; // the radius of a target
 const RAIL = 6; // half the width of a rail with its hatching, and some room
 
 export class Scene {
@@ -236,6 +238,10 @@ export class Scene {
       .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
       .map(({ joint }) => standing(viewport.screen(...linkage.jointAt(joint))));
     grounds.push(...model.drives.map(({ joint }) => driving(viewport.screen(...linkage.jointAt(joint)))));
+    for (const [x, y] of linkage.beside.targets ?? []) {
+      const [u, v] = viewport.screen(x, y);
+      grounds.push([-RING, RING].map((d): Pair => [u + d, v]));
+    }
     const { height, width } = viewport;
     const low = height < 2 * TOOLS ? 72 : TOOLS; // a low picture has one button only
     const buttons: Pair[] = [
@@ -262,7 +268,7 @@ export class Scene {
           (other) => half + other.half + 4 > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01,
         );
       const clear = (of: Pair[][]) => (at: Pair) => !touching(at) && of.every((one) => clearOf(one, half, at));
-      const seen = ([u, v]: Pair) => u > half && u + half < width - (v < low ? BESIDE : 0);
+      const seen = ([u, v]: Pair) => u > half + RULE && u + half < width - (v < low ? BESIDE : 0);
       const free = clear(hulls[k]!.length ? arrows : drawn);
       if (hulls[k]!.length) {
         // of a plate upon which it lies only the edges are others

@@ -38,11 +38,12 @@ export class Viewport {
     const narrow = this.width < 500;
     const margin = narrow ? 34 : this.margin;
     const keys = narrow ? 56 : 0; // the buttons on the right
+    const rule = narrow ? 22 : 0; // the numbers on the left
     const foot = below ?? (narrow ? margin : 0); // what can be done, in two lines
     const wide = Math.max(right - left, least);
     const high = Math.max(top - bottom, least);
-    this.scale = Math.min((this.width - 2 * margin - keys) / wide, (this.height - 2 * margin - foot) / high);
-    this.#ox = (this.width - keys) / 2 - (this.scale * (left + right)) / 2;
+    this.scale = Math.min((this.width - 2 * margin - keys - rule) / wide, (this.height - 2 * margin - foot) / high);
+    this.#ox = (this.width - keys + rule) / 2 - (this.scale * (left + right)) / 2;
     this.#oy = (this.height - foot) / 2 + (this.scale * (bottom + top)) / 2;
     this.fitted = true;
   }

@@ -706,3 +706,36 @@ def test_the_last_number_of_an_axis_and_the_room_over_cards_are_whole(tab, serve
         return [last, last.closest(".plot")].map((one) => one.getBoundingClientRect().right);
     }})()""")
     assert right <= end
+
+
+def test_a_name_keeps_off_a_target(tab, crank_rocker):
+    page = tab().open(crank_rocker).page
+    page.evaluate("gruebler.motion.transport.pause()")
+    page.evaluate("gruebler.motion.transport.pick(1)")
+    place = """(() => {
+        const all = [...gruebler.motion.stage.root.querySelectorAll("text.name")];
+        const { e, f } = all.find((one) => one.textContent === "coupler").transform.baseVal[0].matrix;
+        return [e, f - 4];
+    })()"""
+    x, y = page.evaluate(place)
+    page.evaluate(f"""(() => {{
+        const {{ linkage, stage }} = gruebler.motion;
+        linkage.beside = {{ ...linkage.beside, targets: [stage.viewport.world({x}, {y})] }};
+        stage.draw();
+    }})()""")
+    u, v = page.evaluate(place)
+    assert abs(u - x) > 26 + 6 or abs(v - y) > 12  # half of "coupler" and a ring, of 6 pixels
+
+
+def test_on_a_phone_a_pivot_stands_beside_the_numbers_of_the_grid(tab, server):
+    page = tab(width=390, height=844, touch=True).open(server.address).page
+    least = page.evaluate("""(() => {
+        const { linkage, stage } = gruebler.motion, { rows, values } = linkage.cycle;
+        const all = [...values.keys()].flatMap((row) => linkage.model.joints.map((_, k) =>
+            stage.viewport.screen(...linkage.jointAt(k, rows, row))[0]));
+        return Math.min(...all);
+    })()""")
+    numbers = page.locator(".view.motion:not([data-page]) .stage text.tick").evaluate_all(
+        "all => all.map((one) => one.getBoundingClientRect()).filter(({ left }) => left < 10).map(({ right }) => right)"
+    )
+    assert max(numbers) < least - 6  # a joint has a radius of 5.5 pixels
