@@ -80,11 +80,11 @@ interface Tried {
 
 export class ExercisesView implements View {
   readonly element = h("div.view", { "data-page": "exercises" });
-  #kind = "mobility";
+  private kind = "mobility";
   #listed: Kind[] = [];
   #chosen = "exercise-1";
-  #level = 1;
-  #seed = 1 + Math.floor(Math.random() * 9999);
+  private level = 1;
+  private seed = 1 + Math.floor(Math.random() * 9999);
   private task: Task | null = null;
   #marked: Marked | null = null;
   readonly #place = h("div", {});
@@ -126,23 +126,23 @@ export class ExercisesView implements View {
     this.#listed = await this.#page.ask<Kind[]>("exercise_kinds", {});
     const options = this.#listed.map(({ kind, name }): [string, string] => [kind, name]);
     const choose = (kind: string) => {
-      this.#kind = kind;
-      void this.#fresh();
+      this.kind = kind;
+      void this.fresh();
     };
-    renew(this.#kinds, choice(t("Theory"), options, this.#kind, choose, { class: "choice palette" }));
-    return this.#fresh();
+    renew(this.#kinds, choice(t("Theory"), options, this.kind, choose, { class: "choice palette" }));
+    return this.fresh();
   }
 
   /** The exercises of the text; none for a kind of fresh tasks. */
   #numbered(): Kind["tasks"] {
-    return this.#listed.find(({ kind }) => kind === this.#kind)?.tasks ?? [];
+    return this.#listed.find(({ kind }) => kind === this.kind)?.tasks ?? [];
   }
 
   #next(): void {
     const tasks = this.#numbered();
-    this.#seed += 1;
+    this.seed += 1;
     this.#chosen = tasks[(tasks.findIndex(({ id }) => id === this.#chosen) + 1) % tasks.length]?.id ?? this.#chosen;
-    void this.#fresh();
+    void this.fresh();
   }
 
   /** Between which tasks of a kind one chooses: levels, or exercises of the text. */
@@ -152,22 +152,22 @@ export class ExercisesView implements View {
       const options = tasks.map(({ id, name }): [string, string] => [id, name]);
       const choose = (id: string) => {
         this.#chosen = id;
-        void this.#fresh();
+        void this.fresh();
       };
       return renew(this.#tasks, menu(t("Exercises"), options, this.#chosen, choose));
     }
     const levels = [1, 2, 3].map((k): [string, string] => [String(k), t("Level {level}", { level: k })]);
-    const level = choice(t("Level"), levels, String(this.#level), (value) => {
-      this.#level = Number(value);
-      void this.#fresh();
+    const level = choice(t("Level"), levels, String(this.level), (value) => {
+      this.level = Number(value);
+      void this.fresh();
     });
     renew(this.#tasks, level);
   }
 
   /** The task that is chosen; of the one that is shown the answers stay. */
-  async #fresh(): Promise<void> {
+  private async fresh(): Promise<void> {
     this.#showTasks();
-    const id = this.#numbered().length ? this.#chosen : `${this.#kind}-${this.#level}-${this.#seed}`;
+    const id = this.#numbered().length ? this.#chosen : `${this.kind}-${this.level}-${this.seed}`;
     try {
       const task = await this.#page.ask<Task>("exercise", { id });
       if (task.id !== this.task?.id) this.#answers = {};
