@@ -24,6 +24,8 @@ from gruebler.files import linkage_to_json  # noqa: E402
 from gruebler.mechanics.fourbar import FourBar  # noqa: E402
 from gruebler.page import worker  # noqa: E402
 from gruebler.page.model import model_of  # noqa: E402
+from gruebler.page.requests import answer  # noqa: E402
+from gruebler.teaching.catalog import entry  # noqa: E402
 from tests.page.conftest import Server  # noqa: E402
 
 
@@ -335,3 +337,12 @@ def test_answers_are_those_of_the_library(server):
     wanted = json.loads(json.dumps(model_of(linkage)))
     assert found["program"] == wanted["program"]
     assert found["start"] == wanted["start"]
+
+
+def test_words_name_links_as_the_page_does():
+    """With spaces: the names of the file are those of the command line."""
+    document = linkage_to_json(entry("bolt_cutter").linkage())
+    said = answer("measures", {"document": document, "source": "bolt_cutter"}, "en", print)
+    words = "\n".join(said["lines"])
+    assert "The output upper jaw swings" in words
+    assert "_" not in words

@@ -257,7 +257,8 @@ def _measures(asked: MeasureLinkage, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.page.model import link_names
 
     linkage = linkage_from_json(asked.document)
-    named = linkage.renamed(link_names(linkage, asked.source, lang))
+    names = link_names(linkage, asked.source, lang).items()
+    named = linkage.renamed({link: name.replace("_", " ") for link, name in names})
     cycle = drive_cycle(named)
     if len(asked.between) == 2:
         cycle = part_of_cycle(cycle, *asked.between)
