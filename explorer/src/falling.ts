@@ -4,11 +4,12 @@ import type { Rows } from "./kernel";
 import { number } from "./language";
 import type { Linkage } from "./linkage";
 
-/** Poses of all links, x and y, cosine and sine in turn, so many a second. */
+/** Poses of all links, x and y, cosine and sine in turn, and the values of the drives, so many a second. */
 export interface Fall {
   rate: number;
   places: number[][];
   turns: number[][];
+  drives: number[][];
   lines: string[];
 }
 
@@ -23,6 +24,11 @@ export class Falling {
     linkage: Linkage,
   ) {
     this.start = linkage.pose;
+  }
+
+  /** The values of the drives now. */
+  get drives(): number[] {
+    return this.fall.drives[Math.floor(this.#at)]!;
   }
 
   get text(): string {

@@ -21,6 +21,10 @@ export class PlaneTransport extends Transport<DrivenInPlane> {
     return this.falling?.text ?? super.text;
   }
 
+  protected override get drives(): ArrayLike<number> {
+    return this.falling?.drives ?? super.drives;
+  }
+
   /** Let the drive follow a place of a link that is pulled, in a few steps along its velocity. */
   pull(link: number, u: number, v: number, x: number, y: number): void {
     this.pause();

@@ -85,10 +85,14 @@ export class Transport<View extends Driven = Driven> {
     renew(this.element, ...(this.view.linkage.drive ? row : []));
   }
 
+  protected get drives(): ArrayLike<number> {
+    return this.view.linkage.drives;
+  }
+
   /** The value of the drive as it is plotted. */
   get drive(): number {
-    const { active, cycle, drives } = this.view.linkage;
-    return wrapped(cycle, drives[active] ?? 0);
+    const { active, cycle } = this.view.linkage;
+    return wrapped(cycle, this.drives[active] ?? 0);
   }
 
   get range(): [number, number] {
@@ -108,9 +112,8 @@ export class Transport<View extends Driven = Driven> {
   }
 
   showValue(): void {
-    const { linkage } = this.view;
     this.#value.value = this.text;
-    const drive = linkage.drives[linkage.active];
+    const drive = this.drives[this.view.linkage.active];
     if (drive !== undefined) this.#track.set(drive);
   }
 

@@ -92,6 +92,7 @@ def test_a_pendulum_swings_in_its_own_time():
     crank = [math.atan2(row[3], row[2]) + math.pi / 2 for row in told["turns"]]
     wanted = [0.02 * math.cos(math.sqrt(9.80665 / 0.04) * k / told["rate"]) for k in range(len(crank))]
     assert crank == pytest.approx(wanted, abs=2e-5)
+    assert [one + math.pi / 2 for (one,) in told["drives"]] == pytest.approx(wanted, abs=2e-5)
 
 
 def test_a_spring_pulls_by_its_law_and_a_torsion_spring_turns_by_its_own():
@@ -233,6 +234,9 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     seconds = "Number.parseFloat(gruebler.root.querySelector('.transport .value').value.replace(',', '.'))"
     for part in ("> 1.7", "< 0.5", "> 1.7"):  # again and again, until it is paused
         page.until(f"{seconds} {part}", 90)
+    turned = "((turns) => Math.atan2(turns[3], turns[2]) * 180 / Math.PI)(gruebler.motion.linkage.pose.turns)"
+    shown = "Number(gruebler.root.querySelector('.track').getAttribute('aria-valuenow'))"
+    page.until(f"Math.abs((({turned} - {shown}) % 360 + 540) % 360 - 180) < 0.01")  # of the crank as it falls
     page.page.locator("button.play").click()
     assert page.page.evaluate(POSE) == before
     assert "12/min" in page.page.locator(".transport .speed").inner_text()

@@ -95,7 +95,10 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
 
 
 def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
-    """Poses of all links, sixty a second, when only weights and springs act; why they end if they do too soon."""
+    """Poses of all links and values of the drives, sixty a second, when only weights and springs act.
+
+    And why they end if they do too soon.
+    """
     linkage, loads, *_ = _laden(asked, lang)
     free = replace(loads, forces={}, moments={}, motors={})
     times = np.arange(round(asked.until * _A_SECOND) + 1) / _A_SECOND
@@ -111,6 +114,7 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         "rate": _A_SECOND,
         "places": _short(places).reshape(len(run), -1).tolist(),
         "turns": _short(turns).reshape(len(run), -1).tolist(),
+        "drives": _short(run.drives).tolist(),
         "lines": [*(line.in_language(lang) for line in said), *filter(None, [run.message(lang)])],
     }
 
