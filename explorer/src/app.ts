@@ -18,7 +18,7 @@ import type { Model } from "./model";
 import { MotionView } from "./motion";
 import { contentOf, takeDropped } from "./opening";
 import { openShared, type Shared, sharedOf, shareLink } from "./sharing";
-import { firstTheme, setTheme, shell, type Theme, tool } from "./shell";
+import { firstTheme, setTheme, shell, themeTool, tool } from "./shell";
 import { IN_SPACE, type InSpace, stored } from "./storing";
 import { StructureView } from "./structure";
 import { SynthesisView } from "./synthesis";
@@ -60,7 +60,7 @@ export class App implements Page {
     this.host = host;
     this.#shadow = shadow;
     setLanguage(firstLanguage(String(model.get("lang") ?? "")));
-    this.setTheme(firstTheme());
+    setTheme(this.host, firstTheme(), this.#linkable);
     this.backend = new Backend(model);
     this.motion = new MotionView(this);
     this.views = { motion: this.motion };
@@ -146,10 +146,6 @@ export class App implements Page {
 
   get #linkable(): boolean {
     return this.model.get("host") !== "notebook";
-  }
-
-  setTheme(theme: Theme): void {
-    setTheme(this.host, theme, this.#linkable);
   }
 
   // --- views ---------------------------------------------------------------------------------------------------------
@@ -270,10 +266,7 @@ export class App implements Page {
       tool("open", t("Open a file"), () => file.click()),
       saving(() => this.#save(() => showExport(this.root, this, this.motion))),
       tool("link", t("Copy the link"), () => void this.share()),
-      tool("theme", t("Light or dark"), () => {
-        this.setTheme(this.host.dataset.theme === "dark" ? "light" : "dark");
-        this.motion.stage.recoloured();
-      }),
+      themeTool(this.host, this.#linkable, () => this.motion.stage.recoloured()),
       tool("keys", t("Keys"), () => this.#keyed.showKeys()),
       languageMenu(() => this.arrange()),
     );

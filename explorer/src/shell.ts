@@ -3,6 +3,7 @@
 import { h } from "./dom";
 import { type Icon, icon } from "./icons";
 import { t } from "./language";
+import { store, stored } from "./storing";
 
 export type Theme = "light" | "dark";
 
@@ -23,9 +24,12 @@ export function shell(parent: HTMLElement, height: string, styles = ""): { host:
   return { host, shadow };
 }
 
-/** What the reader's system asks for. */
+const THEME = "gruebler-theme";
+
+/** What the reader chose last, else what the system asks for. */
 export function firstTheme(): Theme {
-  return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  const asked = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  return stored<Theme>(THEME, "localStorage") ?? asked;
 }
 
 export function setTheme(host: HTMLElement, theme: Theme, alone: boolean): void {
@@ -37,6 +41,16 @@ export function setTheme(host: HTMLElement, theme: Theme, alone: boolean): void 
 /** A button of the header. */
 export function tool(sign: Icon, title: string, act: () => void, disabled = false): HTMLElement {
   return h("button.quiet", { title, "aria-label": title, "data-icon": sign, onclick: act, disabled }, icon(sign));
+}
+
+/** The button for the other theme, which is kept for the next page; then the pictures take its colours. */
+export function themeTool(host: HTMLElement, alone: boolean, recolour: () => void): HTMLElement {
+  return tool("theme", t("Light or dark"), () => {
+    const other = host.dataset.theme === "dark" ? "light" : "dark";
+    store(THEME, other, "localStorage");
+    setTheme(host, other, alone);
+    recolour();
+  });
 }
 
 /** A button over the picture. */

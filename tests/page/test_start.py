@@ -108,3 +108,13 @@ def test_an_older_browser_gets_its_style_sheet_too(tab, tmp_path):
     page = tab().open(path.as_uri())
     assert page.page.evaluate(f"getComputedStyle({SHADOW}.querySelector('header')).display") == "flex"
     assert not page.page.evaluate(LOADING)
+
+
+@pytest.mark.parametrize("width", [1440, 390])
+def test_light_or_dark_is_kept_for_the_next_page(tab, server, width):
+    page = tab(width=width, height=844, touch=width < 500, scheme="light").open(server.address)
+    theme = "document.querySelector('.gruebler-explorer').dataset.theme"
+    page.page.get_by_role("button", name="Light or dark").click()
+    page.page.reload()
+    page.page.wait_for_selector("[data-icon=theme]")
+    assert page.page.evaluate(theme) == "dark"

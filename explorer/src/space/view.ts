@@ -9,7 +9,7 @@ import { centred, languageMenu, saving, sayIn, viewNames } from "../header";
 import { drivenBy, showOver, showRows } from "../help";
 import { angle, currentLanguage, type Language, number, t } from "../language";
 import { fromBase64 } from "../packed";
-import { firstTheme, panelOf, setTheme, shell, tool } from "../shell";
+import { firstTheme, panelOf, setTheme, shell, themeTool, tool } from "../shell";
 import { IN_SPACE, type InSpace, store } from "../storing";
 import { driveText } from "../track";
 import { type Driven, Transport } from "../transport";
@@ -120,10 +120,7 @@ export class SpaceView implements Driven {
       ...(this.data.home ? [this.#ways()] : []),
       h("span.spring", {}),
       ...this.#tools(),
-      tool("theme", t("Light or dark"), () => {
-        setTheme(this.#host, this.#host.dataset.theme === "dark" ? "light" : "dark", true);
-        this.scene.recoloured();
-      }),
+      themeTool(this.#host, true, () => this.scene.recoloured()),
       tool("keys", t("Keys"), () => this.#help()),
       languageMenu(() => {
         history.replaceState(null, "", `#${currentLanguage()}`);
