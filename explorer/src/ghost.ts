@@ -65,7 +65,7 @@ export class Ghost {
     const hatched = (k: number) => (still(k) ? ["rail", "rail-hatch"] : ["rail"]).map((name) => svg(`path.${name}`));
     const bodies = [...rails.map(([end]) => hatched(end!)), ...bodiesOf(members)];
     const driven = drive === undefined ? [] : [mark("driven", DRIVEN, first[drive]!, unit)];
-    renew(this.element, ...curves, ...bodies.flat(), ...grounds, ...pins, ...driven);
+    renew(this.element, ...bodies.flat(), ...grounds, ...curves, ...pins, ...driven); // plates cover no curve
     const calm = wantsStill();
     const begun = performance.now();
     const tick = (now: number) => {

@@ -111,11 +111,9 @@ export class TaskPicture {
     renew(
       this.#marks,
       ...gridOf(this.#area, angles ? wordsOf(kind).heads : []),
-      ...(swing
-        ? swingMark(swing, points[0]!, unit, design)
-        : [charted ? svg("path.curve", { d: pathOf(charted) }) : wanted]),
-      ...(charted ? [this.#here] : [this.#ghost.element]),
-      ...(swing ? [] : points.map(mark)),
+      ...(swing ? swingMark(swing, points[0]!, unit, design) : []),
+      ...(charted ? [svg("path.curve", { d: pathOf(charted) }), this.#here] : [this.#ghost.element]),
+      ...(swing ? [] : [...(charted ? [] : [wanted]), ...points.map(mark)]),
       ...pivots.map((place) => svg("g", { "data-pivot": "" }, groundMark(place, unit))),
     );
     put(this.plane, { viewBox: viewBoxOf(this.#area) });

@@ -184,6 +184,11 @@ def test_a_drawn_curve_is_met_by_a_linkage_of_its_size(design):
     assert numbers == ["1", "6", "11", "16"]
     drawn = np.array(view.evaluate(f"{VIEW}.points"))
     found_designs(view)
+    # no plate covers the curve that is reached or the one that is wanted
+    order = view.locator(".plane :is([data-ghost] .bar, [data-ghost] .curve, .polygon)").evaluate_all(
+        "all => all.map((one) => one.classList[0])"
+    )
+    assert order == ["bar"] * 3 + ["curve", "polygon"]
     told = float(values_of(view, "deviation")[0].removesuffix(" mm"))
     assert told < 1.5
     linkage = opened(design)
