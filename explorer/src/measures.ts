@@ -256,9 +256,12 @@ export function leastTransmission(linkage: Linkage): Least | null {
   );
   const most = Math.min(...all.flat().filter(Number.isFinite));
   const found = legsOf(linkage).flatMap((leg, k) => lowsOf(linkage, leg, all[k]!, most));
-  found.sort((one, other) => wrapped(cycle, one.value) - wrapped(cycle, other.value));
   const least = Math.min(...found.map(({ mu }) => mu));
-  return found.find(({ mu }) => mu <= least + SAME_ANGLE) ?? null;
+  const lowest = found.filter(({ mu }) => mu <= least + SAME_ANGLE);
+  const first = Math.min(...lowest.map(({ value }) => wrapped(cycle, value)));
+  const here = lowest.filter(({ value }) => wrapped(cycle, value) - first < 1e-6 * (cycle.high - cycle.low));
+  const name = ({ leg }: Least) => leg?.links.map((link) => linkage.linkName(link)).join() ?? "";
+  return here.sort((one, other) => (name(one) < name(other) ? -1 : 1))[0] ?? null; // of several the same as in words
 }
 
 /** The smallest angles of a leg, whose angles in the rows of the cycle are given; those that are larger than one that

@@ -355,6 +355,21 @@ def test_what_is_said_in_words_holds_for_the_range_in_which_a_machine_is_used(ta
         assert f" {dict(facts)[name]}" in said
 
 
+@pytest.mark.parametrize("id_", ["peaucellier", "hart"])
+def test_words_and_measures_name_one_link_where_several_are_as_bad(tab, server, id_):
+    """By symmetry; both take the first by name."""
+    page = tab().open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator(f'[data-id="{id_}"]').click()
+    page.until(f"gruebler.view === 'motion' && gruebler.motion.linkage.model.source === '{id_}'")
+    page.page.locator('[data-panel="measures"] summary:text-is("In words")').click()
+    words = page.page.locator('[data-panel="measures"] .words .note')
+    words.filter(has_text="ransmission").wait_for()
+    measured = page.page.locator('.facts > div:has(dt:text-is("Smallest μ"))').inner_text()
+    (link,) = re.findall(r"bar ?\d", measured)
+    assert f"(link {link}" in words.first.inner_text()
+
+
 def test_words_of_another_machine_or_size_do_not_stand_as_if_they_held(tab, server):
     page = tab().open(server.address)
     page.page.locator('[data-panel="measures"] summary:text-is("In words")').click()
