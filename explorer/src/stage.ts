@@ -272,7 +272,7 @@ function reachOf(linkage: Linkage): Box {
       const at = (x: number, y: number) => place(rows, row, shape.link, x, y);
       if (shape.circle) add(at(shape.circle[0], shape.circle[1]), shape.circle[2]);
       for (const line of linesOf(sizes, shape))
-        for (let k = 0; k + 1 < line.length; k += 16) add(at(line[k]!, line[k + 1]!));
+        for (let k = 0; k + 1 < line.length; k += line.length > 99 ? 16 : 2) add(at(line[k]!, line[k + 1]!));
     }
   }
   return box;

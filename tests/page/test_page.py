@@ -355,6 +355,23 @@ def test_what_is_said_in_words_holds_for_the_range_in_which_a_machine_is_used(ta
         assert f" {dict(facts)[name]}" in said
 
 
+def test_what_is_drawn_on_links_is_in_the_picture(tab, server):
+    """The handles of the pliers reach far beyond their joints."""
+    page = tab().open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-id="pliers"]').click()
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'pliers'")
+    page.page.evaluate("gruebler.motion.transport.pause()")
+    stage = page.page.locator(".motion > .stage").bounding_box()
+    shapes = [shape.bounding_box() for shape in page.page.locator(".motion > .stage .shape").all()]
+    assert len(shapes) > 1
+    for shape in shapes:
+        assert stage["x"] < shape["x"]
+        assert shape["x"] + shape["width"] < stage["x"] + stage["width"]
+        assert stage["y"] < shape["y"]
+        assert shape["y"] + shape["height"] < stage["y"] + stage["height"]
+
+
 @pytest.mark.parametrize("id_", ["peaucellier", "hart"])
 def test_words_and_measures_name_one_link_where_several_are_as_bad(tab, server, id_):
     """By symmetry; both take the first by name."""
