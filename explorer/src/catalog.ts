@@ -78,7 +78,7 @@ export class CatalogView implements View {
     const more = h(
       "details.words",
       { open: this.#refining, "data-panel": "features", ontoggle: () => (this.#refining = more.open) },
-      h("summary", {}, t("More features")),
+      h("summary", {}, t("More filters")),
       h(
         "div.form.numbers",
         {},

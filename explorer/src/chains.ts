@@ -127,7 +127,7 @@ export class ChainList {
     if (!total) {
       const odd = (this.#links + this.mobility) % 2 === 0;
       const why = odd
-        ? t("There is none: F = 3(n − 1) − 2g, so that of links and mobility one is even and one is odd.")
+        ? t("There is none: by F = 3(n − 1) − 2g one of n and F is even, the other odd.")
         : t("There is none with so few links.");
       return renew(this.#list, h("p.note", {}, why), h("div.cards.few", {}, ...mine));
     }

@@ -93,13 +93,13 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
   };
   const recorded = filmType();
   const record = async () => {
-    say(t("The film is being recorded …"));
+    say(t("The video is being recorded …"));
     const blob = await film(shown.pictures(), choice.width, recorded!);
     save(page, say, recorded!.startsWith("video/mp4") ? "mp4" : "webm", recorded!, blob);
   };
   const gif = () => ask("gif", { zoom: Math.min(LARGEST_ZOOM, choice.width / GIF_WIDTH) });
   const widths = WIDTHS.map((value): [string, string] => [`${value}`, `${value} px`]);
-  const width = menu(t("Width of films"), widths, String(choice.width), (value) => (choice.width = Number(value)));
+  const width = menu(t("Width of videos"), widths, String(choice.width), (value) => (choice.width = Number(value)));
   const served = (name: string, kind = name.toLowerCase()) => (page.served ? button(name, () => ask(kind)) : null);
   const { unit } = page.shown;
   const groups = [
@@ -126,7 +126,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
       t("Moving picture"),
       "",
       width,
-      recorded ? button(t("Film"), () => void record().catch(failed)) : null,
+      recorded ? button(t("Video"), () => void record().catch(failed)) : null,
       page.served ? button("GIF", gif) : null,
     ),
     ...(page.served

@@ -32,8 +32,9 @@ interface Offer {
 interface Told {
   counted: number;
   generic: number;
-  /** Whether the drives fix the motion; how many there are, or why as many as are needed do not. */
+  /** Whether the drives fix the motion; a note if there are only too few; in words. */
   fixed: boolean;
+  lacking: "" | "note";
   reason: string;
   lines: string[];
   offers: Offer[];
@@ -90,12 +91,13 @@ export class MobilityPanel {
         renew(count, `F = ${generic} `, h("small", {}, t("counted {count}", { count: told.counted })));
       const offers = told.offers.map((offer) => this.#offer(offer, numbers));
       if (good) this.moving = drawing;
+      const quality = good ? "good" : told.lacking || "bad";
       const { open } = this.element.querySelector("details") ?? {};
       const move = h("button.key", { "data-act": "move", onclick: () => this.view.move() }, t("Move it"));
       renew(
         this.element,
         count,
-        h("p", { class: good ? "good" : "bad", "data-fact": "freedoms" }, reason),
+        h("p", { class: quality, "data-fact": "freedoms" }, reason),
         h("div.form", {}, ...offers, ...(good ? [move] : [])),
         h(
           "details",

@@ -53,7 +53,7 @@ export class Plots {
     for (const { name, link, at } of sizes.points)
       series.push(({ rows }) => ({
         title:
-          t("Speed of {name} by the drive", { name: linkage.pointName(name) }) +
+          t("Speed of {name} per drive speed", { name: linkage.pointName(name) }) +
           inBrackets(rateUnit(linkage, 1, false)),
         colour: "--ink",
         ...over(linkage, rows, (all, row) => Math.hypot(...place(all, row, link, ...at, 1))),

@@ -343,7 +343,7 @@ export class SynthesisView implements View {
     };
     const count = this.points.length;
     const wanted = this.#page.served || this.kind !== "points" ? FEWEST[this.kind] : NINE;
-    const lacks = count < wanted ? t("{count} of {wanted} set", { count, wanted }) : "";
+    const lacks = count < wanted ? t("{count} set, at least {wanted} needed", { count, wanted }) : "";
     this.#key.disabled = !!lacks;
     this.#clearing.disabled = !count && !this.#pivots.length;
     this.#key.title = lacks;

@@ -167,7 +167,7 @@ def test_two_drives_give_poses(capsys, tmp_path):
 def test_too_few_and_too_many_drives(capsys, tmp_path):
     for drives, words in (
         ([], "no joint is driven"),
-        (["R(0-1)"], "Mobility 2, drives 1"),
+        (["R(0-1)"], "Mobility 2, drives: 1"),
         (["R(0-1)", "R(1-2)", "R(0-4)"], "Mobility 2, drives 3"),
     ):
         status, _, err = run(capsys, five_bar(tmp_path, drives=drives))

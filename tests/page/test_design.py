@@ -232,7 +232,7 @@ def test_a_finger_takes_a_point_of_the_plane(tab, server):
     assert box["height"] > 300  # nearly a square
     assert box["y"] < 215  # header and two rows of buttons
     key = page.page.locator('[data-act="synthesise"]')
-    assert (key.is_disabled(), key.get_attribute("title")) == (True, "0 of 5 set")
+    assert (key.is_disabled(), key.get_attribute("title")) == (True, "0 set, at least 5 needed")
     assert key.bounding_box()["y"] > box["y"] + box["height"]  # not over the plane, nor under it
     page.page.touchscreen.tap(*page.target(10, 20))
     x, y = page.target(10, 20)

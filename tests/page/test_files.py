@@ -148,7 +148,7 @@ def test_a_file_of_another_program_is_dropped_and_saved_as_dxf(tab, server, tmp_
     ]
     buttons = panel.locator("[data-group] button").all_text_contents()
     assert buttons == [
-        *("JSON", "TOML", "Link kopieren", "HTML", "PNG", "SVG", "PDF", "Film", "GIF", "DXF", "MuJoCo", "URDF", "CSV"),
+        *("JSON", "TOML", "Link kopieren", "HTML", "PNG", "SVG", "PDF", "Video", "GIF", "DXF", "MuJoCo", "URDF", "CSV"),
         "Speichern",
     ]
     assert "1 : 1, mm" in panel.inner_text()
@@ -255,7 +255,7 @@ def test_the_single_file_opens_its_own_document_and_records_a_film(tab, tmp_path
     drive = page.page.evaluate("gruebler.motion.linkage.drives[0]")
     assert not page.page.evaluate("gruebler.motion.transport.player.playing")
     with page.page.expect_download(timeout=30_000) as saved:
-        page.page.locator('[data-panel="export"] button:text-is("Film")').click()
+        page.page.locator('[data-panel="export"] button:text-is("Video")').click()
     saved.value.save_as(tmp_path / "film.webm")
     assert (tmp_path / "film.webm").read_bytes().startswith(b"\x1a\x45\xdf\xa3")  # EBML, the container of WebM
     assert (tmp_path / "film.webm").stat().st_size > 5_000
@@ -263,5 +263,5 @@ def test_the_single_file_opens_its_own_document_and_records_a_film(tab, tmp_path
     assert not page.page.evaluate("gruebler.motion.transport.player.playing")
     page.page.evaluate("gruebler.motion.transport.toggle()")
     with page.page.expect_download(timeout=30_000):
-        page.page.locator('[data-panel="export"] button:text-is("Film")').click()
+        page.page.locator('[data-panel="export"] button:text-is("Video")').click()
     assert page.page.evaluate("gruebler.motion.transport.player.playing")  # it goes on

@@ -69,7 +69,11 @@ def test_sizes_that_give_another_mobility_are_told(id, generic, own, why):
     assert (record["generic"], record["own"]) == (generic, own)
     assert f"the mobility is {own}, not {generic}" in record["drives"]
     assert why in record["drives"]
-    assert record["drives"].endswith(f"Mobility {own}, drives {own}. The drives fix the motion.")
+    assert record["drives"].endswith(
+        "Mobility 1 and one drive: the motion is determined."
+        if own == 1
+        else "Mobility 2, drives: 2. The drives fix the motion."
+    )
     bare = answer("structure", {"text": text}, "en", print)
     assert bare["own"] is None
     if generic == 0:  # of the chain alone, it is so at almost all sizes
@@ -144,7 +148,7 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     view.locator('[data-page="structure"]').get_by_label("Mobility", exact=True).press("ArrowDown")
     links.fill("7")  # F = 3·6 - 2g is even
     links.press("Enter")
-    page.until("gruebler.root.textContent.includes('one is even and one is odd')")
+    page.until("gruebler.root.textContent.includes('one of n and F is even')")
     parts = '[data-list="driven"] .card, .described .facts, [data-act="realise"]'
     assert view.locator(parts).count() == 0  # nothing is shown of the chain before
     links.fill("6")

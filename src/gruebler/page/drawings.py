@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Any
 
 from gruebler.base.errors import ChainError
-from gruebler.base.text import message
+from gruebler.base.text import Message, message
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.mechanism import DriveReport, Mechanism, check_drives
@@ -67,16 +67,28 @@ def drawing_record(
         gaps = {"joint": joint, "generic": offer["generic"], **dict(zip(("one", "two"), links, strict=False))}
         return offer | {"text": _OFFERS[offer["kind"]].filled(**gaps).in_language(lang)}
 
-    clash = not driven.fixed and len(drives) >= report.generic
-    short = message("Mobility {generic}, drives: {drives}", generic=report.generic, drives=len(drives))
     return {
         "counted": report.counted,
         "generic": report.generic,
         "lines": named(report.explain(lang)).splitlines()[1:],
         "fixed": driven.fixed and report.generic > 0,
-        "reason": named((driven.message if clash else short).in_language(lang)),
+        "lacking": "note" if not driven.redundant_drives and len(drives) < report.generic else "",
+        "reason": named(_reason(report, driven).in_language(lang)),
         "offers": [worded(offer) for offer in islice(_offers(report, driven, drives, ends, cylinders), _MOST_OFFERS)],
     }
+
+
+def _reason(report: MobilityReport, driven: DriveReport) -> Message:
+    """What the drives make of the motion; of a lack of them how many."""
+    lacking = 0 if driven.redundant_drives else report.generic - driven.drives
+    if not report.generic:
+        return message("Mobility 0: nothing moves.")
+    if lacking < 1:
+        return driven.message
+    if report.generic == 1:
+        return message("One drive is needed: choose its joint.")
+    text = message("Mobility {mobility}, drives: {drives}; still needed: {lacking}.")
+    return text.filled(mobility=report.generic, drives=driven.drives, lacking=lacking)
 
 
 def _driven(chain: Chain, frame: str, drives: Sequence[int]) -> DriveReport:

@@ -295,7 +295,7 @@ def test_an_output_that_does_not_touch_the_frame():
         ("positions", FOUR, "7", "the link that carries the point is one of 1, 2, 3, not '7'"),
         ("function", STEPHENSON, "1", "the output is one of 2, 3, 4, 5, not '1'"),
         ("positions", "R(0-1) R(1-2) R(2-0); frame=0; drive=R(0-1)", "", "has no mobility: there is nothing to drive"),
-        ("positions", FIVE_BAR.replace("; drive=R(4-0)", ""), "", "Mobility 2, drives 1"),
+        ("positions", FIVE_BAR.replace("; drive=R(4-0)", ""), "", "Mobility 2, drives: 1"),
     ],
 )
 def test_what_a_structure_cannot_do_is_refused(kind, text, link, sentence):

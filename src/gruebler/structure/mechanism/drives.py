@@ -39,7 +39,9 @@ class DriveReport:
     @property
     def message(self) -> Message:
         """The text of `explain` as a message, for any language."""
-        sentences = [message("Mobility {mobility}, drives {drives}.", mobility=self.mobility, drives=self.drives)]
+        if self.fixed and self.mobility == self.drives == 1:
+            return message("Mobility 1 and one drive: the motion is determined.")
+        sentences = [message("Mobility {mobility}, drives: {drives}.", mobility=self.mobility, drives=self.drives)]
         if self.fixed:
             sentences.append(message("The drives fix the motion."))
         if self.remaining:

@@ -241,11 +241,13 @@ def _structure(report: MobilityReport, names: Sequence[str], lang: str) -> Itera
         yield message("Joints: {counts}, one independent loop", counts=counts)
     else:
         yield message("Joints: {counts}, {loops} independent loops", counts=counts, loops=chain.loops)
-    for joint, name in zip(chain.joints, names, strict=True):
-        if joint.count > 1:
-            links, count = len(joint.links), joint.count
-            text = message("The joint {joint} carries {links} links and counts {count} times.")
-            yield text.filled(joint=name, links=links, count=count)
+    for links in sorted({len(joint.links) for joint in chain.multiple_joints}):
+        alike = [k for k, joint in enumerate(chain.joints) if len(joint.links) == links]
+        gaps = {"joints": _list(names, alike), "links": links, "count": links - 1}
+        if len(alike) > 1:
+            yield message("The joints {joints} carry {links} links each and count {count} times each.", **gaps)
+        else:
+            yield message("The joint {joints} carries {links} links and counts {count} times.", **gaps)
 
 
 def _numbers(report: MobilityReport) -> Iterator[Message]:
@@ -294,7 +296,8 @@ def _details(report: MobilityReport, names: Sequence[str]) -> Iterator[Message]:
         yield message("At almost all sizes all links are rigid against each other: none of the joints can move.")
     else:
         for cluster in report.rigid_clusters:
-            yield message("Rigid against each other: {links}.", links=", ".join(cluster))
+            links = ", ".join(link for link in chain.links if link in cluster)
+            yield message("Rigid against each other: {links}.", links=links)
         if report.immobile_joints:
             joints = _list(names, report.immobile_joints)
             yield message("Joints that cannot move at almost all sizes: {joints}.", joints=joints)
