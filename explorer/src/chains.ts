@@ -117,7 +117,9 @@ export class ChainList {
     const cardOf = (drawn: Structure, name: string) => {
       // without a list of names, if there is one
       const { picture } = drawn.inversions.find(({ frame }) => frame === drawn.chosen) ?? drawn;
-      return drawn.size === this.#links && this.#card(drawn.code, drawn.text, picture, name);
+      // of a chain no link is the frame yet
+      const plain = picture.replace(/<path class=.gr-hatch.*?>/g, "").replaceAll("gr-frame", "gr-body");
+      return drawn.size === this.#links && this.#card(drawn.code, drawn.text, plain, name);
     };
     const listed = [own, ...items].some((each) => each?.code === other?.code);
     const mine = [

@@ -129,6 +129,9 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     assert cards.evaluate_all("all => all.map((e) => [e.querySelector('b').textContent, e.ariaPressed])") == [
         ["Yours: four-bar chain", "true"],
     ]
+    # of a chain no link is the frame yet; the mechanism beside it has one
+    for name, hatched in (("chains", 0), ("inversions", 1)):
+        assert view.locator(f'[data-list="{name}"] .card [class^="gr-hatch"]').count() == hatched, name
     view.evaluate("gruebler.describe('R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)')")  # begins as a four-bar
     page.until("gruebler.views.structure.text.endsWith('R(5-2)')")
     view.locator('[data-list="chains"] .card', has_text="Stephenson").wait_for()  # the list turns to its size
