@@ -75,6 +75,7 @@ export class CatalogView implements View {
       });
       return h("label", {}, key !== "words" && label, input); // its hint says it
     };
+    const together = (...fields: HTMLElement[]) => h("div", {}, ...fields);
     const more = h(
       "details.words",
       { open: this.#refining, "data-panel": "features", ontoggle: () => (this.#refining = more.open) },
@@ -82,17 +83,21 @@ export class CatalogView implements View {
       h(
         "div.form.numbers",
         {},
-        field("pairs", t("Joint types: R turning, P sliding, G gears")),
-        field("links", t("Links")),
-        field("mobility", t("Mobility by the count")),
-        field("drive_joints", t("Drive joints")),
-        field("drive_joints_at_frame", t("of them at the frame")),
-        field("output_links", t("Output links")),
-        field("output_links_at_frame", t("of them jointed to the frame")),
-        field("binary", t("Binary links")),
-        field("ternary", t("Ternary links")),
-        field("multiple_joints", t("Multiple joints")),
-        field("joints", t("Joints by type"), t("R:4,P:0")),
+        together(
+          field("pairs", t("Joint types: R turning, P sliding, G gears")),
+          field("joints", t("Joints by type"), t("R:4,P:0")),
+        ),
+        together(field("drive_joints", t("Drive joints")), field("drive_joints_at_frame", t("of them at the frame"))),
+        together(
+          field("output_links", t("Output links")),
+          field("output_links_at_frame", t("of them jointed to the frame")),
+        ),
+        together(field("links", t("Links")), field("mobility", t("Mobility by the count"))),
+        together(field("binary", t("Binary links")), field("ternary", t("Ternary links"))),
+        together(
+          field("multiple_joints", t("Multiple joints")),
+          h("button.plain", { "data-act": "clear", onclick: () => this.#showAll() }, t("Clear")),
+        ),
       ),
     );
     const orders: [string, string][] = [
@@ -127,7 +132,7 @@ export class CatalogView implements View {
         h("div.form", {}, h("h2", {}, t("Catalog")), this.#note),
         this.#kinds,
         h("div.form.search", {}, words, order),
-        h("div.form", {}, more),
+        h("div.said", {}, more),
         this.#cards,
       ),
     );
@@ -157,17 +162,18 @@ export class CatalogView implements View {
       found.sort((a, b) => (this.#byLinks && a.links - b.links) || byName(a, b));
       renew(cards, ...found.map((entry) => this.#card(entry)));
       for (const card of cards.children) this.#watcher.observe(card);
-      const onclick = () => {
-        this.#query = {};
-        this.arrange();
-      };
-      if (!found.length) renew(cards, h("button.plain", { onclick }, t("Show all")));
+      if (!found.length) renew(cards, h("button.plain", { onclick: () => this.#showAll() }, t("Show all")));
     } catch (error) {
       if (number !== this.#asked) return;
       this.#note.textContent = (error as Error).message;
       if (!this.#filled) renew(cards);
     }
     cards.classList.remove("asking");
+  }
+
+  #showAll(): void {
+    this.#query = {};
+    this.arrange();
   }
 
   #card(entry: Entry): HTMLElement {

@@ -456,11 +456,19 @@ def test_the_catalog_is_searched_by_access_features(tab, server):
     assert names == sorted(names)  # all begin with a capital letter without dots
     page.page.locator('[data-field="joints"]').fill("D7")
     page.until("document.querySelector('.gruebler-explorer').shadowRoot.textContent.includes('D7')")
-    page.page.locator('[data-field="joints"]').fill("")
+    # what is counted stands above how many of them are at the frame; all is cleared at once
+    for whole in ("drive_joints", "output_links"):
+        above, below = (
+            page.page.locator(f'[data-field="{name}"]').bounding_box() for name in (whole, f"{whole}_at_frame")
+        )
+        assert below["x"] == above["x"]
+        assert above["y"] < below["y"] < above["y"] + 60
+    page.page.click('[data-panel="features"] [data-act="clear"]')
+    fields = page.page.locator('[data-page="catalog"] input')
+    assert set(fields.evaluate_all("all => all.map((one) => one.value)")) == {""}
     page.page.locator('[data-field="words"]').fill("zzzz")
     page.page.get_by_role("button", name="Alle zeigen").click()
     page.until(f"{root}.querySelectorAll('[data-id]').length === {len(answer('catalog', {}, 'de', print))}")
-    fields = page.page.locator('[data-page="catalog"] input')
     assert set(fields.evaluate_all("all => all.map((one) => one.value)")) == {""}
 
 
