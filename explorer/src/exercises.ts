@@ -129,7 +129,9 @@ export class ExercisesView implements View {
       this.kind = kind;
       void this.fresh();
     };
-    renew(this.#kinds, choice(t("Theory"), options, this.kind, choose, { class: "choice palette" }));
+    const kinds = choice(t("Topic"), options, this.kind, choose, { class: "choice palette" });
+    kinds.prepend(t("Topic"));
+    renew(this.#kinds, kinds);
     return this.fresh();
   }
 
@@ -156,11 +158,12 @@ export class ExercisesView implements View {
       };
       return renew(this.#tasks, menu(t("Exercises"), options, this.#chosen, choose));
     }
-    const levels = [1, 2, 3].map((k): [string, string] => [String(k), t("Level {level}", { level: k })]);
+    const levels = ["1", "2", "3"].map((k): [string, string] => [k, k]);
     const level = choice(t("Level"), levels, String(this.level), (value) => {
       this.level = Number(value);
       void this.fresh();
     });
+    level.prepend(t("Level"));
     renew(this.#tasks, level);
   }
 

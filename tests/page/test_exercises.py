@@ -59,8 +59,10 @@ def test_a_wrong_number_after_a_dyad_has_a_hint_of_its_own():
 
 def test_the_page_shows_kinds_figure_and_hints(exercises):
     page = exercises()
-    kinds = page.page.locator('[aria-label="Theory"] button')
+    kinds = page.page.locator('[aria-label="Topic"] button')
     assert kinds.count() == len(KINDS) + 1
+    rows = page.page.locator('[data-page="exercises"] .choice').evaluate_all("all => all.map((e) => e.innerText[0])")
+    assert rows[:2] == ["T", "L"]  # each says what is chosen in it: topic, level
     page.page.locator('[aria-label="Level"] button').nth(1).click()
     kinds.nth(5).click()
     page.until(f"{KIND}.task.id.startsWith({KIND}.kind + '-2-')")
