@@ -62,12 +62,12 @@ export class TaskPicture {
     const swing = kind === "dead-centres" ? swingOf(points[0]![0]!, design) : null;
     const charted = angles && design?.angles;
     this.#other.remove();
-    if (charted) this.element.prepend(this.#other);
+    if (charted) this.element.append(this.#other);
     const { clientWidth } = this.element;
     const narrow = clientWidth < 500;
     const half = (clientWidth - 14) / 2 / window.innerHeight; // a chart is as high alone as beside a design
     const high = angles && !narrow ? Math.min(PART, half) : PART;
-    const part = narrow && design ? LOW / (charted ? 2 : 1) : high;
+    const part = narrow && design ? LOW : high;
     const moving = design?.frames.flat() ?? [];
     if (!held) {
       // of a large design as much as leaves its targets in sight

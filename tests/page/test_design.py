@@ -276,10 +276,10 @@ def test_the_chart_of_a_function_stays_beside_its_design(design):
     cards.nth(1).hover()
     # the chart stays beside the design, with the curve of the rocker over the crank through all pairs
     assert view.locator(".plane").count() == 2
-    curve = view.locator(".plane:last-child .curve").get_attribute("d")
+    curve = view.locator(".plane:nth-last-child(2) .curve").get_attribute("d")
     u, v = np.reshape([float(value) for value in re.findall(r"-?[\d.]+", curve)], (-1, 2)).T
     assert np.interp([pair[0] for pair in pairs], u, -v) == pytest.approx([pair[1] for pair in pairs], abs=0.1)
-    here = view.locator(".plane:last-child > g > .joint")
+    here = view.locator(".plane:nth-last-child(2) > g > .joint")
     before = here.get_attribute("cx")
     view.wait_for_timeout(100)
     assert here.get_attribute("cx") != before
@@ -810,3 +810,18 @@ def test_arrows_of_near_positions_end_before_the_next_ones(design):
         return [tip, second].map(([x, y]) => Math.hypot(x - first[0], y - first[1]));
     }""")
     assert 0.3 * gap < long < 0.75 * gap
+
+
+def test_on_a_phone_a_linkage_has_most_of_the_picture_beside_its_chart(tab, server):
+    page = tab(width=390, height=844, touch=True).open(server.address)
+    view = page.page
+    view.click('[data-view="synthesis"]')
+    view.click('[data-value="function"]')
+    view.locator('[data-act="synthesise"]').click()
+    view.locator('[data-list="designs"] .card').first.wait_for(timeout=60_000)
+    chart, linkage = (view.locator(".plane").nth(k).bounding_box() for k in range(2))
+    assert chart["y"] == linkage["y"]
+    assert linkage["width"] == pytest.approx(linkage["height"], rel=0.01)
+    # of its longest link, which is 100 mm, in pixels
+    scale = view.locator(".plane:last-child [data-ghost]").evaluate("(one) => one.getScreenCTM().a")
+    assert 100 * scale > 0.25 * linkage["width"]
