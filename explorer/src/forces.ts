@@ -28,6 +28,8 @@ interface Answer {
   masses: number[];
   speed: number | null;
   springs: Spring[];
+  /** On what loads act that are not in the form. */
+  besides: string;
   drives?: number[];
   effort: Numbers;
   effective: number;
@@ -121,9 +123,9 @@ export class Forces {
   }
 
   #show(linkage: Linkage, answer: Answer): void {
-    const { drives, effective, effort, forces, lines, masses, power, speed, springs } = answer;
+    const { besides, drives, effective, effort, forces, lines, masses, power, speed, springs } = answer;
     const { drive, model } = linkage;
-    this.#form.show(linkage, masses, speed ?? 0, springs);
+    this.#form.show(linkage, masses, speed ?? 0, springs, besides);
     this.#plot = null;
     this.#forces = [];
     const assume = () => {

@@ -57,7 +57,7 @@ export class LoadForm {
     };
   }
 
-  show(linkage: Linkage, masses: number[], speed: number, springs: readonly Spring[]): void {
+  show(linkage: Linkage, masses: number[], speed: number, springs: readonly Spring[], besides: string): void {
     this.shown = springs;
     const { drive, model, sizes } = linkage;
     const links = [...Array(model.own).keys()].filter((link) => link !== model.frame);
@@ -97,7 +97,7 @@ export class LoadForm {
           const [on, which] = places[place]![0].split(" ");
           this.#loads.splice(k, 1, ...(on ? [{ x: 0, y: 0, ...load, on, number: Number(which) }] : []));
           this.changed();
-          this.show(linkage, masses, speed, springs);
+          this.show(linkage, masses, speed, springs, besides);
         }),
       );
       const part = (key: "x" | "y", label: string, unit: string) =>
@@ -108,12 +108,12 @@ export class LoadForm {
         part("y", "Fy", "N");
       }
     }
-    rows.push(...this.#springRows(linkage, springs, (own) => this.show(linkage, masses, speed, own)));
+    rows.push(...this.#springRows(linkage, springs, (own) => this.show(linkage, masses, speed, own, besides)));
     const weight = option(t("Weight, downward"), this.#weight, (on) => {
       this.#weight = on;
       this.changed();
     });
-    renew(this.element, h("div.rows", {}, ...rows), h("div.form", {}, weight));
+    renew(this.element, h("p.note", {}, besides), h("div.rows", {}, ...rows), h("div.form", {}, weight));
   }
 
   /** For each spring its kind, its ends and its rates, and a row for another one. */

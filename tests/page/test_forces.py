@@ -164,7 +164,7 @@ def test_loads_of_a_file_act_on_the_page(lang, tmp_path):
     motion = move(linkage, told["drives"], speed=speed, order=2)
     wanted = inverse_dynamics(motion, loads).drive[:, 0]
     assert told["effort"] == pytest.approx(wanted.tolist(), abs=1e-6 * abs(wanted).max())
-    assert ("rocker:1,0" if lang == "en" else "Schwinge:1,0") in told["lines"][-1]
+    assert ("rocker:1,0" if lang == "en" else "Schwinge:1,0") in told["besides"]
     # the reader's masses and springs stand in their place
     more = {"masses": [0, 0, 0, 0], "springs": []}
     other = answer("forces", {"document": document, "drives": [0.0], **more}, lang, print)
@@ -432,3 +432,11 @@ def test_without_the_library_it_says_so(tab, tmp_path):
     page = tab().open(path.as_uri())
     page.page.locator(f"{PANEL} summary").first.click()
     assert page.page.locator(f"{PANEL} .note").inner_text().endswith("gruebler explore crankrocker")
+
+
+@pytest.mark.parametrize(("lang", "joint"), [("en", "R(conrod-piston)"), ("de", "D(Pleuel-Kolben)")])
+def test_the_gas_force_of_the_catalog_stands_where_loads_are_chosen(lang, joint):
+    question = asked(entries()["compressor"].linkage(), source="compressor")
+    told = answer("forces", question, lang, print)
+    assert joint in told["besides"]
+    assert joint not in " ".join(told["lines"])

@@ -28,7 +28,7 @@ def test_a_chain_on_standard_output(capsys):
 
 def test_an_entry_in_german(capsys):
     text = drawn(capsys, "vcomp", lang="de", labels=True)
-    assert "<title>Zwei-Zylinder-V-Kompressor</title>" in text
+    assert "<title>Zweizylinder-V-Verdichter (V-Kompressor)</title>" in text
     assert "Gestell mit Zylindern" in text
     assert "<desc>Glieder: 6" in text
 

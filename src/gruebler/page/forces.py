@@ -23,9 +23,10 @@ from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.page.model import link_names
 from gruebler.page.params import LoadedLinkage, OuterLoad, OwnSpring
+from gruebler.structure.chain.pairs import Alphabet
 from gruebler.teaching.catalog import entries
 
-_BESIDES = message("Besides, loads or masses as they stand in the file or the catalog act on {places}.")
+_BESIDES = message("From the file or the catalog, loads or masses act on {places}.")
 _FREE = message("Free motion: in {seconds:n} s the drive goes from {start} to {end}.")
 _BALANCE = message("The energy balance is off by {part:n} % at most.")
 _STEEL_BAR = 7850 * 0.020 * 0.005  # kg/m: a cross-section of 20 mm by 5 mm
@@ -58,6 +59,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     own = asked.springs
     record["springs"] = _springs(linkage, loads) if own is None else msgspec.to_builtins(own)
     record["speed"] = asked.speed or usual
+    record["besides"] = _BESIDES.filled(places=joined(besides)).in_language(lang) if besides else ""
     if not (loads.bodies or loads.masses or loads.forces or loads.moments or loads.springs or loads.torsion_springs):
         return record
     active, (low, high) = asked.active, asked.range
@@ -81,8 +83,6 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     ]
     lines = [*run.remarks(lang)]
     power = _short(metres_of(linkage.unit) * np.append(run.power[:, active], run.mean_power[active]))
-    if besides:
-        lines.append(_BESIDES.filled(places=joined(besides)).in_language(lang))
     return record | {
         "speed": speed,
         "drives": motion.drives[:, active].tolist(),
@@ -156,7 +156,10 @@ def _laden(asked: LoadedLinkage, lang: str) -> _Laden:
         if own.number >= len(names[own.on]):
             raise GrueblerError("load: there is no {what} {number}", what=own.on, number=own.number)
         placed.setdefault(names[own.on][own.number], []).append(own)
-    besides = tuple(str(each) for each in dict.fromkeys((*forces, *moments, *weights)) if each not in placed)
+    chain = linkage.mechanism.chain
+    called = dict(zip(chain.joint_names(), chain.joint_names(Alphabet.of_language(lang)), strict=True))
+    others = [each for each in dict.fromkeys((*forces, *moments, *weights)) if each not in placed]
+    besides = tuple(called.get(str(each), str(each)) for each in others)
     for name, together in placed.items():
         if together[0].on == "link":
             moments[name] = sum(own.x for own in together)

@@ -214,6 +214,6 @@ def search(query: Query) -> list[Entry]:
     """The machines that satisfy a query, by id.
 
     >>> [e.id for e in search(Query(words=("Kompressor",), pairs=("P",)))]
-    ['compressor', 'vcomp']
+    ['compressor', 'vcomp', 'wobble_plate']
     """
     return [e for e in entries().values() if query.finds(e)]
