@@ -11,7 +11,7 @@ import pytest
 
 from gruebler.design.synthesis import Demands, PathTask, synthesise_path
 from gruebler.design.synthesis.judging import judge_design
-from gruebler.design.synthesis.targets import point_targets
+from gruebler.design.synthesis.targets import Probe, Targets, point_targets
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics.solve import move_quietly
 
@@ -105,3 +105,18 @@ def test_exact_targets_among_others_are_met_in_any_order(seed):
     assert design.verdict.accepted
     misses = np.abs(move_quietly(design.linkage, design.drives).complex_point("P") - z)
     assert (misses <= [1e-9, 1e-9, 0.3, 0.3, 0.3]).all()
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-9])
+def test_a_linkage_that_begins_at_a_dead_centre_goes_on_on_the_branch_of_its_targets(side, tolerance):
+    """Frame 4, crank 3: at 90 degrees coupler and rocker lie in the line of 5. The outputs are those of two circles."""
+    phi = np.radians([90, 80, 65, 50, 30])
+    gap = 3 * np.exp(1j * phi) - 4
+    angle = np.arccos(np.clip((9 + np.abs(gap) ** 2 - 4) / (6 * np.abs(gap)), -1, 1))
+    values = np.stack([np.exp(1j * phi), gap / np.abs(gap) * np.exp(1j * side * angle)], axis=1)
+    linkage, _ = posed(FourBar(3, 2, 3, 4), [90])
+    targets = Targets((Probe(link="crank"), Probe(link="rocker")), values, 1.0)
+    verdict = judge_design(linkage, targets, Demands(tolerance=tolerance), "four-bar").verdict
+    assert verdict.reasons == ()
+    assert verdict.error < max(tolerance / 100, 1e-9)

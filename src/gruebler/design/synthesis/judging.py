@@ -25,7 +25,7 @@ from gruebler.design.synthesis.demands import (
     inside_region,
 )
 from gruebler.design.synthesis.results import EXACT, TOO_SLENDER, Design, DesignVerdict, ranked
-from gruebler.design.synthesis.target_paths import TargetPath, limit_before, path_through
+from gruebler.design.synthesis.target_paths import TargetPath, path_through, place_on_branch
 from gruebler.design.synthesis.target_places import places_approached, places_met
 from gruebler.design.synthesis.targets import GuidedCurve, Targets
 from gruebler.mechanics.analysis import transmission_angle
@@ -162,8 +162,8 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         missed_by, transmission = met.error if path.in_order else path.error, np.nan
         misses = np.full(len(targets.values), np.nan)
         if path.one_branch:
-            if limit_before(course, float(path.arcs[0])):
-                linkage = linkage.with_reference_pose(course.at(path.arcs[:1]).pose(0))
+            if (begin := place_on_branch(course, path)) is not None:
+                linkage = linkage.with_reference_pose(course.at(np.array([begin])).pose(0))
             drives, misses, transmission = _carried(linkage, course, path, targets)
             missed_by = float(misses.max())
     except LinkageError as error:

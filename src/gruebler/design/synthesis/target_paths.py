@@ -15,6 +15,7 @@ from gruebler.mechanics.kinematics import Circuit
 
 _LONGER = 1 + 1e-6
 """Times: a way is longer than another one, and not just found less exactly."""
+_AT_LIMIT = 1e-6  # of the length, as far as targets are kept from limits
 
 
 class TargetPath(NamedTuple):
@@ -57,15 +58,24 @@ def path_through(
     return free if free.one_branch or through is None else through
 
 
-def limit_before(course: Circuit, arc: float) -> bool:
-    """Whether a limit of the drive lies between the position that a circuit was followed from and a place of it."""
-    inside = [
-        piece.start <= start <= piece.end
+def place_on_branch(course: Circuit, path: TargetPath) -> float | None:
+    """The arc from which a linkage goes through a path on one branch; None if it does from where it was followed.
+
+    At a limit of the drive two branches meet, so that a position there does not tell on which of them the path lies.
+    """
+    if not course.drive_limits:
+        return None
+    near, middle = _AT_LIMIT * course.length, (path.arcs.min() + path.arcs.max()) / 2
+    ends = [
+        (piece.start - lap, piece.end - lap)
         for piece in course.monotone_pieces
-        if any(piece.start <= arc + lap <= piece.end for lap in _laps(course))
-        for start in (course.start + lap for lap in _laps(course))
+        for lap in _laps(course)
+        if piece.start <= middle + lap <= piece.end
     ]
-    return bool(course.drive_limits) and not any(inside)
+    if any(low + near < course.start + lap < high - near for low, high in ends for lap in _laps(course)):
+        return None
+    low, high = ends[0]
+    return float(np.clip(path.arcs[0], low + near, high - near))
 
 
 def _laps(course: Circuit) -> tuple[float, ...]:
