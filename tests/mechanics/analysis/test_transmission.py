@@ -79,6 +79,16 @@ def test_extremes_of_any_four_bar(a: float, b: float, c: float, d: float) -> Non
     assert found.smallest.mu == pytest.approx(size.transmission_angle.smallest.mu, abs=1e-7)
 
 
+def test_a_parallelogram_is_worst_where_its_turn_begins() -> None:
+    """Stretched at 0 and 180 degrees, known to the root of rounding; a place on a closed cycle lies below its end."""
+    for crank, frame in ((25, 60), (10, 30), (7, 100), (25, 55), (13, 17), (25, 40)):
+        extremes = measures(FourBar(frame, crank, frame, crank).linkage()).transmission
+        assert extremes is not None
+        assert extremes.smallest.drive == pytest.approx(0, abs=1e-7)
+        quarters = [0, math.pi / 2, math.pi, 3 * math.pi / 2]
+        assert [each.drive for each in extremes.extremes] == pytest.approx(quarters, abs=1e-7)
+
+
 def test_a_cylinder_pushes_along_its_line() -> None:
     course = drive_cycle(CYLINDER)
     motion = course.at(np.linspace(2.0, 6.0, 41), 2)

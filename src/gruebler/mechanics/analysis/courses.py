@@ -87,8 +87,8 @@ class Course(ABC):
         """
 
     def by_place(self, events: Iterable[AnyEvent]) -> list[list[AnyEvent]]:
-        """`by_place` of the span."""
-        return by_place(events, self.span, self.drive_size)
+        """`by_place` for the size of the drive."""
+        return by_place(events, self.drive_size)
 
     def samples(self, order: int = 1) -> FunctionSamples:
         """The grid, with the joints of the laws of its cams, for zeros of a derivative of that order by the drive."""

@@ -14,9 +14,8 @@ from gruebler.mechanics.kinematics.motion import Stop
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.assur.forms import form_message
 
-_ROUND = 1e-11  # radians: a full turn less than that is none
-_TOGETHER = 1e-8  # radians or sizes: events that are nearer are at one place; change points are known to 1e-12, some of
-# larger groups to 1e-9
+_TOGETHER = 1e-7  # radians or sizes: events that are nearer are at one place; change points are known to 1e-12, some of
+# larger groups to 1e-9, a transmission angle of 0 where modes meet to the root of rounding
 
 
 @explained
@@ -50,7 +49,7 @@ class CycleSpan:
         if not self.full:
             return drive
         value = drive % self.period
-        return 0.0 if self.period - value < _ROUND else value
+        return 0.0 if self.period - value < _TOGETHER else value
 
     def lines(self) -> Iterator[Message]:
         """How far the drive moves, and what stops it."""
@@ -98,21 +97,17 @@ class _Event(Protocol):
 AnyEvent = TypeVar("AnyEvent", bound=_Event)
 
 
-def by_place(events: Iterable[AnyEvent], span: CycleSpan, drive_size: float) -> list[list[AnyEvent]]:
+def by_place(events: Iterable[AnyEvent], drive_size: float) -> list[list[AnyEvent]]:
     """Events in the order of the drive, those at one place together and in the order of their links' names.
 
-    Rounding orders nothing: what is nearer than 1e-8 of the drive's size is at one place, just before the period too.
+    Rounding orders nothing: what is nearer than 1e-7 of the drive's size is at one place.
     """
     near = _TOGETHER * drive_size
-
-    def place(event: AnyEvent) -> float:
-        return event.drive - span.period if span.period - event.drive < near else event.drive
-
     places: list[list[AnyEvent]] = []
     last = -inf
-    for event in sorted(events, key=place):
-        if place(event) - last > near:
+    for event in sorted(events, key=lambda event: event.drive):
+        if event.drive - last > near:
             places.append([])
         places[-1].append(event)
-        last = place(event)
+        last = event.drive
     return [sorted(together, key=lambda event: event.links) for together in places]

@@ -296,7 +296,7 @@ class Measures:
         at_rest = self.dwell_time if self.dwells else None
         yield from time_lines(self.speed_rpm, self.times, at_rest, floating=floating)
         drive_size = 1.0 if self.turning_drive else self.linkage.size
-        yield from change_point_lines(units, by_place(self.change_points, self.span, drive_size))
+        yield from change_point_lines(units, by_place(self.change_points, drive_size))
         if self.change_points_error is not None:
             yield unknown_change_points_message(self.change_points_error)
         if self.transmission is not None:
