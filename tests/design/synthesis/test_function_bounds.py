@@ -101,3 +101,13 @@ def test_the_answer_says_what_is_proved_and_no_design_beats_it():
     none = synthesise_function(task, Demands(transmission=np.radians(bound)))
     assert not [design for design in none.designs if design.form == "four-bar"]
     assert any(str(note).startswith("Proved: no four-bar of the family meets all demands") for note in none.notes)
+
+
+def test_an_angle_near_a_right_one_is_said_to_be_so():
+    """Two pairs of a slider-crank: nothing exceeds 90 degrees, and the best one is nearer to it than the margin."""
+    task = FunctionTask([0, 1.0], outputs=[0, 0.6], output="travel", start_input=False, start_output=False)
+    found = synthesise_function(task)
+    best = max(np.degrees(design.verdict.transmission) for design in found.designs)
+    assert best > 90 - np.degrees(MARGIN[2])
+    (said,) = (str(note) for note in found.notes if "is a right angle to" in str(note))
+    assert f"{best:.1f}°, is a right angle to {np.degrees(MARGIN[2]):g}°" in said

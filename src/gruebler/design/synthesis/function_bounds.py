@@ -36,6 +36,10 @@ _AT_MOST = message(
     "Proved: no {kind} of the family that meets all demands has a transmission angle above {angle:.1f}° with its "
     "moving pivots within {far:.3g} of the crank's pivot."
 )
+_NEARLY_RIGHT = message(
+    "The largest transmission angle of a {kind} of the family that was found, {best:.1f}°, is a right angle to "
+    "{margin:g}°: none can be larger by more."
+)
 _NOT_DECIDED = message(
     "Not decided: whether a {kind} of the family has a larger transmission angle. It was sought on a grid of {starts} "
     "starts, the best ones improved; parts of the family narrower than the grid may be missed."
@@ -159,7 +163,8 @@ def improved_couplers(
     if bound is None:
         notes = [_NOT_DECIDED.filled(kind=kind, starts=sampled)]
     elif bound >= pi / 2:
-        notes = []  # no angle is larger
+        margin = degrees(MARGIN[len(task)])
+        notes = [_NEARLY_RIGHT.filled(kind=kind, best=degrees(largest), margin=margin)] if known else []
     elif not known:
         notes = [_NONE.filled(kind=kind, far=FAR * search.size)]
     else:
