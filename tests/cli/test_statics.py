@@ -3,9 +3,13 @@
 import csv
 import json
 
+import numpy as np
 import pytest
 
 from gruebler.cli import main
+from gruebler.mechanics.forces import statics
+from gruebler.mechanics.kinematics import move
+from gruebler.teaching.catalog import entry
 from tests.commands import run_command
 
 
@@ -131,6 +135,32 @@ def test_a_cylinder_has_a_force(capsys):
     status, out, _ = run(capsys, *load)
     assert status == 0
     assert "Largest effort, without friction: force P(cylinder-piston) = " in out
+
+
+def test_the_loads_of_a_file_act(capsys, tmp_path):
+    """At 90 degrees the slider moves by -30 mm per radian: 100 N against it ask for 3000 N mm; weights by hand."""
+    path = tmp_path / "press.toml"
+    path.write_text(
+        'unit = "mm"\nslider_crank = { a = 30, b = 50 }\n[loads]\ngravity = ["-10 m/s2", "0 m/s2"]\n'
+        '[loads.forces]\n"R(coupler-slider)" = ["-100 N", "0 N"]\n',
+        encoding="utf-8",
+    )
+    for options, torque in (
+        ((), -3000),
+        (("--load", "R(coupler-slider)=-200,0"), -6000),
+        (("--moment", "crank=500"), -3500),
+        (("--mass", "R(coupler-slider)=2"), -3600),
+        (("--mass", "R(coupler-slider)=2", "--gravity=-20,0"), -4200),
+    ):
+        status, _, found = document(capsys, str(path), *options, "--at", "90")
+        assert status == 0
+        assert found["torque R(frame-crank)"] == pytest.approx([torque])
+    # The entry's own: as the library has them from its record.
+    linkage, loads, _ = entry("compressor").loaded()
+    drives = np.radians([30.0, 200.0])
+    own = statics(move(linkage, drives, order=1), loads).work[:, 0]
+    _, _, found = document(capsys, "compressor", "--range", "30:200:170")
+    assert found["torque R(frame-crank)"] == pytest.approx(own, rel=1e-9)
 
 
 def test_poses_that_are_not_held(capsys):

@@ -146,30 +146,49 @@ def loaded_linkage(word: str, lang: str = "en") -> Loaded:
 
     The links of catalog entries have their names in the language.
     """
-    from gruebler.files.linkages import read_loaded
     from gruebler.teaching.catalog import entries
 
-    path = Path(word)
-    if not path.is_file() and path.suffix.lower() not in (".toml", ".json"):
-        linkage_of_word(word)  # what is wrong with other words
-        record = entries().get(word)
-        if record is None or record.loads is None:
-            raise GrueblerError(
-                "{word!r} has no masses and no loads; the table [loads] of a linkage file has some, and these catalog "
-                "entries: {loaded}",
-                word=word,
-                loaded=", ".join(each.id for each in entries().values() if each.loads is not None),
-            )
-        assert record.dimensions is not None
-        return Loaded(*record.in_language(lang).loaded(), record.dimensions.range)
-    linkage, loads, speed = read_loaded(word)
-    if not (loads.bodies or loads.masses or loads.forces or loads.moments or loads.springs or loads.torsion_springs):
+    loaded = linkage_with_loads(word, lang)
+    if acts(loaded.loads):
+        return loaded
+    if not _is_file(word):
         raise GrueblerError(
-            "{path}: has no masses and no loads; a table [loads] has them, such as {example}",
-            path=word,
-            example='bodies = { crank = { mass = "250 g", bar = [[0, 0], [25, 0]] } }',
+            "{word!r} has no masses and no loads; the table [loads] of a linkage file has some, and these catalog "
+            "entries: {loaded}",
+            word=word,
+            loaded=", ".join(each.id for each in entries().values() if each.loads is not None),
         )
-    return Loaded(linkage, loads, speed, None)
+    raise GrueblerError(
+        "{path}: has no masses and no loads; a table [loads] has them, such as {example}",
+        path=word,
+        example='bodies = { crank = { mass = "250 g", bar = [[0, 0], [25, 0]] } }',
+    )
+
+
+def linkage_with_loads(word: str, lang: str = "en") -> Loaded:
+    """The linkage of a word as of `linkage_of_word`, with the loads of its file or catalog entry, if there are some."""
+    from gruebler.files.linkages import read_loaded
+    from gruebler.files.values import is_of_another_program
+    from gruebler.mechanics.forces import Loads
+    from gruebler.teaching.catalog import entries
+
+    if _is_file(word) and not is_of_another_program(Path(word)):
+        return Loaded(*read_loaded(word), None)
+    linkage, between = linkage_of_word(word, lang)
+    record = None if _is_file(word) else entries().get(word)
+    if record is None or record.loads is None:
+        return Loaded(linkage, Loads(), None, between)
+    return Loaded(*record.in_language(lang).loaded(), between)
+
+
+def acts(loads: Loads) -> bool:
+    """Whether there are masses, forces, moments or springs among loads."""
+    return bool(loads.bodies or loads.masses or loads.forces or loads.moments or loads.springs or loads.torsion_springs)
+
+
+def _is_file(word: str) -> bool:
+    path = Path(word)
+    return path.is_file() or path.suffix.lower() in (".toml", ".json")
 
 
 def loads_and_speed(word: str, lang: str = "en") -> tuple[Loads, float]:

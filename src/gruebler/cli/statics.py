@@ -19,7 +19,7 @@ from gruebler.cli.drive_rows import turning_drives
 from gruebler.cli.driven_motion import driven_motion
 from gruebler.cli.friction_options import add_friction, friction_of, option_numbers
 from gruebler.cli.link_names import language_of_names
-from gruebler.cli.linkage_inputs import linkage_of_word
+from gruebler.cli.linkage_inputs import acts, linkage_with_loads
 from gruebler.cli.output import print_json, write_table
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
@@ -33,6 +33,8 @@ def add(parser: Parser) -> None:
     parser.describe(
         description="Drive torques and joint forces under forces at points and moments on links, from the equilibrium "
         "of every link; the drive torque is checked by virtual work. Torques are in N times the unit of length. "
+        "The table [loads] of a file or catalog entry acts, too; an option replaces what it has for the same point or "
+        "link. Its dampers and laws of the speed see each drive at 1 rad/s or one unit of length a second. "
         "Inertia is neglected. Coulomb friction in slides and pins is solved together with the joint forces; joint "
         "forces are then those with friction. A row in which the linkage is self-locking has no torque; the message "
         "names the joint and the factor of safety.",
@@ -47,7 +49,7 @@ def add(parser: Parser) -> None:
         --load POINT=FX,FY ...  a force at a named point, a joint or LINK:X,Y; repeatable
         --moment LINK=M ...  a moment on a link, counter-clockwise; repeatable
         --mass POINT=M ...  a mass of M kg with its weight; repeatable
-        --gravity GX,GY  acceleration of gravity (default: 0,-9.80665)
+        --gravity GX,GY  acceleration of gravity (default: that of the file, else 0,-9.80665)
         """
     )
     add_friction(parser)
@@ -64,12 +66,14 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """A table over the rows, or all forces of one row; 1 if it stops or is not held somewhere."""
-    linkage, shown_range = linkage_of_word(arguments.linkage, language_of_names(arguments))
+    linkage, own, _, shown_range = linkage_with_loads(arguments.linkage, language_of_names(arguments))
     turning_drives(linkage)  # it has some
     lang = arguments.lang
-    loads = _loads(arguments)
-    if not (loads.forces or loads.moments or loads.masses):
-        raise GrueblerError("no load is given: use --load, --moment or --mass")
+    loads = _loads(arguments, own)
+    if not acts(loads):
+        raise GrueblerError(
+            "no load is given: use --load, --moment or --mass, or the table [loads] of the linkage's file"
+        )
     friction = friction_of(arguments)
     motion = driven_motion(linkage, shown_range, spans=arguments.range, at=arguments.at, branch=arguments.branch)
     if not len(motion):
@@ -92,7 +96,8 @@ def run(arguments: argparse.Namespace) -> int:
 # --- what was asked for ----------------------------------------------------------------------------
 
 
-def _loads(arguments: argparse.Namespace) -> Loads:
+def _loads(arguments: argparse.Namespace, own: Loads) -> Loads:
+    """Those of the file or the entry, and those of the options, which replace them where both name the same."""
     forces, moments, masses = (
         _added(option, given, count)
         for option, given, count in (
@@ -101,10 +106,17 @@ def _loads(arguments: argparse.Namespace) -> Loads:
             ("--mass", arguments.mass, 1),
         )
     )
-    if arguments.gravity is None:
-        return Loads(forces, moments=moments, masses=masses)
-    x, y = option_numbers("--gravity", arguments.gravity, 2)
-    return Loads(forces, moments=moments, masses=masses, gravity=(x, y))
+    gravity = own.gravity
+    if arguments.gravity is not None:
+        x, y = option_numbers("--gravity", arguments.gravity, 2)
+        gravity = x, y
+    return replace(
+        own,
+        forces={**own.forces, **forces},
+        moments={**own.moments, **moments},
+        masses={**own.masses, **masses},
+        gravity=gravity,
+    )
 
 
 def _added(option: str, given: Sequence[str], count: int) -> dict[Any, ArrayLike]:
