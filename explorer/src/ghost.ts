@@ -6,6 +6,7 @@ import { away } from "./hull";
 import type { Pair } from "./rows";
 import { DRIVEN } from "./scene";
 
+const ARROW = "M0 0H12.2a1.8 1.8 0 1 1 3.6 0a1.8 1.8 0 1 1-3.6 0"; // as those of targets
 const PACE = 48; // frames of a motion in a second
 
 export interface Moving {
@@ -20,6 +21,8 @@ export interface Moving {
   points?: number;
   /** The ends of the guides of slides. */
   rails?: number[][];
+  /** How far the arrow of a position is turned that its point carries, in degrees. */
+  turns?: number[];
   /** The joint that is driven. */
   drive?: number;
 }
@@ -53,7 +56,7 @@ export class Ghost {
   play(moving: Moving | null, unit: number, shown: (frame: number) => void): void {
     cancelAnimationFrame(this.#frame);
     if (!moving) return renew(this.element);
-    const { drive, first: from = 0, frames, joints, points, rails = [] } = moving;
+    const { drive, first: from = 0, frames, joints, points, rails = [], turns } = moving;
     const members = [...moving.members].sort((one, other) => other.length - one.length); // plates lie below bars
     const [first] = frames as [Pair[]];
     const curves = first
@@ -66,6 +69,8 @@ export class Ghost {
     const bodies = [...rails.map(([end]) => hatched(end!)), ...bodiesOf(members)];
     const driven = drive === undefined ? [] : [mark("driven", DRIVEN, first[drive]!, unit)];
     renew(this.element, ...bodies.flat(), ...grounds, ...curves, ...pins, ...driven); // plates cover no curve
+    const arrow = svg("path.curve", { d: ARROW });
+    if (turns) this.element.append(arrow);
     const calm = wantsStill();
     const begun = performance.now();
     const tick = (now: number) => {
@@ -73,6 +78,8 @@ export class Ghost {
       const places = frames[frame]!;
       putBodies(bodies, [...rails, ...members], places);
       for (const [k, pin] of pins.entries()) put(pin, { cx: places[k]![0], cy: -places[k]![1] });
+      const [x, y] = places[joints] ?? [];
+      if (turns) put(arrow, { transform: `translate(${x} ${-y!}) scale(${unit}) rotate(${-turns[frame]!})` });
       shown(frame);
       if (!calm && this.seen()) this.#frame = requestAnimationFrame(tick);
     };

@@ -605,6 +605,17 @@ def test_a_slide_of_a_design_has_its_block_on_its_guide():
 
     task = task_of("positions", [[-40, 0, 0], [0, 25, 20], [35, 10, 50]])
     items = design_records(task, True, 20.0, "en", lambda _: None)["items"]
+    for design in items:  # the arrow that the point carries lies on that of each position when it is there
+        away = np.abs(np.array(design["frames"])[:, design["joints"]] @ (1, 1j) - task.origins[:, None])
+        turns = np.unwrap(design["turns"], period=360)
+        for position, k in zip((0, 20, 50), away.argmin(axis=1), strict=True):
+            near = [turns[other % len(turns)] for other in (k - 1, k, k + 1)]
+            miss = (
+                min((turn - position + 180) % 360 - 180 for turn in near),
+                max((turn - position + 180) % 360 - 180 for turn in near),
+            )
+            assert miss[0] <= 0.02
+            assert miss[1] >= -0.02
     for design in (
         next(item for item in items if item["form"] == form) for form in ("Slider-crank", "Inverted slider-crank")
     ):

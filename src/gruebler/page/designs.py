@@ -190,6 +190,7 @@ def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
         "size": _longest(posed),
         **_frames(linkage, posed, _played(design, task, posed)),
         **_met_angles(design, task, posed),
+        **_carried_arrow(design, task, posed),
     }
 
 
@@ -312,6 +313,16 @@ def _slide_ends(posed: PosedLinkage) -> dict[int, list[LinkPoint]]:
 def _there_and_back(rows: Reals, posed: PosedLinkage) -> list[Any]:
     both: list[Any] = (rows if posed.repeats else np.concatenate([rows, rows[-2:0:-1]])).tolist()
     return both
+
+
+def _carried_arrow(design: Design, task: Task, posed: PosedLinkage) -> dict[str, Any]:
+    """The angle of the arrow that the coupler carries through its positions, in degrees, of each row."""
+    if not isinstance(task, PositionTask) or posed.cycle is None:
+        return {}
+    (point,) = design.linkage.points.values()
+    first = posed.cycle.at(np.array(design.drives[:1]), 0).angle(point.link)
+    turned = _played(design, task, posed).angle(point.link) - first + task.positions[0][2]
+    return {"turns": _there_and_back(np.degrees(turned).round(2), posed)}
 
 
 def _met_angles(design: Design, task: Task, posed: PosedLinkage) -> dict[str, Any]:
