@@ -230,7 +230,10 @@ export class DesignCards {
   #card(design: Design): HTMLElement {
     const { form, lengths, names } = design;
     const { items } = this.#found!;
-    const millimetres = (length: number, k: number) => number(length, 3) + (lengths[k + 1] ? "" : "\u00a0mm");
+    // all with the places that four digits of the longest have, so that they fit together
+    const places = Math.max(0, 3 - Math.floor(Math.log10(Math.max(...lengths))));
+    const millimetres = (length: number, k: number) =>
+      number(+length.toFixed(places), 9) + (lengths[k + 1] ? "" : "\u00a0mm");
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
     const play = () => {
       this.#playing = design;

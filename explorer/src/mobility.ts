@@ -71,7 +71,7 @@ export class MobilityPanel {
     let missing = loose && t("Link {link} has no joint yet.", { link: spaced(loose) });
     if (all.length < 3) missing = t("Draw at least three links.");
     if (frame === null) missing = t("Choose an example or place ground joints.");
-    if (missing) return renew(this.element, all.length > 0 && count, h("p.note", {}, missing));
+    if (missing) return renew(this.element, all.length > 2 && count, h("p.note", {}, missing));
     if (this.element.querySelector("[data-fact=freedoms]")) this.element.firstChild!.replaceWith(count);
     else renew(this.element, count, moment());
     this.element.classList.add("asking"); // what was offered before does not hold any more

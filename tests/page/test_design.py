@@ -67,6 +67,8 @@ def shows_the_first_card(view, lengths: list[str]) -> None:
         "all => all.flatMap((one) => (one.selectedOptions?.[0] ?? one).textContent.match(/\\d+/g) ?? [])"
     )
     assert str(view.locator(".designs .card").count()) in counts
+    shown = [one.split()[0] for one in view.locator(".designs .lengths i").all_inner_texts()]
+    assert max(len(re.sub(r"\D", "", one).lstrip("0")) for one in shown) == 4  # of the longest, and no more of another
     assert len({*counts}) == len(counts)  # each is said once
     card = view.locator('[data-list="designs"] .card').first
     assert card.locator(".lengths").inner_text().split()[: len(lengths)] == lengths
