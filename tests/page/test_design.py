@@ -116,7 +116,8 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
     linkage = opened(design)
     assert view.evaluate("gruebler.motion.linkage.beside.targets") == targets
     purple = """([x, y]) => {
-        const { viewport, canvas } = gruebler.motion.stage;
+        const { viewport } = gruebler.motion.stage;
+        const canvas = gruebler.root.querySelector(".stage canvas");
         const [u, v] = viewport.screen(x, y);
         const { data } = canvas.getContext("2d").getImageData(Math.round(u) - 9, Math.round(v) - 9, 18, 18);
         const pixels = Array.from({ length: 324 }, (_, k) => data.slice(4 * k, 4 * k + 3).join());
