@@ -92,7 +92,7 @@ def test_points_named_by_a_word_have_a_german_name():
 @pytest.mark.parametrize(
     ("query", "ids"),
     [
-        (Query(words=("Kompressor",), pairs=("P",)), {"compressor", "vcomp"}),
+        (Query(words=("Kompressor",), pairs=("P",)), {"compressor", "vcomp", "wobble_plate"}),
         (Query(words=("scissor",), links=4), {"hubpodium"}),
         (Query(mobility=3), {"drafting3", "excavator", "susp_rack"}),
         (Query(pairs=("helical",)), {"winch_screw"}),
