@@ -69,7 +69,10 @@ export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap:
   }
   if (linkage.drive) {
     const full = cycle.turns === 1 ? t("full turns") : t("full turns, repeats after {turns}", { turns: cycle.turns });
-    const low = linkage.drive.turning ? angle(cycle.low) : number(cycle.low);
+    // that of a slide is rounded, which may leave 4e-14
+    const low = linkage.drive.turning
+      ? angle(cycle.low)
+      : number(Math.abs(cycle.low) < linkage.sizes.near ? 0 : cycle.low);
     const part = `${low} … ${driveText(linkage, cycle.high, 4).replace(" ", "\u00a0")}`;
     facts.push({ name: t("Range of the drive"), text: cycle.full ? full : part });
   }

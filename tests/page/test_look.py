@@ -739,3 +739,20 @@ def test_on_a_phone_a_pivot_stands_beside_the_numbers_of_the_grid(tab, server):
         "all => all.map((one) => one.getBoundingClientRect()).filter(({ left }) => left < 10).map(({ right }) => right)"
     )
     assert max(numbers) < least - 6  # a joint has a radius of 5.5 pixels
+
+
+def test_a_cylinder_that_closes_wholly_has_a_range_from_0(tab, tmp_path):
+    """Lever and frame of 60: drawn in its ends meet, drawn out it is 120 long."""
+    linkage = {
+        "joints": "R(frame-1) R(1-3) R(frame-2) P(2-3)",
+        "frame": "frame",
+        "drives": ["P(2-3)"],
+        "unit": "mm",
+        "places": {"R(frame-1)": [60, 0], "R(1-3)": [90, 51.961524227066], "R(frame-2)": [0, 0], "P(2-3)": [0, 0, 30]},
+    }
+    file, path = tmp_path / "closing.json", tmp_path / "closing.html"
+    file.write_text(json.dumps(linkage))
+    assert main(["explore", str(file), "-o", str(path)]) == 0
+    page = tab(locale="en-US").open(path.as_uri()).page
+    fact = page.locator(".side .facts div", has_text="Range of the drive")
+    assert fact.locator("dd").inner_text() == "0 … 120\u00a0mm"
