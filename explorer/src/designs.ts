@@ -32,7 +32,7 @@ export interface Design extends Moving {
   stems?: [number[], number[], Pair[]];
   /** Of dead centres the places of the joints at both. */
   ends?: [Pair[], Pair[]];
-  /** Of the four links of a four-bar, the frame first; none of what has other joints. */
+  /** Of the links with two pins of a loop of four, the frame first, then the eccentricity of its slide. */
   lengths: number[];
   /** The names of all links, the frame first, by languages. */
   names: Record<string, string[]>;
@@ -233,7 +233,7 @@ export class DesignCards {
     // all with the places that four digits of the longest have, so that they fit together
     const places = Math.max(0, 3 - Math.floor(Math.log10(Math.max(...lengths))));
     const millimetres = (length: number, k: number) =>
-      number(+length.toFixed(places), 9) + (lengths[k + 1] ? "" : "\u00a0mm");
+      number(+length.toFixed(places), 9) + (k + 1 < lengths.length ? "" : "\u00a0mm");
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
     const play = () => {
       this.#playing = design;
@@ -255,7 +255,7 @@ export class DesignCards {
         "span.lengths",
         {},
         ...lengths.map((one, k) =>
-          h("span", {}, spaced(names[currentLanguage()]![k]!), h("i", {}, millimetres(one, k))),
+          h("span", {}, spaced(names[currentLanguage()]![k] ?? t("eccentricity")), h("i", {}, millimetres(one, k))),
         ),
       ),
       ...this.#facts.map((by) => {

@@ -632,6 +632,12 @@ def test_a_slide_of_a_design_has_its_block_on_its_guide():
             assert part.real.min() > -1e-3
             assert part.real.max() < 1 + 1e-3
         assert np.abs(z[:, start] + z[:, end] - 2 * pin[:, 0]).max() < 1e-3 * design["size"]
+        if design["form"] == "Slider-crank":  # at both dead centres a right triangle with crank and rod in line
+            crank, rod, offset = design["lengths"]
+            stroke = np.sqrt((rod + crank) ** 2 - offset**2) - np.sqrt((rod - crank) ** 2 - offset**2)
+            assert np.abs(pin - pin.T).max() == pytest.approx(stroke, rel=2e-3)
+        else:
+            assert design["lengths"][2] == 0
         # the longest link is as long as its pins and its point lie apart, a rod as far as it slides
         moving = design["members"][:-1]
         far = [np.abs(z[0, k] - z[0, m]) for own in moving for k in own for m in own]

@@ -40,6 +40,7 @@ _COLUMNS = 3  # of a position: x, y, angle
 _NAMES = {"RR-RR": "four-bar", "RR-PR": "slider-crank", "RR-RP": "inverted-slider-crank"}
 """Forms that have a name of their own."""
 _FOUR = 4
+_ROUNDED = 1e-4  # of the size: an offset that comes of the digits of places only
 _RING = 8.0  # pixels: the radius of the mark of a point
 _ARM = 34.0  # pixels: the arrow of a position
 _BLOCK = 12.0  # pixels: half the block of a slide, and what its guide is longer than its way
@@ -383,26 +384,37 @@ def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, An
         if link != frame
     ]
     joints = [[k for k, joint in enumerate(chain.joints) if link in joint.links] for link in chain.links]
-    four_bar = chain.n == len(chain.joints) == _FOUR and all(joint.pair.is_turning for joint in chain.joints)
     apart = [(k, m) for own in joints for k in own for m in own if k < m]
     measured = [*rows[0, joints[chain.links.index(frame)]].ravel(), *(_apart(rows[0], k, m) for k, m in apart)]
-    bars = sorted(zip(chain.links, joints, strict=True), key=lambda row: row[0] != frame)  # the frame comes first
+    pins = {
+        link: [k for k in own if chain.joints[k].pair.is_turning] for link, own in zip(chain.links, joints, strict=True)
+    }
+    bars = [link for link in sorted(pins, key=frame.__ne__) if len(pins[link]) == 2]  # the frame comes first
     called = {lang: link_names(linkage, "", lang) for lang in LANGUAGES}
     shown = np.abs(rows[:, : len(carried)] - _seen(linkage, posed.pose)).sum(axis=(1, 2)).argmin()
     blocks = [[k, k + 1] for k in range(len(carried), rows.shape[1], 4)]
     for joint, block in zip(sliding, blocks, strict=True):
         rows[:, joint] = rows[:, block].mean(axis=1)
+    rails = [[k + 2 for k in block] for block in blocks]
+    lengths = [_apart(rows[0], *pins[link]) for link in bars]
+    if len(blocks) == 1:
+        (joint,) = sliding
+        ends = [rows[0, pair] @ (1, 1j) for pair in (rails[0], [pins[link][0] for link in chain.joints[joint].links])]
+        along, across = (start - end for start, end in ends)
+        offset = abs((across / along).imag * along)
+        lengths.append(offset if offset > _ROUNDED * linkage.size else 0.0)
+    one_loop = chain.n == len(chain.joints) == _FOUR
     return {
         "frames": _there_and_back(rows, posed),
         "first": int(shown),
         "members": [*members, *blocks],
-        "rails": [[k + 2 for k in block] for block in blocks],
+        "rails": rails,
         "joints": len(chain.joints),
         "points": len(points),
         "drive": linkage.mechanism.drives[0].joint,
         "measures": measured,
-        "lengths": [_apart(rows[0], first, other) for _, (first, other) in bars] if four_bar else [],
-        "names": {lang: [names[link] for link, _ in bars] for lang, names in called.items()},
+        "lengths": lengths if one_loop else [],
+        "names": {lang: [names[link] for link in bars] for lang, names in called.items()},
     }
 
 
