@@ -1,6 +1,7 @@
 """Points and mixed tasks: counts of the theorems, linkages that come back, certified solutions."""
 
 import json
+import re
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, pairwise
@@ -426,6 +427,28 @@ def test_points_that_no_linkage_was_found_for_show_the_nearest():
     assert "led to none" in str(found.notes[0])
     assert (found.count.real, len(found.designs)) == (0, 0)
     assert all(1e-4 < design.verdict.error < 0.1 for design in found.rejected)
+
+
+SIX_POINTS = ((-50, -5), (-30, 10), (-10, 18), (12, 19), (30, 12), (50, -8))
+
+
+@pytest.mark.parametrize(
+    ("points", "angle", "ratio", "named"),
+    [
+        (SIX_POINTS, 88, 20, "a transmission angle of 88°"),
+        (SIX_POINTS[::2], 89.9, 1.05, "a transmission angle of 89.9° and a size ratio of 1.05"),
+    ],
+    ids=["six", "three"],
+)
+def test_of_points_without_a_design_the_tightest_demand_is_named(points, angle, ratio, named):
+    """Without it there are designs, as a search with the other demands alone tells."""
+    task = PathTask(points)
+    none = synthesise(task, demands=Demands(crank=True, transmission=np.radians(angle), size_ratio=ratio))
+    assert not none.designs
+    (count,) = re.findall(rf"all but the demand of {named}: ([0-9,]+)\.", " ".join(map(str, none.notes)))
+    others = synthesise(task, demands=Demands(crank=True)).designs
+    assert int(count) > 0
+    assert any(design.verdict.turns_fully for design in others)
 
 
 def test_fewer_points_with_both_pivots_are_met_by_many_four_bars():

@@ -16,7 +16,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals, compared_by_value
 from gruebler.base.errors import LinkageError, SynthesisError
-from gruebler.base.text import message
+from gruebler.base.text import Message, message
 from gruebler.design.synthesis.curve_matching import passes
 from gruebler.design.synthesis.curve_starts import CurveStart, neighbours, timed_neighbours, transformed
 from gruebler.design.synthesis.demands import Demands, sought_order
@@ -30,6 +30,7 @@ from gruebler.design.synthesis.results import Design, Progress, SolutionCount, S
 from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask
+from gruebler.design.synthesis.tightest_demands import all_but_one, freed
 from gruebler.mechanics.linkages import Linkage
 
 _STARTS = (40, 240)  # neighbours that are made better; a triangle needs the more
@@ -375,6 +376,18 @@ def fit_open_points(
     counted = SolutionCount(what=message("linkages"), theorem=None, found=len(exact), real=len(exact))
     notes = (note, *order_notes((*accepted, *rejected), demands))
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=counted, notes=notes)
+
+
+def tightest_of_points(
+    task: PathTask, demands: Demands, *, number: int, sliders: bool, progress: Progress | None
+) -> list[Message]:
+    """Of points that no design passes within the demands: the one without which the most are found, sought freely."""
+    free = freed(demands)
+    if free == replace(demands, size_ratio=free.size_ratio):
+        return []
+    order = sought_order(task, free)
+    fits = _fits(task, free, None, 4 * number, kinds=_kinds(sliders=sliders), order=order, progress=progress)
+    return all_but_one([each for fit in fits if fit.error < _MET for each in _judged(task, demands, fit)], demands)
 
 
 def _judged_fits(

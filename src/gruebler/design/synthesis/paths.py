@@ -32,6 +32,7 @@ from gruebler.design.synthesis.results import (
 )
 from gruebler.design.synthesis.special_tasks import solved_where_it_lies
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask, PositionTask
+from gruebler.design.synthesis.tightest_demands import all_but_one
 from gruebler.design.synthesis.timed_points import (
     MOST_TIMED,
     TIMED_POSITIONS,
@@ -153,7 +154,7 @@ def _only_sorted(run: _Run, result: SynthesisResult) -> SynthesisResult:
 
 
 def _open_points(run: _Run) -> SynthesisResult:
-    from gruebler.design.synthesis.curves import fit_open_points
+    from gruebler.design.synthesis.curves import fit_open_points, tightest_of_points
 
     check_general(run.task)
     free = free_parameters(run.task, run.demands)
@@ -161,6 +162,11 @@ def _open_points(run: _Run) -> SynthesisResult:
     better, steps = improved_designs(run.task, run.demands, (*fitted.designs, *fitted.rejected), run.orders)
     designs, _ = ranked([*better, *fitted.designs])
     notes = (*fitted.notes, *(steps or sorted_sample(run.sort)))
+    if not designs:
+        sought = tightest_of_points(
+            run.task, run.demands, number=run.number, sliders=run.sliders, progress=run.progress
+        )
+        notes = (*notes, *sought)
     return replace(fitted, designs=designs, notes=notes)
 
 
@@ -262,7 +268,12 @@ def _sampled(run: _Run) -> SynthesisResult:
         designs=accepted,
         rejected=rejected,
         count=SolutionCount(what=message("linkages"), theorem=None, found=len(designs), real=len(designs)),
-        notes=(note, *(steps or sorted_sample(run.sort)), *order_notes(accepted or designs, run.demands)),
+        notes=(
+            note,
+            *(steps or sorted_sample(run.sort)),
+            *order_notes(accepted or designs, run.demands),
+            *([] if accepted else all_but_one(designs, run.demands)),
+        ),
     )
 
 

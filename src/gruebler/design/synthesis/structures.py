@@ -20,7 +20,7 @@ from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.dead_centre_verdicts import with_dead_centres
-from gruebler.design.synthesis.demands import BUILDABLE, EXACT_AT_MOST, WITHOUT, Demands, demands_met, tightest
+from gruebler.design.synthesis.demands import BUILDABLE, EXACT_AT_MOST, WITHOUT, Demands
 from gruebler.design.synthesis.drawing_limits import limits_of_drawings
 from gruebler.design.synthesis.dyad_structures import dyad_structure
 from gruebler.design.synthesis.first_states import first_state
@@ -36,8 +36,6 @@ from gruebler.design.synthesis.fitting import (
 )
 from gruebler.design.synthesis.given_lengths import links_with_lengths, missing_length
 from gruebler.design.synthesis.judging import (
-    OTHER_DIRECTION,
-    OTHER_LENGTH,
     judge_design,
     judge_with_drives,
     order_notes,
@@ -58,6 +56,7 @@ from gruebler.design.synthesis.special_tasks import solved_where_it_lies
 from gruebler.design.synthesis.structure_curves import fit_drawings, together
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets, point_targets
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
+from gruebler.design.synthesis.tightest_demands import all_but_one, freed
 from gruebler.design.synthesis.turning_poses import turns_by_poses, with_turn, without_turn
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
@@ -167,39 +166,17 @@ def _tightest(task: Task, demands: Demands, search: Callable[..., list[Design]])
 
     Where no single one is enough, several; given pivots last.
     """
-    free = replace(
-        demands, crank=False, transmission=0.0, size_ratio=np.inf, region=None, lengths=(), frame_direction=None
-    )
+    free = freed(demands)
     pivots = getattr(task, "fixed_pivots", ())
     if replace(demands, size_ratio=BUILDABLE) == replace(free, size_ratio=BUILDABLE) and not pivots:
         return []  # how many differ too much in their lengths is said anyway
-    if notes := _counted(search(task, demands, free), demands):
+    if notes := all_but_one(search(task, demands, free), demands):
         return notes
     if pivots and isinstance(task, PositionTask | PathTask):
         anywhere = search(replace(task, fixed_pivots=()), demands, demands)
         if count := sum(design.verdict.accepted for design in anywhere):
             return [WITHOUT.filled(demand=message("the given pivots"), count=count)]
     return []
-
-
-def _counted(designs: Sequence[Design], demands: Demands) -> list[Message]:
-    """How many of the designs are good but for one demand, else but for several; nothing of no good ones."""
-    verdicts = [design.verdict for design in designs if design.verdict.one_circuit]
-    if not verdicts:
-        return []
-    columns = [
-        np.array([getattr(verdict, name) for verdict in verdicts])
-        for name in ("turns_fully", "transmission", "size_ratio", "inside")
-    ]
-    met = demands_met(demands, *columns)
-    of_sizes = (OTHER_LENGTH.text, OTHER_DIRECTION.text)
-    wrong = np.array([sum(reason.text in of_sizes for reason in verdict.reasons) for verdict in verdicts])
-    said = np.sum([~flags for _, flags in met], axis=0) + wrong
-    if demands.given_sizes:
-        met.append((demands.sizes_in_words, wrong == 0))
-    good = np.array([len(verdict.reasons) for verdict in verdicts]) == said
-    good &= np.array([verdict.in_order or not demands.in_order for verdict in verdicts])
-    return tightest([(message("the targets"), good), *met]) if good.any() else []
 
 
 def same_machine(first: Linkage, other: Linkage, *, placed: bool) -> bool:
