@@ -462,7 +462,7 @@ def test_the_bar_of_a_task_is_as_high_when_all_is_set(tab, server):
     view.click('[data-view="synthesis"]')
     bar, plane = view.locator(".doing > .form"), view.locator(".plane")
     before = bar.bounding_box(), plane.bounding_box()
-    assert "0 von 5" in view.locator('[data-fact="set"]').inner_text()
+    assert "0 gesetzt, mindestens 5 nötig" in view.locator('[data-fact="set"]').inner_text()
     view.evaluate(f"{VIEW}.rows.points = [[-50, 0], [-25, 18], [0, 25], [25, 18], [45, 0]]")
     view.click('[data-value="positions"]')
     view.click('[data-value="points"]')

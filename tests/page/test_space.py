@@ -103,7 +103,7 @@ def test_a_reason_is_in_the_language_that_the_browser_asks_for(server):
         assert reason in refused.value.read().decode("utf-8")
     with pytest.raises(HTTPError, match="404") as refused:
         urlopen(server.address + "nothing", timeout=60)
-    assert "Öffne die Adresse" in refused.value.read().decode("utf-8")
+    assert "Öffnen Sie die Adresse" in refused.value.read().decode("utf-8")
 
 
 def test_a_drive_turns_round_and_one_at_its_limit_says_so(tmp_path, chromium):

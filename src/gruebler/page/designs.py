@@ -402,7 +402,7 @@ def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, An
         ends = [rows[0, pair] @ (1, 1j) for pair in (rails[0], [pins[link][0] for link in chain.joints[joint].links])]
         along, across = (start - end for start, end in ends)
         offset = abs((across / along).imag * along)
-        lengths.append(offset if offset > _ROUNDED * linkage.size else 0.0)
+        lengths.append(float(offset) if offset > _ROUNDED * linkage.size else 0.0)
     one_loop = chain.n == len(chain.joints) == _FOUR
     return {
         "frames": _there_and_back(rows, posed),

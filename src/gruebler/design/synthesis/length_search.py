@@ -80,6 +80,8 @@ class ConditionedRows(ABC):
     """Links between two pins and their lengths, in the unit of the task."""
     frame_direction: float | None = None
     """The angle of the line through both fixed pivots with the x axis."""
+    kind: DyadKind = CRANK
+    """Of the dyad that is not driven."""
 
     @property
     @abstractmethod
@@ -89,12 +91,12 @@ class ConditionedRows(ABC):
     @property
     def ends(self) -> Mapping[str, tuple[int, int]]:
         """The links with two pins, and between which of the pivots of a row they lie."""
-        return _ENDS[CRANK]
+        return _ENDS[self.kind]
 
     @property
     def points(self) -> int:
         """How many pivots a row has."""
-        return 4
+        return 3 if self.kind.slides else 4
 
     @abstractmethod
     def conditions(self, rows: Reals) -> tuple[Reals, Reals]:
@@ -178,8 +180,6 @@ class PairFamily(ConditionedRows):
     """
 
     task: PositionTask
-    kind: DyadKind
-    """Of the dyad that is not driven."""
 
     @classmethod
     def of(cls, task: PositionTask, kind: DyadKind, demands: Demands) -> PairFamily:
@@ -190,16 +190,6 @@ class PairFamily(ConditionedRows):
     def size(self) -> float:
         """Of the task."""
         return Displacements.of(self.task.origins, self.task.turns)[2]
-
-    @property
-    def ends(self) -> Mapping[str, tuple[int, int]]:
-        """The links with two pins, and between which of the pivots of a row they lie."""
-        return _ENDS[self.kind]
-
-    @property
-    def points(self) -> int:
-        """How many pivots a row has."""
-        return 3 if self.kind.slides else 4
 
     def rows(self, first: Sequence[GuidingDyad], second: Sequence[GuidingDyad]) -> Reals:
         """(first x second, numbers) each with each, the driven ones first."""

@@ -6,8 +6,8 @@ docs/theory/synthesis-sphere.md has the equations.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from math import pi
-from typing import NamedTuple
 
 import numpy as np
 
@@ -171,7 +171,8 @@ def tightest_on_sphere(
     return tightest([(name, path & (folded > LEAST_ARC)), *others])
 
 
-class _Looked(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class _Looked:
     """What the linkages of pairs of dyads do."""
 
     closure: PairClosure

@@ -41,4 +41,5 @@ def all_but_one(designs: Sequence[Design], demands: Demands) -> list[Message]:
         met.append((demands.sizes_in_words, wrong == 0))
     good = np.array([len(verdict.reasons) for verdict in verdicts]) == said
     good &= np.array([verdict.in_order or not demands.in_order for verdict in verdicts])
+    good &= np.array([verdict.one_branch or not demands.one_branch for verdict in verdicts])
     return tightest([(message("the targets"), good), *met]) if good.any() else []
