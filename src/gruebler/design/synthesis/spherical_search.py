@@ -140,21 +140,23 @@ def _costs(
 
     Where cranks are led to turn fully, what they lack of it comes before all but the branch.
     """
-    closure, arcs, met, full, transmission, folded = _looked_at(first, second, turns, demands, given_first=given_first)
-    fails = np.where(folded > LEAST_ARC, demands_failed(met), 99)
+    looked = _looked_at(first, second, turns, demands, given_first=given_first)
+    fails = np.where(looked.folded > LEAST_ARC, demands_failed(looked.met), 99)
     # An arc near 0 or half a circle folds the linkage to a point, as a large ratio does in the plane.
-    worst = np.where(np.isnan(transmission), 0.0, np.round(transmission, 6))
+    worst = np.where(np.isnan(looked.transmission), 0.0, np.round(looked.transmission, 6))
+    best = fails == fails.min()
     known: Mapping[str, Callable[[], Reals]] = {
         "transmission": lambda: -worst,
-        "size-ratio": lambda: _ratio(arcs),
-        "sensitivity": lambda: _shifts(first, second, turns, arcs, fails == fails.min(), given_first=given_first),
-        "full-turn": lambda: np.asarray(1.0 - full, np.float64),
+        "size-ratio": lambda: _ratio(looked.arcs),
+        "sensitivity": lambda: _shifts(first, second, turns, looked.arcs, best, given_first=given_first),
+        "full-turn": lambda: np.asarray(1.0 - looked.full, np.float64),
     }
-    costs = [fails.astype(np.float64), *(known[name]() for name in (*sort, *USUAL_ON_SPHERE)), -folded]
+    costs = [fails.astype(np.float64), *(known[name]() for name in (*sort, *USUAL_ON_SPHERE)), -looked.folded]
     if not to_turn:
         return costs
-    lack = np.where(full, 0.0, np.maximum(closure.low + 1, 0) + np.maximum(1 - closure.high, 0))
-    return [1.0 - (met[0][1] & (folded > LEAST_ARC)), np.nan_to_num(lack, nan=np.inf), *costs]
+    low, high = looked.closure.low, looked.closure.high
+    lack = np.where(looked.full, 0.0, np.maximum(low + 1, 0) + np.maximum(1 - high, 0))
+    return [1.0 - (looked.met[0][1] & (looked.folded > LEAST_ARC)), np.nan_to_num(lack, nan=np.inf), *costs]
 
 
 def tightest_on_sphere(
@@ -166,12 +168,12 @@ def tightest_on_sphere(
     given_first: bool = False,
 ) -> list[Message]:
     """The demand without which the most pairs of a sample remain, where none meets all."""
-    *_, met, _, _, folded = _looked_at(first, second, turns, demands, given_first=given_first)
-    (name, path), *others = met
-    return tightest([(name, path & (folded > LEAST_ARC)), *others])
+    looked = _looked_at(first, second, turns, demands, given_first=given_first)
+    (name, path), *others = looked.met
+    return tightest([(name, path & (looked.folded > LEAST_ARC)), *others])
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Looked:
     """What the linkages of pairs of dyads do."""
 
@@ -209,7 +211,7 @@ def _looked_at(
     name = message("one branch in the order of the targets") if demands.in_order else message("one branch")
     met = [(name, path | (not demands.one_branch))]
     met += demands_met(demands, full, transmission, _ratio(arcs), np.ones_like(full))
-    return _Looked(closure, arcs, met, full, transmission, folded)
+    return _Looked(closure=closure, arcs=arcs, met=met, full=full, transmission=transmission, folded=folded)
 
 
 def _ratio(arcs: Reals) -> Reals:
