@@ -336,13 +336,19 @@ def test_the_catalog_and_the_exercises(tab, server):
     assert marks == ["wrong"] + ["right"] * (len(keys) - 1)
 
 
-@pytest.mark.parametrize(("id_", "range_"), [("crane", "from 60° to 80°"), ("bolt_cutter", "from 46° to 82°")])
-def test_what_is_said_in_words_holds_for_the_range_in_which_a_machine_is_used(tab, server, id_, range_):
-    """As their entries have it, although the crane could turn from 54° to 115°, the handle of the cutter fully."""
+def opened(tab, server, id_):
+    """The page with a machine of the catalog in motion."""
     page = tab().open(server.address)
     page.page.click('[data-view="catalog"]')
     page.page.locator(f'[data-id="{id_}"]').click()
     page.until(f"gruebler.view === 'motion' && gruebler.motion.linkage.model.source === '{id_}'")
+    return page
+
+
+@pytest.mark.parametrize(("id_", "range_"), [("crane", "from 60° to 80°"), ("bolt_cutter", "from 46° to 82°")])
+def test_what_is_said_in_words_holds_for_the_range_in_which_a_machine_is_used(tab, server, id_, range_):
+    """As their entries have it, although the crane could turn from 54° to 115°, the handle of the cutter fully."""
+    page = opened(tab, server, id_)
     page.page.locator('[data-panel="measures"] summary:text-is("In words")').click()
     words = page.page.locator('[data-panel="measures"] .note')
     words.filter(has_text=range_).wait_for()
@@ -357,10 +363,7 @@ def test_what_is_said_in_words_holds_for_the_range_in_which_a_machine_is_used(ta
 
 def test_what_is_drawn_on_links_is_in_the_picture(tab, server):
     """The handles of the pliers reach far beyond their joints."""
-    page = tab().open(server.address)
-    page.page.click('[data-view="catalog"]')
-    page.page.locator('[data-id="pliers"]').click()
-    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'pliers'")
+    page = opened(tab, server, "pliers")
     page.page.evaluate("gruebler.motion.transport.pause()")
     stage = page.page.locator(".motion > .stage").bounding_box()
     shapes = [shape.bounding_box() for shape in page.page.locator(".motion > .stage .shape").all()]
@@ -375,10 +378,7 @@ def test_what_is_drawn_on_links_is_in_the_picture(tab, server):
 @pytest.mark.parametrize("id_", ["peaucellier", "hart"])
 def test_words_and_measures_name_one_link_where_several_are_as_bad(tab, server, id_):
     """By symmetry; both take the first by name."""
-    page = tab().open(server.address)
-    page.page.click('[data-view="catalog"]')
-    page.page.locator(f'[data-id="{id_}"]').click()
-    page.until(f"gruebler.view === 'motion' && gruebler.motion.linkage.model.source === '{id_}'")
+    page = opened(tab, server, id_)
     page.page.locator('[data-panel="measures"] summary:text-is("In words")').click()
     words = page.page.locator('[data-panel="measures"] .words .note')
     words.filter(has_text="ransmission").wait_for()
