@@ -30,7 +30,7 @@ from gruebler.design.synthesis.results import Design, Progress, SolutionCount, S
 from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask
-from gruebler.design.synthesis.tightest_demands import all_but_one, freed
+from gruebler.design.synthesis.tightest_demands import all_but_one, freed, has_limits
 from gruebler.mechanics.linkages import Linkage
 
 _STARTS = (40, 240)  # neighbours that are made better; a triangle needs the more
@@ -382,9 +382,9 @@ def tightest_of_points(
     task: PathTask, demands: Demands, *, number: int, sliders: bool, progress: Progress | None
 ) -> list[Message]:
     """Of points that no design passes within the demands: the one without which the most are found, sought freely."""
-    free = freed(demands)
-    if free == replace(demands, size_ratio=free.size_ratio):
+    if not has_limits(demands):
         return []
+    free = freed(demands)
     order = sought_order(task, free)
     fits = _fits(task, free, None, 4 * number, kinds=_kinds(sliders=sliders), order=order, progress=progress)
     return all_but_one([each for fit in fits if fit.error < _MET for each in _judged(task, demands, fit)], demands)

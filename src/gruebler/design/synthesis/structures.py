@@ -20,7 +20,7 @@ from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.dead_centre_verdicts import with_dead_centres
-from gruebler.design.synthesis.demands import BUILDABLE, EXACT_AT_MOST, WITHOUT, Demands
+from gruebler.design.synthesis.demands import EXACT_AT_MOST, WITHOUT, Demands
 from gruebler.design.synthesis.drawing_limits import limits_of_drawings
 from gruebler.design.synthesis.dyad_structures import dyad_structure
 from gruebler.design.synthesis.first_states import first_state
@@ -56,7 +56,7 @@ from gruebler.design.synthesis.special_tasks import solved_where_it_lies
 from gruebler.design.synthesis.structure_curves import fit_drawings, together
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets, point_targets
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
-from gruebler.design.synthesis.tightest_demands import all_but_one, freed
+from gruebler.design.synthesis.tightest_demands import all_but_one, freed, has_limits
 from gruebler.design.synthesis.turning_poses import turns_by_poses, with_turn, without_turn
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
@@ -168,7 +168,7 @@ def _tightest(task: Task, demands: Demands, search: Callable[..., list[Design]])
     """
     free = freed(demands)
     pivots = getattr(task, "fixed_pivots", ())
-    if replace(demands, size_ratio=BUILDABLE) == replace(free, size_ratio=BUILDABLE) and not pivots:
+    if not has_limits(demands) and not pivots:
         return []  # how many differ too much in their lengths is said anyway
     if notes := all_but_one(search(task, demands, free), demands):
         return notes

@@ -24,6 +24,15 @@ def freed(demands: Demands) -> Demands:
     )
 
 
+def has_limits(demands: Demands) -> bool:
+    """Whether anything is demanded of the linkage itself but a size ratio, whose limit there always is.
+
+    >>> has_limits(Demands()), has_limits(Demands(crank=True))
+    (False, True)
+    """
+    return freed(demands) != replace(demands, size_ratio=np.inf)
+
+
 def all_but_one(designs: Sequence[Design], demands: Demands) -> list[Message]:
     """How many of the designs are good but for one demand, else but for several; nothing of no good ones."""
     verdicts = [design.verdict for design in designs if design.verdict.one_circuit]
