@@ -70,10 +70,11 @@ export class TaskPicture {
     const part = narrow && design ? LOW : high;
     const moving = design?.frames.flat() ?? [];
     if (!held) {
-      // of a large design as much as leaves its targets in sight
+      // all of a design, but of one so large that its targets would not be told apart only what is near them
       const targets: readonly (readonly number[])[] = swing ?? points;
       const off = ([x, y]: readonly number[]) => away(targets[0] as Pair, x!, y!);
-      const far = 2.5 * Math.max(...targets.map(off));
+      const reach = Math.max(...targets.map(off));
+      const far = moving.every((one) => off(one) < 12 * reach) ? Infinity : 2.5 * reach;
       // what the swing is stands above it
       const above = swing ? [[0, 1].map((axis) => 1.2 * swing[3]![axis]! - 0.2 * swing[0]![axis]!)] : [];
       const places = [...targets, ...above, ...pivots, ...(charted ? [] : moving).filter((one) => off(one) < far)];

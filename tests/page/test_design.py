@@ -724,6 +724,14 @@ def test_a_large_design_leaves_its_targets_in_sight(design):
     view.locator("[data-ghost] .joint").first.wait_for()
     wide = float(view.locator(".plane").get_attribute("viewBox").split()[2])
     assert 5 < wide < 6 * 5
+    view.evaluate(f"{VIEW}.take([[0, 0], [12, 16], [20, 0]], false)")  # one of five times their width is seen whole
+    view.evaluate(f"async (asked) => {VIEW}.designs.show(await gruebler.ask('synthesise', asked))", asked)
+    view.locator('[data-list="designs"] .card').last.hover()
+    pivots = view.locator("[data-ghost] .support")
+    pivots.first.wait_for()
+    plane = view.locator(".plane").bounding_box()
+    for place in (pivots.nth(k).bounding_box() for k in range(2)):
+        assert plane["x"] < place["x"] < place["x"] + place["width"] < plane["x"] + plane["width"]
 
 
 def test_deviation_and_sensitivity_are_lengths(design):
