@@ -256,7 +256,7 @@ def add(parser: Parser) -> None:
     for kind in (positions, function, path, dead, dwell):
         kind.take(
             """
-            --region X1 Y1 X2 Y2 float  region for the fixed pivots
+            --region X1 Y1 X2 Y2 float  of positions and points: region for the fixed pivots
             --length LINK L ...  a given distance of the pins of crank, coupler, rocker, frame (or another link);
                 repeatable
             --frame-direction DEG float  the angle of the line through two fixed pivots with the x axis

@@ -8,6 +8,7 @@ import pytest
 from gruebler.base.errors import SynthesisError
 from gruebler.cli import main
 from gruebler.design.synthesis import (
+    DeadCentreTask,
     Demands,
     FunctionLaw,
     FunctionTask,
@@ -163,10 +164,18 @@ def test_what_is_no_place_is_refused(places):
         Demands(near_pivots=places)
 
 
+@pytest.mark.parametrize(
+    "task", [FunctionTask([0.2, 0.9, 1.4], outputs=[0.1, 0.5, 1.3]), DeadCentreTask(swing=1, time_ratio=1.2)]
+)
+@pytest.mark.parametrize("demands", [Demands(near_pivots=[(0, 0)]), Demands(region=(0, 0, 1, 1))])
+def test_places_of_pivots_need_a_place_in_the_plane(task, demands):
+    """Linkages that can be put anywhere were all rejected for a region, and none was said to be proved."""
+    with pytest.raises(SynthesisError, match="any other linkage can be put there"):
+        synthesise(task, demands=demands)
+
+
 def test_preferred_pivots_need_a_place_in_the_plane():
     demands = Demands(near_pivots=[(0, 0)])
-    with pytest.raises(SynthesisError, match="any other linkage can be put there"):
-        synthesise(FunctionTask([0.2, 0.9, 1.4], outputs=[0.1, 0.5, 1.3]), demands=demands)
     with pytest.raises(SynthesisError, match="near_pivots"):
         synthesise(THREE, sort="near-pivots")
     document = {"points": [[0, 0], [1, 0], [2, 1]], "demands": {"near_pivots": [[0, 0], [6, 1]]}}

@@ -70,14 +70,13 @@ class LengthSquares:
         """Where the least transmission angle can have an extreme, between the ends."""
         return self._inside(self._stationary)
 
-    def limits(self, demands: Demands, scale: float) -> list[float]:
+    def limits(self, demands: Demands) -> list[float]:
         """The same, and where a demand begins or ceases to be met, or one length to be longer than another.
 
         Between two of these values the same demands are met, and transmission angle, size and size ratio rise or fall.
 
         Args:
-            demands: size ratio, transmission angle, region, one given length of a crank-rocker.
-            scale: of rocker or stroke, unless a length of a crank-rocker is given.
+            demands: size ratio and transmission angle.
         """
         n, w, square = self.difference, self.product, self.squares["coupler"]
         least = n * n + 4 * w - 4 * cos(demands.transmission) ** 2 * square
@@ -87,9 +86,6 @@ class LengthSquares:
             for first, second in permutations(self.squares.values(), 2)
             for ratio in (1.0, demands.size_ratio)
         ]
-        if demands.region is not None and "frame" in self.squares:
-            link, length = demands.lengths[0] if demands.lengths else ("rocker", scale)
-            conditions += [(x / length) ** 2 * self.squares[link] - self.squares["frame"] for x in demands.region[::2]]
         return self._inside(conditions)
 
     def with_ratio(self, first: str, second: str, ratio: float) -> list[float]:

@@ -258,7 +258,7 @@ def _searched(
             notes.append(message("No member has the given lengths."))
             return _spread(family.members, family.best, number)
         return members
-    limits = squares.limits(demands, task.stroke or 1.0)
+    limits = squares.limits(demands)
     ends = [squares.low, *limits, squares.high]
     middles = [(first + second) / 2 for first, second in pairwise(ends)]
     meets = [any(_design(task, m, demands).verdict.accepted for m in _members_at(task, squares, [t])) for t in middles]
@@ -331,7 +331,6 @@ def _met(designs: Sequence[Design], demands: Demands) -> list[tuple[Message, NDA
     met = [
         (message("dead centres"), np.ones(len(designs), bool)),
         (ratio, np.array([verdict.size_ratio <= demands.size_ratio for verdict in verdicts])),
-        (message("the region"), np.array([verdict.inside for verdict in verdicts])),
     ]
     if demands.transmission > 0:
         angle = message("a transmission angle of {angle:g}°", angle=degrees(demands.transmission))

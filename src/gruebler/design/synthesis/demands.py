@@ -49,7 +49,7 @@ class Demands:
     size_ratio: float = BUILDABLE
     """The longest length of a link is at most so many times the shortest."""
     region: tuple[float, float, float, float] | None = None
-    """The fixed pivots lie in this rectangle: least x, least y, greatest x, greatest y."""
+    """Of positions and points: the fixed pivots lie in this rectangle, least x, least y, greatest x, greatest y."""
     lengths: tuple[tuple[str, float], ...] = ()
     """Links with the given distance of their pins: crank, coupler, rocker, frame, or other names of links."""
     frame_direction: float | None = None
@@ -162,10 +162,11 @@ class Demands:
                 )
         if self.frame_direction is not None and not isinstance(task, PositionTask | PathTask):
             raise SynthesisError("{name}: only for tasks with positions or points", name="frame_direction")
-        if self.near_pivots and not isinstance(task, PositionTask | PathTask):
+        places = {"near_pivots": self.near_pivots, "region": self.region}
+        name = next((name for name, given in places.items() if given), None)
+        if name is not None and not isinstance(task, PositionTask | PathTask):
             raise SynthesisError(
-                "{name}: only for tasks with positions or points; any other linkage can be put there",
-                name="near_pivots",
+                "{name}: only for tasks with positions or points; any other linkage can be put there", name=name
             )
         x1, y1, x2, y2 = self.region or (-np.inf, -np.inf, np.inf, np.inf)
         for x, y in getattr(task, "fixed_pivots", ()):

@@ -68,7 +68,7 @@ class FunctionSearch:
         self.given, self.origin, self.size = Displacements.of(self.seen.origins, self.seen.turns)
         lengths = tuple((_LINKS.get(link, link), length) for link, length in demands.lengths)
         own = lengths if task.output == "travel" else ()  # one length of angles is the scale
-        self.demands, self.facts_of = replace(demands, lengths=own, region=None), facts_of
+        self.demands, self.facts_of = replace(demands, lengths=own), facts_of
         self.turned = np.conj(self.given.with_first[0])
         self.moved = (np.array(task.outputs) - task.outputs[0]) / self.size if task.output == "travel" else None
         try:
@@ -145,7 +145,7 @@ def improved_couplers(
 
     Args:
         task: the pairs, with free starts.
-        demands: what a linkage has to do; the region is asked of designs alone.
+        demands: what a linkage has to do.
         facts_of: what linkages do.
         best: couplers, as dyads between crank and output.
         sampled: so many starts were tried.
