@@ -20,13 +20,21 @@ export interface Beside {
   readonly letters?: string;
   /** Pairs of angles that were asked for, which the library reads and marks. */
   readonly pairs?: unknown;
+  /** The drive turns clockwise to meet the targets in their order. */
+  readonly backward?: boolean;
+}
+
+/** The way in which a drive begins. */
+export function wayOf({ backward }: Beside = {}): number {
+  return backward ? -1 : 1;
 }
 
 /** What a document keeps, as far as it is what the page writes. */
 export function besideOf({ page }: LinkageDocument): Beside {
   const numbers = (row: unknown, ...counts: number[]) =>
     Array.isArray(row) && counts.includes(row.length) && row.every((one) => Number.isFinite(one));
-  const { letters, locks, pairs, picture, rulers, targets } = (page ?? {}) as {
+  const { backward, letters, locks, pairs, picture, rulers, targets } = (page ?? {}) as {
+    backward?: unknown;
     pairs?: unknown;
     letters?: unknown;
     locks?: unknown;
@@ -44,6 +52,7 @@ export function besideOf({ page }: LinkageDocument): Beside {
     ...(kept.length && { locks: kept }),
     ...(measured.length && { rulers: measured }),
     ...(!!pairs && { pairs }),
+    ...(backward === true && { backward }),
     ...(typeof letters === "string" && { letters }),
   };
 }

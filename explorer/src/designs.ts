@@ -2,8 +2,9 @@
 
 import { DEGREE } from "./cycle";
 import { h, menu, renew, thumbnail } from "./dom";
+import { GOOD } from "./facts";
 import type { Moving } from "./ghost";
-import { angle, currentLanguage, number, spaced, t } from "./language";
+import { angle, currentLanguage, fixed, number, spaced, t } from "./language";
 import type { LinkageDocument } from "./model";
 import { Plot } from "./plot";
 import type { Pair } from "./rows";
@@ -34,6 +35,8 @@ export interface Design extends Moving {
   ends?: [Pair[], Pair[]];
   /** Of the links with two pins of a loop of four, the frame first, then the eccentricity of its slide. */
   lengths: number[];
+  /** How far its point lies along the line of two pins of its link, and to the left of it. */
+  point?: Pair | null;
   /** The names of all links, the frame first, by languages. */
   names: Record<string, string[]>;
 }
@@ -180,17 +183,33 @@ export class DesignCards {
         "div.form",
         {},
         forms.length > 1 &&
-          menu(t("Kinds of machines"), kinds, this.#form, (form) => this.#choose(() => (this.#form = form)), {
-            "data-field": "form",
-          }),
+          menu(
+            t("Kinds of machines"),
+            kinds,
+            this.#form,
+            (form) => {
+              this.#form = form;
+              if (form) this.#playing = this.#shown[0]!;
+              if (this.#playing) this.play(this.#playing);
+              this.arrange();
+            },
+            { "data-field": "form" },
+          ),
         orders.length > 0 &&
           h(
             "label",
             {},
             t("Order"),
-            menu(t("Order"), orders, this.#order, (order) => this.#choose(() => (this.#order = order as Order)), {
-              "data-field": "sorted",
-            }),
+            menu(
+              t("Order"),
+              orders,
+              this.#order,
+              (order) => {
+                this.#order = order as Order;
+                this.arrange();
+              },
+              { "data-field": "sorted" },
+            ),
           ),
       ),
       list("designs", mine),
@@ -205,18 +224,19 @@ export class DesignCards {
     );
   }
 
-  #choose(change: () => void): void {
-    change();
-    this.arrange();
+  /** A length of a design with the places that four digits of its longest have, so that all fit together. */
+  #length({ lengths, size }: Design, length: number): string {
+    const places = Math.max(0, 3 - Math.floor(Math.log10(1.000001 * Math.max(...lengths, size))));
+    return fixed(length, places);
   }
 
   /** What a design is worth, as it is read. */
   #told(design: Design, by: Value): string {
     const value = design[by];
     if (typeof value !== "number") return "–";
-    if (by === "transmission" || by === "range") return `≥ ${angle(value * DEGREE, 3)}`;
-    const digits = by === "size" ? 3 : 2;
-    return this.#found!.relative ? angle(value, digits) : `${number(value, digits)} mm`;
+    if (by === "transmission" || by === "range") return (value < 89.95 ? "≥ " : "") + angle(value * DEGREE, 3);
+    if (by === "size") return `${this.#length(design, value)} mm`;
+    return this.#found!.relative ? angle(value, 2) : `${number(value, 2)} mm`;
   }
 
   /** What tells designs apart or is known of them: the same in the same places of all cards. */
@@ -228,13 +248,14 @@ export class DesignCards {
   }
 
   #card(design: Design): HTMLElement {
-    const { form, lengths, names } = design;
+    const { form, lengths, names, pairs, point } = design;
     const { items } = this.#found!;
-    // all with the places that four digits of the longest have, so that they fit together
-    const places = Math.max(0, 3 - Math.floor(Math.log10(Math.max(...lengths))));
-    const millimetres = (length: number, k: number) =>
-      number(+length.toFixed(places), 9) + (k + 1 < lengths.length ? "" : "\u00a0mm");
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
+    const extra: [string, string][] = [];
+    if (point)
+      extra.push([t("point along, left"), point.map((one) => this.#length(design, one)).join("\u00a0|\u00a0")]);
+    if (pairs) extra.push([t("first pair at"), pairs[0]!.map((one) => angle(one * DEGREE, 4)).join("\u00a0|\u00a0")]);
+    let touched = false; // by a finger, which only chooses it
     const play = () => {
       this.#playing = design;
       for (const one of this.element.querySelectorAll(".card")) one.toggleAttribute("aria-current", one === card);
@@ -244,26 +265,43 @@ export class DesignCards {
     const card: HTMLElement = h(
       "button.card",
       {
-        onclick: () => this.open(design, title),
-        onpointerenter: play,
+        onpointerenter: (event: PointerEvent) => {
+          if (event.pointerType === "mouse") play();
+        },
+        onpointerdown: () => {
+          touched = design !== this.#playing;
+        },
+        onclick: () => {
+          const opens = !touched;
+          touched = false;
+          play();
+          if (opens) this.open(design, title);
+        },
         onfocus: play,
         "aria-current": design === this.#playing,
       },
-      thumbnail(design.picture, form),
+      h("small", {}, thumbnail(design.picture, form), t("Open in Motion")),
       h("b", {}, title),
       h(
         "span.lengths",
         {},
         ...lengths.map((one, k) =>
-          h("span", {}, spaced(names[currentLanguage()]![k] ?? t("eccentricity")), h("i", {}, millimetres(one, k))),
+          h(
+            "span",
+            {},
+            spaced(names[currentLanguage()]![k] ?? t("eccentricity")),
+            h("i", {}, this.#length(design, one) + (lengths[k + 1] ? "" : "\u00a0mm")),
+          ),
         ),
       ),
+      ...extra.map(([name, text]) => h("span", {}, name, h("i", {}, text))),
       ...this.#facts.map((by) => {
         // as it is read: 90° are 90°, whatever the last digit is; alike in all they are no merit
         const texts = items.map((one) => this.#told(one, by));
         const text = this.#told(design, by);
         const best = text === texts[this.#places(by).indexOf(0)] && texts.some((one) => one !== text);
-        return h("span", {}, this.#names[by], h(best ? "strong" : "i", {}, text));
+        const poor = (by === "range" || by === "transmission") && design[by]! * DEGREE < GOOD;
+        return h("span", {}, this.#names[by], h(best ? "strong" : "i", { class: poor ? "bad" : "" }, text));
       }),
     );
     return card;

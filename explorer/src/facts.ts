@@ -9,7 +9,7 @@ import { driveText } from "./track";
 import { placeOf, rateUnit, transferName } from "./wording";
 
 /** From here on a transmission angle is good. */
-const GOOD = 40 * DEGREE;
+export const GOOD = 40 * DEGREE;
 
 export interface Fact {
   name: string;

@@ -6,7 +6,7 @@ import { away } from "./hull";
 import type { Pair } from "./rows";
 import { DRIVEN } from "./scene";
 
-const ARROW = "M0 0H12.2a1.8 1.8 0 1 1 3.6 0a1.8 1.8 0 1 1-3.6 0"; // as those of targets
+const ARROW = "M0 0H14M12.2 -1.8L16.4 0L12.2 1.8Z"; // as those of targets
 const PACE = 48; // frames of a motion in a second
 
 export interface Moving {
@@ -25,6 +25,8 @@ export interface Moving {
   turns?: number[];
   /** The joint that is driven. */
   drive?: number;
+  /** It meets its targets in their order while its drive turns clockwise. */
+  backward?: boolean;
 }
 
 /** A line through places, of which y goes upward. */
@@ -56,7 +58,7 @@ export class Ghost {
   play(moving: Moving | null, unit: number, shown: (frame: number) => void): void {
     cancelAnimationFrame(this.#frame);
     if (!moving) return renew(this.element);
-    const { drive, first: from = 0, frames, joints, points, rails = [], turns } = moving;
+    const { backward, drive, first: from = 0, frames, joints, points, rails = [], turns } = moving;
     const members = [...moving.members].sort((one, other) => other.length - one.length); // plates lie below bars
     const [first] = frames as [Pair[]];
     const curves = first
@@ -68,13 +70,15 @@ export class Ghost {
     const hatched = (k: number) => (still(k) ? ["rail", "rail-hatch"] : ["rail"]).map((name) => svg(`path.${name}`));
     const bodies = [...rails.map(([end]) => hatched(end!)), ...bodiesOf(members)];
     const driven = drive === undefined ? [] : [mark("driven", DRIVEN, first[drive]!, unit)];
+    if (backward) for (const one of driven) put(one, { transform: `${one.getAttribute("transform")} scale(-1 1)` });
     renew(this.element, ...bodies.flat(), ...grounds, ...curves, ...pins, ...driven); // plates cover no curve
     const arrow = svg("path.curve", { d: ARROW });
     if (turns) this.element.append(arrow);
     const calm = wantsStill();
     const begun = performance.now();
     const tick = (now: number) => {
-      const frame = (from + Math.floor((Math.max(0, now - begun) / 1000) * PACE)) % frames.length;
+      const gone = Math.floor((Math.max(0, now - begun) / 1000) * PACE) % frames.length;
+      const frame = (from + (backward ? frames.length - gone : gone)) % frames.length;
       const places = frames[frame]!;
       putBodies(bodies, [...rails, ...members], places);
       for (const [k, pin] of pins.entries()) put(pin, { cx: places[k]![0], cy: -places[k]![1] });

@@ -36,8 +36,16 @@ export function angle(radians: number, digits = 4): string {
 
 /** A number with so many significant digits, a minus sign as long as the plus, and the decimal sign of the language. */
 export function number(value: number, digits = 4): string {
-  if (!Number.isFinite(value)) return "–";
-  const text = String(Number(value.toPrecision(digits)) + 0).replaceAll("-", "−");
+  return Number.isFinite(value) ? written(String(Number(value.toPrecision(digits)) + 0)) : "–";
+}
+
+/** A number with so many places after the decimal sign. */
+export function fixed(value: number, places: number): string {
+  return written((Number(value.toFixed(places)) + 0).toFixed(places));
+}
+
+function written(digits: string): string {
+  const text = digits.replaceAll("-", "−");
   return language === "de" ? text.replace(".", ",") : text;
 }
 

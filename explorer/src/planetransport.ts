@@ -1,5 +1,6 @@
 /** The drive of a linkage in the plane: it also follows a link that is pulled, lets it fall, and makes films. */
 
+import { wayOf } from "./beside";
 import { wrapped } from "./cycle";
 import { type Fall, Falling } from "./falling";
 import type { Linkage } from "./linkage";
@@ -71,10 +72,10 @@ export class PlaneTransport extends Transport<DrivenInPlane> {
   *film<Shown>(shown: () => Shown): Generator<Shown> {
     const { playing } = this.player;
     this.pause();
-    const { active, cycle, drives } = this.view.linkage;
+    const { active, beside, cycle, drives } = this.view.linkage;
     const start = drives[active] ?? 0;
     const turns = cycle.full ? cycle.turns : 1;
-    let [value, way] = [wrapped(cycle, start), 1];
+    let [value, way] = [wrapped(cycle, start), wayOf(beside)];
     for (let left = Math.round((turns * 60 * FRAMES) / this.speed); left > 0; left--) {
       yield shown();
       ({ value, way } = later(value, way, 1 / FRAMES, this.speed, cycle, this.range));

@@ -53,7 +53,7 @@ export class Player {
   }
 }
 
-/** A drive value some seconds later, and the way in which it goes on from there: full turns, or to and fro. */
+/** A drive value some seconds later, and the way in which it goes on from there: full turns one way, or to and fro. */
 export function later(
   value: number,
   way: number,
@@ -62,7 +62,7 @@ export function later(
   cycle: Reach,
   [low, high]: [number, number],
 ): { value: number; way: number } {
-  if (cycle.full) return { value: value + (seconds * speed * TURN) / 60, way };
+  if (cycle.full) return { value: value + (way * seconds * speed * TURN) / 60, way };
   const next = value + (way * seconds * speed * (high - low) * 2) / 60;
   if (next < high && next > low) return { value: next, way };
   return { value: Math.max(low, Math.min(high, next)), way: next >= high ? -1 : 1 };

@@ -150,7 +150,8 @@ export class Scene {
     });
     if (ground) element.append(svg("path.support", { d: SUPPORT }));
     element.append(svg("circle.halo", { r: 13 }), svg("circle.joint", { r: ground ? 5.5 : 4.6 }));
-    if (model.drives.some((drive) => drive.joint === number)) element.append(svg("path.driven", { d: DRIVEN }));
+    if (model.drives.some((drive) => drive.joint === number))
+      element.append(svg("path.driven", { d: DRIVEN, transform: linkage.beside.backward ? "scale(-1 1)" : null }));
     return element;
   }
 

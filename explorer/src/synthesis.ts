@@ -349,7 +349,7 @@ export class SynthesisView implements View {
     this.#key.title = lacks;
     const former =
       this.designs.element.firstChild && this.#asked !== this.#state[1] && t("Designs for the former targets");
-    this.#told.textContent = lacks || former || "";
+    this.#told.textContent = (this.#puts !== "curve" && lacks) || former || "";
     const tables = h(
       "div.points",
       {},
@@ -409,7 +409,10 @@ export class SynthesisView implements View {
   async #open(design: Design, title: string): Promise<void> {
     const name = `${wordsOf(this.kind).name}: ${title}`;
     try {
-      const document = { ...design.document, page: { targets: this.targets, pairs: design.pairs } };
+      const document = {
+        ...design.document,
+        page: { targets: this.targets, pairs: design.pairs, backward: design.backward },
+      };
       const model = await this.#page.ask<Model>("open_document", { document, name });
       this.#page.open(model);
     } catch (error) {

@@ -15,6 +15,7 @@ import { cross } from "./shell";
 export const ARM = 14; // of the arrow that shows the angle of a position
 const LONG = 100; // millimetres of a rocker of which only the swing is known
 const AWAY = 6; // from a point to the middle of its number
+export const HEAD = "M-1.8 -1.8L2.4 0L-1.8 1.8Z"; // of an arrow
 const CROWD = 9; // targets, of more only some have their numbers
 
 /** A table whose cells change the rows; each row may be removed. */
@@ -195,7 +196,10 @@ export function targetMark(rows: readonly number[][], k: number, [at, up]: Pair,
     { "data-point": String(k), transform: `translate(${x} ${-y!}) scale(${unit})` },
     ...(turn === undefined
       ? []
-      : [svg("path.arm", { d: `M0 0L${u} ${-v!}` }), svg("circle.tip", { r: 1.8, cx: u!, cy: -v! })]),
+      : [
+          svg("path.arm", { d: `M0 0L${u} ${-v!}` }),
+          svg("path.tip", { d: HEAD, transform: `translate(${u} ${-v!}) rotate(${-turn})` }),
+        ]),
     svg("circle", { r }),
     svg("text", { x: (at - x!) / unit, y: (y! - up) / unit + 2, "text-anchor": "middle" }, numberOf(k, rows.length)),
   );

@@ -1,5 +1,6 @@
 /** The row under the picture: the drive of the linkage, which is set, pulled and played. */
 
+import { type Beside, wayOf } from "./beside";
 import { DEGREE, type Reach, type Stop, TURN, wrapped } from "./cycle";
 import { h, renew } from "./dom";
 import { number, parsed, t } from "./language";
@@ -15,6 +16,7 @@ export interface Drivable {
   readonly drives: ArrayLike<number>;
   readonly model: { drives: { name: string }[]; unit: string };
   readonly size: number;
+  readonly beside?: Beside;
   jointName(name: string): string;
   choose(active: number): void;
   /** Whether it could. */
@@ -177,7 +179,9 @@ export class Transport<View extends Driven = Driven> {
   protected advance(seconds: number): void {
     const start = performance.now();
     const { range } = this;
-    const next = later(this.drive, this.#way, seconds, this.speed, this.view.linkage.cycle, range);
+    const { beside, cycle } = this.view.linkage;
+    if (cycle.full) this.#way = wayOf(beside);
+    const next = later(this.drive, this.#way, seconds, this.speed, cycle, range);
     this.#way = next.way;
     if (range[1] > range[0]) this.go(next.value);
     this.view.timed(start);

@@ -88,7 +88,7 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
     x, y = design.middle('[data-point="0"] > circle:last-of-type')
     u, v = design.middle('[data-point="0"] .tip')
     assert v < y - 5
-    assert view.evaluate(f"{VIEW}.rows.positions[0][2]") == pytest.approx(np.degrees(np.arctan2(y - v, u - x)), abs=1)
+    assert view.evaluate(f"{VIEW}.rows.positions[0][2]") == pytest.approx(np.degrees(np.arctan2(y - v, u - x)), abs=3)
     # each new position is turned further than the last one; the second was dragged to where its arrow points
     assert [row[2] for row in view.evaluate(f"{VIEW}.rows.positions")[1:]] == [-45, -25]
     for number, angle in enumerate((12, 35, 70), 1):
@@ -440,10 +440,10 @@ def test_cards_tell_the_same_in_the_same_places_and_mark_the_best(tab, server):
     assert all(seen <= words for words, seen in view.locator(".lengths > span").evaluate_all(lines))
     names = [card.locator("> span:not(.lengths)").all_inner_texts() for card in cards.all()]
     assert len({tuple(text.split("\n")[0] for text in own) for own in names}) == 1
-    left = view.locator(".designs .card > span:not(.lengths) > *").evaluate_all(
-        "all => all.map((one) => one.getBoundingClientRect().left)"
+    right = view.locator(".designs .card > span:not(.lengths) > *").evaluate_all(
+        "all => all.map((one) => Math.round(one.getBoundingClientRect().right))"
     )
-    assert len({*left}) == 1
+    assert len({*right}) == 1
     for name, best in (("μ auf dem Weg", max), ("Empfindlichkeit", min)):
         numbers = [float(text.strip("≥ °").replace(",", ".")) for text in values_of(view, name)]
         marked = view.locator(".designs .card > span", has_text=name).locator("strong").all_text_contents()
@@ -853,3 +853,56 @@ def test_on_a_phone_a_linkage_has_most_of_the_picture_beside_its_chart(tab, serv
     # of its longest link, which is 100 mm, in pixels
     scale = view.locator(".plane:last-child [data-ghost]").evaluate("(one) => one.getScreenCTM().a")
     assert 100 * scale > 0.25 * linkage["width"]
+
+
+def test_cards_tell_where_the_point_lies_and_the_drive_turns_the_way_of_the_targets(tab, server):
+    """By the places of joints in the frames of the motion; a finger chooses a card, then opens it."""
+    from gruebler.page.requests import answer
+
+    rows = [[-40, 0, 0], [0, 25, 20], [35, 10, 40]]
+    asked = {"kind": "positions", "rows": rows, "crank": True, "transmission": 20}
+    items = answer("synthesise", asked, "en", lambda _: None)["items"]
+    for item in items:
+        frames = np.array(item["frames"]) @ (1, 1j)
+        passed = [int(np.abs(frames[:, 4] - complex(x, y)).argmin()) for x, y, _ in rows]
+        later = (np.array(passed) - passed[0]) * (-1 if item["backward"] else 1) % len(frames)
+        assert list(later) == sorted(later)
+        if item["point"] is None:
+            assert "nverted" in item["form"]
+            continue
+        (own,) = [member for member in item["members"] if 4 in member]  # crank, coupler with its point, ...
+        start, end = frames[:, own[0]], frames[:, own[1]]
+        along = (end - start) / np.abs(end - start)
+        assert np.allclose(start + complex(*item["point"]) * along, frames[:, 4], atol=1e-3 * item["size"])
+    assert {item["backward"] for item in items} == {False, True}
+
+    page = tab(width=390, height=844, touch=True).open(server.address)
+    view = page.page
+    view.tap('[data-view="synthesis"]')  # a mouse would lie above a card in the end
+    view.evaluate(f"(rows) => {{ {VIEW}.rows.positions = rows; }}", rows)
+    view.tap('[data-value="positions"]')
+    view.tap('[data-act="synthesise"]')
+    view.locator('[data-list="designs"] .card').first.wait_for(timeout=60_000)
+    view.locator('[data-field="form"]').select_option(label="Four-bar · 5")
+    cards = view.locator('[data-list="designs"] .card')
+    assert cards.first.get_attribute("aria-current") is not None
+    cards.nth(1).tap()
+    assert cards.first.get_attribute("aria-current") is None
+    assert view.evaluate("gruebler.view") == "synthesis"
+    x, y = next(item["point"] for item in items if item["form"] == "Four-bar" and item["backward"])
+    last = cards.filter(has_text=f"{x:.1f}\xa0|\xa0{y:.1f}".replace("-", "−"))
+    last.tap()
+    assert view.evaluate("gruebler.view") == "synthesis"
+    assert last.get_attribute("aria-current") is not None
+    assert "scale(-1 1)" in view.locator("[data-ghost] .driven").get_attribute("transform")
+    last.tap()
+    page.until("gruebler.view === 'motion'")
+    drive = "gruebler.motion.linkage.drives[0]"
+    before = view.evaluate(drive)
+    play = view.locator(".transport .play")
+    if play.get_attribute("title") == "Play":
+        play.tap()
+    page.until(f"{drive} !== {before}")
+    play.tap()
+    assert 0 < (before - view.evaluate(drive)) % (2 * np.pi) < np.pi
+    assert view.locator(".stage .driven").get_attribute("transform") == "scale(-1 1)"

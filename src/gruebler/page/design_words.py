@@ -98,5 +98,9 @@ def words(
         yield message("Of lengths only the ratios count; the longest is 100 mm.")
     elif items:
         yield message("The longest link counts its points, too, and how far a rod slides.")
+    if any(item["point"] for item in items):
+        yield message(
+            "Point: how far along its link from the pin nearer to the drive, and how far to the left of that line."
+        )
     if sensitive:
         yield message("Sensitivity: how far a target is off at most if lengths are 0.1 % wrong.")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import degrees, hypot, isfinite, radians
 from typing import Any
@@ -102,9 +102,8 @@ def design_records(
     diagonal of that space, nor much longer than another: the curve that comes nearest to a drawn one often belongs to
     a linkage many times as large.
 
-    For positions through which a crank that turns fully carries a body the angle over the whole turn decides, and is
-    what is asked for where a design has it. A design
-    that is much like a better one is marked as its variant.
+    Of cranks that turn fully the angle over the whole turn is what is asked for, too, where a design has it; of
+    positions it is what is sought. A design that is much like a better one is marked as its variant.
 
     >>> found = design_records(task_of("dead-centres", [[60, 1.2]]), True, 30.0, "en", print)
     Looking for four-bars
@@ -139,7 +138,7 @@ def design_records(
     )
     designs = list(result.designs)
     left: list[Message] = []
-    if sort:  # those that have the angle in all positions, if there are any
+    if crank:  # those that have the angle in all positions, if there are any
         whole = [each for each in designs if degrees(each.transmission_over_range) >= transmission]
         if whole and whole != designs:
             left.append(_LOW.filled(angle=transmission, count=len(designs) - len(whole)))
@@ -192,6 +191,7 @@ def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
         **_frames(linkage, posed, _played(design, task, posed)),
         **_met_angles(design, task, posed),
         **_carried_arrow(design, task, posed),
+        "backward": isinstance(task, PathTask | PositionTask) and bool(design.drives[0] > design.drives[-1]),
     }
 
 
@@ -414,8 +414,25 @@ def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, An
         "drive": linkage.mechanism.drives[0].joint,
         "measures": measured,
         "lengths": lengths if one_loop else [],
+        "point": _point_of(linkage, rows[0], pins) if one_loop else None,
         "names": {lang: [names[link] for link in bars] for lang, names in called.items()},
     }
+
+
+def _point_of(linkage: Linkage, places: Reals, pins: Mapping[str, list[int]]) -> list[float] | None:
+    """How far the only point lies along its link, from the pin that is nearer to the drive, and to the left of that."""
+    if len(linkage.points) != 1:
+        return None
+    (point,) = linkage.points.values()
+    mechanism = linkage.mechanism
+    own = pins[point.link]
+    if len(own) != 2 or mechanism.frame == point.link:
+        return None
+    drive = mechanism.drives[0].between
+    first, second = sorted(own, key=lambda k: not set(mechanism.chain.joints[k].links) & set(drive))
+    start, end, at = places[[first, second, len(mechanism.chain.joints)]] @ (1, 1j)
+    z = (at - start) * abs(end - start) / (end - start)
+    return [float(z.real), float(z.imag)]
 
 
 def _apart(places: Reals, first: int, second: int) -> float:
