@@ -33,8 +33,8 @@ interface Answer {
   drives?: number[];
   effort: Numbers;
   effective: number;
-  /** In watts: the largest, and the mean. */
-  power: Pair;
+  /** In watts: the least, the largest, and the mean. */
+  power: [number, number, number];
   /** By joint, with the link on which it acts. */
   forces: { joint: number; link: number; force: [Numbers, Numbers] }[];
   lines: string[];
@@ -158,7 +158,7 @@ export class Forces {
         const others = links.map((other) => linkage.linkName(other)).join(", ");
         const name = t("{others} on {link}", { others, link: linkage.linkName(link) });
         const row = largestOf(sizes);
-        return { joint, drives: places, x, y, most: sizes[row] || 1, name, note: at(row) };
+        return { joint, drives: places, x, y, most: sizes[row]!, name, note: at(row) };
       });
       const chosen = this.#joint.selectedIndex;
       renew(this.#joint, ...this.#forces.map(({ name }, value) => h("option", { value }, name)));
@@ -166,28 +166,30 @@ export class Forces {
       const onclick = () => void this.#fall(fallen);
       const play = () => this.#view.transport.playAt(speed!);
       const release = t("Release the drive: free motion");
-      const most = largestOf(effort);
+      const known = effort.filter((one) => one !== null);
+      const ends: Pair = [Math.min(...known), Math.max(...known)];
+      const place = (end: number) => driveText(linkage, drives[effort.indexOf(end)]!, 4);
       const unit = turning ? momentUnit(model) : "N";
       const strong = largestOf(this.#forces.map((force) => force.most));
       const strongest = this.#forces[strong]!;
       this.#joint.selectedIndex = chosen < 0 ? strong : chosen;
       this.#facts.show([
         {
-          name: turning ? t("Largest drive torque") : t("Largest drive force"),
-          text: `${number(effort[most] ?? 0, 3)} ${unit}`,
-          note: at(most),
+          name: turning ? t("Drive torque") : t("Drive force"),
+          text: `${span(ends, figure)} ${unit}`,
+          note: t("at {place}", { place: span(ends, place, "; ") }),
         },
-        { name: t("Effective (RMS)"), text: `${number(effective, 3)} ${unit}` },
-        { name: t("Largest drive power"), text: `${number(power[0], 3)} W` },
-        { name: t("Mean drive power"), text: `${number(power[1], 3)} W` },
+        { name: t("Effective (RMS)"), text: `${figure(effective)} ${unit}` },
+        { name: t("Drive power"), text: `${span(power, figure)} W` },
+        { name: t("Mean drive power"), text: `${figure(power[2])} W` },
         {
           name: t("Drive work"),
-          text: `${number((power[1] * (drives.at(-1)! - drives[0]!)) / speed!, 3)} J`,
+          text: `${number((power[2] * (drives.at(-1)! - drives[0]!)) / speed!, 3)} J`,
           note: [0, -1].map((row) => driveText(linkage, drives.at(row)!, 4)).join(" … "),
         },
         {
           name: t("Largest joint force"),
-          text: `${number(strongest.most, 3)} N`,
+          text: `${figure(strongest.most)} N`,
           note: `${strongest.note}, ${strongest.name}`,
         },
       ]);
@@ -228,8 +230,8 @@ export class Forces {
     this.#joints.show(
       this.#forces.map((force) => ({
         name: force.name,
-        text: `${number(force.most * Math.hypot(...vectorAt(force, drive)), 3)} N`,
-        note: `max. ${number(force.most, 3)} N ${force.note}`,
+        text: `${figure(force.most * Math.hypot(...vectorAt(force, drive)))} N`,
+        note: `max. ${figure(force.most)} N ${force.note}`,
       })),
     );
     this.#polar.at(drive);
@@ -262,4 +264,13 @@ export class Forces {
 
 function numbers(values: Numbers): Float64Array {
   return Float64Array.from(values, (value) => value ?? NaN);
+}
+
+/** The least and the largest of what varies, in words. */
+function span([least, most]: readonly number[], word: (end: number) => string, between = " … "): string {
+  return [...new Set([word(least!), word(most!)])].join(between);
+}
+
+function figure(value: number): string {
+  return number(value, 3);
 }

@@ -23,7 +23,8 @@ export class Polar {
 
   show(vectors: Vectors, unit: string): void {
     this.#vectors = vectors;
-    const { x, y, most } = vectors;
+    const { x, y } = vectors;
+    const most = vectors.most || 1;
     const scale = RADIUS / most;
     const rings = roundValues(0, most, 6).slice(1); // three to seven
     // the numbers stand where the curve is not
@@ -54,5 +55,5 @@ export class Polar {
 
 /** A vector at a value of the drive, against the longest. */
 export function vectorAt({ drives, x, y, most }: Vectors, drive: number): Pair {
-  return [valueAt(drives, x, drive) / most, valueAt(drives, y, drive) / most];
+  return [valueAt(drives, x, drive) / (most || 1), valueAt(drives, y, drive) / (most || 1)];
 }

@@ -50,12 +50,32 @@ def test_what_a_motor_has_to_give():
     load = {"on": "link", "number": 1, "x": -1000.0}
     question = asked(FourBar(25, 70, 40, 70).linkage(), loads=[load], speed=10.0)
     told = answer("forces", question, "en", print)
-    assert (told["effective"], told["power"]) == (pytest.approx(1000), pytest.approx([10, 10]))
+    assert (told["effective"], told["power"]) == (pytest.approx(1000), pytest.approx([10, 10, 10]))
     # masses alone take as much as they give back
     told = answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), steel=True, speed=10.0), "en", print)
-    assert told["power"][1] == 0
-    assert told["power"][0] == pytest.approx(1e-3 * 10 * max(told["effort"], key=abs), rel=1e-6)
+    ends = [1e-3 * 10 * end for end in (min(told["effort"]), max(told["effort"]))]
+    assert ends[0] < 0 < ends[1]
+    assert told["power"] == pytest.approx([*ends, 0], rel=1e-6, abs=1e-9)
     assert not any("effort" in line for line in told["lines"])  # which stands there as a figure
+
+
+INERT = {"ends": [[0, -20.0, 5.0], [1, 25.0, 0.0]], "stiffness": 0.0}
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"loads": [{"on": "link", "number": 3, "x": 0.0}]},
+        {"loads": [{"on": "joint", "number": 2, "x": 5.0}, {"on": "joint", "number": 2, "x": -5.0}]},
+        {"springs": [INERT]},
+    ],
+)
+def test_a_load_that_is_not_typed_yet_does_not_act(more):
+    """A moment of nothing, two forces that cancel each other, a spring without stiffness."""
+    told = answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), **more), "en", print)
+    assert "forces" not in told
+    acting = {"springs": [{**INERT, "damping": 0.1}]}
+    assert answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), **acting), "en", print)["forces"]
 
 
 def test_a_bar_reaches_to_the_point_on_its_line():
@@ -288,13 +308,12 @@ def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_field
     assert result.bounding_box()["y"] < panel.locator(".plot").first.bounding_box()["y"]
     torque, effective, power, mean, work, force = result.first.locator("dd").all_text_contents()
     told = answer("forces", asked(entries()["crankrocker"].linkage(), steel=True), "en", print)
-    largest = max(told["effort"], key=abs)
-    assert torque.startswith(f"\N{MINUS SIGN}{-largest:.3g} N·mm at ")
-    places = [drive for drive, effort in zip(told["drives"], told["effort"], strict=True) if effort == largest]
-    assert torque.endswith(f" at {math.degrees(places[0]):.4g}°")
+    ends = (min(told["effort"]), max(told["effort"]))
+    places = [math.degrees(told["drives"][told["effort"].index(end)]) for end in ends]
+    assert torque == f"\N{MINUS SIGN}{-ends[0]:.3g} … {ends[1]:.3g} N·mm at {places[0]:.4g}°; {places[1]:.4g}°"
     assert effective == f"{told['effective']:.3g} N·mm"
-    watts = 1e-3 * 2 * math.pi * largest  # at 60/min
-    assert (power, mean) == (f"\N{MINUS SIGN}{-watts:.3g} W", "0 W")
+    watts = [1e-3 * 2 * math.pi * end for end in ends]  # at 60/min
+    assert (power, mean) == (f"\N{MINUS SIGN}{-watts[0]:.3g} … {watts[1]:.3g} W", "0 W")
     assert work == "0 J 0° … 360°"
     assert panel.get_by_label("Forces at drive speed").input_value() == "60"
     assert panel.get_by_text("Assumed masses: steel, bars 20 mm × 5 mm").count() == 1

@@ -60,7 +60,8 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     record["springs"] = _springs(linkage, loads) if own is None else msgspec.to_builtins(own)
     record["speed"] = asked.speed or usual
     record["besides"] = _BESIDES.filled(places=joined(besides)).in_language(lang) if besides else ""
-    if not (loads.bodies or loads.masses or loads.forces or loads.moments or loads.springs or loads.torsion_springs):
+    pulling = any(each.law or each.stiffness or each.preload or each.damping for each in _all_springs(loads))
+    if not (loads.bodies or loads.masses or loads.forces or loads.moments or pulling):
         return record
     active, (low, high) = asked.active, asked.range
     turning = linkage.mechanism.drives[active].turning
@@ -82,13 +83,14 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         for link in (each.links if len(each.links) > 2 else each.links[1:])
     ]
     lines = [*run.remarks(lang)]
-    power = _short(metres_of(linkage.unit) * np.append(run.power[:, active], run.mean_power[active]))
+    power = run.power[:, active]
+    watts = metres_of(linkage.unit) * np.array([np.nanmin(power), np.nanmax(power), run.mean_power[active]])
     return record | {
         "speed": speed,
         "drives": motion.drives[:, active].tolist(),
         "effort": _short(run.drive[:, active]).tolist(),
         "effective": float(run.root_mean_square[active]),
-        "power": [float(max(power[:-1], key=abs)), float(power[-1])],
+        "power": _short(watts).tolist(),
         "forces": forces,
         "lines": lines,
     }
@@ -168,6 +170,8 @@ def _laden(asked: LoadedLinkage, lang: str) -> _Laden:
     gravity = loads.gravity if asked.gravity else (0.0, 0.0)
     if asked.springs is not None:
         loads = _own_springs(linkage, loads, asked.springs)
+    forces = {name: force for name, force in forces.items() if force != (0.0, 0.0)}
+    moments = {name: moment for name, moment in moments.items() if moment != 0.0}
     acting = replace(loads, forces=forces, moments=moments, gravity=gravity, bodies=bodies)
     return _Laden(linkage, acting, speed, besides)
 
