@@ -14,6 +14,8 @@ export interface Design extends Moving {
   document: LinkageDocument;
   picture: string;
   form: string;
+  /** What a four-bar is called by Grashof's condition. */
+  kind?: string | null;
   transmission: number | null;
   /** The same over all positions that it can take. */
   range?: number | null;
@@ -248,7 +250,7 @@ export class DesignCards {
   }
 
   #card(design: Design): HTMLElement {
-    const { form, lengths, names, pairs, point } = design;
+    const { form, kind, lengths, names, pairs, point } = design;
     const { items } = this.#found!;
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
     const extra: [string, string][] = [];
@@ -282,6 +284,7 @@ export class DesignCards {
       },
       h("small", {}, thumbnail(design.picture, form), t("Open in Motion")),
       h("b", {}, title),
+      kind && h("span", {}, kind),
       h(
         "span.lengths",
         {},

@@ -16,7 +16,7 @@ export const ARM = 14; // of the arrow that shows the angle of a position
 const LONG = 100; // millimetres of a rocker of which only the swing is known
 const AWAY = 6; // from a point to the middle of its number
 export const HEAD = "M-1.8 -1.8L2.4 0L-1.8 1.8Z"; // of an arrow
-const CROWD = 9; // targets, of more only some have their numbers
+export const CROWD = 9; // targets, of more only some have their numbers
 
 /** A table whose cells change the rows; each row may be removed. */
 export function rowsTable(

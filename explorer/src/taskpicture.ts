@@ -6,7 +6,7 @@ import { h, put, renew, svg } from "./dom";
 import { Ghost, pathOf } from "./ghost";
 import { away } from "./hull";
 import type { Pair } from "./rows";
-import { markSize, numberPlaces, swingMark, swingOf, targetMark } from "./targets";
+import { CROWD, markSize, numberPlaces, swingMark, swingOf, targetMark } from "./targets";
 import { type Kind, wordsOf } from "./tasks";
 
 const WIDE = 240; // of the plane, in millimetres; that of a phone is narrower
@@ -106,7 +106,7 @@ export class TaskPicture {
     const parts = curve.slice(1).map((next, k): Pair[] => [curve[k]!, next]);
     const at = numberPlaces(points, closed, unit, [...(angles ? axes : []), ...parts, ...grounds]);
     put(this.#here, { r: 1.5 * unit });
-    const dot = markSize(points, DOT, unit);
+    const dot = markSize(points, DOT, unit) * (design && points[CROWD] ? 0.5 : 1);
     const mark = (_: unknown, k: number) => targetMark(points, k, at[k]!, unit, dot);
     const wanted = svg("path.polygon", { d: kind === "positions" ? "" : pathOf(way) + loop });
     renew(

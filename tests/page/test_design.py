@@ -861,8 +861,17 @@ def test_cards_tell_where_the_point_lies_and_the_drive_turns_the_way_of_the_targ
 
     rows = [[-40, 0, 0], [0, 25, 20], [35, 10, 40]]
     asked = {"kind": "positions", "rows": rows, "crank": True, "transmission": 20}
-    items = answer("synthesise", asked, "en", lambda _: None)["items"]
+    found = answer("synthesise", asked, "en", lambda _: None)
+    items = found["items"]
+    assert max(item["size"] for item in items) < 10 * np.hypot(75, 25)
+    assert "Left out, as a link is longer than 791 mm: 2." in found["note"]
     for item in items:
+        if item["form"] == "Four-bar":
+            frame, *others = item["lengths"]
+            low, *middle, high = sorted(item["lengths"])
+            shortest = {frame: "double crank", others[0]: "crank-rocker"}.get(low, "")
+            assert low + high < sum(middle)
+            assert item["kind"] == shortest
         frames = np.array(item["frames"]) @ (1, 1j)
         passed = [int(np.abs(frames[:, 4] - complex(x, y)).argmin()) for x, y, _ in rows]
         later = (np.array(passed) - passed[0]) * (-1 if item["backward"] else 1) % len(frames)
@@ -883,7 +892,9 @@ def test_cards_tell_where_the_point_lies_and_the_drive_turns_the_way_of_the_targ
     view.tap('[data-value="positions"]')
     view.tap('[data-act="synthesise"]')
     view.locator('[data-list="designs"] .card').first.wait_for(timeout=60_000)
-    view.locator('[data-field="form"]').select_option(label="Four-bar · 5")
+    view.locator('[data-field="form"]').select_option(
+        label=f"Four-bar · {sum(item['form'] == 'Four-bar' for item in items)}"
+    )
     cards = view.locator('[data-list="designs"] .card')
     assert cards.first.get_attribute("aria-current") is not None
     cards.nth(1).tap()

@@ -30,7 +30,7 @@ from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.page.design_words import SLENDER, is_curve, notes, words
-from gruebler.page.model import link_names
+from gruebler.page.model import four_bar_type, link_names
 from gruebler.pictures.linkage.bodies import CarriedLine, pins_of, slides
 from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, drive_rows, posed_linkage
@@ -47,6 +47,8 @@ _BLOCK = 12.0  # pixels: half the block of a slide, and what its guide is longer
 _CIRCLE = np.exp(2j * np.pi * np.arange(17) / 16)
 _LIKE = 0.1
 """Of the size: designs of one form whose pivots and lengths differ by less are variants of one another."""
+_FAR = 10
+"""So many times the extent of places: longer links are left out where no limit is given and shorter ones do."""
 _LONGEST = 100.0
 """Of designs of which only the ratios count: so long is the longest distance of joints on a link, in mm."""
 _ROUNDING = 1e-9
@@ -100,7 +102,8 @@ def design_records(
 
     Fixed pivots lie within a reach of the rectangle about places, if one is given, and no link is longer than the
     diagonal of that space, nor much longer than another: the curve that comes nearest to a drawn one often belongs to
-    a linkage many times as large.
+    a linkage many times as large. Else links ten times as long as the diagonal of that rectangle are left out if
+    there are shorter ones.
 
     Of cranks that turn fully the angle over the whole turn is what is asked for, too, where a design has it; of
     positions it is what is sought. A design that is much like a better one is marked as its variant.
@@ -143,10 +146,12 @@ def design_records(
         if whole and whole != designs:
             left.append(_LOW.filled(angle=transmission, count=len(designs) - len(whole)))
             designs = whole
-    if space is not None:
-        longest = hypot(space[2] - space[0], space[3] - space[1])
-        designs, too_long = _short_enough(designs, longest)
-        left += too_long
+    near = space or _region(task, 0.0)
+    if near is not None:
+        longest = (1 if space else _FAR) * hypot(near[2] - near[0], near[3] - near[1])
+        fitting, too_long = _short_enough(designs, longest)
+        if fitting or space:  # giants where there is nothing else
+            designs, left = fitting, left + too_long
     relative = not gives_lengths(task)
     if relative:
         designs = [replace(each, linkage=each.linkage.scaled(_LONGEST / each.linkage.size)) for each in designs]
@@ -183,6 +188,7 @@ def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
         "document": linkage_to_json(linkage),
         "picture": draw_linkage(linkage, curves=list(linkage.points), lang=lang, outlines=marks).svg(styled=False),
         "form": capitalised(replace(design, form=_NAMES.get(design.form, design.form)).form_in_language(lang)),
+        "kind": kind.name(lang).split(" (")[0] if (kind := four_bar_type(linkage)) else None,
         "transmission": angle if isfinite(angle) else None,
         "range": degrees(over_range) if isfinite(over_range := design.transmission_over_range) else None,
         "shift": shift * size if isfinite(shift := design.relative_sensitivity) else None,

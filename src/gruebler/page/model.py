@@ -23,7 +23,7 @@ from gruebler.files.load_writing import loads_to_json
 from gruebler.mechanics.analysis.messages import undefined_transmission_message
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, force_path
-from gruebler.mechanics.fourbar import grashof
+from gruebler.mechanics.fourbar import LinkageType, grashof
 from gruebler.mechanics.kinematics.branches import labelled_groups
 from gruebler.mechanics.kinematics.plan import Dyad, Plan
 from gruebler.mechanics.linkages import Linkage
@@ -34,9 +34,19 @@ from gruebler.structure.chain.pairs import Pair
 from gruebler.structure.chain.spaces import Space
 from gruebler.teaching.catalog import entries
 
-_NUMBERED = re.compile(r"(frame|crank|driven crank|coupler|rocker|slider|block|wheel)(\d*)")
+_NUMBERED = re.compile(
+    r"(frame|crank|driven crank|driving rocker|driven rocker|coupler|rocker|slider|block|wheel)(\d*)"
+)
 """Names of the links of four-bars, and by roles."""
-_DRIVEN_CRANK = message("driven crank")
+_ENDS = {
+    "double_crank": {"rocker": message("driven crank").text},
+    "rocker_crank": {"crank": message("driving rocker").text, "rocker": message("driven crank").text},
+    **dict.fromkeys(
+        ("triple_rocker", "grashof_double_rocker"),
+        {"crank": message("driving rocker").text, "rocker": message("driven rocker").text},
+    ),
+}
+"""What crank and rocker of a four-bar are called by its type, where they are something else."""
 """The rocker of a four-bar that turns fully, too."""
 
 _FOUR_BAR = ("crank", "coupler", "rocker", "frame")  # its links, in the order of their lengths
@@ -166,25 +176,33 @@ def link_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
     'Schwinge'
     >>> link_names(FourBar(86, 100, 90.6, 55.8).linkage(), "", "de")["rocker"]  # a double crank
     'getriebene Kurbel'
+    >>> link_names(FourBar(70.56, 62.98, 55.91, 80).linkage(), "", "en")["crank"]  # nothing turns fully
+    'driving rocker'
     """
     links = linkage.mechanism.chain.links
     record = entries().get(source)
     if record is not None and record.chain().links == links:
         return dict(zip(links, record.in_language(lang).chain().links, strict=True))
-    second = {"rocker": _DRIVEN_CRANK.text} if _is_double_crank(linkage) else {}
-    parts = {link: _NUMBERED.fullmatch(second.get(link, link)) for link in links}
+    kind = four_bar_type(linkage)
+    ends = _ENDS.get(kind.key, {}) if kind else {}
+    parts = {link: _NUMBERED.fullmatch(ends.get(link, link)) for link in links}
     return {link: translate(part[1], lang) + part[2] if part else link for link, part in parts.items()}
 
 
-def _is_double_crank(linkage: Linkage) -> bool:
-    """Whether it is a four-bar by the names of its links, of which crank and rocker both turn fully."""
+def four_bar_type(linkage: Linkage) -> LinkageType | None:
+    """What a four-bar, by the names of its links, is called by Grashof's condition.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> four_bar_type(FourBar(25, 70, 40, 70).linkage()).key
+    'crank_rocker'
+    """
     chain, elements = linkage.mechanism.chain, linkage.elements
     ends = {link: [complex(e.x, e.y) for (_, own), e in elements.items() if own == link] for link in _FOUR_BAR}
     if set(chain.links) != set(_FOUR_BAR) or not all(joint.pair.is_turning for joint in chain.joints):
-        return False
+        return None
     if not all(len(own) == 2 for own in ends.values()):
-        return False
-    return grashof(*(abs(own[0] - own[1]) for own in ends.values())).type.key == "double_crank"
+        return None
+    return grashof(*(abs(own[0] - own[1]) for own in ends.values())).type
 
 
 def names_of_points(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
