@@ -56,7 +56,7 @@ _ROUNDING = 1e-9
 _CURVES = 12
 """So many designs for a whole curve: a choice between near ones and small ones."""
 _LOW = message("Left out, as the transmission angle falls below {angle:g}° in other positions: {count}.")
-_LONG = message("Left out, as a link is longer than {length:.3g} mm: {count}.")
+_LONG = message("Left out, as a link is longer than {length:g} mm: {count}.")
 _FRAMES = 144  # of a motion, there and back if it does not turn fully
 
 
@@ -230,7 +230,7 @@ def _short_enough(designs: list[Design], longest: float) -> tuple[list[Design], 
     """
     fitting = [each for each in designs if _longest(posed_linkage(each.linkage)) <= longest]
     more = len(designs) - len(fitting)
-    return fitting, [_LONG.filled(length=longest, count=more)] * bool(more)
+    return fitting, [_LONG.filled(length=float(f"{longest:.3g}"), count=more)] * bool(more)
 
 
 def _size_of(error: float, size: float) -> float | None:

@@ -38,13 +38,12 @@ _NUMBERED = re.compile(
     r"(frame|crank|driven crank|driving rocker|driven rocker|coupler|rocker|slider|block|wheel)(\d*)"
 )
 """Names of the links of four-bars, and by roles."""
+_ROCKERS = {"crank": message("driving rocker").text, "rocker": message("driven rocker").text}
 _ENDS = {
     "double_crank": {"rocker": message("driven crank").text},
     "rocker_crank": {"crank": message("driving rocker").text, "rocker": message("driven crank").text},
-    **dict.fromkeys(
-        ("triple_rocker", "grashof_double_rocker"),
-        {"crank": message("driving rocker").text, "rocker": message("driven rocker").text},
-    ),
+    "triple_rocker": _ROCKERS,
+    "grashof_double_rocker": _ROCKERS,
 }
 """What crank and rocker of a four-bar are called by its type, where they are something else."""
 """The rocker of a four-bar that turns fully, too."""
