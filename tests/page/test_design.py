@@ -855,16 +855,22 @@ def test_on_a_phone_a_linkage_has_most_of_the_picture_beside_its_chart(tab, serv
     assert 100 * scale > 0.25 * linkage["width"]
 
 
-def test_cards_tell_where_the_point_lies_and_the_drive_turns_the_way_of_the_targets(tab, server):
-    """By the places of joints in the frames of the motion; a finger chooses a card, then opens it."""
+THREE = [[-40, 0, 0], [0, 25, 20], [35, 10, 40]]
+
+
+@pytest.fixture(scope="module")
+def found_for_three():
     from gruebler.page.requests import answer
 
-    rows = [[-40, 0, 0], [0, 25, 20], [35, 10, 40]]
-    asked = {"kind": "positions", "rows": rows, "crank": True, "transmission": 20}
-    found = answer("synthesise", asked, "en", lambda _: None)
-    items = found["items"]
+    asked = {"kind": "positions", "rows": THREE, "crank": True, "transmission": 20}
+    return answer("synthesise", asked, "en", lambda _: None)
+
+
+def test_cards_tell_where_the_point_lies_and_the_drive_turns_the_way_of_the_targets(found_for_three):
+    """By the places of joints in the frames of the motion, and by Grashof's sums."""
+    items = found_for_three["items"]
     assert max(item["size"] for item in items) < 10 * np.hypot(75, 25)
-    assert "Left out, as a link is longer than 791 mm: 2." in found["note"]
+    assert "Left out, as a link is longer than 791 mm: 2." in found_for_three["note"]
     for item in items:
         if item["form"] == "Four-bar":
             frame, *others = item["lengths"]
@@ -873,7 +879,7 @@ def test_cards_tell_where_the_point_lies_and_the_drive_turns_the_way_of_the_targ
             assert low + high < sum(middle)
             assert item["kind"] == shortest
         frames = np.array(item["frames"]) @ (1, 1j)
-        passed = [int(np.abs(frames[:, 4] - complex(x, y)).argmin()) for x, y, _ in rows]
+        passed = [int(np.abs(frames[:, 4] - complex(x, y)).argmin()) for x, y, _ in THREE]
         later = (np.array(passed) - passed[0]) * (-1 if item["backward"] else 1) % len(frames)
         assert list(later) == sorted(later)
         if item["point"] is None:
@@ -885,22 +891,23 @@ def test_cards_tell_where_the_point_lies_and_the_drive_turns_the_way_of_the_targ
         assert np.allclose(start + complex(*item["point"]) * along, frames[:, 4], atol=1e-3 * item["size"])
     assert {item["backward"] for item in items} == {False, True}
 
+
+def test_a_finger_chooses_a_card_then_opens_it_and_the_drive_turns_clockwise(tab, server, found_for_three):
     page = tab(width=390, height=844, touch=True).open(server.address)
     view = page.page
     view.tap('[data-view="synthesis"]')  # a mouse would lie above a card in the end
-    view.evaluate(f"(rows) => {{ {VIEW}.rows.positions = rows; }}", rows)
+    view.evaluate(f"(rows) => {{ {VIEW}.rows.positions = rows; }}", THREE)
     view.tap('[data-value="positions"]')
     view.tap('[data-act="synthesise"]')
     view.locator('[data-list="designs"] .card').first.wait_for(timeout=60_000)
-    view.locator('[data-field="form"]').select_option(
-        label=f"Four-bar · {sum(item['form'] == 'Four-bar' for item in items)}"
-    )
+    four_bars = [item for item in found_for_three["items"] if item["form"] == "Four-bar"]
+    view.locator('[data-field="form"]').select_option(label=f"Four-bar · {len(four_bars)}")
     cards = view.locator('[data-list="designs"] .card')
     assert cards.first.get_attribute("aria-current") is not None
     cards.nth(1).tap()
     assert cards.first.get_attribute("aria-current") is None
     assert view.evaluate("gruebler.view") == "synthesis"
-    x, y = next(item["point"] for item in items if item["form"] == "Four-bar" and item["backward"])
+    x, y = next(item["point"] for item in four_bars if item["backward"])
     last = cards.filter(has_text=f"{x:.1f}\xa0|\xa0{y:.1f}".replace("-", "−"))
     last.tap()
     assert view.evaluate("gruebler.view") == "synthesis"
