@@ -30,7 +30,7 @@ from gruebler.design.synthesis.results import Design, Progress, SolutionCount, S
 from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask
-from gruebler.design.synthesis.tightest_demands import all_but_one, freed, has_limits
+from gruebler.design.synthesis.tightest_demands import tightest_sought
 from gruebler.mechanics.linkages import Linkage
 
 _STARTS = (40, 240)  # neighbours that are made better; a triangle needs the more
@@ -331,8 +331,15 @@ def fit_path(
         limit=limit,
     )
     counted = SolutionCount(what=message("linkages"), theorem=0, found=len(fits), real=len(fits))
-    notes = (note, *order_notes((*accepted, *rejected), demands))
-    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=counted, notes=notes)
+    notes = [note, *order_notes((*accepted, *rejected), demands)]
+    if not accepted:
+
+        def again(task: PathTask, demands: Demands, limits: Demands) -> list[Design]:
+            fits = _fits(task, limits, timing, 4 * number, kinds=_kinds(sliders=sliders), power=_POWER)
+            return [each for fit in fits for each in _judged(task, replace(demands, tolerance=limit), fit)]
+
+        notes += tightest_sought(task, demands, again)
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=counted, notes=tuple(notes))
 
 
 def _kinds(*, sliders: bool) -> tuple[FourBarKind, ...]:
@@ -365,7 +372,10 @@ def fit_open_points(
     exact = [fit for fit in fits if fit.error < _MET]
     accepted, rejected = _judged_fits(task, demands, exact or fits[:number], len(fits), progress)
     note = message(
-        "There are infinitely many solutions (free parameters: {parameters}): {count} of them were found by least "
+        "The points and what is given leave finitely many linkages, or none; least squares from linkages with similar "
+        "curves led to {count} of them."
+        if parameters <= 0
+        else "There are infinitely many solutions (free parameters: {parameters}): {count} of them were found by least "
         "squares from linkages with similar curves; others may be better."
         if exact
         else "Without demands there are infinitely many solutions (free parameters: {parameters}); least squares from "
@@ -373,7 +383,8 @@ def fit_open_points(
         parameters=parameters,
         count=len(exact),
     )
-    counted = SolutionCount(what=message("linkages"), theorem=None, found=len(exact), real=len(exact))
+    theorem = None if parameters > 0 else 0
+    counted = SolutionCount(what=message("linkages"), theorem=theorem, found=len(exact), real=len(exact))
     notes = (note, *order_notes((*accepted, *rejected), demands))
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=counted, notes=notes)
 
@@ -382,12 +393,13 @@ def tightest_of_points(
     task: PathTask, demands: Demands, *, number: int, sliders: bool, progress: Progress | None
 ) -> list[Message]:
     """Of points that no design passes within the demands: the one without which the most are found, sought freely."""
-    if not has_limits(demands):
-        return []
-    free = freed(demands)
-    order = sought_order(task, free)
-    fits = _fits(task, free, None, 4 * number, kinds=_kinds(sliders=sliders), order=order, progress=progress)
-    return all_but_one([each for fit in fits if fit.error < _MET for each in _judged(task, demands, fit)], demands)
+
+    def again(task: PathTask, demands: Demands, limits: Demands) -> list[Design]:
+        order = sought_order(task, limits)
+        fits = _fits(task, limits, None, 4 * number, kinds=_kinds(sliders=sliders), order=order, progress=progress)
+        return [each for fit in fits if fit.error < _MET for each in _judged(task, demands, fit)]
+
+    return tightest_sought(task, demands, again)
 
 
 def _judged_fits(

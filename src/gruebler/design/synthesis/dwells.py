@@ -12,7 +12,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError
-from gruebler.base.text import message
+from gruebler.base.text import Message, message
 from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dwell_search import (
     ROCKER,
@@ -29,6 +29,7 @@ from gruebler.design.synthesis.judging import transmission_fault, verdict_at_res
 from gruebler.design.synthesis.results import EXACT, PASSED, Design, Progress, SolutionCount, SynthesisResult
 from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import DwellTask
+from gruebler.design.synthesis.tightest_demands import tightest_sought
 from gruebler.mechanics.analysis.drive_cycles import drive_cycle
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import measure_transmission
@@ -80,6 +81,7 @@ def synthesise_dwells(
         docs/theory/synthesis-dwells.md
     """
     wanted = demands or Demands(tolerance=NEAR)
+    wanted = replace(wanted, tolerance=NEAR if wanted.tolerance == Demands.tolerance else wanted.tolerance)
     refused: dict[str, object] = {
         "region": wanted.region,
         "lengths": wanted.lengths or None,
@@ -88,10 +90,22 @@ def synthesise_dwells(
     }
     if key := next((name for name, value in refused.items() if value is not None), None):
         raise SynthesisError("{key}: a rest is designed without given lengths or places of pivots", key=key)
-    tolerance = NEAR if wanted.tolerance == Demands.tolerance else wanted.tolerance
-    least = (wanted.transmission or _USUAL) + _MARGIN
-    shortest = 0.5 if wanted.size_ratio >= 2 * _LONGEST else max(0.5, min(1.0, _LONGEST / wanted.size_ratio))
-    longest = min(_LONGEST, shortest * wanted.size_ratio)
+    designs, notes = _sought(task, wanted, wanted, number=number, progress=progress)
+    accepted = tuple(sorted((d for d in designs if d.verdict.accepted), key=lambda d: float(f"{d.verdict.error:.6g}")))
+    rejected = tuple(d for d in designs if not d.verdict.accepted)
+    if not accepted:
+        notes += tightest_sought(task, wanted, lambda *asked: _sought(*asked, number=number)[0])
+    count = SolutionCount(what=message("linkages"), theorem=0, found=len(designs), real=len(designs))
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
+
+
+def _sought(
+    task: DwellTask, demands: Demands, limits: Demands, *, number: int, progress: Progress | None = None
+) -> tuple[list[Design], list[Message]]:
+    """Designs that were sought within limits, judged by the demands, and what is said of the search."""
+    least = (limits.transmission or _USUAL) + _MARGIN
+    shortest = 0.5 if limits.size_ratio >= 2 * _LONGEST else max(0.5, min(1.0, _LONGEST / limits.size_ratio))
+    longest = min(_LONGEST, shortest * limits.size_ratio)
     kind, size = (SLIDER, 1.0) if task.swing is None else (ROCKER, task.swing)
     arcs = circular_arcs(task.dwell, least, longest, _ARCS)
     starts = [start for arc in arcs for start in placed_outputs(arc, kind, size, least)]
@@ -107,9 +121,7 @@ def synthesise_dwells(
             if progress is not None:
                 progress(done, len(chosen))
     six_bars.sort(key=lambda six_bar: round(_strays(six_bar, task.dwell), 12))
-    designs = [_judged(task, six_bar, wanted, tolerance) for six_bar in _apart(six_bars, number, _ALIKE)]
-    accepted = tuple(sorted((d for d in designs if d.verdict.accepted), key=lambda d: float(f"{d.verdict.error:.6g}")))
-    rejected = tuple(d for d in designs if not d.verdict.accepted)
+    designs = [_judged(task, six_bar, demands) for six_bar in _apart(six_bars, number, _ALIKE)]
     notes = [
         message(
             "{arcs} arcs of coupler curves that are nearly circles were taken, with {starts} places of the output; the "
@@ -127,8 +139,7 @@ def synthesise_dwells(
                 longest=longest,
             )
         )
-    count = SolutionCount(what=message("linkages"), theorem=0, found=len(designs), real=len(designs))
-    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
+    return designs, notes
 
 
 def _apart(six_bars: list[RestingSixBar], number: int, least: float) -> list[RestingSixBar]:
@@ -175,7 +186,7 @@ def _linkage(task: DwellTask, six_bar: RestingSixBar) -> Linkage:
     return linkage if task.stroke is None else linkage.scaled(task.stroke / swing_of(six_bar))
 
 
-def _judged(task: DwellTask, six_bar: RestingSixBar, demands: Demands, tolerance: float) -> Design:
+def _judged(task: DwellTask, six_bar: RestingSixBar, demands: Demands) -> Design:
     """The design with its verdict: by its motion through a turn of the crank, not by the formulas of the search."""
     linkage = _linkage(task, six_bar)
     known, output = verdict_at_rest(linkage, demands), find_output(linkage, "output")
@@ -193,7 +204,7 @@ def _judged(task: DwellTask, six_bar: RestingSixBar, demands: Demands, tolerance
         transmission = float(measure_transmission(drive_cycle(linkage), output).smallest.mu)
         if transmission < demands.transmission * (1 - EXACT):
             reasons.append(transmission_fault(transmission))
-        if error > tolerance:
+        if error > demands.tolerance:
             reasons.append(
                 message("the output strays from its rest by {error:.2g} of its swing or stroke", error=error)
             )

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import zip_longest
 from typing import NamedTuple
 
@@ -28,6 +29,7 @@ from gruebler.design.synthesis.target_bands import STAGES, TargetBands, numbers_
 from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.targets import Probe, Targets
 from gruebler.design.synthesis.tasks import PathTask
+from gruebler.design.synthesis.tightest_demands import tightest_sought
 
 _PLACED = 80  # curves of the atlas that are put onto the points
 _SCATTERED = 4000  # linkages of the atlas that are put near the targets, of which the nearest are taken
@@ -88,18 +90,41 @@ def synthesise_mixed(
     alone, as without ``sliders``. Raises `SynthesisError` for more exact conditions than a four-bar can meet. Cost: 2 s
     for each kind.
     """
+    search = partial(_sought, number=number, sliders=sliders)
+    every, kinds = search(task, demands, demands, progress=progress)
+    accepted, rejected = ranked(every)
+    nearly = bool(np.isinf(TargetBands.of(task, task.size).band).any())
+    if nearly:
+        accepted = in_order_of(accepted, ["error"])
+    note = message(
+        "Targets of several kinds are met by least squares from {starts} linkages of each kind ({kinds}); there may be "
+        "others.",
+        starts=_PLACED + _NEAREST,
+        kinds=joined(message(kind.name) for kind in kinds),
+    )
+    notes = [note, *order_notes(every, demands)]
+    if not accepted:
+        notes += tightest_sought(task, demands, lambda *asked: search(*asked)[0])
+    count = SolutionCount(what=message("linkages"), theorem=0 if nearly else None, found=len(every), real=len(every))
+    return SynthesisResult(task=task, designs=accepted[:number], rejected=rejected, count=count, notes=tuple(notes))
+
+
+def _sought(
+    task: PathTask, demands: Demands, limits: Demands, *, number: int, sliders: bool, progress: Progress | None = None
+) -> tuple[list[Design], tuple[FourBarKind, ...]]:
+    """Designs of the kinds that have numbers enough, sought within limits and judged by the demands."""
     size, middle = task.size, complex(np.nanmean(task.z.real), np.nanmean(task.z.imag))
     wanted = _wanted(task, size, middle)
-    kinds = _kinds(wanted, 2 * len(task.fixed_pivots) + demands.given_sizes)
+    kinds = _kinds(wanted, 2 * len(task.fixed_pivots) + limits.given_sizes)
     kinds = kinds if sliders else (FOUR_BAR,)
     every: list[Design] = []
     pivots = tuple(complex(*p) for p in task.fixed_pivots)
-    order = sought_order(task, demands)
-    for limits in limits_of(demands, pivots, kinds, task.closed, (middle, size)):
+    order = sought_order(task, limits)
+    for kept in limits_of(limits, pivots, kinds, task.closed, (middle, size)):
         designs: list[Design] = []
-        state = _starts(wanted, limits, order)
+        state = _starts(wanted, kept, order)
         for hard in STAGES:
-            state, costs = _improved(replace(wanted, bands=replace(wanted.bands, hard=hard)), limits, state)
+            state, costs = _improved(replace(wanted, bands=replace(wanted.bands, hard=hard)), kept, state)
             best = _in_turn(np.argsort(costs, kind="stable"), state, order)[:_KEPT]
             state, costs = state.at(best), costs[best]
         for n in _in_turn(_different(state, costs), state, order)[: 4 * number]:
@@ -109,24 +134,7 @@ def synthesise_mixed(
             if sum(design.verdict.accepted for design in designs) >= number:
                 break
         every += designs
-    accepted, rejected = ranked(every)
-    nearly = bool(np.isinf(wanted.bands.band).any())
-    if nearly:
-        accepted = in_order_of(accepted, ["error"])
-    note = message(
-        "Targets of several kinds are met by least squares from {starts} linkages of each kind ({kinds}); there may be "
-        "others.",
-        starts=_PLACED + _NEAREST,
-        kinds=joined(message(kind.name) for kind in kinds),
-    )
-    count = SolutionCount(what=message("linkages"), theorem=0 if nearly else None, found=len(every), real=len(every))
-    return SynthesisResult(
-        task=task,
-        designs=accepted[:number],
-        rejected=rejected,
-        count=count,
-        notes=(note, *order_notes(every, demands)),
-    )
+    return every, kinds
 
 
 def _wanted(task: PathTask, size: float, middle: complex) -> _Wanted:

@@ -20,7 +20,7 @@ from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.design.realisation import realise
 from gruebler.design.synthesis.closure import DesignClosure
 from gruebler.design.synthesis.dead_centre_verdicts import with_dead_centres
-from gruebler.design.synthesis.demands import EXACT_AT_MOST, WITHOUT, Demands
+from gruebler.design.synthesis.demands import EXACT_AT_MOST, Demands
 from gruebler.design.synthesis.drawing_limits import limits_of_drawings
 from gruebler.design.synthesis.dyad_structures import dyad_structure
 from gruebler.design.synthesis.first_states import first_state
@@ -56,7 +56,7 @@ from gruebler.design.synthesis.special_tasks import solved_where_it_lies
 from gruebler.design.synthesis.structure_curves import fit_drawings, together
 from gruebler.design.synthesis.targets import GuidedCurve, Probe, Targets, point_targets
 from gruebler.design.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
-from gruebler.design.synthesis.tightest_demands import all_but_one, freed, has_limits
+from gruebler.design.synthesis.tightest_demands import tightest_sought
 from gruebler.design.synthesis.turning_poses import turns_by_poses, with_turn, without_turn
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
@@ -70,9 +70,6 @@ _SAME = 1e-6  # of the size of a linkage: two that are drawn nearer to each othe
 _NEIGHBOURS = 50  # of each kind from the atlas for each design that is kept
 _RAISED, _STEEPEST = 3, 1.5  # times a transmission angle at the targets; radians
 ACCEPTED = 0.05
-_SEARCHED_AGAIN = message(
-    "No design meets all demands. A second search left them out; these are the numbers of its designs:"
-)
 
 
 @solved_where_it_lies
@@ -130,13 +127,13 @@ def synthesise_structures(
         "Initial designs improved: {count}. Each target has its own tolerance, without one {limit:g} of the size."
         if own
         else "Initial designs improved: {count}. Designs that come nearer than {limit:g} of the size are accepted.",
-        count=len(jobs),
+        count=sum(job.kept for job in jobs),
         limit=_limit(wanted),
     )
     search = partial(_candidates, link=link, jobs=jobs, executor=executor)
-    tight = [] if accepted else _tightest(task, wanted, search)
+    tight = [] if accepted else tightest_sought(task, wanted, search)
     count = SolutionCount(what=message("linkages"), theorem=0, found=len(candidates), real=len(candidates))
-    notes = (*left_out, note, *order_notes(candidates, wanted), *([_SEARCHED_AGAIN] if tight else []), *tight)
+    notes = (*left_out, note, *order_notes(candidates, wanted), *tight)
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=notes)
 
 
@@ -159,24 +156,6 @@ def _candidates(
         if progress is not None:
             progress(done, len(jobs))
     return [over_interval(design, task) for design in candidates] if isinstance(task, FunctionTask) else candidates
-
-
-def _tightest(task: Task, demands: Demands, search: Callable[..., list[Design]]) -> list[Message]:
-    """The demand without which there are most designs, sought once more without any limit; none if the task has none.
-
-    Where no single one is enough, several; given pivots last.
-    """
-    free = freed(demands)
-    pivots = getattr(task, "fixed_pivots", ())
-    if not has_limits(demands) and not pivots:
-        return []  # how many differ too much in their lengths is said anyway
-    if notes := all_but_one(search(task, demands, free), demands):
-        return notes
-    if pivots and isinstance(task, PositionTask | PathTask):
-        anywhere = search(replace(task, fixed_pivots=()), demands, demands)
-        if count := sum(design.verdict.accepted for design in anywhere):
-            return [WITHOUT.filled(demand=message("the given pivots"), count=count)]
-    return []
 
 
 def same_machine(first: Linkage, other: Linkage, *, placed: bool) -> bool:

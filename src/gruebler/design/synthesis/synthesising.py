@@ -23,6 +23,7 @@ from gruebler.design.synthesis.six_bar_functions import SixBarType, synthesise_s
 from gruebler.design.synthesis.six_bar_positions import synthesise_guiding_six_bars
 from gruebler.design.synthesis.structures import synthesise_structures
 from gruebler.design.synthesis.tasks import DeadCentreTask, DwellTask, FunctionTask, PathTask, PositionTask, Task
+from gruebler.design.synthesis.tightest_demands import all_but_one, has_limits
 from gruebler.structure.mechanism import Mechanism
 
 
@@ -115,13 +116,23 @@ def synthesise(
         if isinstance(six_bars, SixBarType):
             given["kind"] = six_bars
         method = synthesise_six_bars if isinstance(task, FunctionTask) else synthesise_guiding_six_bars
-        return _sorted(_called(method, task, message("with six_bars"), demands, given), orders)
+        listed = _called(method, task, message("with six_bars"), demands, given)
+        return _sorted(_with_tightest(listed, demands), orders)
     if orders and structures is None:
         given["sort"] = orders
     result = _solved(task, structures, demands, given)
     if structures is not None:
         result = replace(result, notes=(*result.notes, *sorted_sample(orders)))
+    elif result.count.theorem:
+        result = _with_tightest(result, demands)
     return _sorted(result, orders)
+
+
+def _with_tightest(result: SynthesisResult, demands: Demands | None) -> SynthesisResult:
+    """With the demand without which there are most, where none of finitely many solutions is a design."""
+    if result.designs or demands is None or not has_limits(demands):
+        return result
+    return replace(result, notes=(*result.notes, *all_but_one(result.rejected, demands)))
 
 
 def _sorted(result: SynthesisResult, orders: Sequence[str]) -> SynthesisResult:
