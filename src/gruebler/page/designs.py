@@ -197,7 +197,7 @@ def _record(design: Design, task: Task, lang: str) -> dict[str, Any]:
         **_frames(linkage, posed, _played(design, task, posed)),
         **_met_angles(design, task, posed),
         **_carried_arrow(design, task, posed),
-        "backward": isinstance(task, PathTask | PositionTask) and bool(design.drives[0] > design.drives[-1]),
+        "backward": posed.repeats and _meets_backward(design, task),
     }
 
 
@@ -330,6 +330,11 @@ def _carried_arrow(design: Design, task: Task, posed: PosedLinkage) -> dict[str,
     first = posed.cycle.at(np.array(design.drives[:1]), 0).angle(point.link)
     turned = _played(design, task, posed).angle(point.link) - first + task.positions[0][2]
     return {"turns": _there_and_back(np.degrees(turned).round(2), posed)}
+
+
+def _meets_backward(design: Design, task: Task) -> bool:
+    """Whether places are met in their order while the drive turns clockwise."""
+    return isinstance(task, PathTask | PositionTask) and bool(design.drives[0] > design.drives[-1])
 
 
 def _met_angles(design: Design, task: Task, posed: PosedLinkage) -> dict[str, Any]:
