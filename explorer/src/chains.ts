@@ -8,9 +8,13 @@ import { awaited, moment } from "./waiting";
 
 interface Chains {
   total: number;
-  start: number;
   /** Each with its code, the same for chains of one structure, and its name in the literature, if it has one. */
   items: { code: string; text: string; name: Record<Language, string>; picture: string }[];
+}
+
+/** Links and mobility of the list in which a structure stands: of one in space that of the plane with as many links. */
+function placeOf(found: Structure): [number, number] {
+  return [found.size, inPlane(found) ? found.counted : 1 + (found.size % 2)];
 }
 
 export class ChainList {
@@ -33,22 +37,15 @@ export class ChainList {
     private readonly page: Page,
     private readonly take: (text: string) => void,
   ) {
-    const { limits, shown } = page; // as the machine at hand, whose structure is said a moment later
-    this.#links = Math.min(shown.links.length, limits.links?.max ?? 6);
-    this.mobility = Math.min(shown.drives.length, limits.mobility?.max ?? 1) || 1;
+    const { links, drives } = page.shown; // as the machine at hand, whose structure is said a moment later
+    [this.#links, this.mobility] = [links.length, drives.length || 1];
   }
 
   /** A structure is described, or there is none; the list turns to its size if it is the machine at hand or comes
    * from another view. */
   follow(found: Structure | null, leads: boolean): void {
-    const { limits } = this.page;
-    const links = found?.size ?? 0;
-    // beside one in space stand those of the plane with as many links
-    const mobility = !found || inPlane(found) ? (found?.counted ?? 0) : 1 + (links % 2);
-    const within = (value: number, range = { min: 1, max: 0 }) => range.min <= value && value <= range.max;
-    const listed = within(links, limits.links) && within(mobility, limits.mobility);
-    const turned = listed && (leads || !this.#asked) && (links !== this.#links || mobility !== this.mobility);
-    if (turned) [this.#links, this.mobility] = [links, mobility];
+    const turned = found && (leads || !this.#asked) && !this.#holds(found);
+    if (turned) [this.#links, this.mobility] = placeOf(found);
     this.#chosen = found?.code ?? "";
     const cards = [...this.#list.querySelectorAll<HTMLElement>("[data-of]")];
     for (const card of cards) card.setAttribute("aria-pressed", String(card.dataset.of === this.#chosen));
@@ -56,6 +53,29 @@ export class ChainList {
     if (anew) this.#other = found;
     if (leads || turned || anew) this.arrange();
     if (turned || !this.#asked) void this.#ask(0);
+  }
+
+  /** Whether a structure is as large and as movable as those of the list. */
+  #holds(found: Structure): boolean {
+    return String(placeOf(found)) === String([this.#links, this.mobility]);
+  }
+
+  /** The sizes of which there are lists, if this is none of them. */
+  #unlisted(): Record<"links" | "mobility", string> | null {
+    const none = { min: 1, max: 0 };
+    const { links = none, mobility = none } = this.page.limits;
+    const within = (value: number, { min, max }: typeof none) => min <= value && value <= max;
+    const all = ({ min, max }: typeof none) => `${min} … ${max}`;
+    if (within(this.#links, links) && within(this.mobility, mobility)) return null;
+    return { links: all(links), mobility: all(mobility) };
+  }
+
+  #whyNone(): string {
+    const unlisted = this.#unlisted();
+    if (unlisted) return t("Chains are listed with {links} links and mobility {mobility}.", unlisted);
+    return (this.#links + this.mobility) % 2
+      ? t("There is none with so few links.")
+      : t("There is none: by F = 3(n − 1) − 2g one of n and F is even, the other odd.");
   }
 
   arrange(): void {
@@ -96,7 +116,9 @@ export class ChainList {
     const question = { links: this.#links, mobility: this.mobility, start };
     const number = ++this.#asked;
     const place = this.#found ? this.#status : this.#list;
-    const found = await awaited(place, (progress) => this.page.ask<Chains>("chains", question, progress));
+    const found = this.#unlisted()
+      ? { total: 0, items: [] }
+      : await awaited(place, (progress) => this.page.ask<Chains>("chains", question, progress));
     if (number !== this.#asked) return; // another list is wanted by now
     const before = start ? this.#found!.items : [];
     if (found) this.#found = { ...found, items: [...before, ...found.items] };
@@ -110,29 +132,25 @@ export class ChainList {
     if (!found) return renew(this.#list, moment());
     const { items, total } = found;
     const one = total === 1 ? t("one chain") : t("{total} chains", { total });
-    const beside = own && own.size === this.#links && !items.some(({ code }) => code === own.code);
+    const beside = own && this.#holds(own) && !items.some(({ code }) => code === own.code);
     const shown = items.length;
     const chains = shown < total ? t("{shown} of {total} chains", { shown, total }) : one;
     this.#count.textContent = beside ? t("{chains} and yours", { chains }) : chains;
+    this.#count.hidden = this.#unlisted() !== null;
     const cardOf = (drawn: Structure, name: string) => {
       // without a list of names, if there is one
       const { picture } = drawn.inversions.find(({ frame }) => frame === drawn.chosen) ?? drawn;
       // of a chain no link is the frame yet
       const plain = picture.replace(/<path class=.gr-hatch.*?>/g, "").replaceAll("gr-frame", "gr-body");
-      return drawn.size === this.#links && this.#card(drawn.code, drawn.text, plain, name);
+      return this.#holds(drawn) && this.#card(drawn.code, drawn.text, plain, name);
     };
     const listed = [own, ...items].some((each) => each?.code === other?.code);
     const mine = [
       own && cardOf(own, own.name ? t("Yours: {name}", { name: own.name }) : t("Your machine")),
       other && !listed && cardOf(other, other.name || t("Chosen")),
     ];
-    if (!total) {
-      const odd = (this.#links + this.mobility) % 2 === 0;
-      const why = odd
-        ? t("There is none: by F = 3(n − 1) − 2g one of n and F is even, the other odd.")
-        : t("There is none with so few links.");
-      return renew(this.#list, h("p.note", {}, why), h("div.cards.few", {}, ...mine));
-    }
+    const none = total ? "" : this.#whyNone();
+    if (none) return renew(this.#list, h("p.note", {}, none), h("div.cards.few", {}, ...mine));
     renew(
       this.#list,
       h(

@@ -166,6 +166,47 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     assert "Purple" not in view.locator(".described").inner_text()
 
 
+def test_a_machine_beside_the_lists_has_its_size_and_its_card(tab, server):
+    """Walschaerts' valve gear has 13 links and F = 2: lists end at 12 links, and 13 and 2 are odd and even."""
+    page = tab().open(server.address)
+    view = page.page
+    view.click('[data-view="catalog"]')
+    view.locator('[data-id="walschaerts_gear"]').click()
+    page.until("gruebler.motion.linkage.model.source === 'walschaerts_gear'")
+    view.click('[data-view="structure"]')
+    first = view.locator('[data-page="structure"] .step').first
+    own = first.locator(".card", has_text="Your machine")
+    own.wait_for()
+    links, mobility = first.locator("input").all()
+    assert (links.input_value(), mobility.input_value()) == ("13", "2")
+    assert links.evaluate("field => field.scrollWidth <= field.clientWidth")
+    said = first.inner_text()
+    assert "There is none" not in said
+    assert "Chains are listed with 3 … 12 links and mobility 0 … 6." in said
+    assert "0 chains" not in said
+    # nor is its card in a list of other chains
+    links.fill("6")
+    mobility.fill("1")
+    mobility.press("Enter")
+    first.locator(".card", has_text="Watt").wait_for()
+    assert own.count() == 0
+    assert "yours" not in first.inner_text()
+
+
+def test_a_machine_has_no_card_among_chains_of_another_mobility(tab, server):
+    """A four-bar has F = 1: there is no chain of four links with F = 2, and the four-bar is none."""
+    page = tab().open(server.address)
+    view = page.page
+    view.click('[data-view="structure"]')
+    first = view.locator('[data-page="structure"] .step').first
+    first.locator(".card", has_text="Yours").wait_for()
+    field = first.locator("input").nth(1)
+    field.fill("2")
+    field.press("Enter")
+    first.get_by_text("There is none").wait_for()
+    assert first.locator(".card").count() == 0
+
+
 def test_a_chain_has_the_code_of_its_card_however_it_is_numbered():
     """Stephenson's chain: its links of three joints, 3 and 5 here, have no joint with each other."""
     found = {
