@@ -9,7 +9,7 @@ export class Demands {
   /** Places of the targets in the order, as they are typed. */
   order = "";
   /** How far fixed pivots may lie outside the places, as it is typed. */
-  #reach: string | null = null;
+  #reach = "";
 
   /** The fields, in the language of the page; those of places if there are such; the angle is that on the way
    * from target to target, or that of all positions of a crank that turns fully in any case. A curve so large has its
@@ -26,8 +26,8 @@ export class Demands {
     const reach = h("input", {
       type: "number",
       min: 0,
-      value: this.#far(curve),
-      placeholder: "∞",
+      value: this.#reach,
+      placeholder: String(curve || "∞"),
       "data-field": "reach",
       onchange: () => (this.#reach = reach.value),
     });
@@ -57,16 +57,11 @@ export class Demands {
     );
   }
 
-  #far(curve: number): string {
-    return this.#reach ?? String(curve || "");
-  }
-
   /** What the library is told of them; what is of places only of these. */
   asked(places: boolean, curve: number) {
     const ranks = places ? (this.order.match(/[^\s,;]+/g) ?? []) : [];
-    const far = places && this.#far(curve);
     return {
-      reach: far ? +far : null,
+      reach: (places && (+this.#reach || curve)) || null,
       order: ranks.map((rank) => (/\d/.test(rank) ? +rank : null)),
       crank: this.#crank,
       transmission: this.#least,
