@@ -78,7 +78,7 @@ export class DesignCards {
   readonly #missed = new Plot("°", () => {});
   #found: Found | null = null;
   #order: Order = "error";
-  /** The form of those that are shown, at first the most frequent one; all if empty. */
+  /** The form of those that are shown; all if empty. */
   #form = "";
   /** What is shown in the plane. */
   #playing: Design | null = null;
@@ -91,7 +91,7 @@ export class DesignCards {
   /** Show others, or none; returns that of the first card. */
   show(found: Found | null): Design | null {
     this.#found = found;
-    this.#form = this.#forms()[0] ?? "";
+    this.#form = "";
     // by which they are numbered, those that are much like others last
     if (found) {
       const orders = this.#orders();
