@@ -65,7 +65,8 @@ export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap:
   }
   if (dead.length) {
     const places = dead.map(({ value }) => placeOf(linkage, value)).sort((a, b) => a - b);
-    facts.push({ name: t("Dead centres"), text: places.map((value) => driveText(linkage, value, 4)).join(", ") });
+    const name = record?.inLine ? t("Dead centres") : t("Turns back at");
+    facts.push({ name, text: places.map((value) => driveText(linkage, value, 4)).join(", ") });
   }
   if (linkage.drive) {
     const full = cycle.turns === 1 ? t("full turns") : t("full turns, repeats after {turns}", { turns: cycle.turns });

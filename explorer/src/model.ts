@@ -42,6 +42,8 @@ export interface OutputRecord {
   link: number;
   joint: number | null;
   legs: Leg[];
+  /** Whether crank and coupler lie in line where it turns back. */
+  inLine?: boolean;
   /** Places that are marked in its plot: the drive in radians, the output in degrees, as they are plotted. */
   marks?: Pair[];
   note: Record<string, string>;

@@ -87,7 +87,7 @@ export class Track {
     this.#textOf = (value) => driveText({ drive: { turning }, model: { unit } }, value);
     const shown = (value: number) => this.#textOf(wrap(value));
     for (const value of dead)
-      mark(value, "dead", "M0 8 L-5 0 H5 Z", t("Dead centre at {value}", { value: shown(value) }));
+      mark(value, "dead", "M0 8 L-5 0 H5 Z", t("Turns back at {value}", { value: shown(value) }));
     if (least !== null)
       mark(
         least,

@@ -129,6 +129,7 @@ export function fourBar(lengths: Lengths, theta: number): Model {
       {
         link: ROCKER,
         joint: null,
+        inLine: true,
         legs: [
           {
             links: [COUPLER],

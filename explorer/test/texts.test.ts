@@ -33,7 +33,7 @@ test("texts and their gaps", () => {
   assert.equal(t("{one} {two}", { one: 1 }), "1 {two}");
   inGerman(() => {
     assert.equal(t("Cancel"), "Abbrechen");
-    assert.equal(t("Dead centre at {value}", { value: "5°" }), "Totlage bei 5°");
+    assert.equal(t("Turns back at {value}", { value: "5°" }), "Umkehrlage bei 5°");
     assert.equal(t("a text that nobody translated"), "a text that nobody translated");
   });
   assert.ok(Object.values(german).every((text) => text.trim() !== ""));
@@ -138,6 +138,8 @@ test("what is read off a four-bar", () => {
   assert.equal(where(), ""); // the same throughout
   found.least.leg = linkage.model.outputs[0]!.legs[0]!;
   assert.equal(where(), "at 0°");
+  linkage.model.outputs[0]!.inLine = false; // then it turns back without crank and coupler in line
+  assert.deepEqual(facts()[6], ["Turns back at", "22.06°, 212°", ""]);
   linkage.model.own = 6;
   assert.equal(where(), "at 0°, link coupler");
   inGerman(() => assert.equal(facts()[0]![0], "Abtrieb Schwinge"));

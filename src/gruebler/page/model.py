@@ -22,7 +22,7 @@ from gruebler.files.load_reading import loads_of_document
 from gruebler.files.load_writing import loads_to_json
 from gruebler.mechanics.analysis.messages import undefined_transmission_message
 from gruebler.mechanics.analysis.outputs import find_output
-from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, force_path
+from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, force_path, in_line
 from gruebler.mechanics.fourbar import LinkageType, grashof
 from gruebler.mechanics.kinematics.branches import labelled_groups
 from gruebler.mechanics.kinematics.plan import Dyad, Plan
@@ -325,6 +325,7 @@ def _output(linkage: Linkage, plan: Plan) -> list[dict[str, Any]]:
     output = find_output(linkage)
     index = plan.lower.mechanism.chain.index
     record: dict[str, Any] = {"link": index(output.link), "joint": output.joint, "legs": [], "note": {}}
+    record["inLine"] = in_line(plan, output)
     try:
         path = force_path(plan, output)
     except NoTransmissionAngleError as error:

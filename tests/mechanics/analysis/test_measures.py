@@ -18,6 +18,7 @@ from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.mechanics.kinematics.drive_rows import rpm
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
+from gruebler.teaching import catalog
 from tests.samples import CLASS_III, CYLINDER, parallel_legs
 
 DEGREE = math.pi / 180
@@ -179,11 +180,39 @@ def test_a_link_that_floats_turns_back_and_has_no_dead_centres() -> None:
     linkage = FourBar(20, 50, 50, 40).linkage()
     words = measures(linkage, output="coupler", speed=rpm(60)).explain()
     assert "The output turns back at 90°: 36.87°." in words  # the coupler as the hypotenuse of 30, 40, 50
-    assert "one way" in words
     assert "dead centre" not in words
     assert "outer" not in words
-    assert "s one way" in words
+    assert "s while the output goes from" in words
     assert "Outer dead centre" in measures(linkage, output="rocker").explain()
+
+
+def test_dead_centres_are_those_of_crank_and_coupler_in_line() -> None:
+    """Inner and outer: crank and coupler overlap or are stretched (docs/glossary.md). The slotted lever of an inverted
+    slider-crank turns back where the crank is normal to it, a second dyad where its own bars say so."""
+    piston = measures(catalog.entry("vcomp").linkage())  # of two loops, each with its own rod
+    assert piston.in_line
+    assert "Outer dead centre at 45°: 140 mm." in piston.explain()
+    lever = measures(InvertedSliderCrank(30, 60).linkage())
+    assert not lever.in_line
+    assert "dead centre" not in lever.explain()
+    # sin of half the swing is 30/60, the crank normal to the lever 60 degrees from the frame: 240 degrees to 120
+    assert "time ratio 2." in lever.explain()
+    for name in ("whitworth", "e3_steph", "toggle_press"):
+        words = measures(catalog.entry(name).linkage()).explain()
+        assert "dead centre" not in words
+        assert words.count("The output turns back at ") == 2
+    ram = measures(catalog.entry("whitworth").linkage())
+    assert "The slow" not in ram.explain()
+    assert "Turning counter-clockwise, the way back is the quick one." in ram.explain()  # it is a quick return
+
+
+def test_equal_dwells_are_said_once() -> None:
+    """A Geneva drive of four slots moves for (4 - 2)/(2 4) of a turn: 90 degrees of 360 (any book on mechanisms)."""
+    words = measures(catalog.entry("geneva").linkage()).explain().splitlines()
+    (said,) = [line for line in words if line.startswith("Dwell")]
+    # as the wheel is seen in the plots, within one turn
+    assert said == "Dwells of 270° each, from 45°, 405°, 765°, 1125°: at 315°, 225°, 135°, 45°."
+    assert "It moves during 360° of 1440° of the drive; ratio of motion to dwell 1 : 3." in words
 
 
 def test_german_terms() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import degrees
+from math import degrees, tau
 
 from gruebler.base.text import Message, message
 from gruebler.mechanics.linkages import Linkage
@@ -20,6 +20,8 @@ class MeasureUnits:
     unit: str
     size: float
     """Of the linkage: a length that is nothing against it is 0."""
+    round: bool = False
+    """Whether the output turns fully: its angles are those of one turn, from 0."""
 
     def drive(self, value: float) -> Message:
         """A drive value."""
@@ -28,7 +30,7 @@ class MeasureUnits:
     def output(self, value: float) -> Message:
         """A value of the output."""
         if self.turning_output:
-            return angle_message(value)
+            return angle_message(value % tau if self.round else value)
         return self._length(value)
 
     def _length(self, value: float) -> Message:

@@ -53,7 +53,7 @@ from gruebler.mechanics.analysis.measure_units import MeasureUnits
 from gruebler.mechanics.analysis.messages import (
     change_point_lines,
     dead_centre_message,
-    dwell_message,
+    dwell_lines,
     dwell_share_message,
     motion_share_message,
     output_lines,
@@ -61,10 +61,12 @@ from gruebler.mechanics.analysis.messages import (
     time_lines,
     transmission_lines,
     unknown_change_points_message,
+    way_message,
 )
 from gruebler.mechanics.analysis.outputs import Output, find_output
 from gruebler.mechanics.analysis.transmission import (
     NoTransmissionAngleError,
+    in_line,
     measure_transmission,
 )
 from gruebler.mechanics.fourbar.extremes import StrokeTimes
@@ -136,6 +138,8 @@ class Measures:
     span: CycleSpan
     ends: tuple[float, float] | None
     dead_centres: tuple[DeadCentre, ...]
+    in_line: bool
+    """Whether crank and coupler lie in line there: else the output turns back without a dead centre in that sense."""
     dwells: tuple[Dwell, ...]
     """Where the output rests, behind a cam or a Geneva drive."""
     output_turns: int
@@ -274,27 +278,28 @@ class Measures:
         return "\n".join(line[:1].upper() + line[1:] for line in lines)
 
     def _lines(self) -> Iterator[Message]:
-        units = MeasureUnits(self.turning_drive, self.output.turning, self.linkage.unit, self.linkage.size)
+        round_and_round = self.output.turning and self.output_turns != 0
+        units = MeasureUnits(
+            self.turning_drive, self.output.turning, self.linkage.unit, self.linkage.size, round_and_round
+        )
         yield from self.span.lines()
         ratio = self.transfer.ratio if self.transfer.uniform else None
         name, turns = self.output.name, self.output_turns
         yield from output_lines(units, name, still=self.transfer.still, ratio=ratio, turns=turns, travel=self.travel)
-        mechanism = self.linkage.mechanism
-        floating = self.output.turning and not any(
-            {mechanism.frame, self.output.link} <= {*joint.links} for joint in mechanism.chain.joints
-        )
-        yield from (dead_centre_message(units, centre, floating=floating) for centre in self.dead_centres)
-        yield from (dwell_message(units, dwell, self.span.period) for dwell in self.dwells)
+        yield from (dead_centre_message(units, centre, in_line=self.in_line) for centre in self.dead_centres)
+        yield from dwell_lines(units, self.dwells, self.span.period)
         if self.dwells:
             yield dwell_share_message(self.dwell_share)
-            if self.output_turns:
+            if self.output_turns and self.motion_ratio:
                 yield motion_share_message(units, self.moving_span, self.span.period, self.motion_ratio)
-        if self.phi_forward is not None and self.phi_back is not None:
+        way = None
+        if self.phi_forward is not None and self.phi_back is not None and self.inner and self.outer:
+            way = way_message(units, self.inner.output, self.outer.output, in_line=self.in_line)
             yield from stroke_lines(
-                units, self.phi_forward, self.phi_back, self.time_ratio, dwells=bool(self.dwells), floating=floating
+                units, way, self.phi_forward, self.phi_back, self.time_ratio, dwells=bool(self.dwells)
             )
         at_rest = self.dwell_time if self.dwells else None
-        yield from time_lines(self.speed_rpm, self.times, at_rest, floating=floating)
+        yield from time_lines(self.speed_rpm, way, self.times, at_rest)
         drive_size = 1.0 if self.turning_drive else self.linkage.size
         yield from change_point_lines(units, by_place(self.change_points, drive_size))
         if self.change_points_error is not None:
@@ -387,6 +392,7 @@ def measures_of(cycle: DriveCycle, linkage: Linkage, looked_at: Output, speed: f
         span=span,
         ends=ends,
         dead_centres=centres,
+        in_line=in_line(cycle.plan, looked_at),
         dwells=rests,
         output_turns=turns,
         travel=None

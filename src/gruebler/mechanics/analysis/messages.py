@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from math import isclose
 
 from gruebler.base.errors import GrueblerError
 from gruebler.base.events import ChangePoint, DeadCentre, TransmissionExtremes
@@ -18,14 +19,15 @@ _DEAD_CENTRES = {
     "inner": message("Inner dead centre at {drive}: {output}."),
     "outer": message("Outer dead centre at {drive}: {output}."),
     "": message("Dead centre at {drive}: {output}."),
-    "floating": message("The output turns back at {drive}: {output}."),
-    "flat": message("The output pauses at {drive}: {output}."),
 }
+_TURNS_BACK = message("The output turns back at {drive}: {output}.")
+_PAUSES = message("The output pauses at {drive}: {output}.")
 _DWELLS = {
     "inner": message("Dwell in the inner position from {begin} to {end}, {duration}: {output}."),
     "outer": message("Dwell in the outer position from {begin} to {end}, {duration}: {output}."),
     "": message("Dwell from {begin} to {end}, {duration}: {output}."),
 }
+_EQUAL_DWELLS = message("Dwells of {duration} each, from {begins}: at {outputs}.")
 
 
 def output_lines(
@@ -48,48 +50,59 @@ def output_lines(
         yield message("The output {name} has a stroke of {travel}.", name=name, travel=units.output(travel))
 
 
-def dead_centre_message(units: MeasureUnits, centre: DeadCentre, *, floating: bool) -> Message:
-    """Where the output turns back, or pauses; a link that floats has no dead centres."""
-    text = _DEAD_CENTRES["flat" if centre.kind == "flat" else "floating" if floating else centre.side]
+def dead_centre_message(units: MeasureUnits, centre: DeadCentre, *, in_line: bool) -> Message:
+    """Where the output turns back, or pauses; without crank and coupler in line these are no dead centres."""
+    text = _PAUSES if centre.kind == "flat" else _DEAD_CENTRES[centre.side] if in_line else _TURNS_BACK
     return text.filled(drive=units.drive(centre.drive), output=units.output(centre.output))
 
 
-def dwell_message(units: MeasureUnits, dwell: Dwell, period: float) -> Message:
-    """Where the output rests; an end beyond the period is counted from its beginning."""
+def dwell_lines(units: MeasureUnits, dwells: Sequence[Dwell], period: float) -> Iterator[Message]:
+    """Where the output rests; what is as long each time, as in a Geneva drive, is said once."""
+    if len(dwells) > 1 and all(not each.side and isclose(each.duration, dwells[0].duration) for each in dwells):
+        begins, outputs = [units.drive(each.begin) for each in dwells], [units.output(each.output) for each in dwells]
+        yield _EQUAL_DWELLS.filled(
+            duration=units.drive(dwells[0].duration), begins=joined(begins, ", "), outputs=joined(outputs, ", ")
+        )
+    else:
+        yield from (_dwell(units, each, period) for each in dwells)
+
+
+def _dwell(units: MeasureUnits, dwell: Dwell, period: float) -> Message:
+    """An end beyond the period is counted from its beginning."""
     end = dwell.end - period if dwell.end > period * (1 + _CONSTANT) else dwell.end
     begin, end_text, duration = (units.drive(value) for value in (dwell.begin, end, dwell.duration))
     return _DWELLS[dwell.side].filled(begin=begin, end=end_text, duration=duration, output=units.output(dwell.output))
 
 
+def way_message(units: MeasureUnits, start: float, end: float, *, in_line: bool) -> Message:
+    """From where to where the output goes: between its dead centres, or what it is at both ends."""
+    if in_line:
+        return message("from inner to outer dead centre")
+    return message("while the output goes from {start} to {end}", start=units.output(start), end=units.output(end))
+
+
 def stroke_lines(
-    units: MeasureUnits, phi_forward: float, phi_back: float, ratio: float | None, *, dwells: bool, floating: bool
+    units: MeasureUnits, way: Message, phi_forward: float, phi_back: float, ratio: float | None, *, dwells: bool
 ) -> Iterator[Message]:
     """The drive angles of both strokes."""
-    if floating:
-        text = message("Drive angles: {forward} one way, {back} the other; time ratio {ratio:n}.")
-    elif dwells:
-        text = message("Drive angles without dwells: {forward} from inner to outer, {back} back; time ratio {ratio:n}.")
+    if dwells:
+        text = message("Drive angles without dwells: {forward} {way}, {back} back; time ratio {ratio:n}.")
     else:
-        text = message("Drive angles: {forward} from inner to outer, {back} back; time ratio {ratio:n}.")
-    yield text.filled(forward=units.drive(phi_forward), back=units.drive(phi_back), ratio=ratio)
-    if floating:
-        return
+        text = message("Drive angles: {forward} {way}, {back} back; time ratio {ratio:n}.")
+    yield text.filled(way=way, forward=units.drive(phi_forward), back=units.drive(phi_back), ratio=ratio)
     if phi_forward - phi_back > _CONSTANT:
-        yield message("Turning counter-clockwise, the slow stroke is the outward one.")
+        yield message("Turning counter-clockwise, the way back is the quick one.")
     elif phi_back - phi_forward > _CONSTANT:
-        yield message("Turning counter-clockwise, the slow stroke is the inward one.")
+        yield message("Turning counter-clockwise, the way back is the slow one.")
 
 
 def time_lines(
-    rpm: float | None, times: StrokeTimes | None, at_rest: float | None, *, floating: bool
+    rpm: float | None, way: Message | None, times: StrokeTimes | None, at_rest: float | None
 ) -> Iterator[Message]:
     """How long strokes and dwells take at a speed."""
-    if times is not None:
-        if floating:
-            text = message("At {rpm:g} revolutions per minute: {forward:n} s one way, {back:n} s the other.")
-        else:
-            text = message("At {rpm:g} revolutions per minute: {forward:n} s from inner to outer, {back:n} s back.")
-        yield text.filled(rpm=rpm, forward=times.forward, back=times.back)
+    if times is not None and way is not None:
+        text = message("At {rpm:g} revolutions per minute: {forward:n} s {way}, {back:n} s back.")
+        yield text.filled(rpm=rpm, way=way, forward=times.forward, back=times.back)
     if at_rest is not None:
         yield message("At rest: {time:n} s in a period.", time=at_rest)
 
@@ -99,13 +112,14 @@ def dwell_share_message(share: float) -> Message:
     return message("The output rests for {share:n} % of the drive's motion.", share=100 * share)
 
 
-def motion_share_message(units: MeasureUnits, moving: float, period: float, ratio: float | None) -> Message:
+def motion_share_message(units: MeasureUnits, moving: float, period: float, ratio: float) -> Message:
     """How far the drive moves in a period while an output that turns fully does."""
     return message(
-        "It moves during {moving} of {period} of the drive; motion by dwell {ratio:n}.",
+        "It moves during {moving} of {period} of the drive; ratio of motion to dwell {motion:n} : {rest:n}.",
         moving=units.drive(moving),
         period=units.drive(period),
-        ratio=ratio,
+        motion=max(1.0, ratio),
+        rest=max(1.0, 1 / ratio),
     )
 
 

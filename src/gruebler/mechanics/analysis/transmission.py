@@ -142,6 +142,25 @@ def force_path(plan: Plan, output: Output) -> ForcePath:
     return ForcePath(tuple(path), tuple(undefined))
 
 
+def in_line(plan: Plan, output: Output) -> bool:
+    """Whether the output turns back where a crank and the coupler that pushes it lie in line: in its dead centres.
+
+    So it is with the rocker of a four-bar and a slider on a rod, be there more loops behind. Other outputs only turn
+    back: those that float, behind a second dyad, or pushed across a slide.
+    """
+    mechanism, drive = plan.lower.mechanism, plan.lower.mechanism.drives[0]
+    try:
+        path = force_path(plan, output)
+    except NoTransmissionAngleError:
+        return False
+    leg, *others = path.legs
+    if others or path.undefined or leg.slide is not None or output.link != leg.pushed:
+        return False
+    joint = mechanism.chain.joints[drive.joint]
+    held = any({mechanism.frame, output.link} <= {*each.links} for each in mechanism.chain.joints)
+    return held and joint.pair.is_turning and mechanism.frame in joint.links
+
+
 def _fixed_groups(plan: Plan) -> dict[int, set[str]]:
     """Groups by number that hang on one body and so stand still on it, and the links of that body that hold them.
 
