@@ -51,7 +51,7 @@ function written(digits: string): string {
 
 /** A name as it is read: in documents it has no spaces. */
 export function spaced(name: string): string {
-  return name.replaceAll("_", " ");
+  return name.replaceAll("_", " ").replace(/(\p{L}{3})(\d+)\b/gu, "$1 $2");
 }
 
 /** The letters of joints, as of the group 3-RR, as the reader writes them: in German D turns and S slides. */

@@ -135,7 +135,7 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
   const lettered = linkage.letterOf(0);
   const ends = `${others(first)}${lettered ? "–" : " – "}${others(second)}`;
   const bold = h("b", {}, lettered ? ends : name);
-  const label = h("label", { for: id, title: `${name}: ${ends}` }, bold, alone || lettered ? "" : ` ${ends}`);
+  const label = h("label", { for: id, title: `${name}: ${ends}` }, bold, alone || lettered ? "" : `, ${ends}`);
   return [
     label,
     input,

@@ -8,7 +8,7 @@ import { withMinus } from "../src/dom";
 import { factsOf } from "../src/facts";
 import { History } from "../src/history";
 import { Backend, Cancelled, StillModel } from "../src/host";
-import { angle, number, parsed, setLanguage, t } from "../src/language";
+import { angle, number, parsed, setLanguage, spaced, t } from "../src/language";
 import { checksum, packed, unpacked } from "../src/link";
 import { Linkage } from "../src/linkage";
 import type { Least } from "../src/measures";
@@ -37,6 +37,11 @@ test("texts and their gaps", () => {
     assert.equal(t("a text that nobody translated"), "a text that nobody translated");
   });
   assert.ok(Object.values(german).every((text) => text.trim() !== ""));
+});
+
+test("names of documents as they are read", () => {
+  const names = ["upper_jaw", "coupler1", "Schwinge2", "Zähler12", "P1", "2"];
+  assert.deepEqual(names.map(spaced), ["upper jaw", "coupler 1", "Schwinge 2", "Zähler 12", "P1", "2"]);
 });
 
 test("numbers", () => {

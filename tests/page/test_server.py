@@ -346,3 +346,5 @@ def test_words_name_links_as_the_page_does():
     words = "\n".join(said["lines"])
     assert "The output upper jaw swings" in words
     assert "_" not in words
+    document = linkage_to_json(entry("wiper").linkage().renamed({"blade": "coupler1"}))
+    assert "output coupler 1 " in answer("measures", {"document": document}, "en", print)["lines"][1]

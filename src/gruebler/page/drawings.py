@@ -10,6 +10,7 @@ from typing import Any
 
 from gruebler.base.errors import ChainError
 from gruebler.base.text import Message, message
+from gruebler.page.model import spaced
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.mechanism import DriveReport, Mechanism, check_drives
@@ -62,7 +63,7 @@ def drawing_record(
         return title.sub(lambda match: titles[match[0]], text)
 
     def worded(offer: dict[str, Any]) -> dict[str, Any]:
-        links = [link.replace("_", " ") for link in offer.get("links", ())]
+        links = [spaced(link) for link in offer.get("links", ())]
         joint = named(called[offer["joint"]]) if "joint" in offer else ends.get(offer["links"][0], "")
         gaps = {"joint": joint, "generic": offer["generic"], **dict(zip(("one", "two"), links, strict=False))}
         return offer | {"text": _OFFERS[offer["kind"]].filled(**gaps).in_language(lang)}

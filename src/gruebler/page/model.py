@@ -46,7 +46,7 @@ _ENDS = {
     "grashof_double_rocker": _ROCKERS,
 }
 """What crank and rocker of a four-bar are called by its type, where they are something else."""
-"""The rocker of a four-bar that turns fully, too."""
+_COUNTED = re.compile(r"(?<=[^\W\d_]{3})(\d+)\b")
 
 _FOUR_BAR = ("crank", "coupler", "rocker", "frame")  # its links, in the order of their lengths
 _SAME = 1e-12  # sizes: elements of the plan are copies of the linkage's, but for rounding of turned ones
@@ -165,6 +165,15 @@ def model_of(
         "outputs": _output(linkage, plan),
         "shapes": list(_shapes(posed)),
     }
+
+
+def spaced(name: str) -> str:
+    """A name as it is read: in documents it has no spaces. The page does the same (explorer/src/language.ts).
+
+    >>> [spaced(name) for name in ("upper_jaw", "coupler1", "R(frame-rocker2)", "P1")]
+    ['upper jaw', 'coupler 1', 'R(frame-rocker 2)', 'P1']
+    """
+    return _COUNTED.sub(r" \1", name.replace("_", " "))
 
 
 def link_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:

@@ -254,11 +254,11 @@ def _measures(asked: MeasureLinkage, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.mechanics.analysis.drive_cycles import drive_cycle, part_of_cycle
     from gruebler.mechanics.analysis.measuring import measures_of
     from gruebler.mechanics.analysis.outputs import find_output
-    from gruebler.page.model import link_names
+    from gruebler.page.model import link_names, spaced
 
     linkage = linkage_from_json(asked.document)
     names = link_names(linkage, asked.source, lang).items()
-    named = linkage.renamed({link: name.replace("_", " ") for link, name in names})
+    named = linkage.renamed({link: spaced(name) for link, name in names})
     cycle = drive_cycle(named)
     if len(asked.between) == 2:
         cycle = part_of_cycle(cycle, *asked.between)

@@ -23,6 +23,7 @@ from gruebler.mechanics.screws.link_sizes import link_sizes
 from gruebler.mechanics.screws.resizing import can_be_resized
 from gruebler.mechanics.screws.wheels import gear_rows
 from gruebler.mechanics.space.outputs import against_frame, valued_freedoms
+from gruebler.page.model import spaced
 from gruebler.page.page import WHOLE_WINDOW, data_page, module_text, page_styles, shadow_tree
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
 from gruebler.pictures.structure.messages import title
@@ -133,15 +134,14 @@ def space_model(
                 "title": (titles or {}).get(lang) or title(mechanism, lang),
                 "drives": _short(mechanism, names)
                 or [
-                    name.replace("_", " ")
-                    for name in (drives or {}).get(lang, mechanism.drive_names(Alphabet.of_language(lang)))
+                    spaced(name) for name in (drives or {}).get(lang, mechanism.drive_names(Alphabet.of_language(lang)))
                 ],
                 "links": [*names],
                 "joints": [_titled(linkage, names, joint, lang) for joint, _ in read],
                 "words": {key: text.in_language(lang) for key, text in words.items()},
             }
             for lang in LANGUAGES
-            for names in [[name.replace("_", " ") for name in (links or {}).get(lang, chain.links)]]
+            for names in [[spaced(name) for name in (links or {}).get(lang, chain.links)]]
         },
         "home": home,
         "asks": asks,

@@ -14,6 +14,7 @@ from gruebler.design.realisation.realising import with_drives
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.mobility_report import Freedoms, freedoms
+from gruebler.page.model import spaced
 from gruebler.pictures.canvas.figure import Figure
 from gruebler.pictures.canvas.labels import labels_with_names, legend
 from gruebler.pictures.canvas.shapes import Point, Shape, bounds, moved_shape
@@ -91,9 +92,7 @@ def structure_record(
         "joints": list(_joints(mechanism, shown, drawn, lang)),
         "links": list(_links(chain, drawn, report)),
         "frame": mechanism.frame,
-        "chosen": next(orbit[0] for orbit in symmetry(shown.chain).link_orbits if shown.frame in orbit).replace(
-            "_", " "
-        ),
+        "chosen": spaced(next(orbit[0] for orbit in symmetry(shown.chain).link_orbits if shown.frame in orbit)),
         "driver": "" if like is None else like.text(),
         "counted": report.counted,
         "generic": report.generic,
@@ -214,7 +213,7 @@ def drawn_frame(
     held = held_outlines(placed)
     outlines = {link: held[link] for link in chain.links}
     around = {link: (*corners, *corners[: placed.closed[link]]) for link, corners in outlines.items()}
-    names = {link: called.get(link, link).replace("_", " ") for link in chain.links}
+    names = {link: spaced(called.get(link, link)) for link in chain.links}
     texts, numbered = labels_with_names(outlines, placed.closed, bodies, names)
     labelled = [*bodies, *texts]
     held_at = [point for outline in outlines.values() for point in outline]
@@ -261,8 +260,8 @@ def _choice(mechanism: Mechanism, drawn: DrawnFrame, lang: str, called: Mapping[
     shown = mechanism.renamed(called)
     return {
         "text": mechanism.text(),
-        "frame": shown.frame.replace("_", " "),
-        "drives": [name.replace("_", " ") for name in shown.drive_names(Alphabet.of_language(lang))],
+        "frame": spaced(shown.frame),
+        "drives": [spaced(name) for name in shown.drive_names(Alphabet.of_language(lang))],
         "family": family(mechanism, lang) or "",
         "picture": drawn.card_with_drives(mechanism),
     }
