@@ -55,7 +55,7 @@ export function showExport(root: HTMLElement, page: Page, shown: Exported): void
     told.replaceChildren(text);
     told.className = `told ${failed ? "error" : "good"}`;
   };
-  const dialog = showOver(root, t("Save and export"), ...groupsOf(page, shown, say));
+  const dialog = showOver(root, `${t("Save")}: ${page.linkage.title}`, ...groupsOf(page, shown, say));
   dialog.querySelector("h2")!.after(told); // in its place
   dialog.dataset.panel = "export";
   dialog.addEventListener("click", ({ target }) => {
@@ -105,13 +105,13 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
   const groups = [
     group(
       t("Continue here"),
-      t("Opens here again"),
-      button("JSON", () => saveDocument(page, shown, say)),
+      t("JSON opens here again, TOML is to be read and edited"),
+      h("button.key", { onclick: () => saveDocument(page, shown, say) }, "JSON"),
       served("TOML"),
     ),
     group(
       t("For others"),
-      "",
+      t("HTML: the page with this machine as one file"),
       action("share", () => void page.share(), t("Copy the link")),
       served("HTML"),
     ),
@@ -132,7 +132,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
     ...(page.served
       ? [
           group(t("Drawing for CAD"), `1 : 1${unit && `, ${unit}`}`, served("DXF")),
-          group(t("Simulation"), "", served("MuJoCo", "mjcf"), served("URDF")),
+          group(t("Simulation"), t("URDF for ROS"), served("MuJoCo", "mjcf"), served("URDF")),
         ]
       : []),
     group(
@@ -176,6 +176,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
 function programs(page: Page, ask: (kind: string) => void): HTMLElement[] {
   const onchange = () => (choice.kind = kind.value);
   const kind = h("select", { "aria-label": t("File of another program"), "data-field": "kind", onchange });
+  kind.style.width = "18em"; // before they are known, too
   const lang = currentLanguage();
   if (!kinds.has(lang)) kinds.set(lang, page.ask("saved_kinds", {}));
   kinds.get(lang)!.then(

@@ -56,10 +56,8 @@ export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap:
       const place = driveText(linkage, placeOf(linkage, least.value), 4);
       // of four links it is no question which one pushes
       const link = model.own > 4 && least.leg?.links.map((one) => linkage.linkName(one)).join(", ");
-      // it may be the same everywhere
-      const note = link
-        ? t("at {place}, link {link}", { place, link })
-        : (least.leg && t("at {place}", { place })) || "";
+      let note = least.leg ? t("at {place}", { place }) : t("throughout");
+      if (link) note = t("at {place}, link {link}", { place, link });
       facts.push({ name: t("Smallest μ"), text: angle(least.mu), note, style: least.mu < GOOD ? "bad" : "good" });
     }
   }

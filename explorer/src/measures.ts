@@ -10,6 +10,7 @@ const STILL = 1e-9; // of the natural speed: an output that is never faster does
 const NOISE = 1e-6; // radians, or sizes: what moves less does not move, as in the plots of Python
 const CHANGE = 1e-5; // below this root, next to a change point, velocities have no sign
 const SAME_ANGLE = 1e-8; // radians: of equal ones rounding chooses none
+const THROUGHOUT = 1e-6; // radians: an angle that differs by less, as lengths of designs are rounded, is one
 const GOLDEN = 0.6180339887498949;
 
 export interface DeadCentre {
@@ -272,7 +273,8 @@ function lowsOf(linkage: Linkage, leg: Leg, angles: readonly number[], most: num
   if (!known.length) return [];
   const median = known[known.length >> 1]!;
   const spread = known.map((one) => Math.abs(one - median)).sort(ascending);
-  if (spread[Math.floor(0.9 * (spread.length - 1))]! <= 1e-8) return [{ value: values[0]!, mu: median, leg: null }];
+  if (spread[Math.floor(0.9 * (spread.length - 1))]! <= THROUGHOUT)
+    return [{ value: values[0]!, mu: median, leg: null }];
   const out: Least[] = [];
   angles.forEach((mu, row) => {
     const [one, other] = [Math.max(0, row - 1), Math.min(values.length - 1, row + 1)];

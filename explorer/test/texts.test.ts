@@ -140,7 +140,7 @@ test("what is read off a four-bar", () => {
     ["Range of the drive", "full turns", ""],
   ]);
   const where = () => factsOf(linkage, found, (value) => value).find(({ name }) => name === "Smallest μ")!.note;
-  assert.equal(where(), ""); // the same throughout
+  assert.equal(where(), "throughout");
   found.least.leg = linkage.model.outputs[0]!.legs[0]!;
   assert.equal(where(), "at 0°");
   linkage.model.outputs[0]!.inLine = false; // then it turns back without crank and coupler in line

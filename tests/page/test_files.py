@@ -193,6 +193,19 @@ def test_a_file_of_another_program_is_dropped_and_saved_as_dxf(tab, server, tmp_
     page.page.locator(".message", has_text="leg.xyz").wait_for()
 
 
+def test_the_sheet_says_what_is_saved_and_which_format_opens_here_again(tab, server):
+    """Also over a view that shows something else than the machine."""
+    page = tab().open(server.address)
+    page.page.click('[data-view="exercises"]')
+    page.page.click('[data-icon="save"]')
+    panel = page.page.locator('[data-panel="export"]')
+    assert panel.locator("h2").inner_text() == f"Save: {page.page.evaluate('gruebler.motion.linkage.title')}"
+    assert panel.locator("button.key").all_text_contents() == ["JSON"]
+    wide = panel.bounding_box()["width"]
+    panel.locator('[data-field="kind"] option').first.wait_for(state="attached")
+    assert panel.bounding_box()["width"] == wide
+
+
 def test_the_drive_of_a_drawn_four_bar_comes_back_from_another_program():
     """Linkage has inputs: a crank on the frame, which the reader finds again."""
     drawn = {

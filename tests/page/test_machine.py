@@ -12,7 +12,7 @@ import pytest
 
 from gruebler.files import linkage_from_json
 from gruebler.mechanics.analysis.measuring import Measures, measures
-from gruebler.mechanics.fourbar import FourBar
+from gruebler.mechanics.fourbar import FourBar, InvertedSliderCrank
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.elements import Wheel
@@ -89,6 +89,16 @@ def test_every_planar_machine_is_measured_and_dragged_as_the_library_does_it(tmp
             compared += 1
     assert dragged > 150
     assert compared > 25
+
+
+@NODE
+def test_an_angle_that_is_the_same_but_for_rounded_lengths_has_no_place(tmp_path):
+    """The block of an inverted slider-crank pushes across its lever. With the eccentricity e at the distance r of its
+    pin the angle is 90 degrees less asin(e/r): between 3e-7 and 1e-7 of a radian here."""
+    linkage = InvertedSliderCrank(30, 60, 9e-6).linkage()
+    (found,) = measured([linkage], tmp_path)
+    assert found["least"]["leg"] is None  # throughout
+    assert found["least"]["mu"] == pytest.approx(pi / 2, abs=1e-6)
 
 
 def cached_is_overconstrained(linkage: Linkage) -> bool:

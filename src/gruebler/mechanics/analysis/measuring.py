@@ -292,14 +292,14 @@ class Measures:
             yield dwell_share_message(self.dwell_share)
             if self.output_turns and self.motion_ratio:
                 yield motion_share_message(units, self.moving_span, self.span.period, self.motion_ratio)
-        way = None
+        outward = None
         if self.phi_forward is not None and self.phi_back is not None and self.inner and self.outer:
-            way = way_message(units, self.inner.output, self.outer.output, in_line=self.in_line)
+            outward = way_message(units, self.inner.output, self.outer.output, in_line=self.in_line)
             yield from stroke_lines(
-                units, way, self.phi_forward, self.phi_back, self.time_ratio, dwells=bool(self.dwells)
+                units, outward, self.phi_forward, self.phi_back, self.time_ratio, dwells=bool(self.dwells)
             )
         at_rest = self.dwell_time if self.dwells else None
-        yield from time_lines(self.speed_rpm, way, self.times, at_rest)
+        yield from time_lines(self.speed_rpm, outward, self.times, at_rest)
         drive_size = 1.0 if self.turning_drive else self.linkage.size
         yield from change_point_lines(units, by_place(self.change_points, drive_size))
         if self.change_points_error is not None:

@@ -82,14 +82,14 @@ def way_message(units: MeasureUnits, start: float, end: float, *, in_line: bool)
 
 
 def stroke_lines(
-    units: MeasureUnits, way: Message, phi_forward: float, phi_back: float, ratio: float | None, *, dwells: bool
+    units: MeasureUnits, outward: Message, phi_forward: float, phi_back: float, ratio: float | None, *, dwells: bool
 ) -> Iterator[Message]:
     """The drive angles of both strokes."""
     if dwells:
-        text = message("Drive angles without dwells: {forward} {way}, {back} back; time ratio {ratio:n}.")
+        text = message("Drive angles without dwells: {forward} {outward}, {back} back; time ratio {ratio:n}.")
     else:
-        text = message("Drive angles: {forward} {way}, {back} back; time ratio {ratio:n}.")
-    yield text.filled(way=way, forward=units.drive(phi_forward), back=units.drive(phi_back), ratio=ratio)
+        text = message("Drive angles: {forward} {outward}, {back} back; time ratio {ratio:n}.")
+    yield text.filled(outward=outward, forward=units.drive(phi_forward), back=units.drive(phi_back), ratio=ratio)
     if phi_forward - phi_back > _CONSTANT:
         yield message("Turning counter-clockwise, the way back is the quick one.")
     elif phi_back - phi_forward > _CONSTANT:
@@ -97,12 +97,12 @@ def stroke_lines(
 
 
 def time_lines(
-    rpm: float | None, way: Message | None, times: StrokeTimes | None, at_rest: float | None
+    rpm: float | None, outward: Message | None, times: StrokeTimes | None, at_rest: float | None
 ) -> Iterator[Message]:
     """How long strokes and dwells take at a speed."""
-    if times is not None and way is not None:
-        text = message("At {rpm:g} revolutions per minute: {forward:n} s {way}, {back:n} s back.")
-        yield text.filled(rpm=rpm, way=way, forward=times.forward, back=times.back)
+    if times is not None and outward is not None:
+        text = message("At {rpm:g} revolutions per minute: {forward:n} s {outward}, {back:n} s back.")
+        yield text.filled(rpm=rpm, outward=outward, forward=times.forward, back=times.back)
     if at_rest is not None:
         yield message("At rest: {time:n} s in a period.", time=at_rest)
 
