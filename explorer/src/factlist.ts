@@ -60,10 +60,7 @@ export class InWords {
   /** Ask for it after a while without a change. */
   ask(linkage: Linkage, documentOf: () => LinkageDocument): void {
     this.#asked = linkage;
-    if (!this.page.served || !linkage.drive || linkage.model.drives.length > 1) {
-      this.#said.textContent = "";
-      return;
-    }
+    if (!this.page.served) return;
     this.wait();
     clearTimeout(this.#timer);
     const tell = (text: string) => {

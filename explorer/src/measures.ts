@@ -112,10 +112,21 @@ function between([real, imag]: Pair): number {
 
 /** Cosine and sine between the force of a leg and the way of the point on which it acts. */
 function forceAndWay(linkage: Linkage, rows: Rows, row: number, leg: Leg): Pair {
-  const { across, guide, pushed } = leg;
-  const pin = legPlace(linkage, rows, row, leg.pin);
+  const { across, cam, guide, pushed } = leg;
+  let pin = legPlace(linkage, rows, row, leg.pin);
   const force = across ? legLine(linkage, rows, row, leg.from) : legPlace(linkage, rows, row, leg.from);
-  const [fx, fy] = across ? [-force[1], force[0]] : [pin[0] - force[0], pin[1] - force[1]];
+  let [fx, fy] = across ? [-force[1], force[0]] : [pin[0] - force[0], pin[1] - force[1]];
+  if (cam) {
+    // normal to the way of the roller against the cam, or where the face slides on the cam along itself
+    const [axis, on] = across ? [leg.pin, leg.from] : [leg.from, leg.pin];
+    const at = legPlace(linkage, rows, row, on);
+    const [u, v] = place(rows, row, on[0], ...legPoint(linkage, on), 1);
+    const [cx, cy] = wayOf(linkage, rows, row, axis[0], at, on);
+    if (across) {
+      const z = (fx * (u - cx) + fy * (v - cy)) / (rate(rows, row, axis[0]) - rate(rows, row, on[0]));
+      pin = [at[0] + z * force[0], at[1] + z * force[1]];
+    } else [fx, fy] = [v - cy, cx - u];
+  }
   let way: Pair;
   if (!guide) way = wayOf(linkage, rows, row, pushed, pin, leg.pin);
   else if (guide.slides) way = legLine(linkage, rows, row, guide.at);

@@ -32,6 +32,8 @@ export interface Leg {
   links: number[];
   from: Place;
   across: boolean;
+  /** Whether it is a cam: the end that is not on its follower is its axis. */
+  cam: boolean;
   pin: Place;
   pushed: number;
   /** The joint by which the link that is pushed hangs on the frame, if it is one. */

@@ -135,6 +135,7 @@ export function fourBar(lengths: Lengths, theta: number): Model {
             links: [COUPLER],
             from: [COUPLER, 0, 0, 1, 0, 3],
             across: false,
+            cam: false,
             pin: [COUPLER, coupler, 0, 1, 0, 4],
             pushed: ROCKER,
             guide: { slides: false, at: [0, frame, 0, 1, 0, 6] },

@@ -99,6 +99,8 @@ class TransmissionExtremes:
     """The largest for the leg that has the smallest."""
     legs: tuple[tuple[str, ...], ...]
     """The legs on the way from the drive to the output, from the output on; the smallest angle counts."""
+    cams: tuple[tuple[str, ...], ...] = ()
+    """Those of the legs that are cams: their deviation angle is the pressure angle."""
     undefined: tuple[str, ...] = ()
     """The links on that way in whose group no transmission angle is defined."""
 

@@ -350,6 +350,7 @@ def _output(linkage: Linkage, plan: Plan) -> list[dict[str, Any]]:
             "links": [index(link) for link in leg.links],
             "from": place(leg.slide or leg.outer),
             "across": leg.slide is not None,
+            "cam": leg.cam,
             "pin": place(leg.pin),
             "pushed": index(leg.pushed),
             "guide": None if leg.guide is None else {"slides": leg.guide[0].is_sliding, "at": place(leg.guide[1])},

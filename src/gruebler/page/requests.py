@@ -257,6 +257,8 @@ def _measures(asked: MeasureLinkage, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.page.model import link_names, spaced
 
     linkage = linkage_from_json(asked.document)
+    if len(linkage.mechanism.drives) != 1:
+        return {"lines": []}
     names = link_names(linkage, asked.source, lang).items()
     named = linkage.renamed({link: spaced(name) for link, name in names})
     cycle = drive_cycle(named)

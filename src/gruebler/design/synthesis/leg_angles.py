@@ -9,8 +9,9 @@ import numpy as np
 
 from gruebler.base.arrays import Reals, compared_by_value
 from gruebler.design.synthesis.closure import DesignClosure
+from gruebler.mechanics.analysis.cam_contacts import LinkPlace
 from gruebler.mechanics.analysis.outputs import find_output
-from gruebler.mechanics.analysis.transmission import Element, NoTransmissionAngleError, pushing_links
+from gruebler.mechanics.analysis.transmission import NoTransmissionAngleError, pushing_links
 from gruebler.mechanics.kinematics.solve import cached_plan
 
 _WEIGHT = 10.0  # against the targets, by their size
@@ -54,7 +55,7 @@ class LegAngles:
             return None
         frame, lines = linkage.mechanism.frame, []
 
-        def key_of(element: Element, *, line: bool) -> Pin:
+        def key_of(element: LinkPlace, *, line: bool) -> Pin:
             link, place, direction = element
             return next(
                 key

@@ -14,6 +14,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.events import ChangePoint, DeadCentre
+from gruebler.mechanics.analysis.cam_contacts import bodies_of, cam_contacts
 from gruebler.mechanics.analysis.courses import Course
 from gruebler.mechanics.analysis.outputs import Output
 from gruebler.mechanics.kinematics.circuits import Circuit, circuit
@@ -245,7 +246,11 @@ def drive_pivot(cycle: Course) -> complex | None:
 
 
 def _distances(cycle: Course, output: Output, drives: Reals) -> Reals | None:
-    """How far the point that drives the output lies from the pivot of the drive."""
+    """How far the point that drives the output lies from the pivot of the drive, or from the axis of its cam."""
+    for group in cycle.plan.decomposition.groups:
+        for contact in cam_contacts(cycle.plan, group):
+            if output.link in bodies_of(group)[contact.body]:
+                return contact.reach(cycle.at(drives, 2))
     pivot, place = drive_pivot(cycle), _driving_point(cycle, output)
     if pivot is None or place is None:
         return None

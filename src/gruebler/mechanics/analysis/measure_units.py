@@ -25,15 +25,16 @@ class MeasureUnits:
 
     def drive(self, value: float) -> Message:
         """A drive value."""
-        return angle_message(value) if self.turning_drive else self._length(value)
+        return angle_message(value) if self.turning_drive else self.length(value)
 
     def output(self, value: float) -> Message:
         """A value of the output."""
         if self.turning_output:
             return angle_message(value % tau if self.round else value)
-        return self._length(value)
+        return self.length(value)
 
-    def _length(self, value: float) -> Message:
+    def length(self, value: float) -> Message:
+        """A length."""
         return length_message(0.0 if abs(value) < _NOTHING * self.size else value, self.unit)
 
     def range(self, full: bool, low: float, high: float) -> Message:

@@ -17,7 +17,7 @@
   known);
 - ``transfer`` (`Transfer`: still, uniform, ratio, largest, smallest, zeros, velocity, acceleration);
 - ``transmission`` (`TransmissionExtremes`: extremes, smallest, largest, legs, good; None if undefined, then
-  ``transmission_note`` says why);
+  ``transmission_note`` says why); ``cams`` (tuple of `CamContour`: link, base, convex, hollow);
 - ``explain(lang)`` prose, ``to_json()`` plain data with angles in degrees.
 """
 
@@ -36,6 +36,7 @@ from gruebler.base.events import ChangePoint, DeadCentre, Transmission, Transmis
 from gruebler.base.notebook import brief
 from gruebler.base.plain_data import Units, plain
 from gruebler.base.text import Message, message
+from gruebler.mechanics.analysis.cam_contacts import CamContour, cam_contours
 from gruebler.mechanics.analysis.cycle_spans import CycleSpan, by_place
 from gruebler.mechanics.analysis.drive_cycles import DriveCycle, drive_cycle
 from gruebler.mechanics.analysis.events import (
@@ -51,10 +52,12 @@ from gruebler.mechanics.analysis.events import (
 )
 from gruebler.mechanics.analysis.measure_units import MeasureUnits
 from gruebler.mechanics.analysis.messages import (
+    cam_message,
     change_point_lines,
     dead_centre_message,
     dwell_lines,
     dwell_share_message,
+    lift_message,
     motion_share_message,
     output_lines,
     stroke_lines,
@@ -80,9 +83,10 @@ from gruebler.mechanics.linkages.conversion import LinkageLike, as_linkage
 _UNIFORM = 1e-9  # by how much the velocity of a uniform transmission may vary
 _KEYS = (
     "ends dead_centres dwells dwell_share moving_span motion_ratio dwell_time output_turns travel phi_forward phi_back "
-    "time_ratio speed_rpm times change_points transmission transmission_note"
+    "time_ratio speed_rpm times change_points transmission transmission_note cams"
 )
 _SHOWN = {
+    CamContour: "link base convex hollow",
     ChangePoint: "drive links form several",
     Crossing: "drive value kind",
     Dwell: "begin end duration output kind side",
@@ -151,6 +155,8 @@ class Measures:
     transmission: TransmissionExtremes | None
     transmission_error: NoTransmissionAngleError | None
     """Why there is no transmission angle; None if there is one."""
+    cams: tuple[CamContour, ...]
+    """The radii of its cams."""
     speed: float | None
     """Of the drive, in rad/s."""
 
@@ -158,6 +164,11 @@ class Measures:
     def transmission_note(self) -> str:
         """Why there is no transmission angle, in English; empty if there is one."""
         return str(self.transmission_error or "")
+
+    @property
+    def lifted_by_cam(self) -> bool:
+        """Whether a cam pushes the output itself, so that it has lifts and no dead centres."""
+        return self.transmission is not None and self.transmission.legs[0] in self.transmission.cams
 
     @property
     def inner(self) -> DeadCentre | Dwell | None:
@@ -286,7 +297,11 @@ class Measures:
         ratio = self.transfer.ratio if self.transfer.uniform else None
         name, turns = self.output.name, self.output_turns
         yield from output_lines(units, name, still=self.transfer.still, ratio=ratio, turns=turns, travel=self.travel)
-        yield from (dead_centre_message(units, centre, in_line=self.in_line) for centre in self.dead_centres)
+        if self.lifted_by_cam and self.inner is not None:
+            least = self.inner.output
+            yield from (lift_message(units, centre, least) for centre in self.dead_centres)
+        else:
+            yield from (dead_centre_message(units, centre, in_line=self.in_line) for centre in self.dead_centres)
         yield from dwell_lines(units, self.dwells, self.span.period)
         if self.dwells:
             yield dwell_share_message(self.dwell_share)
@@ -308,6 +323,7 @@ class Measures:
             yield from transmission_lines(units, self.transmission)
         else:
             yield message("{why}.", why=self.transmission_error)
+        yield from (cam_message(units, cam) for cam in self.cams)
 
     def to_json(self) -> dict[str, Any]:
         """The measures as plain data; angles in degrees, times in seconds."""
@@ -403,6 +419,7 @@ def measures_of(cycle: DriveCycle, linkage: Linkage, looked_at: Output, speed: f
         transfer=_transfer(cycle, looked_at),
         transmission=transmission,
         transmission_error=transmission_error,
+        cams=cam_contours(linkage),
         speed=speed,
     )
 

@@ -8,6 +8,7 @@ from math import isclose
 from gruebler.base.errors import GrueblerError
 from gruebler.base.events import ChangePoint, DeadCentre, TransmissionExtremes
 from gruebler.base.text import Message, joined, message
+from gruebler.mechanics.analysis.cam_contacts import CamContour
 from gruebler.mechanics.analysis.events import Dwell
 from gruebler.mechanics.analysis.measure_units import MeasureUnits, angle_message
 from gruebler.mechanics.fourbar.extremes import StrokeTimes
@@ -22,6 +23,11 @@ _DEAD_CENTRES = {
 }
 _TURNS_BACK = message("The output turns back at {drive}: {output}.")
 _PAUSES = message("The output pauses at {drive}: {output}.")
+_LIFTS = {
+    "inner": message("Least lift at {drive}: {output}."),
+    "outer": message("Greatest lift at {drive}: {output}."),
+    "": _TURNS_BACK,
+}
 _DWELLS = {
     "inner": message("Dwell in the inner position from {begin} to {end}, {duration}: {output}."),
     "outer": message("Dwell in the outer position from {begin} to {end}, {duration}: {output}."),
@@ -48,6 +54,12 @@ def output_lines(
         yield message("The output {name} swings through {travel}.", name=name, travel=units.output(travel))
     elif travel is not None:
         yield message("The output {name} has a stroke of {travel}.", name=name, travel=units.output(travel))
+
+
+def lift_message(units: MeasureUnits, centre: DeadCentre, least: float) -> Message:
+    """Where a follower turns back, or pauses: how far it is lifted above its least output."""
+    text = _PAUSES if centre.kind == "flat" else _LIFTS[centre.side]
+    return text.filled(drive=units.drive(centre.drive), output=units.output(abs(centre.output - least)))
 
 
 def dead_centre_message(units: MeasureUnits, centre: DeadCentre, *, in_line: bool) -> Message:
@@ -152,6 +164,21 @@ _SMALLEST_TRANSMISSION = message(
     "Smallest transmission angle {smallest} at {drive} (link {links}, whose largest is {largest}); deviation angle up "
     "to {deviation}."
 )
+_CAM_TRANSMISSION = message(
+    "Transmission angle {smallest} at {drive} ({links}) to {largest}; pressure angle up to {deviation}."
+)
+_CAM = message("{cam}: base circle of radius {base}, smallest radius of curvature {convex}.")
+_HOLLOW_CAM = message(
+    "{cam}: base circle of radius {base}, smallest radius of curvature {convex}, of hollows {hollow}."
+)
+
+
+def cam_message(units: MeasureUnits, contour: CamContour) -> Message:
+    """The radii of a cam."""
+    base, convex = units.length(contour.base), units.length(contour.convex)
+    if contour.hollow is None:
+        return _CAM.filled(cam=contour.link, base=base, convex=convex)
+    return _HOLLOW_CAM.filled(cam=contour.link, base=base, convex=convex, hollow=units.length(contour.hollow))
 
 
 def transmission_lines(units: MeasureUnits, transmission: TransmissionExtremes) -> Iterator[Message]:
@@ -159,6 +186,7 @@ def transmission_lines(units: MeasureUnits, transmission: TransmissionExtremes) 
     worst, best = transmission.smallest, transmission.largest
     if best.mu - worst.mu > _CONSTANT:
         text = _TRANSMISSION if len(transmission.legs) == 1 else _SMALLEST_TRANSMISSION
+        text = _CAM_TRANSMISSION if worst.links in transmission.cams else text
         yield text.filled(
             smallest=angle_message(worst.mu),
             drive=units.drive(worst.drive),
@@ -166,6 +194,9 @@ def transmission_lines(units: MeasureUnits, transmission: TransmissionExtremes) 
             largest=angle_message(best.mu),
             deviation=angle_message(worst.deviation),
         )
+    elif worst.links in transmission.cams:
+        text = message("Transmission angle {angle} throughout, pressure angle {deviation}.")
+        yield text.filled(angle=angle_message(worst.mu), deviation=angle_message(worst.deviation))
     else:
         yield message("Transmission angle {angle} throughout.", angle=angle_message(worst.mu))
     yield message("It does not fall below 40°." if transmission.good else "It falls below 40°.")

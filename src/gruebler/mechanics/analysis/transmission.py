@@ -18,14 +18,23 @@ from gruebler.base.disjoint_sets import DisjointSets
 from gruebler.base.errors import LinkageError
 from gruebler.base.events import Transmission, TransmissionExtremes
 from gruebler.base.jets import turn_derivative
+from gruebler.mechanics.analysis.cam_contacts import (
+    LinkPlace,
+    Push,
+    bodies_of,
+    cam_contacts,
+    face_push,
+    joint_motion,
+    link_place,
+    roller_push,
+)
 from gruebler.mechanics.analysis.courses import Course
 from gruebler.mechanics.analysis.outputs import Output, find_output
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.kinematics.root_finding import find_zeros
-from gruebler.mechanics.linkages import LinkPoint
 from gruebler.structure.assur import SolvedGroup
-from gruebler.structure.chain.pairs import Pair
+from gruebler.structure.chain.pairs import Pair, pair
 
 _SLOW = 1e-7  # of the fastest motion in the same pose: a velocity below it has no direction of its own
 _LEAST = 1e-10  # of the natural size: the turning of the force, or the sine of its angle, that is none
@@ -37,24 +46,23 @@ class NoTransmissionAngleError(LinkageError):
     """The output has no transmission angle; the message says why."""
 
 
-Element = tuple[str, complex, complex]
-"""A joint on a link: the link, the point, the direction."""
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PushingLink:
     """A link (or a body of several) that pushes another at one joint."""
 
     links: tuple[str, ...]
-    outer: Element
-    inner: Element
+    outer: LinkPlace
+    inner: LinkPlace
     pairs: tuple[Pair, Pair]
     """Of the outer joint, on the side of the drive, and of the inner one, on the side of the output."""
     pushed: str
     """The link that it pushes."""
-    guide: tuple[Pair, Element] | None
+    guide: tuple[Pair, LinkPlace] | None
     """By which one joint the pushed link is held, on the frame or, in a dyad, on a link that moves: its pair, and the
     joint there, else on the pushed link."""
+    cam: bool = False
+    """Whether it is a cam: ``outer`` is its axis, ``inner`` the roller's centre or the flat face of the follower, and
+    the pairs are those of the link that replaces the contact for small motions."""
 
     @property
     def form(self) -> str:
@@ -62,13 +70,13 @@ class PushingLink:
         return "".join(pair.symbol() for pair in self.pairs)
 
     @property
-    def slide(self) -> Element | None:
+    def slide(self) -> LinkPlace | None:
         """The joint that slides, across which it pushes; without one it pushes along the line of its pins."""
         outer, inner = self.pairs
         return self.outer if outer.is_sliding else self.inner if inner.is_sliding else None
 
     @property
-    def pin(self) -> Element:
+    def pin(self) -> LinkPlace:
         """The pin on the line of the push, that nearer to the output."""
         return self.outer if self.pairs[1].is_sliding else self.inner
 
@@ -102,7 +110,7 @@ def force_path(plan: Plan, output: Output) -> ForcePath:
             "depends on their stiffness"
         )
     groups = plan.decomposition.groups
-    own = next((k for k, group in enumerate(groups) if any(output.link in body for body in _bodies(group))), None)
+    own = next((k for k, group in enumerate(groups) if any(output.link in body for body in bodies_of(group))), None)
     if own is None:
         raise NoTransmissionAngleError(
             "there is no transmission angle: {link!r} is moved by the drive itself", link=output.link
@@ -112,7 +120,7 @@ def force_path(plan: Plan, output: Output) -> ForcePath:
     undefined: list[str] = []
     loaded = {output.link}
     for k, group in reversed(list(enumerate(groups[: own + 1]))):
-        links = [link for body in _bodies(group) for link in body]
+        links = [link for body in bodies_of(group) for link in body]
         if loaded.isdisjoint(links):
             continue
         if k in fixed:
@@ -170,10 +178,10 @@ def _fixed_groups(plan: Plan) -> dict[int, set[str]]:
     bodies = DisjointSets(mechanism.chain.links)
     fixed: dict[int, set[str]] = {}
     for k, group in enumerate(plan.decomposition.groups):
-        for first, *others in _bodies(group):
+        for first, *others in bodies_of(group):
             for other in others:
                 bodies.unite(first, other)
-        inside = {link for body in _bodies(group) for link in body}
+        inside = {link for body in bodies_of(group) for link in body}
         if any(set(drive.between) <= inside for drive in mechanism.drives):
             continue
         outer = [
@@ -195,27 +203,39 @@ def _legs(plan: Plan, group: SolvedGroup, loaded: set[str]) -> list[PushingLink]
     """The legs of a group by which loaded links of it are moved."""
     driven = [k for k in range(len(group.bodies)) if _is_driven(plan, group, k)]
     legs = {k: leg for k in driven if (leg := _leg(plan, group, k)) is not None}
-    others = {k: leg for k, leg in legs.items() if loaded.isdisjoint(_bodies(group)[k])}
-    return list((others or legs).values())
+    others = {k: leg for k, leg in legs.items() if loaded.isdisjoint(bodies_of(group)[k])}
+    return list((others or legs).values()) or _cams(plan, group)
+
+
+def _cams(plan: Plan, group: SolvedGroup) -> list[PushingLink]:
+    """The cams that push bodies of a group."""
+    return [
+        PushingLink(
+            links=(contact.cam[0],),
+            outer=contact.cam,
+            inner=contact.follower,
+            pairs=(pair("revolute"), pair("prismatic" if contact.flat else "revolute")),
+            pushed=contact.follower[0],
+            guide=_guide(plan, group, contact.body, but=contact.joint),
+            cam=True,
+        )
+        for contact in cam_contacts(plan, group)
+    ]
 
 
 def _holders(plan: Plan, group: SolvedGroup) -> set[str]:
     """The links that move and on which a group hangs: what acts on the group acts on these."""
     chain, frame = plan.lower.mechanism.chain, plan.lower.mechanism.frame
-    inside = {link for body in _bodies(group) for link in body}
+    inside = {link for body in bodies_of(group) for link in body}
     outer = [number for number, member in group.joints if member.outer]
     return {link for number in outer for link in chain.joints[number].links} - inside - {frame}
 
 
-def _bodies(group: SolvedGroup) -> list[tuple[str, ...]]:
-    return [(*own, *carried) for own, carried in zip(group.bodies, group.carried, strict=True)]
-
-
 def _is_driven(plan: Plan, group: SolvedGroup, body: int) -> bool:
-    mechanism, links = plan.lower.mechanism, _bodies(group)[body]
+    mechanism, links = plan.lower.mechanism, bodies_of(group)[body]
     if set(mechanism.drives[0].between) <= set(links):
         return True
-    inside = {link for b in _bodies(group) for link in b}
+    inside = {link for b in bodies_of(group) for link in b}
     for number, member in group.joints:
         if member.outer and body in member.links:
             holders = [link for link in mechanism.chain.joints[number].links if link not in inside]
@@ -230,39 +250,32 @@ def _leg(plan: Plan, group: SolvedGroup, body: int) -> PushingLink | None:
         return None
     if any(not member.pair.is_basic for _, member in joints):
         return None  # a wheel or cam
-    links = _bodies(group)
+    links = bodies_of(group)
     other = next(k for k in inner[0][1].links if k != body)
-    pushed = _element(plan, inner[0][0], links[other])[0]
+    pushed = link_place(plan, inner[0][0], links[other])[0]
     return PushingLink(
         links=group.bodies[body],
-        outer=_element(plan, outer[0][0], links[body]),
-        inner=_element(plan, inner[0][0], links[body]),
+        outer=link_place(plan, outer[0][0], links[body]),
+        inner=link_place(plan, inner[0][0], links[body]),
         pairs=(outer[0][1].pair, inner[0][1].pair),
         pushed=pushed,
         guide=_guide(plan, group, other),
     )
 
 
-def _guide(plan: Plan, group: SolvedGroup, body: int) -> tuple[Pair, Element] | None:
+def _guide(plan: Plan, group: SolvedGroup, body: int, but: int | None = None) -> tuple[Pair, LinkPlace] | None:
     frame = plan.lower.mechanism.frame
-    held = [(n, m) for n, m in group.joints if m.outer and body in m.links]
+    held = [(n, m) for n, m in group.joints if m.outer and body in m.links and n != but]
     if len(held) != 1:
         return None
     number, member = held[0]
     at_frame = frame in plan.lower.mechanism.chain.joints[number].links
     if not at_frame and (len(group.bodies) != _DYAD or not member.pair.is_basic):
         return None
-    return member.pair, _element(plan, number, (frame,) if at_frame else _bodies(group)[body])
+    return member.pair, link_place(plan, number, (frame,) if at_frame else bodies_of(group)[body])
 
 
-def _element(plan: Plan, joint: int, links: tuple[str, ...]) -> Element:
-    link = next(link for link in plan.lower.mechanism.chain.joints[joint].links if link in links)
-    e = plan.lower.elements[joint, link]
-    angle = getattr(e, "angle", 0.0)
-    return link, complex(e.x, e.y), complex(np.exp(1j * angle))
-
-
-class _Lines(NamedTuple):
+class ForceAndWay(NamedTuple):
     """The force on the pushed link and the direction in which its point goes, with derivatives; complex, (rows,)."""
 
     force: Complexes
@@ -271,44 +284,43 @@ class _Lines(NamedTuple):
     direction_rate: Complexes
 
 
-def _lines(motion: Motion, leg: PushingLink) -> _Lines:
+def lines_of(motion: Motion, leg: PushingLink) -> ForceAndWay:
     """Force and way of a leg; the motion is of order 2."""
-    point = _point(motion, leg.pin)
-    if leg.slide is None:
-        outer = _point(motion, leg.outer)
-        force, force_rate = point[0] - outer[0], point[1] - outer[1]
-    else:
-        force, force_rate = _normal(motion, leg.slide)
+    force, force_rate, at, velocity = push_of(motion, leg)
     if leg.guide is not None:
-        pair, place = leg.guide
-        if pair.is_sliding:
+        held_by, place = leg.guide
+        if held_by.is_sliding:
             across, across_rate = _normal(motion, place)
-            return _Lines(force, force_rate, -1j * across, -1j * across_rate)
-        held = _point(motion, place)
-        return _Lines(force, force_rate, 1j * (point[0] - held[0]), 1j * (point[1] - held[1]))
-    return _Lines(force, force_rate, *_velocity(motion, leg.pushed, point))
+            return ForceAndWay(force, force_rate, -1j * across, -1j * across_rate)
+        held = joint_motion(motion, place)
+        return ForceAndWay(force, force_rate, 1j * (at - held[0]), 1j * (velocity - held[1]))
+    return ForceAndWay(force, force_rate, *_velocity(motion, leg.pushed, at, velocity))
 
 
-def _point(motion: Motion, element: Element) -> tuple[Complexes, Complexes, Complexes]:
-    """Position, velocity and acceleration of a joint."""
-    place = LinkPoint(element[0], element[1].real, element[1].imag)
-    position, velocity, acceleration = (motion.complex_point(place, order=order) for order in range(3))
-    return position, velocity, acceleration
+def push_of(motion: Motion, leg: PushingLink) -> Push:
+    """The force of a leg and where it acts; the motion is of order 2."""
+    if leg.cam:
+        return (roller_push if leg.slide is None else face_push)(motion, leg.outer, leg.inner)
+    at, velocity, _ = joint_motion(motion, leg.pin)
+    if leg.slide is not None:
+        return Push(*_normal(motion, leg.slide), at, velocity)
+    outer = joint_motion(motion, leg.outer)
+    return Push(at - outer[0], velocity - outer[1], at, velocity)
 
 
-def _normal(motion: Motion, element: Element) -> tuple[Complexes, Complexes]:
+def _normal(motion: Motion, element: LinkPlace) -> tuple[Complexes, Complexes]:
     k = motion.link_index(element[0])
     normal = 1j * motion.turns[:, k] * element[2]
     return normal, turn_derivative(motion.rates[:, :, k], 1) * normal
 
 
-def _velocity(motion: Motion, link: str, point: tuple[Complexes, Complexes, Complexes]) -> tuple[Complexes, Complexes]:
+def _velocity(motion: Motion, link: str, at: Complexes, moves: Complexes) -> tuple[Complexes, Complexes]:
     """The velocity of the place of a link where a point is, with its rate; at rest the way it leaves."""
     k = motion.link_index(link)
     w, spin = motion.rates[0, :, k], motion.rates[1, :, k]
     origin, speed, change = (motion.places[m, :, k] for m in range(3))
-    velocity = speed + 1j * w * (point[0] - origin)
-    rate = change + 1j * spin * (point[0] - origin) + 1j * w * (point[1] - speed)
+    velocity = speed + 1j * w * (at - origin)
+    rate = change + 1j * spin * (at - origin) + 1j * w * (moves - speed)
     fastest = np.maximum(np.abs(motion.places[1]).max(axis=1), motion.size * np.abs(motion.rates[0]).max(axis=1))
     rest = np.abs(velocity) < _SLOW * fastest
     return np.where(rest, rate, velocity), np.where(rest, 0, rate)
@@ -317,11 +329,11 @@ def _velocity(motion: Motion, link: str, point: tuple[Complexes, Complexes, Comp
 def _pace(motion: Motion) -> Reals:
     """How fast the joints move, as points of all their links; (rows,)."""
     elements = motion.lower_linkage.elements.items()
-    speeds = [_point(motion, (link, complex(e.x, e.y), 1))[1] for (_, link), e in elements]
+    speeds = [joint_motion(motion, (link, complex(e.x, e.y), 1))[1] for (_, link), e in elements]
     return np.asarray(np.linalg.norm(speeds, axis=0))
 
 
-def _folded(lines: _Lines) -> Reals:
+def _folded(lines: ForceAndWay) -> Reals:
     product = np.conj(lines.force) * lines.direction
     return np.asarray(np.arctan2(np.abs(product.real), np.abs(product.imag)))
 
@@ -340,7 +352,7 @@ def transmission_angle(motion: Motion, output: str | None = None) -> Reals:
     if motion.order < 2:
         raise LinkageError("the transmission angle needs a motion with accelerations: move(..., order=2)")
     legs = pushing_links(motion.plan, find_output(motion.linkage, output))
-    return np.asarray(np.min([_folded(_lines(motion, leg)) for leg in legs], axis=0))
+    return np.asarray(np.min([_folded(lines_of(motion, leg)) for leg in legs], axis=0))
 
 
 def deviation_angle(motion: Motion, output: str | None = None) -> Reals:
@@ -361,7 +373,7 @@ def measure_transmission(cycle: Course, output: Output) -> TransmissionExtremes:
     extremes = []
     for leg in legs:
         places, ends = _stationary(cycle, leg)
-        values = _folded(_lines(cycle.at(places, 2), leg)) if len(places) else places
+        values = _folded(lines_of(cycle.at(places, 2), leg)) if len(places) else places
         extremes += [
             Transmission(cycle.span.wrapped(float(x)), float(mu), leg.links)
             for x, mu in zip(places, values, strict=True)
@@ -376,6 +388,7 @@ def measure_transmission(cycle: Course, output: Output) -> TransmissionExtremes:
         smallest=smallest,
         largest=largest,
         legs=tuple(leg.links for leg in legs),
+        cams=tuple(leg.links for leg in legs if leg.cam),
         undefined=path.undefined,
     )
 
@@ -389,12 +402,12 @@ def _stationary(cycle: Course, leg: PushingLink) -> tuple[Reals, list[tuple[floa
     """Where the folded angle has a local extreme, and its values at the ends of a range."""
 
     def product(motion: Motion) -> Complexes:
-        lines = _lines(motion, leg)
+        lines = lines_of(motion, leg)
         normed: Complexes = np.conj(lines.force) * lines.direction / (np.abs(lines.force) * np.abs(lines.direction))
         return normed
 
     def turning(drives: Reals) -> Reals:
-        lines = _lines(cycle.at(drives, 2), leg)
+        lines = lines_of(cycle.at(drives, 2), leg)
         return np.imag(lines.force_rate / lines.force - lines.direction_rate / lines.direction)[None]
 
     def sine(drives: Reals) -> Reals:
@@ -405,18 +418,20 @@ def _stationary(cycle: Course, leg: PushingLink) -> tuple[Reals, list[tuple[floa
 
     def unnormed(motion: Motion) -> Complexes:
         """As `product`, but smooth where the driven point is slow next to a limit: of a speed by that of all joints."""
-        lines = _lines(motion, leg)
+        lines = lines_of(motion, leg)
         pace = np.abs(lines.direction) if leg.guide is not None else _pace(motion)
         return np.asarray(np.conj(lines.force) * lines.direction / (np.abs(lines.force) * pace))
 
     slow = _LEAST / cycle.drive_size
-    angles = _folded(_lines(cycle.at(cycle.grid, 2), leg))
+    angles = _folded(lines_of(cycle.at(cycle.grid, 2), leg))
     constant = not cycle.joints and np.quantile(np.abs(angles - np.median(angles)), 0.9) <= _CONSTANT
     places = [
         zero.at
         for jet, floor in ((turning, slow), (sine, _LEAST), (cosine, _LEAST))
         for zero in (() if constant else find_zeros(jet, cycle.samples(2), floor))
     ]
+    if leg.cam:  # where its law passes to the next piece, the angle may have a corner
+        places += cycle.joints
     if cycle.span.full:
         return np.array(places or [cycle.span.low]), []
     ends = []

@@ -20,7 +20,7 @@ from gruebler.mechanics.analysis.events import stops
 from gruebler.mechanics.analysis.link_planes import link_planes
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.plates import plates_of
-from gruebler.mechanics.analysis.transmission import PushingLink, pushing_links
+from gruebler.mechanics.analysis.transmission import PushingLink, lines_of, push_of, pushing_links
 from gruebler.mechanics.kinematics import Motion, circuit
 from gruebler.mechanics.linkages import LinkPoint
 from gruebler.mechanics.linkages.points import PointLike, place_of
@@ -241,27 +241,10 @@ def _transmission(context: LayerContext) -> list[Shape]:
 
 def _push(posed: PosedLinkage, leg: PushingLink) -> tuple[complex, complex, complex]:
     """The point where a leg pushes, the direction (from there back to the leg), and the nearer normal of the path."""
-    pose, chain = posed.pose, posed.lower.mechanism.chain
-
-    def point(element: tuple[str, complex, complex]) -> complex:
-        return complex(pose.complex_point(LinkPoint(element[0], element[1].real, element[1].imag))[0])
-
-    def across(element: tuple[str, complex, complex]) -> complex:
-        return 1j * complex(pose.turns[0, chain.index(element[0])]) * element[2]
-
-    at = point(leg.pin)
-    force = point(leg.outer) - at if leg.slide is None else across(leg.slide)
-    if leg.guide is not None:
-        pair, place = leg.guide
-        motion = place[2] if pair.is_sliding else 1j * (at - place[1])
-    else:
-        k = chain.index(leg.pushed)
-        arm, w = at - pose.places[0, 0, k], float(pose.rates[0, 0, k])
-        motion = complex(pose.places[1, 0, k] + 1j * w * arm)
-        if abs(motion) < _AT_REST * posed.lower.size:
-            motion = complex(pose.places[2, 0, k] + (1j * pose.rates[1, 0, k] - w**2) * arm)
-    normal = 1j * motion
-    return at, force, normal if (force.conjugate() * normal).real >= 0 else -normal
+    push, lines = push_of(posed.pose, leg), lines_of(posed.pose, leg)
+    force = complex(-push.force[0] if leg.slide is None else push.force[0])
+    normal = 1j * complex(lines.direction[0])
+    return complex(push.at[0]), force, normal if (force.conjugate() * normal).real >= 0 else -normal
 
 
 def _planes(context: LayerContext) -> list[Shape]:
