@@ -143,7 +143,6 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
     ...(page.served ? [group(t("Other programs"), "", ...programs(page, ask))] : []),
   ];
   const model = page.shown;
-  const [reader, measured] = ["from gruebler.files import read_linkage", "print(gr.measures(linkage).explain())"];
   const named = model.source && !shown.changed; // by its name the library finds it as it was
   const stem = stemOf(page);
   const file = `${stem}.json`;
@@ -161,13 +160,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
       h("p.note", {}, t("The same on the command line")),
       h("pre", {}, `gruebler analyse ${word}\ngruebler draw ${word} -o ${stem}.svg`),
       h("p.note", {}, t("The same in Python")),
-      h(
-        "pre",
-        {},
-        named && !model.source.includes(":")
-          ? `import gruebler as gr\n\nlinkage = gr.teaching.catalog.entry("${model.source}").linkage()\n${measured}`
-          : `${reader}\nimport gruebler as gr\n\nlinkage = read_linkage("${file}")\n${measured}`,
-      ),
+      h("pre", {}, `import gruebler as gr\n\nlinkage = gr.read("${word}")\nprint(gr.measures(linkage).explain())`),
     ),
   ];
 }

@@ -134,23 +134,26 @@ export class Forces {
       this.changed();
     };
     const steel = t("steel, bars 20 mm × 5 mm to each joint, sliders 20 mm long");
-    const button = action("assume", assume, `${t("Assume masses:")} ${steel}`);
+    const button = action("assume", assume, t("Assume masses"));
     const told = this.#form.steel ? `${t("Assumed masses:")} ${steel}` : this.#form.origin;
-    const offer = masses.some(Boolean) ? h("p.note", {}, told) : h("div.form", {}, button);
+    const offer = masses.some(Boolean) ? h("p.note", {}, told) : h("div.form", {}, button, h("p.note", {}, steel));
     if (!drives) {
       const note = t("Nothing acts yet: type masses or loads.");
       renew(this.#result, h("p.note", {}, note), offer);
     } else {
+      this.#form.element.append(offer);
       const places = Float64Array.from(drives);
       const turning = drive!.turning;
-      const title = turning ? `${t("Drive torque")} [${momentUnit(model)}]` : `${t("Drive force")} [N]`;
+      const [effortName, unit] = turning ? [t("Drive torque"), momentUnit(model)] : [t("Drive force"), "N"];
+      const title = `${effortName} [${unit}]`;
       this.#plot = new Plot(turning ? "°" : lengthUnit(model), (value) => this.#view.transport.pick(value));
       this.#plot.show(places, { title, colour: "--motion", values: numbers(effort) }, this.#view.transport.range);
-      const largestOf = (sizes: ArrayLike<number | null>) => {
-        const all = Array.from(sizes, (one) => Math.abs(one ?? 0) || 0);
+      const largestOf = (sizes: ArrayLike<number>) => {
+        const all = Array.from(sizes, (one) => one || 0);
         return all.indexOf(Math.max(...all));
       };
-      const at = (row: number) => t("at {place}", { place: driveText(linkage, drives[row]!, 4) });
+      const drivenTo = (row: number) => driveText(linkage, drives.at(row)!, 4);
+      const at = (place: string) => t("at {place}", { place });
       this.#forces = forces.map(({ joint, link, force }) => {
         const [x, y] = force.map(numbers) as [Float64Array, Float64Array];
         const sizes = x.map((one, k) => Math.hypot(one, y[k]!));
@@ -158,7 +161,7 @@ export class Forces {
         const others = links.map((other) => linkage.linkName(other)).join(", ");
         const name = t("{others} on {link}", { others, link: linkage.linkName(link) });
         const row = largestOf(sizes);
-        return { joint, drives: places, x, y, most: sizes[row]!, name, note: at(row) };
+        return { joint, drives: places, x, y, most: sizes[row]!, name, note: at(drivenTo(row)) };
       });
       const chosen = this.#joint.selectedIndex;
       renew(this.#joint, ...this.#forces.map(({ name }, value) => h("option", { value }, name)));
@@ -168,24 +171,22 @@ export class Forces {
       const release = t("Release the drive: free motion");
       const known = effort.filter((one) => one !== null);
       const ends: Pair = [Math.min(...known), Math.max(...known)];
-      const place = (end: number) => driveText(linkage, drives[effort.indexOf(end)]!, 4);
-      const unit = turning ? momentUnit(model) : "N";
       const strong = largestOf(this.#forces.map((force) => force.most));
       const strongest = this.#forces[strong]!;
       this.#joint.selectedIndex = chosen < 0 ? strong : chosen;
       this.#facts.show([
         {
-          name: turning ? t("Drive torque") : t("Drive force"),
+          name: effortName,
           text: `${span(ends, figure)} ${unit}`,
-          note: t("at {place}", { place: span(ends, place, "; ") }),
+          note: at(span(ends, (end) => drivenTo(effort.indexOf(end)), "; ")),
         },
         { name: t("Effective (RMS)"), text: `${figure(effective)} ${unit}` },
         { name: t("Drive power"), text: `${span(power, figure)} W` },
         { name: t("Mean drive power"), text: `${figure(power[2])} W` },
         {
           name: t("Drive work"),
-          text: `${number((power[2] * (drives.at(-1)! - drives[0]!)) / speed!, 3)} J`,
-          note: [0, -1].map((row) => driveText(linkage, drives.at(row)!, 4)).join(" … "),
+          text: `${figure((power[2] * (drives.at(-1)! - drives[0]!)) / speed!)} J`,
+          note: `${drivenTo(0)} … ${drivenTo(-1)}`,
         },
         {
           name: t("Largest joint force"),
@@ -199,7 +200,6 @@ export class Forces {
         this.#facts.element,
         this.#plot.element,
         h("div.form", {}, action("play", play, t("Play at this speed"))),
-        offer,
         h("p.note", {}, t("Joint forces in this pose. Arrow length: square root of the force")),
         this.#joints.element,
         h("div.form", {}, h("label", {}, t("Force vector"), this.#joint)),

@@ -224,18 +224,26 @@ export class Linkage {
 
   /** Bring the active drive to a value within its cycle; returns false where it cannot be reached. */
   moveTo(value: number): boolean {
-    const { cycle } = this;
-    if (!this.drive || cycle.values.length < 2) return false;
-    let goal = value;
-    if (cycle.full) {
-      const period = cycle.turns * TURN;
-      goal = cycle.low + ((((value - cycle.low) % period) + period) % period);
-    }
-    const rows = this.from(this.#nearestRow(goal), goal);
-    if (rows.reached < 2) return false;
-    this.drives[this.active] = goal;
+    const rows = this.at(value);
+    if (!rows) return false;
+    this.drives[this.active] = this.#inCycle(value);
     this.#take(rows, 1);
     return true;
+  }
+
+  /** Two rows, of which the second has the active drive at a value within its cycle; null where it cannot be. */
+  at(value: number): Rows | null {
+    if (!this.drive || this.cycle.values.length < 2) return null;
+    const goal = this.#inCycle(value);
+    const rows = this.from(this.#nearestRow(goal), goal);
+    return rows.reached < 2 ? null : rows;
+  }
+
+  /** The same value of the drive within the cycle. */
+  #inCycle(value: number): number {
+    const { full, low, turns } = this.cycle;
+    const period = turns * TURN;
+    return full ? low + ((((value - low) % period) + period) % period) : value;
   }
 
   /** Two rows: one of the cycle, and what the drive comes to from it. */

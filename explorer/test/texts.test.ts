@@ -98,19 +98,31 @@ test("the chain as text", () => {
 });
 
 test("the table of a four-bar", () => {
-  const linkage = new Linkage(fourBar(CRANK_ROCKER, 0));
+  // shown at 1 rad, it begins at 0 and has a row for each degree
+  const linkage = new Linkage(fourBar(CRANK_ROCKER, 1));
   const [head, first, ...others] = tableOf(linkage).split("\n");
-  assert.equal(head, "drive_deg,output,output_velocity,output_acceleration,transmission_angle_deg,K_x,K_y,K_vx,K_vy");
-  const [drive, , , , mu, x] = first!.split(",").map(Number);
+  const output = "rocker [°],rocker′,rocker′′ [1/rad],Transmission angle μ [°]";
+  const point = "K x [mm],K y [mm],K vx [mm/rad],K vy [mm/rad],K ax [mm/rad²],K ay [mm/rad²]";
+  assert.equal(head, `R(frame-crank) [°],${output},${point}`);
+  const [drive, psi, slope, , mu, x] = first!.split(",").map(Number);
   assert.equal(drive, 0);
-  const cosine = (70 ** 2 + 40 ** 2 - 45 ** 2) / (2 * 70 * 40);
-  assert.ok(Math.abs(mu! - (Math.acos(cosine) * 180) / Math.PI) < 1e-9);
+  const degrees = (cosine: number) => (Math.acos(cosine) * 180) / Math.PI;
+  assert.ok(Math.abs(mu! - degrees((70 ** 2 + 40 ** 2 - 45 ** 2) / (2 * 70 * 40))) < 1e-4);
+  assert.ok(Math.abs(psi! - (180 - degrees((45 ** 2 + 40 ** 2 - 70 ** 2) / (2 * 45 * 40)))) < 1e-4);
+  // the pole of crank and rocker is where the coupler meets the frame: B itself lies on it, 25 from A and 45 from D
+  assert.ok(Math.abs(slope! + 25 / 45) < 1e-5);
   // C is above BD, which lies along the frame: the angle of the coupler is that of the triangle 70, 45, 40
   const phi = Math.acos((70 ** 2 + 45 ** 2 - 40 ** 2) / (2 * 70 * 45));
-  assert.ok(Math.abs(x! - (25 + 35 * Math.cos(phi))) < 1e-9);
-  assert.equal(others.length, 361); // 360 more rows, and the end of the last line
+  assert.ok(Math.abs(x! - (25 + 35 * Math.cos(phi))) < 1e-4);
+  assert.equal(others.length, 360); // 359 more rows, and the end of the last line
+  assert.deepEqual(
+    [others[0], others[358]].map((row) => row!.split(",")[0]),
+    ["1", "359"],
+  );
+  const cells = [first!, ...others].flatMap((row) => row.split(",").map(Number));
+  assert.ok(cells.every((cell) => Number(cell.toPrecision(6)) === cell));
   assert.equal(quoted('a "b", c'), '"a ""b"", c"');
-  assert.equal(quoted("K_x"), "K_x");
+  assert.equal(quoted("K x [mm]"), "K x [mm]");
 });
 
 test("what is read off a four-bar", () => {

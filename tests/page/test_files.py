@@ -15,9 +15,11 @@ from gruebler.base.errors import GrueblerError
 from gruebler.cli import main
 from gruebler.files import linkage_from_json, linkage_to_json
 from gruebler.files.values import write
+from gruebler.mechanics.analysis import motion_table
 from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics import move
 from gruebler.page.requests import answer
+from gruebler.teaching.catalog import entries
 
 BAR = FourBar(25, 70, 40, 70)
 
@@ -157,8 +159,8 @@ def test_a_file_of_another_program_is_dropped_and_saved_as_dxf(tab, server, tmp_
     )
     title = panel.locator("h2").evaluate("(one) => one.getBoundingClientRect().bottom")
     assert panel.locator("[data-group]").first.bounding_box()["y"] < title + 20  # no room is kept for what is said
-    sized = panel.evaluate(SIZE_BELOW_TITLE)
     panel.locator('[data-field="kind"] option[value="pmks"]').wait_for(state="attached")
+    sized = panel.evaluate(SIZE_BELOW_TITLE)
     kinds = panel.locator('[data-field="kind"] option').all_text_contents()
     assert len({*kinds, *buttons}) == len(kinds) + len(buttons)  # each once
     assert not [kind for kind in kinds if "DXF" in kind or "gruebler, JSON" in kind]
@@ -172,16 +174,6 @@ def test_a_file_of_another_program_is_dropped_and_saved_as_dxf(tab, server, tmp_
     # it stands beside the title, and makes the sheet no wider
     assert panel.evaluate(SIZE_BELOW_TITLE) == sized
     assert re.fullmatch(r"Gespeichert: leg.dxf. Nicht übernommen: Antriebe(; [^;]*Abtrieb[^;]*)?", told.strip())
-    # a German spreadsheet has semicolons and decimal commas; the sheet stays
-    with page.page.expect_download() as saved:
-        panel.locator('button:text-is("CSV")').click()
-    saved.value.save_as(tmp_path / "leg.csv")
-    text = (tmp_path / "leg.csv").read_text(encoding="utf-8")
-    assert text.startswith("\ufeffdrive_deg;")
-    rows = list(csv.reader(io.StringIO(text.lstrip("\ufeff")), delimiter=";"))
-    assert float(rows[10][0].replace(",", ".")) == pytest.approx(
-        page.page.evaluate("gruebler.motion.linkage.cycle.values[9] * 180 / Math.PI"), abs=1e-9
-    )
     # a chain goes to its view, points to that of the synthesis, rubbish nowhere
     dropped(page, "chain.txt", b"R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)")
     page.page.locator('[data-page="structure"] [data-fact="counted"]:text-is("F = 2")').wait_for()
@@ -204,6 +196,29 @@ def test_the_sheet_says_what_is_saved_and_which_format_opens_here_again(tab, ser
     wide = panel.bounding_box()["width"]
     panel.locator('[data-field="kind"] option').first.wait_for(state="attached")
     assert panel.bounding_box()["width"] == wide
+
+
+@pytest.mark.parametrize("lang", ["en", "de"])
+def test_the_table_of_the_page_is_that_of_the_library_from_0_on(tab, server, lang, tmp_path):
+    """Whatever pose is shown; by the library's own solver. A German spreadsheet has semicolons and decimal commas."""
+    page = tab(locale=lang).open(server.address)
+    page.page.evaluate("gruebler.motion.transport.pick(1)")
+    page.page.locator('[data-icon="save"]').click()
+    with page.page.expect_download() as saved:
+        page.page.locator('[data-panel="export"] button:text-is("CSV")').click()
+    saved.value.save_as(tmp_path / "table.csv")
+    text = (tmp_path / "table.csv").read_text(encoding="utf-8")
+    assert text.startswith("\ufeff") == (lang == "de")
+    head, *rows = csv.reader(io.StringIO(text.removeprefix("\ufeff")), delimiter=";" if lang == "de" else ",")
+    linkage = entries()["crankrocker"].in_language(lang).linkage()
+    (rocker,) = linkage.outputs
+    motion = move(linkage, np.radians(range(360)), speed=1.0, order=2)
+    wanted = motion_table(motion, transmission=rocker, lang=lang)
+    angle = {"en": "Transmission angle μ [°]", "de": "Übertragungswinkel μ [°]"}[lang]
+    assert head == [*[column.header for column in wanted][:-1], angle]
+    found = np.array([[float(cell.replace(",", ".")) for cell in row] for row in rows])
+    expected = np.stack([column.values for column in wanted], axis=1)
+    assert found == pytest.approx(expected, rel=1e-5, abs=1e-5)
 
 
 def test_the_drive_of_a_drawn_four_bar_comes_back_from_another_program():
