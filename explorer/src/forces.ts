@@ -28,6 +28,8 @@ interface Answer {
   masses: number[];
   speed: number | null;
   springs: Spring[];
+  /** Where the masses come from, or how they would be assumed. */
+  origin: string;
   /** On what loads act that are not in the form. */
   besides: string;
   drives?: number[];
@@ -123,7 +125,7 @@ export class Forces {
   }
 
   #show(linkage: Linkage, answer: Answer): void {
-    const { besides, drives, effective, effort, forces, lines, masses, power, speed, springs } = answer;
+    const { besides, drives, effective, effort, forces, lines, masses, origin, power, speed, springs } = answer;
     const { drive, model } = linkage;
     this.#form.show(linkage, masses, speed ?? 0, springs, besides);
     this.#plot = null;
@@ -133,10 +135,8 @@ export class Forces {
       this.#brings = true;
       this.changed();
     };
-    const steel = t("steel, bars 20 mm × 5 mm to each joint, sliders 20 mm long");
-    const button = action("assume", assume, t("Assume masses"));
-    const told = this.#form.steel ? `${t("Assumed masses:")} ${steel}` : this.#form.origin;
-    const offer = masses.some(Boolean) ? h("p.note", {}, told) : h("div.form", {}, button, h("p.note", {}, steel));
+    const button = masses.some(Boolean) ? null : action("assume", assume, t("Assume masses"));
+    const offer = h("div.form", {}, button, h("p.note", {}, origin));
     if (!drives) {
       const note = t("Nothing acts yet: type masses or loads.");
       renew(this.#result, h("p.note", {}, note), offer);

@@ -24,8 +24,6 @@ export class LoadForm {
   readonly rate = h("div.rows", {});
   /** Whether the links are taken as bars of steel. */
   steel = false;
-  /** Where masses and loads come from, if not from here. */
-  origin = "";
   /** Of each link, in kilograms; as the library knows them where there is none. */
   masses: number[] = [];
   /** In rad/s or lengths a second; the usual one if there is none. */
@@ -62,7 +60,6 @@ export class LoadForm {
     const { drive, model, sizes } = linkage;
     const links = [...Array(model.own).keys()].filter((link) => link !== model.frame);
     const factor = drive?.turning ? RPM : 1;
-    this.origin = this.masses.length ? "" : t("Masses as in the file or the catalog.");
     renew(
       this.rate,
       ...this.#row(

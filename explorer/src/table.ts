@@ -69,10 +69,10 @@ function evenSteps({ cycle }: Linkage): { values: Float64Array; home: number } {
   const { full, turns } = cycle;
   const [low, high]: Pair = full ? [0, turns * TURN] : [cycle.values[0]!, cycle.values.at(-1)!];
   const steps = full ? turns * STEPS : STEPS;
-  const way = high - low;
-  const values = Float64Array.from({ length: full ? steps : steps + 1 }, (_, k) => low + (way * k) / steps);
-  const home = Math.round(((wrapped(cycle, cycle.values[cycle.home]!) - low) * steps) / (way || 1)) % values.length;
-  return { values, home };
+  const at = (k: number) => low + ((high - low) * k) / steps;
+  const values = Float64Array.from({ length: full ? steps : steps + 1 }, (_, k) => at(k));
+  const here = wrapped(cycle, cycle.values[cycle.home]!);
+  return { values, home: values.findIndex((value) => value >= here) };
 }
 
 /** A text as a cell: in quotation marks if it needs them. */

@@ -32,9 +32,13 @@ def asked(linkage, **more):
 def test_masses_are_offered_before_there_are_any():
     told = answer("forces", asked(FourBar(25, 70, 40, 70).linkage()), "en", print)
     assert (told["masses"], "drives" in told) == ([0, 0, 0, 0], False)
+    assert told["origin"].startswith("Steel, bars 20 mm × 5 mm")  # as they would be assumed
     # 7850 kg/m³ · 20 mm · 5 mm · 70 mm
     told = answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), steel=True), "en", print)
     assert told["masses"] == [0, pytest.approx(0.0196, abs=1e-4), pytest.approx(0.05495, abs=1e-4), 0.0314]
+    assert told["origin"].startswith("Assumed masses: steel, bars 20 mm × 5 mm")
+    told = answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), masses=[0, 1.0]), "en", print)
+    assert told["origin"] == ""
 
 
 def test_what_is_read_between_rows_has_four_digits():

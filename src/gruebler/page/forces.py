@@ -29,6 +29,9 @@ from gruebler.teaching.catalog import entries
 _BESIDES = message("From the file or the catalog, loads or masses act on {places}.")
 _FREE = message("Free motion: in {seconds:n} s the drive goes from {start} to {end}.")
 _BALANCE = message("The energy balance is off by {part:n} % at most.")
+_FROM_FILE = message("Masses as in the file or the catalog.")
+_STEEL = message("Steel, bars 20 mm × 5 mm to each joint, sliders 20 mm long")
+_ASSUMED = message("Assumed masses: steel, bars 20 mm × 5 mm to each joint, sliders 20 mm long")
 _STEEL_BAR = 7850 * 0.020 * 0.005  # kg/m: a cross-section of 20 mm by 5 mm
 _BLOCK = 0.020  # m: what a slider and other short links are long
 _ROWS = 720  # of a turn, so that what is read between two has four digits
@@ -59,6 +62,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     own = asked.springs
     record["springs"] = _springs(linkage, loads) if own is None else msgspec.to_builtins(own)
     record["speed"] = asked.speed or usual
+    record["origin"] = _origin(asked, record["masses"]).in_language(lang)
     record["besides"] = _BESIDES.filled(places=joined(besides)).in_language(lang) if besides else ""
     pulling = any(each.law or each.stiffness or each.preload or each.damping for each in _all_springs(loads))
     if not (loads.bodies or loads.masses or loads.forces or loads.moments or pulling):
@@ -219,6 +223,13 @@ def _own_springs(linkage: Linkage, loads: Loads, own: list[OwnSpring]) -> Loads:
             springs.append(Spring(ends, free_length=each.free, law=law, **rates))
             check_between_links(linkage, springs[-1], f"springs[{number}]")
     return replace(loads, springs=tuple(springs), torsion_springs=tuple(torsion_springs))
+
+
+def _origin(asked: LoadedLinkage, masses: list[float]) -> Message:
+    """Where the masses come from, or without any how they would be assumed."""
+    if asked.steel or not any(masses):
+        return _ASSUMED if asked.steel else _STEEL
+    return message("") if asked.masses else _FROM_FILE
 
 
 def _masses(linkage: Linkage, loads: Loads) -> list[float]:
