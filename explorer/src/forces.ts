@@ -35,8 +35,8 @@ interface Answer {
   drives?: number[];
   effort: Numbers;
   effective: number;
-  /** In watts: the least, the largest, and the mean. */
-  power: [number, number, number];
+  /** In watts: the largest, and the mean. */
+  power: Pair;
   /** By joint, with the link on which it acts. */
   forces: { joint: number; link: number; force: [Numbers, Numbers] }[];
   lines: string[];
@@ -144,12 +144,12 @@ export class Forces {
       this.#form.element.append(offer);
       const places = Float64Array.from(drives);
       const turning = drive!.turning;
-      const [effortName, unit] = turning ? [t("Drive torque"), momentUnit(model)] : [t("Drive force"), "N"];
-      const title = `${effortName} [${unit}]`;
+      const unit = turning ? momentUnit(model) : "N";
+      const title = `${turning ? t("Drive torque") : t("Drive force")} [${unit}]`;
       this.#plot = new Plot(turning ? "°" : lengthUnit(model), (value) => this.#view.transport.pick(value));
       this.#plot.show(places, { title, colour: "--motion", values: numbers(effort) }, this.#view.transport.range);
-      const largestOf = (sizes: ArrayLike<number>) => {
-        const all = Array.from(sizes, (one) => one || 0);
+      const largestOf = (sizes: ArrayLike<number | null>) => {
+        const all = Array.from(sizes, (one) => Math.abs(one ?? 0) || 0);
         return all.indexOf(Math.max(...all));
       };
       const drivenTo = (row: number) => driveText(linkage, drives.at(row)!, 4);
@@ -169,23 +169,24 @@ export class Forces {
       const onclick = () => void this.#fall(fallen);
       const play = () => this.#view.transport.playAt(speed!);
       const release = t("Release the drive: free motion");
-      const known = effort.filter((one) => one !== null);
-      const ends: Pair = [Math.min(...known), Math.max(...known)];
+      const most = largestOf(effort);
+      // a drive that gives way to what pushes it
+      const braking = (value: number) => (value < 0 ? t("braking") : "");
       const strong = largestOf(this.#forces.map((force) => force.most));
       const strongest = this.#forces[strong]!;
       this.#joint.selectedIndex = chosen < 0 ? strong : chosen;
       this.#facts.show([
         {
-          name: effortName,
-          text: `${span(ends, figure)} ${unit}`,
-          note: at(span(ends, (end) => drivenTo(effort.indexOf(end)), "; ")),
+          name: turning ? t("Largest drive torque") : t("Largest drive force"),
+          text: `${figure(Math.abs(effort[most]!))} ${unit}`,
+          note: `${at(drivenTo(most))} ${braking(effort[most]! * speed!)}`,
         },
         { name: t("Effective (RMS)"), text: `${figure(effective)} ${unit}` },
-        { name: t("Drive power"), text: `${span(power, figure)} W` },
-        { name: t("Mean drive power"), text: `${figure(power[2])} W` },
+        { name: t("Largest drive power"), text: `${figure(Math.abs(power[0]))} W`, note: braking(power[0]) },
+        { name: t("Mean drive power"), text: `${figure(power[1])} W` },
         {
           name: t("Drive work"),
-          text: `${figure((power[2] * (drives.at(-1)! - drives[0]!)) / speed!)} J`,
+          text: `${figure((power[1] * (drives.at(-1)! - drives[0]!)) / speed!)} J`,
           note: `${drivenTo(0)} … ${drivenTo(-1)}`,
         },
         {
@@ -264,11 +265,6 @@ export class Forces {
 
 function numbers(values: Numbers): Float64Array {
   return Float64Array.from(values, (value) => value ?? NaN);
-}
-
-/** The least and the largest of what varies, in words. */
-function span([least, most]: readonly number[], word: (end: number) => string, between = " … "): string {
-  return [...new Set([word(least!), word(most!)])].join(between);
 }
 
 function figure(value: number): string {

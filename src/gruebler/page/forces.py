@@ -87,14 +87,13 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         for link in (each.links if len(each.links) > 2 else each.links[1:])
     ]
     lines = [*run.remarks(lang)]
-    power = run.power[:, active]
-    watts = metres_of(linkage.unit) * np.array([np.nanmin(power), np.nanmax(power), run.mean_power[active]])
+    power = _short(metres_of(linkage.unit) * np.append(run.power[:, active], run.mean_power[active]))
     return record | {
         "speed": speed,
         "drives": motion.drives[:, active].tolist(),
         "effort": _short(run.drive[:, active]).tolist(),
         "effective": float(run.root_mean_square[active]),
-        "power": _short(watts).tolist(),
+        "power": [float(max(power[:-1], key=abs)), float(power[-1])],
         "forces": forces,
         "lines": lines,
     }
