@@ -102,7 +102,7 @@ const own = `
   measuring showRange showPose showValue adding addPoint appeared arrange atFrame cancelDrag changeSlowly dragCancel
   dragEnd dragPoint dragStart editor element elementAt elementsOf elementsOn falling forget holdJoint knot
   jointName leftOf lineFirst linkList linkName moveJointBy movePointBy openDocument openFile
-  pan paused picked playAt plottedAngle pointed pointName poleAside possible present recoloured runAlong
+  pan paused picked pickWithin playAt plottedAngle pointed pointName poleAside possible present recoloured runAlong
   degrees fitted measured nudge recall spots
   longest margin inSpace advance destroy elsewhere emit follow heads letterOf posed showKeys taken undoing
   keepInside served setAdding setLength setTheme shiftLine shownDesign showPose showRange showValue

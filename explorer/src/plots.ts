@@ -61,7 +61,6 @@ export class Plots {
     const unit = drive?.turning ? "°" : lengthUnit(model);
     this.parts = series.map((make) => ({ plot: new Plot(unit, this.pick, this.#span), make }));
     const note = record?.note[currentLanguage()];
-    const notes = note ? [h("p.note", {}, note)] : [];
     if (record) {
       const name = linkage.linkName(record.link);
       this.#still.textContent = t("Output {name} is constant.", { name });
@@ -84,7 +83,13 @@ export class Plots {
       tool("less", t("Less enlarged"), 0.5),
       tool("fit", t("The whole range"), 0),
     );
-    renew(this.element, tools, this.#still, ...this.parts.map(({ plot }) => plot.element), ...notes);
+    renew(
+      this.element,
+      tools,
+      this.#still,
+      ...this.parts.map(({ plot }) => plot.element),
+      !!note && h("p.note", {}, note),
+    );
   }
 
   /** While sizes are dragged: one plot a frame by turns. */
@@ -132,7 +137,7 @@ export class Plots {
     const { cycle } = linkage;
     const last = this.#last;
     if (last?.cycle === cycle) return last;
-    const { drives, rows } = last && sameLap(last.cycle, cycle) ? last : lapOf(cycle);
+    const { drives, rows } = lapOf(cycle);
     const along = outputAlong(linkage, rows);
     const round = goesRound(linkage, along);
     this.#last = { drives, rows, cycle, outputs: round ? along.map(inTurn) : along, round };
@@ -153,12 +158,6 @@ export function lapOf(cycle: Cycle): Lap {
   const drives = Float64Array.from(rows, (row) => at[row]!);
   drives[count - 1]! += TURN * turns;
   return { drives, rows };
-}
-
-/** Whether full turns have the same drive values, as while sizes are dragged. */
-function sameLap(one: Cycle, two: Cycle): boolean {
-  const told = ({ full, turns, values }: Cycle) => (full ? [turns, values.length, values[0]].join() : NaN);
-  return told(one) === told(two);
 }
 
 function rangeOf({ full, high, low, turns }: Cycle): [number, number] {

@@ -33,7 +33,7 @@ export class Track {
       const value = ends[event.key] ?? here + (ways[event.key] ?? NaN);
       if (Number.isNaN(value)) return;
       event.preventDefault();
-      this.pick(Math.max(low, Math.min(high, value)), value < low || value > high);
+      this.pickWithin(value);
     };
     const heard = { onpointerdown, onpointermove, onkeydown };
     this.element = h("div.track", { role: "slider", tabindex: 0, ...heard }, this.#root);
@@ -42,7 +42,11 @@ export class Track {
   #at(event: PointerEvent): void {
     const box = this.element.getBoundingClientRect();
     const part = Math.max(0, Math.min(1, (event.clientX - box.left - 12) / (box.width - 24)));
-    const value = this.#from + part * (this.#to - this.#from);
+    this.pickWithin(this.#from + part * (this.#to - this.#from));
+  }
+
+  /** As far as it goes. */
+  pickWithin(value: number): void {
     const [low, high] = this.#limits;
     this.pick(Math.max(low, Math.min(high, value)), value < low || value > high);
   }
@@ -68,10 +72,8 @@ export class Track {
     const line = (a: number, b: number, style: string) =>
       parts.push(svg("line", { class: style, x1: x(a), x2: x(b), y1: 17, y2: 17 }));
     line(this.#from, this.#to, "barred");
-    if (!cycle.full) {
-      if (cycle.stops[0]) line(this.#from, low, "hatched");
-      if (cycle.stops[1]) line(high, this.#to, "hatched");
-    }
+    if (cycle.stops[0]) line(this.#from, low, "hatched");
+    if (cycle.stops[1]) line(high, this.#to, "hatched");
     line(low, high, "free");
     const wrap = (value: number) => wrapped(cycle, value);
     const mark = (value: number, style: string, d: string, title: string) => {
@@ -102,7 +104,7 @@ export class Track {
     const end = (value: number) => (Math.abs(value) < 1e-6 * (high - low) ? 0 : value); // but for rounding
     label(low, full ? "start" : "middle", end(full ? low : from));
     if (high > low) label(high, full ? "end" : "middle", end(full ? high : to));
-    const inner = svg("svg", { x: 12, width: "calc(100% - 24px)", overflow: "visible" }, ...parts, this.#knob);
+    const inner = svg("svg", { x: 12, overflow: "visible" }, ...parts, this.#knob);
     inner.style.width = "calc(100% - 24px)";
     this.#root.replaceChildren(inner);
     const [valuemin, valuemax] = [low / this.#unit, high / this.#unit];

@@ -145,9 +145,8 @@ export class Transport<View extends Driven = Driven> {
 
   /** As far as it goes. */
   #turnTo(value: number): void {
-    const [low, high] = this.range;
     if (this.view.linkage.cycle.full) this.pick(value);
-    else this.pick(Math.max(low, Math.min(high, value)), value < low || value > high);
+    else this.#track.pickWithin(value);
   }
 
   protected go(value: number): void {
