@@ -159,7 +159,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
       named ? null : h("p.note", { "data-note": "file" }, t("Save it as JSON; the commands read {file}.", { file })),
       h("p.note", {}, t("The same on the command line")),
       h("pre", {}, `gruebler analyse ${word}\ngruebler draw ${word} -o ${stem}.svg`),
-      h("p.note", {}, t("The same in Python")),
+      h("p.note", {}, "Python"),
       h("pre", {}, `import gruebler as gr\n\nlinkage = gr.read("${word}")\nprint(gr.measures(linkage).explain())`),
     ),
   ];

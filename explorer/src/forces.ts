@@ -137,9 +137,9 @@ export class Forces {
     };
     const button = masses.some(Boolean) ? null : action("assume", assume, t("Assume masses"));
     const offer = h("div.form", {}, button, h("p.note", {}, origin));
+    const notes = lines.map((line) => h("p.note", {}, line));
     if (!drives) {
-      const note = t("Nothing acts yet: type masses or loads.");
-      renew(this.#result, h("p.note", {}, note), offer);
+      renew(this.#result, ...notes, offer);
     } else {
       this.#form.element.append(offer);
       const places = Float64Array.from(drives);
@@ -205,7 +205,7 @@ export class Forces {
         this.#joints.element,
         h("div.form", {}, h("label", {}, t("Force vector"), this.#joint)),
         this.#polar.element,
-        ...lines.map((line) => h("p.note", {}, line)),
+        ...notes,
         h("div.form", {}, action("fall", onclick, release)),
         fallen,
       );

@@ -29,6 +29,7 @@ from gruebler.teaching.catalog import entries
 _BESIDES = message("From the file or the catalog, loads or masses act on {places}.")
 _FREE = message("Free motion: in {seconds:n} s the drive goes from {start} to {end}.")
 _BALANCE = message("The energy balance is off by {part:n} % at most.")
+_NOTHING = message("Nothing acts yet: type masses or loads.")
 _FROM_FILE = message("Masses as in the file or the catalog.")
 _STEEL = message("Steel, bars 20 mm × 5 mm to each joint, sliders 20 mm long")
 _ASSUMED = message("Assumed masses: steel, bars 20 mm × 5 mm to each joint, sliders 20 mm long")
@@ -66,7 +67,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     record["besides"] = _BESIDES.filled(places=joined(besides)).in_language(lang) if besides else ""
     pulling = any(each.law or each.stiffness or each.preload or each.damping for each in _all_springs(loads))
     if not (loads.bodies or loads.masses or loads.forces or loads.moments or pulling):
-        return record
+        return record | {"lines": [_NOTHING.in_language(lang)]}
     active, (low, high) = asked.active, asked.range
     turning = linkage.mechanism.drives[active].turning
     speed = record["speed"] or (_USUAL if turning else _USUAL * linkage.size)
