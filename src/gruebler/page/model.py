@@ -328,12 +328,17 @@ def _span(posed: PosedLinkage, between: tuple[float, float] | None) -> dict[str,
 
 
 def _output(linkage: Linkage, plan: Plan) -> list[dict[str, Any]]:
-    """The output that is looked at, with the legs that drive it; or why it has no transmission angle."""
-    if len(linkage.mechanism.drives) != 1:
+    """The output that is looked at, with the legs that drive it; or why it has no transmission angle.
+
+    Of several drives the page moves one and holds the others; which leg pushes hangs on the one.
+    """
+    if not linkage.mechanism.drives:
         return []
     output = find_output(linkage)
     index = plan.lower.mechanism.chain.index
     record: dict[str, Any] = {"link": index(output.link), "joint": output.joint, "legs": [], "note": {}}
+    if len(linkage.mechanism.drives) > 1:
+        return [record]
     record["inLine"] = in_line(plan, output)
     try:
         path = force_path(plan, output)

@@ -254,13 +254,19 @@ def _measures(asked: MeasureLinkage, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.mechanics.analysis.drive_cycles import drive_cycle, part_of_cycle
     from gruebler.mechanics.analysis.measuring import measures_of
     from gruebler.mechanics.analysis.outputs import find_output
+    from gruebler.mechanics.analysis.several_drives import several_drives_lines
     from gruebler.page.model import link_names, spaced
+    from gruebler.teaching.catalog import entries
 
     linkage = linkage_from_json(asked.document)
-    if len(linkage.mechanism.drives) != 1:
+    if not linkage.mechanism.drives:
         return {"lines": []}
     names = link_names(linkage, asked.source, lang).items()
     named = linkage.renamed({link: spaced(name) for link, name in names})
+    if len(linkage.mechanism.drives) > 1:
+        record = entries().get(asked.source)
+        lines = several_drives_lines(named, record.stops if record else ())
+        return {"lines": [line.in_language(lang) for line in lines]}
     cycle = drive_cycle(named)
     if len(asked.between) == 2:
         cycle = part_of_cycle(cycle, *asked.between)
