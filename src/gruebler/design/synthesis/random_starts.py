@@ -22,15 +22,16 @@ from gruebler.design.synthesis.pair_search import Pair
 from gruebler.design.synthesis.results import MEASURES, NEAR_PIVOTS
 from gruebler.design.synthesis.tasks import PositionTask
 
-_STARTS = 256
-_DRAWN, _DRAWS = 8192, 8  # random four-bars at a time, and how often, until enough of them meet the demands
+_STARTS, _CHOSEN = 256, 128
+"""Random four-bars that are improved, and the best of all that are drawn."""
+_DRAWN, _DRAWS = 8192, 8  # random four-bars at a time, and how often
 _SPREAD, _WIDE = 2.5, 1.5  # degrees of freedom, and sizes: Student's distribution of random pivots
-_CLIMBED = ((_STARTS, 80, 12), (16, 240, 64))
+_CLIMBED = ((_STARTS + _CHOSEN, 80, 12), (16, 240, 64))
 """How many, first all and then the best ends, are moved how often, each to the best of so many neighbours."""
 _WIDEST, _NARROWEST = 0.5, 1e-6  # steps, in sizes or by the distance of a pivot
 _GROWS, _SHRINKS = 1.5, 0.85  # after a gain, after none
 _NEAR = 5e-3  # of the best: ends so near count as the best
-_SURE = 3.0  # by a number of trials: what happens with this chance does not happen in any of them with 5 percent
+_UNLIKELY = 0.05  # how often what is said of all trials may be wrong
 _ENDS = message(
     "{starts} {begun} with pivots within {far:g} sizes of the task were improved, too: {ends} of them end at the best "
     "by {measure}, to {near}. Other parts of the family may have a better one: with a confidence of 95 % only parts to "
@@ -62,6 +63,8 @@ class RandomSearch:
     """Whether all starts meet all demands but that of the transmission angle."""
     costs: Reals
     """(starts, 1 + measures) how many demands these fail in, and what is to be small."""
+    at_random: Flags
+    """(starts,) which of them begin at one of the random four-bars, not at one of the best that were drawn."""
 
     @property
     def best(self) -> list[Pair]:
@@ -71,14 +74,14 @@ class RandomSearch:
 
     def note(self, pairs: Sequence[Pair]) -> list[Message]:
         """What the search may have missed, where four-bars, those of this search among them, are known."""
-        count = len(self.ends)
+        count = int(self.at_random.sum())
         family = PairFamily.of(self.task, CRANK, self.demands)
         if not (count and pairs):
             return []
         rows = np.concatenate([family.rows(pair[:1], pair[1:]) for pair in pairs])
         costs = _costs(family, rows, self.demands, self.orders)
         best = costs[np.lexsort(costs.T[::-1])[0]]
-        missed = _SURE / count
+        missed = 1 - _UNLIKELY ** (1 / count)
         if best[0]:
             return [_NO_END.filled(starts=count, missed=missed)]
         # Of a full turn, which comes first by default, there is no part; the next measure tells ends apart.
@@ -86,7 +89,9 @@ class RandomSearch:
         k = next(k for k, name in enumerate(names, 1) if name != "full-turn")
         by_size = names[k - 1] == NEAR_PIVOTS
         scale = self.task.size if by_size else abs(best[k])
-        same = (self.costs[:, :k] == best[:k]).all(axis=1) & (self.costs[:, k] <= best[k] + _NEAR * scale)
+        same = (
+            (self.costs[:, :k] == best[:k]).all(axis=1) & (self.costs[:, k] <= best[k] + _NEAR * scale) & self.at_random
+        )
         begun = _BEGUN["none" if not self.meets else "but the angle" if self.demands.transmission else "all"]
         near = _OF_SIZE if by_size else _OF_BEST
         measure = MEASURES.get(names[k - 1], MEASURES["transmission"])
@@ -104,7 +109,7 @@ class RandomSearch:
 
 
 def random_search(task: PositionTask, demands: Demands, orders: Sequence[str]) -> RandomSearch:
-    """Random four-bars of two or three positions, each improved as far as that goes. Cost: 1 to 2 s.
+    """Random four-bars of two or three positions, each improved as far as that goes. Cost: 1 to 3 s.
 
     Args:
         task: without given pivots.
@@ -112,13 +117,15 @@ def random_search(task: PositionTask, demands: Demands, orders: Sequence[str]) -
         orders: by what the best is sought, the most important first.
     """
     space = _Space(task, demands, tuple(orders))
-    rows, meets = space.starts()
+    rows, at_random, meets = space.starts()
     costs = space.costs(rows)
     for count, climbs, tries in _CLIMBED:
         rows[:count], costs[:count] = space.climbed(rows[:count], costs[:count], climbs, tries)
         order = np.lexsort(costs.T[::-1])
-        rows, costs = rows[order], costs[order]
-    return RandomSearch(task=task, demands=demands, orders=tuple(orders), ends=rows, costs=costs, meets=meets)
+        rows, costs, at_random = rows[order], costs[order], at_random[order]
+    return RandomSearch(
+        task=task, demands=demands, orders=tuple(orders), ends=rows, costs=costs, at_random=at_random, meets=meets
+    )
 
 
 class _Space:
@@ -128,6 +135,9 @@ class _Space:
         self.demands, self.orders = demands, orders
         self.family = PairFamily.of(task, CRANK, demands)
         self.given, self.origin, self.size = Displacements.of(task.origins, task.turns)
+        region = demands.region
+        corners = np.zeros(2) if region is None else np.array([complex(*region[:2]), complex(*region[2:])])
+        self.corners = None if region is None else (corners - self.origin) / self.size
         self.rng = np.random.default_rng(0)
 
     def costs(self, rows: Reals) -> Reals:
@@ -135,22 +145,30 @@ class _Space:
         costs = _costs(self.family, rows, self.demands, self.orders)
         return np.where(_at_hand(rows)[:, None], costs, np.inf)
 
-    def starts(self) -> tuple[Reals, bool]:
-        """(starts, 8) random four-bars that meet all demands but that of the transmission angle, or else any."""
+    def starts(self) -> tuple[Reals, Flags, bool]:
+        """(starts, 8) random four-bars that meet all demands but that of the transmission angle, or else any.
+
+        After them the best of all that were drawn; which are random, and whether these meet the demands.
+        """
         freed = replace(self.demands, transmission=0.0)
-        kept = np.empty((0, 8))
-        for _ in range(_DRAWS):
-            pivots = (_WIDE * self.rng.standard_t(_SPREAD, (_DRAWN, 8))).view(np.complex128)
-            if self.demands.region is not None:
-                x1, y1, x2, y2 = self.demands.region
-                x, y = self.rng.uniform([x1, y1], [x2, y2], (_DRAWN, 2, 2)).transpose(2, 0, 1)
-                pivots[:, 1::2] = (x + 1j * y - self.origin) / self.size
-            drawn = _on_family(self.given, pivots, self.rng.random((_DRAWN, 2)) < 0.5)
-            drawn = drawn[_at_hand(drawn)]
-            kept = np.concatenate([kept, drawn[_costs(self.family, drawn, freed, ())[:, 0] == 0]])
-            if len(kept) >= _STARTS:
-                break
-        return (kept if len(kept) else drawn)[:_STARTS], len(kept) > 0
+        drawn = np.concatenate([self._drawn() for _ in range(_DRAWS)])
+        costs = _costs(self.family, drawn, freed, self.orders)
+        meets = costs[:, 0] == 0
+        some = drawn[meets] if meets.any() else drawn
+        some = some[:_STARTS]
+        best = drawn[np.lexsort(costs.T[::-1])[: _STARTS + _CHOSEN - len(some)]]
+        at_random = np.arange(len(some) + len(best)) < len(some)
+        return np.concatenate([some, best]), at_random, bool(meets.any())
+
+    def _drawn(self) -> Reals:
+        """(four-bars, 8) at random, as far as their pivots are at hand: those of the frame in the region, if any."""
+        pivots = (_WIDE * self.rng.standard_t(_SPREAD, (_DRAWN, 8))).view(np.complex128)
+        if self.corners is not None:
+            low, high = self.corners
+            x, y = self.rng.random((2, _DRAWN, 2))
+            pivots[:, 1::2] = low + (high - low).real * x + 1j * (high - low).imag * y
+        drawn = self._placed(pivots)
+        return drawn[_at_hand(drawn)]
 
     def climbed(self, rows: Reals, costs: Reals, climbs: int, tries: int) -> tuple[Reals, Reals]:
         """Each exchanged for the best of some neighbours, as long as that helps, in steps that shrink where not."""
@@ -172,7 +190,17 @@ class _Space:
         steps *= width[:, None] * np.exp(-2 * rng.random((len(pivots), 1)))
         alone = rng.random((len(pivots), 1)) < 0.5
         side = (rng.random((len(pivots), 1)) < 0.5) == (np.arange(4) < 2)
-        return _on_family(self.given, pivots + np.where(alone & side, 0, steps), rng.random((len(pivots), 2)) < 0.5)
+        return self._placed(pivots + np.where(alone & side, 0, steps))
+
+    def _placed(self, pivots: Complexes) -> Reals:
+        """Four-bars with these pivots on the body or on the frame; in a region, if any, those of the frame."""
+        on_frame = self.rng.random((len(pivots), 2)) < 0.5
+        if self.corners is not None:
+            low, high = self.corners
+            own = pivots[:, 1::2]
+            pivots[:, 1::2] = np.clip(own.real, low.real, high.real) + 1j * np.clip(own.imag, low.imag, high.imag)
+            on_frame[:] = True
+        return _on_family(self.given, pivots, on_frame)
 
 
 def _at_hand(rows: Reals) -> Flags:
