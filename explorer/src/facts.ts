@@ -59,11 +59,10 @@ export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap:
       let note = least.leg ? t("at {place}", { place }) : t("throughout");
       if (link) note = t("at {place}, link {link}", { place, link });
       facts.push({ name: t("Smallest μ"), text: angle(least.mu), note, style: least.mu < GOOD ? "bad" : "good" });
-      if (least.leg?.cam) facts.push({ name: t("Largest pressure angle α"), text: angle(TURN / 4 - least.mu) });
+      if (least.leg?.cam) facts.push({ name: t("Pressure angle α"), text: `≤ ${angle(TURN / 4 - least.mu)}` });
     }
   }
-  if (dead.length && !record?.legs[0]?.cam) {
-    // a cam's follower has lifts
+  if (dead.length) {
     const places = dead.map(({ value }) => placeOf(linkage, value)).sort((a, b) => a - b);
     const name = record?.inLine ? t("Dead centres") : t("Turns back at");
     facts.push({ name, text: places.map((value) => driveText(linkage, value, 4)).join(", ") });

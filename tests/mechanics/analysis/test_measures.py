@@ -11,6 +11,7 @@ import pytest
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.analysis.drive_cycles import drive_cycle, part_of_cycle
 from gruebler.mechanics.analysis.events import transfer_function
+from gruebler.mechanics.analysis.measure_units import angle_message
 from gruebler.mechanics.analysis.measuring import measures, measures_of
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.transmission import transmission_angle
@@ -320,3 +321,9 @@ def test_a_part_of_the_range_is_measured_between_its_ends():
     cycle = drive_cycle(linkage)
     below, above = part_of_cycle(cycle, 0.0, 1.0).span.stops
     assert (below, above) == (cycle.span.stops[0], None)
+
+
+def test_an_angle_has_four_digits_unless_it_is_a_round_one() -> None:
+    """93.12950002° of a Hoecken linkage stood with six digits; what a person types, such as 22.338°, keeps them."""
+    shown = [str(angle_message(math.radians(value))) for value in (93.12950002, 22.338, 22.33800000001, -40.0)]
+    assert shown == ["93.13°", "22.338°", "22.338°", "-40°"]

@@ -8,6 +8,7 @@ from math import degrees, tau
 from gruebler.base.text import Message, message
 from gruebler.mechanics.linkages import Linkage
 
+_TYPED = 1e-7  # degrees: beyond the rounding of what is found
 _NOTHING = 1e-12  # of the size: lengths below it are roundings
 
 
@@ -61,5 +62,7 @@ def length_message(value: float, unit: str) -> Message:
 
 
 def angle_message(value: float) -> Message:
-    """An angle in degrees."""
-    return message("{degrees:n}°", degrees=round(degrees(value), 7) + 0.0)
+    """An angle in degrees; one that comes within 1e-7 of three places, as a person types it, is that."""
+    found = degrees(value)
+    typed = round(found, 3)
+    return message("{degrees:n}°", degrees=(typed if abs(found - typed) < _TYPED else found) + 0.0)
