@@ -131,7 +131,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
     ),
     ...(page.served
       ? [
-          group(t("Drawing for CAD"), `1 : 1${unit && `, ${unit}`}`, served("DXF")),
+          group(t("Drawing for CAD"), unit && `1 : 1, ${/in|ft/.test(unit) ? "in" : "mm"}`, served("DXF")),
           group(t("Simulation"), t("URDF for ROS"), served("MuJoCo", "mjcf"), served("URDF")),
         ]
       : []),

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from gruebler.base.errors import GrueblerError
 from gruebler.files import values as files
 from gruebler.files.drawing_linkages import linkage_of_drawing
-from gruebler.files.dxf import cut_outs, dxf_from_linkage, plate_outline
+from gruebler.files.dxf import cut_outs, dxf_from_linkage, dxf_of_links, plate_outline
 from gruebler.files.linkage_drawings import lower_linkage
 from gruebler.files.pmks import drawing_from_pmks
 from gruebler.mechanics.analysis.plates import Plate, plates_of, whole_motion
@@ -57,6 +57,24 @@ LINKAGES = {
 }
 
 
+@pytest.mark.parametrize(
+    ("unit", "drawn", "long"),
+    [("mm", 4, 25), ("cm", 4, 250), ("m", 4, 25_000), ("in", 1, 25), ("ft", 1, 300), ("", 0, 25)],
+)
+def test_drawings_are_in_millimetres_or_inches(unit, drawn, long):
+    """A crank of 25 of the unit, between its two holes; 4 and 1 are the codes of $INSUNITS."""
+    ezdxf = pytest.importorskip("ezdxf")
+    linkage = FourBar(25, 70, 40, 70).linkage(unit=unit)
+    alone = dxf_of_links(linkage, [], hole=2.0)
+    texts = [dxf_from_linkage(linkage, [], hole=2.0), next(text for name, text in alone.items() if "crank" in name)]
+    for document in (ezdxf.read(io.StringIO(text)) for text in texts):
+        assert (document.header["$INSUNITS"], document.header["$MEASUREMENT"]) == (drawn, int(drawn != 1))
+        first, second = (one.dxf.center for one in document.modelspace().query('CIRCLE[layer=="crank"]'))
+        assert (first - second).magnitude == pytest.approx(long)
+        for circle in document.modelspace().query("CIRCLE"):
+            assert circle.dxf.radius == pytest.approx(long / 25)
+
+
 @pytest.mark.parametrize("name", LINKAGES)
 def test_a_drawing_opens_without_complaint(name):
     ezdxf = pytest.importorskip("ezdxf")
@@ -64,21 +82,22 @@ def test_a_drawing_opens_without_complaint(name):
     document = ezdxf.read(io.StringIO(dxf_from_linkage(linkage, [], hole=2.0, margin=3.0)))
     assert not document.audit().has_errors
     assert document.dxfversion == "AC1015"
-    assert document.header["$INSUNITS"] == {"mm": 4, "cm": 5}[linkage.unit]
+    assert document.header["$INSUNITS"] == 4  # millimetres
     space = document.modelspace()
     circles = space.query("CIRCLE")
-    assert all(circle.dxf.radius == 1.0 for circle in circles)
+    millimetres = {"mm": 1, "cm": 10}[linkage.unit]
+    assert all(circle.dxf.radius == millimetres for circle in circles)
     curves = space.query('LWPOLYLINE[layer=="CURVES"]')
     assert len(curves) == len(linkage.points)
     edges = [line for line in space.query("LWPOLYLINE") if line.dxf.layer != "CURVES"]
-    plates = plates_of(whole_motion(lower_linkage(linkage)))
-    assert len(edges) == sum(1 + len(cut_outs(plate, 2.0).slots) for plate in plates.plates.values())
+    plates = plates_of(whole_motion(lower_linkage(linkage.scaled(millimetres))))
+    assert len(edges) == sum(1 + len(cut_outs(plate, 2.0 * millimetres).slots) for plate in plates.plates.values())
     assert all(line.closed for line in edges)
     corners = [corner for line in space.query("LWPOLYLINE") for corner in line.get_points("xy")]
     for axis in (0, 1):  # what a program shows first; arcs of the edges reach beyond their ends, by the margin at most
         values = [corner[axis] for corner in corners]
-        assert min(values) - 3.0 <= document.header["$EXTMIN"][axis] <= min(values) + 1e-9
-        assert max(values) - 1e-9 <= document.header["$EXTMAX"][axis] <= max(values) + 3.0
+        assert min(values) - 3.0 * millimetres <= document.header["$EXTMIN"][axis] <= min(values) + 1e-9
+        assert max(values) - 1e-9 <= document.header["$EXTMAX"][axis] <= max(values) + 3.0 * millimetres
 
 
 def test_plates_lie_where_the_file_of_the_linkage_has_them():
@@ -110,12 +129,12 @@ def width_and_length(edge):
 
 
 def test_a_slot_is_as_long_as_its_pin_moves():
-    """The stroke of a slider-crank is √((b + a)² - e²) - √((b - a)² - e²)."""
+    """The stroke of a slider-crank, in cm, is √((b + a)² - e²) - √((b - a)² - e²)."""
     ezdxf = pytest.importorskip("ezdxf")
     document = ezdxf.read(io.StringIO(dxf_from_linkage(LINKAGES["slider-crank"], [], hole=2.0, margin=3.0)))
     _, slot = document.modelspace().query('LWPOLYLINE[layer=="frame"]')
     stroke = sqrt(95**2 - 25) - sqrt(45**2 - 25)
-    assert width_and_length(slot) == pytest.approx((2.0, stroke), rel=5e-6)  # half a degree from pose to pose
+    assert width_and_length(slot) == pytest.approx((20.0, 10 * stroke), rel=5e-6)  # half a degree from pose to pose
 
 
 def test_layers_name_planes():

@@ -4,7 +4,7 @@ Every link has a layer of its own name with its outline, which keeps a margin ar
 diameter, and slots as long as pins move in them. Cut-outs that are one are drawn once; of those that run into each
 other the plate is named. CURVES has the paths of named points, POINTS the points themselves.
 With all links in one drawing these lie where the reference pose has them; a link alone has its first hole at the
-origin. The unit stands in the header.
+origin. Drawings are in millimetres, as CAD expects, those of inches and feet in inches; the header says so.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ import numpy as np
 from gruebler.base.convex_hull import convex_hull
 from gruebler.base.errors import GrueblerError, LinkageError
 from gruebler.base.text import Message, message
+from gruebler.base.units import MILLIMETRES
 from gruebler.files.linkage_drawings import lower_linkage
 from gruebler.mechanics.analysis.link_planes import link_planes, plate_sizes
 from gruebler.mechanics.analysis.plates import Plate, Plates, plates_of, whole_motion
@@ -28,7 +29,8 @@ from gruebler.mechanics.kinematics.reference_pose import pose_at_reference
 from gruebler.mechanics.kinematics.solve import cached_plan, move_quietly
 from gruebler.mechanics.linkages import Linkage, Pose2D
 
-_UNITS = {"in": 1, "ft": 2, "mm": 4, "cm": 5, "m": 6, "dm": 14}
+_UNITS = {"in": 1, "mm": 4}
+_DRAWN_IN = {unit: "in" if unit in ("in", "ft") else "mm" for unit in MILLIMETRES}
 _FORBIDDEN = dict.fromkeys(map(ord, '<>/\\":;?*|=`'), "_")  # in names of layers
 _COLOURS = (7, 1, 3, 5, 4, 6, 30, 150)
 _POINTS, _CURVES = "POINTS", "CURVES"
@@ -52,6 +54,7 @@ def dxf_from_linkage(
 
     Raises `GrueblerError` for wheels and cams, for lengths that do not fit, and without ezdxf.
     """
+    linkage, hole, margin = _scaled_for_cad(linkage, hole, margin)
     document = _new_document(linkage.unit, left_out)
     plates, sizes, planes = _cut(linkage, left_out, hole, margin)
     lower = plates.linkage
@@ -81,6 +84,7 @@ def dxf_of_links(
     Each plate has its first hole at the origin and its second on the x axis. Arguments and errors as those of
     `dxf_from_linkage`.
     """
+    linkage, hole, margin = _scaled_for_cad(linkage, hole, margin)
     plates, sizes, planes = _cut(linkage, left_out, hole, margin)
     if linkage.points:
         left_out.append(message("paths of points"))
@@ -106,6 +110,17 @@ def _posed(pose: Pose2D, z: complex) -> complex:
 
 def _laid(first: complex, turn: complex, z: complex) -> complex:
     return (z - first) * turn
+
+
+def _scaled_for_cad(
+    linkage: Linkage, hole: float | None, margin: float | None
+) -> tuple[Linkage, float | None, float | None]:
+    """All lengths in millimetres or inches; the linkage still calls them by its unit."""
+    factor = MILLIMETRES.get(linkage.unit, 1.0) / MILLIMETRES[_DRAWN_IN.get(linkage.unit, "mm")]
+    if linkage.unit not in MILLIMETRES or factor == 1.0:
+        return linkage, hole, margin
+    hole, margin = (None if size is None else factor * size for size in (hole, margin))
+    return linkage.scaled(factor), hole, margin
 
 
 def _cut(
@@ -137,10 +152,11 @@ def _new_document(unit: str, left_out: list[Message]) -> Any:
     except ImportError:
         raise GrueblerError('DXF needs ezdxf: pip install "gruebler[cad]"') from None
     document = new("R2000")
-    document.header["$INSUNITS"] = _UNITS.get(unit, 0)
-    if unit and unit not in _UNITS:
+    drawn = _DRAWN_IN.get(unit, "")
+    document.header["$INSUNITS"] = _UNITS.get(drawn, 0)
+    if unit and not drawn:
         left_out.append(message("the unit {unit}", unit=unit))
-    document.header["$MEASUREMENT"] = 0 if unit in ("in", "ft") else 1
+    document.header["$MEASUREMENT"] = 0 if drawn == "in" else 1
     return document
 
 

@@ -59,7 +59,7 @@ class Format:
 
 _WITH_UNIT = message("with their unit")
 _AS_MILLIMETRES = message("mm (the format has no unit)")
-_HEADER = message("the unit of the linkage, in the header")
+_HEADER = message("millimetres or inches, in the header")
 
 
 def loads_document(path: Path, form: Format, linkage: Linkage) -> dict[str, Any]:
