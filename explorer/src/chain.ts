@@ -20,6 +20,8 @@ export interface Structure {
   size: number;
   /** That of the chain in the literature, if it has one and the library says it. */
   name?: string;
+  /** How many joints its links have, and where it falls apart. */
+  kinds: string;
   /** The frame of the list that is like the one of the text, or like the one it is given. */
   chosen: string;
   /** The text of the driven mechanism of the list that is; empty if none is. */

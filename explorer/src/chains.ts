@@ -8,8 +8,25 @@ import { awaited, moment } from "./waiting";
 
 interface Chains {
   total: number;
-  /** Each with its code, the same for chains of one structure, and its name in the literature, if it has one. */
-  items: { code: string; text: string; name: Record<Language, string>; picture: string }[];
+  /** Each with its code, the same for chains of one structure, its name in the literature, if it has one, and what
+   * links it has. */
+  items: {
+    code: string;
+    text: string;
+    name: Record<Language, string>;
+    kinds: Record<Language, string>;
+    picture: string;
+  }[];
+}
+
+const FEW = 6;
+
+/** A list of cards, the first ones and the one that is chosen or all, and a key for more if there are. */
+export function listOf(key: string, cards: HTMLElement[], all: boolean, more: () => void, rest = false): Node[] {
+  const shown = cards.filter((card, k) => all || k < FEW || card.ariaPressed === "true");
+  const list = h(all ? "div.cards.few.whole" : "div.cards.few", { "data-list": key }, ...shown);
+  if (!rest && shown.length === cards.length) return [list];
+  return [list, h("button.plain", { "data-more": key, onclick: more }, t("More"))];
 }
 
 /** Links and mobility of the list in which a structure stands: of one in space that of the plane with as many links. */
@@ -28,6 +45,7 @@ export class ChainList {
   #found: Chains | null = null;
   /** The code of the chain that is described. */
   #chosen = "";
+  #all = false;
   readonly #list = h("div.chains", {});
   readonly #count = h("span.note", {}, "\u00a0");
   readonly #status = h("div.form", {});
@@ -64,7 +82,7 @@ export class ChainList {
   #unlisted(): Record<"links" | "mobility", string> | null {
     const none = { min: 1, max: 0 };
     const { links = none, mobility = none } = this.page.limits;
-    const within = (value: number, { min, max }: typeof none) => min <= value && value <= max;
+    const within = (value: number, { min, max }: typeof none) => !(value % 1) && min <= value && value <= max;
     const all = ({ min, max }: typeof none) => `${min} … ${max}`;
     if (within(this.#links, links) && within(this.mobility, mobility)) return null;
     return { links: all(links), mobility: all(mobility) };
@@ -98,23 +116,17 @@ export class ChainList {
     this.#show();
   }
 
-  /** Ask for the chains of the numbers that are typed, if there can be such; else the list stays that of the last. */
   #typed(): void {
     const fields = [...this.element.querySelectorAll("input")];
-    const wrong = fields.find((field) => !field.value || !field.checkValidity());
-    if (!wrong) {
-      [this.#links, this.mobility] = fields.map(({ value }) => Number(value)) as [number, number];
-      return void this.#ask(0, true);
-    }
-    const { min, max } = wrong;
-    const text = t("Expected a whole number from {min} to {max}.", { min, max });
-    renew(this.#status, h("span.error", { role: "alert" }, text));
+    [this.#links, this.mobility] = fields.map(({ value }) => Number(value || NaN)) as [number, number];
+    void this.#ask(0, true);
   }
 
   /** Ask for some more of them; the first one is taken if others are wanted, or none. */
   async #ask(start: number, others = false): Promise<void> {
     const question = { links: this.#links, mobility: this.mobility, start };
     const number = ++this.#asked;
+    this.#all = start > 0;
     const place = this.#found ? this.#status : this.#list;
     const found = this.#unlisted()
       ? { total: 0, items: [] }
@@ -131,42 +143,38 @@ export class ChainList {
     const [found, other] = [this.#found, this.#other];
     if (!found) return renew(this.#list, moment());
     const { items, total } = found;
-    const one = total === 1 ? t("one chain") : t("{total} chains", { total });
-    const beside = own && this.#holds(own) && !items.some(({ code }) => code === own.code);
-    const shown = items.length;
-    const chains = shown < total ? t("{shown} of {total} chains", { shown, total }) : one;
-    this.#count.textContent = beside ? t("{chains} and yours", { chains }) : chains;
-    this.#count.hidden = this.#unlisted() !== null;
+    this.#count.textContent = total === 1 ? t("one chain") : t("{total} chains", { total });
+    this.#count.hidden = !total;
     const cardOf = (drawn: Structure, name: string) => {
       // without a list of names, if there is one
       const { picture } = drawn.inversions.find(({ frame }) => frame === drawn.chosen) ?? drawn;
       // of a chain no link is the frame yet
       const plain = picture.replace(/<path class=.gr-hatch.*?>/g, "").replaceAll("gr-frame", "gr-body");
-      return this.#holds(drawn) && this.#card(drawn.code, drawn.text, plain, name);
+      return this.#holds(drawn) && this.#card(drawn.code, drawn.text, plain, name, drawn.kinds);
     };
     const listed = [own, ...items].some((each) => each?.code === other?.code);
     const mine = [
       own && cardOf(own, own.name ? t("Yours: {name}", { name: own.name }) : t("Your machine")),
       other && !listed && cardOf(other, other.name || t("Chosen")),
     ];
-    const none = total ? "" : this.#whyNone();
-    if (none) return renew(this.#list, h("p.note", {}, none), h("div.cards.few", {}, ...mine));
-    renew(
-      this.#list,
-      h(
-        "div.cards.few",
-        { "data-list": "chains" },
-        ...mine,
+    if (!total) return renew(this.#list, h("p.note", {}, this.#whyNone()), h("div.cards.few", {}, ...mine));
+    const language = currentLanguage();
+    const chains = items.map(
+      ({ code, name, text, picture, kinds }, k) =>
         // the machine at hand takes the place of its chain
-        ...items.map(({ code, name: names, text, picture }, k) =>
-          code === own?.code ? null : this.#card(code, text, picture, names[currentLanguage()] || `${k + 1}`),
-        ),
-      ),
-      shown < total && h("button.plain", { onclick: () => void this.#ask(shown) }, t("More")),
+        code !== own?.code && this.#card(code, text, picture, name[language] || `${k + 1}`, kinds[language]),
     );
+    const cards = [...mine, ...chains].filter((card) => card instanceof HTMLElement);
+    const rest = items.length < total;
+    const more = () => {
+      if (this.#all && rest) return void this.#ask(items.length);
+      this.#all = true;
+      this.#show();
+    };
+    renew(this.#list, ...listOf("chains", cards, this.#all, more, rest));
   }
 
-  #card(code: string, text: string, picture: string, name: string): HTMLElement {
+  #card(code: string, text: string, picture: string, name: string, kinds: string): HTMLElement {
     return h(
       "button.card",
       {
@@ -177,6 +185,7 @@ export class ChainList {
       },
       thumbnail(picture, text),
       h("b", {}, name),
+      h("span", {}, kinds),
     );
   }
 }

@@ -1,7 +1,7 @@
 /** The view of the structure: a chain out of all, its frame, drive and joint types, its mobility; then dimensions. */
 
 import { type Choice, chainPicture, inPlane, type Structure, typesOf } from "./chain";
-import { ChainList } from "./chains";
+import { ChainList, listOf } from "./chains";
 import { savedDocument } from "./document";
 import { h, indexed, option, renew, thumbnail } from "./dom";
 import { currentLanguage, t } from "./language";
@@ -16,7 +16,7 @@ function namesOf({ links, linkNames }: Model): Record<string, string> {
 }
 
 /** A step with its heading. */
-function step(number: number, title: string, ...content: HTMLElement[]): HTMLElement {
+function step(number: number, title: string, ...content: Node[]): HTMLElement {
   return h("div.step", {}, h("h2", {}, h("i", {}, String(number)), title), ...content);
 }
 
@@ -27,6 +27,8 @@ export class StructureView implements View {
   #own = "";
   private structure: Structure | null = null;
   #joint = -1;
+  /** The lists of which all cards are shown. */
+  readonly #whole = new Set<string>();
   #atFrame = true;
   private readonly chains: ChainList;
   readonly #shown = h("div.described", {});
@@ -182,7 +184,7 @@ export class StructureView implements View {
         2,
         t("Frame"),
         h("p.note.form", {}, t("Equivalent links are shown once.")),
-        this.#cards("inversions", found.inversions, ({ frame }) => [
+        ...this.#cards("inversions", found.inversions, ({ frame }) => [
           /^\d/.test(frame) ? `${t("Frame")} ${frame}` : frame,
           frame === found.chosen,
         ]),
@@ -191,7 +193,7 @@ export class StructureView implements View {
         3,
         t("Drive"),
         h("div.form", {}, elsewhere),
-        this.#cards(
+        ...this.#cards(
           "driven",
           found.driven.filter(({ frame }) => frame === found.chosen),
           ({ drives, text }) => [drives.join(", "), text === found.driver],
@@ -212,7 +214,7 @@ export class StructureView implements View {
   }
 
   /** Mechanisms of which one is chosen, each with its name and whether it is. */
-  #cards(key: string, list: Choice[], about: (choice: Choice) => [string, boolean]): HTMLElement {
+  #cards(key: string, list: Choice[], about: (choice: Choice) => [string, boolean]): Node[] {
     const card = (choice: Choice) => {
       const { family, picture, text } = choice;
       const [name, pressed] = about(choice);
@@ -225,7 +227,11 @@ export class StructureView implements View {
         family && h("span", {}, family.replace("kg", "k\u00adg")),
       );
     };
-    return h("div.cards.few", { "data-list": key }, ...list.map(card));
+    const more = () => {
+      this.#whole.add(key);
+      this.#showStructure();
+    };
+    return listOf(key, list.map(card), this.#whole.has(key), more);
   }
 
   #pick(joint: number): void {

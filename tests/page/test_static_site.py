@@ -93,6 +93,7 @@ def test_the_site_answers_as_the_library_does(tab, folder, address):
                 "code",
                 "size",
                 "name",
+                "kinds",
                 "text",
                 "chosen",
                 "driver",

@@ -30,6 +30,7 @@ export interface StructurePack {
   code: string;
   size: number;
   name: Said;
+  kinds: Said;
   names: Record<Language, string[]>;
   counted: number;
   generic: number;
@@ -93,6 +94,7 @@ export function structureOf(pack: StructurePack, text: string, lang: Language, p
     code: pack.code,
     size: pack.size,
     name: pack.name[lang],
+    kinds: pack.kinds[lang]!,
     chosen: frame.like,
     driver: chosen?.[4] ?? frame.driver,
     picture: over(frame.picture, (chosen ?? given)?.[2] ?? ""),

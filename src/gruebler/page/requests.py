@@ -219,17 +219,18 @@ def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:
 
 
 def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
+    from gruebler.page.structures import kinds_as_read, listed_chains, listed_number
     from gruebler.pictures.structure import draw_structure
     from gruebler.pictures.structure.messages import chain_name
-    from gruebler.structure.enumeration import chains, count_chains
     from gruebler.structure.isomorphism import code
 
-    total = count_chains(asked.links, asked.mobility).chains
+    total = listed_number(asked.links, asked.mobility)
     items = []
-    for chain in islice(chains(asked.links, asked.mobility), asked.start, asked.start + _PAGE):
+    for chain in islice(listed_chains(asked.links, asked.mobility), asked.start, asked.start + _PAGE):
         picture = draw_structure(chain, lang=lang).svg(styled=False)
         names = {language: chain_name(chain, language) for language in LANGUAGES}
-        items.append({"code": code(chain), "text": chain.text(), "name": names, "picture": picture})
+        kinds = {language: kinds_as_read(chain, language) for language in LANGUAGES}
+        items.append({"code": code(chain), "text": chain.text(), "name": names, "kinds": kinds, "picture": picture})
         if len(items) % 10 == 0:
             progress(translate("{done} of {total} chains", lang, done=asked.start + len(items), total=total))
     return {"total": total, "start": asked.start, "items": items}

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from gruebler.page.structures import drawn_frame, like_driven, listed_drives
+from gruebler.page.structures import as_read, drawn_frame, drives_as_read, kinds_as_read, like_driven, listed_drives
 from gruebler.pictures.structure.messages import chain_name
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.isomorphism import code, symmetry
@@ -59,8 +59,8 @@ def structure_pack(
             "picture": drawn.picture,
             "at": drawn.at,
             "outlines": {link: drawn.outlines[link] for link in [*strained, *rigid]},
-            "frame": named.get(frame, frame),
-            "like": named.get(like, like),
+            "frame": as_read(named.get(frame, frame)),
+            "like": as_read(named.get(like, like)),
             "listed": like == frame,
             "driver": driver(bare),
             "family": {lang: family(bare, lang) or "" for lang in langs},
@@ -82,11 +82,15 @@ def structure_pack(
         "code": code(chain),
         "size": chain.n,
         "name": {lang: chain_name(chain, lang) for lang in langs},
-        "names": {lang: chain.renamed(named).joint_names(Alphabet.of_language(lang)) for lang in langs},
+        "kinds": {lang: kinds_as_read(chain, lang) for lang in langs},
+        "names": {
+            lang: [as_read(name) for name in chain.renamed(named).joint_names(Alphabet.of_language(lang))]
+            for lang in langs
+        },
         "counted": report.counted,
         "generic": report.generic,
         "verdict": str(report.verdict),
-        "lines": {lang: shown.explain(lang).splitlines() for lang in langs},
+        "lines": {lang: as_read(shown.explain(lang)).splitlines() for lang in langs},
         "overconstrained": strained,
         "rigid": rigid,
         "frames": frames,
@@ -99,9 +103,9 @@ def _facts_of_drives(mechanism: Mechanism, langs: Sequence[str]) -> dict[str, An
     check = check_drives(mechanism)
     return {
         lang: [
-            ", ".join(mechanism.drive_names(Alphabet.of_language(lang))),
+            ", ".join(drives_as_read(mechanism, lang)),
             family(mechanism, lang) or "",
-            check.explain(lang),
+            as_read(check.explain(lang)),
         ]
         for lang in langs
     }

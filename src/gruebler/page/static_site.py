@@ -22,9 +22,9 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import LANGUAGES
 from gruebler.page.page import static_page
 from gruebler.page.requests import answer
+from gruebler.page.structures import listed_chains, listed_number
 from gruebler.structure.chain.pairs import PAIRS, Alphabet
 from gruebler.structure.chain.spaces import Space
-from gruebler.structure.enumeration import chains, count_chains
 from gruebler.structure.enumeration.worker_pool import run_work
 from gruebler.structure.mechanism import Mechanism
 
@@ -78,7 +78,7 @@ def write_site(
 def _classes() -> list[tuple[int, int]]:
     """Links and mobility of the chains, the largest first."""
     ranges = [range(LISTED[what]["min"], LISTED[what]["max"] + 1) for what in ("links", "mobility")]
-    return [(n, mobility) for n in reversed(ranges[0]) for mobility in ranges[1] if count_chains(n, mobility).chains]
+    return [(n, mobility) for n in reversed(ranges[0]) for mobility in ranges[1] if listed_number(n, mobility)]
 
 
 def _all_groups() -> Iterator[FileGroup]:
@@ -87,7 +87,7 @@ def _all_groups() -> Iterator[FileGroup]:
     from gruebler.teaching.exercises import KINDS
 
     for links, mobility in _classes():
-        for first in range(0, count_chains(links, mobility).chains, _TOGETHER):
+        for first in range(0, listed_number(links, mobility), _TOGETHER):
             yield FileGroup("structures", (links, mobility, first))
         yield FileGroup("chains", (links, mobility))
     ids = tuple(sorted(entries()))
@@ -132,7 +132,7 @@ _Packs = Iterator[tuple[str, Any]]
 def _chain_packs(links: int, mobility: int) -> _Packs:
     asked = {"links": links, "mobility": mobility, "start": 0}
     items: list[dict[str, Any]] = []
-    while len(items) < count_chains(links, mobility).chains:
+    while len(items) < listed_number(links, mobility):
         page = answer("chains", asked | {"start": len(items)}, LANGUAGES[0], _nothing)
         items += [item | {"picture": _bare(item["picture"])} for item in page["items"]]
     yield f"chains-{links}-{mobility}", items
@@ -142,7 +142,7 @@ def _structure_packs(links: int, mobility: int, first: int) -> _Packs:
     from gruebler.page.realised import realised
     from gruebler.page.site_structures import structure_pack
 
-    for number, chain in enumerate(islice(chains(links, mobility), first, first + _TOGETHER), first):
+    for number, chain in enumerate(islice(listed_chains(links, mobility), first, first + _TOGETHER), first):
         name = f"{links}-{mobility}-{number}"
         pack = structure_pack(Mechanism(chain, chain.links[0]), LANGUAGES)
         yield f"structure-{name}", pack

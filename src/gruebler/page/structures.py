@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -25,15 +26,19 @@ from gruebler.pictures.structure.messages import chain_name
 from gruebler.structure.chain import Chain, Joint
 from gruebler.structure.chain.pairs import PAIRS, Alphabet
 from gruebler.structure.chain.spaces import Space
+from gruebler.structure.enumeration import chains, count_chains, fractionation
 from gruebler.structure.isomorphism import code, symmetry
-from gruebler.structure.mechanism import Mechanism
+from gruebler.structure.mechanism import Drive, Mechanism
 from gruebler.structure.mechanism.drives import check_drives
 from gruebler.structure.mechanism.inversion import driven_mechanisms, family, inversions
 from gruebler.structure.mobility import MobilityReport, mobility_report
+from gruebler.structure.mobility.report import kinds_of_links
 
 _MOST_LINKS = 60  # more links are drawn and counted, but their inversions are not listed
 _MOST_DRIVEN = 60
 _LONGEST_LABEL = 3  # letters of a name beside its link in a small picture
+_AGAINST = message("{joint}: {link} against {other}")
+_APART = {"link": message("falls apart at a link"), "joint": message("falls apart at a joint")}
 _SPECIAL = message("These sizes are special: the mobility is {own}, not {generic} as at almost all sizes.")
 
 
@@ -44,6 +49,59 @@ def mechanism_of_text(text: str) -> Mechanism:
     '0'
     """
     return Mechanism.parse(text)
+
+
+def as_read(text: str) -> str:
+    """A text of the library with the names of links as one reads them: with spaces, without quotation marks.
+
+    >>> as_read('R(crank-upper_rod-"lower rod")')
+    'R(crank-upper rod-lower rod)'
+    """
+    return spaced(text).replace('"', "")
+
+
+def listed_chains(links: int, mobility: int) -> Iterator[Chain]:
+    """The chains among which one chooses, each once: those that fall apart at a link or a joint at the end.
+
+    >>> len(list(listed_chains(7, 2)))
+    4
+    """
+    return chains(links, mobility, fractionated="all")
+
+
+def listed_number(links: int, mobility: int) -> int:
+    """How many these are."""
+    return count_chains(links, mobility, fractionated="all").chains
+
+
+def kinds_as_read(chain: Chain, lang: str) -> str:
+    r"""How many joints its links have, and where it falls apart, if it does; a number stays with its word.
+
+    >>> [kinds_as_read(chain, "en") for chain in listed_chains(7, 2)][-2:]
+    ['5\xa0binary, 2\xa0ternary', '6\xa0binary, 1\xa0quaternary; falls apart at a link']
+    """
+    apart = _APART.get(fractionation(chain))
+    kinds = re.sub(r"(?<=\d) ", "\u00a0", kinds_of_links(chain, lang))
+    return f"{kinds}; {apart.in_language(lang)}" if apart else kinds
+
+
+def drives_as_read(mechanism: Mechanism, lang: str) -> list[str]:
+    """The names of the drives; at a joint of several links it is said which of them moves against which.
+
+    >>> lever = Mechanism.parse("R(frame-upper_arm-rod) R(rod-frame); drive=R(frame-upper_arm-rod):frame-rod")
+    >>> drives_as_read(lever, "en")
+    ['R(frame-upper arm-rod): rod against frame']
+    """
+    alphabet = Alphabet.of_language(lang)
+    joints = mechanism.chain.joint_names(alphabet)
+
+    def named(drive: Drive, name: str) -> str:
+        if mechanism.chain.joints[drive.joint].count == 1:
+            return name
+        other, link = sorted(drive.between, key=lambda each: each != mechanism.frame)
+        return _AGAINST.filled(joint=joints[drive.joint], link=link, other=other).in_language(lang)
+
+    return [as_read(named(*each)) for each in zip(mechanism.drives, mechanism.drive_names(alphabet), strict=True)]
 
 
 def structure_record(
@@ -88,18 +146,19 @@ def structure_record(
         "code": code(chain),
         "size": chain.n,
         "name": chain_name(chain, lang),
+        "kinds": kinds_as_read(chain, lang),
         "picture": drawn.with_drives(moved),
         "joints": list(_joints(mechanism, shown, drawn, lang)),
         "links": list(_links(chain, drawn, report)),
         "frame": mechanism.frame,
-        "chosen": spaced(next(orbit[0] for orbit in symmetry(shown.chain).link_orbits if shown.frame in orbit)),
+        "chosen": as_read(next(orbit[0] for orbit in symmetry(shown.chain).link_orbits if shown.frame in orbit)),
         "driver": "" if like is None else like.text(),
         "counted": report.counted,
         "generic": report.generic,
         "own": None if special is None else special.mobility,
         "verdict": str(report.verdict),
-        "lines": shown_report.explain(lang).splitlines(),
-        "drives": "\n".join(_said_of_drives(shown, special, lang)),
+        "lines": as_read(shown_report.explain(lang)).splitlines(),
+        "drives": as_read("\n".join(_said_of_drives(shown, special, lang))),
         "inversions": [_choice(bare, cards[frame], lang, called) for frame, bare in frames.items()],
         "driven": [_choice(each, cards[each.frame], lang, called) for each in driven],
     }
@@ -213,7 +272,7 @@ def drawn_frame(
     held = held_outlines(placed)
     outlines = {link: held[link] for link in chain.links}
     around = {link: (*corners, *corners[: placed.closed[link]]) for link, corners in outlines.items()}
-    names = {link: spaced(called.get(link, link)) for link in chain.links}
+    names = {link: as_read(called.get(link, link)) for link in chain.links}
     texts, numbered = labels_with_names(outlines, placed.closed, bodies, names)
     labelled = [*bodies, *texts]
     held_at = [point for outline in outlines.values() for point in outline]
@@ -260,8 +319,8 @@ def _choice(mechanism: Mechanism, drawn: DrawnFrame, lang: str, called: Mapping[
     shown = mechanism.renamed(called)
     return {
         "text": mechanism.text(),
-        "frame": spaced(shown.frame),
-        "drives": [spaced(name) for name in shown.drive_names(Alphabet.of_language(lang))],
+        "frame": as_read(shown.frame),
+        "drives": drives_as_read(shown, lang),
         "family": family(mechanism, lang) or "",
         "picture": drawn.card_with_drives(mechanism),
     }
@@ -271,7 +330,7 @@ def _joints(mechanism: Mechanism, shown: Mechanism, drawn: DrawnFrame, lang: str
     """Each joint with its place in the picture and the types that it may have instead."""
     names = shown.chain.joint_names(Alphabet.of_language(lang))
     for number, (name, at) in enumerate(zip(names, drawn.at, strict=True)):
-        yield {"name": name, "at": at, "types": list(_types(mechanism, number, lang))}
+        yield {"name": as_read(name), "at": at, "types": list(_types(mechanism, number, lang))}
 
 
 def _types(mechanism: Mechanism, number: int, lang: str) -> Iterator[dict[str, Any]]:

@@ -39,8 +39,10 @@ class DriveReport:
     @property
     def message(self) -> Message:
         """The text of `explain` as a message, for any language."""
-        if self.fixed and self.mobility == self.drives == 1:
-            return message("Mobility 1 and one drive: the motion is determined.")
+        if self.fixed and self.mobility == self.drives:
+            if self.drives == 1:
+                return message("Mobility 1 and one drive: the motion is determined.")
+            return message("Mobility {drives} and {drives} drives: the motion is determined.", drives=self.drives)
         sentences = [message("Mobility {mobility}, drives: {drives}.", mobility=self.mobility, drives=self.drives)]
         if self.fixed:
             sentences.append(message("The drives fix the motion."))

@@ -66,7 +66,7 @@ _MEANINGS = {
     ),
     Verdict.PARTLY_RIGID: message("It moves, but some of its links stay rigid against each other and act as one link."),
     Verdict.CONSTRAINED: message("One drive moves every link in one definite way."),
-    Verdict.MOVABLE: message("It takes {mobility} drives to fix the motion."),
+    Verdict.MOVABLE: message("{mobility} drives move every link in one definite way."),
 }
 _OTHER_COUNTS = {
     Space.PLANAR: message("The count takes b = {b} motions of a free link instead of the planar chain's {own}."),
@@ -231,11 +231,19 @@ def verdict_word(verdict: Verdict, lang: str) -> str:
     return _VERDICTS[verdict].in_language(lang)
 
 
+def kinds_of_links(chain: Chain, lang: str) -> str:
+    """How many links of the chain are binary, ternary, ...
+
+    >>> kinds_of_links(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)"), "de")
+    '4 binär, 2 ternär'
+    """
+    return ", ".join(f"{count} {arity(joints, lang)}" for joints, count in chain.link_kinds.items())
+
+
 def _structure(report: MobilityReport, names: Sequence[str], lang: str) -> Iterator[Message]:
     chain = report.chain
-    kinds = ", ".join(f"{count} {arity(joints, lang)}" for joints, count in chain.link_kinds.items())
     yield message("Chain: {chain}", chain=chain.text(Alphabet.of_language(lang)))
-    yield message("Links: n = {n} ({kinds})", n=chain.n, kinds=kinds)
+    yield message("Links: n = {n} ({kinds})", n=chain.n, kinds=kinds_of_links(chain, lang))
     counts = ", ".join(f"g{freedom} = {count}" for freedom, count in chain.joints_by_freedom.items())
     if chain.loops == 1:
         yield message("Joints: {counts}, one independent loop", counts=counts)
