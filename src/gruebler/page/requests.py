@@ -256,7 +256,8 @@ def _measures(asked: MeasureLinkage, lang: str, _: Progress) -> dict[str, Any]:
     from gruebler.mechanics.analysis.measuring import measures_of
     from gruebler.mechanics.analysis.outputs import find_output
     from gruebler.mechanics.analysis.several_drives import several_drives_lines
-    from gruebler.page.model import link_names, spaced
+    from gruebler.page.given_sizes import given_sizes
+    from gruebler.page.model import link_names, names_of_points, spaced
     from gruebler.teaching.catalog import entries
 
     linkage = linkage_from_json(asked.document)
@@ -264,14 +265,15 @@ def _measures(asked: MeasureLinkage, lang: str, _: Progress) -> dict[str, Any]:
         return {"lines": []}
     names = link_names(linkage, asked.source, lang).items()
     named = linkage.renamed({link: spaced(name) for link, name in names})
+    given = list(given_sizes(named, names_of_points(linkage, asked.source, lang), lang))
     if len(linkage.mechanism.drives) > 1:
         record = entries().get(asked.source)
         lines = several_drives_lines(named, record.stops if record else ())
-        return {"lines": [line.in_language(lang) for line in lines]}
+        return {"lines": [*(line.in_language(lang) for line in lines), *given]}
     cycle = drive_cycle(named)
     if len(asked.between) == 2:
         cycle = part_of_cycle(cycle, *asked.between)
-    return {"lines": measures_of(cycle, named, find_output(named, None)).explain(lang).splitlines()}
+    return {"lines": [*measures_of(cycle, named, find_output(named, None)).explain(lang).splitlines(), *given]}
 
 
 def _forces(asked: LoadedLinkage, lang: str, _: Progress) -> dict[str, Any]:

@@ -59,6 +59,13 @@ def test_the_stroke_of_a_valve_with_the_reverser_held() -> None:
     assert second.in_language("de").startswith("Festgehalten: D(frame-axle) bei 110°; Antrieb: D(frame-reverser).")
 
 
+def test_sizes_without_a_field_are_told() -> None:
+    """Teeth of wheels, radii and law of a cam; the foot of Jansen's leg has sides of 49 and 65.7 (Jansen's numbers)."""
+    assert "sun 1 [mm]: pitch radius 30, teeth 30." in told("diff", "en")
+    assert "Rolle [mm]: Radius 10." in told("cam_roller", "de")
+    assert "F [cm]: 49 to lower rod – rocker, 65.7 to link." in told("jansen", "en")
+
+
 def test_the_stops_of_a_machine_bound_its_drives() -> None:
     """The catalog gives the first cylinder of the excavator 240 to 330 cm."""
     assert "The drive moves from 240 cm to 330 cm." in told("excavator", "en")

@@ -64,7 +64,7 @@ def places(linkage: Linkage, pose: Motion, lang: str) -> Iterator[tuple[str, ...
             yield (
                 shown,
                 *written_numbers((at.real, at.imag, angle), linkage.size, lang),
-                number_separator(lang).join(_sizes(element, lang)),
+                number_separator(lang).join(element_sizes(element, lang)),
             )
     for name, point in linkage.points.items():
         at, _ = _placed(pose, point.link, point.x, point.y)
@@ -84,7 +84,8 @@ def written_numbers(values: Iterable[float | None], size: float, lang: str, digi
         yield "" if value is None else number(0.0 if abs(value) < 1e-9 * size else value, lang, f".{digits}g")
 
 
-def _sizes(element: Element, lang: str) -> Iterator[str]:
+def element_sizes(element: Element, lang: str) -> Iterator[str]:
+    """What an element has besides its place: radius and teeth of a wheel, lift and base circle of a cam."""
     for field in fields(element):
         value = getattr(element, field.name)
         if field.name in ("x", "y", *element.angles) or (value == field.default and field.name != "pins"):
