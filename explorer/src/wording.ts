@@ -14,8 +14,9 @@ export function lengthUnit({ unit }: Pick<Model, "unit">): string {
   return unit || t("length");
 }
 
-export function momentUnit(model: Model): string {
-  return `N·${lengthUnit(model)}`;
+/** In which the library tells moments: in N·mm or N·m, whatever other unit lengths have. */
+export function momentUnit({ unit }: Pick<Model, "unit">): string {
+  return /^(mm)?$/.test(unit) ? `N·${lengthUnit({ unit })}` : "N·m";
 }
 
 /** Where in the period an extreme lies; it is known to about a millionth of a radian. */

@@ -15,7 +15,7 @@ import type { Least } from "../src/measures";
 import { chainText } from "../src/model";
 import { Status } from "../src/status";
 import { quoted, tableOf } from "../src/table";
-import { stopText } from "../src/wording";
+import { momentUnit, stopText } from "../src/wording";
 import { CRANK_ROCKER, fourBar } from "./fourbar";
 
 function inGerman(body: () => void): void {
@@ -95,6 +95,11 @@ test("links that cannot be read say why", async () => {
 test("the chain as text", () => {
   const text = "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); frame=frame; drive=R(frame-crank)";
   assert.equal(chainText(fourBar(CRANK_ROCKER, 1)), text);
+});
+
+test("moments are in N·mm or N·m, whatever other unit lengths have", () => {
+  const units = ["mm", "cm", "dm", "m", "in", ""].map((unit) => momentUnit({ unit }));
+  assert.deepEqual(units, ["N·mm", "N·m", "N·m", "N·m", "N·m", "N·length"]);
 });
 
 test("the table of a four-bar", () => {

@@ -81,6 +81,21 @@ def test_a_load_that_is_not_typed_yet_does_not_act(more):
     assert answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), **acting), "en", print)["forces"]
 
 
+@pytest.mark.parametrize("unit", ["cm", "m", "in"])
+def test_moments_are_in_newton_metres_where_lengths_are_not_in_millimetres(unit):
+    """1 N m at the crank, held by the drive and by a torsion spring of 1 N m/rad with its preload of 2 N m."""
+    linkage = FourBar(25, 70, 40, 70).linkage(unit=unit)
+    load = {"on": "link", "number": 1, "x": -1.0}
+    told = answer("forces", asked(linkage, loads=[load], speed=10.0), "en", print)
+    assert (told["effective"], told["power"]) == (pytest.approx(1), pytest.approx([10, 10]))
+    ends = [[0, 0.0, 0.0], [1, 0.0, 0.0]]
+    spring = {"ends": ends, "turning": True, "stiffness": 1.0, "preload": 2.0, "free": 0.5}
+    told = answer("forces", asked(linkage, springs=[spring], speed=10.0), "en", print)
+    assert told["effort"] == pytest.approx([2 + drive - 0.5 for drive in told["drives"]], abs=1e-5)
+    loaded = asked(linkage, springs=[spring])
+    assert answer("forces", loaded, "en", print)["springs"][0]["preload"] == 2.0
+
+
 def test_a_bar_reaches_to_the_point_on_its_line():
     """The coupler of Chebyshev's lambda mechanism is a bar of 100 mm: 7850 kg/m³ · 20 mm · 5 mm · 100 mm."""
     told = answer("forces", asked(FourBar(20, 50, 50, 40).linkage({"C": (100, 0)}), steel=True), "en", print)
@@ -185,14 +200,14 @@ def test_loads_of_a_file_act_on_the_page(lang, tmp_path):
     assert told["speed"] == speed == pytest.approx(2 * math.pi)
     assert (told["masses"], len(told["springs"])) == ([0, 0, pytest.approx(0.3), 0], 1)
     motion = move(linkage, told["drives"], speed=speed, order=2)
-    wanted = inverse_dynamics(motion, loads).drive[:, 0]
+    wanted = inverse_dynamics(motion, loads).drive[:, 0] / 100  # from N·cm to N·m
     assert told["effort"] == pytest.approx(wanted.tolist(), abs=1e-6 * abs(wanted).max())
     assert ("rocker:1,0" if lang == "en" else "Schwinge:1,0") in told["besides"]
     # the reader's masses and springs stand in their place
     more = {"masses": [0, 0, 0, 0], "springs": []}
     other = answer("forces", {"document": document, "drives": [0.0], **more}, lang, print)
     rest = replace(loads, bodies={}, springs=())
-    assert other["effort"] == pytest.approx(inverse_dynamics(motion, rest).drive[:, 0].tolist(), abs=1e-4)
+    assert other["effort"] == pytest.approx((inverse_dynamics(motion, rest).drive[:, 0] / 100).tolist(), abs=1e-6)
     assert answer("fall", {"document": document, "drives": [1.0], "until": 0.1}, lang, print)["lines"]
 
 

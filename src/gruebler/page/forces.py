@@ -34,6 +34,7 @@ _FROM_FILE = message("Masses as in the file or the catalog.")
 _STEEL = message("Steel, bars 20 mm × 5 mm to each joint, sliders 20 mm long")
 _ASSUMED = message("Assumed masses: steel, bars 20 mm × 5 mm to each joint, sliders 20 mm long")
 _STEEL_BAR = 7850 * 0.020 * 0.005  # kg/m: a cross-section of 20 mm by 5 mm
+_RATES = ("stiffness", "preload", "damping")
 _BLOCK = 0.020  # m: what a slider and other short links are long
 _ROWS = 720  # of a turn, so that what is read between two has four digits
 _MOST_ROWS = 2160
@@ -88,12 +89,13 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         for link in (each.links if len(each.links) > 2 else each.links[1:])
     ]
     lines = [*run.remarks(lang)]
+    scale = _moment_scale(linkage) if turning else 1.0
     power = _short(metres_of(linkage.unit) * np.append(run.power[:, active], run.mean_power[active]))
     return record | {
         "speed": speed,
         "drives": motion.drives[:, active].tolist(),
-        "effort": _short(run.drive[:, active]).tolist(),
-        "effective": float(run.root_mean_square[active]),
+        "effort": _short(scale * run.drive[:, active]).tolist(),
+        "effective": float(scale * run.root_mean_square[active]),
         "power": [float(max(power[:-1], key=abs)), float(power[-1])],
         "forces": forces,
         "lines": lines,
@@ -168,7 +170,7 @@ def _laden(asked: LoadedLinkage, lang: str) -> _Laden:
     besides = tuple(called.get(str(each), str(each)) for each in others)
     for name, together in placed.items():
         if together[0].on == "link":
-            moments[name] = sum(own.x for own in together)
+            moments[name] = sum(own.x for own in together) / _moment_scale(linkage)
         else:
             forces[name] = (sum(own.x for own in together), sum(own.y for own in together))
     gravity = loads.gravity if asked.gravity else (0.0, 0.0)
@@ -178,6 +180,11 @@ def _laden(asked: LoadedLinkage, lang: str) -> _Laden:
     moments = {name: moment for name, moment in moments.items() if moment != 0.0}
     acting = replace(loads, forces=forces, moments=moments, gravity=gravity, bodies=bodies)
     return _Laden(linkage, acting, speed, besides)
+
+
+def _moment_scale(linkage: Linkage) -> float:
+    """How many of the moments of the page one of the linkage is: N·mm beside millimetres, beside other units N·m."""
+    return 1.0 if linkage.unit in ("", "mm") else metres_of(linkage.unit)
 
 
 def _all_springs(loads: Loads) -> tuple[Spring | TorsionSpring, ...]:
@@ -196,7 +203,8 @@ def _springs(linkage: Linkage, loads: Loads) -> list[dict[str, Any]]:
             free, places = spring.free_length, [linkage.points_named(end) for end in spring.between]
             pairs = ((near, far) for near in places[0] for far in places[1] if near.link != far.link)
             ends = [(chain.index(place.link), place.x, place.y) for place in next(pairs)]
-        rates = {"stiffness": spring.stiffness, "free": free, "preload": spring.preload, "damping": spring.damping}
+        scale = _moment_scale(linkage) if turning else 1.0
+        rates = {rate: scale * getattr(spring, rate) for rate in _RATES} | {"free": free}
         records.append({"turning": turning, "ends": ends, "known": None if spring.law is None else known, **rates})
     return records
 
@@ -212,7 +220,8 @@ def _own_springs(linkage: Linkage, loads: Loads, own: list[OwnSpring]) -> Loads:
         ):
             if wanted is not None and wanted >= len(there_are):
                 raise GrueblerError("load: there is no {what} {number}", what=what, number=wanted)
-        rates = {"stiffness": each.stiffness, "preload": each.preload, "damping": each.damping}
+        scale = _moment_scale(linkage) if each.turning else 1.0
+        rates = {rate: getattr(each, rate) / scale for rate in _RATES}
         law = None if each.known is None else known[each.known].law
         (first, *here), (second, *there) = each.ends
         if each.turning:
