@@ -251,7 +251,7 @@ def test_loads_and_speed_of_another_program_act_on_the_page():
     drives = np.array(told["drives"])
     step = 1e-5
     ends = [move(linkage, drives + side * step).point(linkage.mechanism.chain.joint_names()[2]) for side in (1, -1)]
-    wanted = -400 * (ends[0] - ends[1])[:, 1] / (2 * step)
+    wanted = -4 * (ends[0] - ends[1])[:, 1] / (2 * step)  # in N·m, the press is in cm
     assert told["effort"] == pytest.approx(wanted.tolist(), abs=1e-3 * abs(wanted).max())
 
 
