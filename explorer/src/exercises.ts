@@ -275,7 +275,7 @@ export class ExercisesView implements View {
     return h(
       "div.answer",
       { "data-mark": mark?.mark },
-      h(choices.length ? "span" : "label", { for: !choices.length && id }, name),
+      h(choices.length ? "span" : "label", { for: !choices.length && id }, ...indexed(name)),
       field,
       mark ? h("b", {}, words[mark.mark]) : null,
       mark?.hint ? h("div", { id: hint }, ...indexed(mark.hint)) : null,

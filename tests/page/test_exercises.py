@@ -108,6 +108,28 @@ def test_every_exercise_of_the_text_has_figures_to_try_and_hints_by_the_likely_m
             assert mark["hint"] in hints, (asked["key"], said, mark["hint"])
 
 
+def test_the_ratio_of_an_external_pair_is_asked_for_as_a_magnitude():
+    """With signs i = ω_in/ω_out is negative (docs/theory/events.md), as in Motion; the answer -0.5 is told so."""
+    for lang, word in (("en", "magnitude"), ("de", "Betrag")):
+        task = task_record("exercise-1", lang)
+        assert "|i| = 2" in task["task"]
+        (asked,) = task["asked"]
+        assert word in asked["name"]
+        marks = {each: marked_task("exercise-1", {asked["key"]: each}, lang)["marks"][0] for each in ("0.5", "-0.5")}
+        assert [mark["mark"] for mark in marks.values()] == ["right", "wrong"]
+        assert word in marks["-0.5"]["hint"]
+
+
+def test_names_of_answers_have_indices(exercises):
+    """Exercise 18 asks for a stroke with |F_x| ≤ 0.1 mm."""
+    view = exercises().page
+    view.locator('[data-value="exercise"]').click()
+    view.locator('[data-page="exercises"] select').select_option("exercise-18")
+    name = view.locator(".answer label", has_text="stroke with")
+    name.wait_for()
+    assert "|F<sub>x</sub>|" in name.inner_html()
+
+
 def test_an_exercise_of_the_text_is_chosen_and_each_of_its_machines_tried(exercises):
     """Exercise 5: F = 1 for all five; with n = 4 instead of n - 1 = 3 free links it would be 4."""
     page = exercises(locale="de-DE")

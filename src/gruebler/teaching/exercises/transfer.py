@@ -25,11 +25,11 @@ def gear_pair(i: float, step: float = 90) -> Solution:
             step=step,
         )
     builder = SolutionBuilder()
-    name = message("slope of the transfer function")
-    builder.find("slope", name, "1/i", 1 / i, symbol="ψ'", i=i)
+    name = message("slope of the transfer function, magnitude")
+    builder.find("slope", name, "1/i", 1 / i, symbol="|ψ'|", i=i)
     builder.say(
         "ψ grows evenly with φ: the graph is a straight line through the origin. An external pair turns in "
-        "opposite senses; with signs the line falls, ψ = -φ/i.",
+        "opposite senses; with signs i is negative and the line falls, ψ = −φ/|i|.",
         "ψ = φ/i",
     )
     rows = [(k * step, k * step / i) for k in range(int(360 * i / step + 1e-9) + 1)]
@@ -55,4 +55,5 @@ def gear_pair(i: float, step: float = 90) -> Solution:
     builder.mistake(
         "slope", float(i), message("i is input divided by output; the slope is output divided by input, 1/i.")
     )
+    builder.mistake("slope", -1 / i, message("The magnitude is asked for; with signs an external pair has −1/|i|."))
     return builder.done()
