@@ -12,7 +12,7 @@ _TYPED = 1e-7  # degrees: beyond the rounding of what is found
 _NOTHING = 1e-12  # of the size: lengths below it are roundings
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class MeasureUnits:
     """How drive and output values are written."""
 
@@ -53,7 +53,7 @@ _MOVES = message("The drive moves from {low} to {high}.")
 def drive_units(linkage: Linkage) -> MeasureUnits:
     """How the values of the first drive of a linkage are written."""
     turning = linkage.mechanism.drives[0].turning
-    return MeasureUnits(turning, turning, linkage.unit, linkage.size)
+    return MeasureUnits(turning_drive=turning, turning_output=turning, unit=linkage.unit, size=linkage.size)
 
 
 def length_message(value: float, unit: str) -> Message:
@@ -63,6 +63,6 @@ def length_message(value: float, unit: str) -> Message:
 
 def angle_message(value: float) -> Message:
     """An angle in degrees; one that comes within 1e-7 of three places, as a person types it, is that."""
-    found = degrees(value)
-    typed = round(found, 3)
-    return message("{degrees:n}°", degrees=(typed if abs(found - typed) < _TYPED else found) + 0.0)
+    turn = degrees(value)
+    typed = round(turn, 3)
+    return message("{degrees:n}°", degrees=(typed if abs(turn - typed) < _TYPED else turn) + 0.0)

@@ -289,9 +289,12 @@ class Measures:
         return "\n".join(line[:1].upper() + line[1:] for line in lines)
 
     def _lines(self) -> Iterator[Message]:
-        round_and_round = self.output.turning and self.output_turns != 0
         units = MeasureUnits(
-            self.turning_drive, self.output.turning, self.linkage.unit, self.linkage.size, round_and_round
+            turning_drive=self.turning_drive,
+            turning_output=self.output.turning,
+            unit=self.linkage.unit,
+            size=self.linkage.size,
+            round=self.output.turning and self.output_turns != 0,
         )
         yield from self.span.lines()
         ratio = self.transfer.ratio if self.transfer.uniform else None

@@ -90,13 +90,9 @@ def _one_drive(plan: Plan, output: Output, k: int, given: Stops) -> Iterator[Mes
     linkage, home = plan.linkage, _home(plan)
     names = _names(linkage)
     low, high, full = (*given, False) if given else _range(plan, home, k)
-    units = MeasureUnits(linkage.mechanism.drives[k].turning, output.turning, linkage.unit, linkage.size)
+    units = _units(linkage, output, linkage.mechanism.drives[k].turning)
     others = [
-        message(
-            "{drive} at {value}",
-            drive=name,
-            value=MeasureUnits(drive.turning, output.turning, linkage.unit, linkage.size).drive(value),
-        )
+        message("{drive} at {value}", drive=name, value=_units(linkage, output, drive.turning).drive(value))
         for n, (drive, name, value) in enumerate(zip(linkage.mechanism.drives, names, home.tolist(), strict=True))
         if n != k
     ]
@@ -105,6 +101,12 @@ def _one_drive(plan: Plan, output: Output, k: int, given: Stops) -> Iterator[Mes
         said.append(units.range(full, low, high))
         said += _travel_lines(plan, output, units, home, k, (low, high), full)
     yield joined(said, " ")
+
+
+def _units(linkage: Linkage, output: Output, turning_drive: bool) -> MeasureUnits:
+    return MeasureUnits(
+        turning_drive=turning_drive, turning_output=output.turning, unit=linkage.unit, size=linkage.size
+    )
 
 
 def _travel_lines(
