@@ -16,14 +16,14 @@ const SIGNS = Array.from({ length: 127 }, (_, k) => String.fromCharCode(k + 1)).
   (sign) => !/["<\\\n\r]/.test(sign),
 );
 
-/** Bytes as text: 19 in 22 of the 122 signs, 122^22 > 256^19; of the last n, if they are fewer, n + 3. */
+/** Bytes as text: 97 in 112 of the 122 signs, 122^112 > 256^97; of the last n, if they are fewer, n + 15. */
 function written(bytes) {
   let text = "";
-  for (let at = 0; at < bytes.length; at += 19) {
-    const some = bytes.subarray(at, at + 19);
+  for (let at = 0; at < bytes.length; at += 97) {
+    const some = bytes.subarray(at, at + 97);
     let value = some.reduce((sum, byte) => 256n * sum + BigInt(byte), 0n);
     let group = "";
-    for (let k = 0; k < some.length + 3; k++) {
+    for (let k = 0; k < some.length + 15; k++) {
       group = SIGNS[value % 122n] + group;
       value /= 122n;
     }
@@ -111,7 +111,8 @@ const own = `
 
 /** Long names that others call, too, above all the browser's own, and that stand in a module again and again. */
 const often = `
-  activeElement fromCharCode getAttribute members offsetHeight replaceState splice
+  activeElement backward fromCharCode getAttribute members onpointerdown placeholder reverse toPrecision
+  offsetHeight replaceState splice
   accelerations active addEventListener angles append appendChild arrayBuffer ArrowRight attempt
   backend beginPath beside between bodies bottom button cancel canvas catalog chains change changed
   charCodeAt checked childElementCount children choose chosen circle class classList clientWidth

@@ -159,7 +159,9 @@ export class CatalogView implements View {
       const few = [t("No machine has all of this."), t("One machine")];
       this.#note.textContent = few[found.length] ?? t("{count} machines", { count: found.length });
       const byName = (a: Entry, b: Entry) => a.name.localeCompare(b.name, currentLanguage());
-      found.sort((a, b) => (this.#byLinks && a.links - b.links) || byName(a, b));
+      // those whose name has what is looked for, not their description alone
+      const named = ({ name }: Entry) => +name.toLowerCase().includes((this.#query.words ?? "").toLowerCase());
+      found.sort((a, b) => (this.#byLinks && a.links - b.links) || named(b) - named(a) || byName(a, b));
       renew(cards, ...found.map((entry) => this.#card(entry)));
       for (const card of cards.children) this.#watcher.observe(card);
       if (!found.length) renew(cards, h("button.plain", { onclick: () => this.#showAll() }, t("Show all")));

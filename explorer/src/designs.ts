@@ -143,10 +143,9 @@ export class DesignCards {
     return this.#found!.items.filter(({ form }) => form === wanted);
   }
 
-  /** The most frequent one first. */
+  /** That of the best one first. */
   #forms(): string[] {
-    const forms = new Set(this.#found?.items.map(({ form }) => form));
-    return [...forms].sort((one, other) => this.#of(other).length - this.#of(one).length);
+    return [...new Set(this.#found!.items.map(({ form }) => form))];
   }
 
   /** What cards tell and are sorted by, in the language of the page. */

@@ -111,7 +111,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
     ),
     group(
       t("For others"),
-      t("HTML: the page with this machine as one file"),
+      "",
       action("share", () => void page.share(), t("Copy the link")),
       served("HTML"),
     ),
@@ -132,7 +132,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
     ...(page.served
       ? [
           group(t("Drawing for CAD"), unit && `1 : 1, ${/in|ft/.test(unit) ? "in" : "mm"}`, served("DXF")),
-          group(t("Simulation"), t("URDF for ROS"), served("MuJoCo", "mjcf"), served("URDF")),
+          group(t("Simulation"), "", served("MuJoCo", "mjcf"), served("URDF")),
         ]
       : []),
     group(

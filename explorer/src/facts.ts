@@ -67,14 +67,16 @@ export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap:
     const name = record?.inLine ? t("Dead centres") : t("Turns back at");
     facts.push({ name, text: places.map((value) => driveText(linkage, value, 4)).join(", ") });
   }
-  if (linkage.drive) {
+  for (const [k, drive] of model.drives.entries()) {
+    const here = k === linkage.active;
+    const [low, high] = (here ? [cycle.low, cycle.high] : model.span.stops?.[k]) ?? [];
+    if (low === undefined) continue;
     const full = cycle.turns === 1 ? t("full turns") : t("full turns, repeats after {turns}", { turns: cycle.turns });
     // that of a slide is rounded, which may leave 4e-14
-    const low = linkage.drive.turning
-      ? angle(cycle.low)
-      : number(Math.abs(cycle.low) < linkage.sizes.near ? 0 : cycle.low);
-    const part = `${low} … ${driveText(linkage, cycle.high, 4).replace(" ", "\u00a0")}`;
-    facts.push({ name: t("Range of the drive"), text: cycle.full ? full : part });
+    const from = drive.turning ? angle(low) : number(Math.abs(low) < linkage.sizes.near ? 0 : low);
+    const part = `${from} … ${driveText({ drive, model }, high!, 4).replace(" ", "\u00a0")}`;
+    const name = t("Range of the drive") + (model.drives[1] ? ` ${linkage.jointName(drive.name)}` : "");
+    facts.push({ name, text: here && cycle.full ? full : part });
   }
   for (const { name, text } of readingsOf(linkage)) facts.push({ name, text });
   return facts;

@@ -21,15 +21,15 @@ export function fromBase64(text: string): Uint8Array<ArrayBuffer> {
 /** The bytes that `written` of build.mjs made a text of. */
 export function bytesOf(text: string): Uint8Array<ArrayBuffer> {
   const out: number[] = [];
-  for (let at = 0; at < text.length; at += 22) {
-    const signs = [...text.slice(at, at + 22)];
+  for (let at = 0; at < text.length; at += 112) {
+    const signs = [...text.slice(at, at + 112)];
     let value = 0n;
     for (const sign of signs) {
       const code = sign.charCodeAt(0);
       const skipped = [0, 10, 13, 34, 60, 92].filter((one) => one < code).length;
       value = 122n * value + BigInt(code - skipped);
     }
-    const hex = value.toString(16).padStart(2 * signs.length - 6, "0");
+    const hex = value.toString(16).padStart(2 * signs.length - 30, "0");
     out.push(...hex.match(/../g)!.map((pair) => Number(`0x${pair}`)));
   }
   return Uint8Array.from(out);

@@ -14,7 +14,7 @@ import { Scene } from "./scene";
 import { linesOf } from "./shapes";
 import { stageButton, zoomButtons } from "./shell";
 import { ownColour, type Shown } from "./shown";
-import { type Box, Viewport } from "./viewport";
+import { type Box, Extent, Viewport } from "./viewport";
 
 /** What a style sheet says of an element, and a file on its own must. */
 const STYLES =
@@ -253,14 +253,8 @@ export class Stage implements Board {
 function reachOf(linkage: Linkage): Box {
   const { model, sizes } = linkage;
   const { rows, values } = linkage.cycle;
-  const box: Box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
-  const add = ([x, y]: Pair, room = 0) => {
-    if (!Number.isFinite(x) || !Number.isFinite(y)) return;
-    box.left = Math.min(box.left, x - room);
-    box.right = Math.max(box.right, x + room);
-    box.bottom = Math.min(box.bottom, y - room);
-    box.top = Math.max(box.top, y + room);
-  };
+  const box = new Extent();
+  const add = (at: Pair, room?: number) => box.add(at, room);
   for (const [x, y] of linkage.beside.targets ?? []) add([x, y]);
   const { rods } = new Bodies(linkage, Infinity);
   const step = Math.max(1, Math.floor(values.length / 90));

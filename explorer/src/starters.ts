@@ -6,9 +6,8 @@ import { away } from "./hull";
 import { t } from "./language";
 import type { Linkage } from "./linkage";
 import { outlineOf } from "./plane";
-import type { Pair } from "./rows";
 import { drawingOf } from "./taken";
-import { type Box, Viewport } from "./viewport";
+import { type Box, Extent, Viewport } from "./viewport";
 
 const WIDE = 104; // pixels of a card's picture
 const HIGH = 58;
@@ -37,16 +36,10 @@ const SIX_BAR = `${FOUR_BAR}/92 32 34/150 42 45/150 0 f5`;
 
 /** Where knots lie, and wheels about them. */
 export function extentOf({ knots }: Drawing): Box {
-  const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
-  const add = ([x, y]: Pair, room = 0) => {
-    box.left = Math.min(box.left, x - room);
-    box.right = Math.max(box.right, x + room);
-    box.bottom = Math.min(box.bottom, y - room);
-    box.top = Math.max(box.top, y + room);
-  };
+  const box = new Extent();
   for (const { at, between, part } of knots) {
-    add(at);
-    for (const centre of between ?? []) add(centre, part === undefined ? 0 : away(at, ...centre));
+    box.add(at);
+    for (const centre of between ?? []) box.add(centre, part === undefined ? 0 : away(at, ...centre));
   }
   return box;
 }

@@ -10,6 +10,23 @@ export interface Box {
   top: number;
 }
 
+/** The rectangle about places that are added one by one. */
+export class Extent implements Box {
+  left = Infinity;
+  right = -Infinity;
+  bottom = Infinity;
+  top = -Infinity;
+
+  /** A place, with some room about it; it may be nowhere. */
+  add([x, y]: Pair, room = 0): void {
+    if (!Number.isFinite(x + y)) return;
+    this.left = Math.min(this.left, x - room);
+    this.right = Math.max(this.right, x + room);
+    this.bottom = Math.min(this.bottom, y - room);
+    this.top = Math.max(this.top, y + room);
+  }
+}
+
 export class Viewport {
   /** In pixels. */
   width = 1;

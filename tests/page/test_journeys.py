@@ -148,7 +148,6 @@ def test_three_positions_are_designed(reader):
     everyone, *names = kinds.locator("option").all_inner_texts()
     counts = [total, *(int(name.split()[-1]) for name in names)]
     assert not any(letter.isdigit() for letter in everyone)  # that is said above
-    assert counts[1:] == sorted(counts[1:], reverse=True)
     assert counts[0] == sum(counts[1:]) > counts[1]
     cards = reader.page.locator('[data-list="designs"] .card')
     everything = reader.page.locator(".designs .card")  # those much like others, too

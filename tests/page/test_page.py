@@ -291,6 +291,17 @@ def test_a_ring_is_filled_between_its_lines(tab, single_file):
     assert filled == [False, True, "evenodd", True]
 
 
+def test_machines_with_the_word_in_their_name_come_first(tab, server):
+    """The other description alone has it: Hart's inversor was first for Peaucellier."""
+    page = tab().open(server.address)
+    page.page.click('[data-view="catalog"]')
+    for words, ids in (("peaucellier", ["peaucellier", "hart"]), ("slotted lever", ["kurbelschleife", "conchoid"])):
+        page.page.locator('[data-field="words"]').fill(words)
+        page.until(f"gruebler.root.querySelector('[data-list=catalog] .card').dataset.id === '{ids[0]}'")
+        shown = page.page.locator('[data-list="catalog"] .card').evaluate_all("all => all.map((one) => one.dataset.id)")
+        assert shown[:2] == ids
+
+
 def test_the_catalog_and_the_exercises(tab, server):
     page = tab(locale="de-DE").open(server.address)
     view = page.page

@@ -230,7 +230,7 @@ export class SpaceView implements Driven {
       ...(data.asks ? [group(t("For others"), "", ...made("html"))] : []),
       group(t("Picture"), "", button("png", png)),
       group(words.bodied!, data.asks ? words.bodies! : words.stl!, button("stl", stl), ...made("glb", "glTF")),
-      ...(data.asks ? [group(t("Simulation"), t("URDF for ROS"), ...made("urdf"))] : [h("p.note", {}, words.convert)]),
+      ...(data.asks ? [group(t("Simulation"), "", ...made("urdf"))] : [h("p.note", {}, words.convert)]),
     );
     dialog.querySelector("h2")!.after(told);
     dialog.dataset.panel = "export";

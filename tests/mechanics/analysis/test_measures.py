@@ -207,6 +207,17 @@ def test_dead_centres_are_those_of_crank_and_coupler_in_line() -> None:
     assert "Turning counter-clockwise, the way back is the quick one." in ram.explain()  # it is a quick return
 
 
+def test_points_of_a_link_that_does_not_turn_travel() -> None:
+    """The blade of the wiper goes as the pins of the rockers that carry it: a chord of their swing."""
+    linkage = catalog.entry("wiper").linkage()
+    blade, rocker = measures(linkage), measures(linkage, output="rocker2")
+    arm = math.hypot(20, 120)  # from (320, 0) to (300, 120), in the file
+    assert rocker.travel is not None
+    assert blade.shift == pytest.approx(2 * arm * math.sin(rocker.travel / 2), rel=1e-3)
+    assert "The output blade does not turn; its points travel 120 mm." in blade.explain()
+    assert rocker.shift == 0
+
+
 def test_equal_dwells_are_said_once() -> None:
     """A Geneva drive of four slots moves for (4 - 2)/(2 4) of a turn: 90 degrees of 360 (any book on mechanisms)."""
     words = measures(catalog.entry("geneva").linkage()).explain().splitlines()

@@ -148,6 +148,8 @@ class Measures:
     """Where the output rests, behind a cam or a Geneva drive."""
     output_turns: int
     travel: float | None
+    shift: float
+    """How far apart the places of a point of the output are at most, if it only travels: alike for all; else 0."""
     change_points: tuple[ChangePoint, ...]
     change_points_error: LinkageError | None
     """Why those of larger groups are not known; None if they are."""
@@ -299,7 +301,9 @@ class Measures:
         yield from self.span.lines()
         ratio = self.transfer.ratio if self.transfer.uniform else None
         name, turns = self.output.name, self.output_turns
-        yield from output_lines(units, name, still=self.transfer.still, ratio=ratio, turns=turns, travel=self.travel)
+        yield from output_lines(
+            units, name, still=self.transfer.still, ratio=ratio, turns=turns, travel=self.travel, shift=self.shift
+        )
         if self.lifted_by_cam and self.inner is not None:
             least = self.inner.output
             yield from (lift_message(units, centre, least) for centre in self.dead_centres)
@@ -402,6 +406,7 @@ def measures_of(cycle: DriveCycle, linkage: Linkage, looked_at: Output, speed: f
         transmission = measure_transmission(cycle, looked_at)
     except NoTransmissionAngleError as error:
         transmission, transmission_error = None, error
+    transfer = _transfer(cycle, looked_at)
     return Measures(
         linkage=linkage,
         output=looked_at,
@@ -417,9 +422,10 @@ def measures_of(cycle: DriveCycle, linkage: Linkage, looked_at: Output, speed: f
         travel=None
         if turns
         else _travel(cycle, looked_at, [*(c.output for c in centres), *(r.output for r in rests), *(ends or ())]),
+        shift=_shift(cycle, looked_at) if transfer.still and looked_at.turning else 0.0,
         change_points=changes,
         change_points_error=changes_error,
-        transfer=_transfer(cycle, looked_at),
+        transfer=transfer,
         transmission=transmission,
         transmission_error=transmission_error,
         cams=cam_contours(linkage),
@@ -442,6 +448,13 @@ def _travel(cycle: DriveCycle, output: Output, values: list[float]) -> float:
         least = _STILL * (1.0 if output.turning else cycle.size)
         return float(np.ptp(track)) if np.ptp(track) > least else 0.0
     return max(values) - min(values)
+
+
+def _shift(cycle: DriveCycle, output: Output) -> float:
+    """How far apart the places of the output's origin are, in the grid."""
+    path = cycle.at(cycle.grid, 0).places[0, :, cycle.start.link_index(output.link)]
+    apart = float(np.abs(path[:, None] - path).max())
+    return apart if apart > _STILL * cycle.size else 0.0
 
 
 def _transfer(cycle: DriveCycle, output: Output) -> Transfer:

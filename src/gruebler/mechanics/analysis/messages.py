@@ -37,10 +37,14 @@ _EQUAL_DWELLS = message("Dwells of {duration} each, from {begins}: at {outputs}.
 
 
 def output_lines(
-    units: MeasureUnits, name: str, *, still: bool, ratio: float | None, turns: int, travel: float | None
+    units: MeasureUnits, name: str, *, still: bool, ratio: float | None, turns: int, travel: float | None, shift: float
 ) -> Iterator[Message]:
     """How the output moves: its ratio if that is constant, else its turns or its travel."""
-    if still and units.turning_output:
+    if still and shift:
+        yield message(
+            "The output {name} does not turn; its points travel {shift}.", name=name, shift=units.length(shift)
+        )
+    elif still and units.turning_output:
         yield message("The output {name} does not turn.", name=name)
     elif still:
         yield message("The output {name} does not move.", name=name)
