@@ -5,6 +5,7 @@ import { readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import zopfli from "@gfx/zopfli";
+import { parse as acorn } from "acorn";
 import { build } from "esbuild";
 import { minify } from "terser";
 
@@ -86,7 +87,7 @@ const packed = {
     // all of one language, then all of the other: what is alike stands nearer
     onLoad({ filter: /\bde\.json$/ }, async () => {
       const lines = [...texts, ...texts.map((one) => german[one])].join("\n");
-      const text = `await textOf(${standIn(await zopfli.gzipAsync(Buffer.from(lines), {}))})`;
+      const text = `await textOf(${standIn(await zopfli.gzipAsync(Buffer.from(lines), { numiterations: 60 }))})`;
       const table = `all.splice(0, ${texts.length}).map((text, k) => [text, all[k]])`;
       const contents = `import { textOf } from "./packed";
         const all = (${text}).split("\\n");
@@ -173,11 +174,30 @@ function shared(code) {
   return long.length ? `const ${long.map((text) => `${name(text)}=${text}`).join()};${made}` : code;
 }
 
+/** Functions of the module as arrows, `function f(x) {}` as `f = (x) => {}`, before all else: they are as early there.
+ * Those with a `this` of their own and generators stay. */
+function arrowed(code) {
+  const { body } = acorn(code, { ecmaVersion: 2022, sourceType: "module" });
+  const text = ({ start, end }) => code.slice(start, end);
+  const bound = (node) =>
+    node?.type === "ThisExpression" ||
+    (node?.type === "Identifier" && node.name === "arguments") ||
+    (typeof node === "object" && node?.type !== "ClassBody" && Object.values(node ?? {}).some(bound));
+  const made = (node) => node.type === "FunctionDeclaration" && !node.generator && !bound(node);
+  const arrows = body
+    .filter(made)
+    .map(
+      ({ async, id, params, body: does }) => `${id.name}=${async ? "async" : ""}(${params.map(text)})=>${text(does)}`,
+    );
+  const rest = body.filter((node) => !made(node)).map(text);
+  return (arrows.length ? `const ${arrows};` : "") + rest.join("\n");
+}
+
 /** What the bundler leaves: statements joined, functions called once put where they are called. Functions without
  * `this` become arrows. */
 const SMALLER = {
   module: true,
-  compress: { ecma: 2020, passes: 3, unsafe_arrows: true },
+  compress: { ecma: 2020, passes: 6, pure_getters: true, unsafe: true, unsafe_arrows: true },
 };
 
 const { outputFiles } = await build({
@@ -201,7 +221,7 @@ const { outputFiles } = await build({
   write: false,
 });
 for (const { path: file, text } of outputFiles) {
-  const { code } = await minify(shared(text), SMALLER);
+  const { code } = await minify(shared(arrowed(text)), SMALLER);
   await writeFile(
     file,
     code.replace(/"packed (\d+)"/g, (_, number) => `"${kept[number]}"`),

@@ -2,8 +2,8 @@
 
 import { svg } from "./dom";
 import { degreeStep, gridStep } from "./grid";
+import { SUPPORT } from "./ground";
 import { number } from "./language";
-import { SUPPORT } from "./scene";
 import type { Box } from "./viewport";
 
 export const MARK = 3.2; // pixels that a mark has for each of its units
@@ -70,12 +70,17 @@ export function gridOf(
   return [...lines, ...ticks];
 }
 
-/** A mark of the stage in pixels, at a place of the plane in which units of marks are so long. */
-export function mark(name: string, d: string, [x, y]: readonly number[], unit: number): SVGPathElement {
-  return svg("path", { class: name, d, transform: `translate(${x} ${-y!}) scale(${unit / MARK})` });
+/** A mark of the stage in pixels, at a place of the plane in which units of marks are so long; turned by degrees. */
+export function mark(name: string, d: string, place: readonly number[], unit: number, turn = 0): SVGPathElement {
+  return svg("path", { class: name, d, transform: markPlace(place, unit, turn) });
+}
+
+/** Where it is. */
+export function markPlace([x, y]: readonly number[], unit: number, turn: number): string {
+  return `translate(${x} ${-y!}) scale(${unit / MARK}) rotate(${turn})`;
 }
 
 /** A joint of the frame. */
-export function groundMark(place: readonly number[], unit: number): SVGPathElement {
-  return mark("support", SUPPORT, place, unit);
+export function groundMark(place: readonly number[], unit: number, turn = 0): SVGPathElement {
+  return mark("support", SUPPORT, place, unit, turn);
 }

@@ -1,7 +1,8 @@
 /** The bodies of links in SVG: bars and plates, rails and blocks, cylinders. */
 
 import { DEGREE } from "./cycle";
-import { away, convexHull } from "./hull";
+import { BOX, HATCH, RAIL, railOf } from "./ground";
+import { away, convexHull, middleOf, pathThrough } from "./hull";
 import type { Linkage } from "./linkage";
 import { direction, type Pair } from "./rows";
 import { linesOf } from "./shapes";
@@ -21,7 +22,10 @@ type Drawn = [tag: "circle" | "path" | "rect", attributes: Record<string, string
 
 const SLOT = ["slot-outline", "slot"];
 const ROD = ["rod-outline", "rod"];
+const SLOT_SIDE = 9; // pixels from the middle of a pin to the rail beside it
 const STROKE = 1.75; // of a cylinder drawn out to drawn in: barrel and rod have room in each other
+const ROOM = 26; // pixels that a bar or a rail reaches beyond the middle of a block
+const BEYOND = 1.2; // the same for a shape, in halves of its length
 const FEW_ROWS = 60; // of a cycle: enough for its extent
 
 export class Bodies {
@@ -31,6 +35,9 @@ export class Bodies {
   readonly #scale: number;
   /** Of links that are a barrel or a rod the path of it in the pose that is shown. */
   readonly stretched = new Map<number, () => string>();
+
+  /** The ends of the rails that were drawn, in pixels from the origin of the frame. */
+  readonly rails: Pair[][] = [];
 
   constructor(linkage: Linkage, scale: number) {
     this.#linkage = linkage;
@@ -44,26 +51,45 @@ export class Bodies {
     if (link >= model.own) return [];
     const out = this.#shapesOf(link);
     const nodes: Pair[] = [];
+    const guides: number[] = [];
     const mine = sizes.elementsOn(link);
     for (const k of mine) {
       if (sizes.is(k, "pin")) nodes.push(sizes.xy(k));
-      else if (sizes.is(k, "line")) this.#addLine(k, out, nodes);
+      else if (sizes.is(k, "line") && this.#addLine(k, out, nodes)) guides.push(k);
     }
     if (link === model.frame) return out;
     for (const point of sizes.points) if (point.link === link) nodes.push(point.at);
     for (const k of mine) if (sizes.is(k, "round")) nodes.push(sizes.xy(k));
+    // a guide is joined to the rest where it is nearest
+    for (const k of guides) {
+      const { x, y, c, s, low, high } = this.#bands.get(k)!;
+      const [u, v] = middleOf(nodes);
+      const room = ROOM / this.#scale;
+      const way = Math.min(Math.max(c * (u - x) + s * (v - y), low - room), high + room);
+      nodes.push([x + c * way, y + s * way]);
+    }
     const hull = convexHull(nodes);
     if (hull.length > 1) {
       const closed = hull.length > 2;
-      const d = hull.map(([x, y], k) => `${k ? "L" : "M"}${this.#place(x, y)}`).join("") + (closed ? "Z" : "");
+      const d = this.#through(hull) + (closed ? "Z" : "");
       const wide = closed ? " plate" : "";
       out.unshift(["path", { class: `outline${wide}`, d }], ["path", { class: `bar${wide}`, d }]);
     }
-    return out;
+    // a plate and its rod are one body
+    const outlined = ([, { class: name }]: Drawn) => +/outline/.test(String(name));
+    return out.sort((one, other) => outlined(other) - outlined(one));
   }
 
   #px(value: number): string {
     return (value * this.#scale).toFixed(2);
+  }
+
+  #through(places: readonly Pair[]): string {
+    return pathThrough(this.#pixels(places));
+  }
+
+  #pixels(places: readonly Pair[]): Pair[] {
+    return places.map(([x, y]) => [x * this.#scale, -y * this.#scale]);
   }
 
   #place(x: number, y: number): string {
@@ -91,33 +117,54 @@ export class Bodies {
     return out;
   }
 
-  /** Draw the line of a slide: a cylinder, a rail, a bar or a block; add the places that the body reaches to. */
-  #addLine(k: number, out: Drawn[], nodes: Pair[]): void {
+  /** Draw the line of a slide: a cylinder, rails, a bar or a block; add the places that the body reaches to. Returns
+   * whether it is the bar of a link that moves. */
+  #addLine(k: number, out: Drawn[], nodes: Pair[]): boolean {
     const { model, sizes } = this.#linkage;
     const { link } = sizes.element(k);
     const cylinder = this.#cylinder(k);
     if (cylinder) {
       out.push(...cylinder);
-      return;
+      return false;
     }
     const ends = this.#ends(k);
     if (!ends) {
       const here = sizes.xy(k);
+      nodes.push(here);
+      if (this.#sliding(k)) return false; // it has a shape of its own
       const turn = `rotate(${-sizes.angles[k]! / DEGREE})`;
       const transform = `translate(${this.#place(...here)}) ${turn}`;
-      out.push(["rect", { class: "block", x: -15, y: -9, width: 30, height: 18, rx: 3, transform }]);
-      nodes.push(here);
-      return;
+      out.push(["path", { class: "block", d: BOX, transform }]);
+      return false;
     }
-    const d = `M${ends.map((at) => this.#place(...at)).join("L")}`;
     const frame = link === model.frame;
-    let styles = this.#pinned(k) ? SLOT : ROD;
-    if (frame) styles = ["rail", "rail-hatch"];
-    for (const style of styles) out.push(["path", { class: style, d }]);
-    if (frame || this.#pinsAlong(k).length) return;
-    const { x, y, c, s, low, high } = this.#bands.get(k)!;
-    const middle = (low + high) / 2;
-    nodes.push([x + c * middle, y + s * middle]);
+    if (frame) out.push(...this.#rails(k, ends));
+    else for (const style of this.#pinned(k) ? SLOT : ROD) out.push(this.#stroke(style, ends));
+    return !frame;
+  }
+
+  /** Rails of the frame: a block stands on one, so that what is hinged to it swings freely; between two go pins, and
+   * blocks with a shape of their own. */
+  #rails(k: number, ends: [Pair, Pair]): Drawn[] {
+    const [, wide] = this.#sliding(k) ?? [];
+    const block = this.#pinned(k) ? SLOT_SIDE : RAIL;
+    const half = wide ? wide * this.#scale + 2 : block;
+    const sides = half === RAIL ? [1] : [1, -1];
+    return sides.flatMap((side) => {
+      const [rail, hatch] = [half, half + HATCH].map((off) => railOf(ends, (side * off) / this.#scale));
+      this.rails.push(this.#pixels(rail!));
+      return [this.#stroke("rail", rail!), this.#stroke("rail-hatch", hatch!)];
+    });
+  }
+
+  /** Half the length and half the width of the shape that slides along a line; none of a block. */
+  #sliding(line: number): Pair | undefined {
+    const { model, sizes } = this.#linkage;
+    return model.joints[sizes.element(line).joint]!.sliding;
+  }
+
+  #stroke(name: string, ends: readonly Pair[]): Drawn {
+    return ["path", { class: name, d: this.#through(ends) }];
   }
 
   /** The ends of rods and slots that move, each with its link. */
@@ -135,40 +182,17 @@ export class Bodies {
     const { model, sizes } = this.#linkage;
     const { joint, link } = sizes.element(k);
     const frame = link === model.frame;
-    if (!frame && !this.#pinned(k) && !this.#carries(link, joint)) return null;
+    if (!frame && !this.#pinned(k) && model.joints[joint]!.guide !== link) return null;
     const { x, y, c, s, low, high } = this.#bands.get(k)!;
-    const room = 26 / this.#scale;
-    const ways = [low - room, high + room, ...(frame ? [] : this.#pinsAlong(k))];
-    return [Math.min(...ways), Math.max(...ways)].map((way) => [x + c * way, y + s * way]) as [Pair, Pair];
+    const [long = 0] = (frame && this.#sliding(k)) || [];
+    const room = BEYOND * long || ROOM / this.#scale;
+    return [low - room, high + room].map((way) => [x + c * way, y + s * way]) as [Pair, Pair];
   }
 
   /** Whether a pin slides along a line. */
   #pinned(line: number): boolean {
     const { sizes } = this.#linkage;
     return sizes.elementsOf(sizes.element(line).joint).some((m) => m !== line && sizes.is(m, "pin"));
-  }
-
-  /** Where along a line the pins of its link lie that are on it. */
-  #pinsAlong(line: number): number[] {
-    const { sizes } = this.#linkage;
-    const { x, y, c, s } = this.#bands.get(line)!;
-    return sizes
-      .elementsOn(sizes.element(line).link)
-      .filter((m) => sizes.is(m, "pin"))
-      .map((m) => sizes.xy(m))
-      .filter((at) => Math.abs(sizes.leftOf(line, ...at)) < 1e-6 * sizes.unit)
-      .map(([u, v]) => c * (u - x) + s * (v - y));
-  }
-
-  /** Whether of the two links of a slide this one has the bar: the frame, the one with more joints and points;
-   * of equal ones that which is not called a block, as in pictures of the library. */
-  #carries(link: number, joint: number): boolean {
-    const { model, sizes } = this.#linkage;
-    const [one, two] = model.joints[joint]!.links as Pair;
-    const called = (k: number) => /block|slider|piston|stein|kolben/i.test(model.links[k]!); // a block
-    const carried = (k: number) => sizes.elementsOn(k).length + sizes.points.filter((point) => point.link === k).length;
-    const rank = (k: number) => (k === model.frame ? 100 : 0) + 2 * carried(k) - Number(called(k));
-    return link === (rank(one) < rank(two) ? two : one);
   }
 
   /** A cylinder's barrel, or its rod, from its pin towards the other; null if the slide is no cylinder. */
@@ -186,7 +210,10 @@ export class Bodies {
       const [x, y] = sizes.xy(own);
       const [u, v] = linkage.toLocal(link, ...linkage.elementAt(other));
       const reach = Math.min(whole / (away([x, y], u, v) || 1), part); // drawn in farther than it can, it telescopes
-      return `M${this.#place(x, y)}L${this.#place(x + (u - x) * reach, y + (v - y) * reach)}`;
+      return this.#through([
+        [x, y],
+        [x + (u - x) * reach, y + (v - y) * reach],
+      ]);
     };
     this.stretched.set(link, path);
     return (barrel ? SLOT : ROD).map((style) => ["path", { class: style, d: path() }]);

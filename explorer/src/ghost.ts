@@ -1,10 +1,11 @@
 /** A design that plays over its targets: bodies of its links, and the curves of its points. */
 
-import { groundMark, mark } from "./area";
+import { groundMark, MARK, mark, markPlace } from "./area";
+import { DEGREE } from "./cycle";
 import { put, renew, svg, wantsStill } from "./dom";
+import { BOX, DRIVEN, HATCH, RAIL, railOf } from "./ground";
 import { away } from "./hull";
 import type { Pair } from "./rows";
-import { DRIVEN } from "./scene";
 
 const ARROW = "M0 0H14M12.2 -1.8L16.4 0L12.2 1.8Z"; // as those of targets
 const PACE = 48; // frames of a motion in a second
@@ -27,6 +28,8 @@ export interface Moving {
   drive?: number;
   /** It meets its targets in their order while its drive turns clockwise. */
   backward?: boolean;
+  /** How far the bearings of joints are turned, in degrees. */
+  bearings?: number[];
 }
 
 /** A line through places, of which y goes upward. */
@@ -58,20 +61,30 @@ export class Ghost {
   play(moving: Moving | null, unit: number, shown: (frame: number) => void): void {
     cancelAnimationFrame(this.#frame);
     if (!moving) return renew(this.element);
-    const { backward, drive, first: from = 0, frames, joints, points, rails = [], turns } = moving;
-    const members = [...moving.members].sort((one, other) => other.length - one.length); // plates lie below bars
+    const { backward, bearings = [], drive, first: from = 0, frames, joints, points, rails = [], turns } = moving;
+    const count = moving.members.length - rails.length; // blocks of slides stand behind the links
+    const blocks = moving.members.slice(count);
+    const members = moving.members.slice(0, count).sort((one, other) => other.length - one.length); // plates below
     const [first] = frames as [Pair[]];
     const curves = first
       .slice(joints, points && joints + points)
       .map((_, k) => svg("path.curve", { d: `${pathOf(frames.map((frame) => frame[joints + k]!))}Z` }));
     const pins = first.slice(0, joints).map(() => svg("circle.joint", { r: 1.5 * unit }));
     const still = (k: number) => frames.every((frame) => away(frame[k]!, ...first[k]!) < 1e-3 * unit);
-    const grounds = pins.flatMap((_, k) => (still(k) ? [groundMark(first[k]!, unit)] : []));
-    const hatched = (k: number) => (still(k) ? ["rail", "rail-hatch"] : ["rail"]).map((name) => svg(`path.${name}`));
-    const bodies = [...rails.map(([end]) => hatched(end!)), ...bodiesOf(members)];
-    const driven = drive === undefined ? [] : [mark("driven", DRIVEN, first[drive]!, unit)];
+    const grounds = pins.flatMap((_, k) => (still(k) ? [groundMark(first[k]!, unit, bearings[k])] : []));
+    // a block stands on its rail of the frame, a rod goes through it
+    const guides = rails.map((ends) => {
+      const rail = still(ends[0]!);
+      const names = rail ? ["rail", "rail-hatch"] : ["rod-outline", "rod"];
+      return { ends, far: rail ? [RAIL, RAIL + HATCH] : [0, 0], paths: names.map((name) => svg(`path.${name}`)) };
+    });
+    const bodies = bodiesOf(members);
+    const boxes = blocks.map(() => mark("block", BOX, [0, 0], unit));
+    const driven = drive === undefined ? [] : [mark("driven", DRIVEN, first[drive]!, unit, bearings[drive])];
     if (backward) for (const one of driven) put(one, { transform: `${one.getAttribute("transform")} scale(-1 1)` });
-    renew(this.element, ...bodies.flat(), ...grounds, ...curves, ...pins, ...driven); // plates cover no curve
+    // neither plates nor rods cover a curve
+    const under = [...guides.map(({ paths }) => paths), ...bodies].flat();
+    renew(this.element, ...under, ...boxes, ...grounds, ...curves, ...pins, ...driven);
     const arrow = svg("path.curve", { d: ARROW });
     if (turns) this.element.append(arrow);
     const calm = wantsStill();
@@ -80,7 +93,15 @@ export class Ghost {
       const gone = Math.floor((Math.max(0, now - begun) / 1000) * PACE) % frames.length;
       const frame = (from + (backward ? frames.length - gone : gone)) % frames.length;
       const places = frames[frame]!;
-      putBodies(bodies, [...rails, ...members], places);
+      putBodies(bodies, members, places);
+      for (const { ends, far, paths } of guides) {
+        const line = ends.map((k) => places[k]!) as [Pair, Pair];
+        for (const [k, path] of paths.entries()) put(path, { d: pathOf(railOf(line, (far[k]! * unit) / MARK)) });
+      }
+      for (const [k, box] of boxes.entries()) {
+        const [[x, y], [u, v]] = blocks[k]!.map((end) => places[end]!) as [Pair, Pair];
+        put(box, { transform: markPlace([(x + u) / 2, (y + v) / 2], unit, Math.atan2(y - v, u - x) / DEGREE) });
+      }
       for (const [k, pin] of pins.entries()) put(pin, { cx: places[k]![0], cy: -places[k]![1] });
       const [x, y] = places[joints] ?? [];
       if (turns) put(arrow, { transform: `translate(${x} ${-y!}) scale(${unit}) rotate(${-turns[frame]!})` });

@@ -97,3 +97,8 @@ export function nearest<Item>(items: readonly Item[], reach: number, far: (item:
   }
   return best;
 }
+
+/** A path through places in pixels. */
+export function pathThrough(places: readonly Pair[]): string {
+  return places.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
+}

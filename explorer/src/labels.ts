@@ -101,24 +101,6 @@ export function labelsOf(linkage: Linkage): Label[] {
   return [...letters, ...names, ...marks];
 }
 
-/** From the arrow of a drive to the hatching of a ground. */
-export function standing([x, y]: Pair): Pair[] {
-  return [
-    [x, y - 14],
-    [x + 17, y + 23],
-    [x - 17, y + 23],
-  ];
-}
-
-/** The arrow of a drive but for its head, beside which a letter has room. */
-export function driving([x, y]: Pair): Pair[] {
-  return [
-    [x - 8, y - 6],
-    [x - 7, y - 13],
-    [x + 9, y - 11],
-  ];
-}
-
 /** Whether a name keeps clear of an arrow. */
 export function clearOf(one: readonly Pair[], half: number, [x, y]: Pair): boolean {
   return [-half, 0, half].every((d) => !(toHull(one, x + d, y - 4) < INK));

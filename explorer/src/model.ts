@@ -110,7 +110,10 @@ export interface Model {
   own: number;
   frame: number;
   unit: string;
-  joints: { name: string; pair: PairRecord; links: number[] }[];
+  /** Of a slide the link that is its guide, and half the length and half the width of a block with an outline. */
+  joints: { name: string; pair: PairRecord; links: number[]; guide?: number; sliding?: [number, number] }[];
+  /** How far the bearings of joints are turned from standing below, in degrees. */
+  bearings: number[];
   elements: ElementRecord[];
   points: PointRecord[];
   drives: DriveRecord[];

@@ -16,12 +16,11 @@ import {
   unitOf,
 } from "./drawing";
 import { gridOf } from "./grid";
-import { away, clearAbout, convexHull, nearest, onLine, toHull } from "./hull";
-import { driving } from "./labels";
+import { BOX, DRIVEN, DRIVING, HATCH, placed, RAIL, SUPPORT } from "./ground";
+import { away, clearAbout, convexHull, nearest, onLine, pathThrough, toHull } from "./hull";
 import { angle, number, spaced } from "./language";
 import { clearSpot, halfOf, namePlace, nameSpots } from "./names";
 import type { Pair } from "./rows";
-import { DRIVEN, SUPPORT } from "./scene";
 import { guidelines, snapped } from "./snapping";
 import type { Viewport } from "./viewport";
 
@@ -87,23 +86,41 @@ export function spotAt(
   return { at: [u, v], knot: null, link: link ?? null };
 }
 
-/** The picture of all of it, with the spots that are put already and the place of the cursor. */
-export function planePicture(plane: Plane): SVGElement[] {
-  const { aim, chosen, cursor, drawing, spots, viewport } = plane;
+type Drawn = Pick<Plane, "drawing" | "viewport" | "chosen">;
+
+/** The links that move, in the order in which they lie upon each other. */
+function bodiesOf(plane: Drawn): string[] {
+  const { drawing } = plane;
   const reach = (link: string) => drawing.knots.filter((knot) => knot.links.includes(link)).length;
   // plates first; a bar with a joint between others goes on over these
   const rank = (link: string) => (outlineOf(plane, link)[2] ? 0 : 99) + reach(link);
   const bodies = linksOf(drawing).filter((link) => link !== drawing.frame);
-  bodies.sort((one, other) => rank(one) - rank(other));
-  const path = (corners: readonly Pair[]) =>
-    corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
-  const hulls = bodies.map((link) => outlineOf(plane, link));
-  const arrows = drawing.drives.map((k) => driving(viewport.screen(...drawing.knots[k]!.at)));
-  const letters = lettersOf(plane, [...hulls, ...arrows]);
-  const links = bodies.flatMap((link, k) => {
-    const hull = hulls[k]!;
+  return bodies.sort((one, other) => rank(one) - rank(other));
+}
+
+/** Links and joints, with the signs of the frame. */
+export function mechanismPicture(plane: Drawn): SVGElement[] {
+  const { chosen, drawing } = plane;
+  const links = bodiesOf(plane).flatMap((link) => {
+    const hull = outlineOf(plane, link);
     const mark = chosen?.link === link ? " chosen" : "";
-    const d = path(hull) + (hull.length > 2 ? "Z" : "");
+    const d = pathThrough(hull) + (hull.length > 2 ? "Z" : "");
+    return [svg("path", { class: `outline${mark}`, d, "data-link": link }), svg("path.bar", { d })];
+  });
+  const knots = drawing.knots.map((knot, k) => knotElement(plane, k, knot.at));
+  const pins = (wanted: boolean) => knots.filter((_, k) => isPin(drawing.knots[k]!) === wanted);
+  return [...pins(false), ...links, ...pins(true)];
+}
+
+/** The picture of all of it, with the spots that are put already and the place of the cursor. */
+export function planePicture(plane: Plane): SVGElement[] {
+  const { aim, chosen, cursor, drawing, spots, viewport } = plane;
+  const bodies = bodiesOf(plane);
+  const hulls = bodies.map((link) => outlineOf(plane, link));
+  const arrows = drawing.drives.map((k) => placed(DRIVING, viewport.screen(...drawing.knots[k]!.at)));
+  const letters = lettersOf(plane, [...hulls, ...arrows]);
+  const names = bodies.map((link, k) => {
+    const hull = hulls[k]!;
     const joints = drawing.knots.filter((knot) => knot.links.includes(link)).map(({ at }) => at);
     const name = spaced(link);
     const places = nameSpots(viewport, namePlace(joints, [], name, viewport.scale), name);
@@ -112,10 +129,8 @@ export function planePicture(plane: Plane): SVGElement[] {
       letters.every(({ at: [u, v], name: letter }) => {
         return Math.abs(v - spot[1]) > 14 || Math.abs(u - spot[0]) > 8 + halfOf(name) + halfOf(letter);
       });
-    const [x, y] = places[clearSpot(places, name, [hull, others], free)]!;
-    return [svg("path", { class: `outline${mark}`, d, "data-link": link }), svg("path.bar", { d }), text(name, [x, y])];
+    return text(name, places[clearSpot(places, name, [hull, others], free)]!);
   });
-  const knots = drawing.knots.map((knot, k) => knotElement(plane, k, knot.at));
   const waiting = [...spots.map(({ at }) => at), ...(aim === "away" ? [] : [cursor])].map((at) =>
     viewport.screen(...at),
   );
@@ -131,12 +146,11 @@ export function planePicture(plane: Plane): SVGElement[] {
   return [
     ...behind,
     ...gridOf(viewport, unitOf(drawing)),
-    svg("path.guide", { d: guides.map((ends) => path(ends.map((at) => viewport.screen(...at)))).join("") }),
-    ...knots.filter((_, k) => !isPin(drawing.knots[k]!)),
-    ...links,
-    ...knots.filter((_, k) => isPin(drawing.knots[k]!)),
+    svg("path.guide", { d: guides.map((ends) => pathThrough(ends.map((at) => viewport.screen(...at)))).join("") }),
+    ...mechanismPicture(plane),
+    ...names,
     ...letters.map(({ at, name }) => text(name, at)),
-    ...(waiting.length > 1 ? [svg("path.pending", { d: path(waiting) })] : []),
+    ...(waiting.length > 1 ? [svg("path.pending", { d: pathThrough(waiting) })] : []),
     svg("text.tick", { x: cx + 12, y: cy + 18 }, read),
     ...(picture && isPicture(chosen) ? grips(plane, picture) : []),
     svg("path.crosshair", { d: waiting.map(([x, y]) => `M${x - 7} ${y}h14M${x} ${y - 7}v14`).join("") }),
@@ -207,7 +221,7 @@ function rimsOf({ at, between, part }: Knot, viewport: Viewport): Pair[][] {
 function grips({ viewport }: Plane, picture: Backdrop): SVGElement[] {
   const edge = cornersOf(picture).map((at) => viewport.screen(...at));
   return [
-    svg("path.edge", { d: `M${edge.join("L")}Z` }),
+    svg("path.edge", { d: `${pathThrough(edge)}Z` }),
     ...Object.entries(gripsOf(picture)).map(([grip, at]) => {
       const [cx, cy] = viewport.screen(...at);
       return svg("circle.grip", { cx, cy, r: 8, "data-grip": grip });
@@ -230,7 +244,7 @@ function alongEnds({ between, part }: Knot, scale: number): SVGElement {
   return turned;
 }
 
-function knotElement({ chosen, drawing, viewport }: Plane, k: number, at: Pair): SVGElement {
+function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair): SVGElement {
   const { between, links, slide } = drawing.knots[k]!;
   const [x, y] = viewport.screen(...at);
   const classes = ["pin", "free"];
@@ -244,8 +258,8 @@ function knotElement({ chosen, drawing, viewport }: Plane, k: number, at: Pair):
   if (between) element.append(alongEnds(drawing.knots[k]!, viewport.scale));
   else if (slide !== undefined) {
     const turned = svg("g", { transform: `rotate(${-slide})` });
-    turned.append(svg("path.rail", { d: "M-46 10H46" }), svg("path.rail-hatch", { d: "M-46 15H46" }));
-    turned.append(svg("rect.block", { x: -15, y: -9, width: 30, height: 18, rx: 3 }));
+    turned.append(svg("path.rail", { d: `M-46 ${RAIL}H46` }), svg("path.rail-hatch", { d: `M-46 ${RAIL + HATCH}H46` }));
+    turned.append(svg("path.block", { d: BOX }));
     element.append(turned);
   } else if (ground) element.append(svg("path.support", { d: SUPPORT }));
   if (slide === undefined && !between) element.append(svg("circle.joint", { r: links.length > 1 || ground ? 5 : 3.2 }));

@@ -4,8 +4,9 @@ import { backdropElement, putBackdrop } from "./backdrop";
 import { Bodies } from "./bodies";
 import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
-import { clearAbout, convexHull, middleOf, sidesOf, toHull } from "./hull";
-import { clearOf, driving, type Label, labelsOf, standing } from "./labels";
+import { DRIVEN, DRIVING, placed, STANDING, SUPPORT } from "./ground";
+import { clearAbout, convexHull, middleOf, pathThrough, sidesOf, toHull } from "./hull";
+import { clearOf, type Label, labelsOf } from "./labels";
 import { number as numberText } from "./language";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
@@ -17,9 +18,6 @@ import { springPath } from "./springs";
 import type { Viewport } from "./viewport";
 import { rateUnit } from "./wording";
 
-export const SUPPORT = "M0 0 L-11 17 H11 Z M-17 17 H17 M-14 23 l5 -6 M-5 23 l5 -6 M4 23 l5 -6 M13 23 l4 -5";
-// Counter-clockwise, as a drive grows.
-export const DRIVEN = "M9.5 -9.5 A13.4 13.4 0 0 0 -12.5 -5 M-12.5 -5 l6 -1.5 M-12.5 -5 l-0.6 -6";
 const LONGEST_ARROW = 90; // pixels
 const LINE = 15; // pixels that names are apart
 const MOST_CLEAR = 40; // names that look for a place of their own in every picture
@@ -148,10 +146,13 @@ export class Scene {
       "aria-pressed": free ? String(held) : null,
       onkeydown: (event: KeyboardEvent) => this.keys.joint(event, number),
     });
-    if (ground) element.append(svg("path.support", { d: SUPPORT }));
+    const transform = `rotate(${model.bearings[number]})`;
+    if (ground) element.append(svg("path.support", { d: SUPPORT, transform }));
     element.append(svg("circle.halo", { r: 13 }), svg("circle.joint", { r: ground ? 5.5 : 4.6 }));
     if (model.drives.some((drive) => drive.joint === number))
-      element.append(svg("path.driven", { d: DRIVEN, transform: linkage.beside.backward ? "scale(-1 1)" : null }));
+      element.append(
+        svg("path.driven", { d: DRIVEN, transform: transform + (linkage.beside.backward ? " scale(-1 1)" : "") }),
+      );
     return element;
   }
 
@@ -163,17 +164,6 @@ export class Scene {
     this.#stretched = [];
     for (const [link, group] of this.#links.entries()) {
       const made = bodies.of(link);
-      if (link === frame)
-        this.#rails = made.flatMap(([, { class: name, d }]) =>
-          name === "rail"
-            ? [
-                String(d)
-                  .slice(1)
-                  .split("L")
-                  .map((at) => at.split(" ").map(Number) as Pair),
-              ]
-            : [],
-        );
       while (group.childElementCount > made.length) group.lastChild!.remove();
       made.forEach(([tag, attributes], k) => {
         const old = group.children[k];
@@ -187,10 +177,11 @@ export class Scene {
         for (const part of group.querySelectorAll<SVGElement>("[class^=slot],[class^=rod]"))
           this.#stretched.push([part, path]);
     }
+    this.#rails = bodies.rails;
     // plates first; a bar with a joint between others goes on over what ends there, a barrel over its rod
     const has = (link: number, what: string) => !!this.#links[link]!.querySelector(what);
     const rank = (link: number) =>
-      (has(link, ".plate") ? 0 : 99) +
+      (has(link, ".plate,.shape:not(.open)") ? 0 : 99) +
       linkage.sizes.elementsOn(link).length +
       +(bodies.stretched.has(link) && has(link, ".slot"));
     const order = [...this.#links.keys()]
@@ -215,7 +206,8 @@ export class Scene {
     });
     for (const [part, path] of this.#stretched) put(part, { d: path() });
     if (this.#backdrop && linkage.beside.picture) putBackdrop(this.#backdrop, linkage.beside.picture, viewport);
-    for (const { element, joint } of this.#pins) move(element, viewport.screen(...linkage.jointAt(joint)));
+    const pixels = (joint: number) => viewport.screen(...linkage.jointAt(joint));
+    for (const { element, joint } of this.#pins) move(element, pixels(joint));
     for (const { element, point } of this.#marks) {
       const record = sizes.points[point];
       if (record) move(element, viewport.screen(...place(pose, 0, record.link, ...record.at)));
@@ -237,8 +229,8 @@ export class Scene {
     );
     const grounds = this.#pins
       .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
-      .map(({ joint }) => standing(viewport.screen(...linkage.jointAt(joint))));
-    grounds.push(...model.drives.map(({ joint }) => driving(viewport.screen(...linkage.jointAt(joint)))));
+      .map(({ joint }) => placed(STANDING, pixels(joint), model.bearings[joint]));
+    grounds.push(...model.drives.map(({ joint }) => placed(DRIVING, pixels(joint), model.bearings[joint])));
     for (const [x, y] of linkage.beside.targets ?? []) {
       const [u, v] = viewport.screen(x, y);
       grounds.push([-RING, RING].map((d): Pair => [u + d, v]));
@@ -252,12 +244,10 @@ export class Scene {
     ];
     const [c, s] = turn(pose, 0, model.frame);
     const [ox, oy] = viewport.screen(...origin(pose, 0, model.frame));
-    const placed = (x: number, y: number): Pair => [ox + c * x + s * y, oy - s * x + c * y];
+    const fixed = (x: number, y: number): Pair => [ox + c * x + s * y, oy - s * x + c * y];
     for (const ends of this.#rails)
       grounds.push(
-        convexHull(
-          ends.flatMap(([x, y]) => [-RAIL, RAIL].flatMap((d) => [placed(x + d, y + d), placed(x + d, y - d)])),
-        ),
+        convexHull(ends.flatMap(([x, y]) => [-RAIL, RAIL].flatMap((d) => [fixed(x + d, y + d), fixed(x + d, y - d)]))),
       );
     const drawn = [...hulls.filter((hull) => hull.length), ...arrows, ...grounds, buttons];
     const order = [...this.#labels.entries()].sort(([, one], [, other]) => +!!one.many - +!!other.many);
@@ -305,7 +295,7 @@ export class Scene {
     });
     const springs = shown.springs().map((spring) => springPath(linkage, viewport, spring));
     put(this.#springs, { d: springs.join("") });
-    const lines = readingsOf(linkage).map(({ ends }) => `M${ends.map((at) => viewport.screen(...at)).join("L")}`);
+    const lines = readingsOf(linkage).map(({ ends }) => pathThrough(ends.map((at) => viewport.screen(...at))));
     put(this.#rulers, { d: lines.join("") });
     this.#drawPole(linkage, shown);
   }

@@ -1,5 +1,6 @@
 /** Springs and dampers between links: their ends, and how they are drawn. */
 
+import { pathThrough } from "./hull";
 import type { Linkage } from "./linkage";
 import { type Pair, place } from "./rows";
 import type { Viewport } from "./viewport";
@@ -64,5 +65,5 @@ export function springPath(linkage: Linkage, viewport: Viewport, spring: Spring)
 }
 
 function line(places: readonly Pair[]): string {
-  return `M${places.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}`;
+  return pathThrough(places);
 }

@@ -5,6 +5,7 @@ import { Painter } from "./canvas";
 import { h, lowered, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import { gridOf } from "./grid";
+import { pathThrough } from "./hull";
 import { currentLanguage, number, t } from "./language";
 import type { Linkage } from "./linkage";
 import { OtherModes } from "./modes";
@@ -220,7 +221,7 @@ export class Stage implements Board {
     const points = this.shown.curves ? this.linkage!.sizes.points : [];
     const curves = points.map(({ link, at }, k) => {
       const places = Array.from(values, (_, row) => viewport.screen(...place(rows, row, link, ...at)));
-      const d = places.map(([x, y], row) => `${row ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
+      const d = pathThrough(places);
       return svg("path", { d, fill: "none", stroke: this.#colour(ownColour(k)), "stroke-width": 2 });
     });
     const paper = svg("rect", { width: viewport.width, height: viewport.height, fill: this.#colour("--paper") });

@@ -1,16 +1,18 @@
 /** What a drawing begins with: the linkage at hand, or a mechanism that one then changes. */
 
 import { h, svg } from "./dom";
-import { type Drawing, isPin, type Knot, linksOf } from "./drawing";
+import type { Drawing, Knot } from "./drawing";
 import { away } from "./hull";
 import { t } from "./language";
 import type { Linkage } from "./linkage";
-import { outlineOf } from "./plane";
+import { mechanismPicture } from "./plane";
 import { drawingOf } from "./taken";
 import { type Box, Extent, Viewport } from "./viewport";
 
 const WIDE = 104; // pixels of a card's picture
 const HIGH = 58;
+const SMALL = 0.5; // a pixel of the plane
+const ROOM = 52; // pixels of the plane for signs around joints
 
 /** What takes a drawing to begin with. */
 interface Beginning {
@@ -44,23 +46,15 @@ export function extentOf({ knots }: Drawing): Box {
   return box;
 }
 
-/** The links of a drawing as a small picture. */
+/** A drawing as in the plane, small. */
 function sketch(drawing: Drawing): SVGElement {
   const viewport = new Viewport();
   const { left, right, bottom, top } = extentOf(drawing);
-  viewport.scale = Math.min((WIDE - 16) / (right - left), (HIGH - 16) / (top - bottom));
-  viewport.pan((WIDE - viewport.scale * (left + right)) / 2, (HIGH + viewport.scale * (top + bottom)) / 2);
-  const links = linksOf(drawing).filter((link) => link !== drawing.frame);
-  const hulls = links.map((link) => outlineOf({ drawing, viewport }, link));
-  return svg(
-    "svg",
-    { viewBox: `0 0 ${WIDE} ${HIGH}`, width: WIDE, height: HIGH, "aria-hidden": "true" },
-    ...hulls.map((hull) => svg("path", { d: `M${hull.join("L")}Z` })),
-    ...drawing.knots.filter(isPin).map(({ at }) => {
-      const [cx, cy] = viewport.screen(...at);
-      return svg("circle", { cx, cy, r: 2.5 });
-    }),
-  );
+  const [wide, high] = [WIDE / SMALL, HIGH / SMALL];
+  viewport.scale = Math.min((wide - ROOM) / (right - left), (high - ROOM) / (top - bottom));
+  viewport.pan((wide - viewport.scale * (left + right)) / 2, (high + viewport.scale * (top + bottom)) / 2);
+  const picture = mechanismPicture({ drawing, viewport, chosen: null });
+  return svg("svg", { viewBox: `0 0 ${wide} ${high}`, width: WIDE, height: HIGH, "aria-hidden": "true" }, ...picture);
 }
 
 /** Cards along the upper edge of an empty plane. */

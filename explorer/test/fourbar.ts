@@ -145,6 +145,7 @@ export function fourBar(lengths: Lengths, theta: number): Model {
       },
     ],
     shapes: [],
+    bearings: [0, 0, 0, 0],
   };
 }
 

@@ -633,6 +633,12 @@ def test_a_slide_of_a_design_has_its_block_on_its_guide():
             assert part.real.min() > -1e-3
             assert part.real.max() < 1 + 1e-3
         assert np.abs(z[:, start] + z[:, end] - 2 * pin[:, 0]).max() < 1e-3 * design["size"]
+        # the coupler is one plate, of a rod up to its end, which a picture has somewhat farther out
+        (plate,) = (own for own in design["members"] if len(own) > 2)
+        assert design["joints"] in plate  # the point
+        part = (z[:, plate[-1]] - z[:, low]) / (z[:, high] - z[:, low])
+        on_rod = np.abs(part.imag).max() < 1e-3 and part.real.min() > -0.2 and part.real.max() < 1
+        assert on_rod == design["form"].startswith("Inv")
         if design["form"] == "Slider-crank":  # at both dead centres a right triangle with crank and rod in line
             crank, rod, offset = design["lengths"]
             stroke = np.sqrt((rod + crank) ** 2 - offset**2) - np.sqrt((rod - crank) ** 2 - offset**2)
@@ -924,4 +930,4 @@ def test_a_finger_chooses_a_card_then_opens_it_and_the_drive_turns_clockwise(tab
     page.until(f"{drive} !== {before}")
     play.tap()
     assert 0 < (before - view.evaluate(drive)) % (2 * np.pi) < np.pi
-    assert view.locator(".stage .driven").get_attribute("transform") == "scale(-1 1)"
+    assert view.locator(".stage .driven").get_attribute("transform") == "rotate(0) scale(-1 1)"

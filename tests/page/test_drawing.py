@@ -257,7 +257,11 @@ def test_bars_stay_bars_and_names_stay_names(plane):
 
 def test_a_way_is_counted_from_the_pivot_of_the_crank(plane):
     view = plane.page
+    # the picture has what the plane has
+    signs = [view.locator(f'[data-begin="slider-crank"] .{name}').count() for name in ("block", "rail", "support")]
+    assert signs == [1, 1, 1]
     view.click('[data-begin="slider-crank"]')
+    assert [view.locator(f".drawing .{name}").count() for name in ("block", "rail", "support")] == signs
     view.locator('[data-act="move"]').click()
     plane.until("gruebler.motion.linkage.model.outputs[0]?.joint === 3")
     linkage = linkage_from_json(json.loads(view.evaluate("JSON.stringify(gruebler.motion.document())")))

@@ -634,11 +634,35 @@ def test_the_rod_of_an_inverted_slider_crank_is_its_coupler(tab, tmp_path, point
     assert main(["explore", str(file), "-o", str(path)]) == 0
     page = tab(width=1440, height=900).open(path.as_uri()).page
     assert page.locator('.stage [data-link="coupler"] .rod').count() == 1
+    # with a point beside it a plate up to the nearest place of the rod, as on cards
+    assert page.locator('.stage [data-link="coupler"] .bar.plate').count() == len(points)
     assert page.locator('.stage [data-link="block"] .block').count() == 1
     facts = page.locator(".side .facts div", has_text="Smallest μ")
-    assert facts.locator("dd").inner_text() == "90°"
+    assert facts.locator("dd").inner_text() == "90° throughout"
     assert page.locator(".track .dead").count() == 2
     assert page.locator(".track .least").count() == 0
+
+
+def test_a_piston_runs_in_its_cylinder(tab, tmp_path):
+    """It is drawn once, between two walls; its bore, in the file, is 60 mm. The press hangs from its upper bearing."""
+    path = tmp_path / "page.html"
+    assert main(["explore", "compressor", "-o", str(path)]) == 0
+    page = tab(width=1440, height=900).open(path.as_uri()).page
+    assert page.locator(".stage .block").count() == 0
+    assert page.locator('.stage [data-link="piston"] .shape').count() == 1
+    scale = page.evaluate("gruebler.motion.stage.viewport.scale")
+    walls = page.locator(".ground .rail").evaluate_all("all => all.map((one) => one.getBBox().y)")
+    assert sorted(walls) == pytest.approx([-30 * scale - 2, 30 * scale + 2], abs=0.1)
+    # of the head one line, of which the page draws the hatching
+    assert page.locator(".ground .shape.hatch").count() == 1
+    assert main(["explore", "toggle_press", "-o", str(path)]) == 0
+    page = tab(width=1440, height=900).open(path.as_uri()).page
+    turned = "all => all.map((one) => one.getAttribute('transform'))"
+    assert page.locator(".pin .support").evaluate_all(turned) == ["rotate(0)", "rotate(180)"]
+    # a block stands on one rail, beside it, not on its axis
+    assert page.locator(".ground .rail").count() == 1
+    block, rail = (page.locator(f".stage .{name}").bounding_box() for name in ("block", "rail"))
+    assert rail["x"] >= block["x"] + block["width"] - 0.1
 
 
 def test_cylinders_move_between_their_stops(tab, tmp_path):

@@ -21,10 +21,10 @@ from gruebler.pictures.canvas.free_space import distance_between
 from gruebler.pictures.canvas.gallery import Item, Section
 from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polylines, TextShape, bounds, text_width
 from gruebler.pictures.canvas.styles import STYLES
-from gruebler.pictures.linkage.bodies import slides
 from gruebler.pictures.linkage.element_pictures import contact_shapes
 from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.linkage.posed_linkage import posed_linkage
+from gruebler.pictures.linkage.slides import slides
 from gruebler.pictures.structure import draw_structure
 from gruebler.pictures.values import draw
 from gruebler.teaching.catalog import entries, entry

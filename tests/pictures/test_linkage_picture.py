@@ -22,10 +22,11 @@ from gruebler.mechanics.linkages import Linkage, LinkPoint, Pin
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, TextShape
 from gruebler.pictures.canvas.simplification import simplified
 from gruebler.pictures.canvas.styles import STYLES
-from gruebler.pictures.linkage.bodies import body_parts, corners_of, slides
+from gruebler.pictures.linkage.bodies import body_parts, corners_of
 from gruebler.pictures.linkage.layers import coupler_curve_lines
 from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.linkage.posed_linkage import posed_linkage
+from gruebler.pictures.linkage.slides import slides
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 from tests.commands import arguments_of

@@ -4,6 +4,7 @@
 import type { Found } from "../designs";
 import type { Model } from "../model";
 import { place } from "../rows";
+import { bearingTurn } from "./bearings";
 import { abs, type Complex, scaled, sub } from "./complex";
 import { cognatesOf, driven, moved, type Template } from "./fourbars";
 import { CLASSES, type Complete, Homotopy, realRows, taskOf } from "./homotopy";
@@ -91,12 +92,17 @@ function designOf({ model, cycle, full, transmission }: Judged, targets: readonl
     const [one, other] = ends.map((joint) => shown[0]![joint]!);
     return abs(sub(one!, other!));
   });
+  const bearings = pins.map((_, joint) => {
+    const beside = members.filter((own) => own.includes(joint)).flat();
+    const arms = beside.flatMap((k) => (k === joint ? [] : shown.map((seen) => sub(seen[k]!, seen[joint]!))));
+    return fixed.includes(joint) ? bearingTurn(arms) : 0;
+  });
   return {
-    model,
+    model: { ...model, bearings },
     document: model.document,
     lengths,
     names: model.linkNames,
-    picture: pictureOf({ places: placesAt(home), members, fixed, cycle, point: { link, at }, targets }),
+    picture: pictureOf({ places: placesAt(home), members, fixed, bearings, cycle, point: { link, at }, targets }),
     form: "RR-RR",
     transmission,
     error: 0, // but for rounding
@@ -104,6 +110,7 @@ function designOf({ model, cycle, full, transmission }: Judged, targets: readonl
     frames: full ? shown : [...shown, ...shown.slice(1, -1).reverse()],
     members,
     joints: pins.length,
+    bearings,
   };
 }
 

@@ -12,12 +12,14 @@ export interface Drawn {
   places: readonly Complex[];
   members: readonly number[][];
   fixed: readonly number[];
+  /** How far the bearings of these are turned, by joints. */
+  bearings: readonly number[];
   cycle: Cycle;
   point: { link: number; at: [number, number] };
   targets: readonly Complex[];
 }
 
-export function pictureOf({ places, members, fixed, cycle, point, targets }: Drawn): string {
+export function pictureOf({ places, members, fixed, bearings, cycle, point, targets }: Drawn): string {
   const curve = placesOf(cycle.rows, point.link, ...point.at);
   const xs = [...places.map(([x]) => x), ...curve.filter((_, k) => k % 2 === 0)];
   const ys = [...places.map(([, y]) => y), ...curve.filter((_, k) => k % 2 === 1)];
@@ -32,7 +34,8 @@ export function pictureOf({ places, members, fixed, cycle, point, targets }: Dra
   const size = [wide, high].map((value) => short(2 * ROOM + scale * value));
   const stand = fixed.map((k) => {
     const [x, y] = spot(places[k]!).split(" ").map(Number) as [number, number];
-    return `<path class="gr-block-frame" d="M${x} ${y}l${TRIANGLE} ${2 * TRIANGLE - 4}h${-2 * TRIANGLE}Z"/>`;
+    const d = `M${x} ${y}l${TRIANGLE} ${2 * TRIANGLE - 4}h${-2 * TRIANGLE}Z`;
+    return `<path class="gr-block-frame" d="${d}" transform="rotate(${bearings[k]} ${x} ${y})"/>`;
   });
   const largestFirst = [...members].sort((one, other) => other.length - one.length);
   const bodies = largestFirst.map((own) => {

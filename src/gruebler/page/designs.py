@@ -30,10 +30,11 @@ from gruebler.mechanics.analysis.measuring import measures
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.page.design_words import SLENDER, is_curve, notes, words
-from gruebler.page.model import four_bar_type, link_names
-from gruebler.pictures.linkage.bodies import CarriedLine, pins_of, slides
+from gruebler.page.model import bearing_turns, four_bar_type, link_names
+from gruebler.pictures.linkage.bodies import CarriedLine, guide_corners
 from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, drive_rows, posed_linkage
+from gruebler.pictures.linkage.slides import pins_of, slides
 
 _MOST_DESIGNS = 24
 _COLUMNS = 3  # of a position: x, y, angle
@@ -305,11 +306,7 @@ def _slide_ends(posed: PosedLinkage) -> dict[int, list[LinkPoint]]:
     by_joint = {}
     for slide in slides(posed):
         along = cmath.rect(half, posed.lower.elements[slide.joint, slide.block].direction)
-        reached = [slide.low - half * slide.along, slide.high + half * slide.along]
-        if slide.guide != mechanism.frame:
-            reached += pins_of(posed.lower, slide.guide)
-        parts = [((z - slide.low) / slide.along).real for z in reached]
-        ends = [slide.low + part * slide.along for part in (min(parts), max(parts))]
+        ends = slide.low - half * slide.along, slide.high + half * slide.along
         block = [LinkPoint(slide.block, z.real, z.imag) for z in (slide.middle - along, slide.middle + along)]
         guide = [LinkPoint(slide.guide, z.real, z.imag) for z in ends]
         if slide.block in mechanism.chain.links:  # not a pin in a slot
@@ -387,13 +384,11 @@ def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, An
     """Places of joints, points and ends of slides, evenly in time; which of them links and guides have; lengths."""
     chain, frame = linkage.mechanism.chain, linkage.mechanism.frame
     points, sliding = linkage.points, _slide_ends(posed)
-    rows = _seen(linkage, path, [end for ends in sliding.values() for end in ends])
+    moving = [link for link in chain.links if link != frame]
+    corners = [LinkPoint(link, z.real, z.imag) for link, z in guide_corners(posed).items() if link in chain.links]
+    rows = _seen(linkage, path, [*(end for ends in sliding.values() for end in ends), *corners])
     carried = [*(joint.links for joint in chain.joints), *((point.link,) for point in points.values())]
-    members = [
-        [k for k, links in enumerate(carried) if link in links and k not in sliding]
-        for link in chain.links
-        if link != frame
-    ]
+    members = [[k for k, links in enumerate(carried) if link in links and k not in sliding] for link in moving]
     joints = [[k for k, joint in enumerate(chain.joints) if link in joint.links] for link in chain.links]
     apart = [(k, m) for own in joints for k in own for m in own if k < m]
     measured = [*rows[0, joints[chain.links.index(frame)]].ravel(), *(_apart(rows[0], k, m) for k, m in apart)]
@@ -403,7 +398,7 @@ def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, An
     bars = [link for link in sorted(pins, key=frame.__ne__) if len(pins[link]) == 2]  # the frame comes first
     called = {lang: link_names(linkage, "", lang) for lang in LANGUAGES}
     shown = np.abs(rows[:, : len(carried)] - _seen(linkage, posed.pose)).sum(axis=(1, 2)).argmin()
-    blocks = [[k, k + 1] for k in range(len(carried), rows.shape[1], 4)]
+    blocks = [[k, k + 1] for k in range(len(carried), rows.shape[1] - len(corners), 4)]
     for joint, block in zip(sliding, blocks, strict=True):
         rows[:, joint] = rows[:, block].mean(axis=1)
     rails = [[k + 2 for k in block] for block in blocks]
@@ -414,6 +409,8 @@ def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, An
         along, across = (start - end for start, end in ends)
         offset = abs((across / along).imag * along)
         lengths.append(float(offset) if offset > _ROUNDED * linkage.size else 0.0)
+    for number, corner in enumerate(corners, rows.shape[1] - len(corners)):
+        members[moving.index(corner.link)].append(number)
     one_loop = chain.n == len(chain.joints) == _FOUR
     return {
         "frames": _there_and_back(rows, posed),
@@ -423,6 +420,7 @@ def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, An
         "joints": len(chain.joints),
         "points": len(points),
         "drive": linkage.mechanism.drives[0].joint,
+        "bearings": bearing_turns(posed),
         "measures": measured,
         "lengths": lengths if one_loop else [],
         "point": _point_of(linkage, rows[0], pins) if one_loop else None,

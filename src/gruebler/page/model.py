@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from cmath import rect
 from collections.abc import Iterator, Mapping, Sequence
-from math import radians
+from math import atan2, degrees, radians
 from typing import Any
 
 import numpy as np
@@ -28,8 +28,10 @@ from gruebler.mechanics.kinematics.branches import labelled_groups
 from gruebler.mechanics.kinematics.plan import Dyad, Plan
 from gruebler.mechanics.linkages import Linkage
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines
+from gruebler.pictures.linkage.bodies import bearing_sides, ground_hatching
 from gruebler.pictures.linkage.element_pictures import round_parts
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
+from gruebler.pictures.linkage.slides import outline_extent, slides
 from gruebler.structure.chain.pairs import Pair
 from gruebler.structure.chain.spaces import Space
 from gruebler.teaching.catalog import entries
@@ -112,6 +114,7 @@ def model_of(
     names = chain.joint_names()
     keys = sorted(linkage.elements)
     drives = np.concatenate([pose.drives[0], plan.held])
+    sliding = _slide_records(posed)
     return {
         "version": 1,
         "name": name.en if isinstance(name, Text) else name,
@@ -126,6 +129,7 @@ def model_of(
         "unit": linkage.unit,
         "joints": [
             {"name": text, "pair": _pair_record(joint.pair), "links": [chain.index(link) for link in joint.links]}
+            | sliding.get(frozenset(joint.links), {})
             for text, joint in zip(names, chain.joints, strict=True)
         ],
         "elements": [
@@ -164,6 +168,7 @@ def model_of(
         "span": _span(posed, between) | {"stops": list(stops)},
         "outputs": _output(linkage, plan),
         "shapes": list(_shapes(posed)),
+        "bearings": bearing_turns(posed),
     }
 
 
@@ -387,11 +392,44 @@ def _shapes(posed: PosedLinkage) -> Iterator[dict[str, Any]]:
                 circle = [_short(v / scale) for v in (shape.at.x, -shape.at.y, shape.radius)]
                 yield {"link": index(part.link), "style": shape.style, "circle": circle}
             elif isinstance(shape, Polylines):
-                lines = [[c for p in line for c in (_short(p.x / scale), _short(-p.y / scale))] for line in shape.parts]
-                record = {"link": index(part.link), "style": shape.style, "lines": lines, "closed": shape.closed}
-                yield record | (
+                yield _outline(posed, part.link, shape) | (
                     {} if part.between is None else {"between": [c for z in part.between for c in (z.real, z.imag)]}
                 )
+    for ticks in ground_hatching(posed):
+        yield _outline(posed, posed.lower.mechanism.frame, ticks)
+
+
+def _outline(posed: PosedLinkage, link: str, shape: Polylines) -> dict[str, Any]:
+    lines = [[_short(c / posed.scale) for p in line for c in (p.x, -p.y)] for line in shape.parts]
+    number = posed.lower.mechanism.chain.index(link)
+    return {"link": number, "style": shape.style, "lines": lines, "closed": shape.closed}
+
+
+def _slide_records(posed: PosedLinkage) -> dict[frozenset[str], dict[str, Any]]:
+    """By the links of a sliding joint the guide, and half the length and half the width of a block with an outline."""
+    index, scale = posed.lower.mechanism.chain.index, posed.scale
+    records: dict[frozenset[str], dict[str, Any]] = {}
+    for slide in slides(posed):
+        extent = outline_extent(posed, slide)
+        outlined = {"sliding": [_short(half / scale) for half in extent]} if extent else {}
+        records[frozenset((slide.guide, slide.block))] = {"guide": index(slide.guide)} | outlined
+    return records
+
+
+def bearing_turns(posed: PosedLinkage) -> list[int]:
+    """How far the bearings of joints are turned, clockwise from standing below, in degrees; 0 of joints without one.
+
+    A rocker that hangs down has its bearing above:
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> [bearing_turns(posed_linkage(FourBar(25, 70, 40, 70).linkage(), branch=branch)) for branch in ("+", "-")]
+    [[0, 0, 0, 0], [0, 0, 0, 180]]
+    """
+    elements, frame = posed.linkage.elements, posed.linkage.mechanism.frame
+    sides = bearing_sides(posed)
+    pins = (elements.get((number, frame)) for number in range(len(posed.linkage.mechanism.chain.joints)))
+    turned = (None if pin is None else sides.get(complex(pin.x, pin.y)) for pin in pins)
+    return [0 if side is None else round(degrees(atan2(-side.x, side.y))) % 360 for side in turned]
 
 
 def _short(value: float) -> float:

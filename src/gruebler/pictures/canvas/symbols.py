@@ -20,6 +20,7 @@ RADIUS = 6.2
 """Of a turning joint."""
 FOOT = Point(13.0, 21.0)
 """Half the width and the height of a pedestal."""
+DOWN = Point(0.0, 1.0)
 _RING = 3.6
 _BLOCK = Point(12.5, 7.0)
 _GUIDE = Point(20.0, 10.0)
@@ -201,7 +202,7 @@ def _contact(at: Point, members: Sequence[JointMember], shapes: Sequence[str]) -
             )
         )
     # Rings and slots lie below what runs in them.
-    above.sort(key=lambda shape: _BELOW.get(shape.style, len(_BELOW)))
+    above.sort(key=lambda shape: _DOWN.get(shape.style, len(_DOWN)))
     return JointSign(
         below=(),
         above=tuple(above),
@@ -212,7 +213,7 @@ def _contact(at: Point, members: Sequence[JointMember], shapes: Sequence[str]) -
     )
 
 
-_BELOW = {"ring-body": 0, "ring-hole": 1}
+_DOWN = {"ring-body": 0, "ring-hole": 1}
 _BELT = 0.4  # of half the distance of two bearings: between a wheel of a belt and the middle
 
 
@@ -301,19 +302,20 @@ def ticks(a: Point, b: Point, outward: Point) -> Polylines:
     return Polylines(tuple((p.plus(outward, 1.3), p.plus(outward, 1.3).plus(lean, 6.5)) for p in places), "hatch")
 
 
-def foot(at: Point) -> tuple[Point, Point]:
-    """The ends of the line on which the support of a bearing stands."""
-    return Point(at.x - FOOT.x - 5.0, at.y + FOOT.y), Point(at.x + FOOT.x + 5.0, at.y + FOOT.y)
+def foot(at: Point, side: Point = DOWN) -> tuple[Point, Point]:
+    """The ends of the line on which the support of a bearing stands, below or on another side of it."""
+    middle = at.plus(side, FOOT.y)
+    return middle.plus(side.across, FOOT.x + 5.0), middle.plus(side.across, -FOOT.x - 5.0)
 
 
-def pedestal(at: Point) -> list[Shape]:
-    """The support of a bearing of the frame, hatched below."""
-    base = foot(at)
-    left, right = base[0].plus(Point(5.0, 0.0)), base[1].plus(Point(-5.0, 0.0))
+def pedestal(at: Point, side: Point = DOWN) -> list[Shape]:
+    """The support of a bearing of the frame, hatched on that side."""
+    base = foot(at, side)
+    left, right = base[0].plus(side.across, -5.0), base[1].plus(side.across, 5.0)
     return [
         Polylines(((at, right, left),), "block-frame", closed=True),
         Polylines((base,), "rail"),
-        ticks(*base, Point(0.0, 1.0)),
+        ticks(*base, side),
     ]
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from gruebler.base.convex_hull import convex_hull
 from gruebler.mechanics.kinematics import Motion
-from gruebler.mechanics.linkages import Element, Linkage, LinkPoint
+from gruebler.mechanics.linkages import LinkPoint
 from gruebler.pictures.canvas.free_space import distance_between, is_inside
 from gruebler.pictures.canvas.shapes import (
     CircleShape,
@@ -26,26 +26,24 @@ from gruebler.pictures.canvas.shapes import (
     placed_shape,
 )
 from gruebler.pictures.canvas.styles import BAR
-from gruebler.pictures.canvas.symbols import FOOT, JointMember, joint_sign, pedestal, ticks
+from gruebler.pictures.canvas.symbols import DOWN, FOOT, JointMember, joint_sign, pedestal, ticks
 from gruebler.pictures.linkage.element_pictures import round_parts
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
+from gruebler.pictures.linkage.slides import BEYOND, BLOCK, FLAT, Slide, along_block, outline_extent, pins_of, slides
 
 FRAME, BODIES, BLOCKS, PINS = range(4)
 """Layers, from below."""
 
-_BLOCK = (14.0, 8.5)  # half sides of a block
 _BARREL = 9.0  # half the width of a cylinder
-_BEYOND = 5.0  # pixels by which a guide extends beyond the block
 _SLOT_END = 9.0  # pixels by which a slot extends beyond the pin
 _SLOT_HALF = 8.5  # half the width of a slot between rails
+_WALL = 1.2  # halves of its length by which a cylinder reaches beyond the middle of its piston
 _RAIL = 2.5  # pixels between a block and its rail
-_FLAT = 1e-6  # sizes: points nearer to a line lie on it
 _LEAST_HEIGHT = 1e-3  # pixels: corners that are flatter are not seen
-_CALLED_BLOCKS = ("block", "slider", "piston", "stein", "kolben")
+_SIDES = (DOWN, Point(1.0, 0.0), Point(0.0, -1.0), Point(-1.0, 0.0))  # of pedestals, by right angles
+_SELDOM = 0.05  # the part of the path in which what lies over a pedestal is no matter
 _DISCS = 300.0  # pixels of cams and wheels
-_STILL = 24.0  # pixels of a slide to both sides in a picture without a motion
 _WIDEST = 520.0  # pixels of an outline
-_LONGEST = 1.8  # times its shortest length: the largest length of a cylinder
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,24 +55,6 @@ class BodyPart:
     shapes: tuple[Shape, ...]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Slide:
-    """The sign of a sliding joint."""
-
-    joint: int
-    guide: str
-    block: str
-    sign: str
-    """``block``, ``slot`` (a pin in a slot) or ``cylinder``."""
-    middle: complex
-    """The middle of the block, in its own coordinates."""
-    along: complex
-    """The direction of the guide, in its coordinates."""
-    low: complex
-    """The ends of the path of the middle, in the guide's coordinates."""
-    high: complex
-
-
 class CarriedLine(NamedTuple):
     """A line that a link carries."""
 
@@ -82,125 +62,6 @@ class CarriedLine(NamedTuple):
     points: tuple[complex, ...]
     """In coordinates of the link."""
     style: str = "help"
-
-
-# --- sliding joints ------------------------------------------------------------------------------
-
-
-def slides(posed: PosedLinkage) -> tuple[Slide, ...]:
-    """The sliding joints, with the travel of their blocks on the path of the linkage."""
-    chain = posed.lower.mechanism.chain
-    return tuple(_slide(posed, k) for k, joint in enumerate(chain.joints) if joint.pair.is_sliding)
-
-
-def _slide(posed: PosedLinkage, number: int) -> Slide:
-    lower = posed.lower
-    guide, block = _guide_and_block(posed, number)
-    line, block_line = lower.elements[number, guide], lower.elements[number, block]
-    middle = _foot(lower, block, block_line)
-    start, along = complex(line.x, line.y), cmath.rect(1, line.direction)
-    places = np.concatenate([_seen(motion, guide, block, middle) for motion in (posed.path, posed.pose)])
-    offsets = ((places - start) * along.conjugate()).real
-    low, high = float(offsets.min()), float(offsets.max())
-    beyond = _beyond_roller(posed, block, block_line.direction, high - low)
-    middle, low, high = middle + beyond * cmath.rect(1, block_line.direction), low + beyond, high + beyond
-    sign = "block"
-    if high - low < _FLAT * lower.size and len(posed.path) == 1:  # nothing moves in the picture: how far is not known
-        low, high = low - _STILL / posed.scale, high + _STILL / posed.scale
-    if block not in posed.linkage.mechanism.chain.links and pins_of(lower, block):
-        sign = "slot"
-    elif _is_cylinder(lower, number, guide, start, along, low, high):
-        sign = "cylinder"
-    return Slide(
-        joint=number,
-        guide=guide,
-        block=block,
-        sign=sign,
-        middle=middle,
-        along=along,
-        low=start + low * along,
-        high=start + high * along,
-    )
-
-
-def _beyond_roller(posed: PosedLinkage, block: str, along: float, travel: float) -> float:
-    """How far a block stands off its pin, along its line, so that the guide ends before a roller on that pin."""
-    linkage, pose = posed.linkage, posed.pose
-    joints = linkage.mechanism.chain.joints
-    if block not in linkage.mechanism.chain.links or len(pins_of(posed.lower, block)) != 1:
-        return 0.0
-    rollers = {link for joint in joints if block in joint.links and joint.pair.is_turning for link in joint.links}
-    for number, joint in enumerate(joints):
-        for roller in (rollers - {block, linkage.mechanism.frame}) & set(joint.links):
-            wheel = linkage.elements[number, roller]
-            partner = next(link for link in joint.links if link != roller)
-            touched = linkage.elements[number, partner]
-            if wheel.rim > 0 and partner != block:
-                away = pose.complex_point(LinkPoint(roller, wheel.x, wheel.y))
-                away = away - pose.complex_point(LinkPoint(partner, touched.x, touched.y))
-                line = pose.turns[0, pose.link_index(block)] * cmath.rect(1, along)
-                side = math.copysign(1.0, (complex(away[0]) * line.conjugate()).real)
-                return side * (wheel.rim + travel + (_BLOCK[0] + 2 * _BEYOND) / posed.scale)
-    return 0.0
-
-
-def _guide_and_block(posed: PosedLinkage, number: int) -> tuple[str, str]:
-    """The frame is the guide, a link that represents a pin in a slot is the block; else the one with fewer joints is.
-
-    Of two equal links the one with a name such as "block" is the block, else the second.
-    """
-    mechanism, links = posed.lower.mechanism, posed.linkage.mechanism.chain.links
-    chain = mechanism.chain
-
-    def rank(link: str) -> tuple[bool, bool, int, bool]:
-        joints = sum(link in joint.links for joint in chain.joints)
-        points = sum(point.link == link for point in posed.lower.points.values())
-        return (
-            link not in links,
-            link != mechanism.frame,
-            -joints - points,
-            any(name in link.lower() for name in _CALLED_BLOCKS),
-        )
-
-    first, second = sorted(chain.joints[number].links, key=rank)
-    return first, second
-
-
-def pins_of(lower: Linkage, link: str) -> list[complex]:
-    """The pins of a link, in its coordinates."""
-    elements = [e for (_, owner), e in lower.elements.items() if owner == link and e.is_pin]
-    return [complex(e.x, e.y) for e in elements]
-
-
-def _foot(lower: Linkage, link: str, line: Element) -> complex:
-    """The middle of a block: its single pin if that is on its line, else the origin of the displacement."""
-    start, pins = complex(line.x, line.y), pins_of(lower, link)
-    if len(pins) != 1:
-        return start
-    along = cmath.rect(1, line.direction)
-    return start + ((pins[0] - start) * along.conjugate()).real * along
-
-
-def _seen(path: Motion, link: str, other: str, point: complex) -> np.ndarray:
-    """A point of another link in coordinates of a link, along a path."""
-    k, m = (path.link_index(name) for name in (link, other))
-    place = path.places[0, :, m] + path.turns[:, m] * point
-    relative: np.ndarray = (place - path.places[0, :, k]) * path.turns[:, k].conj()
-    return relative
-
-
-def _is_cylinder(
-    lower: Linkage, number: int, guide: str, start: complex, along: complex, low: float, high: float
-) -> bool:
-    """Whether a driven slide between two moving links has the proportions of a cylinder with its rod."""
-    mechanism = lower.mechanism
-    if all(drive.joint != number for drive in mechanism.drives) or guide == mechanism.frame:
-        return False
-    pins = [(pin - start) * along.conjugate() for pin in pins_of(lower, guide)]
-    if len(pins) != 1 or abs(pins[0].imag) > _FLAT * lower.size:
-        return False
-    distances = sorted(abs(end - pins[0].real) for end in (low, high))
-    return (low - pins[0].real) * (high - pins[0].real) > 0 and distances[1] <= _LONGEST * distances[0]
 
 
 # --- bodies --------------------------------------------------------------------------------------
@@ -218,7 +79,8 @@ def body_parts(posed: PosedLinkage) -> tuple[BodyPart, ...]:
         BodyPart(BODIES, link, tuple(bodies[link])) for link in sorted(links, key=lambda link: -_extent(bodies[link]))
     ]
     hidden = [pin for pin in _covered(posed, joint_slides) if not _in_frame(posed, pin)]
-    parts += [BodyPart(BODIES, frame, tuple(pedestal(posed.local(pin)))) for pin in hidden]
+    sides = bearing_sides(posed)
+    parts += [BodyPart(BODIES, frame, tuple(pedestal(posed.local(pin), sides[pin]))) for pin in hidden]
     parts += [_block(posed, slide) for slide in joint_slides if slide.sign != "slot"]
     parts += _pin_parts(posed)
     return tuple(part for part in parts if part.shapes)
@@ -245,19 +107,38 @@ def outline_parts(posed: PosedLinkage, outlines: Sequence[CarriedLine]) -> tuple
 
 def corners_of(posed: PosedLinkage, link: str, joint_slides: tuple[Slide, ...]) -> tuple[Point, ...]:
     """The corners of a link's body: one, two for a bar, or those of a polygon; in its coordinates, in pixels."""
-    lower = posed.lower
-    nodes = pins_of(lower, link) + [complex(p.x, p.y) for p in lower.points.values() if p.link == link]
-    nodes += [slide.middle for slide in joint_slides if slide.block == link and slide.sign != "cylinder"]
+    nodes = _nodes(posed, link, joint_slides)
     for slide in joint_slides:
         if slide.guide == link and slide.sign != "cylinder":
-            middle = sum(nodes) / len(nodes) if nodes else slide.low
-            offset = ((middle - slide.low) * slide.along.conjugate()).real
-            more = _reach(slide) / posed.scale
-            nodes.append(slide.low + slide.along * min(max(offset, -more), abs(slide.high - slide.low) + more))
-    flat = max(_FLAT * lower.size * posed.scale, _LEAST_HEIGHT)
+            nodes.append(_nearest_of_guide(posed, slide, nodes))
+    flat = max(FLAT * posed.lower.size * posed.scale, _LEAST_HEIGHT)
     places = [posed.local(z) for z in nodes]
     hull = convex_hull([complex(round(p.x, 6), round(p.y, 6)) for p in places], flat)
     return tuple(Point(z.real, z.imag) for z in hull)
+
+
+def _nodes(posed: PosedLinkage, link: str, joint_slides: tuple[Slide, ...]) -> list[complex]:
+    """The pins, points and blocks of a link."""
+    nodes = pins_of(posed.lower, link) + [complex(p.x, p.y) for p in posed.lower.points.values() if p.link == link]
+    return nodes + [slide.middle for slide in joint_slides if slide.block == link and slide.sign != "cylinder"]
+
+
+def _nearest_of_guide(posed: PosedLinkage, slide: Slide, nodes: list[complex]) -> complex:
+    """Where a guide is nearest to the middle of what else its link has."""
+    middle = sum(nodes) / len(nodes) if nodes else slide.low
+    offset = ((middle - slide.low) * slide.along.conjugate()).real
+    more = _reach(slide) / posed.scale
+    return slide.low + slide.along * min(max(offset, -more), abs(slide.high - slide.low) + more)
+
+
+def guide_corners(posed: PosedLinkage) -> dict[str, complex]:
+    """By links that are guides and more where they are joined to the guide."""
+    joint_slides = slides(posed)
+    return {
+        slide.guide: _nearest_of_guide(posed, slide, _nodes(posed, slide.guide, joint_slides))
+        for slide in joint_slides
+        if slide.guide != posed.lower.mechanism.frame and _nodes(posed, slide.guide, joint_slides)
+    }
 
 
 def _body(posed: PosedLinkage, link: str, joint_slides: tuple[Slide, ...]) -> list[Shape]:
@@ -288,7 +169,7 @@ def _body(posed: PosedLinkage, link: str, joint_slides: tuple[Slide, ...]) -> li
 
 def _reach(slide: Slide) -> float:
     """Pixels by which the bar of a guide extends beyond the path of the block's middle."""
-    return 0.0 if slide.sign == "slot" else _BLOCK[0] + _BEYOND
+    return 0.0 if slide.sign == "slot" else BLOCK[0] + BEYOND
 
 
 def _guide_line(posed: PosedLinkage, slide: Slide, beyond: float) -> tuple[Point, Point]:
@@ -326,26 +207,10 @@ def _block(posed: PosedLinkage, slide: Slide) -> BodyPart:
     if slide.sign == "cylinder":
         a, b = barrel(posed, slide)
         return BodyPart(BLOCKS, slide.guide, (_box(a, b, _BARREL),))
-    at, u = posed.local(slide.middle), _along(posed, slide)
-    if _outline_extent(posed, slide) is not None:
+    at, u = posed.local(slide.middle), along_block(posed, slide)
+    if outline_extent(posed, slide) is not None:
         return BodyPart(BLOCKS, slide.block, ())
-    return BodyPart(BLOCKS, slide.block, (_box(at.plus(u, -_BLOCK[0]), at.plus(u, _BLOCK[0]), _BLOCK[1]),))
-
-
-def _along(posed: PosedLinkage, slide: Slide) -> Point:
-    """The direction of a slide in coordinates of its block, in pixels."""
-    line = posed.lower.elements[slide.joint, slide.block]
-    return Point(math.cos(line.direction), -math.sin(line.direction))
-
-
-def _outline_extent(posed: PosedLinkage, slide: Slide) -> tuple[float, float] | None:
-    """Half the length and half the width of a block that has an outline of its own; None without one."""
-    at, u = posed.local(slide.middle), _along(posed, slide)
-    outlines = posed.linkage.outlines.get(slide.block, ())
-    corners = [posed.local(complex(*place)).minus(at) for o in outlines for place in o.places if len(o.places) > 2]
-    if not corners:
-        return None
-    return max(abs(corner.dot(u)) for corner in corners), max(abs(corner.dot(u.across)) for corner in corners)
+    return BodyPart(BLOCKS, slide.block, (_box(at.plus(u, -BLOCK[0]), at.plus(u, BLOCK[0]), BLOCK[1]),))
 
 
 def _box(a: Point, b: Point, half: float) -> Polylines:
@@ -360,28 +225,68 @@ def _box(a: Point, b: Point, half: float) -> Polylines:
 def _ground(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[Shape]:
     """Rails with hatching along the guides of the frame, a pedestal below each of its pins.
 
-    A block stands on one rail: what is hinged to it swings over the other side.
+    A block stands on one rail: what is hinged to it swings over the other side. One with an outline runs between two,
+    as a piston does in its cylinder.
     """
-    lower, frame = posed.lower, posed.lower.mechanism.frame
+    frame = posed.lower.mechanism.frame
     shapes: list[Shape] = []
     for slide in joint_slides:
         if slide.guide == frame:
-            long, wide = _outline_extent(posed, slide) or _BLOCK
-            a, b = _guide_line(posed, slide, _SLOT_END if slide.sign == "slot" else long + _BEYOND)
+            own = outline_extent(posed, slide)
+            long, wide = own or BLOCK
+            reach = _WALL * long if own else long + BEYOND
+            a, b = _guide_line(posed, slide, _SLOT_END if slide.sign == "slot" else reach)
             half = _SLOT_HALF if slide.sign == "slot" else wide + _RAIL
             sides = (b.minus(a).unit.across, a.minus(b).unit.across)
-            for side in sides if slide.sign == "slot" else (max(sides, key=lambda side: (round(side.y, 9), side.x)),):
+            both = slide.sign == "slot" or own
+            for side in sides if both else (max(sides, key=lambda side: (round(side.y, 9), side.x)),):
                 rail = a.plus(side, half), b.plus(side, half)
                 shapes += [Polylines((rail,), "rail"), ticks(*rail, side)]
-    for outline in posed.linkage.outlines.get(frame, ()):
-        if len(outline.places) == 2:
-            a, b = (posed.local(complex(*place)) for place in outline.places)
-            shapes.append(ticks(a, b, b.minus(a).unit.across))
+    shapes += ground_hatching(posed)
     covered = set(_covered(posed, joint_slides))
-    for pin in dict.fromkeys(pins_of(lower, frame)):
+    for pin, side in bearing_sides(posed).items():
         if pin not in covered and not _in_frame(posed, pin):
-            shapes += pedestal(posed.local(pin))
+            shapes += pedestal(posed.local(pin), side)
     return shapes
+
+
+def ground_hatching(posed: PosedLinkage) -> list[Polylines]:
+    """Strokes on the lines that the frame has as outlines, such as a ground or the head of a cylinder."""
+    outlines = [outline.places for outline in posed.linkage.outlines.get(posed.linkage.mechanism.frame, ())]
+    lines = [[posed.local(complex(*place)) for place in places] for places in outlines if len(places) == 2]
+    return [ticks(a, b, b.minus(a).unit.across) for a, b in lines]
+
+
+def bearing_sides(posed: PosedLinkage) -> dict[complex, Point]:
+    """By pins of the frame the side on which their pedestals stand, one for the whole path.
+
+    Below, or away from what the links at the pin, and what slides in them, reach to. The page has the same rule
+    (`explorer/src/ground.ts`).
+    """
+    lower, frame, joint_slides = posed.lower, posed.lower.mechanism.frame, slides(posed)
+    links = lower.mechanism.chain.links
+    reached = {link: _nodes(posed, link, joint_slides) for link in links}
+    for slide in joint_slides:
+        reached[slide.guide] += [slide.low, slide.high]
+    beside = {link: {link} for link in links}
+    for slide in joint_slides:
+        beside[slide.guide].add(slide.block)
+        beside[slide.block].add(slide.guide)
+    sides: dict[complex, Point] = {}
+    for number, joint in enumerate(lower.mechanism.chain.joints):
+        pin = lower.elements.get((number, frame))
+        if pin is None or not pin.is_pin:
+            continue
+        at = complex(pin.x, pin.y)
+        near = {other for link in joint.links if link != frame for other in beside[link]} - {frame}
+        places = [LinkPoint(link, z.real, z.imag) for link in sorted(near) for z in reached[link]]
+        arms = np.array([posed.path.complex_point(place) - at for place in places]).ravel()
+        arms = arms[np.abs(arms) > FLAT * lower.size]
+        quarters = np.round(np.angle(1j * arms) / (np.pi / 2) + FLAT).astype(int) % len(_SIDES)
+        over = np.bincount(quarters, minlength=len(_SIDES)).tolist()
+        clear = over[0] <= max(2 * min(over), _SELDOM * len(arms))
+        sides.setdefault(at, _SIDES[0 if clear else min((2, 1, 3), key=over.__getitem__)])
+    return sides
 
 
 def _in_frame(posed: PosedLinkage, pin: complex) -> bool:
@@ -398,12 +303,13 @@ def _covered(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[compl
     """The pins of the frame whose pedestals another link, no neighbour, would cover: they are drawn above it."""
     lower, frame = posed.lower, posed.lower.mechanism.frame
     joints = {link: set(lower.mechanism.chain.joints_of(link)) for link in lower.mechanism.chain.links}
-    covered = []
+    covered, sides = [], bearing_sides(posed)
     for number, joint in enumerate(lower.mechanism.chain.joints):
         element = lower.elements.get((number, frame))
         if element is None or not element.is_pin:
             continue
-        foot = complex(*posed.place(LinkPoint(frame, element.x, element.y))) + 0.5j * FOOT.y
+        side = sides[complex(element.x, element.y)]
+        foot = complex(*posed.place(LinkPoint(frame, element.x, element.y)).plus(side, 0.5 * FOOT.y))
         for link in lower.mechanism.chain.links:
             if link == frame or joint in joints[link]:
                 continue

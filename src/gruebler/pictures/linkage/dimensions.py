@@ -17,9 +17,9 @@ from gruebler.pictures.canvas.free_space import HALF, Obstacles, complexes
 from gruebler.pictures.canvas.labels import note_near
 from gruebler.pictures.canvas.shapes import Point, Polylines, Shape, TextShape, text_width
 from gruebler.pictures.canvas.styles import STYLES
-from gruebler.pictures.linkage.bodies import pins_of, slides
 from gruebler.pictures.linkage.layer_context import LayerContext
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
+from gruebler.pictures.linkage.slides import pins_of, slides
 
 _OFFSETS = (21.0, 26.0, 32.0, 39.0, 47.0, 56.0, 66.0, 78.0, 92.0, 108.0, 126.0, 146.0)  # pixels to a dimension line
 _PARTS = (0.5, 0.36, 0.64)  # of a dimension line: the candidate places of its number

@@ -29,13 +29,14 @@ from gruebler.pictures.canvas.shapes import ArcShape, CircleShape, Point, Polyli
 from gruebler.pictures.canvas.simplification import FINE, simplified
 from gruebler.pictures.canvas.symbols import RADIUS, straight_drive, turning_drive, widest_gap
 from gruebler.pictures.linkage.arrows import acceleration_arrows, velocity_arrows
-from gruebler.pictures.linkage.bodies import BodyPart, corners_of, in_link, shapes_at_pose, slides
+from gruebler.pictures.linkage.bodies import BodyPart, bearing_sides, corners_of, in_link, shapes_at_pose
 from gruebler.pictures.linkage.dimensions import dimension_lines
 from gruebler.pictures.linkage.instant_centres import pole_marks
 from gruebler.pictures.linkage.layer_context import Layer, LayerContext
 from gruebler.pictures.linkage.letters import angle_marks, joint_letters, joint_names, length_letters
 from gruebler.pictures.linkage.poles import centrode_lines, inflection_lines
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
+from gruebler.pictures.linkage.slides import slides
 
 _SAMPLES = 720  # poses of a curve
 _CHORD, _HALVINGS = 0.01, 12  # of a curve's width and height: farther poses get others between them, so many times
@@ -141,7 +142,9 @@ def _free_direction(posed: PosedLinkage, joint: int, at: Point) -> float:
     angles = []
     for link in lower.mechanism.chain.joints[joint].links:
         if link == lower.mechanism.frame:
-            angles.append(math.pi / 2)
+            pin = lower.elements[joint, link]
+            side = bearing_sides(posed)[complex(pin.x, pin.y)]
+            angles.append(math.atan2(side.y, side.x))
             continue
         pins = [(n, e) for (n, owner), e in lower.elements.items() if owner == link and n != joint]
         angles += [math.atan2(p.y - at.y, p.x - at.x) for n, e in pins if (p := posed.place(LinkPoint(link, e.x, e.y)))]

@@ -28,22 +28,20 @@ from gruebler.pictures.linkage.bodies import (
     PINS,
     BodyPart,
     CarriedLine,
-    Slide,
     barrel,
     body_parts,
     corners_of,
     layered,
     outline_parts,
-    pins_of,
     room_for,
     shapes_at_pose,
-    slides,
 )
 from gruebler.pictures.linkage.instant_centres import pole_numbers
 from gruebler.pictures.linkage.layer_context import LayerContext
 from gruebler.pictures.linkage.layers import BELOW, coupler_curve_lines, drive_arrows, ghosts, layer, point_names
 from gruebler.pictures.linkage.letters import driven_angle, joint_names
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, posed_linkage
+from gruebler.pictures.linkage.slides import Slide, pins_of, slides
 from gruebler.pictures.structure.messages import describe, title
 from gruebler.pictures.structure.picture import draw_structure
 
