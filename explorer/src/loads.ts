@@ -139,7 +139,10 @@ export class LoadForm {
       ];
       select(`spring-${k}`, t("Spring, damper"), kinds, spring ? spring.turning : "", (kind) => {
         const turning = kind === 2;
-        const away = places.find(([[link]]) => link !== places[0]![0][0]) ?? places[0]!;
+        // no two joints of one link, which stay as far apart as they are
+        const linksOf = (name: string) => linkage.model.joints.find((one) => one.name === name)?.links ?? [];
+        const near = linksOf(places[0]![2]);
+        const away = places.find(([, , name]) => !linksOf(name).some((link) => near.includes(link))) ?? places[0]!;
         const ends: Spring["ends"] = turning
           ? [
               [linkage.model.frame, 0, 0],
