@@ -242,8 +242,8 @@ def test_rounding_noise_of_cams_and_non_circular_wheels_is_shown_as_zero(capsys,
     assert main(["analyse", machine, "--range", "0:360:15"]) == 0
     rows = [line.split() for line in capsys.readouterr().out.splitlines() if re.match(r" *\d+ ", line)]
     assert len(rows) == 25
-    assert [int(row[0]) for row in rows if row[-1] == "0"] == list(zeros)
-    assert all(float(row[-1]) == 0 or abs(float(row[-1])) > 1e-3 for row in rows)
+    assert [int(row[0]) for row in rows if row[3] == "0"] == list(zeros)
+    assert all(float(row[3]) == 0 or abs(float(row[3])) > 1e-3 for row in rows)
 
 
 def test_rounding_noise_is_shown_as_zero(capsys):
