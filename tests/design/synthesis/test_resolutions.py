@@ -18,7 +18,8 @@ from gruebler.design.synthesis import (
     synthesise_orientations,
     synthesise_spherical_function,
 )
-from gruebler.design.synthesis.dyads import Displacements
+from gruebler.design.synthesis.dyads import CRANK, Displacements
+from gruebler.design.synthesis.pair_starts import PairStarts
 from gruebler.design.synthesis.point_families import PointFamily
 from gruebler.design.synthesis.random_starts import random_search
 
@@ -114,8 +115,8 @@ def test_random_starts_find_at_least_what_a_differential_evolution_does(seed):
     rng = np.random.default_rng(seed)
     places, angles = np.cumsum(rng.normal(size=(3, 2)), axis=0), np.cumsum(rng.uniform(10, 80, 3))
     task = PositionTask([(x, y, a) for (x, y), a in zip(places, np.radians(angles), strict=True)])
-    search = random_search(task, Demands(), ["transmission"])
-    (pair,) = search.best
+    search = random_search(PairStarts(task, CRANK), Demands(), ["transmission"])
+    pair = search.family.dyads(search.best[0])
     own = angles_of(task, np.array([pair[0].fixed]), np.array([pair[1].fixed]))[0]
     assert own == pytest.approx(np.degrees(-search.costs[0, 1]), abs=0.02)
 
@@ -161,7 +162,7 @@ def test_few_starts_say_little():
 @pytest.mark.parametrize("task", [TWO, THREE], ids=["two", "three"])
 def test_ends_of_random_starts_carry_the_body_through_its_positions(task):
     given = Displacements.of(task.origins, task.turns)[0]
-    search = random_search(task, Demands(region=(-2, -2, 2, 2)), ["sensitivity"])
+    search = random_search(PairStarts(task, CRANK), Demands(region=(-2, -2, 2, 2)), ["sensitivity"])
     moving, fixed = search.ends.view(np.complex128).reshape(-1, 2).T
     lengths = np.abs(np.array([given.images(pivot) for pivot in moving]) - fixed[:, None])
     assert np.ptp(lengths, axis=1).max() < 1e-9 * lengths.max()

@@ -109,7 +109,7 @@ class ConditionedRows(ABC):
     def equations(self, rows: Reals) -> tuple[Reals, Reals]:
         """(rows, equations) zero for linkages of the family with the lengths, and (rows, equations, numbers) slopes."""
         done, by_done = self.conditions(rows)
-        places, count = _places(rows, self.points), done.shape[1]
+        places, count = pivots_of_rows(rows, self.points), done.shape[1]
         sizes = len(self.lengths) + (self.frame_direction is not None)
         values, slopes = np.zeros((len(rows), count + sizes)), np.zeros((len(rows), count + sizes, rows.shape[1]))
         values[:, :count], slopes[:, :count] = done, by_done
@@ -157,7 +157,7 @@ class ConditionedRows(ABC):
             moving = moving[length > _EXACT * (1 + np.abs(rows[moving]).max(axis=1))]
             if not len(moving):
                 break
-        far = np.abs(_places(rows, self.points)).max(axis=1)
+        far = np.abs(pivots_of_rows(rows, self.points)).max(axis=1)
         misses = np.abs(self.equations(rows)[0]).max(axis=1)
         return rows, np.asarray((misses <= _REACHED * (1 + far * far)) & (far < FAR))
 
@@ -202,7 +202,7 @@ class PairFamily(ConditionedRows):
     def dyads(self, row: Reals) -> Pair:
         """The linkage of a row, in the unit of the task."""
         _, origin, size = Displacements.of(self.task.origins, self.task.turns)
-        x, m, *other = map(complex, _places(row, self.points))
+        x, m, *other = map(complex, pivots_of_rows(row, self.points))
         direction = complex(np.exp(1j * row[-1])) if self.kind.slides else 0j
         pair = GuidingDyad(CRANK, x, m), GuidingDyad(self.kind, other[0], other[-1], direction)
         return pair[0].moved(size, origin), pair[1].moved(size, origin)
@@ -210,7 +210,7 @@ class PairFamily(ConditionedRows):
     def conditions(self, rows: Reals) -> tuple[Reals, Reals]:
         """That both dyads guide the body."""
         given = Displacements.of(self.task.origins, self.task.turns)[0]
-        places = _places(rows, self.points)
+        places = pivots_of_rows(rows, self.points)
         count = len(given.q)
         values = np.zeros((len(rows), 2 * count))
         slopes = np.zeros((*values.shape, rows.shape[1]))
@@ -225,7 +225,7 @@ class PairFamily(ConditionedRows):
         """(rows, 1) what these linkages do."""
         given, origin, size = Displacements.of(self.task.origins, self.task.turns)
         q, t = given.with_first
-        places = _places(rows, self.points)
+        places = pivots_of_rows(rows, self.points)
         driven, other = (
             (origin + size * (places[:, side, None] * q + t)[:, None], origin + size * places[:, [last]])
             for side, last in ((0, 1), (2, -1))
@@ -244,8 +244,8 @@ def dyad_numbers(dyads: Sequence[GuidingDyad]) -> Reals:
     return np.concatenate([pivots[:, :2], np.angle([[dyad.direction] for dyad in dyads])], axis=1)
 
 
-def _places(rows: Reals, count: int) -> Complexes:
-    """The pivots of rows."""
+def pivots_of_rows(rows: Reals, count: int) -> Complexes:
+    """(..., count) the pivots of rows, with which they begin."""
     return np.ascontiguousarray(rows[..., : 2 * count]).view(np.complex128)
 
 
@@ -339,7 +339,7 @@ def _begun(family: PairFamily, firsts: Sequence[GuidingDyad], seconds: Sequence[
 
 def _different(family: PairFamily, rows: Reals, apart: float, number: int) -> list[int]:
     """The first rows whose pivots differ from those before by more than some sizes in sum, whichever dyad drives."""
-    places = _places(rows, family.points)
+    places = pivots_of_rows(rows, family.points)
     chosen: list[int] = []
     close = np.zeros(len(rows), bool)
     orders = [[0, 1, 2], [0, 1, 2]] if family.kind.slides else [[0, 1, 2, 3], [2, 3, 0, 1]]

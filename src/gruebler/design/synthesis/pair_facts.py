@@ -23,6 +23,7 @@ from gruebler.design.synthesis.target_orders import TargetOrder
 from gruebler.design.synthesis.tasks import PositionTask
 
 _SAME_WAY = 1e-9  # radians: of two ways that differ by less the first one is taken
+_OVER = 1e-3  # of crank and frame together: so near to the pivot of a block the crank's pin does not pass
 _BITS = 30  # costs that differ behind them are equal: a tie is not decided by how a machine rounds
 USUAL = ("full-turn", "transmission", "size-ratio")
 """By what designs are sorted unless the caller says otherwise."""
@@ -46,6 +47,7 @@ class PairFacts:
     transmission: Reals
     """The least transmission angle on the way through the positions, in radians; where the crank does not meet them in
     order, on the shortest way through all of them."""
+    closure: PairClosure
     inside: Flags
     """Both fixed pivots lie in the region."""
     travel: float
@@ -55,6 +57,12 @@ class PairFacts:
     """How far the most sensitive target of linkages moves, as `Design.relative_sensitivity`."""
     pivot_distance: Reals
     """(n, m) from the pivots that are preferred, infinite where there are fewer; NaN without any."""
+
+    @property
+    def over_range(self) -> Reals:
+        """(n, m) the least transmission angle over the whole range of the crank, in radians."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.nan_to_num(self.closure.over_range)
 
     @property
     def longest(self) -> Reals:
@@ -92,8 +100,8 @@ class PairFacts:
         """(n, m) what is to be small, the most important first; some only where it is asked for."""
         costs: Sequence[Callable[[], Reals]] = (
             lambda: -self.transmission,
-            lambda: -self.transmission,
-            lambda: self.longest,
+            lambda: -self.over_range,
+            lambda: np.maximum(self.longest, self.closure.reach),
             lambda: self.size_ratio,
             lambda: np.asarray(1.0 - self.turns, np.float64),
             lambda: self.shifts(which),
@@ -179,6 +187,7 @@ def facts_of_pins(
         moves=np.asarray(moves & usable),
         turns=np.asarray(turns & usable),
         transmission=np.where(usable, transmission, 0.0),
+        closure=closure,
         inside=np.broadcast_to(inside, usable.shape),
         travel=size,
         places=places,
@@ -202,8 +211,7 @@ def motion_of_pairs(closure: PairClosure, order: TargetOrder | None = None) -> P
     The last is at most a right angle and only meant for linkages that meet the targets; that of the shortest way which
     keeps the order, where several do.
     """
-    low, high, angle, side = closure.low, closure.high, closure.angle, closure.side
-    turns = (low < -1) & (high > 1)
+    low, high, angle, side, turns = closure.low, closure.high, closure.angle, closure.side, closure.turns
     split = (low >= -1) & (high <= 1)
     passes_back = (low < -1) & ~turns
     angle = np.where(passes_back[..., None], angle % (2 * np.pi), angle)
@@ -219,8 +227,7 @@ def motion_of_pairs(closure: PairClosure, order: TargetOrder | None = None) -> P
         begin, travel = np.where(better, along[..., 0], begin), np.where(better, gone, travel)
     same_part = ~split | (np.sign(angle) == np.sign(angle[..., :1])).all(axis=2)
     branch = (side == side[..., :1]).all(axis=2) & (side[..., 0] != 0) & same_part
-    cosines = [closure.cosine(_extreme(begin, travel, at)) for at in (0.0, np.pi)]
-    transmission = np.arccos(np.clip(np.maximum(*map(np.abs, cosines)), 0, 1))
+    transmission = closure.least_angle(*(_extreme(begin, travel, at) for at in (0.0, np.pi)))
     return PairMotion(*map(np.asarray, (branch, branch & ordered, turns, transmission)))
 
 
@@ -263,6 +270,24 @@ class PairClosure:
     """(n, m, positions) the sign of the assembly mode."""
     cosine: Callable[[Reals], Reals]
     """Of the transmission angle, from the cosine of the crank angle."""
+    reach: Reals | float = 0.0
+    """How far the line of a slide lies from the other joint of its link, as it counts in `Linkage.size`."""
+
+    @property
+    def turns(self) -> Flags:
+        """Whether the crank turns fully."""
+        return np.asarray((self.low < -1) & (self.high > 1))
+
+    @property
+    def over_range(self) -> Reals:
+        """The least transmission angle over the whole range of the crank; zero where that ends in a dead centre."""
+        whole = np.ones(self.turns.shape)
+        return np.where(self.turns, self.least_angle(whole, -whole), 0.0)
+
+    def least_angle(self, nearest: Reals, farthest: Reals) -> Reals:
+        """The least transmission angle of a range of the crank, from the largest and the least cosine of its angle."""
+        cosines = [self.cosine(nearest), self.cosine(farthest)]
+        return np.asarray(np.arccos(np.clip(np.maximum(*map(np.abs, cosines)), 0, 1)))
 
 
 def _by_rocker(driven: Places, other: Places, _: Complexes) -> PairClosure:
@@ -293,6 +318,7 @@ def _by_slider(driven: Places, other: Places, slides: Complexes) -> PairClosure:
         angle=np.angle((pins - own[..., None]) / (1j * slides)),
         side=np.sign(np.real(np.conj(slides) * (far_pins - pins))),
         cosine=lambda x: (a * x - e) / b,
+        reach=np.abs(far_pins[..., 0] - own),
     )
 
 
@@ -310,8 +336,14 @@ def _by_block(driven: Places, other: Places, slides: Complexes) -> PairClosure:
         high=(a * a + d * d - e * e) / (2 * a * d),
         angle=np.angle((pins - own[..., None]) / frame[..., None]),
         side=np.where(np.abs(along) > 1e-9 * (a + d)[..., None], np.sign(along), 0.0),
-        cosine=lambda x: e / np.sqrt(np.maximum(a * a + d * d - 2 * a * d * x, 0)),
+        cosine=lambda x: _across_block(e, a * a + d * d - 2 * a * d * x, _OVER * (a + d)),
+        reach=np.abs(e),
     )
+
+
+def _across_block(e: Reals, square: Reals, least: Reals) -> Reals:
+    """The cosine of the transmission angle; 1 where the crank's pin passes over the pivot of the block."""
+    return np.where(square < least**2, 1.0, e / np.sqrt(np.maximum(square, 0)))
 
 
 _CLOSURES = {CRANK: _by_rocker, SLIDER: _by_slider, BLOCK: _by_block}

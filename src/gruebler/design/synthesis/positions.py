@@ -55,6 +55,7 @@ from gruebler.design.synthesis.pair_search import (
     best_first,
     distinct_pairs,
 )
+from gruebler.design.synthesis.pair_starts import PairStarts
 from gruebler.design.synthesis.partner_bounds import (
     angle_of_pair,
     best_beside,
@@ -63,7 +64,7 @@ from gruebler.design.synthesis.partner_bounds import (
     of_turning,
     slide_notes,
 )
-from gruebler.design.synthesis.random_starts import RandomSearch, random_search
+from gruebler.design.synthesis.random_starts import random_search
 from gruebler.design.synthesis.results import (
     NEAR_PIVOTS,
     Design,
@@ -87,6 +88,8 @@ NEAR = 0.05
 """More than five positions are met if they are missed by less than this part of the size."""
 _SAMPLE = {2: 256, 3: 256, 4: 300}
 """Dyads of a family that are taken, by the number of positions: each is tried with each."""
+_ENDS_IN_DEAD_CENTRES = {NEAR_PIVOTS, "size"}
+"""What would be best in a dead centre: angles at which linkages jam are left out."""
 _FARTHER = (6.0, 20.0)  # likewise, of two positions with a given pivot
 _FOUR_BAR = f"{CRANK.form}-{CRANK.form}"
 DYADS = message("dyads")
@@ -143,7 +146,7 @@ def synthesise_positions(
     wanted = (demands or Demands()).of_task(task)
     if len(task) > 4 and task.fixed_pivots:
         raise SynthesisError("four-bars have no pivots to choose for more than four positions; six-bars have some")
-    if NEAR_PIVOTS in sort:
+    if _ENDS_IN_DEAD_CENTRES & {*sort}:
         wanted = replace(wanted, transmission=max(wanted.transmission, JAMMING))
     refuse_one_joint(task, wanted)
     refuse_parallelograms(task)
@@ -206,7 +209,7 @@ def _resolution(
     """How finely the best is sought by what is asked for."""
     step = FINEST_STEP if demands.given_sizes or (given and len(task) == 2) else PLANE * FINE_WIDTHS[-1]
     yield from resolution([name for name in sort if name != "transmission" or given], step)
-    if NEAR_PIVOTS in sort and demands.transmission == JAMMING:
+    if _ENDS_IN_DEAD_CENTRES & {*sort} and demands.transmission == JAMMING:
         yield message("Transmission angles below {angle:g}° are left out.", angle=degrees(JAMMING))
 
 
@@ -337,24 +340,35 @@ def _best_pairs(sought: SoughtPairs) -> tuple[list[Pair], list[Message]]:
     elif turns:
         better, proved = best_beside(task, demands, given[0], search.pairs)
     else:
-        random = _random(sought)
-        search = replace(search, pairs=(*(random.best if random else ()), *search.pairs))
+        starts = _starts(sought)
+        random = random_search(starts, demands, _known(sought)) if starts else None
+        if starts and random:
+            search = replace(search, pairs=(*map(starts.family.dyads, random.best), *search.pairs))
         first = sought.orders[:1] in ((), ("full-turn",))
         better, proved = improved_pairs(task, demands, search.pairs, turning_first=first)
-        proved += random.note([*better, *search.pairs]) if random else []
+        if starts and random:
+            known = [starts.family.rows(pair[:1], pair[1:]) for pair in (*better, *search.pairs)]
+            proved += random.note(np.concatenate(known))
     pairs = [*better, *search.pairs]
     if sought.orders:
         pairs = best_first(task, demands, pairs, sought.orders)
     return distinct_pairs(pairs, task.size)[: sought.number], [*search.notes, *proved]
 
 
-def _random(sought: SoughtPairs) -> RandomSearch | None:
-    """Four-bars sought from random starts, where the whole family is free and the best one has a size."""
-    demands, orders = sought.demands, [name for name in sought.orders if name in KNOWN] or USUAL
-    smallest = orders[0] == "size" and len(sought.task) == 2  # they shrink to the pole
-    if sought.given or sought.second or demands.given_sizes or smallest:
+def _known(sought: SoughtPairs) -> tuple[str, ...]:
+    """By what pairs are told apart."""
+    return tuple(name for name in sought.orders if name in KNOWN) or USUAL
+
+
+def _starts(sought: SoughtPairs) -> PairStarts | None:
+    """Where linkages are sought from random starts: the whole family is free and the best one has a size.
+
+    Beside slides, whose families are smaller, only by what is asked for.
+    """
+    smallest = _known(sought)[0] == "size" and len(sought.task) == 2  # they shrink to the pole
+    if sought.given or sought.demands.given_sizes or smallest or (sought.second and not sought.orders):
         return None
-    return random_search(sought.task, demands, orders)
+    return PairStarts(sought.task, sought.others[0].kind)
 
 
 def _having(task: PositionTask, demands: Demands, pairs: Sequence[Pair]) -> list[Pair]:

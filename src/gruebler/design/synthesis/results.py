@@ -251,6 +251,7 @@ ORDERS: Mapping[str, Callable[[Design], float]] = {
 
 MEASURES: Mapping[str, Message] = {
     "transmission": message("the transmission angle on the way"),
+    "range-transmission": message("the transmission angle of the whole range"),
     "size": message("the size"),
     "size-ratio": message("the size ratio"),
     "sensitivity": message("the sensitivity to wrong lengths"),
@@ -264,9 +265,6 @@ _RESOLUTION = message(
 _SAMPLE_SORTED = message(
     "By {measure} the designs that were found are sorted only: the family between them was not searched by it."
 )
-_ONLY_SORTED = message(
-    "Designs are sorted by the transmission angle of the whole range, but sought by the one on the way."
-)
 
 
 def resolution(orders: Sequence[str], step: float, said: Message = _RESOLUTION) -> list[Message]:
@@ -278,8 +276,7 @@ def resolution(orders: Sequence[str], step: float, said: Message = _RESOLUTION) 
         said: with measure and step.
     """
     measures = [MEASURES[name] for name in orders if name in MEASURES]
-    notes = [said.filled(measure=joined_by_and(measures), step=step)] if measures else []
-    return notes + [_ONLY_SORTED] * ("range-transmission" in orders)
+    return [said.filled(measure=joined_by_and(measures), step=step)] if measures else []
 
 
 def sorted_sample(orders: Sequence[str]) -> list[Message]:

@@ -1,0 +1,150 @@
+"""The best of families by what is asked for, against a differential evolution over them by another program."""
+
+import numpy as np
+import pytest
+from scipy.optimize import differential_evolution
+
+from gruebler.design.synthesis import Demands, FunctionTask, PositionTask, synthesise
+from gruebler.design.synthesis.results import ORDERS
+from tests.design.synthesis.own_ways import Block, Body, Crank, Rocker, Slider, circle_centre, judged
+
+FAR = 6.0  # sizes: as far lie the pivots that the other program tries, denser near the task
+NONE = 1e3
+PLACES = {"near-pivots": [(0.5, -1.0)]}
+
+
+def random_positions(count, seed):
+    rng = np.random.default_rng(seed)
+    return np.column_stack([rng.normal(size=(count, 2)), rng.uniform(-1.5, 1.5, count)]).tolist()
+
+
+def evolved(cost, bounds):
+    return differential_evolution(cost, bounds, seed=0, maxiter=40, popsize=12, tol=1e-10, polish=False).fun
+
+
+def value_of(found, measure, least):
+    """Of what is judged: a value of the measure, larger ones where a demand is not met."""
+    if found is None:
+        return NONE
+    fails = max(0.0, found["size-ratio"] / 20 - 1) + max(0.0, least + found["transmission"])
+    return NONE / 2 + fails if fails else found[measure]
+
+
+def best_of_evolution(positions, form, measure, least):
+    """The best value by a differential evolution of all numbers of the family."""
+    body, places = Body(positions), [complex(*place) for place in PLACES.get(measure, ())]
+    two = len(positions) == 2
+
+    def place(x, y):
+        return body.origins[0] + FAR * body.size * complex(x * abs(x), y * abs(y))
+
+    def turning(numbers):
+        pivot = place(*numbers[:2])
+        return pivot, body.pins(pivot, np.tan(1.5 * numbers[2]) if two else 0.0)
+
+    def cost(numbers):
+        count = 3 if two else 2
+        crank = Crank(*turning(numbers))
+        if form == "RR":
+            other = Rocker(*turning(numbers[count:]), crank)
+        else:
+            rest = numbers[count:]
+            if two:
+                rest = [part.item() for part in np.array([place(*rest)]).view(float)]
+            other = (body.slider if form == "PR" else body.block)(rest, crank)
+        with np.errstate(all="ignore"):
+            return value_of(judged(crank, other, body.size, places), measure, least)
+
+    turning_bounds = [(-1, 1)] * (3 if two else 2)
+    others = {"RR": turning_bounds}.get(form, [(-1, 1)] * 2 if two else [(0, np.pi)])
+    return evolved(cost, [*turning_bounds, *others])
+
+
+@pytest.mark.parametrize(
+    ("count", "seed", "measure", "degrees"),
+    [
+        (3, 0, "range-transmission", 0),
+        (3, 0, "size", 40),
+        pytest.param(3, 1, "near-pivots", 52, marks=pytest.mark.slow),
+        (2, 0, "range-transmission", 0),
+        pytest.param(2, 0, "size-ratio", 55, marks=pytest.mark.slow),
+    ],
+)
+def test_linkages_of_positions_are_the_best_by_what_is_asked_for(count, seed, measure, degrees):
+    """Never worse than the other program by more than 0.001, in radians, lengths of the task or of the ratio."""
+    positions, least = random_positions(count, seed), np.radians(degrees)
+    demands = Demands(transmission=least, near_pivots=PLACES.get(measure, ()))
+    found = synthesise(PositionTask(positions), demands=demands, sort=measure)
+    for form in ("RR", "PR", "RP"):
+        own = min(ORDERS[measure](design) for design in found.designs if design.form == f"RR-{form}")
+        assert own <= best_of_evolution(positions, form, measure, least) + 1e-3, form
+    said = [str(note) for note in found.notes]
+    for linkages in ("four-bars", "linkages RR-PR", "linkages RR-RP"):
+        assert any(f"random {linkages} that meet" in note and "fewer than 0.01" in note for note in said), said
+
+
+@pytest.mark.parametrize(
+    ("outputs", "output", "measure", "degrees"),
+    [
+        ([0.1, 0.5, 1.3], "angle", "range-transmission", 0),
+        ([0.1, 0.5, 1.3], "angle", "size-ratio", 45),
+        ([1.0, 3.0, 8.0], "travel", "range-transmission", 0),
+        ([1.0, 3.0, 8.0], "travel", "size", 45),
+    ],
+)
+def test_linkages_of_pairs_are_the_best_by_what_is_asked_for(outputs, output, measure, degrees):
+    """Never worse by more than a part of 0.002: each pin of the output has one crank, as three positions of it have."""
+    inputs, least = np.array([0.2, 0.9, 1.4]), np.radians(degrees)
+    task = FunctionTask(inputs, outputs=outputs, output=output, start_input=False, start_output=False)
+    found = synthesise(task, demands=Demands(transmission=least), sort=measure)
+    turns, moved = np.exp(1j * (inputs - inputs[0])), np.array(outputs) - outputs[0]
+    size = 1.0 if output == "angle" else np.ptp(outputs)
+
+    def cost(numbers):
+        pin = FAR * size * complex(*(numbers * abs(numbers)))
+        pins = 1 + (pin - 1) * np.exp(1j * moved) if output == "angle" else pin + moved
+        crank = Crank(0j, circle_centre(pins / turns) * turns)
+        other = Rocker(1 + 0j, pins, crank) if output == "angle" else Slider(1 + 0j, pins, crank)
+        with np.errstate(all="ignore"):
+            return value_of(judged(crank, other, size), measure, least)
+
+    best = evolved(cost, [(-1, 1)] * 2)
+    assert best < NONE / 2
+    assert ORDERS[measure](found.designs[0]) <= best + 0.002 * abs(best)
+
+
+@pytest.mark.parametrize("form", ["RR", "PR", "RP"])
+def test_the_other_program_judges_designs_as_they_are_judged_by_their_motion(form):
+    positions = random_positions(3, 2)
+    body = Body(positions)
+    found = synthesise(PositionTask(positions), sort="size", number=8)
+    designs = [design for design in found.designs if design.form == f"RR-{form}"]
+    assert designs
+    for design in designs:
+        pose = design.linkage.required_pose
+        places = {}
+        for (joint, link), element in design.linkage.elements.items():
+            links = frozenset(design.linkage.mechanism.chain.joints[joint].links)
+            if hasattr(element, "x"):
+                places[links] = complex(*pose[link].put(element.x, element.y))
+        crank = Crank(places[frozenset({"frame", "crank"})], body.places(places[frozenset({"crank", "coupler"})]))
+        assert np.ptp(abs(crank.pins - crank.pivot)) < 1e-9
+        if form == "RR":
+            other = Rocker(
+                places[frozenset({"frame", "rocker"})], body.places(places[frozenset({"rocker", "coupler"})]), crank
+            )
+        elif form == "PR":
+            pins = body.places(places[frozenset({"slider", "coupler"})])
+            direction = (pins[1] - pins[0]) / abs(pins[1] - pins[0])
+            assert abs(np.imag(np.conj(direction) * (pins[2] - pins[0]))) < 1e-9
+            other = Slider(direction, pins, crank)
+        else:
+            pivot = places[frozenset({"frame", "block"})]
+            seen = body.origins[0] + (pivot - body.origins) / body.turns
+            direction = (seen[1] - seen[0]) / abs(seen[1] - seen[0])
+            other = Block(pivot, direction * body.turns, crank)
+        own = judged(crank, other, body.size)
+        assert own["transmission"] == pytest.approx(-design.verdict.transmission, abs=2e-4)
+        assert own["range-transmission"] == pytest.approx(-design.transmission_over_range, abs=2e-4)
+        assert own["size"] == pytest.approx(design.linkage.size, rel=1e-9)
+        assert own["size-ratio"] == pytest.approx(design.verdict.size_ratio, rel=1e-9)
