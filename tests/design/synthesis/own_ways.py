@@ -138,18 +138,18 @@ class Body:
 
     def slider(self, numbers, crank):
         """By the angle of its line, of two positions by its pin."""
-        pin, direction = _on_a_line(self.places(0), self.turns, numbers)
+        pin, direction = on_a_line(self.places(0), self.turns, numbers)
         return Slider(direction, self.places(pin), crank)
 
     def block(self, numbers, crank):
         """By the angle of its line in the first position, of two positions by its pivot."""
         first = self.origins[0]
         seen = first - self.origins / self.turns  # a place of the frame, here 0, as the body sees it
-        pivot, direction = _on_a_line(seen, 1 / self.turns, numbers)
+        pivot, direction = on_a_line(seen, 1 / self.turns, numbers)
         return Block(pivot, direction * self.turns, crank)
 
 
-def _on_a_line(origins, turns, numbers):
+def on_a_line(origins, turns, numbers):
     """The point whose places origins + turns point are in line, and the line's direction."""
     if len(turns) == 2:
         point = complex(*numbers)
@@ -160,3 +160,40 @@ def _on_a_line(origins, turns, numbers):
     gaps = np.array([(b - a) / direction for a, b in pairwise(origins)])
     x, y = np.linalg.solve(np.stack([rows.imag, rows.real], axis=1), -gaps.imag)
     return complex(x, y), direction
+
+
+def concyclic(origins, turns, about, direction):
+    """Where on a line the places (origins - place) / turns of four lie on a circle: roots of a cubic."""
+    steps = np.arange(4.0)
+    determinants = []
+    for step in steps:
+        seen = (origins - about - step * direction) / turns
+        determinants.append(np.linalg.det(np.stack([abs(seen) ** 2, seen.real, seen.imag, np.ones(4)], axis=1)))
+    roots = np.roots(np.polyfit(steps, determinants, 3))
+    return [about + root.real * direction for root in roots if abs(root.imag) < 1e-9 * (1 + abs(root))]
+
+
+class TimedCoupler:
+    """Three or four points that a coupler reaches at crank angles."""
+
+    def __init__(self, points, angles):
+        self.points = np.array([complex(*point) for point in points])
+        self.turns = np.exp(1j * (np.array(angles) - angles[0]))
+        self.size = np.abs(self.points - self.points[0]).max()
+
+    def crank(self, pivot):
+        """With this pivot, and how the coupler turns."""
+        arm = circle_centre((self.points - pivot) / self.turns)
+        crank = Crank(pivot, pivot + arm * self.turns)
+        return crank, (self.points - crank.pins) / (self.points[0] - crank.pins[0])
+
+    def rocker(self, pivot, crank, turned):
+        """With this pivot."""
+        pin = circle_centre(crank.pins[0] + (pivot - crank.pins) / turned)
+        return Rocker(pivot, crank.pins + turned * (pin - crank.pins[0]), crank)
+
+    def slider(self, angle, crank, turned):
+        """With a line at this angle."""
+        origins = crank.pins - turned * crank.pins[0]
+        pin, direction = on_a_line(origins, turned, [angle])
+        return Slider(direction, origins + turned * pin, crank)

@@ -18,7 +18,7 @@ from gruebler.design.synthesis import (
     synthesise_orientations,
     synthesise_spherical_function,
 )
-from gruebler.design.synthesis.dyads import CRANK, Displacements
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements
 from gruebler.design.synthesis.pair_starts import PairStarts
 from gruebler.design.synthesis.point_families import PointFamily
 from gruebler.design.synthesis.random_starts import random_search
@@ -197,10 +197,13 @@ def test_the_command_line_tells_the_same(tmp_path, capsys):
 POINTS = [(0, 0), (1, 0.4), (2, 0.2), (2.5, -0.5), (2.3, -1.1), (1.5, -1.4)]
 
 
-def test_derivatives_of_the_conditions_of_points_are_difference_quotients():
-    family = PointFamily(task=PathTask(POINTS[:4]), lengths=(("rocker", 0.7),), frame_direction=0.3)
-    rows, step = np.random.default_rng(1).normal(size=(3, 11)), 1e-6
-    values = [[family.equations(rows + sign * step * axis)[0] for sign in (1, -1)] for axis in np.eye(11)]
+@pytest.mark.parametrize("kind", [CRANK, SLIDER, BLOCK])
+def test_derivatives_of_the_conditions_of_points_are_difference_quotients(kind):
+    link, direction = ("crank", None) if kind.slides else ("rocker", 0.3)
+    family = PointFamily(task=PathTask(POINTS[:4]), kind=kind, lengths=((link, 0.7),), frame_direction=direction)
+    count = family.own + 3
+    rows, step = np.random.default_rng(1).normal(size=(3, count)), 1e-6
+    values = [[family.equations(rows + sign * step * axis)[0] for sign in (1, -1)] for axis in np.eye(count)]
     quotients = np.stack([(more - less) / (2 * step) for more, less in values], axis=2)
     assert np.abs(quotients - family.equations(rows)[1]).max() < 1e-6
 

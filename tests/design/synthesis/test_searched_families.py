@@ -4,9 +4,19 @@ import numpy as np
 import pytest
 from scipy.optimize import differential_evolution
 
-from gruebler.design.synthesis import Demands, FunctionTask, PositionTask, synthesise
+from gruebler.design.synthesis import Demands, FunctionTask, PathTask, PositionTask, synthesise
 from gruebler.design.synthesis.results import ORDERS
-from tests.design.synthesis.own_ways import Block, Body, Crank, Rocker, Slider, circle_centre, judged
+from tests.design.synthesis.own_ways import (
+    Block,
+    Body,
+    Crank,
+    Rocker,
+    Slider,
+    TimedCoupler,
+    circle_centre,
+    concyclic,
+    judged,
+)
 
 FAR = 6.0  # sizes: as far lie the pivots that the other program tries, denser near the task
 NONE = 1e3
@@ -111,6 +121,79 @@ def test_linkages_of_pairs_are_the_best_by_what_is_asked_for(outputs, output, me
     best = evolved(cost, [(-1, 1)] * 2)
     assert best < NONE / 2
     assert ORDERS[measure](found.designs[0]) <= best + 0.002 * abs(best)
+
+
+POINTS, TIMES = [(0, 0), (1, 0.4), (2, 0.2), (2.5, -0.5)], np.radians([0, 40, 90, 120]).tolist()
+
+
+@pytest.mark.parametrize(
+    ("count", "measure", "degrees"),
+    [
+        (3, "transmission", 0),
+        (3, "near-pivots", 40),
+        (4, "range-transmission", 0),
+        (4, "near-pivots", 40),
+        (4, "size", 40),
+    ],
+)
+def test_linkages_of_timed_points_are_the_best_by_what_is_asked_for(count, measure, degrees):
+    """Never worse by more than 0.002; before, of a few linkages the best were 59 degrees, where 88.9 are had."""
+    task, least = PathTask(POINTS[:count], crank_angles=TIMES[:count]), np.radians(degrees)
+    places = PLACES.get(measure, ())
+    found = synthesise(task, demands=Demands(transmission=least, near_pivots=places), sort=measure)
+    coupler, wanted = TimedCoupler(POINTS[:count], TIMES[:count]), [complex(*place) for place in places]
+
+    def value(crank, other):
+        return value_of(judged(crank, other, coupler.size, wanted), measure, least)
+
+    def cost(numbers):
+        with np.errstate(all="ignore"):
+            if count == 3:
+                first, *rest = FAR * coupler.size * (numbers * abs(numbers)).reshape(-1, 2) @ [1, 1j]
+                crank, turned = coupler.crank(first)
+                return value(crank, coupler.rocker(rest[0], crank, turned))
+            about, values = coupler.points.mean(), [NONE]
+            for pivot in concyclic(coupler.points, coupler.turns, about, np.exp(1j * numbers[0])):
+                crank, turned = coupler.crank(pivot)
+                others = concyclic(crank.pins - turned * crank.pins[0], turned, about, np.exp(1j * numbers[1]))
+                for far in others:
+                    if abs(far - pivot) > 1e-6:
+                        values.append(value(crank, coupler.rocker(far, crank, turned)))
+            return min(values)
+
+    best = evolved(cost, [(-1, 1)] * 4 if count == 3 else [(0, np.pi)] * 2)
+    assert best < NONE / 2
+    assert min(ORDERS[measure](each) for each in found.designs if each.form == "RR-RR") <= best + 0.002
+    said = " ".join(map(str, found.notes))
+    assert ("256 random four-bars" if count == 3 else "steps down to 0.0001 sizes") in said
+    assert all(each.verdict.error < 1e-9 for each in found.designs)
+    assert {each.form for each in found.designs} == {"RR-RR", "RR-PR", "RR-RP"}
+
+
+def test_sliders_of_timed_points_are_the_best_by_what_is_asked_for():
+    found = synthesise(PathTask(POINTS[:3], crank_angles=TIMES[:3]), sort="range-transmission")
+    coupler = TimedCoupler(POINTS[:3], TIMES[:3])
+
+    def cost(numbers):
+        with np.errstate(all="ignore"):
+            x, y, angle = numbers
+            crank, turned = coupler.crank(FAR * coupler.size * complex(x * abs(x), y * abs(y)))
+            other = coupler.slider(np.pi * angle, crank, turned)
+            return value_of(judged(crank, other, coupler.size), "range-transmission", 0.0)
+
+    best = evolved(cost, [(-1, 1)] * 3)
+    assert best < -1.0
+    assert min(-each.transmission_over_range for each in found.designs if each.form == "RR-PR") <= best + 0.002
+
+
+@pytest.mark.parametrize("count", [3, 4])
+def test_timed_points_without_a_design_name_the_tightest_demand(count):
+    task = PathTask(POINTS[:count], crank_angles=TIMES[:count])
+    found = synthesise(task, demands=Demands(crank=True, size_ratio=1.0001, transmission=np.radians(89.9)))
+    assert not found.designs
+    assert any("all but the demand of" in str(note) for note in found.notes)
+    limited = synthesise(task, demands=Demands(region=(-3, -3, 3, 3), transmission=np.radians(30)))
+    assert limited.designs
 
 
 @pytest.mark.parametrize("form", ["RR", "PR", "RP"])

@@ -14,8 +14,9 @@ from gruebler.design.synthesis.length_search import PairFamily, pivots_of_rows
 from gruebler.design.synthesis.random_starts import DRAWN, StartFamily, in_region
 from gruebler.design.synthesis.tasks import PositionTask
 
-_SPREAD, _WIDE = 2.5, 1.5  # degrees of freedom, and sizes: Student's distribution of random pivots
-_ON_FRAME = {CRANK: [1, 3], SLIDER: [1], BLOCK: [1, 2]}
+SPREAD, WIDE = 2.5, 1.5
+"""Degrees of freedom, and sizes: Student's distribution of random pivots."""
+ON_FRAME = {CRANK: [1, 3], SLIDER: [1], BLOCK: [1, 2]}
 """Which pivots of a row lie on the frame, by the kind of the dyad that is not driven."""
 
 
@@ -32,10 +33,10 @@ class PairStarts(StartFamily):
     def drawn(self, rng: np.random.Generator, demands: Demands) -> Reals:
         """Pivots by Student's distribution, evenly in a region that is demanded; slides in any direction."""
         points = self.family.points
-        pivots = (_WIDE * rng.standard_t(_SPREAD, (DRAWN, 2 * points))).view(np.complex128)
+        pivots = (WIDE * rng.standard_t(SPREAD, (DRAWN, 2 * points))).view(np.complex128)
         if demands.region is not None:
             x1, y1, x2, y2 = demands.region
-            own = _ON_FRAME[self.kind]
+            own = ON_FRAME[self.kind]
             x, y = rng.uniform([x1, y1], [x2, y2], (DRAWN, len(own), 2)).transpose(2, 0, 1)
             pivots[:, own] = (x + 1j * y - self.origin) / self.size
         fixed = (rng.random((DRAWN, 2)) < 0.5) | (demands.region is not None)

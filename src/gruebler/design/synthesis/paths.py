@@ -144,8 +144,8 @@ class _Run:
 def _with_crank_angles(run: _Run) -> SynthesisResult:
     if len(run.oriented) == len(run.task) == TIMED_POSITIONS and not run.task.fixed_pivots:
         return timed_positions(run.task, run.demands, run.number, run.sort)
-    timed = timed_points(run.task, run.demands, run.number)
-    return timed if timed.count.theorem else _only_sorted(run, timed)
+    timed = timed_points(run.task, run.demands, run.number, run.sort)
+    return _only_sorted(run, timed) if len(run.task) > MOST_TIMED else timed
 
 
 def _only_sorted(run: _Run, result: SynthesisResult) -> SynthesisResult:

@@ -11,7 +11,7 @@ from functools import partial
 
 import numpy as np
 
-from gruebler.base.arrays import Reals
+from gruebler.base.arrays import Complexes, Reals
 from gruebler.base.errors import LinkageError
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.demands import (
@@ -21,12 +21,13 @@ from gruebler.design.synthesis.demands import (
     sought_order,
 )
 from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
-from gruebler.design.synthesis.dyads import CRANK, GuidingDyad
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.length_search import (
     FINEST_STEP,
     ConditionedRows,
     improved_rows,
+    pivots_of_rows,
 )
 from gruebler.design.synthesis.pair_facts import KNOWN, PairFacts, facts_of_pins
 from gruebler.design.synthesis.pair_shifts import point_shifts
@@ -37,18 +38,19 @@ from gruebler.mechanics.linkages import Linkage
 
 _IMPROVED = 6  # designs
 _ALIKE = 0.05  # sizes: of linkages whose pivots differ by less in sum one is listed
-_STEPS = message(
-    "The best four-bars by {measure} are improved within the family in steps down to {step:.1g} sizes of the task; "
+IN_STEPS = message(
+    "The best linkages by {measure} are improved within the family in steps down to {step:.1g} sizes of the task; "
     "that no other is better is not proved."
 )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PointFamily(ConditionedRows):
-    """Four-bars whose coupler point passes through points.
+    """Linkages of a crank and another dyad whose coupler point passes through points.
 
     Rows are linkages in sizes of the task about its first point: both pivots of the crank, on the coupler first, those
-    of the rocker, and by how much the crank has turned from the first point to each of the others.
+    of the other dyad, or the one of a slide and the angle of its line, and by how much the crank has turned from the
+    first point to each of the others.
     """
 
     task: PathTask
@@ -58,65 +60,94 @@ class PointFamily(ConditionedRows):
         """Of the task."""
         return self.task.size
 
+    @property
+    def own(self) -> int:
+        """How many numbers of a row tell the linkage; behind them stand the turns of the crank."""
+        return 2 * self.points + self.kind.slides
+
+    @property
+    def places(self) -> Complexes:
+        """(points,) of the coupler point, in sizes about the first one."""
+        return np.asarray((self.task.z - self.task.z[0]) / self.size)
+
     def conditions(self, rows: Reals) -> tuple[Reals, Reals]:
-        """The pin of the crank, and that of the rocker, keep their distances at every point."""
-        pin, pivot, far_pin, far = np.ascontiguousarray(rows[:, :8]).view(np.complex128).T
-        places = (self.task.z[1:] - self.task.z[0]) / self.task.size
+        """At every point the coupler point is where it should be, and the other dyad guides the coupler."""
+        pin, pivot, *other = pivots_of_rows(rows, self.points).T
+        places, own = self.places[1:], self.own
         values, slopes = (
             np.zeros((len(rows), 2 * len(places))),
             np.zeros((len(rows), 2 * len(places), rows.shape[1])),
         )
-        first, arm = -pin, far_pin - pin
         for k, place in enumerate(places):
-            turn = np.exp(1j * rows[:, 8 + k])
-            moved = pivot + (pin - pivot) * turn
-            by_angle = 1j * (pin - pivot) * turn
-            reach = place - moved
+            turn = np.exp(1j * rows[:, own + k])
+            moved, by_turn = pivot + (pin - pivot) * turn, 1j * (pin - pivot) * turn
+            reach, first = place - moved, -pin
+            # The turn of the coupler is turned = reach / first; its changes by pin, pivot and the crank's turn:
             turned = reach / first
-            # The change of turned is (-d moved first + reach d pin) / first².
-            gap = moved + arm * turned - far
-            own = turn, 1 - turn
-            by_pin = own[0] * (1 - arm / first) + arm * reach / first**2 - turned
-            by_pivot = own[1] * (1 - arm / first)
+            by_pin, by_pivot, turned_by = -turn / first + reach / first**2, (turn - 1) / first, -by_turn / first
+            of_point = [(0, reach, -turn), (1, reach, turn - 1), (0, first, 1.0)]
             values[:, 2 * k] = np.abs(reach) ** 2 - np.abs(first) ** 2
-            values[:, 2 * k + 1] = np.abs(gap) ** 2 - np.abs(far_pin - far) ** 2
-            ends = far_pin - far
-            of_crank = [(0, reach, -own[0]), (1, reach, -own[1]), (0, first, 1.0)]
-            of_rocker = [(0, gap, by_pin), (1, gap, by_pivot), (2, gap, turned), (3, gap, -1.0)]
-            of_rocker += [(2, ends, -1.0), (3, ends, 1.0)]
-            for row, terms in ((2 * k, of_crank), (2 * k + 1, of_rocker)):
-                for place_of, vector, factor in terms:
-                    part = 2 * np.conj(vector) * factor
-                    slopes[:, row, 2 * place_of] += part.real
-                    slopes[:, row, 2 * place_of + 1] -= part.imag
-            slopes[:, 2 * k, 8 + k] = -2 * np.real(np.conj(reach) * by_angle)
-            slopes[:, 2 * k + 1, 8 + k] = 2 * np.real(np.conj(gap) * by_angle * (1 - arm / first))
+            _add_squares(slopes[:, 2 * k], of_point)
+            slopes[:, 2 * k, own + k] = -2 * np.real(np.conj(reach) * by_turn)
+            row = slopes[:, 2 * k + 1]
+            if self.kind == BLOCK:
+                (far,) = other
+                along, arm = np.exp(-1j * rows[:, own - 1]), far - moved
+                seen = along * (np.conj(turned) * arm - (far - pin))
+                _add_across(row, [(0, along * (1 - np.conj(turned) * turn)), (1, along * np.conj(turned) * (turn - 1))])
+                _add_across(row, [(2, along * (np.conj(turned) - 1))])
+                _add_across(row, [(n, along * arm * np.conj(by)) for n, by in ((0, by_pin), (1, by_pivot))], sign=-1)
+                row[:, own + k] = np.imag(along * (np.conj(turned_by) * arm - np.conj(turned) * by_turn))
+            else:
+                arm = other[0] - pin
+                gap = moved + arm * turned
+                by = turn - turned + arm * by_pin, 1 - turn + arm * by_pivot, by_turn + arm * turned_by
+                if self.kind == CRANK:
+                    gap, ends = gap - other[1], other[0] - other[1]
+                    values[:, 2 * k + 1] = np.abs(gap) ** 2 - np.abs(ends) ** 2
+                    _add_squares(row, [(0, gap, by[0]), (1, gap, by[1]), (2, gap, turned), (3, gap, -1.0)])
+                    _add_squares(row, [(2, ends, -1.0), (3, ends, 1.0)])
+                    row[:, own + k] = 2 * np.real(np.conj(gap) * by[2])
+                    continue
+                along = np.exp(-1j * rows[:, own - 1])
+                seen = along * (gap - other[0])
+                _add_across(row, [(0, along * by[0]), (1, along * by[1]), (2, along * (turned - 1))])
+                row[:, own + k] = np.imag(along * by[2])
+            values[:, 2 * k + 1] = seen.imag
+            row[:, own - 1] = -seen.real
         return values, slopes
 
     def facts(self, rows: Reals, demands: Demands) -> PairFacts:
         """(rows, 1) what these linkages do."""
-        z, size = self.task.z, self.task.size
-        pin, pivot, far_pin, far = (
-            z[0] + size * part for part in np.ascontiguousarray(rows[:, :8]).view(np.complex128).T
-        )
-        turns = np.exp(1j * np.concatenate([np.zeros((len(rows), 1)), rows[:, 8:]], axis=1))
+        z, size = self.task.z, self.size
+        pin, pivot, *other = z[0] + size * pivots_of_rows(rows, self.points).T
+        turns = np.exp(1j * np.concatenate([np.zeros((len(rows), 1)), rows[:, self.own :]], axis=1))
         pins = pivot[:, None] + (pin - pivot)[:, None] * turns
         with np.errstate(divide="ignore", invalid="ignore"):
             turned = (z - pins) / (z[0] - pin)[:, None]
-        far_pins = pins + (far_pin - pin)[:, None] * turned
-        pivots = [pivot[:, None], far[:, None]]
+        far_pins, far = pins + (other[0] - pin)[:, None] * turned, other[-1][:, None]
+        slides = np.zeros((len(rows), 1, len(z)), np.complex128)
+        if self.kind.slides:
+            slides[:, 0] = np.exp(1j * rows[:, self.own - 1, None]) * (1 if self.kind == SLIDER else turned)
+        pivots = [pivot[:, None], *([] if self.kind == SLIDER else [far])]
         inside = np.logical_and.reduce([inside_region(each, demands) for each in pivots])
         return facts_of_pins(
             (pins[:, None], pivots[0]),
-            (far_pins[:, None], pivots[1]),
-            np.zeros((len(rows), 1, len(z)), np.complex128),
-            CRANK,
+            (far_pins[:, None], far),
+            slides,
+            self.kind,
             inside=inside,
-            size=size,
+            size=size if self.kind.slides else np.inf,
             order=sought_order(self.task, demands),
             shifts=partial(point_shifts, point=z, size=size),
             pivot_distance=distance_of_pivots(pivots, demands),
         )
+
+    def dyads(self, row: Reals) -> tuple[GuidingDyad, GuidingDyad]:
+        """The crank and the other dyad of a row, in the unit of the task."""
+        pin, pivot, *other = map(complex, self.task.z[0] + self.size * pivots_of_rows(row, self.points))
+        direction = complex(np.exp(1j * row[self.own - 1])) if self.kind.slides else 0j
+        return GuidingDyad(CRANK, pin, pivot), GuidingDyad(self.kind, other[0], other[-1], direction)
 
     def row(self, design: Design) -> Reals:
         """That of a four-bar whose pose is that of the first point."""
@@ -129,6 +160,21 @@ class PointFamily(ConditionedRows):
         seen = ((pivots - self.task.z[0]) / self.task.size).view(np.float64)
         drives = np.array(design.drives)[:: 1 if len(design.drives) == len(self.task) else len(design.drives) - 1]
         return np.concatenate([seen, drives[1:] - drives[0]])
+
+
+def _add_squares(row: Reals, terms: Sequence[tuple[int, Complexes, Complexes | float]]) -> None:
+    """Add the changes of squares of vectors by pivots, each (pivot, vector, change of the vector)."""
+    for pivot, vector, factor in terms:
+        part = 2 * np.conj(vector) * factor
+        row[:, 2 * pivot] += part.real
+        row[:, 2 * pivot + 1] -= part.imag
+
+
+def _add_across(row: Reals, terms: Sequence[tuple[int, Complexes]], sign: int = 1) -> None:
+    """Add the changes of imaginary parts by pivots, each (pivot, change), or by their conjugates."""
+    for pivot, factor in terms:
+        row[:, 2 * pivot] += factor.imag
+        row[:, 2 * pivot + 1] += sign * factor.real
 
 
 def improved_designs(
@@ -162,15 +208,12 @@ def improved_designs(
     for k, row in enumerate(better):
         if any(np.abs(row[:8] - other[:8]).sum() < _ALIKE for other in better[:k]):
             continue
-        pin, pivot, far_pin, far = map(complex, task.z[0] + task.size * row[:8].view(np.complex128))
         try:
-            linkage = linkage_of_dyads(
-                GuidingDyad(CRANK, pin, pivot), GuidingDyad(CRANK, far_pin, far), complex(task.z[0]), task.unit
-            )
+            linkage = linkage_of_dyads(*family.dyads(row), complex(task.z[0]), task.unit)
         except LinkageError:
             continue
         designed.append(judge_design(linkage, targets, demands, begun[0].form))
-    return [each for each in designed if each.verdict.accepted], resolution(orders, FINEST_STEP, _STEPS)
+    return [each for each in designed if each.verdict.accepted], resolution(orders, FINEST_STEP, IN_STEPS)
 
 
 def _is_four_bar(linkage: Linkage) -> bool:

@@ -11,18 +11,21 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
-from gruebler.base.text import message
+from gruebler.base.text import Message, message
 from gruebler.design.synthesis.demands import Demands
 from gruebler.design.synthesis.dyad_families import PLANE, SLIDES_BESIDE, guiding_dyads, near_in_plane, sliding_sample
 from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.length_search import best_linkages
+from gruebler.design.synthesis.pair_facts import USUAL
 from gruebler.design.synthesis.pair_search import FINE_WIDTHS, SoughtPairs, distinct_pairs
 from gruebler.design.synthesis.partner_bounds import best_beside
-from gruebler.design.synthesis.results import Design, SolutionCount, SynthesisResult, ranked, resolution
+from gruebler.design.synthesis.results import Design, SolutionCount, SynthesisResult, ranked, resolution, sorted_sample
 from gruebler.design.synthesis.targets import Probe, Targets, position_targets
 from gruebler.design.synthesis.tasks import SAME, PathTask, PositionTask
+from gruebler.design.synthesis.tightest_demands import all_but_one, has_limits
+from gruebler.design.synthesis.timed_families import best_timed
 
 TIMED_POSITIONS = 3
 MOST_TIMED = 5
@@ -77,22 +80,34 @@ def timed_positions(task: PathTask, demands: Demands, number: int, sort: Sequenc
     return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
 
 
-def timed_points(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
-    """Points with crank angles: twice the problem of guiding a body, first seen from the crank, then the coupler."""
+def timed_points(task: PathTask, demands: Demands, number: int, sort: Sequence[str] = ()) -> SynthesisResult:
+    """Points with crank angles: twice the problem of guiding a body, first seen from the crank, then the coupler.
+
+    Of three and four points the families are searched where a measure is asked for, something is demanded, or none of a
+    few linkages will do.
+    """
     if len(task) > MOST_TIMED:
         from gruebler.design.synthesis.curves import fit_path
 
         return fit_path(task, demands, number=number)
     if len(task) < 3:
         raise SynthesisError("crank angles need at least three points: two are met by any crank")
-    designs = timed_designs(task, np.array(task.crank_angles), demands, number)
-    accepted, rejected = ranked(designs)
+    timing = np.array(task.crank_angles)
+    designs = timed_designs(task, timing, demands, number)
     theorem = 12 if len(task) == MOST_TIMED else None
-    family = message("There are infinitely many solutions; some dyads of each family were taken.")
+    notes: list[Message] = []
+    accepted, rejected = ranked(designs)
+    if theorem is None:
+        notes.append(message("There are infinitely many solutions; some dyads of each family were taken."))
+        shrink = sort[:1] == ("size",) and len(task) == 3  # the smallest have no size
+        notes += sorted_sample(sort) if shrink else []
+        if not shrink and (sort or has_limits(demands) or not accepted):
+            pairs, said = best_timed(task, demands, sort or USUAL, number)
+            better = [each for pair in pairs for each in _judged_timed(task, timing, demands, *pair)]
+            accepted, rejected = ranked([*better, *designs])
+            notes += said if accepted else [*said, *all_but_one([*better, *designs], demands)]
     count = SolutionCount(what=message("linkages"), theorem=theorem, found=theorem or len(designs), real=len(designs))
-    return SynthesisResult(
-        task=task, designs=accepted, rejected=rejected, count=count, notes=() if theorem else (family,)
-    )
+    return SynthesisResult(task=task, designs=accepted, rejected=rejected, count=count, notes=tuple(notes))
 
 
 def timed_designs(task: PathTask, timing: Reals, demands: Demands, number: int) -> list[Design]:

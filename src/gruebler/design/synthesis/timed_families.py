@@ -1,0 +1,177 @@
+"""Linkages through three and four points at given crank angles: the best of their families by what is asked for.
+
+Three points leave four parameters, or three beside a slide, four points two, or one. docs/theory/synthesis-points.md,
+"Points with crank angles".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from gruebler.base.arrays import Complexes, Flags, Reals
+from gruebler.base.text import Message
+from gruebler.design.synthesis.demands import Demands, demands_failed
+from gruebler.design.synthesis.dyad_families import guiding_dyads
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements, DyadKind, GuidingDyad
+from gruebler.design.synthesis.length_search import FINEST_STEP, dyad_numbers, has_lengths, improved_rows
+from gruebler.design.synthesis.pair_facts import KNOWN
+from gruebler.design.synthesis.pair_starts import ON_FRAME, SPREAD, WIDE, cranks_of_pivots, slides_of_places
+from gruebler.design.synthesis.point_families import IN_STEPS, PointFamily
+from gruebler.design.synthesis.random_starts import DRAWN, StartFamily, random_search
+from gruebler.design.synthesis.results import resolution
+from gruebler.design.synthesis.tasks import PathTask, PositionTask
+
+_CRANKS, _OTHERS = 60, 60  # dyads of four points that are taken, of each family
+_IMPROVED = 12  # linkages
+_ALIKE = 0.05  # sizes: of linkages whose pivots differ by less in sum one is listed
+_SAME = 1e-6  # sizes: a dyad that is the crank again
+
+
+def best_timed(
+    task: PathTask, demands: Demands, orders: Sequence[str], number: int
+) -> tuple[list[tuple[GuidingDyad, GuidingDyad]], list[Message]]:
+    """The best cranks with other dyads, so many of each kind, and how finely they were sought.
+
+    Args:
+        task: three or four points with their crank angles.
+        demands: what counts first.
+        orders: by what the best is sought, the most important first.
+        number: of each kind.
+
+    Cost: 1 to 3 s.
+    """
+    pairs: list[tuple[GuidingDyad, GuidingDyad]] = []
+    notes: list[Message] = []
+    known = tuple(name for name in orders if name in KNOWN)
+    for kind in (CRANK, SLIDER, BLOCK):
+        if not has_lengths(kind, demands):
+            continue
+        starts = TimedStarts(task, kind, demands)
+        if len(task) == 3 and not demands.given_sizes:
+            search = random_search(starts, demands, known)
+            rows = search.ends[search.costs[:, 0] == 0]
+            notes += search.note(search.ends)
+        else:
+            rows = _improved(starts, demands, known)
+        chosen: list[Reals] = []
+        for row in rows:
+            if all(np.abs(row - other).sum() > _ALIKE for other in chosen):
+                chosen.append(row)
+            if len(chosen) == number:
+                break
+        pairs += map(starts.family.dyads, chosen)
+    said = resolution(known, FINEST_STEP, IN_STEPS) if len(task) == 4 or demands.given_sizes else []
+    return pairs, [*notes, *said]
+
+
+class TimedStarts(StartFamily):
+    """Linkages through three or four points at given crank angles, and how those of three move at random."""
+
+    family: PointFamily
+
+    def __init__(self, task: PathTask, kind: DyadKind, demands: Demands) -> None:
+        lengths, direction = demands.lengths, demands.frame_direction
+        self.family = PointFamily(task=task, kind=kind, lengths=lengths, frame_direction=direction)
+        self.kind, self.places = kind, self.family.places
+        self.turned = np.array(task.crank_angles, np.float64) - float(task.crank_angles[0] or 0.0)
+        # With the coupler point at rest the pin goes around the crank's pivot, which is shifted against the points.
+        self.seen = Displacements(np.exp(1j * self.turned[1:]), -self.places[1:])
+
+    def drawn(self, rng: np.random.Generator, demands: Demands) -> Reals:
+        """Pivots by Student's distribution, evenly in a region that is demanded; slides in any direction."""
+        pivots = (WIDE * rng.standard_t(SPREAD, (DRAWN, 2 * self.family.points))).view(np.complex128)
+        fixed = rng.random((DRAWN, 2)) < 0.5
+        if demands.region is not None:
+            x1, y1, x2, y2 = demands.region
+            own = ON_FRAME[self.kind]
+            x, y = rng.uniform([x1, y1], [x2, y2], (DRAWN, len(own), 2)).transpose(2, 0, 1)
+            pivots[:, own] = (x + 1j * y - self.family.task.z[0]) / self.family.size
+            fixed[:] = True
+        return self._members(pivots, np.pi * rng.random(DRAWN), fixed)
+
+    def neighbours(self, rng: np.random.Generator, rows: Reals, width: Reals) -> Reals:
+        """The crank is moved, at either pivot, or the other dyad, or both; a crank that moves turns the coupler."""
+        points = self.family.points
+        pivots = np.ascontiguousarray(rows[:, : 2 * points]).view(np.complex128)
+        steps = rng.normal(size=(*pivots.shape, 2)).view(np.complex128)[..., 0] * (1 + np.abs(pivots))
+        wide = width * np.exp(-2 * rng.random(len(rows)))
+        still = rng.random((len(rows), 1)) < 0.5
+        steps = np.where(still & (np.arange(points) < 2), 0, steps * wide[:, None])
+        angles = rows[:, self.family.own - 1] + wide * rng.normal(size=len(rows))
+        return self._members(pivots + steps, angles, rng.random((len(rows), 2)) < 0.5)
+
+    def sample(self) -> Reals:
+        """(linkages, numbers) of four points: other dyads with cranks along the curve of these."""
+        z = self.places
+        seen = PositionTask(tuple((-w.real, -w.imag, a) for w, a in zip(z, self._angles(self.turned), strict=True)))
+        rows = []
+        for crank in guiding_dyads(seen, _CRANKS):
+            pin, pivot = crank.moving - crank.fixed, -crank.fixed
+            if crank.slides or abs(pin) < _SAME:
+                continue
+            turns = self._carried(np.array([pin]), np.array([pivot]))[0]
+            angles = self._angles(np.angle(np.append(1, turns)))
+            carried = PositionTask(tuple((w.real, w.imag, a) for w, a in zip(z, angles, strict=True)))
+            others = [
+                dyad
+                for dyad in guiding_dyads(carried, _OTHERS)
+                if dyad.kind == self.kind and abs(dyad.moving - pin) + abs(dyad.fixed - pivot) > _SAME
+            ]
+            if others:
+                own = np.array([[pin, pivot]]).view(np.float64)
+                rows.append(np.concatenate([np.repeat(own, len(others), axis=0), dyad_numbers(others)], axis=1))
+        return self._with_turns(np.concatenate(rows)) if rows else np.empty((0, self.family.own + len(z) - 1))
+
+    def _members(self, pivots: Complexes, angles: Reals, fixed: Flags) -> Reals:
+        crank = np.stack([pivots[:, 0] - pivots[:, 1], -pivots[:, 1]], axis=1)
+        arm, pivot = cranks_of_pivots(self.seen, crank, fixed[:, 0]).view(np.complex128).T
+        pin, pivot = arm - pivot, -pivot
+        with np.errstate(divide="ignore", invalid="ignore"):
+            carried = Displacements(self._carried(pin, pivot), self.places[1:])
+        if self.kind.seen is None:
+            other = cranks_of_pivots(carried, pivots[:, 2:], fixed[:, 1])
+        else:
+            other = slides_of_places(self.kind.seen(carried), pivots[:, 2], angles)
+        return self._with_turns(np.concatenate([np.stack([pin, pivot], axis=1).view(np.float64), other], axis=1))
+
+    def _carried(self, pin: Complexes, pivot: Complexes) -> Complexes:
+        """(linkages, points - 1) how the coupler has turned from the first point to each of the others."""
+        pins = pivot[:, None] + (pin - pivot)[:, None] * np.exp(1j * self.turned[1:])
+        turned = (self.places[1:] - pins) / -pin[:, None]
+        return np.asarray(turned / np.abs(turned))
+
+    def _with_turns(self, rows: Reals) -> Reals:
+        return np.concatenate([rows, np.broadcast_to(self.turned[1:], (len(rows), len(self.turned) - 1))], axis=1)
+
+    @staticmethod
+    def _angles(angles: Reals) -> Iterator[float]:
+        """A body looks the same after a whole turn."""
+        return map(float, np.angle(np.exp(1j * angles)))
+
+
+def _improved(starts: TimedStarts, demands: Demands, orders: Sequence[str]) -> Reals:
+    """(linkages, numbers) the best of a sample, with the given lengths, improved within the family."""
+    family = starts.family
+    if len(starts.turned) == 3:
+        rows = starts.drawn(np.random.default_rng(0), demands)
+        rows = rows[np.isfinite(rows).all(axis=1)][: DRAWN // 4]
+    else:
+        rows = starts.sample()
+    held = np.zeros(rows.shape, bool)
+    held[:, family.own :] = True
+    rows, good = family.members(rows, held)
+    rows = rows[good]
+    if not len(rows):
+        return rows
+    facts = family.facts(rows, demands)
+    ranks = facts.ranks(demands_failed(facts.met(demands)), orders)
+    chosen: list[int] = []
+    for rank in map(int, ranks):
+        if all(np.abs(rows[rank] - rows[other]).sum() > 4 * _ALIKE for other in chosen):
+            chosen.append(rank)
+        if len(chosen) == _IMPROVED:
+            break
+    rows, meets = improved_rows(family, rows[chosen], held[: len(chosen)], demands, orders)
+    return rows[meets]
