@@ -102,6 +102,9 @@ class Demands:
                 "{name}: expected an angle, but found {value!r}", name="frame_direction", value=self.frame_direction
             )
         settle(self, lengths=_given_lengths(self.lengths), near_pivots=_places(self.near_pivots))
+        # The core takes no numbers of NumPy for plain ones, and comparisons with these are no plain bool.
+        settle(self, **{name: bool(getattr(self, name)) for name in ("crank", "one_branch", "in_order")})
+        settle(self, **{name: float(getattr(self, name)) for name in ("transmission", "size_ratio", "tolerance")})
 
     @property
     def given_sizes(self) -> int:

@@ -14,12 +14,12 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.base.errors import SynthesisError
-from gruebler.base.text import message
+from gruebler.base.text import Message, message
 from gruebler.design.synthesis.alt_burmester import PROBLEMS, Problem
 from gruebler.design.synthesis.demands import Demands, sought_order
 from gruebler.design.synthesis.finite_points import all_four_bars, check_general, crowded, points_between
 from gruebler.design.synthesis.judging import order_notes
-from gruebler.design.synthesis.point_families import improved_designs
+from gruebler.design.synthesis.point_families import improved_designs, through_points
 from gruebler.design.synthesis.positions import synthesise_positions
 from gruebler.design.synthesis.results import (
     EXACT,
@@ -33,6 +33,7 @@ from gruebler.design.synthesis.results import (
 from gruebler.design.synthesis.special_tasks import solved_where_it_lies
 from gruebler.design.synthesis.tasks import MOST_POINTS, PathTask, PositionTask
 from gruebler.design.synthesis.tightest_demands import all_but_one
+from gruebler.design.synthesis.timed_families import best_timed
 from gruebler.design.synthesis.timed_points import (
     MOST_TIMED,
     TIMED_POSITIONS,
@@ -159,7 +160,7 @@ def _open_points(run: _Run) -> SynthesisResult:
     check_general(run.task)
     free = free_parameters(run.task, run.demands)
     fitted = fit_open_points(run.task, run.demands, free, number=run.number, sliders=run.sliders, progress=run.progress)
-    better, steps = improved_designs(run.task, run.demands, (*fitted.designs, *fitted.rejected), run.orders)
+    better, steps = _improved(run, (*fitted.designs, *fitted.rejected))
     designs, _ = ranked([*better, *fitted.designs])
     notes = (*fitted.notes, *(steps or sorted_sample(run.sort)))
     if not designs:
@@ -168,6 +169,17 @@ def _open_points(run: _Run) -> SynthesisResult:
         )
         notes = (*notes, *sought)
     return replace(fitted, designs=designs, notes=notes)
+
+
+def _improved(run: _Run, designs: Sequence[Design]) -> tuple[list[Design], list[Message]]:
+    """Better ones of the family, with a slide, too, where something is asked for; three points from random starts."""
+    better, notes = improved_designs(run.task, run.demands, designs, run.orders, slides=run.sliders and bool(run.sort))
+    free = len(run.task) == 3 and not (run.task.fixed_pivots or run.demands.given_sizes)
+    if not free or run.sort[:1] in ((), ("size",), ["size"]):  # the smallest shrink to a point
+        return better, notes
+    pairs, said = best_timed(run.task, run.demands, run.orders, run.number)
+    pairs = [pair for pair in pairs if run.sliders or not pair[1].slides]
+    return [*better, *through_points(run.task, run.demands, pairs, designs)], [*said, *notes]
 
 
 def free_parameters(task: PathTask, demands: Demands) -> int:
@@ -261,7 +273,7 @@ def _sampled(run: _Run) -> SynthesisResult:
         least=min(_TURNS),
         most=max(_TURNS),
     )
-    better, steps = improved_designs(run.task, run.demands, designs, run.orders)
+    better, steps = _improved(run, designs)
     accepted, rejected = ranked([*better, *designs])
     return SynthesisResult(
         task=run.task,

@@ -1,11 +1,11 @@
-"""Four-bars through two to eight points: the best of some, made better within their family by what is asked for.
+"""Linkages through two to eight points: the best of some, made better within their family by what is asked for.
 
 Points leave families of one to seven parameters. docs/theory/synthesis-points.md, "The best of a family".
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -21,11 +21,12 @@ from gruebler.design.synthesis.demands import (
     sought_order,
 )
 from gruebler.design.synthesis.dyad_linkages import linkage_of_dyads
-from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, GuidingDyad
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, DyadKind, GuidingDyad
 from gruebler.design.synthesis.judging import judge_design
 from gruebler.design.synthesis.length_search import (
     FINEST_STEP,
     ConditionedRows,
+    has_lengths,
     improved_rows,
     pivots_of_rows,
 )
@@ -34,10 +35,18 @@ from gruebler.design.synthesis.pair_shifts import point_shifts
 from gruebler.design.synthesis.results import Design, in_order_of, resolution
 from gruebler.design.synthesis.targets import point_targets
 from gruebler.design.synthesis.tasks import SAME, PathTask
-from gruebler.mechanics.linkages import Linkage
+from gruebler.mechanics.linkages import Line, Linkage
 
 _IMPROVED = 6  # designs
 _ALIKE = 0.05  # sizes: of linkages whose pivots differ by less in sum one is listed
+_CRANK = (("crank", "coupler"), ("frame", "crank"))
+_PINS = {
+    CRANK: (*_CRANK, ("rocker", "coupler"), ("frame", "rocker")),
+    SLIDER: (*_CRANK, ("slider", "coupler")),
+    BLOCK: (*_CRANK, ("frame", "block")),
+}
+"""Between which links the pivots of a row lie."""
+_NAMES = {CRANK: "four-bar", SLIDER: "slider-crank", BLOCK: "inverted-slider-crank"}
 IN_STEPS = message(
     "The best linkages by {measure} are improved within the family in steps down to {step:.1g} sizes of the task; "
     "that no other is better is not proved."
@@ -150,16 +159,21 @@ class PointFamily(ConditionedRows):
         return GuidingDyad(CRANK, pin, pivot), GuidingDyad(self.kind, other[0], other[-1], direction)
 
     def row(self, design: Design) -> Reals:
-        """That of a four-bar whose pose is that of the first point."""
+        """That of a linkage of this kind whose pose is that of the first point."""
         places: dict[frozenset[str], complex] = {}
+        direction = 0.0
+        on_line = {SLIDER: "frame", BLOCK: "coupler"}.get(self.kind)
         for (joint, link), element in design.linkage.elements.items():
             links = frozenset(design.linkage.mechanism.chain.joints[joint].links)
-            places[links] = complex(*design.linkage.required_pose[link].put(element.x, element.y))
-        ends = (("crank", "coupler"), ("frame", "crank"), ("rocker", "coupler"), ("frame", "rocker"))
-        pivots = np.array([places[frozenset(links)] for links in ends])
+            pose = design.linkage.required_pose[link]
+            if isinstance(element, Line) and link == on_line:
+                direction = pose.angle + element.angle
+            elif element.is_pin:
+                places[links] = complex(*pose.put(element.x, element.y))
+        pivots = np.array([places[frozenset(links)] for links in _PINS[self.kind]])
         seen = ((pivots - self.task.z[0]) / self.task.size).view(np.float64)
         drives = np.array(design.drives)[:: 1 if len(design.drives) == len(self.task) else len(design.drives) - 1]
-        return np.concatenate([seen, drives[1:] - drives[0]])
+        return np.concatenate([seen, [direction] * self.kind.slides, drives[1:] - drives[0]])
 
 
 def _add_squares(row: Reals, terms: Sequence[tuple[int, Complexes, Complexes | float]]) -> None:
@@ -178,45 +192,68 @@ def _add_across(row: Reals, terms: Sequence[tuple[int, Complexes]], sign: int = 
 
 
 def improved_designs(
-    task: PathTask, demands: Demands, designs: Sequence[Design], orders: Sequence[str]
+    task: PathTask, demands: Demands, designs: Sequence[Design], orders: Sequence[str], *, slides: bool = False
 ) -> tuple[list[Design], list[Message]]:
-    """Four-bars better than the best of some by what is asked for, and in which steps they were sought. Cost: 0.3 s.
+    """Linkages better than the best of some by what is asked for, and in which steps they were sought. Cost: 0.3 s.
 
     Args:
         task: two to eight points, perhaps with fixed pivots.
         demands: what counts first; given lengths are kept.
         designs: some of the family; those that are accepted, or reach all points.
         orders: by what the best is sought, the most important first.
+        slides: whether linkages with a slide are sought, too, not four-bars alone.
     """
     known = [name for name in orders if name in KNOWN]
-    reach = [each for each in designs if each.drives and each.targets is not None and _is_four_bar(each.linkage)]
-    begun = in_order_of([each for each in reach if each.verdict.accepted] or reach, orders)[:_IMPROVED]
-    if not known or not begun:
-        return [], []
-    family = PointFamily(task=task, lengths=demands.lengths, frame_direction=demands.frame_direction)
-    rows = np.array([family.row(each) for each in begun])
+    reach = [each for each in designs if each.drives and each.targets is not None]
+    better: list[Design] = []
+    begun = False
+    for kind in (CRANK, SLIDER, BLOCK)[: 3 if slides else 1]:
+        some = [each for each in reach if _is_of_kind(each.linkage, kind)] if has_lengths(kind, demands) else []
+        some = list(in_order_of([each for each in some if each.verdict.accepted] or some, orders))[:_IMPROVED]
+        if known and some:
+            begun = True
+            better += _improved(task, demands, some, known, kind)
+    return better, resolution(orders, FINEST_STEP, IN_STEPS) if begun else []
+
+
+def _improved(
+    task: PathTask, demands: Demands, designs: Sequence[Design], orders: Sequence[str], kind: DyadKind
+) -> list[Design]:
+    """Accepted linkages beside some of a kind, better by what is asked for."""
+    family = PointFamily(task=task, kind=kind, lengths=demands.lengths, frame_direction=demands.frame_direction)
+    rows = np.array([family.row(each) for each in designs])
     held = np.zeros(rows.shape, bool)
+    on_frame = [k for k, links in enumerate(_PINS[kind]) if "frame" in links]
     for place in task.fixed_pivots:
         at = (complex(*place) - task.z[0]) / task.size
-        given = np.abs(rows[:, :8].view(np.complex128)[:, 1::2] - at) < SAME
-        held[:, 2:8:4] |= given
-        held[:, 3:8:4] |= given
-    better, _ = improved_rows(family, rows, held, demands, known)
+        given = np.abs(pivots_of_rows(rows, family.points)[:, on_frame] - at) < SAME
+        for k, own in zip(on_frame, given.T, strict=True):
+            held[:, 2 * k : 2 * k + 2] |= own[:, None]
+    better, _ = improved_rows(family, rows, held, demands, orders)
+    better = better[:, : family.own]
+    each = [k for k, row in enumerate(better) if all(np.abs(row - other).sum() >= _ALIKE for other in better[:k])]
+    return through_points(task, demands, [family.dyads(better[k]) for k in each], designs)
+
+
+def through_points(
+    task: PathTask, demands: Demands, pairs: Iterable[tuple[GuidingDyad, GuidingDyad]], like: Sequence[Design]
+) -> list[Design]:
+    """Cranks with other dyads as designs, those that are accepted; their forms are named as those of others."""
+    named = any(each.form == _NAMES[CRANK] for each in like) or any(each.form == _NAMES[SLIDER] for each in like)
+    targets = replace(point_targets("P", task.z, task.size), ranks=task.order)
     designed: list[Design] = []
-    assert begun[0].targets is not None
-    targets = replace(point_targets("P", task.z, begun[0].targets.size), ranks=task.order)
-    for k, row in enumerate(better):
-        if any(np.abs(row[:8] - other[:8]).sum() < _ALIKE for other in better[:k]):
-            continue
+    for own, other in pairs:
         try:
-            linkage = linkage_of_dyads(*family.dyads(row), complex(task.z[0]), task.unit)
+            linkage = linkage_of_dyads(own, other, complex(task.z[0]), task.unit)
         except LinkageError:
             continue
-        designed.append(judge_design(linkage, targets, demands, begun[0].form))
-    return [each for each in designed if each.verdict.accepted], resolution(orders, FINEST_STEP, IN_STEPS)
+        form = _NAMES[other.kind] if named else f"{own.kind.form}-{other.kind.form}"
+        designed.append(judge_design(linkage, targets, demands, form))
+    return [each for each in designed if each.verdict.accepted]
 
 
-def _is_four_bar(linkage: Linkage) -> bool:
-    return {"crank", "rocker", "coupler"} < {*linkage.mechanism.chain.links} and all(
-        e.is_pin for e in linkage.elements.values()
-    )
+def _is_of_kind(linkage: Linkage, kind: DyadKind) -> bool:
+    """Whether a linkage has a crank and another dyad of this kind, and no other links."""
+    pins = sum(element.is_pin for element in linkage.elements.values())
+    own = {"crank", "coupler", kind.sides[kind == CRANK]}
+    return own == {*linkage.mechanism.chain.links} - {linkage.mechanism.frame} and pins == (6 if kind.slides else 8)

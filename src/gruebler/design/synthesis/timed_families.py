@@ -1,6 +1,7 @@
 """Linkages through three and four points at given crank angles: the best of their families by what is asked for.
 
-Three points leave four parameters, or three beside a slide, four points two, or one. docs/theory/synthesis-points.md,
+Three points leave four parameters, or three beside a slide, four points two, or one. Where the crank angles of three
+points are free, they are two parameters more. docs/theory/synthesis-points.md,
 "Points with crank angles".
 """
 
@@ -15,11 +16,17 @@ from gruebler.base.text import Message
 from gruebler.design.synthesis.demands import Demands, demands_failed
 from gruebler.design.synthesis.dyad_families import guiding_dyads
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements, DyadKind, GuidingDyad
-from gruebler.design.synthesis.length_search import FINEST_STEP, dyad_numbers, has_lengths, improved_rows
+from gruebler.design.synthesis.length_search import (
+    FINEST_STEP,
+    dyad_numbers,
+    has_lengths,
+    improved_rows,
+    pivots_of_rows,
+)
 from gruebler.design.synthesis.pair_facts import KNOWN
 from gruebler.design.synthesis.pair_starts import ON_FRAME, SPREAD, WIDE, cranks_of_pivots, slides_of_places
 from gruebler.design.synthesis.point_families import IN_STEPS, PointFamily
-from gruebler.design.synthesis.random_starts import DRAWN, StartFamily, random_search
+from gruebler.design.synthesis.random_starts import DRAWN, StartFamily, in_region, random_search
 from gruebler.design.synthesis.results import resolution
 from gruebler.design.synthesis.tasks import PathTask, PositionTask
 
@@ -35,7 +42,7 @@ def best_timed(
     """The best cranks with other dyads, so many of each kind, and how finely they were sought.
 
     Args:
-        task: three or four points with their crank angles.
+        task: three or four points with their crank angles, or three without.
         demands: what counts first.
         orders: by what the best is sought, the most important first.
         number: of each kind.
@@ -67,7 +74,10 @@ def best_timed(
 
 
 class TimedStarts(StartFamily):
-    """Linkages through three or four points at given crank angles, and how those of three move at random."""
+    """Linkages through three or four points, at crank angles where they are given; how those of three move at random.
+
+    With the coupler point at rest the pin goes around the crank's pivot, which is shifted against the points.
+    """
 
     family: PointFamily
 
@@ -75,12 +85,11 @@ class TimedStarts(StartFamily):
         lengths, direction = demands.lengths, demands.frame_direction
         self.family = PointFamily(task=task, kind=kind, lengths=lengths, frame_direction=direction)
         self.kind, self.places = kind, self.family.places
-        self.turned = np.array(task.crank_angles, np.float64) - float(task.crank_angles[0] or 0.0)
-        # With the coupler point at rest the pin goes around the crank's pivot, which is shifted against the points.
-        self.seen = Displacements(np.exp(1j * self.turned[1:]), -self.places[1:])
+        angles = np.array(task.crank_angles, np.float64)
+        self.turned = angles[1:] - angles[:1]  # of no angles none
 
     def drawn(self, rng: np.random.Generator, demands: Demands) -> Reals:
-        """Pivots by Student's distribution, evenly in a region that is demanded; slides in any direction."""
+        """Pivots by Student's distribution, evenly in a region that is demanded; slides and free turns at any angle."""
         pivots = (WIDE * rng.standard_t(SPREAD, (DRAWN, 2 * self.family.points))).view(np.complex128)
         fixed = rng.random((DRAWN, 2)) < 0.5
         if demands.region is not None:
@@ -89,30 +98,37 @@ class TimedStarts(StartFamily):
             x, y = rng.uniform([x1, y1], [x2, y2], (DRAWN, len(own), 2)).transpose(2, 0, 1)
             pivots[:, own] = (x + 1j * y - self.family.task.z[0]) / self.family.size
             fixed[:] = True
-        return self._members(pivots, np.pi * rng.random(DRAWN), fixed)
+        turns = rng.uniform(-np.pi, np.pi, (DRAWN, len(self.places) - 1))
+        return self._members(pivots, np.pi * rng.random(DRAWN), fixed, turns)
 
-    def neighbours(self, rng: np.random.Generator, rows: Reals, width: Reals) -> Reals:
+    def neighbours(self, rng: np.random.Generator, demands: Demands, rows: Reals, width: Reals) -> Reals:
         """The crank is moved, at either pivot, or the other dyad, or both; a crank that moves turns the coupler."""
-        points = self.family.points
-        pivots = np.ascontiguousarray(rows[:, : 2 * points]).view(np.complex128)
+        points, own = self.family.points, self.family.own
+        pivots = pivots_of_rows(rows, points)
         steps = rng.normal(size=(*pivots.shape, 2)).view(np.complex128)[..., 0] * (1 + np.abs(pivots))
         wide = width * np.exp(-2 * rng.random(len(rows)))
         still = rng.random((len(rows), 1)) < 0.5
         steps = np.where(still & (np.arange(points) < 2), 0, steps * wide[:, None])
-        angles = rows[:, self.family.own - 1] + wide * rng.normal(size=len(rows))
-        return self._members(pivots + steps, angles, rng.random((len(rows), 2)) < 0.5)
+        turns = rows[:, own:] + np.where(still, 0, wide[:, None] * rng.normal(size=(len(rows), len(self.places) - 1)))
+        angles = rows[:, own - 1] + wide * rng.normal(size=len(rows))
+        fixed = (rng.random((len(rows), 2)) < 0.5) | (demands.region is not None)
+        pivots, on_frame = pivots + steps, ON_FRAME[self.kind]
+        origin = complex(self.family.task.z[0])
+        pivots[:, on_frame] = in_region(demands, pivots[:, on_frame], origin, self.family.size)
+        return self._members(pivots, angles, fixed, turns)
 
     def sample(self) -> Reals:
         """(linkages, numbers) of four points: other dyads with cranks along the curve of these."""
         z = self.places
-        seen = PositionTask(tuple((-w.real, -w.imag, a) for w, a in zip(z, self._angles(self.turned), strict=True)))
+        turned = self._angles(np.append(0, self.turned))
+        seen = PositionTask(tuple((-w.real, -w.imag, a) for w, a in zip(z, turned, strict=True)))
         rows = []
         for crank in guiding_dyads(seen, _CRANKS):
             pin, pivot = crank.moving - crank.fixed, -crank.fixed
             if crank.slides or abs(pin) < _SAME:
                 continue
-            turns = self._carried(np.array([pin]), np.array([pivot]))[0]
-            angles = self._angles(np.angle(np.append(1, turns)))
+            coupler = self._carried(np.array([pin]), np.array([pivot]), self.turned[None])[0]
+            angles = self._angles(np.angle(np.append(1, coupler)))
             carried = PositionTask(tuple((w.real, w.imag, a) for w, a in zip(z, angles, strict=True)))
             others = [
                 dyad
@@ -122,28 +138,29 @@ class TimedStarts(StartFamily):
             if others:
                 own = np.array([[pin, pivot]]).view(np.float64)
                 rows.append(np.concatenate([np.repeat(own, len(others), axis=0), dyad_numbers(others)], axis=1))
-        return self._with_turns(np.concatenate(rows)) if rows else np.empty((0, self.family.own + len(z) - 1))
+        own = np.concatenate(rows) if rows else np.empty((0, self.family.own))
+        return np.concatenate([own, np.broadcast_to(self.turned, (len(own), len(z) - 1))], axis=1)
 
-    def _members(self, pivots: Complexes, angles: Reals, fixed: Flags) -> Reals:
+    def _members(self, pivots: Complexes, angles: Reals, fixed: Flags, turns: Reals) -> Reals:
+        if len(self.turned):
+            turns = np.broadcast_to(self.turned, turns.shape)
+        seen = Displacements(np.exp(1j * turns), -self.places[1:])
         crank = np.stack([pivots[:, 0] - pivots[:, 1], -pivots[:, 1]], axis=1)
-        arm, pivot = cranks_of_pivots(self.seen, crank, fixed[:, 0]).view(np.complex128).T
+        arm, pivot = cranks_of_pivots(seen, crank, fixed[:, 0]).view(np.complex128).T
         pin, pivot = arm - pivot, -pivot
         with np.errstate(divide="ignore", invalid="ignore"):
-            carried = Displacements(self._carried(pin, pivot), self.places[1:])
+            carried = Displacements(self._carried(pin, pivot, turns), self.places[1:])
         if self.kind.seen is None:
             other = cranks_of_pivots(carried, pivots[:, 2:], fixed[:, 1])
         else:
             other = slides_of_places(self.kind.seen(carried), pivots[:, 2], angles)
-        return self._with_turns(np.concatenate([np.stack([pin, pivot], axis=1).view(np.float64), other], axis=1))
+        return np.concatenate([np.stack([pin, pivot], axis=1).view(np.float64), other, turns], axis=1)
 
-    def _carried(self, pin: Complexes, pivot: Complexes) -> Complexes:
+    def _carried(self, pin: Complexes, pivot: Complexes, turns: Reals) -> Complexes:
         """(linkages, points - 1) how the coupler has turned from the first point to each of the others."""
-        pins = pivot[:, None] + (pin - pivot)[:, None] * np.exp(1j * self.turned[1:])
+        pins = pivot[:, None] + (pin - pivot)[:, None] * np.exp(1j * turns)
         turned = (self.places[1:] - pins) / -pin[:, None]
         return np.asarray(turned / np.abs(turned))
-
-    def _with_turns(self, rows: Reals) -> Reals:
-        return np.concatenate([rows, np.broadcast_to(self.turned[1:], (len(rows), len(self.turned) - 1))], axis=1)
 
     @staticmethod
     def _angles(angles: Reals) -> Iterator[float]:
@@ -154,7 +171,7 @@ class TimedStarts(StartFamily):
 def _improved(starts: TimedStarts, demands: Demands, orders: Sequence[str]) -> Reals:
     """(linkages, numbers) the best of a sample, with the given lengths, improved within the family."""
     family = starts.family
-    if len(starts.turned) == 3:
+    if len(starts.places) == 3:
         rows = starts.drawn(np.random.default_rng(0), demands)
         rows = rows[np.isfinite(rows).all(axis=1)][: DRAWN // 4]
     else:
