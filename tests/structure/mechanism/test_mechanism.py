@@ -66,7 +66,7 @@ def test_one_part_free_while_another_is_driven_twice():
     assert "widersprechen: D(0-1), D(3-0)." in wrong.explain("de")
     right = check_drives(Mechanism(Chain.parse(text), "0", ["R(0-1)", "R(0-a)", "R(0-d)"]))
     assert right.fixed
-    assert "bestimmen die Bewegung" in right.explain("de")
+    assert right.explain("de") == "Laufgrad 3 und 3 Antriebe: Die Bewegung ist bestimmt."
 
 
 def test_roles_of_the_seeds_machines():
