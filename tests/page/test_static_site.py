@@ -290,7 +290,7 @@ def test_nine_points_are_met_without_python(tab, folder, address, from_disk):
     cards = page.page.locator('[data-page="synthesis"] .card')
     assert cards.locator("b").all_text_contents() == [f"Four-bar {number}" for number in (1, 2, 3, 4)]
     assert (
-        "frame70crank25coupler70rocker40\xa0mm" in cards.locator(".lengths").all_text_contents()
+        "frame70.00crank25.00coupler70.00rocker40.00\xa0mm" in cards.locator(".lengths").all_text_contents()
     )  # that of the points
     assert "All meet the targets exactly." in page.page.locator(".designs").inner_text()
     cards.first.click()
