@@ -106,7 +106,7 @@ def test_where_the_range_ends_the_page_says_why(tab, tmp_path):
     assert low == pytest.approx(measures(FourBar(50, 70, 40, 70).linkage()).span.low, abs=1e-9)
     box = page.page.locator(".track").bounding_box()
     page.drag((box["x"] + 40, box["y"] + 17), (box["width"] - 50, 0))
-    said = f"The motion ends at {np.degrees(high):.4g}°: there the joints of coupler and rocker no longer meet."
+    said = f"The motion ends at {np.degrees(high):.4g}°: there the joints of coupler and driven crank no longer meet."
     assert page.page.locator(".message span").inner_text() == said
 
 
