@@ -6,7 +6,7 @@ import type { Viewport } from "./viewport";
 
 const HALF_LETTER = 3.7; // pixels
 const BODY = 9; // pixels from the line between two joints to a name: half the width of a bar, and some room
-const ALONE = 22; // pixels from the only joint of a body, such as a block, to its name
+const ALONE = 24; // pixels from the only joint of a body, such as a block, to its name
 const GROUND = 22; // the height of a ground, but for where a name is near its bar
 const INK = 6; // half the height of a name, in pixels
 const GOOD = 300; // of a place at which nothing is wrong

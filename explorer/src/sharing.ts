@@ -41,7 +41,7 @@ export function sharedOf(motion: MotionView, withModel: boolean): Shared {
 /** What the text behind # carries; an error if it is none. */
 async function unshared(text: string): Promise<Shared> {
   const shared = (await unpacked(text)) as Shared;
-  if (typeof shared?.document?.joints !== "string") throw new Error(t("This address is damaged or not complete."));
+  if (typeof shared?.document?.joints !== "string") throw new Error(t("This address holds no mechanism."));
   return shared;
 }
 

@@ -45,6 +45,7 @@ def notes(result: SynthesisResult, items: Sequence[dict[str, Any]], total: int) 
     >>> for text in notes(synthesise(PositionTask(five), demands=Demands(crank=True)), [], 0):
     ...     print(text)
     None does: ask for less, or try other targets.
+    Designs that meet all but the demand of a drive that turns fully: 1.
     Rejected (1): the drive does not turn fully.
     """
     task = result.task

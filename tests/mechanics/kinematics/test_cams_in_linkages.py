@@ -248,7 +248,9 @@ def test_dwells_of_geneva_drives(slots, pins, internal):
     assert found.moving_span == pytest.approx(found.span.period * drive.motion_fraction)
     assert found.motion_ratio == pytest.approx(drive.motion_ratio)
     assert f"{in_degrees(found.moving_span):.4g}°" in found.explain()
-    assert f"Bewegung durch Rast {found.motion_ratio:.4g}".replace(".", ",") in found.explain("de")
+    ratio = found.motion_ratio
+    told = f"1 : {1 / ratio:.4g}" if ratio < 1 else f"{ratio:.4g} : 1"
+    assert f"Bewegung zu Rast {told}".replace(".", ",") in found.explain("de")
     for k, (begin, end, kind, side) in enumerate(rests):
         pitch = 360 / pins
         assert begin == pytest.approx(np.degrees(drive.engaged) + k * pitch, abs=1e-9)

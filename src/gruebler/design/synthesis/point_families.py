@@ -35,7 +35,7 @@ from gruebler.design.synthesis.pair_shifts import point_shifts
 from gruebler.design.synthesis.results import Design, in_order_of, resolution
 from gruebler.design.synthesis.targets import point_targets
 from gruebler.design.synthesis.tasks import SAME, PathTask
-from gruebler.mechanics.linkages import Line, Linkage
+from gruebler.mechanics.linkages import Linkage
 
 _IMPROVED = 6  # designs
 _ALIKE = 0.05  # sizes: of linkages whose pivots differ by less in sum one is listed
@@ -166,8 +166,8 @@ class PointFamily(ConditionedRows):
         for (joint, link), element in design.linkage.elements.items():
             links = frozenset(design.linkage.mechanism.chain.joints[joint].links)
             pose = design.linkage.required_pose[link]
-            if isinstance(element, Line) and link == on_line:
-                direction = pose.angle + element.angle
+            if element.is_line and link == on_line:
+                direction = pose.angle + element.direction
             elif element.is_pin:
                 places[links] = complex(*pose.put(element.x, element.y))
         pivots = np.array([places[frozenset(links)] for links in _PINS[self.kind]])

@@ -14,7 +14,7 @@ from gruebler.mechanics.kinematics.contours import cam_of
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.linkages import Linkage, LinkPoint
-from gruebler.mechanics.linkages.elements import CamDisc, Line
+from gruebler.mechanics.linkages.elements import CamDisc
 from gruebler.structure.assur import SolvedGroup
 
 LinkPlace = tuple[str, complex, complex]
@@ -50,7 +50,7 @@ def cam_contacts(plan: Plan, group: SolvedGroup) -> Iterator[CamContact]:
         cams = [link for link, element in own.items() if isinstance(element, CamDisc) and link not in inside]
         if member.outer and cams and cams[0] != plan.lower.mechanism.frame:
             cam, follower = link_place(plan, number, (cams[0],)), link_place(plan, number, tuple(inside))
-            flat = isinstance(own[follower[0]], Line)
+            flat = plan.lower.elements[number, follower[0]].is_line
             yield CamContact(joint=number, body=member.links[0], cam=cam, follower=follower, flat=flat)
 
 

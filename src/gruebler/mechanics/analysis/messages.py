@@ -37,7 +37,14 @@ _EQUAL_DWELLS = message("Dwells of {duration} each, from {begins}: at {outputs}.
 
 
 def output_lines(
-    units: MeasureUnits, name: str, *, still: bool, ratio: float | None, turns: int, travel: float | None, shift: float = 0.0
+    units: MeasureUnits,
+    name: str,
+    *,
+    still: bool,
+    ratio: float | None,
+    turns: int,
+    travel: float | None,
+    shift: float = 0.0,
 ) -> Iterator[Message]:
     """How the output moves: its ratio if that is constant, else its turns or its travel."""
     if still and shift:
