@@ -80,7 +80,8 @@ export class Transport<View extends Driven = Driven> {
     const choices = model.drives.map((drive, k) =>
       h("option", { value: k, selected: k === active }, this.view.linkage.jointName(drive.name)),
     );
-    const drives = choices.length > 1 && h("label", {}, t("Drive"), " ", h("select", { onchange }, ...choices));
+    const called = t("Drive");
+    const drives = choices.length > 1 && h("select", { "aria-label": called, title: called, onchange }, ...choices);
     const speedLabel = h("label.speed", {}, t("Speed"), speed, rate);
     this.#value.setAttribute("aria-label", t("Drive"));
     const row = [this.player.button, drives, this.#track.element, this.#value, speedLabel];

@@ -113,7 +113,7 @@ def test_header_structure_and_save_are_of_the_machine_in_space(server, chromium)
     text = entry("universal_joint").placed().mechanism.text()
     assert page.locator('[data-field="chain"]').input_value() == text
     assert "Antriebsgabel" in page.locator(".chain-picture").text_content()
-    page.get_by_text("eine Kette und Ihre").wait_for()  # which is none of the plane
+    page.get_by_text("eine Kette", exact=True).wait_for()  # which is none of the plane
     assert page.locator('[data-act="realise"]').count() == 0  # dimensions are found in the plane
     page.locator('[data-icon="save"]').click()
     page.locator("dialog").get_by_role("button", name="glTF").wait_for()
