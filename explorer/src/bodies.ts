@@ -152,7 +152,7 @@ export class Bodies {
     const sides = half === RAIL ? [1] : [1, -1];
     return sides.flatMap((side) => {
       const [rail, hatch] = [half, half + HATCH].map((off) => railOf(ends, (side * off) / this.#scale));
-      this.rails.push(this.#pixels(rail!), this.#pixels(hatch!));
+      this.rails.push(this.#pixels(hatch!));
       return [this.#stroke("rail", rail!), this.#stroke("rail-hatch", hatch!)];
     });
   }

@@ -579,7 +579,8 @@ def test_letters_of_a_phone_stay_at_their_joints_and_points_clear_of_bars_and_ra
         far.append(np.hypot(*(letter - a)))
         gaps.append(min(np.hypot(*(letter - a - at)) for at in arrow))
         x, y = (c - b) / np.hypot(*(c - b))
-        off.append(min(abs(x * (mark - b)[1] - y * (mark - b)[0]), abs(mark - c)[1]))  # from its bar, from the rail
+        rail = c[1] + 11  # on which its block stands
+        off.append(min(abs(x * (mark - b)[1] - y * (mark - b)[0]), abs(mark[1] - rail)))  # from its bar, from the rail
     assert np.mean(np.array(far) < 21) > 0.8
     assert min(gaps) > 8
     assert np.mean(np.array(off) > 9) > 0.8
