@@ -46,7 +46,6 @@ FAMILIES = (
     Family(frozenset({"FOUR_BAR", "SLIDER_CRANK"}), "design/synthesis/four_bar_kinds.py"),
 )
 ALLOWED = {
-    "mechanics/analysis/cam_contacts.py": "pressure angles and radii of curvature: of cams only",
     "mechanics/linkages/wheels.py": "radii from tooth numbers, meshes that repeat others: of toothed wheels only",
 }
 """Files that ask for a kind all the same, and why."""

@@ -14,6 +14,9 @@ from gruebler.mechanics.kinematics import move
 from gruebler.page.links import read_link
 
 VIEW = "gruebler.views.synthesis"
+MARKS = ("circle", ".tip")
+POINTED = "(one) => (({ e, f }) => [e, f])(one.getScreenCTM())"
+"""Where a mark of a position lies on the screen, unrounded."""
 
 
 @pytest.fixture
@@ -85,10 +88,9 @@ def test_a_four_bar_on_two_pivots_carries_its_coupler_through_three_positions(de
     design.drag(design.target(0, 25), (40, 40), steps=3)
     view.mouse.click(*design.target(35, 10))
     design.drag(design.middle('[data-point="0"] .tip'), (0, -10), steps=3)
-    x, y = design.middle('[data-point="0"] > circle:last-of-type')
-    u, v = design.middle('[data-point="0"] .tip')
+    (x, y), (u, v) = (view.locator(f'[data-point="0"] > {mark}').evaluate(POINTED) for mark in MARKS)
     assert v < y - 5
-    assert view.evaluate(f"{VIEW}.rows.positions[0][2]") == pytest.approx(np.degrees(np.arctan2(y - v, u - x)), abs=3)
+    assert view.evaluate(f"{VIEW}.rows.positions[0][2]") == pytest.approx(np.degrees(np.arctan2(y - v, u - x)), abs=1)
     # each new position is turned further than the last one; the second was dragged to where its arrow points
     assert [row[2] for row in view.evaluate(f"{VIEW}.rows.positions")[1:]] == [-45, -25]
     for number, angle in enumerate((12, 35, 70), 1):

@@ -239,7 +239,8 @@ def test_points_are_sought_by_what_is_asked_for(count, sort, demands):
         return design.relative_sensitivity if sort == "sensitivity" else design.verdict.pivot_distance
 
     best = [min(map(value, (each for each in some if each.form == "RR-RR"))) for some in (found.designs, others)]
-    assert best[0] <= best[1] + 1e-6
+    both = sort == "near-pivots" and count == 3  # both on the given places
+    assert best[0] < best[1] or (both and max(best) < 1e-6)
     assert value(found.designs[0]) <= best[0]
     assert found.designs[0].verdict.error < 1e-9
 

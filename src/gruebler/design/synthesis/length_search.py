@@ -49,7 +49,8 @@ _STEPS = 40
 _LONGEST = 0.5  # of a step, in sizes, or by the largest number of a linkage
 _REACHED = 1e-11  # of what is satisfied, by sizes
 _BEGUN = 8192  # pairs of a sample from which is begun, those first that need the smallest step
-_SPREAD, _WIDE = 2.5, 1.5  # degrees of freedom, and sizes: Student's distribution of other starts
+SPREAD, WIDE = 2.5, 1.5
+"""Degrees of freedom, and sizes: Student's distribution of random pivots."""
 _LOOKED_AT = 400  # members for each linkage that is wanted
 _APART = 0.2  # sizes: pivots of two members that are made better differ by more
 _EXACT = 1e-14  # of the numbers: smaller steps end the search
@@ -303,8 +304,8 @@ def best_members(
         begun = np.concatenate([near, rest[np.linspace(0, len(rest) - 1, _BEGUN // 2).astype(int)]])
         rows, held = rows[begun], held[begun]
     if determined:  # few linkages are found from places that the family does not fill
-        wide = max([_WIDE, *(length / task.size for _, length in demands.lengths)])
-        anywhere = wide * np.random.default_rng(0).standard_t(_SPREAD, (len(rows), rows.shape[1]))
+        wide = max([WIDE, *(length / task.size for _, length in demands.lengths)])
+        anywhere = wide * np.random.default_rng(0).standard_t(SPREAD, (len(rows), rows.shape[1]))
         rows = np.concatenate([rows, np.where(held, rows, anywhere)])
         held = np.concatenate([held, held])
     rows, good = family.members(rows, held)

@@ -9,15 +9,10 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Flags, Reals
 from gruebler.design.synthesis.demands import Demands
-from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, Displacements, DyadKind
+from gruebler.design.synthesis.dyads import Displacements, DyadKind
 from gruebler.design.synthesis.length_search import PairFamily, pivots_of_rows
-from gruebler.design.synthesis.random_starts import DRAWN, StartFamily, in_region
+from gruebler.design.synthesis.random_starts import DRAWN, StartFamily
 from gruebler.design.synthesis.tasks import PositionTask
-
-SPREAD, WIDE = 2.5, 1.5
-"""Degrees of freedom, and sizes: Student's distribution of random pivots."""
-ON_FRAME = {CRANK: [1, 3], SLIDER: [1], BLOCK: [1, 2]}
-"""Which pivots of a row lie on the frame, by the kind of the dyad that is not driven."""
 
 
 class PairStarts(StartFamily):
@@ -31,14 +26,8 @@ class PairStarts(StartFamily):
         self.given, self.origin, self.size = Displacements.of(task.origins, task.turns)
 
     def drawn(self, rng: np.random.Generator, demands: Demands) -> Reals:
-        """Pivots by Student's distribution, evenly in a region that is demanded; slides in any direction."""
-        points = self.family.points
-        pivots = (WIDE * rng.standard_t(SPREAD, (DRAWN, 2 * points))).view(np.complex128)
-        if demands.region is not None:
-            x1, y1, x2, y2 = demands.region
-            own = ON_FRAME[self.kind]
-            x, y = rng.uniform([x1, y1], [x2, y2], (DRAWN, len(own), 2)).transpose(2, 0, 1)
-            pivots[:, own] = (x + 1j * y - self.origin) / self.size
+        """Slides in any direction."""
+        pivots = self.pivots(rng, demands)
         fixed = (rng.random((DRAWN, 2)) < 0.5) | (demands.region is not None)
         return self._members(pivots, np.pi * rng.random(DRAWN), fixed)
 
@@ -51,12 +40,10 @@ class PairStarts(StartFamily):
         side = (rng.random((len(pivots), 1)) < 0.5) == (np.arange(self.family.points) < 2)
         steps = np.where(alone & side, 0, steps * wide[:, None])
         fixed = (rng.random((len(pivots), 2)) < 0.5) | (demands.region is not None)
-        pivots, own = pivots + steps, ON_FRAME[self.kind]
-        pivots[:, own] = in_region(demands, pivots[:, own], self.origin, self.size)
         angles = rows[:, -1]
         if self.kind.slides:
             angles = angles + np.where(steps[:, 2] == 0, 0, wide * rng.normal(size=len(rows)))
-        return self._members(pivots, angles, fixed)
+        return self._members(self.within(demands, pivots + steps), angles, fixed)
 
     def _members(self, pivots: Complexes, angles: Reals, fixed: Flags) -> Reals:
         first = cranks_of_pivots(self.given, pivots[:, :2], fixed[:, 0])

@@ -38,7 +38,8 @@ from gruebler.design.synthesis.tasks import SAME, PathTask
 from gruebler.mechanics.linkages import Linkage
 
 _IMPROVED = 6  # designs
-_ALIKE = 0.05  # sizes: of linkages whose pivots differ by less in sum one is listed
+ALIKE = 0.05
+"""Sizes: of linkages whose pivots differ by less in sum one is listed."""
 _CRANK = (("crank", "coupler"), ("frame", "crank"))
 _PINS = {
     CRANK: (*_CRANK, ("rocker", "coupler"), ("frame", "rocker")),
@@ -230,9 +231,17 @@ def _improved(
         for k, own in zip(on_frame, given.T, strict=True):
             held[:, 2 * k : 2 * k + 2] |= own[:, None]
     better, _ = improved_rows(family, rows, held, demands, orders)
-    better = better[:, : family.own]
-    each = [k for k, row in enumerate(better) if all(np.abs(row - other).sum() >= _ALIKE for other in better[:k])]
-    return through_points(task, demands, [family.dyads(better[k]) for k in each], designs)
+    apart = rows_apart(better[:, : family.own], len(better))
+    return through_points(task, demands, map(family.dyads, apart), designs)
+
+
+def rows_apart(rows: Reals, number: int, *, gap: float = ALIKE) -> list[Reals]:
+    """The first linkages, so many at most, each of which differs from those before it by more than a gap in sum."""
+    chosen: list[Reals] = []
+    for row in rows:
+        if len(chosen) < number and all(np.abs(row - other).sum() > gap for other in chosen):
+            chosen.append(row)
+    return chosen
 
 
 def through_points(

@@ -16,8 +16,8 @@ from gruebler.base.arrays import Complexes, Flags, Integers, Reals
 from gruebler.base.text import Message, message
 from gruebler.design.synthesis.demands import Demands, demands_failed
 from gruebler.design.synthesis.dyad_cells import FAR
-from gruebler.design.synthesis.dyads import CRANK
-from gruebler.design.synthesis.length_search import ConditionedRows, pivots_of_rows
+from gruebler.design.synthesis.dyads import BLOCK, CRANK, SLIDER, DyadKind
+from gruebler.design.synthesis.length_search import SPREAD, WIDE, ConditionedRows, pivots_of_rows
 from gruebler.design.synthesis.pair_facts import USUAL
 from gruebler.design.synthesis.results import MEASURES, NEAR_PIVOTS, form_symbols
 
@@ -31,6 +31,8 @@ _CLIMBED = ((_STARTS + _CHOSEN, 80, 12), (16, 240, 64))
 _WIDEST, _NARROWEST = 0.5, 1e-6  # steps, in sizes or by the distance of a pivot
 _GROWS, _SHRINKS = 1.5, 0.85  # after a gain, after none
 _NEAR = 5e-3  # of the best: ends so near count as the best
+_ON_FRAME = {CRANK: [1, 3], SLIDER: [1], BLOCK: [1, 2]}
+"""Which pivots of a row lie on the frame, by the kind of the dyad that is not driven."""
 _UNLIKELY = 0.05  # how often what is said of all trials may be wrong
 _ENDS = message(
     "{starts} {begun} with pivots within {far:g} sizes of the task were improved, too: {ends} of them end at the best "
@@ -53,6 +55,11 @@ class StartFamily(ABC):
     """A family of linkages whose members can be drawn at random, and moved at random within it."""
 
     family: ConditionedRows
+    kind: DyadKind
+    """That of the dyad that is not driven."""
+    origin: complex
+    size: float
+    """Pivots are told in sizes about an origin."""
 
     @abstractmethod
     def drawn(self, rng: np.random.Generator, demands: Demands) -> Reals:
@@ -61,6 +68,27 @@ class StartFamily(ABC):
     @abstractmethod
     def neighbours(self, rng: np.random.Generator, demands: Demands, rows: Reals, width: Reals) -> Reals:
         """(linkages, numbers) members beside others, in steps as wide as (linkages,) says, at most."""
+
+    def pivots(self, rng: np.random.Generator, demands: Demands) -> Complexes:
+        """(`DRAWN`, points) by Student's distribution; those of the frame evenly in a region that is demanded."""
+        pivots = (WIDE * rng.standard_t(SPREAD, (DRAWN, 2 * self.family.points))).view(np.complex128)
+        if demands.region is not None:
+            x1, y1, x2, y2 = demands.region
+            own = _ON_FRAME[self.kind]
+            x, y = rng.uniform([x1, y1], [x2, y2], (DRAWN, len(own), 2)).transpose(2, 0, 1)
+            pivots[:, own] = (x + 1j * y - self.origin) / self.size
+        return pivots
+
+    def within(self, demands: Demands, pivots: Complexes) -> Complexes:
+        """(linkages, points) pivots, those of the frame put on the sides of the region that is demanded, if outside."""
+        if demands.region is None:
+            return pivots
+        x1, y1, x2, y2 = demands.region
+        low, high = (complex(x, y) - self.origin for x, y in ((x1, y1), (x2, y2)))
+        low, high, own = low / self.size, high / self.size, _ON_FRAME[self.kind]
+        put, places = pivots.copy(), pivots[:, own]
+        put[:, own] = np.clip(places.real, low.real, high.real) + 1j * np.clip(places.imag, low.imag, high.imag)
+        return put
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -177,15 +205,6 @@ def _starts(
     best = drawn[np.lexsort(costs.T[::-1])[: _STARTS + _CHOSEN - len(some)]]
     at_random = np.arange(len(some) + len(best)) < len(some)
     return np.concatenate([some, best]), at_random, bool(meets.any())
-
-
-def in_region(demands: Demands, places: Complexes, origin: complex, size: float) -> Complexes:
-    """Pivots of the frame, in sizes about an origin, put on the sides of the region that is demanded, if outside."""
-    if demands.region is None:
-        return places
-    x1, y1, x2, y2 = demands.region
-    low, high = (complex(x1, y1) - origin) / size, (complex(x2, y2) - origin) / size
-    return np.asarray(np.clip(places.real, low.real, high.real) + 1j * np.clip(places.imag, low.imag, high.imag))
 
 
 def _at_hand(family: ConditionedRows, rows: Reals) -> Flags:

@@ -24,15 +24,14 @@ from gruebler.design.synthesis.length_search import (
     pivots_of_rows,
 )
 from gruebler.design.synthesis.pair_facts import KNOWN
-from gruebler.design.synthesis.pair_starts import ON_FRAME, SPREAD, WIDE, cranks_of_pivots, slides_of_places
-from gruebler.design.synthesis.point_families import IN_STEPS, PointFamily
-from gruebler.design.synthesis.random_starts import DRAWN, StartFamily, in_region, random_search
+from gruebler.design.synthesis.pair_starts import cranks_of_pivots, slides_of_places
+from gruebler.design.synthesis.point_families import ALIKE, IN_STEPS, PointFamily, rows_apart
+from gruebler.design.synthesis.random_starts import DRAWN, StartFamily, random_search
 from gruebler.design.synthesis.results import resolution
 from gruebler.design.synthesis.tasks import PathTask, PositionTask
 
 _CRANKS, _OTHERS = 60, 60  # dyads of four points that are taken, of each family
 _IMPROVED = 12  # linkages
-_ALIKE = 0.05  # sizes: of linkages whose pivots differ by less in sum one is listed
 _SAME = 1e-6  # sizes: a dyad that is the crank again
 
 
@@ -62,13 +61,7 @@ def best_timed(
             notes += search.note(search.ends)
         else:
             rows = _improved(starts, demands, known)
-        chosen: list[Reals] = []
-        for row in rows:
-            if all(np.abs(row - other).sum() > _ALIKE for other in chosen):
-                chosen.append(row)
-            if len(chosen) == number:
-                break
-        pairs += map(starts.family.dyads, chosen)
+        pairs += map(starts.family.dyads, rows_apart(rows, number))
     said = resolution(known, FINEST_STEP, IN_STEPS) if len(task) == 4 or demands.given_sizes else []
     return pairs, [*notes, *said]
 
@@ -84,20 +77,15 @@ class TimedStarts(StartFamily):
     def __init__(self, task: PathTask, kind: DyadKind, demands: Demands) -> None:
         lengths, direction = demands.lengths, demands.frame_direction
         self.family = PointFamily(task=task, kind=kind, lengths=lengths, frame_direction=direction)
-        self.kind, self.places = kind, self.family.places
+        self.kind, self.origin, self.size = kind, complex(task.z[0]), self.family.size
+        self.places = self.family.places
         angles = np.array(task.crank_angles, np.float64)
         self.turned = angles[1:] - angles[:1]  # of no angles none
 
     def drawn(self, rng: np.random.Generator, demands: Demands) -> Reals:
-        """Pivots by Student's distribution, evenly in a region that is demanded; slides and free turns at any angle."""
-        pivots = (WIDE * rng.standard_t(SPREAD, (DRAWN, 2 * self.family.points))).view(np.complex128)
-        fixed = rng.random((DRAWN, 2)) < 0.5
-        if demands.region is not None:
-            x1, y1, x2, y2 = demands.region
-            own = ON_FRAME[self.kind]
-            x, y = rng.uniform([x1, y1], [x2, y2], (DRAWN, len(own), 2)).transpose(2, 0, 1)
-            pivots[:, own] = (x + 1j * y - self.family.task.z[0]) / self.family.size
-            fixed[:] = True
+        """Slides and free turns at any angle."""
+        pivots = self.pivots(rng, demands)
+        fixed = (rng.random((DRAWN, 2)) < 0.5) | (demands.region is not None)
         turns = rng.uniform(-np.pi, np.pi, (DRAWN, len(self.places) - 1))
         return self._members(pivots, np.pi * rng.random(DRAWN), fixed, turns)
 
@@ -112,10 +100,7 @@ class TimedStarts(StartFamily):
         turns = rows[:, own:] + np.where(still, 0, wide[:, None] * rng.normal(size=(len(rows), len(self.places) - 1)))
         angles = rows[:, own - 1] + wide * rng.normal(size=len(rows))
         fixed = (rng.random((len(rows), 2)) < 0.5) | (demands.region is not None)
-        pivots, on_frame = pivots + steps, ON_FRAME[self.kind]
-        origin = complex(self.family.task.z[0])
-        pivots[:, on_frame] = in_region(demands, pivots[:, on_frame], origin, self.family.size)
-        return self._members(pivots, angles, fixed, turns)
+        return self._members(self.within(demands, pivots + steps), angles, fixed, turns)
 
     def sample(self) -> Reals:
         """(linkages, numbers) of four points: other dyads with cranks along the curve of these."""
@@ -184,11 +169,6 @@ def _improved(starts: TimedStarts, demands: Demands, orders: Sequence[str]) -> R
         return rows
     facts = family.facts(rows, demands)
     ranks = facts.ranks(demands_failed(facts.met(demands)), orders)
-    chosen: list[int] = []
-    for rank in map(int, ranks):
-        if all(np.abs(rows[rank] - rows[other]).sum() > 4 * _ALIKE for other in chosen):
-            chosen.append(rank)
-        if len(chosen) == _IMPROVED:
-            break
-    rows, meets = improved_rows(family, rows[chosen], held[: len(chosen)], demands, orders)
+    chosen = np.array(rows_apart(rows[ranks], _IMPROVED, gap=4 * ALIKE))
+    rows, meets = improved_rows(family, chosen, held[: len(chosen)], demands, orders)
     return rows[meets]

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from gruebler.mechanics.kinematics.contours import cam_of
 from gruebler.mechanics.kinematics.motion import Motion
 from gruebler.mechanics.kinematics.plan import Plan
 from gruebler.mechanics.linkages import Linkage, LinkPoint
-from gruebler.mechanics.linkages.elements import CamDisc
+from gruebler.mechanics.linkages.elements import CamDisc, Element
 from gruebler.structure.assur import SolvedGroup
 
 LinkPlace = tuple[str, complex, complex]
@@ -47,7 +47,7 @@ def cam_contacts(plan: Plan, group: SolvedGroup) -> Iterator[CamContact]:
     for number, member in group.joints:
         inside = [link for body in member.links for link in bodies_of(group)[body]]
         own = {link: elements.get((number, link)) for link in chain.joints[number].links}
-        cams = [link for link, element in own.items() if isinstance(element, CamDisc) and link not in inside]
+        cams = [link for link, element in own.items() if type(element) in _CONTOURS and link not in inside]
         if member.outer and cams and cams[0] != plan.lower.mechanism.frame:
             cam, follower = link_place(plan, number, (cams[0],)), link_place(plan, number, tuple(inside))
             flat = plan.lower.elements[number, follower[0]].is_line
@@ -63,8 +63,7 @@ def link_place(plan: Plan, joint: int, links: tuple[str, ...]) -> LinkPlace:
     """A joint on that of its links which is one of some."""
     link = next(link for link in plan.lower.mechanism.chain.joints[joint].links if link in links)
     e = plan.lower.elements[joint, link]
-    angle = getattr(e, "angle", 0.0)
-    return link, complex(e.x, e.y), complex(np.exp(1j * angle))
+    return link, complex(e.x, e.y), complex(np.exp(1j * e.direction))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,15 +81,19 @@ class CamContour:
 
 def cam_contours(linkage: Linkage) -> tuple[CamContour, ...]:
     """Those of all its cams."""
-    cams = [(link, disc) for (_, link), disc in linkage.elements.items() if isinstance(disc, CamDisc)]
-    contours = []
-    for link, disc in cams:
-        report = cam_of(disc).findings()
-        assert report.convex is not None  # what closes around its axis is convex somewhere
-        hollow = None if report.hollow is None else disc.scale * report.hollow.value
-        convex = disc.scale * report.convex.value
-        contours.append(CamContour(link=link, base=disc.scale * disc.base, convex=convex, hollow=hollow))
-    return tuple(contours)
+    cams = [(link, e) for (_, link), e in linkage.elements.items() if type(e) in _CONTOURS]
+    return tuple(_CONTOURS[type(e)](link, e) for link, e in cams)
+
+
+def _disc_contour(link: str, disc: CamDisc) -> CamContour:
+    report, scale = cam_of(disc).findings(), disc.scale
+    assert report.convex is not None  # what closes around its axis is convex somewhere
+    hollow = None if report.hollow is None else scale * report.hollow.value
+    return CamContour(link=link, base=scale * disc.base, convex=scale * report.convex.value, hollow=hollow)
+
+
+_CONTOURS: dict[type[Element], Callable[[str, Any], CamContour]] = {CamDisc: _disc_contour}
+"""By the kind of an element: the contour with which it pushes a follower."""
 
 
 class Push(NamedTuple):

@@ -19,6 +19,7 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.chain.pairs import Alphabet
 
 _ALIKE = 1e-9  # of the largest: speeds that vary by less are constant
+_STILL = 1e-9  # radians, or sizes: what moves less stands still
 _INSIDE = 1e-6  # of a range: so far from its limits, where poses are ill-conditioned, the output is taken
 _STEPS = 72  # of a full turn, or of the way of a slide
 _ROWS = 361  # in which the output is looked at
@@ -47,7 +48,7 @@ def speed_relation(plan: Plan, output: Output) -> tuple[float, ...] | None:
 
     The relation is linear if the partial derivatives are the same in poses that were chosen at random (with a seed).
     """
-    home, factors = _home(plan), []
+    home, speeds = _home(plan), []
     size = np.array([1.0 if drive.turning else plan.lower.size / 20 for drive in plan.linkage.mechanism.drives])
     away = np.random.default_rng(0).uniform(-1, 1, (_SAMPLES, len(home))) * size
     path = np.concatenate([home[None], home + away])
@@ -55,11 +56,10 @@ def speed_relation(plan: Plan, output: Output) -> tuple[float, ...] | None:
         motion = move_quietly(plan, path, speed=np.eye(len(home))[k], order=1)
         if not motion.complete:
             return None
-        speeds = output.values(motion, 1)
-        factors.append(float(np.median(speeds)))
-        if np.ptp(speeds) > _ALIKE * max(1.0, float(np.abs(speeds).max())):
-            return None
-    return tuple(factors)
+        speeds.append(output.values(motion, 1))
+    if np.ptp(speeds, axis=1).max() > _ALIKE * np.abs(speeds).max():
+        return None
+    return tuple(map(float, np.median(speeds, axis=1)))
 
 
 def _names(linkage: Linkage) -> list[Text]:
@@ -121,11 +121,15 @@ def _travel_lines(
     places, speeds = output.values(motion), output.values(motion, 1)
     turns = round(float(places[-1] - places[0]) / tau) if full and output.turning else 0
     travel = float(np.ptp(np.concatenate([places, _turning_values(places, speeds)])))
-    return list(output_lines(units, output.name, still=not travel, ratio=None, turns=turns, travel=travel))
+    still = travel <= _STILL * (1.0 if output.turning else plan.lower.size)
+    return list(output_lines(units, output.name, still=still, ratio=None, turns=turns, travel=travel))
 
 
 def _turning_values(values: Reals, rates: Reals) -> Reals:
-    """Where a function turns back between rows, from values and rates by the row: on its cubics, error 1e-9."""
+    """(turns,) the values where a function turns back between rows, from values and rates by the row.
+
+    They are those of the cubics between rows: of 361 of a full turn the error is about 1e-9 of the travel.
+    """
     (rows,) = np.nonzero(rates[:-1] * rates[1:] < 0)
     y, z, u, v = values[rows], values[rows + 1], rates[rows], rates[rows + 1]
     t = u / (u - v)
