@@ -122,7 +122,9 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
       if (right) editor.attempt((part = 1) => editor.dragging.setLength(first, second, at(part)), told);
       input.setAttribute("aria-invalid", String(!right));
       if (right) return;
-      editor.page.say(t("Expected a length below 10⁹, such as {value}.", { value: number(value, 4) }));
+      editor.page.say(
+        t("Expected a length of at least 0 and below 10⁹, such as {value}.", { value: number(value, 4) }),
+      );
     },
     onkeydown: (event: KeyboardEvent) => event.stopPropagation(),
   });

@@ -204,7 +204,7 @@ def test_joints_of_a_link_are_not_dragged_onto_each_other(tab, crank_rocker):
     for wrong in ("1e9", "-1", "long"):
         field.fill(wrong)
         field.press("Enter")
-        assert "Expected a length below 10⁹" in told(page)
+        assert "Expected a length of at least 0 and below 10⁹" in told(page)
         assert field.get_attribute("aria-invalid") == "true"
 
 
