@@ -104,9 +104,7 @@ export class Track {
     const end = (value: number) => (Math.abs(value) < 1e-6 * (high - low) ? 0 : value); // but for rounding
     label(low, full ? "start" : "middle", end(full ? low : from));
     if (high > low) label(high, full ? "end" : "middle", end(full ? high : to));
-    const inner = svg("svg", { x: 12, overflow: "visible" }, ...parts, this.#knob);
-    inner.style.width = "calc(100% - 24px)";
-    this.#root.replaceChildren(inner);
+    this.#root.replaceChildren(...parts, this.#knob);
     const [valuemin, valuemax] = [low / this.#unit, high / this.#unit];
     put(this.element, { "aria-label": t("Drive"), "aria-valuemin": valuemin, "aria-valuemax": valuemax });
   }

@@ -118,6 +118,14 @@ class Tab:
         self.until("window.gruebler?.motion?.linkage !== undefined")
         return self
 
+    def machine(self, id_: str) -> "Tab":
+        """Let Motion show a machine of the catalog, at rest."""
+        self.page.click('[data-view="catalog"]')
+        self.page.locator(f'.card[data-id="{id_}"]').click()
+        self.until(f"gruebler.view === 'motion' && gruebler.motion.linkage.model.source === '{id_}'")
+        self.page.evaluate("gruebler.motion.transport.pause()")
+        return self
+
     def hold(self) -> None:
         """What the page asks of the library waits in `held`."""
         self.page.evaluate("() => { window.held = []; gruebler.model.send = (content) => held.push(content); }")

@@ -254,6 +254,20 @@ def test_the_header_of_a_phone_is_not_cut(tab, server):
     assert page.page.locator("header").bounding_box()["height"] < 110
 
 
+@pytest.mark.parametrize("id_", ["crankrocker", "slidercrank"])
+def test_the_knob_of_the_drive_stays_in_its_track(tab, server, id_):
+    """At both ends of it, on a phone: knob and numbers are within the track, which is within the bar."""
+    page = tab(width=390, height=844, touch=True).open(server.address).machine(id_)
+    for drive in (0, 359.9):
+        page.page.evaluate(f"gruebler.motion.transport.pick({np.radians(drive)})")
+        boxes = page.page.locator(".track, .track svg *").evaluate_all(
+            "all => all.map((e) => e.getBoundingClientRect()).map(({ left, right, width }) => [left, right, width])"
+        )
+        (left, right, _), *parts = boxes
+        assert right < 390 - 9
+        assert all(left <= a and b <= right for a, b, width in parts if width), drive
+
+
 def test_names_of_a_six_bar_do_not_lie_on_each_other(tab, server):
     page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
     page.page.click('[data-view="catalog"]')
