@@ -45,6 +45,8 @@ export interface Design extends Moving {
 
 export interface Found {
   total: number;
+  /** Whether they do not have the transmission angle that is asked for, but come near to it. */
+  less?: boolean;
   /** Whether linkages of any size do it. */
   relative?: boolean;
   items: Design[];
@@ -95,12 +97,21 @@ export class DesignCards {
     // by which they are numbered, those that are much like others last
     if (found) {
       const orders = this.#orders();
-      this.#order = orders.find((by) => by === "error" || by === "balanced") ?? orders[0] ?? "balanced";
+      this.#order =
+        orders.find((by) => (found.less ? by === "transmission" : by === "error" || by === "balanced")) ??
+        orders[0] ??
+        "balanced";
       found.items = this.#sorted().sort((one, two) => +!!one.variant - +!!two.variant);
     }
     this.#playing = (found && this.#shown.find(({ variant }) => !variant)) ?? null;
     this.arrange();
     return this.#playing;
+  }
+
+  /** Which of them plays, by its card; none. */
+  mark(design: Design | null, card?: Element): void {
+    this.#playing = design;
+    for (const one of this.element.querySelectorAll(".card")) one.toggleAttribute("aria-current", one === card);
   }
 
   #plot(): void {
@@ -258,8 +269,7 @@ export class DesignCards {
     if (pairs) extra.push([t("first pair at"), pairs[0]!.map((one) => angle(one * DEGREE, 4)).join("\u00a0|\u00a0")]);
     let touched = false; // by a finger, which only chooses it
     const play = () => {
-      this.#playing = design;
-      for (const one of this.element.querySelectorAll(".card")) one.toggleAttribute("aria-current", one === card);
+      this.mark(design, card);
       this.play(design);
       this.#plot();
     };

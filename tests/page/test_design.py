@@ -562,6 +562,7 @@ def test_designs_of_former_targets_say_so(design):
     cell.press("Enter")
     assert told.inner_text() == "Designs for the former targets"
     assert cards.count() == count
+    assert view.locator(".designs .card[aria-current]").count() == 0  # none plays over other targets
     view.click('header [data-icon="undo"]')
     assert told.inner_text() == ""
 
@@ -824,9 +825,10 @@ def test_of_five_positions_without_a_design_it_is_said_what_is_wanting():
     assert said, none["note"]
     count, angle = int(said[1]), float(said[2])
     assert (none["total"], count) == (0, 1)
-    for least, found in ((angle - 0.1, 1), (angle + 0.1, 0)):
+    for least, missed in ((angle - 0.1, False), (angle + 0.1, True)):
         less = answer("synthesise", asked | {"crank": False, "transmission": least}, "en", print)
-        assert less["total"] == found
+        assert (less["total"], less["less"]) == (1, missed)
+        assert less["items"][0]["transmission"] == pytest.approx(angle, abs=0.06)
     assert "Verworfen (1): der Antrieb läuft nicht um und" in answer("synthesise", asked, "de", print)["note"]
 
 
@@ -891,14 +893,88 @@ def test_cards_tell_where_the_point_lies_and_the_drive_turns_the_way_of_the_targ
         passed = [int(np.abs(frames[:, 4] - complex(x, y)).argmin()) for x, y, _ in THREE]
         later = (np.array(passed) - passed[0]) * (-1 if item["backward"] else 1) % len(frames)
         assert list(later) == sorted(later)
-        if item["point"] is None:
-            assert "nverted" in item["form"]
-            continue
         (own,) = [member for member in item["members"] if 4 in member]  # crank, coupler with its point, ...
         start, end = frames[:, own[0]], frames[:, own[1]]
+        if "nverted" in item["form"]:  # along the guide, from the pin to where it lies
+            low, high = frames[:, item["rails"][0]].T
+            nearer = np.abs(low - start) < np.abs(high - start)
+            end = start + np.where(nearer, high - low, low - high)
         along = (end - start) / np.abs(end - start)
         assert np.allclose(start + complex(*item["point"]) * along, frames[:, 4], atol=1e-3 * item["size"])
     assert {item["backward"] for item in items} == {False, True}
+
+
+def test_demands_stay_in_their_range_and_the_region_of_the_pivots_is_seen(design):
+    """An angle is 90° at most; the rectangle about the points is so much wider on every side."""
+    view = design.page
+    for place in ((-60, 0), (0, 45), (55, -50)):
+        view.mouse.click(*design.target(*place))
+    for name, typed, shown in (
+        ("least", "120", "90"),
+        ("least", "-3", "0"),
+        ("reach", "-5", "0"),
+        ("reach", "10", "10"),
+    ):
+        field = view.locator(f'[data-field="{name}"]')
+        field.fill(typed)
+        field.press("Tab")
+        assert field.input_value() == shown
+    corners = re.findall(r"-?[\d.]+ -?[\d.]+", view.locator("[data-region]").get_attribute("d"))
+    x, y = np.array([corner.split() for corner in corners], float).T
+    assert [min(x), max(x), min(-y), max(-y)] == [-70, 65, -60, 55]
+
+
+def test_targets_last_when_the_page_is_loaded_again_and_none_is_left_when_cleared(design):
+    view = design.page
+    for place in ((-60, 0), (0, 45), (55, -50)):
+        view.mouse.click(*design.target(*place))
+    view.check('[data-field="closed"]')
+    view.reload()
+    design.until("window.gruebler?.motion?.linkage !== undefined")
+    view.click('[data-view="synthesis"]')
+    assert view.evaluate(f"{VIEW}.rows.points") == [[-60, 0], [0, 45], [55, -50]]
+    assert view.is_checked('[data-field="closed"]')
+    view.click('[data-act="clear"]')
+    assert not view.is_checked('[data-field="closed"]')
+    assert view.locator("[data-point]").count() == 0
+
+
+def test_where_no_design_has_the_angle_those_that_come_nearest_are_shown():
+    """Of the four-bars for a swing of 60° and a time ratio of 1.2 none passes 40.3°, over all that there are."""
+    from gruebler.page.requests import answer
+
+    asked = {"kind": "dead-centres", "rows": [[60, 1.2]], "crank": True}
+    found = answer("synthesise", asked | {"transmission": 60}, "en", print)
+    assert found["less"]
+    assert found["note"].startswith("No linkage was found whose transmission angle is 60° or more")
+    # by hand, for each crank on the circle of the pole: the rocker of unit length at 0 and 60 degrees
+    swing, between = np.radians(60), np.pi * 0.2 / 2.2
+    one, two = 1, np.exp(1j * swing)
+    middle = (one + two) / 2 + (two - one) * 1j / 2 / np.tan(between) * np.array([[1], [-1]])
+    pivot = middle + np.abs(one - middle) * np.exp(1j * np.linspace(0, 2 * np.pi, 100_001))
+    near, far = np.sort(np.abs([pivot - one, pivot - two]), axis=0)
+    crank, coupler, frame = (far - near) / 2, (far + near) / 2, np.abs(pivot)
+    with np.errstate(invalid="ignore"):
+        cosines = [(coupler**2 + 1 - (frame + sign * crank) ** 2) / (2 * coupler) for sign in (1, -1)]
+        grashof = np.abs(np.angle((pivot - one) / (pivot - two)))
+        least = np.min([np.arccos(np.abs(each)) for each in cosines], axis=0)
+    real = np.isclose(grashof, between) & np.isfinite(least)
+    best = np.degrees(least[real].max())
+    assert best == pytest.approx(40.3, abs=0.1)
+    assert max(item["transmission"] for item in found["items"]) == pytest.approx(best, abs=0.1)
+
+
+def test_a_given_pivot_that_no_linkage_can_have_is_told():
+    from gruebler.page.requests import answer
+
+    rows = [[-50, 0, 0], [-20, 25, 20], [20, 30, 40], [50, 5, 60]]
+    asked = {"kind": "positions", "rows": rows, "pivots": [[-20, -60]], "crank": False}
+    found = answer("synthesise", asked, "en", print)
+    x, y = map(float, re.search(r"its nearest point \((\S+), (\S+)\)", found["note"]).groups())
+    assert np.hypot(x + 20, y + 60) > 8
+    for item in found["items"]:
+        frames = np.array(item["frames"])[:, : item["joints"]] - (x, y)
+        assert np.abs(frames).max(axis=(0, 2)).min() < 1e-2  # one of its joints stays there
 
 
 def test_a_finger_chooses_a_card_then_opens_it_and_the_drive_turns_clockwise(tab, server, found_for_three):
@@ -913,6 +989,7 @@ def test_a_finger_chooses_a_card_then_opens_it_and_the_drive_turns_clockwise(tab
     view.locator('[data-field="form"]').select_option(label=f"Four-bar · {len(four_bars)}")
     cards = view.locator('[data-list="designs"] .card')
     assert cards.first.get_attribute("aria-current") is not None
+    assert view.locator("[data-ghost] .support").count() == 2  # crank and rocker
     cards.nth(1).tap()
     assert cards.first.get_attribute("aria-current") is None
     assert view.evaluate("gruebler.view") == "synthesis"
@@ -922,6 +999,12 @@ def test_a_finger_chooses_a_card_then_opens_it_and_the_drive_turns_clockwise(tab
     assert view.evaluate("gruebler.view") == "synthesis"
     assert last.get_attribute("aria-current") is not None
     assert "scale(-1 1)" in view.locator("[data-ghost] .driven").get_attribute("transform")
+    kinds = view.locator('[data-field="form"]')
+    names = kinds.locator("option").all_inner_texts()
+    kinds.select_option(index=next(k for k, name in enumerate(names) if "Inverted" in name))
+    assert view.locator("[data-ghost] .support").count() == 2  # crank and swivel, on which the slide is, too
+    kinds.select_option(label=f"Four-bar · {len(four_bars)}")
+    last.tap()  # chosen again, as another played
     last.tap()
     page.until("gruebler.view === 'motion'")
     drive = "gruebler.motion.linkage.drives[0]"

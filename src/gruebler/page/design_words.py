@@ -17,6 +17,7 @@ from gruebler.design.synthesis import (
     Task,
 )
 from gruebler.design.synthesis.demands import WITHOUT
+from gruebler.design.synthesis.given_pivots import BESIDE
 from gruebler.design.synthesis.targets import GuidedCurve
 
 _BALANCED = message("Balanced: {criteria} count alike.")
@@ -24,8 +25,10 @@ _ANGLE, _SIZE, _SENSITIVITY = message("transmission angle"), message("longest li
 BALANCED = _BALANCED.filled(criteria=joined_by_and([_ANGLE, _SIZE, _SENSITIVITY]))
 BEST = message("The best of {count}.")
 EXACT = message("All meet the targets exactly.")
-NONE = message("None does: ask for less, or try other targets.")
+NONE = message("No linkage meets all demands: ask for less, or try other targets.")
+_FEW_DYADS = message("Of the {theorem} dyads of these positions {real:n} are real; a linkage needs two.")
 _AT_BEST = message("Rejected ({count}), at best: {reasons}.")
+_TWO = 2  # dyads that a linkage needs
 _MOST_REASONS = 3
 """Kinds of rejections that are told."""
 SLENDER = 8
@@ -38,17 +41,18 @@ def is_curve(task: Task) -> bool:
 
 
 def notes(result: SynthesisResult, items: Sequence[dict[str, Any]], total: int) -> Iterator[Message]:
-    """How complete and how exact the designs are that are shown, of so many, and why others are rejected.
+    """How complete and how exact the designs are that are shown, of so many; why there is none.
 
     >>> from gruebler.design.synthesis import Demands, synthesise
     >>> five = ((-40, 0, 0.2), (-15, 18, 0.4), (5, 24, 0.6), (22, 20, 0.8), (35, 10, 1.1))
     >>> for text in notes(synthesise(PositionTask(five), demands=Demands(crank=True)), [], 0):
     ...     print(text)
-    None does: ask for less, or try other targets.
+    No linkage meets all demands: ask for less, or try other targets.
     Designs that meet all but the demand of a drive that turns fully: 1.
     Rejected (1): the drive does not turn fully.
     """
-    task = result.task
+    task, count = result.task, result.count
+    yield from (note for note in result.notes if note.text == BESIDE[False].text)
     if isinstance(task, PositionTask) and len({angle for *_, angle in task.positions}) == 1:
         yield message("All at one angle: the link is shifted and does not turn.")
     if len(items) < total:
@@ -61,13 +65,16 @@ def notes(result: SynthesisResult, items: Sequence[dict[str, Any]], total: int) 
         yield message("Deviation: the largest distance of a point wanted (purple) from the curve reached (blue).")
     elif isinstance(task, FunctionTask):
         yield message("Deviation: the largest difference between the output wanted and that reached.")
-    if not total or result.count.theorem:  # of a family there are as many others as one likes
-        yield from _rejections(result)
+    if not total:
+        yield from (note for note in result.notes if note.text == WITHOUT.text)
+        if isinstance(task, PositionTask) and count.theorem and count.real < _TWO:
+            yield _FEW_DYADS.filled(theorem=count.theorem, real=count.real)
+        else:
+            yield from _rejections(result)
 
 
 def _rejections(result: SynthesisResult) -> Iterator[Message]:
-    """The demand without which the most remain; reasons with how many have them, those that lack the least first."""
-    yield from (note for note in result.notes if note.text == WITHOUT.text)
+    """Reasons with how many have them, those that lack the least first."""
     kinds: dict[tuple[str, ...], list[DesignVerdict]] = {}
     for verdict in (design.verdict for design in result.rejected):
         kinds.setdefault(tuple(reason.text for reason in verdict.reasons), []).append(verdict)
@@ -79,12 +86,15 @@ def _rejections(result: SynthesisResult) -> Iterator[Message]:
 
 
 def words(
-    task: Task, items: Sequence[dict[str, Any]], relative: bool, space: tuple[float, ...] | None
+    result: SynthesisResult, items: Sequence[dict[str, Any]], relative: bool, space: tuple[float, ...] | None
 ) -> Iterator[Message]:
-    """What stands on the cards of designs, explained."""
+    """What stands on the cards of designs, explained, and why others are rejected."""
+    if not items:
+        return
+    task = result.task
     sensitive = any(item["shift"] is not None for item in items)
     approached = any(item["error"] for item in items)
-    if items and (sensitive or not relative):
+    if sensitive or not relative:
         each = [*[message("deviation")] * approached, _ANGLE, *[_SIZE] * (not relative), *[_SENSITIVITY] * sensitive]
         yield _BALANCED.filled(criteria=joined_by_and(each))
     angles = [(item["range"], item["transmission"]) for item in items]
@@ -95,9 +105,9 @@ def words(
             "No link is longer than the diagonal of the space for fixed pivots, nor {ratio} times as long as another.",
             ratio=SLENDER,
         )
-    if items and relative:
+    if relative:
         yield message("Of lengths only the ratios count; the longest is 100 mm.")
-    elif items:
+    else:
         yield message("The longest link counts its points, too, and how far a rod slides.")
     if any(item["point"] for item in items):
         yield message(
@@ -106,3 +116,5 @@ def words(
         )
     if sensitive:
         yield message("Sensitivity: how far a target is off at most if lengths are 0.1 % wrong.")
+    if result.count.theorem:  # of a family there are as many others as one likes
+        yield from _rejections(result)

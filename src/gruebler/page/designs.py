@@ -20,6 +20,7 @@ from gruebler.design.synthesis import (
     FunctionTask,
     PathTask,
     PositionTask,
+    SynthesisResult,
     Task,
     synthesise,
 )
@@ -58,6 +59,12 @@ _CURVES = 12
 """So many designs for a whole curve: a choice between near ones and small ones."""
 _LOW = message("Left out, as the transmission angle falls below {angle:g}° in other positions: {count}.")
 _LONG = message("Left out, as a link is longer than {length:g} mm: {count}.")
+_LESS = (0.9, 0.7, 0.4, 0.0)  # of a transmission angle that no design has
+_NEAREST = 12  # designs that are shown of these
+_MANY = 9  # points: a search takes too long to be made twice
+_NEARLY = message(
+    "No linkage was found whose transmission angle is {angle:n}° or more: these meet all else and come nearest to it."
+)
 _FRAMES = 144  # of a motion, there and back if it does not turn fully
 
 
@@ -140,8 +147,12 @@ def design_records(
         number=_CURVES if is_curve(task) else None,
         progress=counted if isinstance(task, PathTask | PositionTask) else None,
     )
-    designs = list(result.designs)
     left: list[Message] = []
+    less = None if result.designs else _with_smaller_angle(task, demands)
+    if less is not None:
+        left.append(_NEARLY.filled(angle=transmission))
+        result, transmission = less, 0.0
+    designs = list(result.designs)
     if crank:  # those that have the angle in all positions, if there are any
         whole = [each for each in designs if degrees(each.transmission_over_range) >= transmission]
         if whole and whole != designs:
@@ -161,9 +172,29 @@ def design_records(
         progress(translate("Drawing design {number} of {total}", lang, number=number, total=len(designs)))
         items.append(_record(design, task, lang))
     _mark_variants(items)
-    texts = {"note": [*notes(result, items, len(designs)), *left], "words": words(task, items, relative, space)}
-    said = {key: " ".join(text.in_language(lang) for text in some) for key, some in texts.items()}
-    return {"total": len(designs), "relative": relative, "items": items} | said
+    told = {
+        "note": [*left, *notes(result, items, len(designs))],
+        "words": words(result, items, relative, space),
+    }
+    said = {key: " ".join(text.in_language(lang) for text in some) for key, some in told.items()}
+    return {"total": len(designs), "relative": relative, "less": less is not None, "items": items} | said
+
+
+def _with_smaller_angle(task: Task, demands: Demands) -> SynthesisResult | None:
+    """The designs nearest to a transmission angle that none has, those that meet all other demands.
+
+    >>> found = _with_smaller_angle(task_of("dead-centres", [[60, 1.2]]), Demands(transmission=radians(60)))
+    >>> round(degrees(found.designs[0].verdict.transmission), 1)
+    40.3
+    """
+    if not demands.transmission or is_curve(task) or (isinstance(task, PathTask) and len(task) >= _MANY):
+        return None
+    for part in _LESS:
+        less = replace(demands, transmission=part * demands.transmission)
+        found = synthesise(task, demands=less, sort=("transmission",))
+        if found.designs:
+            return replace(found, designs=found.designs[:_NEAREST])
+    return None
 
 
 def _region(task: Task, reach: float | None) -> tuple[float, float, float, float] | None:
@@ -423,25 +454,35 @@ def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, An
         "bearings": bearing_turns(posed),
         "measures": measured,
         "lengths": lengths if one_loop else [],
-        "point": _point_of(linkage, rows[0], pins) if one_loop else None,
+        "point": _point_of(linkage, rows[0], pins, rails) if one_loop else None,
         "names": {lang: [names[link] for link in bars] for lang, names in called.items()},
     }
 
 
-def _point_of(linkage: Linkage, places: Reals, pins: Mapping[str, list[int]]) -> list[float] | None:
-    """How far the only point lies along its link, from the pin that is nearer to the drive, and to the left of that."""
+def _point_of(
+    linkage: Linkage, places: Reals, pins: Mapping[str, list[int]], rails: Sequence[list[int]]
+) -> list[float] | None:
+    """How far the only point lies along its link, from the pin that is nearer to the drive, and to the left of that.
+
+    Of a link with one pin along its guide, in the sense in which that lies.
+    """
     if len(linkage.points) != 1:
         return None
     (point,) = linkage.points.values()
     mechanism = linkage.mechanism
-    own = pins[point.link]
-    if len(own) != 2 or mechanism.frame == point.link:
+    own, z = pins[point.link], places @ (1, 1j)
+    if not own or mechanism.frame == point.link:
         return None
     drive = mechanism.drives[0].between
-    first, second = sorted(own, key=lambda k: not set(mechanism.chain.joints[k].links) & set(drive))
-    start, end, at = places[[first, second, len(mechanism.chain.joints)]] @ (1, 1j)
-    z = (at - start) * abs(end - start) / (end - start)
-    return [float(z.real), float(z.imag)]
+    first, *others = sorted(own, key=lambda k: not set(mechanism.chain.joints[k].links) & set(drive))
+    if others:
+        along = z[others[0]] - z[first]
+    else:
+        ((low, high),) = rails
+        along = z[high] - z[low]
+        along *= np.sign(np.real(np.conj(along) * (z[low] + z[high] - 2 * z[first])))
+    at = (z[len(mechanism.chain.joints)] - z[first]) * abs(along) / along
+    return [float(at.real), float(at.imag)]
 
 
 def _apart(places: Reals, first: int, second: int) -> float:
