@@ -2,6 +2,7 @@
 
 import { h, option } from "./dom";
 import { t } from "./language";
+import type { Pair } from "./rows";
 
 export class Demands {
   #crank = true;
@@ -11,17 +12,28 @@ export class Demands {
   /** How far fixed pivots may lie outside the places, as it is typed. */
   #reach = "";
 
+  /** The corners of the region of fixed pivots, if one is typed. */
+  region(points: readonly number[][]): Pair[] {
+    const [low, high] = [Math.min, Math.max].map((far, k) =>
+      [0, 1].map((axis) => far(...points.map((row) => row[axis]!)) + (k ? 1 : -1) * +this.#reach),
+    ) as [Pair, Pair];
+    return this.#reach && points.length ? [low, [high[0], low[1]], high, [low[0], high[1]]] : [];
+  }
+
   /** The fields, in the language of the page; those of places if there are such; the angle is that on the way
    * from target to target, or that of all positions of a crank that turns fully in any case. A curve so large has its
    * own order, and pivots no farther off as long as nothing else is typed. */
-  form(closed: HTMLElement | false, way: boolean, places: boolean, curve: number): HTMLElement {
+  form(closed: HTMLElement | false, way: boolean, places: boolean, curve: number, changed: () => void): HTMLElement {
     const least = h("input", {
       type: "number",
       min: 0,
       max: 90,
       value: this.#least,
       "data-field": "least",
-      onchange: () => (this.#least = Number(least.value)),
+      onchange: () => {
+        this.#least = Math.min(90, Math.max(0, +least.value));
+        least.value = `${this.#least}`;
+      },
     });
     const reach = h("input", {
       type: "number",
@@ -29,7 +41,10 @@ export class Demands {
       value: this.#reach,
       placeholder: String(curve || "∞"),
       "data-field": "reach",
-      onchange: () => (this.#reach = reach.value),
+      onchange: () => {
+        this.#reach = reach.value = reach.value && `${Math.min(1e9, Math.max(0, +reach.value))}`;
+        changed();
+      },
     });
     const order = h("input", {
       value: this.order,
@@ -44,7 +59,7 @@ export class Demands {
       closed,
       way && option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
       h("label", {}, way ? t("transmission angle on the way at least") : t("transmission angle at least"), least, "°"),
-      places && h("label", {}, t("fixed pivots within"), reach, t("mm of the targets")),
+      places && h("label", {}, t("fixed pivots in the box of the targets +"), reach, "mm"),
       places &&
         (!curve || !!this.order) &&
         h(

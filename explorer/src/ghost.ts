@@ -71,7 +71,8 @@ export class Ghost {
       .map((_, k) => svg("path.curve", { d: `${pathOf(frames.map((frame) => frame[joints + k]!))}Z` }));
     const pins = first.slice(0, joints).map(() => svg("circle.joint", { r: 1.5 * unit }));
     const still = (k: number) => frames.every((frame) => away(frame[k]!, ...first[k]!) < 1e-3 * unit);
-    const grounds = pins.flatMap((_, k) => (still(k) ? [groundMark(first[k]!, unit, bearings[k])] : []));
+    const pinned = (k: number) => members.some((own) => own.includes(k)) && still(k); // a slide may stand still, too
+    const grounds = pins.flatMap((_, k) => (pinned(k) ? [groundMark(first[k]!, unit, bearings[k])] : []));
     // a block stands on its rail of the frame, a rod goes through it
     const guides = rails.map((ends) => {
       const rail = still(ends[0]!);

@@ -7,6 +7,7 @@ import { action, choice, h, option, renew } from "./dom";
 import { History } from "./history";
 import { t } from "./language";
 import type { Model, Target } from "./model";
+import { store, stored } from "./storing";
 import { ARM, armOf, evenly, rowsTable, tip } from "./targets";
 import { TaskPicture } from "./taskpicture";
 import { FEWEST, type Kind, wordsOf } from "./tasks";
@@ -22,6 +23,8 @@ type State = [Kind, string];
 /** Points of a page without the library. */
 const NINE = 9;
 
+/** Where the targets are kept for a page that is loaded again. */
+const KEPT = "gruebler-targets";
 const WIDE = 240; // of the plane in which points of files are seen, in millimetres
 const NEAR = 4; // units of marks that a pointer reaches; a finger needs more
 const TURN = 20; // degrees from a new position to the next
@@ -71,6 +74,8 @@ export class SynthesisView implements View {
 
   constructor(page: Page) {
     this.#page = page;
+    const kept = stored<State>(KEPT);
+    if (kept) this.#take(kept);
     const { plane } = this.#picture;
     plane.addEventListener("pointerdown", (event) => this.#down(event));
     plane.addEventListener("pointermove", (event) => this.#held?.(this.#placeOf(event)));
@@ -196,6 +201,7 @@ export class SynthesisView implements View {
               this.kind !== "dead-centres",
               this.#planar && this.#page.served,
               this.#curve,
+              () => this.#paint(),
             ),
             this.#list,
             this.designs.element,
@@ -275,9 +281,10 @@ export class SynthesisView implements View {
     if (this.#searching) return;
     this.rows[this.kind] = [];
     this.#pivots = [];
+    this.#closed = false;
     this.designs.show(null);
     this.#play(null);
-    this.#draw();
+    this.arrange();
   }
 
   /** What is to be met, as the stage shows it. */
@@ -301,6 +308,7 @@ export class SynthesisView implements View {
     const before = this.#before;
     this.#before = this.#state;
     if (before[1] === this.#before[1]) return;
+    store(KEPT, this.#before);
     this.#history.add(before);
     if (!this.#planar) this.#play(null);
     this.#page.changed();
@@ -322,13 +330,18 @@ export class SynthesisView implements View {
     const state = this.#held ? undefined : this.#history[way](this.#before);
     if (!state) return;
     this.#before[0] = state[0]; // where the change was made, which may be done again
-    this.#before = state;
     if (this.kind !== state[0]) this.#puts = ""; // the other kind has no such tool
-    this.kind = state[0];
-    [this.#closed, this.rows, this.#pivots] = JSON.parse(state[1]);
+    this.#take(state);
     this.#play(null);
     this.arrange();
     this.#page.changed();
+  }
+
+  #take(state: State): void {
+    store(KEPT, state);
+    this.#before = state;
+    [this.kind] = state;
+    [this.#closed, this.rows, this.#pivots] = JSON.parse(state[1]);
   }
 
   #drawList(): void {
@@ -398,11 +411,14 @@ export class SynthesisView implements View {
     const { kind, points } = this;
     const pivots = kind === "positions" ? this.#pivots : [];
     const closed = kind === "points" && this.#closed;
-    this.#picture.paint({ kind, points, pivots, closed, design: this.#shownDesign, home: this.#home }, !!this.#held);
+    const region = this.#planar ? this.#demands.region(points) : [];
+    const task = { kind, points, pivots, region, closed, design: this.#shownDesign, home: this.#home };
+    this.#picture.paint(task, !!this.#held);
   }
 
   #play(design: Design | null): void {
     this.#shownDesign = design;
+    if (!design) this.designs.mark(null);
     this.#paint();
   }
 

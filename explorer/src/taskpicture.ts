@@ -19,6 +19,8 @@ interface Task {
   kind: Kind;
   points: readonly number[][];
   pivots: readonly number[][];
+  /** Where fixed pivots shall lie, if that is asked for. */
+  region: Pair[];
   closed: boolean;
   design: Design | null;
   /** How wide the plane is before there is anything in it; 0 is as usual. */
@@ -57,7 +59,7 @@ export class TaskPicture {
   }
 
   /** Draw all of it; while a mark is held what is seen stays, and the design goes on as it is. */
-  paint({ kind, points, pivots, closed, design, home }: Task, held: boolean): void {
+  paint({ kind, points, pivots, region, closed, design, home }: Task, held: boolean): void {
     const angles = kind === "function";
     const swing = kind === "dead-centres" ? swingOf(points[0]![0]!, design) : null;
     const charted = angles && design?.angles;
@@ -77,7 +79,13 @@ export class TaskPicture {
       const far = moving.every((one) => off(one) < 12 * reach) ? Infinity : 2.5 * reach;
       // what the swing is stands above it
       const above = swing ? [[0, 1].map((axis) => 1.2 * swing[3]![axis]! - 0.2 * swing[0]![axis]!)] : [];
-      const places = [...targets, ...above, ...pivots, ...(charted ? [] : moving).filter((one) => off(one) < far)];
+      const places = [
+        ...targets,
+        ...above,
+        ...pivots,
+        ...region,
+        ...(charted ? [] : moving).filter((one) => off(one) < far),
+      ];
       const wide = angles || swing ? 0 : home || (narrow ? 0.6 : 1) * WIDE;
       this.#area = areaOf(design && !angles ? -Infinity : wide, part, places, this.plane);
     }
@@ -112,6 +120,7 @@ export class TaskPicture {
     renew(
       this.#marks,
       ...gridOf(this.#area, angles ? wordsOf(kind).heads : []),
+      svg("path.shape.dead", { "data-region": "", d: region[0] ? `${pathOf(region)}Z` : "" }),
       ...(swing ? swingMark(swing, points[0]!, unit, design) : []),
       ...(charted ? [svg("path.curve", { d: pathOf(charted) }), this.#here] : [this.#ghost.element]),
       ...(swing ? [] : [...(charted ? [] : [wanted]), ...points.map(mark)]),
