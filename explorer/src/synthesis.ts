@@ -188,7 +188,9 @@ export class SynthesisView implements View {
                     "Draw the curve in one stroke; if it ends near its start, it is closed. " +
                       "The nearest coupler curves are looked for.",
                   )
-                : wordsOf(this.kind).hint,
+                : this.#puts
+                  ? t("Put one or two pivots that the linkage shall have on the frame.")
+                  : wordsOf(this.kind).hint,
             ),
             this.#planar && choice(t("What is to be met"), clicks, this.#puts, put),
             this.#doing,
@@ -370,7 +372,7 @@ export class SynthesisView implements View {
       this.kind === "positions" && !!this.#pivots.length && table(this.#pivots, t("Fixed pivot"), ["x", "y"]),
     );
     const { open } = this.#list.querySelector("details") ?? {};
-    if (this.kind === "function") tables.append(action("pair", add, t("Another pair")));
+    if (this.kind === "function") tables.append(h("div.form", {}, action("pair", add, t("Another pair"))));
     const folds = this.points[NINE] || (!single && this.designs.element.querySelector("b"));
     const set = folds ? h("details.words", { open }, h("summary", {}, `${name} · ${count}`), tables) : tables;
     renew(this.#list, count ? set : "");
