@@ -138,6 +138,14 @@ export class SynthesisView implements View {
             ["", t("Put positions")],
             ["pivot", t("Put fixed pivots")],
           ];
+    const hints: Record<Puts, string> = {
+      "": wordsOf(this.kind).hint,
+      pivot: t("Put one or two pivots that the linkage shall have on the frame."),
+      curve: t(
+        "Draw the curve in one stroke; if it ends near its start, it is closed. " +
+          "The nearest coupler curves are looked for.",
+      ),
+    };
     this.#picture.plane.setAttribute("aria-label", t("What is to be met"));
     this.element.classList.toggle("typed", !this.#planar);
     renew(this.#key, t("Find linkages"));
@@ -180,18 +188,7 @@ export class SynthesisView implements View {
           h(
             "div",
             {},
-            h(
-              "p.note",
-              {},
-              this.#puts === "curve"
-                ? t(
-                    "Draw the curve in one stroke; if it ends near its start, it is closed. " +
-                      "The nearest coupler curves are looked for.",
-                  )
-                : this.#puts
-                  ? t("Put one or two pivots that the linkage shall have on the frame.")
-                  : wordsOf(this.kind).hint,
-            ),
+            h("p.note", {}, hints[this.#puts]),
             this.#planar && choice(t("What is to be met"), clicks, this.#puts, put),
             this.#doing,
           ),
