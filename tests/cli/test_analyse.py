@@ -252,6 +252,22 @@ def test_rounding_noise_is_shown_as_zero(capsys):
     assert {row[3] for row in rows} == {"0"}
 
 
+def test_a_link_that_keeps_its_direction_has_no_rate(capsys):
+    """The head of the desk lamp, 2° beside the pose in which the lower arm and its rod lie on one line."""
+    speeds = ["--speed", "10", "--speed", "0", "--jerk", "0", "--jerk", "0"]
+    assert main(["analyse", "lamp", "--at", "18.26,106.3", *speeds]) == 0
+    assert capsys.readouterr().out.splitlines()[1].split()[-3:] == ["0", "0", "0"]
+
+
+def test_slow_drives_have_rates(capsys):
+    """1e-5 rpm: the acceleration is the square of the speed, about 1e-12 rad/s², times a number of about 1."""
+    rates = []
+    for speed in ("0.00001", "1"):
+        assert main(["analyse", "pent", "--at", "90,60", "--speed", speed, "--speed", "0"]) == 0
+        rates.append([float(value) for value in capsys.readouterr().out.splitlines()[1].split()[-2:]])
+    assert rates[0] == pytest.approx([rates[1][0] * 1e-5, rates[1][1] * 1e-10])
+
+
 def test_several_drives_with_speeds(capsys, tmp_path):
     """A parallelogram with a kink: equal cranks at one speed shift the kink without turning its links."""
     from gruebler.mechanics.linkages import Linkage

@@ -27,8 +27,10 @@ if TYPE_CHECKING:
 _POSE = ("x", "y")
 _RATES = (("vx", "vy"), ("ax", "ay"), ("jx", "jy"))
 _DEGREES = 180 / pi
-# Of derivatives of the orders 0 to 3 where polynomials stand for cams and non-circular wheels: each one multiplies
-# rounding. docs/theory/wheels.md has 1e-10, 1e-7, 1e-4 for velocities, accelerations, jerks of up to 24, 45, 310.
+# Of derivatives of the orders 0 to 3: each one multiplies rounding, most beside poses in which links lie on one line.
+_NOISE = (1e-12, 1e-11, 1e-10, 1e-9)
+# Where polynomials stand for cams and non-circular wheels, docs/theory/wheels.md has 1e-10, 1e-7, 1e-4 for velocities,
+# accelerations, jerks of up to 24, 45, 310.
 _POLYNOMIAL_NOISE = (1e-12, 1e-10, 1e-8, 1e-6)
 _ROW_STEP = 15.0  # degrees between the rows of a full turn
 
@@ -103,10 +105,9 @@ def motion_table(
             derivative = slope if order == 1 else (track(2) - slope * acceleration) / speed**2
         return np.where(speed == 0, np.nan, derivative)
 
-    noise = (1e-12,) * 4
-    if any(element.leads for element in linkage.elements.values()):
-        noise = _POLYNOMIAL_NOISE
-    usual = (abs(v), v**2 + abs(a), abs(v) ** 3 + 3 * abs(v * a) + abs(j))
+    leads = any(element.leads for element in linkage.elements.values())
+    noise = _POLYNOMIAL_NOISE if leads else _NOISE
+    usual = _usual_rates(motion, rates)
     for output in seen:
         own, natural = ("rad", 1.0) if output.turning else (linkage.unit, linkage.size)
         columns.append(_scaled(output.name, output.turning, linkage, output.values(motion)))
@@ -117,7 +118,7 @@ def motion_table(
         for order in orders if timed else ():
             name = f"{('ωαj' if output.turning else 'vaj')[order - 1]} {output.name}"
             values = in_time(order, partial(output.values, motion))
-            usually = natural * usual[order - 1] / unit**order
+            usually = natural * usual[order - 1]
             columns.append(
                 Column(name, unit=f"{own or 1}/{_seconds(order)}", values=values, natural=usually, noise=noise[order])
             )
@@ -135,7 +136,7 @@ def motion_table(
         for order in orders:
             values = in_time(order, _rates_of(motion, point))
             written = f"{linkage.unit or 1}/{_seconds(order)}" if timed else _by(linkage.unit, per, order)
-            natural = linkage.size * usual[order - 1] / unit**order
+            natural = linkage.size * usual[order - 1]
             columns += [
                 Column(f"{name} {axis}", unit=written, values=values[:, k], natural=natural, noise=noise[order])
                 for k, axis in enumerate(_RATES[order - 1])
@@ -150,6 +151,19 @@ def _drive_rates(motion: Motion) -> tuple[Reals, Reals] | None:
     velocity, *higher = motion.speeds[:, :, 0]
     plain = (velocity == 1.0).all() and not any(each.any() for each in higher)
     return None if plain else (velocity, higher[0] if higher else np.zeros_like(velocity))
+
+
+def _usual_rates(motion: Motion, rates: Sequence[float] | None) -> tuple[float, float, float]:
+    """How fast angles, and lengths by the size, usually change in each order, after the rates of the drives."""
+    size = motion.linkage.size
+    units = [1.0 if drive.turning else size for drive in motion.linkage.mechanism.drives]
+    if rates is not None:
+        largest = np.abs(rates) / units[0]
+    else:
+        speeds = np.ones((1, 1, 1)) if motion.speeds is None else motion.speeds
+        largest = (np.abs(speeds) / units).max(axis=(1, 2), initial=0.0)
+    v, a, j = [*largest.tolist(), 0.0, 0.0, 0.0][:3]
+    return v, v**2 + a, v**3 + 3 * v * a + j
 
 
 def _rates_of(motion: Motion, point: PointLike) -> Callable[[int], Reals]:
