@@ -3,7 +3,7 @@
 import { DEGREE, TURN, wrapped } from "./cycle";
 import { angle, number, t } from "./language";
 import type { Linkage } from "./linkage";
-import { type DeadCentre, isAngle, type Least, output, transmission } from "./measures";
+import { type DeadCentre, isAngle, type Least, output, stillRate, transmission } from "./measures";
 import { readingsOf } from "./rulers";
 import { driveText } from "./track";
 import { placeOf, rateUnit, transferName } from "./wording";
@@ -23,10 +23,16 @@ export interface Fact {
 export interface Found {
   dead: DeadCentre[];
   travel: number | null;
+  /** Of a link that does not turn: how far its points go. */
+  shift?: number;
   least: Least | null;
 }
 
-export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap: (angle: number) => number): Fact[] {
+export function factsOf(
+  linkage: Linkage,
+  { dead, least, shift, travel }: Found,
+  inLap: (angle: number) => number,
+): Fact[] {
   const { cycle, model, pose } = linkage;
   const facts: Fact[] = [];
   const record = model.outputs[0];
@@ -36,13 +42,15 @@ export function factsOf(linkage: Linkage, { dead, least, travel }: Found, inLap:
     const value = output(linkage, pose, 0);
     const text = size(turning ? inLap(value) : value);
     facts.push({ name: t("Output {name}", { name: linkage.linkName(record.link) }), text });
+    const rate = output(linkage, pose, 0, 1);
     facts.push({
       name: transferName(linkage, 1),
-      text: number(Math.round(1e12 * output(linkage, pose, 0, 1)) / 1e12, 4), // below is rounding
+      text: number(travel === 0 || Math.abs(rate) < stillRate(linkage) ? 0 : rate, 4),
       note: rateUnit(linkage, 1),
     });
     const [one, two] = dead;
-    if (travel !== null) facts.push({ name: turning ? t("Swing") : t("Stroke"), text: size(travel) });
+    if (shift) facts.push({ name: t("Travel of its points"), text: `${number(shift, 4)} ${model.unit}` });
+    else if (travel !== null) facts.push({ name: turning ? t("Swing") : t("Stroke"), text: size(travel) });
     if (one && two && dead.length === 2 && cycle.full) {
       const part = Math.abs(wrapped(cycle, one.value) - wrapped(cycle, two.value));
       const rest = cycle.turns * TURN - part;

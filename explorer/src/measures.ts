@@ -66,6 +66,12 @@ export function output({ model, sizes }: Linkage, rows: Rows, row: number, order
   return along(gap(2)) + 2 * w * across(first) + al * across(zeroth) - w * w * along(zeroth);
 }
 
+/** The rate below which the output does not move: what is less is rounding. */
+export function stillRate(linkage: Linkage): number {
+  const { drive, size } = linkage;
+  return (STILL * (isAngle(linkage) ? 1 : size)) / (drive?.turning ? 1 : size);
+}
+
 /** The output, or a derivative by the drive, at rows of the cycle that follow one another. An angle has no jumps, and
  * lies between -180° and 180° where the cycle was found, as the library measures it from a reference pose. */
 export function outputAlong(linkage: Linkage, rows: readonly number[]): Float64Array {
@@ -187,9 +193,7 @@ export function deadCentres(linkage: Linkage): DeadCentre[] {
   const speeds = every.map((row) => output(linkage, linkage.cycle.rows, row, 1));
   const usual = Math.max(0, ...speeds.map((v) => (Number.isFinite(v) ? Math.abs(v) : 0)));
   const out: DeadCentre[] = [];
-  const { drive, size } = linkage;
-  const natural = (isAngle(linkage) ? 1 : size) / (drive?.turning ? 1 : size);
-  if (!(usual > STILL * natural)) return out;
+  if (!(usual > stillRate(linkage))) return out;
   const still = 1e-9 * usual;
   const outputs = outputAlong(linkage, every);
   let last = -1;
@@ -229,6 +233,13 @@ export function travelOf(linkage: Linkage, dead: readonly DeadCentre[]): number 
   });
   const all = Float64Array.from([...along, ...far, ...dead.map((one) => one.output)].filter(Number.isFinite));
   return outputStandsStill(linkage, all) ? 0 : Math.max(...all) - Math.min(...all);
+}
+
+/** How far apart the places of the output's origin are; of a link that only travels, those of any of its points. */
+export function shiftOf({ cycle, model, sizes }: Linkage): number {
+  const at = Array.from(cycle.values, (_, row) => origin(cycle.rows, row, model.outputs[0]!.link));
+  const apart = Math.max(...at.flatMap(([x, y]) => Math.max(...at.map(([u, v]) => Math.hypot(u - x, v - y)))));
+  return apart > NOISE * sizes.unit ? apart : 0;
 }
 
 /** The drive value between two at which the output turns back, found from a row of the cycle. */

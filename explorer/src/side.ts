@@ -6,7 +6,7 @@ import { FactList, InWords } from "./factlist";
 import { type Found, factsOf } from "./facts";
 import { Forces, type Loaded } from "./forces";
 import { t } from "./language";
-import { deadCentres, leastTransmission, travelOf } from "./measures";
+import { deadCentres, isAngle, leastTransmission, shiftOf, travelOf } from "./measures";
 import { type Editor, modesPanel, optionsPanel, pointsPanel, rulersPanel, SizeRows } from "./panels";
 import { Plots } from "./plots";
 import { panelOf } from "./shell";
@@ -116,7 +116,9 @@ export class Side {
   #findTravel(): void {
     const { linkage } = this.view;
     const dead = deadCentres(linkage);
-    this.found = { ...this.found, dead, travel: travelOf(linkage, dead) };
+    const travel = travelOf(linkage, dead);
+    const shift = travel === 0 && isAngle(linkage) ? shiftOf(linkage) : 0;
+    this.found = { ...this.found, dead, travel, shift };
   }
 
   #findLeast(): void {

@@ -53,6 +53,22 @@ def test_swing_and_time_ratio_are_figures(tab, crank_rocker):
     assert len(facts) == 8
 
 
+def test_machines_with_two_drives_show_what_both_of_them_move(tab, server):
+    """The link of a five-bar that no drive turns by itself; of a lamp whose head stays level how far that goes, on
+    arms of 250 mm. 18.26° is 2° beside the pose in which arm and rod lie on one line, where rounding is multiplied."""
+    page = tab().open(server.address).machine("pent")
+    facts = """Object.fromEntries([...gruebler.root.querySelectorAll(".facts > div")].map((one) =>
+        ["dt", "dd"].map((part) => one.querySelector(part).firstChild.textContent)))"""
+    assert {"Output 4", "Swing"} <= set(page.page.evaluate(facts))
+    assert page.page.locator(".plot:visible").count() == 3
+    page.machine("lamp").page.evaluate(f"gruebler.motion.transport.pick({np.radians(18.26)})")
+    shown = page.page.evaluate(facts)
+    assert shown["Output head"] == "106.3°"
+    assert shown["Transfer function ψ′"] == "0"
+    assert shown["Travel of its points"] == "500 mm"
+    assert page.page.locator("[data-note=still]").inner_text() == "Output head does not turn."
+
+
 def test_a_plot_says_the_value_at_the_pointer(tab, crank_rocker):
     page = tab().open(crank_rocker)
     plot = page.page.locator(".plot").first

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
 import pytest
 
 from gruebler.files import linkage_to_json
 from gruebler.mechanics.analysis.outputs import find_output
 from gruebler.mechanics.analysis.several_drives import several_drives_lines, speed_relation
 from gruebler.mechanics.kinematics.solve import cached_plan
+from gruebler.mechanics.linkages import Linkage
 from gruebler.page.model import model_of
 from gruebler.page.requests import answer
+from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 
 
@@ -35,14 +38,40 @@ def test_angles_of_an_arm_add() -> None:
     assert "ω(pen arm) = ω(long arm) + ω(R(long arm-pen arm))." in told("pantograph", "en")
 
 
+def test_the_output_of_a_five_bar_is_moved_by_both_drives() -> None:
+    """With link 5 held the others are a crank-rocker, whose rocker 4 swings between the crank along and against 3."""
+    crank, coupler, rocker, ground = abs(-30 + 52j), abs(70 + 71j), abs(70 - 71j), abs(110 + 52j)
+    ends = [
+        np.arccos((rocker**2 + ground**2 - reach**2) / (2 * rocker * ground))
+        for reach in (coupler + crank, coupler - crank)
+    ]
+    linkage = entry("pent").linkage()
+    assert find_output(linkage).name == "4"
+    first, second = list(several_drives_lines(linkage))[1:]
+    swing = f"The output 4 swings through {np.degrees(ends[0] - ends[1]):.2f}°."
+    assert first.in_language("en").endswith(swing)
+    assert second.in_language("en").endswith(swing)  # it is symmetric
+
+
+def test_the_output_of_an_arm_is_its_last_link() -> None:
+    mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3); frame=0; drive=R(0-1); drive=R(1-2); drive=R(2-3)")
+    places = {0: (0, 0), 1: (0, 2), 2: (2, 2)}
+    assert find_output(Linkage.from_drawing(mechanism, places)).name == "3"
+
+
+def test_a_link_that_only_travels_is_told_with_its_way() -> None:
+    """The head of the desk lamp stays level, while each arm of 250 mm takes it round a circle."""
+    first, second = told("lamp", "en").splitlines()[1:3]
+    assert first.endswith("The output head does not turn; its points travel 500 mm.")
+    assert second.endswith("The output head does not turn; its points travel 500 mm.")
+
+
 def test_the_stroke_of_a_valve_with_the_reverser_held() -> None:
     """A linear relation is none of a valve gear; each drive is told with the value at which the other one is held.
 
     The stroke is compared with 3600 poses of one turn.
     """
     from math import tau
-
-    import numpy as np
 
     from gruebler.mechanics.kinematics import move
 

@@ -86,7 +86,7 @@ def test_several_drives():
     assert "moves by 2 for each unit of P(frame-slider1)" in machine_report(entry("diff_lever")).explain()
 
 
-@pytest.mark.parametrize("id", ["drafting", "drafting3", "pent"])
+@pytest.mark.parametrize("id", ["drafting", "drafting3"])
 def test_an_output_at_rest_does_not_show_rounding(id):
     """The head of a drafting machine stays parallel to the board."""
     report = machine_report(entry(id))

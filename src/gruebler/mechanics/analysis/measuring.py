@@ -452,8 +452,7 @@ def _travel(cycle: DriveCycle, output: Output, values: list[float]) -> float:
 
 def _shift(cycle: DriveCycle, output: Output) -> float:
     """How far apart the places of the output's origin are, in the grid."""
-    path = cycle.at(cycle.grid, 0).places[0, :, cycle.start.link_index(output.link)]
-    apart = float(np.abs(path[:, None] - path).max())
+    apart = output.shift(cycle.at(cycle.grid, 0))
     return apart if apart > _STILL * cycle.size else 0.0
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, unknown
 from gruebler.mechanics.kinematics.motion import Motion
@@ -36,11 +38,17 @@ class Output:
             else motion.displacement(self.joint, order=order)
         )
 
+    def shift(self, motion: Motion) -> float:
+        """How far apart the places of the link's origin are in a motion; of a link that only travels, of any point."""
+        path = motion.places[0, :, motion.link_index(self.link)]
+        return float(np.abs(path[:, None] - path).max(initial=0.0))
+
 
 def find_output(linkage: Linkage, output: str | None = None) -> Output:
     """The output that a name means; without one, the linkage's first output, else the last link at the frame.
 
-    A link that slides on the frame is looked at by its way, any other link by its angle; a sliding joint by its way.
+    Where drives move all links at the frame, it is the last link that none of them sets alone. A link that slides on
+    the frame is looked at by its way, any other link by its angle; a sliding joint by its way.
 
     >>> from gruebler.mechanics.fourbar import SliderCrank
     >>> find_output(SliderCrank(20, 50).linkage())
@@ -66,6 +74,7 @@ def _default(linkage: Linkage) -> str:
         return linkage.outputs[0]
     mechanism = linkage.mechanism
     driven = {link for drive in mechanism.drives for link in drive.between}
+    alone = {mechanism.frame}.union(*(drive.between for drive in mechanism.drives if mechanism.frame in drive.between))
     at_frame = [
         link
         for link in mechanism.chain.links
@@ -73,7 +82,8 @@ def _default(linkage: Linkage) -> str:
         and any(link in joint.links and mechanism.frame in joint.links for joint in mechanism.chain.joints)
     ]
     free = [link for link in at_frame if link not in driven]
-    return (free or at_frame or [link for link in mechanism.chain.links if link != mechanism.frame])[-1]
+    shared = [link for link in mechanism.chain.links if link not in alone]
+    return (free or shared or at_frame)[-1]
 
 
 def _slide_at_frame(mechanism: Mechanism, link: str) -> int | None:

@@ -122,7 +122,10 @@ def _travel_lines(
     turns = round(float(places[-1] - places[0]) / tau) if full and output.turning else 0
     travel = float(np.ptp(np.concatenate([places, _turning_values(places, speeds)])))
     still = travel <= _STILL * (1.0 if output.turning else plan.lower.size)
-    return list(output_lines(units, output.name, still=still, ratio=None, turns=turns, travel=travel))
+    shift = output.shift(motion) if still and output.turning else 0.0
+    if shift <= _STILL * plan.lower.size:
+        shift = 0.0
+    return list(output_lines(units, output.name, still=still, ratio=None, turns=turns, travel=travel, shift=shift))
 
 
 def _turning_values(values: Reals, rates: Reals) -> Reals:
