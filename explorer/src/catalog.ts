@@ -1,6 +1,6 @@
 /** The catalog: every machine with its picture, found by words of either language and by its features. */
 
-import { choice, h, menu, ownPage, press, renew, thumbnail } from "./dom";
+import { choice, h, menu, ownPage, renew, thumbnail } from "./dom";
 import { movesOnHover } from "./hover";
 import { currentLanguage, t } from "./language";
 import type { Model } from "./model";
@@ -9,6 +9,8 @@ import type { Page, View } from "./view";
 interface Entry {
   id: string;
   name: string;
+  /** What it has or does (`gruebler.teaching.catalog.kinds`). */
+  kinds: string[];
   links: number;
   counted: number;
   /** The mobility that special dimensions give, null where they give none other. */
@@ -32,11 +34,11 @@ export class CatalogView implements View {
   readonly element = h("div.view", { "data-page": "catalog" });
   /** What is looked for, as it was typed. */
   #query: Record<string, string> = {};
+  #kind = "";
   #refining = false;
   #byLinks = false;
   readonly #cards = h("div.cards", { "data-list": "catalog" });
   readonly #note = h("span.note", { role: "status" });
-  #kinds!: HTMLElement;
   #typing = 0;
   #asked = 0;
   #filled = false;
@@ -115,22 +117,23 @@ export class CatalogView implements View {
       ["slider", t("Sliders")],
       ["gear", t("Gears")],
       ["cam", t("Cams")],
+      ["cylinder", t("Cylinders")],
       ["straight", t("Straight lines")],
-      ["guide mechanism", t("Guide mechanisms")],
+      ["guide", t("Guide mechanisms")],
+      ["space", t("In space")],
     ];
     const words = field("words", t("Words"), t("Search: crank, six-bar, …"));
     const choose = (kind: string) => {
-      this.#query.words = kind;
-      this.arrange();
+      this.#kind = kind;
+      void this.#search();
     };
-    this.#kinds = choice(t("Kinds of machines"), kinds, "", choose, { class: "choice palette" });
     renew(
       this.element,
       h(
         "div.page",
         {},
         h("div.form", {}, h("h2", {}, t("Catalog")), this.#note),
-        this.#kinds,
+        choice(t("Kinds of machines"), kinds, this.#kind, choose, { class: "choice palette" }),
         h("div.form.search", {}, words, order),
         h("div.said", {}, more),
         this.#cards,
@@ -145,15 +148,15 @@ export class CatalogView implements View {
       if (/^(words|pairs|joints)$/.test(key)) return [[key, text]];
       return /^\s*\d+\s*$/.test(text) ? [[key, Number(text)]] : [];
     });
-    press(this.#kinds, this.#query.words ?? "");
     const cards = this.#cards;
     this.#note.textContent = t("Searching …");
     cards.classList.add("asking"); // those of the search before
     cards.toggleAttribute("data-waiting", !this.#filled);
     if (!this.#filled) renew(cards, ...Array.from({ length: EMPTY }, emptyCard));
     try {
-      const found = await this.#page.ask<Entry[]>("catalog", Object.fromEntries(asked));
+      let found = await this.#page.ask<Entry[]>("catalog", Object.fromEntries(asked));
       if (number !== this.#asked) return;
+      found = found.filter(({ kinds }) => !this.#kind || kinds.includes(this.#kind));
       this.#filled = true;
       cards.removeAttribute("data-waiting");
       const few = [t("No machine has all of this."), t("One machine")];
@@ -175,6 +178,7 @@ export class CatalogView implements View {
 
   #showAll(): void {
     this.#query = {};
+    this.#kind = "";
     this.arrange();
   }
 
@@ -183,7 +187,7 @@ export class CatalogView implements View {
     const special = entry.special ?? counted;
     const sizes = [
       t("{links} links, F = {mobility}", { links, mobility: special - idle }),
-      idle && t("{idle} idle", { idle }),
+      idle && t("freely spinning parts: {idle}", { idle }),
       special !== counted && t("by the count {counted}", { counted }),
     ];
     const kind = space ? t("in space") : !moves && t("structure only");

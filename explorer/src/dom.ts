@@ -122,7 +122,7 @@ export function choice(
 }
 
 /** Mark which of a choice is chosen; none if it has no such value. */
-export function press(group: HTMLElement, value: string): void {
+function press(group: HTMLElement, value: string): void {
   for (const one of group.children as Iterable<Element> as HTMLElement[])
     one.setAttribute("aria-pressed", String(one.dataset.value === value));
 }

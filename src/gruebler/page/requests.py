@@ -80,6 +80,7 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
     from gruebler.structure.mechanism import Mechanism
     from gruebler.structure.mobility import counted, mobility_report
     from gruebler.teaching.catalog.feature_query import FeatureQuery, entry_features, entry_mechanism, read_pairs
+    from gruebler.teaching.catalog.kinds import machine_kinds
     from gruebler.teaching.catalog.loader import Query, search
 
     kinds = ((2, asked.binary), (3, asked.ternary))
@@ -100,6 +101,7 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
         {
             "id": candidate.id,
             "name": candidate.name.in_language(lang),
+            "kinds": machine_kinds(candidate),
             "links": candidate.chain().n,
             "counted": counted(candidate.chain()),
             "special": candidate.claims.mobility,

@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 
 from gruebler.base.errors import CatalogError, near_words
-from gruebler.base.text import LANGUAGES, message
+from gruebler.base.text import LANGUAGES
 from gruebler.files.catalog_records import Entry, Exercise, read_entry, read_exercise
 from gruebler.structure.chain.pairs import PAIRS, Pair, pair
 from gruebler.structure.mechanism import Mechanism
@@ -19,6 +19,7 @@ from gruebler.structure.mechanism.inversion import family
 from gruebler.structure.mobility import counted
 from gruebler.teaching.catalog.claims import CheckedEntry, WrongClaim, check_claims
 from gruebler.teaching.catalog.features import purpose
+from gruebler.teaching.catalog.kinds import KINDS, machine_kinds
 from gruebler.teaching.catalog.record_folders import RecordFolder
 
 
@@ -162,7 +163,6 @@ def _meanings(symbol: str) -> set[Pair]:
     return {p for p in PAIRS if symbol in p.symbols.values()} or {pair(symbol)}
 
 
-_IN_SPACE = message("in space")
 _NUMBERS = {
     3: ("three", "drei"),
     4: ("four", "vier"),
@@ -191,8 +191,8 @@ def plain_word(text: str) -> str:
 def searched_text(candidate: Entry) -> str:
     """Everything in which a word is looked for, as `plain_word` writes it.
 
-    Id, names, remark, source, names of links, what the mechanism is for, its family, whether it moves in space, and
-    what a linkage is called by the number of its links, in every language.
+    Id, names, remark, source, names of links, what the mechanism is for, its family, its kinds, and what a linkage is
+    called by the number of its links, in every language.
     """
     remark = candidate.remark
     chain = candidate.chain()
@@ -201,7 +201,7 @@ def searched_text(candidate: Entry) -> str:
     parts = [candidate.id, candidate.name.en, candidate.name.de, candidate.source]
     parts += [*candidate.links, *candidate.links.values()]
     parts += [remark.en, remark.de] if remark else []
-    parts += [_IN_SPACE.in_language(lang) for lang in LANGUAGES if candidate.in_space]
+    parts += [KINDS[kind][0].in_language(lang) for kind in machine_kinds(candidate) for lang in LANGUAGES]
     parts += [use.in_language(lang) for lang in LANGUAGES]
     parts += [family(mechanism, lang) or "" for lang in LANGUAGES]
     if chain.n in _NUMBERS and all(joint.pair.is_basic for joint in chain.joints):
