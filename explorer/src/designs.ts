@@ -188,7 +188,7 @@ export class DesignCards {
     renew(
       this.element,
       h("h2", {}, items.length === 1 ? t("1 design") : t("{count} designs", { count: items.length })),
-      h("p.note", {}, found.note),
+      ...found.note.split("\n").map((line) => h("p.note", {}, line)),
       found.words && h("details.words", {}, h("summary", {}, t("What the cards tell")), h("p.note", {}, found.words)),
       items[0]?.stems ? this.#missed.element : "",
       h(

@@ -370,7 +370,7 @@ export class SynthesisView implements View {
     );
     const { open } = this.#list.querySelector("details") ?? {};
     if (this.kind === "function") tables.append(h("div.form", {}, action("pair", add, t("Another pair"))));
-    const folds = this.points[NINE] || (!single && this.designs.element.querySelector("b"));
+    const folds = this.points[NINE] || (!single && this.designs.element.firstChild);
     const set = folds ? h("details.words", { open }, h("summary", {}, `${name} · ${count}`), tables) : tables;
     renew(this.#list, count ? set : "");
   }

@@ -97,7 +97,7 @@ export class DesignWorker {
               items.length < count ? say("best", { count }) : "",
               say(count ? "exact" : "none"),
             ];
-            resolve({ ...found, items, words: say("balanced"), note: note.join(" ") });
+            resolve({ ...found, items, words: say("balanced"), note: note.join("\n") });
           }
         };
       });

@@ -66,19 +66,20 @@ def notes(result: SynthesisResult, items: Sequence[dict[str, Any]], total: int) 
     elif isinstance(task, FunctionTask):
         yield message("Deviation: the largest difference between the output wanted and that reached.")
     if not total:
-        yield from (note for note in result.notes if note.text == WITHOUT.text)
+        tightest = [note for note in result.notes if note.text == WITHOUT.text]
+        yield from tightest
         if isinstance(task, PositionTask) and count.theorem and count.real < _TWO:
             yield _FEW_DYADS.filled(theorem=count.theorem, real=count.real)
         else:
-            yield from _rejections(result)
+            yield from _rejections(result, 1 if tightest else _MOST_REASONS)
 
 
-def _rejections(result: SynthesisResult) -> Iterator[Message]:
-    """Reasons with how many have them, those that lack the least first."""
+def _rejections(result: SynthesisResult, number: int = _MOST_REASONS) -> Iterator[Message]:
+    """So many reasons with how many have them, those that lack the least first."""
     kinds: dict[tuple[str, ...], list[DesignVerdict]] = {}
     for verdict in (design.verdict for design in result.rejected):
         kinds.setdefault(tuple(reason.text for reason in verdict.reasons), []).append(verdict)
-    for _, some in sorted(kinds.items(), key=lambda kind: (len(kind[0]), -len(kind[1])))[:_MOST_REASONS]:
+    for _, some in sorted(kinds.items(), key=lambda kind: (len(kind[0]), -len(kind[1])))[:number]:
         best = max(some, key=lambda verdict: -inf if isnan(verdict.transmission) else verdict.transmission)
         texts = {joined(verdict.reasons).in_language("en") for verdict in some}
         text = message("Rejected ({count}): {reasons}.") if len(texts) == 1 else _AT_BEST

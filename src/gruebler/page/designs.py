@@ -176,7 +176,7 @@ def design_records(
         "note": [*left, *notes(result, items, len(designs))],
         "words": words(result, items, relative, space),
     }
-    said = {key: " ".join(text.in_language(lang) for text in some) for key, some in told.items()}
+    said = {key: "\n".join(text.in_language(lang) for text in some) for key, some in told.items()}
     return {"total": len(designs), "relative": relative, "less": less is not None, "items": items} | said
 
 
