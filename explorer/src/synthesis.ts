@@ -75,7 +75,7 @@ export class SynthesisView implements View {
   constructor(page: Page) {
     this.#page = page;
     const kept = stored<State>(KEPT);
-    if (kept) this.#take(kept);
+    if (kept) this.#restore(kept);
     const { plane } = this.#picture;
     plane.addEventListener("pointerdown", (event) => this.#down(event));
     plane.addEventListener("pointermove", (event) => this.#held?.(this.#placeOf(event)));
@@ -330,13 +330,13 @@ export class SynthesisView implements View {
     if (!state) return;
     this.#before[0] = state[0]; // where the change was made, which may be done again
     if (this.kind !== state[0]) this.#puts = ""; // the other kind has no such tool
-    this.#take(state);
+    this.#restore(state);
     this.#play(null);
     this.arrange();
     this.#page.changed();
   }
 
-  #take(state: State): void {
+  #restore(state: State): void {
     store(KEPT, state);
     this.#before = state;
     [this.kind] = state;
@@ -410,7 +410,7 @@ export class SynthesisView implements View {
     const { kind, points } = this;
     const pivots = kind === "positions" ? this.#pivots : [];
     const closed = kind === "points" && this.#closed;
-    const region = this.#planar ? this.#demands.region(points) : [];
+    const region = this.#planar ? this.#demands.region([...points, ...pivots]) : [];
     const task = { kind, points, pivots, region, closed, design: this.#shownDesign, home: this.#home };
     this.#picture.paint(task, !!this.#held);
   }
