@@ -697,14 +697,8 @@ def test_joints_and_the_transfer_function_are_measured_and_plotted(server, chrom
     motion = move(linkage, [math.radians(50)])
     names = space_model(linkage)["texts"]["de"]["joints"]
     chain = linkage.mechanism.chain
-    facts = dict(
-        page.locator('[data-panel="measures"] .facts > div').evaluate_all(
-            "all => all.map((one) => [one.querySelector('dt').textContent, one.querySelector('dd').textContent])"
-        )
-    )
-    found = [
-        float(text.replace(",", ".").replace("−", "-").rstrip("°")) for name, text in facts.items() if "D(" in name
-    ]
+    facts = read_off(page)
+    found = [number_in(text.replace(",", ".")) for name, text in facts.items() if "D(" in name]
     wanted = [
         math.degrees(motion.joint(each, "Rz")[0])
         for each, joint in zip(chain.joint_names(), chain.joints, strict=True)
@@ -712,7 +706,95 @@ def test_joints_and_the_transfer_function_are_measured_and_plotted(server, chrom
     ]
     assert len(names) == len(found) == 2
     assert found == pytest.approx(wanted, abs=2e-2)
+    output = math.degrees(motion.joint("R(frame-follower)", "Rz")[0])  # it turns against the drive
+    assert number_in(next(iter(facts.values())).replace(",", ".")) == pytest.approx(output, abs=2e-2)
     assert errors == more == []
+    browser.close()
+
+
+def read_off(page):
+    """What is measured, as texts by their names."""
+    facts = page.locator('[data-panel="measures"] .facts > div')
+    pairs = "all => all.map((one) => [one.querySelector('dt').textContent, one.querySelector('dd').textContent])"
+    return dict(facts.evaluate_all(pairs))
+
+
+def number_in(text):
+    return float(text.split()[0].replace("−", "-").rstrip("°"))
+
+
+def heights_of(plot):
+    """Of the line of a plot, in its pixels downward."""
+    line = plot.locator("path.curve").first.get_attribute("d")
+    return [float(place.split()[1]) for place in line.replace("M", "L").split("L")[1:]]
+
+
+def test_outputs_are_told_with_sign_and_full_turns(server, chromium):
+    """As they are by hand: a universal joint, tan psi = tan phi / cos b, with b = 30 degrees; a right-handed screw that
+    turns by phi and does not shift, so that its nut is drawn against the axis by the lead of 12 mm a turn; Willis for
+    the bevel gear differential, of the two suns phi1 + phi2 = 2 phi of the carrier."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/universal_joint.html#en")
+    page.get_by_role("button", name="Pause").click()
+    for degrees in (20, 110, 200, 340):
+        drive_to(page, str(degrees))
+        bent = math.degrees(math.atan(math.tan(math.radians(degrees)) / math.cos(math.radians(30))))
+        wanted = bent + 180 * round((degrees - bent) / 180)
+        assert number_in(read_off(page)["output: turned from the reference pose"]) == pytest.approx(wanted, rel=6e-4)
+
+    page.goto(server.address + "space/winch_screw.html#en")
+    page.get_by_role("button", name="Pause").click()
+    drive_to(page, "100")
+    facts = read_off(page)
+    assert number_in(facts["nut: shifted from the reference pose"]) == pytest.approx(-12 * 100 / 360, abs=1e-3)
+    assert number_in(facts["Transfer function s′"]) == pytest.approx(-12 / (2 * math.pi), abs=1e-3)
+    slope = page.locator(".plot").nth(1)
+    heights = heights_of(slope)
+    assert len(heights) > 10
+    assert max(heights) - min(heights) < 0.2  # a flat line
+    assert len(set(slope.locator("g").first.locator("text").all_text_contents())) > 2
+
+    page.goto(server.address + "space/diff_bevel.html#en")
+    page.get_by_role("button", name="Pause").click()
+    carrier, sun = page.locator(".rows input").all()
+    name = "sun 2: turned from the reference pose"
+    page.locator(".plot").first.wait_for()
+    drive_to(page, "358.5")
+    assert read_off(page)[name] == "717°"
+    assert read_off(page)["Transfer function ψ′"] == "2"
+    assert page.locator(".plot .read").first.text_content() == "717"
+    sun.fill(str(math.radians(-100)))  # 260 degrees: a drive is told from 0 on
+    assert read_off(page)[name] == "457°"
+    page.locator('[data-panel="measures"] dt:text-is("Transfer function ψ′") + dd:text-is("−1")').wait_for()
+    for value in (3, -2, 2, -3, 3, -1):  # in small steps backwards round and round
+        carrier.fill(str(value))
+    wanted = 2 * (360 - math.degrees(1)) - 260
+    assert number_in(read_off(page)[name]) == pytest.approx(wanted, abs=0.06)
+    assert errors == []
+    browser.close()
+
+
+def test_a_link_that_turns_about_no_axis_has_a_total_turn_without_a_kink(server, chromium):
+    """Against the poses of the library; a range says its unit once, as in the plane."""
+    linkage = entry("susp_5link_lift").placed()
+    poses = move(linkage, [0.0, 60.0]).poses[0]
+    turn = math.degrees(math.acos((np.trace(poses[-1, linkage.mechanism.chain.index("knuckle"), :3, :3]) - 1) / 2))
+    browser, page, errors = browsed_at(chromium, server.address + "space/susp_5link_lift.html#en")
+    page.get_by_role("button", name="Pause").click()
+    name = "knuckle: total turn from the reference pose"
+    drive_to(page, "60")
+    assert number_in(read_off(page)[name]) == pytest.approx(turn, rel=1e-3)
+    drive_to(page, "-60")
+    assert number_in(read_off(page)[name]) < 0
+    assert read_off(page)["Range of the drive"] == "−60 … 60\xa0mm"
+    plot = page.locator(".plot").first
+    assert plot.locator(".title").text_content() == "knuckle: total turn [°]"
+    heights = heights_of(plot)
+    assert heights == sorted(heights, reverse=True)  # it goes on up through 0
+    page.goto(server.address + "space/schatz.html#de")
+    page.get_by_role("button", name="Anhalten").click()
+    drive_to(page, "359,9")
+    assert float(read_off(page)["Behälter: Gesamtdrehung gegen die Bezugslage"].replace(",", ".").rstrip("°")) > 350
+    assert errors == []
     browser.close()
 
 
@@ -724,8 +806,7 @@ def test_a_transfer_function_of_one_is_a_flat_line_and_angles_have_ticks_of_quar
     titles = plots.locator(".title").all_text_contents()
     ticks = [plot.locator("g").first.locator("text").all_text_contents() for plot in plots.all()]
     ratio = next(k for k, title in enumerate(titles) if title.startswith("Transfer function"))
-    line = plots.nth(ratio).locator("path.curve").first.get_attribute("d")
-    heights = [float(place.split()[1]) for place in line.replace("M", "L").split("L")[1:]]
+    heights = heights_of(plots.nth(ratio))
     assert len(heights) > 10
     assert max(heights) - min(heights) < 0.2
     assert len(set(ticks[ratio])) == len(ticks[ratio]) > 2

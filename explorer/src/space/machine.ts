@@ -1,6 +1,6 @@
 /** A linkage in space that is driven: along rows that are there, or by the page's own solver. */
 
-import { type Reach, TURN } from "../cycle";
+import { type Reach, TURN, wrapped } from "../cycle";
 import { currentLanguage } from "../language";
 import type { Drivable } from "../transport";
 import { type Camera, dot, minus, moved, projection, seen, type Vector } from "./algebra";
@@ -15,6 +15,12 @@ const OFF = 1e-7; // by this part of its range a slider keeps off the ends, whic
 const PARTS = [0, 0.25, 0.5, 0.75, 1]; // of a range
 const TRAIL = 600; // places of a point that are remembered
 
+/** Where all links are, and how far the joints are turned that are solved here. */
+export interface State {
+  poses: ArrayLike<number>[];
+  turned?: number[];
+}
+
 export class Machine implements Drivable {
   active = 0;
   /** Of the drives that move it: radians or lengths. */
@@ -28,6 +34,10 @@ export class Machine implements Drivable {
   /** The place that was pulled last. */
   traced: Spot | null = null;
   readonly #solver: Solver | null;
+  /** Of each drive that turns round: how far a turn of it turns the joints. */
+  readonly #laps: number[][] = [];
+  /** Some of the poses that it reaches, of several drives by each alone. */
+  readonly reached: ArrayLike<number>[][];
   #trails: Vector[][] = [];
 
   constructor(readonly data: Model) {
@@ -36,13 +46,28 @@ export class Machine implements Drivable {
     this.#solver = live && new Solver(live, size, middle, bodies.length);
     const names = motions.map(({ drive }) => ({ name: String(drive) }));
     this.model = { drives: names, unit: data.unit };
-    const rows = live ? this.reached() : motions.flatMap(({ poses }) => poses);
+    const rows = live ? motions.flatMap((motion) => this.#alone(motion)) : motions.flatMap(({ poses }) => poses);
     const turns = (link: number) => !data.unit || rows.some((row) => turnOf(row[link]!) > TURNED);
     this.turning = new Set(bodies.map((_, link) => link).filter(turns));
     this.drives = motions.map((motion) => {
       const [low, high] = endsOf(motion);
       return live ? 0 : Math.min(Math.max(0, low), high);
     });
+    const some = live ? rows : rows.filter((_, k) => k % Math.ceil(rows.length / 24) === 0);
+    this.reached = some.length ? some : [this.poses];
+  }
+
+  /** Poses over the range of one of several drives, and what a turn of it adds to the joints. */
+  #alone(motion: Motion): ArrayLike<number>[][] {
+    const [low, high] = endsOf(motion);
+    const solver = this.#solver!.copy();
+    const rows = PARTS.map((part) => {
+      solver.drive(withValue(solver.values, motion.drive, low + part * (high - low)));
+      return { poses: solver.poses, turned: solver.turned };
+    });
+    const first = rows[0]!.turned;
+    this.#laps.push(rows.at(-1)!.turned.map((turn, k) => (motion.round ? turn - first[k]! : 0)));
+    return rows.map(({ poses }) => poses);
   }
 
   get #motion(): Motion | undefined {
@@ -80,9 +105,7 @@ export class Machine implements Drivable {
     const turns = motion.round ? Math.round((drives[active]! - value) / TURN) : 0;
     drives[active] = value + TURN * turns; // on from where it stands
     if (!solver) return true;
-    const wanted = [...solver.values];
-    wanted[motion.drive] = drives[active]!;
-    this.ended = !solver.drive(wanted);
+    this.ended = !solver.drive(withValue(solver.values, motion.drive, drives[active]!));
     this.#follow();
     return true;
   }
@@ -99,30 +122,48 @@ export class Machine implements Drivable {
 
   /** The poses of all links, by the drives as they stand. */
   get poses(): ArrayLike<number>[] {
-    const { data } = this;
     const [motion, solver] = [this.#motion, this.#solver];
     if (solver) return solver.poses;
-    if (!motion) return data.bodies.map(() => STILL);
+    if (!motion) return this.data.bodies.map(() => STILL);
     return between(motion, rowOf(motion, this.drives[this.active]!));
   }
 
-  /** Some of the poses that it reaches, of several drives by each alone. */
-  reached(): ArrayLike<number>[][] {
-    const { bodies, live, middle, motions, size } = this.data;
-    if (live)
-      return motions.flatMap((motion) => {
-        const [low, high] = endsOf(motion);
-        return PARTS.map((part) => {
-          const solver = new Solver(live, size, middle, bodies.length);
-          const values = [...solver.values];
-          values[motion.drive] = low + part * (high - low);
-          solver.drive(values);
-          return solver.poses.map((pose) => [...pose]);
-        });
-      });
-    const all = motions.flatMap(({ poses }) => poses);
-    const some = all.filter((_, k) => k % Math.ceil(all.length / 24) === 0);
-    return some.length ? some : [this.poses];
+  get state(): State {
+    return this.#solver ? this.#counted(this.#solver, this.#whole) : this;
+  }
+
+  /** What full turns of the drives, which are not told of them, add to the joints. */
+  get #whole(): number[] {
+    const laps = this.drives.map((value, k) => Math.round((value - wrapped(this.cycleOf(k), value)) / TURN));
+    return this.data.live!.joints.map((_, joint) =>
+      laps.reduce((sum, lap, k) => sum + lap * this.#laps[k]![joint]!, 0),
+    );
+  }
+
+  #counted({ poses, turned }: Solver, whole: number[]): State {
+    return { poses, turned: turned.map((turn, joint) => turn - whole[joint]!) };
+  }
+
+  /** All rows of the motion of the drive, the others where they stand; null where it cannot be. Solving takes long. */
+  *course(): Generator<void, (State | null)[]> {
+    const [motion, start] = [this.#motion!, this.#solver?.copy()];
+    if (!start) return motion.poses.map((poses) => ({ poses }));
+    const [whole, value] = [this.#whole, this.drives[this.active]!];
+    const [low, high] = endsOf(motion);
+    const last = motion.values.length - 1;
+    const rows: (State | null)[] = motion.values.map(() => null);
+    const base = value - wrapped(this.cycle, value);
+    const here = Math.round((last * (value - base - low)) / (high - low));
+    for (const way of [-1, 1]) {
+      const solver = start.copy();
+      for (let row = here; rows[row] !== undefined; row += way) {
+        const next = base + low + (row / last) * (high - low);
+        if (!solver.drive(withValue(solver.values, motion.drive, next))) break;
+        rows[row] = this.#counted(solver, whole);
+        yield;
+      }
+    }
+    return rows;
   }
 
   /** The places whose paths are drawn. */
@@ -159,31 +200,46 @@ export class Machine implements Drivable {
     const motion = this.#motion;
     if (!motion) return;
     const [last, here] = [motion.values.length - 1, rowOf(motion, this.drives[this.active]!)];
-    let [best, nearest] = [here, Infinity];
+    let [best, least] = [here, Infinity];
     for (let step = -NEAR; step <= NEAR; step += 0.25) {
       const tried = motion.round ? (here + step + last) % last : Math.min(Math.max(here + step, 0), last);
       const gap = Math.hypot(...off(between(motion, tried)[link]!));
-      if (gap < nearest) [nearest, best] = [gap, tried];
+      if (gap < least) [least, best] = [gap, tried];
     }
     const [low, high] = endsOf(motion);
     this.moveTo(low + (best / last) * (high - low));
   }
 }
 
-/** By what angle a link is turned: its cosine alone would not tell small ones. */
-export function turnOf(pose: ArrayLike<number>): number {
-  return Math.atan2(Math.hypot(...axisOf(pose)), pose[0]! + pose[5]! + pose[10]! - 1);
+function withValue(values: number[], drive: number, value: number): number[] {
+  return values.map((old, k) => (k === drive ? value : old));
 }
 
-/** By how much a joint is turned, in radians, or shifted. */
-export function jointValue({ axis, frame, links, sign, turns }: ReadJoint, poses: ArrayLike<number>[]): number {
+/** By what angle a link is turned: its cosine alone would not tell small ones. */
+export function turnOf(pose: ArrayLike<number>): number {
+  return Math.atan2(Math.hypot(...axisOf(pose)), cosineOf(pose));
+}
+
+/** Twice the cosine of the angle by which a link is turned. */
+export function cosineOf(pose: ArrayLike<number>): number {
+  return pose[0]! + pose[5]! + pose[10]! - 1;
+}
+
+/** By how much a joint is turned, in radians with full turns as far as they are counted, or shifted. */
+export function jointValue({ axis, frame, links, number, sign, turns }: ReadJoint, { poses, turned }: State): number {
   const [one, two] = links.map((link) => poses[link]!) as [Pose, Pose];
   const column = (k: number): Vector => [frame[k]!, frame[k + 4]!, frame[k + 8]!];
-  const turned = (pose: Pose, k: number) => minus(moved(pose, column(k % 3)), moved(pose, [0, 0, 0]));
-  const [u, v] = [turned(one, axis + 1), turned(one, axis + 2)];
-  const other = turned(two, axis + 1);
-  const shift = minus(moved(two, column(3)), moved(one, column(3)));
-  return sign * (turns ? Math.atan2(dot(other, v), dot(other, u)) : dot(shift, turned(one, axis)));
+  const along = (pose: Pose, k: number) => minus(moved(pose, column(k % 3)), moved(pose, [0, 0, 0]));
+  const [u, v] = [along(one, axis + 1), along(one, axis + 2)];
+  const other = along(two, axis + 1);
+  if (!turns) return sign * dot(minus(moved(two, column(3)), moved(one, column(3))), along(one, axis));
+  const turn = Math.atan2(dot(other, v), dot(other, u));
+  return sign * nearest(turn, turned?.[number] ?? turn);
+}
+
+/** An angle with the full turns with which it is nearest to another one. */
+export function nearest(angle: number, other: number): number {
+  return angle + TURN * Math.round((other - angle) / TURN);
 }
 
 /** About which axis a link is turned: a vector of twice the sine of the angle. */

@@ -37,6 +37,8 @@ export interface ReadJoint {
   axis: 0 | 1 | 2;
   turns: boolean;
   sign: number;
+  /** Among the joints that are solved. */
+  number: number;
 }
 
 interface Texts {
@@ -71,8 +73,8 @@ export interface Model {
   document: Record<string, unknown>;
   /** Of links with two joints: how far these are apart, and the angle of their axes in degrees. */
   sizes: { link: number; distance: number | null; angle: number | null }[];
-  /** The links whose motion is wanted. */
-  outputs: number[];
+  /** The links whose motion is wanted, and the joint with the frame by which one is read, if there is one. */
+  outputs: { link: number; joint: ReadJoint | null }[];
   joints: ReadJoint[];
   motions: Motion[];
   /** What moves several drives together; with one drive its motion is there. */

@@ -1,91 +1,80 @@
 /** The plots of what a machine in space drives: how far its outputs turn or shift, over the only drive. */
 
 import { TURN, wrapped } from "../cycle";
+import { h, renew } from "../dom";
 import type { Fact } from "../facts";
-import { number, t } from "../language";
+import { angle, number, t } from "../language";
 import { Plot } from "../plot";
 import { Span } from "../span";
 import { inBrackets } from "../wording";
-import type { Vector } from "./algebra";
-import { axisOf, endsOf, jointValue, type Machine, turnOf } from "./machine";
-
-type Pose = ArrayLike<number>;
+import { dot, type Vector } from "./algebra";
+import { axisOf, cosineOf, endsOf, jointValue, type Machine, nearest, type State, turnOf } from "./machine";
+import type { ReadJoint } from "./model";
 
 const DEGREES = 360 / TURN; // of a radian
-const EVEN = 1e-5; // values that differ by less are the same but for the digits of poses
-const EVEN_RATES = 1e-4; // and their slopes, from rows that are hundredths apart
+const DIGITS = 4;
+const EVEN = 1e-7; // values that differ by less are the same but for the digits of poses
+const EVEN_RATES = 1e-5; // and their slopes, from rows that are hundredths apart
 const SAME = 1e-4; // of the longest: directions that differ by less are one
+const QUIET = 200; // milliseconds after the last change of another drive
+const SLICE = 8; // milliseconds of solving between frames
+
+/** What is read of a machine: an output or a joint. */
+interface Reading {
+  name: string;
+  /** With what it is compared, of outputs. */
+  fact: string;
+  /** Null of a joint between others. */
+  link: number | null;
+  turns: boolean;
+  /** With a sign: in a joint, or about or along a direction that is the same all the way. */
+  joint: ReadJoint | null;
+  along: Vector | null;
+}
+
+/** Pieces of text by language that it needs. */
+interface Words {
+  links: string[];
+  joints: string[];
+  words: Record<string, string>;
+}
 
 export class OutputPlots {
-  readonly elements: Element[];
-  readonly #plots: Plot[] = [];
-  /** What they show, in the order of the outputs, then of the joints, from the first value of the drive on in such
-   * steps. */
-  readonly #values: Float64Array[] = [];
-  readonly #rates: { name: string; note: string; now: () => number }[] = [];
+  readonly element = h("div", {});
+  #plots: Plot[] = [];
+  readonly #readings: Reading[];
+  /** Of readings, from the first value of the drive on in such steps: degrees or lengths. */
+  #values: Float64Array[] = [];
+  #rates: { name: string; note: string; now: () => number }[] = [];
   #first = 0;
   #step = 1;
+  /** Which drive they are over, and where the others stand. */
+  #known = "";
+  #timer = 0;
 
   constructor(
     private readonly machine: Machine,
-    names: string[],
-    joints: string[],
-    pick: (value: number) => void,
+    { joints, links, words }: Words,
+    private readonly pick: (value: number) => void,
+    /** They are there, after a while. */
+    private readonly made: () => void,
   ) {
-    const { data, drive, turning } = machine;
-    const [motion, ...more] = data.motions;
-    const rows = more.length ? [] : (motion?.poses ?? []);
-    if (rows.length) {
-      const span = new Span(() => {
-        for (const plot of this.#plots) plot.redraw();
-      });
-      const range = endsOf(motion!);
-      const step = (range[1] - range[0]) / (rows.length - 1);
-      const drives = Float64Array.from(rows, (_, row) => range[0] + row * step);
-      [this.#first, this.#step] = [range[0], step];
-      type Now = (() => number) | undefined;
-      const show = (name: string, unit: string, values: Float64Array, colour: string, now: Now, even = EVEN) => {
-        const most = Math.max(1, ...values.map(Math.abs).filter(Number.isFinite));
-        const same = even * (unit === data.unit ? data.size : most);
-        const plot = new Plot(drive?.turning ? "°" : data.unit, pick, span);
-        const title = name + inBrackets(unit);
-        plot.show(drives, { title, values, colour, same, now, degrees: unit === "°" }, range);
-        this.#plots.push(plot);
-      };
-      for (const [k, link] of data.outputs.entries()) {
-        const turns = turning.has(link);
-        const [values, signed] = wayOf(
-          rows.map((row) => row[link]!),
-          turns,
-        );
-        this.#values.push(values);
-        const name = names[link]!;
-        const turned = () => this.plotted(k, turnOf(machine.poses[link]!)) * DEGREES;
-        show(name, turns ? "°" : data.unit, values, "--motion", turns ? turned : undefined);
-        if (!signed) continue;
-        const rates = slopes(turns ? values.map((value) => value / DEGREES) : values, step, motion!.round);
-        const [above, below] = [turns, drive!.turning].map((one) => (one ? "rad" : data.unit));
-        const note = above === below ? "" : `${above}/${below}`;
-        const told = t("Transfer function {sign}", { sign: `${turns ? "ψ" : "s"}′` });
-        const title = data.outputs[1] ? `${told}, ${name}` : told;
-        const now = () => cubicAt(rates, (this.#drive - range[0]) / step, motion!.round);
-        this.#rates.push({ name: title, note, now });
-        show(title, note, rates, "--green", now, EVEN_RATES);
-      }
-      for (const [k, joint] of data.joints.entries()) {
-        const values = unwound(
-          rows.map((row) => jointValue(joint, row)),
-          joint.turns,
-        );
-        this.#values.push(values);
-        const now = () => {
-          const value = jointValue(joint, machine.poses);
-          return joint.turns ? this.near(data.outputs.length + k, value) * DEGREES : value;
-        };
-        show(joints[k]!, joint.turns ? "°" : data.unit, values, "--purple", now);
-      }
-    }
-    this.elements = this.#plots.map(({ element }) => element);
+    const { data, reached, turning } = machine;
+    const outputs = data.outputs.map(({ joint, link }) => {
+      const turns = joint ? joint.turns : turning.has(link);
+      const along = joint ? null : directionOf(reached.map((row) => wayOf(row[link]!, turns)));
+      const reading = { name: links[link]!, fact: "", link, joint, turns, along };
+      const told = isTotal(reading) ? "total" : "turned";
+      reading.fact = words[turns ? told : "shifted"]!.replace("{link}", links[link]!);
+      if (turns && isTotal(reading)) reading.name = words.all!.replace("{link}", links[link]!);
+      return reading;
+    });
+    const between = data.joints.map((joint, k) => {
+      const name = joints[k]!;
+      return { name, fact: name, link: null, joint, turns: joint.turns, along: null };
+    });
+    this.#readings = data.motions.length ? [...outputs, ...between] : [];
+    this.follow();
   }
 
   get #drive(): number {
@@ -93,40 +82,166 @@ export class OutputPlots {
     return wrapped(cycle, drives[active] ?? 0);
   }
 
-  /** Put the cursor to where the drive stands. */
+  /** Put the cursor to where the drive stands; where another drive moved the plots are made anew, once it rests. */
   follow(): void {
-    for (const plot of this.#plots) plot.at(this.#drive);
+    const { active, data, drives } = this.machine;
+    const known = [active, ...(data.live ? drives.filter((_, k) => k !== active) : [])].join();
+    if (known === this.#known || !this.#readings.length) {
+      for (const plot of this.#plots) plot.at(this.#drive);
+      return;
+    }
+    this.#known = known;
+    this.#values = [];
+    this.#rates = this.#rates.map((rate) => ({ ...rate, now: () => NaN }));
+    clearTimeout(this.#timer);
+    this.#fade(true);
+    const course = this.machine.course();
+    if (data.live) this.#timer = setTimeout(() => this.#solve(course), QUIET);
+    else this.#solve(course);
   }
 
-  /** How far an output goes to and fro, in degrees or lengths; 0 of one that turns round, and where none is plotted. */
-  travel(output: number): number {
-    const values = this.#values[output];
-    if (!values) return 0;
-    const far = highest(values) + highest(values.map((value) => -value));
-    return this.machine.turning.has(this.machine.data.outputs[output]!) && far > 359.9 ? 0 : far;
+  #solve(course: ReturnType<Machine["course"]>): void {
+    const end = performance.now() + SLICE;
+    let next = course.next();
+    while (!next.done && performance.now() < end) next = course.next();
+    if (next.done) {
+      this.#show(next.value);
+      if (this.machine.data.live) this.made();
+    } else this.#timer = setTimeout(() => this.#solve(course));
   }
 
-  /** An angle of an output with the sign and the full turns that its plot has there, in radians. */
-  plotted(output: number, turned: number): number {
-    const away = (value: number) => Math.abs(value - this.#about(output));
-    const [same, other] = [this.near(output, turned), this.near(output, -turned)];
-    return away(other) < away(same) ? other : same;
+  #show(rows: (State | null)[]): void {
+    const { active, data, drive } = this.machine;
+    const motion = data.motions[active]!;
+    const range = endsOf(motion);
+    const step = (range[1] - range[0]) / (rows.length - 1);
+    [this.#first, this.#step, this.#plots, this.#rates] = [range[0], step, [], []];
+    const drives = Float64Array.from(rows, (_, row) => range[0] + row * step);
+    const home = Math.min(Math.max(Math.round(-range[0] / step), 0), rows.length - 1); // of the reference pose
+    const span = new Span(() => {
+      for (const plot of this.#plots) plot.redraw();
+    });
+    const unitOf = (turns: boolean) => (turns ? "°" : data.unit);
+    const show = (name: string, unit: string, values: Float64Array, colour: string, now: () => number, even = EVEN) => {
+      const most = Math.max(1, ...values.map(Math.abs).filter(Number.isFinite));
+      const same = even * (unit === data.unit ? data.size : most);
+      const plot = new Plot(unitOf(drive!.turning), this.pick, span);
+      const title = name + inBrackets(unit);
+      plot.show(drives, { title, values, colour, same, now, degrees: unit === "°" }, range);
+      this.#plots.push(plot);
+    };
+    for (const [k, reading] of this.#readings.entries()) {
+      const { link, name, turns } = reading;
+      const values = valuesOf(reading, rows, home);
+      this.#values.push(values);
+      show(name, unitOf(turns), values, link === null ? "--purple" : "--motion", () => this.#value(k));
+      if (link === null || isTotal(reading)) continue;
+      const rates = slopes(turns ? values.map((value) => value / DEGREES) : values, step, motion.round);
+      const [above, below] = [turns, drive!.turning].map((one) => (one ? "rad" : data.unit));
+      const note = above === below ? "" : `${above}/${below}`;
+      const told = t("Transfer function {sign}", { sign: `${turns ? "ψ" : "s"}′` });
+      const title = data.outputs[1] ? `${told}, ${name}` : told;
+      const now = () => cubicAt(rates, (this.#drive - range[0]) / step, motion.round);
+      this.#rates.push({ name: title, note, now });
+      show(title, note, rates, "--green", now, EVEN_RATES);
+    }
+    renew(this.element, ...this.#plots.map(({ element }) => element));
+    this.#fade(false);
+    this.follow();
   }
 
-  /** An angle with the full turns that a plot has where the drive stands, in radians. */
-  near(plot: number, turned: number): number {
-    const about = this.#about(plot);
-    return turned + (Number.isNaN(about) ? 0 : TURN * Math.round((about - turned) / TURN));
+  /** Plots of what is no more are seen, but nothing is picked in them. */
+  #fade(old: boolean): void {
+    this.element.inert = old;
+    this.element.style.opacity = old ? "0.3" : "";
   }
 
-  #about(plot: number): number {
-    return (this.#values[plot]?.[Math.round((this.#drive - this.#first) / this.#step)] ?? NaN) / DEGREES;
+  /** What is read where the drives stand, in degrees or lengths: with the full turns, and without an axis with the
+   * sign, that the plot has there. */
+  #value(k: number): number {
+    const reading = this.#readings[k]!;
+    const value = valueIn(reading, this.machine.state);
+    if (!reading.turns) return value;
+    const about = this.#values[k]?.[Math.round((this.#drive - this.#first) / this.#step)] ?? NaN;
+    if (Number.isNaN(about)) return value * DEGREES;
+    const tried = [value, isTotal(reading) ? -value : value].map((turn) => nearest(turn, about / DEGREES) * DEGREES);
+    return tried.sort((a, b) => Math.abs(a - about) - Math.abs(b - about))[0]!;
   }
 
-  /** What the transfer functions are where the drive stands. */
-  get rates(): Fact[] {
-    return this.#rates.map(({ name, note, now }) => ({ name, note, text: number(now(), 4) }));
+  /** Where outputs and joints are, how far outputs go to and fro, what the transfer functions are there. */
+  get facts(): Fact[] {
+    const { data } = this.machine;
+    const read = this.#readings.map((reading, k) => {
+      const { fact: name, turns } = reading;
+      const text = (value: number) =>
+        turns
+          ? angle(value / DEGREES, DIGITS)
+          : `${number(Math.abs(value) < 1e-6 * data.size ? 0 : value, DIGITS)} ${data.unit}`;
+      const facts = [{ name, text: text(this.#value(k)) }];
+      const values = this.#values[k];
+      if (reading.link === null || isTotal(reading) || !values) return facts;
+      const far = highest(values) + highest(values.map((value) => -value));
+      if (!(turns && far > 359.9))
+        facts.push({ name: `${t(turns ? "Swing" : "Stroke")} ${reading.name}`, text: text(far) });
+      return facts;
+    });
+    const rates = this.#rates.map(({ name, note, now }) => ({ name, note, text: number(now(), 4) }));
+    const outputs = data.outputs.length;
+    return [...read.slice(0, outputs).flat(), ...rates, ...read.slice(outputs).flat()];
   }
+}
+
+/** Whether an output has no axis: it is told how far it is turned or shifted in all. */
+function isTotal({ along, joint }: Pick<Reading, "along" | "joint">): boolean {
+  return !along && !joint;
+}
+
+/** How far something is turned, in radians, or shifted. */
+function valueIn({ along, joint, link, turns }: Reading, state: State): number {
+  if (joint) return jointValue(joint, state);
+  const pose = state.poses[link!]!;
+  const way = wayOf(pose, turns);
+  if (!along) return turns ? turnOf(pose) : Math.hypot(...way);
+  return turns ? Math.atan2(dot(way, along), cosineOf(pose)) : dot(way, along);
+}
+
+/** The same along rows, in degrees or lengths: angles go on over full turns, and that of the reference pose lies
+ * between -180° and 180°. */
+function valuesOf(reading: Reading, rows: (State | null)[], home: number): Float64Array {
+  const values = Float64Array.from(rows, (row) => (row ? valueIn(reading, row) : NaN));
+  if (!reading.turns) return values;
+  const total = isTotal(reading);
+  let axis: Vector = [0, 0, 0];
+  let last = 0;
+  const along = values.map((value, k) => {
+    const row = rows[k];
+    if (!row) return NaN;
+    const way = wayOf(row.poses[reading.link ?? 0]!, true);
+    // beyond 0 or 180° its direction goes on, and the angle has a sign
+    const side = total && dot(way, axis) < 0 ? -1 : 1;
+    if (Math.hypot(...way) > SAME) axis = way.map((part) => side * part) as Vector;
+    last = row.turned && !total ? value : nearest(side * value, last);
+    return last;
+  });
+  const laps = reading.joint && rows[home]?.turned ? 0 : nearest(0, along[home] || 0);
+  const known = along.filter(Number.isFinite).map((value) => value - laps);
+  const down = total && Math.max(...known) < -Math.min(...known);
+  return along.map((value) => (down ? -1 : 1) * (value - laps) * DEGREES);
+}
+
+/** The direction of ways along a line, to the side of the longest; null if they have several. */
+function directionOf(ways: Vector[]): Vector | null {
+  const lengths = ways.map((way) => Math.hypot(...way));
+  const length = Math.max(...lengths);
+  const first = ways[lengths.findIndex((long) => long > (1 - SAME) * length)] ?? [0, 0, 0];
+  const along = first.map((part) => part / (length || 1)) as Vector;
+  const off = ways.map((way, k) => lengths[k]! - Math.abs(dot(way, along)));
+  return Math.max(...off) < SAME * length ? along : null;
+}
+
+/** Twice the sine of an angle along its axis, or how far a link is shifted. */
+function wayOf(pose: ArrayLike<number>, turns: boolean): Vector {
+  return turns ? axisOf(pose) : [pose[3]!, pose[7]!, pose[11]!];
 }
 
 /** The largest of values that are evenly apart, between two of them perhaps: that of the parabola through three. */
@@ -136,29 +251,6 @@ function highest(values: Float64Array): number {
   const [before, after] = [values[at - 1] ?? most, values[at + 1] ?? most];
   const bend = 2 * most - before - after;
   return most + (at && at < values.length - 1 && bend ? (after - before) ** 2 / (8 * bend) : 0);
-}
-
-/** How far a link is turned, in degrees, or shifted, and whether that has a sign: where it turns about one axis, or
- * shifts along a line. The sign is that for which most of the range is positive: an axis has no sense of its own. */
-function wayOf(poses: Pose[], turns: boolean): [Float64Array, boolean] {
-  const vectors = poses.map((pose): Vector => (turns ? axisOf(pose) : [pose[3]!, pose[7]!, pose[11]!]));
-  const along = partsAlong(vectors);
-  if (!along) {
-    const far = turns ? poses.map((pose) => turnOf(pose) * DEGREES) : vectors.map((way) => Math.hypot(...way));
-    return [Float64Array.from(far), false];
-  }
-  const cosines = poses.map((pose) => pose[0]! + pose[5]! + pose[10]! - 1);
-  const values = unwound(turns ? along.map((part, row) => Math.atan2(part, cosines[row]!)) : along, turns);
-  return [Math.max(...values) < -Math.min(...values) ? values.map((value) => -value) : values, true];
-}
-
-/** Angles in degrees, over full turns; lengths as they are. */
-function unwound(values: number[], turns: boolean): Float64Array {
-  let last = 0;
-  return Float64Array.from(values, (value) => {
-    last = turns ? value + TURN * Math.round((last - value) / TURN) : value;
-    return turns ? last * DEGREES : last;
-  });
 }
 
 /** A value of a row; beyond a full turn it goes on by as much as that adds. */
@@ -183,14 +275,4 @@ function cubicAt(values: Float64Array, at: number, round: boolean): number {
   const x = at - low;
   const [a, b, c, d] = [-1, 0, 1, 2].map((k) => rowAt(values, low + k, round)) as [number, number, number, number];
   return ((x - 1) * (x - 2) * (b * (3 * x + 3) - a * x) + (x + 1) * x * (d * (x - 1) - c * (3 * x - 6))) / 6;
-}
-
-/** The parts of vectors along the longest of them; null if they have several directions. */
-function partsAlong(vectors: Vector[]): number[] | null {
-  const lengths = vectors.map((v) => Math.hypot(...v));
-  const length = Math.max(...lengths) || 1;
-  const longest = vectors[Math.max(0, lengths.indexOf(length))]!;
-  const parts = vectors.map((v) => v.reduce((sum, part, k) => sum + part * longest[k]!, 0) / length);
-  const off = lengths.map((long, k) => long - Math.abs(parts[k]!));
-  return Math.max(...off) < SAME * length ? parts : null;
 }

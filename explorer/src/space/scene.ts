@@ -134,7 +134,7 @@ export class Scene {
   // --- where from ----------------------------------------------------------------------------------------------------
 
   /** The farthest places of all bodies in poses, those that are reached at first. */
-  #corners(reached = this.machine.reached()): Vector[] {
+  #corners(reached = this.machine.reached): Vector[] {
     return reached.flatMap((poses) =>
       this.#reach.flatMap(({ link, places }) => places.map((place) => moved(poses[link]!, place))),
     );
@@ -143,7 +143,7 @@ export class Scene {
   fit(): void {
     this.#whole = true;
     if (!this.#wide) return; // it is not laid out yet
-    const reached = this.machine.reached();
+    const reached = this.machine.reached;
     const places = [...this.#corners(reached), ...reached.flatMap((poses) => arrowsOf(this.machine, poses).flat())];
     const [one, other] = this.#margins.map((room) => fitted(this.#camera, this.#wide, places, room));
     this.#camera = one!.distance < other!.distance ? one! : other!;

@@ -96,7 +96,7 @@ export class Solver {
   poses: Pose[];
   readonly values: number[];
   /** The turns of all joints, whole ones counted. */
-  #turned: number[];
+  turned: number[];
   readonly #moving: number[];
   readonly #backs: Pose[];
 
@@ -108,9 +108,17 @@ export class Solver {
   ) {
     this.poses = Array.from({ length: links }, () => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]);
     this.values = live.drives.map(() => 0);
-    this.#turned = live.joints.map(() => 0);
+    this.turned = live.joints.map(() => 0);
     this.#moving = this.poses.map((_, k) => k).filter((k) => k !== live.frame);
     this.#backs = live.joints.map(({ frame }) => inverse(frame));
+  }
+
+  /** Another one, which goes on from here. */
+  copy(): Solver {
+    const other = new Solver(this.live, this.size, this.middle, this.poses.length);
+    [other.poses, other.turned] = [this.poses, this.turned];
+    other.values.splice(0, this.values.length, ...this.values);
+    return other;
   }
 
   /** The second link's frame of a joint, seen from its first one. */
@@ -123,7 +131,7 @@ export class Solver {
     const e = this.#seen(poses, number);
     const [a, b] = [(axis + 1) % 3, (axis + 2) % 3];
     const turn = Math.atan2(e[4 * b + a]!, e[4 * a + a]!);
-    return this.#turned[number]! + wrapped(turn - this.#turned[number]!);
+    return this.turned[number]! + wrapped(turn - this.turned[number]!);
   }
 
   /** What a drive stands at. */
@@ -227,7 +235,7 @@ export class Solver {
       const { poses, miss } = this.#solved(this.#rows(targets, 1), this.poses, MOST);
       if (miss < 1e-6 && this.#leap(poses) < LEAP) {
         this.poses = poses;
-        this.#turned = this.live.joints.map((_, k) => this.#angle(poses, k));
+        this.turned = this.live.joints.map((_, k) => this.#angle(poses, k));
         this.values.splice(0, targets.length, ...targets);
         part = next;
       } else {

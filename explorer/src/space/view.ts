@@ -15,7 +15,7 @@ import { driveText } from "../track";
 import { type Driven, Transport } from "../transport";
 import { moved } from "./algebra";
 import { asked } from "./asking";
-import { endsOf, jointValue, Machine, turnOf } from "./machine";
+import { endsOf, Machine } from "./machine";
 import type { Model } from "./model";
 import { OutputPlots } from "./outputs";
 import { Resizing } from "./resizing";
@@ -250,7 +250,8 @@ export class SpaceView implements Driven {
   #panels(): HTMLElement[] {
     const { data, linkage } = this;
     const [texts, words] = [this.#texts, this.#words];
-    const panels = [panelOf("measures", t("Measures"), true, this.#facts.element)];
+    const measured = linkage.drive || linkage.spots.length;
+    const panels = measured ? [panelOf("measures", t("Measures"), true, this.#facts.element)] : [];
     const alone = words.alone ? [h("p.note", {}, words.alone)] : [];
     if (!linkage.drive) alone.push(h("p.note", {}, words.none));
     this.#sliders = data.motions.length > 1 ? data.motions.map((_, k) => this.#slider(k)) : [];
@@ -273,9 +274,9 @@ export class SpaceView implements Driven {
       panels.push(panelOf("sizes", t("Sizes"), true, shown, ...said));
       this.#resizing.arrange();
     }
-    this.#plots = new OutputPlots(linkage, texts.links, texts.joints, (value) => this.transport.pick(value));
-    const { elements } = this.#plots;
-    if (elements.length) panels.push(panelOf("plots", t("Plots"), true, ...elements));
+    const pick = (value: number) => this.transport.pick(value);
+    this.#plots = new OutputPlots(linkage, texts, pick, () => this.#facts.show(this.#measures()));
+    if (linkage.drive) panels.push(panelOf("plots", t("Plots"), true, this.#plots.element));
     const chips = texts.links.map((name, link) => {
       const chip = h("span.chip", {}, h("i", {}), name);
       const colour = data.bodies[link]!.colour.map((part) => Math.round(255 * part)).join(" ");
@@ -399,29 +400,7 @@ export class SpaceView implements Driven {
     const { data, linkage } = this;
     const [texts, words] = [this.#texts, this.#words];
     const { poses } = linkage;
-    const facts: Fact[] = data.outputs.flatMap((link, k) => {
-      const pose = poses[link]!;
-      const turns = linkage.turning.has(link);
-      const shift = Math.hypot(pose[3]!, pose[7]!, pose[11]!);
-      const far = `${number(shift < 1e-6 * data.size ? 0 : shift, DIGITS)} ${data.unit}`;
-      const turned = turnOf(pose);
-      const text = turns ? angle(this.#plots?.plotted(k, turned) ?? turned, DIGITS) : far;
-      const travel = this.#plots?.travel(k);
-      const goes = travel ? `${number(travel, DIGITS)}${turns ? "°" : ` ${data.unit}`}` : "";
-      const named = (word: string) => words[word]!.replace("{link}", texts.links[link]!);
-      return [
-        ...(turns && data.live && data.unit ? [{ name: named("shifted"), text: far }] : []),
-        { name: named(turns ? "turned" : "shifted"), text },
-        ...(goes ? [{ name: `${t(turns ? "Swing" : "Stroke")} ${texts.links[link]!}`, text: goes }] : []),
-      ];
-    });
-    facts.push(...(this.#plots?.rates ?? []));
-    for (const [k, joint] of data.joints.entries()) {
-      const value = jointValue(joint, poses);
-      const far = `${number(Math.abs(value) < 1e-6 * data.size ? 0 : value, DIGITS)} ${data.unit}`;
-      const turned = this.#plots?.near(data.outputs.length + k, value) ?? value;
-      facts.push({ name: texts.joints[k]!, text: joint.turns ? angle(turned, DIGITS) : far });
-    }
+    const facts = this.#plots?.facts ?? [];
     for (const { name, link, at } of linkage.spots) {
       const text = moved(poses[link]!, at).map((v) => number(Math.abs(v) < 1e-9 * data.size ? 0 : v, DIGITS));
       facts.push({
@@ -433,9 +412,9 @@ export class SpaceView implements Driven {
     }
     if (linkage.drive) {
       const { full } = linkage.cycle;
-      const ends = endsOf(data.motions[linkage.active]!)
-        .map((value) => this.#valueOf(linkage.active, value))
-        .join(" … ");
+      const [low, high] = endsOf(data.motions[linkage.active]!) as [number, number];
+      const from = linkage.drive.turning ? angle(low) : number(low, DIGITS);
+      const ends = `${from} … ${this.#valueOf(linkage.active, high).replace(" ", "\u00a0")}`;
       facts.push({ name: t("Range of the drive"), text: full ? t("full turns") : ends });
     }
     return facts;

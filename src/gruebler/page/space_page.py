@@ -42,6 +42,8 @@ _WORDS = {
     "nearer": message("zoom in and out"),
     "drives": message("Drives"),
     "turned": message("{link}: turned from the reference pose"),
+    "total": message("{link}: total turn from the reference pose"),
+    "all": message("{link}: total turn"),
     "shifted": message("{link}: shifted from the reference pose"),
     "traced": message("{link}: dragged point"),
     "paths": message("Paths of points"),
@@ -158,17 +160,12 @@ def space_model(
             }
             for size in link_sizes(linkage)
         ],
-        "outputs": [chain.index(link) for link in linkage.outputs],
-        "joints": [
-            {
-                "links": [chain.index(link) for link in chain.joints[joint].links],
-                "frame": linkage.frames[joint, :3].ravel().tolist(),
-                "axis": "xyz".index(freedom.axis),
-                "turns": freedom.turns,
-                "sign": against_frame(linkage, joint),
-            }
-            for joint, freedom in read
+        "outputs": [
+            {"link": chain.index(link), "joint": joint and _read_joint(linkage, *joint)}
+            for link in linkage.outputs
+            for joint in _output_joints(linkage, link)
         ],
+        "joints": [_read_joint(linkage, joint, freedom) for joint, freedom in read],
         "middle": [0.0, 0.0, 0.0] if spherical else linkage.centre.tolist(),
         "size": 1.0 if spherical else linkage.size,
         "bodies": bodies,
@@ -181,7 +178,7 @@ def space_model(
                 "round": full,
                 "unit": "°" if turning[k] else f" {linkage.unit}",
                 "values": _numbers(np.degrees(motion.drives[:, k]) if turning[k] else motion.drives[:, k]),
-                "poses": [] if live else [[_numbers(pose[:3]) for pose in row] for row in motion.poses[0]],
+                "poses": [] if live else [[_numbers(pose[:3], 9) for pose in row] for row in motion.poses[0]],
             }
             for _, k, motion, full in moving.named()
         ],
@@ -189,17 +186,53 @@ def space_model(
     }
 
 
-def _read_joints(linkage: SpatialLinkage) -> Iterator[tuple[int, Freedom]]:
-    """Turns and shifts in joints about or along one axis; not those of drives, nor of outputs against the frame."""
-    known = {drive.joint for drive in linkage.mechanism.drives}
-    ends = {linkage.mechanism.frame, *linkage.outputs}
+def _axial_joints(linkage: SpatialLinkage) -> Iterator[tuple[int, Freedom]]:
+    """Turns and shifts in joints about or along one axis; not those of drives."""
+    driven = {drive.joint for drive in linkage.mechanism.drives}
     freedoms: dict[int, list[Freedom]] = {}
     for number, freedom in valued_freedoms(linkage):
         freedoms.setdefault(number, []).append(Freedom(freedom))
     for number, own in freedoms.items():
-        apart = number not in known and not ends >= set(linkage.mechanism.chain.joints[number].links)
-        if apart and len({each.axis for each in own}) == 1:
+        if number not in driven and len({each.axis for each in own}) == 1:
             yield from ((number, each) for each in own)
+
+
+def _read_joints(linkage: SpatialLinkage) -> Iterator[tuple[int, Freedom]]:
+    """Joints about or along one axis, but those of outputs against the frame."""
+    ends = {linkage.mechanism.frame, *linkage.outputs}
+    for number, freedom in _axial_joints(linkage):
+        if not ends >= set(linkage.mechanism.chain.joints[number].links):
+            yield number, freedom
+
+
+def _output_joints(linkage: SpatialLinkage, link: str) -> list[tuple[int, Freedom]] | list[None]:
+    """How an output turns about an axis of the frame, or shifts along it; one None if it has no such axis.
+
+    Nothing of one that is driven itself.
+    """
+    mechanism = linkage.mechanism
+    ends = {mechanism.frame, link}
+    own = [each for each in _axial_joints(linkage) if ends == set(mechanism.chain.joints[each[0]].links)]
+    driven = any(ends == set(mechanism.chain.joints[drive.joint].links) for drive in mechanism.drives)
+    return own or ([] if driven else [None])
+
+
+def _read_joint(linkage: SpatialLinkage, number: int, freedom: Freedom) -> dict[str, Any]:
+    """What the page reads a joint by; positive as in tables of a motion, and right-handed about its axis."""
+    chain = linkage.mechanism.chain
+    return {
+        "links": [chain.index(link) for link in chain.joints[number].links],
+        "frame": linkage.frames[number, :3].ravel().tolist(),
+        "axis": "xyz".index(freedom.axis),
+        "turns": freedom.turns,
+        "sign": against_frame(linkage, number),
+        "number": _solved(linkage).index(number),
+    }
+
+
+def _solved(linkage: SpatialLinkage) -> list[int]:
+    """The joints among those that the page solves: all but wheels."""
+    return [k for k, joint in enumerate(linkage.mechanism.chain.joints) if not joint.pair.has_contours]
 
 
 def _titled(linkage: SpatialLinkage, names: Sequence[str], number: int, lang: str) -> str:
@@ -244,7 +277,7 @@ def _live(moving: MovingSolids) -> dict[str, Any] | None:
     }
     if len(ranges) < 2 or _unsolved(linkage) is not None:
         return None
-    numbers = [k for k, joint in enumerate(chain.joints) if not joint.pair.has_contours]
+    numbers = _solved(linkage)
     joints = []
     for k in numbers:
         joint = chain.joints[k]
@@ -311,13 +344,13 @@ def machine_model(id: str, *, home: bool = False, asks: bool = False) -> dict[st
     )
 
 
-def _numbers(values: Any) -> list[float]:
-    """With six digits."""
-    return [_rounded(value) for value in np.asarray(values).ravel().tolist()]
+def _numbers(values: Any, digits: int = 6) -> list[float]:
+    """Poses of a motion have more of them: its slopes are differences of rows."""
+    return [_rounded(value, digits) for value in np.asarray(values).ravel().tolist()]
 
 
-def _rounded(value: float) -> float:
-    return float(f"{value:.6g}")
+def _rounded(value: float, digits: int = 6) -> float:
+    return float(f"{value:.{digits}g}")
 
 
 def space_file(model: dict[str, Any], lang: str = "en") -> str:
