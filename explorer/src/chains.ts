@@ -62,20 +62,27 @@ export class ChainList {
   /** A structure is described, or there is none; the list turns to its size if it is the machine at hand or comes
    * from another view. */
   follow(found: Structure | null, leads: boolean): void {
-    const turned = found && (leads || !this.#asked) && !this.#holds(found);
+    // a size that the reader wants goes before
+    const typed = this.#list.matches(".asking") || !this.#is(this.#given());
+    const turned = !typed && found && (leads || !this.#asked) && !this.#is(placeOf(found));
     if (turned) [this.#links, this.mobility] = placeOf(found);
     this.#chosen = found?.code ?? "";
     const cards = [...this.#list.querySelectorAll<HTMLElement>("[data-of]")];
     for (const card of cards) card.setAttribute("aria-pressed", String(card.dataset.of === this.#chosen));
     const anew = found && !cards.some(({ dataset }) => dataset.of === found.code);
     if (anew) this.#other = found;
-    if (leads || turned || anew) this.arrange();
+    if (!typed && (leads || turned || anew)) this.arrange();
     if (turned || !this.#asked) void this.#ask(0);
   }
 
-  /** Whether a structure is as large and as movable as those of the list. */
-  #holds(found: Structure): boolean {
-    return String(placeOf(found)) === String([this.#links, this.mobility]);
+  /** Whether these are the links and the mobility of the list. */
+  #is(size: number[]): boolean {
+    return String(size) === String([this.#links, this.mobility]);
+  }
+
+  /** What stands in the fields. */
+  #given(): number[] {
+    return [...this.element.querySelectorAll("input")].map(({ value }) => Number(value || NaN));
   }
 
   /** The sizes of which there are lists, if this is none of them. */
@@ -117,8 +124,7 @@ export class ChainList {
   }
 
   #typed(): void {
-    const fields = [...this.element.querySelectorAll("input")];
-    [this.#links, this.mobility] = fields.map(({ value }) => Number(value || NaN)) as [number, number];
+    [this.#links, this.mobility] = this.#given() as [number, number];
     void this.#ask(0, true);
   }
 
@@ -127,11 +133,14 @@ export class ChainList {
     const question = { links: this.#links, mobility: this.mobility, start };
     const number = ++this.#asked;
     this.#all = start > 0;
-    const place = this.#found ? this.#status : this.#list;
+    this.#list.classList.toggle("asking", others); // those of the size before
+    if (others) this.#count.textContent = "\u00a0";
+    const place = this.#found || others ? this.#status : this.#list;
     const found = this.#unlisted()
       ? { total: 0, items: [] }
       : await awaited(place, (progress) => this.page.ask<Chains>("chains", question, progress));
     if (number !== this.#asked) return; // another list is wanted by now
+    this.#list.classList.remove("asking");
     const before = start ? this.#found!.items : [];
     if (found) this.#found = { ...found, items: [...before, ...found.items] };
     this.#show();
@@ -150,7 +159,7 @@ export class ChainList {
       const { picture } = drawn.inversions.find(({ frame }) => frame === drawn.chosen) ?? drawn;
       // of a chain no link is the frame yet
       const plain = picture.replace(/<path class=.gr-hatch.*?>/g, "").replaceAll("gr-frame", "gr-body");
-      return this.#holds(drawn) && this.#card(drawn.code, drawn.text, plain, name, drawn.kinds);
+      return this.#is(placeOf(drawn)) && this.#card(drawn.code, drawn.text, plain, name, drawn.kinds);
     };
     const listed = [own, ...items].some((each) => each?.code === other?.code);
     const mine = [

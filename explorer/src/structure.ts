@@ -3,7 +3,7 @@
 import { type Choice, chainPicture, inPlane, type Structure, typesOf } from "./chain";
 import { ChainList, listOf } from "./chains";
 import { savedDocument } from "./document";
-import { h, indexed, option, renew, thumbnail } from "./dom";
+import { type Child, h, indexed, option, renew, thumbnail } from "./dom";
 import { currentLanguage, t } from "./language";
 import { chainText, type Model } from "./model";
 import type { Page, View } from "./view";
@@ -16,7 +16,7 @@ function namesOf({ links, linkNames }: Model): Record<string, string> {
 }
 
 /** A step with its heading. */
-function step(number: number, title: string, ...content: Node[]): HTMLElement {
+function step(number: number, title: string, ...content: Child[]): HTMLElement {
   return h("div.step", {}, h("h2", {}, h("i", {}, String(number)), title), ...content);
 }
 
@@ -193,11 +193,10 @@ export class StructureView implements View {
         3,
         t("Drive"),
         h("div.form", {}, elsewhere),
-        ...this.#cards(
-          "driven",
-          found.driven.filter(({ frame }) => frame === found.chosen),
-          ({ drives, text }) => [drives.join(", "), text === found.driver],
-        ),
+        generic > 1 &&
+          inPlane(found) &&
+          h("p.note", {}, t("F = {mobility} takes {mobility} drives, chosen together.", { mobility: generic })),
+        ...this.#cards("driven", found.driven, ({ drives, text }) => [drives.join(", "), text === found.driver]),
       ),
     );
     renew(
@@ -237,6 +236,7 @@ export class StructureView implements View {
   #pick(joint: number): void {
     this.#joint = this.#joint === joint ? -1 : joint;
     this.#showStructure();
+    this.#shown.querySelector(".chips")?.scrollIntoView({ block: "nearest" });
   }
 
   async #realise(): Promise<void> {

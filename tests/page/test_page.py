@@ -327,6 +327,7 @@ def test_the_catalog_and_the_exercises(tab, server):
     page.until("gruebler.motion.linkage.model.source === 'wiper'")
     assert "Scheibenwischer" in view.locator("header h1").inner_text()
     view.go_back()
+    view.locator('[data-field="words"]').fill("")
     view.locator('[data-value="cam"]').click()
     page.until("gruebler.root.querySelectorAll('[data-page=catalog] .card').length === 4")
     assert all("Kurve" in name for name in view.locator('[data-list="catalog"] b').all_text_contents())

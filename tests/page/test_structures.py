@@ -34,10 +34,11 @@ def test_pictures_of_higher_pairs_differ():
 
 def test_drives_are_arrows_over_the_picture_of_their_frame():
     """Six links of Watt's chain: a picture that takes account of the drive may be the mirrored one."""
-    record = structure_record("R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)", "en")
-    frames = {each["frame"]: each["picture"] for each in record["inversions"]}
-    assert len(record["driven"]) == 4
-    for each in record["driven"]:
+    chain = "R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)"
+    frames = {each["frame"]: each["picture"] for each in structure_record(chain, "en")["inversions"]}
+    driven = [each for frame in frames for each in structure_record(f"{chain}; frame={frame}", "en")["driven"]]
+    assert len(driven) == 4
+    for each in driven:
         assert re.sub(r"<g transform.*?</g>", "", each["picture"], flags=re.DOTALL) == frames[each["frame"]]
         assert each["picture"] != frames[each["frame"]]
 
@@ -82,6 +83,59 @@ def test_sizes_that_give_another_mobility_are_told(id, generic, own, why):
         assert "none of the joints can move." in [line.split(": ")[-1] for line in bare["lines"]]
 
 
+PENTAGON = "R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)"
+HEXAGON = "R(0-1) R(1-2) R(2-3) R(3-4) R(4-5) R(5-0)"
+FOUR_BAR_AND_PENTAGON = "R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-6) R(6-7) R(7-0)"
+
+
+@pytest.mark.parametrize(
+    ("chain", "at_frame", "drives"),
+    [
+        # two freedoms take two drives; a link of a pentagon has two joints
+        (PENTAGON, True, ["R(0-1), R(4-0)"]),
+        (PENTAGON, False, None),
+        # three freedoms, and two joints at each link: the third drive is anywhere
+        (HEXAGON, True, None),
+        # a drive in the loop of four links, two in that of five
+        (FOUR_BAR_AND_PENTAGON, True, ["R(0-1), R(0-4), R(7-0)"]),
+    ],
+)
+def test_as_many_drives_are_chosen_together_as_there_are_freedoms(chain, at_frame, drives):
+    record = structure_record(chain, "en", at_frame=at_frame)
+    found = [", ".join(each["drives"]) for each in record["driven"]]
+    if drives is not None:
+        assert found == drives
+    assert record["driver"] in [each["text"] for each in record["driven"]]  # which is the one without a choice
+    assert {len(each["drives"]) for each in record["driven"]} == {record["generic"]}
+    for each in record["driven"]:
+        chosen = structure_record(each["text"], "en")
+        assert chosen["drives"].endswith("drives: the motion is determined.")
+        assert chosen["frame"] == record["chosen"]
+
+
+def test_pairs_of_drives_are_listed_once_but_for_symmetry():
+    """Pentagon: of the 10 pairs two are their own mirror image (both at the frame, both next to those), so 6."""
+    assert len(structure_record(PENTAGON, "en", at_frame=False)["driven"]) == 6
+    # hexagon: 20 triples; mirrored in the line through the middle of the frame 3 pairs of joints change places: none
+    # of the triples is its own image
+    assert len(structure_record(HEXAGON, "en", at_frame=False)["driven"]) == 10
+
+
+def test_drives_are_listed_of_the_chosen_frame():
+    """The Stephenson chain has three frames; before, those of all stood in one list that ended somewhere."""
+    chain = "R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2)"
+    for frame in "014":
+        record = structure_record(f"{chain}; frame={frame}", "en")
+        assert {each["frame"] for each in record["driven"]} == {frame} == {record["chosen"]}
+
+
+@pytest.mark.parametrize(("lang", "said"), [("en", ["", "double-slide"]), ("de", ["S2", "Doppelschubgelenk"])])
+def test_a_type_of_joint_without_a_symbol_has_its_name_alone(lang, said):
+    types = structure_record(PENTAGON, lang)["joints"][0]["types"]
+    assert said in [[each["symbol"], each["name"]] for each in types]
+    assert not any("_" in each["symbol"] + each["name"] for each in types)
+
+
 def test_a_chain_in_space_has_drives_to_choose_and_none_is_chosen():
     """A spherical four-bar without a drive: one freedom, one drive at the frame but for symmetry."""
     record = structure_record("spherical: R(0-1) R(1-2) R(2-3) R(3-0)", "en")
@@ -115,6 +169,83 @@ def test_one_bar_tells_that_the_structure_waits(tab, server):
     page.page.click('[data-view="structure"]')
     page.page.locator('[data-page="structure"] progress').first.wait_for()
     assert page.page.locator('[data-page="structure"] progress').count() == 1
+
+
+def held_back(page):
+    """The structure view of a page that opens, whose questions wait until they are answered by their names."""
+    page.hold()
+    page.page.click('[data-view="structure"]')
+    page.page.evaluate("""() => {
+        const send = Object.getPrototypeOf(gruebler.model).send.bind(gruebler.model);
+        window.asked = (method) => held.findIndex((content) => content.method === method);
+        window.answered = (method) => asked(method) >= 0 && (send(held.splice(asked(method), 1)[0]), true);
+    }""")
+    return page.page.locator('[data-page="structure"]').get_by_label("Links", exact=True)
+
+
+def test_a_size_that_is_being_typed_is_not_written_over(tab, server):
+    """What is said of the machine at hand comes a moment later: the field is not filled anew."""
+    page = tab().open(server.address)
+    links = held_back(page)
+    links.fill("6")  # not taken yet
+    page.until("answered('structure')")
+    page.until("gruebler.views.structure.structure !== null")
+    assert links.input_value() == "6"
+    page.until("answered('chains')")  # of four links
+    page.page.locator('[data-list="chains"] .card', has_text="Yours").wait_for()
+    links.press("Enter")
+    page.until("answered('chains')")
+    page.until("answered('structure')")
+    page.until("gruebler.views.structure.structure.size === 6")
+    assert links.input_value() == "6"
+    assert page.page.locator('[data-list="chains"] .card').count() == 2  # Watt's and Stephenson's
+
+
+def test_an_answer_about_the_machine_at_hand_does_not_turn_back_a_size_that_was_taken(tab, server):
+    page = tab().open(server.address)
+    links = held_back(page)
+    page.until("asked('structure') >= 0")
+    links.fill("6")
+    links.press("Enter")
+    page.until("asked('chains') >= 0")
+    page.until("answered('structure')")  # of four links
+    page.until("gruebler.views.structure.structure !== null")
+    page.until("answered('chains')")
+    page.until("answered('structure')")
+    page.until("gruebler.views.structure.structure.size === 6")
+    assert links.input_value() == "6"
+    assert page.page.locator('[data-list="chains"] .card').count() == 2
+
+
+def test_the_list_of_the_size_before_is_faded_while_another_one_is_counted(tab, server):
+    page = tab().open(server.address)
+    view = page.page
+    view.click('[data-view="structure"]')
+    view.locator('[data-list="chains"] .card').first.wait_for()
+    count = view.locator('[data-page="structure"] .form .note').first
+    assert count.inner_text() == "one chain"
+    page.hold()
+    links = view.locator('[data-page="structure"]').get_by_label("Links", exact=True)
+    links.fill("8")
+    links.press("Enter")
+    page.until("held.some(({ method }) => method === 'chains')")
+    assert count.inner_text().strip() == ""
+    assert view.locator(".chains").evaluate("(list) => Number(getComputedStyle(list).opacity)") < 0.9
+    assert view.locator('[data-page="structure"]').get_by_text("Cancel").is_visible()
+
+
+def test_the_types_of_a_joint_are_in_sight(tab, server):
+    """With eight links the picture ends under the bar at the lower edge, and the keys would be below it."""
+    page = tab(width=1440, height=900).open(server.address)
+    view = page.page
+    view.click('[data-view="structure"]')
+    view.evaluate("gruebler.describe('R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2) R(4-6) R(6-7) R(7-5)')")
+    page.until("gruebler.views.structure.text.endsWith('R(7-5)')")
+    view.locator("[data-joint]").first.press("Enter")
+    bar = view.locator('[data-page="structure"] .go').bounding_box()
+    for key in view.locator("[data-type]").all():
+        box = key.bounding_box()
+        assert 0 < box["y"] < box["y"] + box["height"] <= bar["y"]
 
 
 def test_numbers_without_chains_and_colours_are_explained(tab, server):
@@ -310,7 +441,8 @@ def test_names_of_links_are_read_without_underscores_and_quotation_marks(lang, n
     record = answer("structure", {"text": leg.text(), "names": called}, lang, print)
     assert joint in [each["name"] for each in record["joints"]]
     assert any(joint in line for line in record["lines"][1:])
-    assert [f"{joint}: {drive}"] in [each["drives"] for each in record["driven"] if each["frame"] == "crank"]
+    on_crank = answer("structure", {"text": f"{leg.chain.text()}; frame=crank", "names": called}, lang, print)
+    assert [f"{joint}: {drive}"] in [each["drives"] for each in on_crank["driven"]]
     said = str([record["joints"][k]["name"] for k in range(len(record["joints"]))] + record["lines"])
     assert "_" not in said + record["drives"]
     assert '"' not in said

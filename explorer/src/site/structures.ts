@@ -116,7 +116,7 @@ export function structureOf(pack: StructurePack, text: string, lang: Language, p
         picture: card(one),
       })),
     driven: pack.driven
-      .filter((row) => row[4] === row[0])
+      .filter((row) => row[4] === row[0] && pack.frames[row[1]]!.frame === frame.like)
       .map(([own, number, arrow, said]) => ({
         text: own,
         frame: pack.frames[number]!.frame,

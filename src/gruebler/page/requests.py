@@ -101,7 +101,7 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
         {
             "id": candidate.id,
             "name": candidate.name.in_language(lang),
-            "kinds": machine_kinds(candidate),
+            "kinds": list(machine_kinds(candidate)),
             "links": candidate.chain().n,
             "counted": counted(candidate.chain()),
             "special": candidate.claims.mobility,

@@ -17,6 +17,8 @@ from gruebler.structure.mechanism.drives import check_drives
 from gruebler.structure.mechanism.inversion import family, inversions
 from gruebler.structure.mobility import mobility_report
 
+_MOST_DRIVEN = 12  # of a frame
+
 
 def structure_pack(
     mechanism: Mechanism,
@@ -38,7 +40,7 @@ def structure_pack(
     fixed = {inversion.frame: inversion for inversion in inversions(chain)}
     if mechanism.drives:
         fixed.setdefault(mechanism.frame, Mechanism(chain, mechanism.frame))
-    listed = listed_drives(chain)
+    listed = list(listed_drives(chain, fixed, most=_MOST_DRIVEN))
     codes = {each.code(): each for each in listed}
     own = [mechanism] if mechanism.drives and mechanism not in listed else []
     orbits = symmetry(chain).link_orbits
@@ -47,7 +49,7 @@ def structure_pack(
     rigid = sorted({link for cluster in report.rigid_clusters for link in cluster})
 
     def driver(each: Mechanism) -> str:
-        like = like_driven(each, codes, report.generic)
+        like = like_driven(each, codes)
         return "" if like is None else like.text()
 
     frames, rows = [], []

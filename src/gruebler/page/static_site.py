@@ -224,8 +224,7 @@ def _common_packs() -> _Packs:
             "text": pair.symbols.get(Alphabet.INTERNATIONAL, pair.name),
             "group": pair.is_group,
             "said": {
-                lang: [pair.symbols.get(Alphabet.of_language(lang), pair.name), pair.plain_name(lang)]
-                for lang in LANGUAGES
+                lang: [pair.symbols.get(Alphabet.of_language(lang), ""), pair.plain_name(lang)] for lang in LANGUAGES
             },
         }
         for pair in PAIRS

@@ -31,11 +31,10 @@ from gruebler.structure.isomorphism import code, symmetry
 from gruebler.structure.mechanism import Drive, Mechanism
 from gruebler.structure.mechanism.drives import check_drives
 from gruebler.structure.mechanism.inversion import driven_mechanisms, family, inversions
-from gruebler.structure.mobility import MobilityReport, mobility_report
+from gruebler.structure.mobility import MobilityReport, generic, mobility_report
 from gruebler.structure.mobility.report import kinds_of_links
 
 _MOST_LINKS = 60  # more links are drawn and counted, but their inversions are not listed
-_MOST_DRIVEN = 60
 _LONGEST_LABEL = 3  # letters of a name beside its link in a small picture
 _AGAINST = message("{joint}: {link} against {other}")
 _APART = {"link": message("falls apart at a link"), "joint": message("falls apart at a joint")}
@@ -114,10 +113,10 @@ def structure_record(
 ) -> dict[str, Any]:
     """Picture, mobility, inversions, driven mechanisms and other joint types of a text, as plain data.
 
-    The driven mechanisms are those with a drive at the frame, or all with one drive. A linkage of the same chain says
-    what its higher pairs are: gears, cams, belts, ... have signs of their own in the pictures; and whether its sizes
-    give another mobility than almost all do. What is said about the links calls them by ``names``, if there is one
-    for each; the texts keep their own names.
+    The driven mechanisms are those of the chosen frame, with as many drives as fix the motion: at the frame, or
+    anywhere. A linkage of the same chain says what its higher pairs are: gears, cams, belts, ... have signs of their
+    own in the pictures; and whether its sizes give another mobility than almost all do. What is said about the links
+    calls them by ``names``, if there is one for each; the texts keep their own names.
 
     Raises `GrueblerError` for a text that is no chain; what it says names the place.
 
@@ -135,10 +134,11 @@ def structure_record(
     shown = mechanism.renamed(called)
     shown_report = mobility_report(shown.chain, frame=shown.frame)
     special = None if sized is None else _special(sized, called, shown_report)
-    driven = listed_drives(chain, at_frame) if few else []
+    orbit = next(orbit for orbit in symmetry(chain).link_orbits if mechanism.frame in orbit)
+    driven = list(listed_drives(chain, [orbit[0]], at_frame)) if few else []
     frames = {bare.frame: bare for bare in inversions(chain)} if few else {}
     cards = {frame: drawn_frame(bare, driven, contacts, called, lang) for frame, bare in frames.items()}
-    like = like_driven(mechanism, {each.code(): each for each in driven}, report.generic)
+    like = like_driven(mechanism, {each.code(): each for each in driven})
     moved = mechanism if mechanism.drives or like is None or like.frame != mechanism.frame else like
     drawn = drawn_frame(Mechanism(chain, mechanism.frame), [moved], contacts, called, lang)
     return {
@@ -151,7 +151,7 @@ def structure_record(
         "joints": list(_joints(mechanism, shown, drawn, lang)),
         "links": list(_links(chain, drawn, report)),
         "frame": mechanism.frame,
-        "chosen": as_read(next(orbit[0] for orbit in symmetry(shown.chain).link_orbits if shown.frame in orbit)),
+        "chosen": as_read(called.get(orbit[0], orbit[0])),
         "driver": "" if like is None else like.text(),
         "counted": report.counted,
         "generic": report.generic,
@@ -194,22 +194,39 @@ def _said_of_drives(mechanism: Mechanism, special: Freedoms | None, lang: str) -
         yield fixed.explain(lang)
 
 
-def listed_drives(chain: Chain, at_frame: bool = True) -> list[Mechanism]:
-    """The mechanisms with one drive, as far as a page can show them."""
-    return [each.mechanism for each in islice(driven_mechanisms(chain, drives=1, at_frame=at_frame), _MOST_DRIVEN)]
+def listed_drives(chain: Chain, frames: Iterable[str], at_frame: bool = True, most: int = 60) -> Iterator[Mechanism]:
+    """The mechanisms of these frames with as many drives as fix the motion, at most so many of each.
+
+    Drives at the frame, if asked for; anywhere where those of a frame fix nothing, as a hexagon has three freedoms and
+    two joints at each link. Of a chain with one freedom, or none, or in space, every joint is listed as one drive.
+
+    >>> pentagon = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)").chain
+    >>> [each.drive_names() for each in listed_drives(pentagon, ["0"])]
+    [('R(0-1)', 'R(4-0)')]
+    """
+    number = generic(chain).mobility if chain.space is Space.PLANAR else 1
+
+    def those(frame: str, at_frame: bool) -> list[Mechanism]:
+        choices = driven_mechanisms(chain, drives=max(1, number), at_frame=at_frame)
+        own = [each.mechanism for each in choices if each.mechanism.frame == frame]
+        own.sort(key=lambda each: -sum(frame in drive.between for drive in each.drives))
+        return list(islice((each for each in own if number < 2 or check_drives(each).fixed), most))
+
+    for frame in frames:
+        yield from those(frame, at_frame) or (those(frame, False) if number > 1 else ())
 
 
-def like_driven(mechanism: Mechanism, listed: Mapping[str, Mechanism], generic: int) -> Mechanism | None:
-    """The mechanism of a list, by its codes, that is like this one with its drive, or with the one it is given.
+def like_driven(mechanism: Mechanism, listed: Mapping[str, Mechanism]) -> Mechanism | None:
+    """The mechanism of a list, by its codes, that is like this one with its drives, or with those that it is given.
 
-    None if there is none: of several drives there are too many choices.
+    None if there is none.
 
     >>> chain = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0)").chain
-    >>> found = like_driven(Mechanism(chain, "2"), {each.code(): each for each in listed_drives(chain)}, 1)
+    >>> found = like_driven(Mechanism(chain, "2"), {each.code(): each for each in listed_drives(chain, ["0"])})
     >>> found.text()
     'R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)'
     """
-    if not mechanism.drives and listed and generic == 1 and mechanism.chain.space is Space.PLANAR:
+    if not mechanism.drives and listed and mechanism.chain.space is Space.PLANAR:
         mechanism = with_drives(mechanism)
     return listed.get(mechanism.code()) if mechanism.drives else None
 
@@ -254,7 +271,7 @@ def drawn_frame(
     So all of them stand the same way up: a layout that takes account of a drive may be the mirrored one.
 
     >>> bare = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
-    >>> drawn = drawn_frame(bare, listed_drives(bare.chain), {}, {})
+    >>> drawn = drawn_frame(bare, listed_drives(bare.chain, ["0"]), {}, {})
     >>> len(drawn.at), len(drawn.arrows), drawn.picture == drawn.card
     (4, 1, True)
     """
@@ -347,7 +364,7 @@ def _types(mechanism: Mechanism, number: int, lang: str) -> Iterator[dict[str, A
         drives = [drive.joint for drive in mechanism.drives]
         text = Mechanism(second, mechanism.frame, drives).text() if _drivable(second, drives) else second.text()
         yield {
-            "symbol": pair.symbols.get(alphabet, pair.name),
+            "symbol": pair.symbols.get(alphabet, ""),
             "name": pair.plain_name(lang),
             "text": text,
             "chosen": pair is joint.pair,
