@@ -790,10 +790,44 @@ def test_a_link_that_turns_about_no_axis_has_a_total_turn_without_a_kink(server,
     assert plot.locator(".title").text_content() == "knuckle: total turn [°]"
     heights = heights_of(plot)
     assert heights == sorted(heights, reverse=True)  # it goes on up through 0
+    page.goto(server.address + "space/delta.html#en")  # its platform shifts along an arc
+    page.get_by_role("button", name="Pause").click()
+    page.locator(".plot").wait_for()
+    ends = []
+    for degrees in (-20, 40):
+        drive_to(page, str(degrees))
+        ends.append(number_in(read_off(page)["platform: shifted from the reference pose"]))
+    delta = entry("delta").placed()
+    platform = delta.mechanism.chain.index("platform")
+    reached = [move(delta, [np.zeros(3), [math.radians(v), 0, 0]]).poses[0, -1, platform, :3, 3] for v in (-20, 40)]
+    assert ends == pytest.approx([-np.linalg.norm(reached[0]), np.linalg.norm(reached[1])], rel=1e-3)
+    heights = heights_of(page.locator(".plot"))
+    assert heights == sorted(heights, reverse=True)
     page.goto(server.address + "space/schatz.html#de")
     page.get_by_role("button", name="Anhalten").click()
     drive_to(page, "359,9")
     assert float(read_off(page)["Behälter: Gesamtdrehung gegen die Bezugslage"].replace(",", ".").rstrip("°")) > 350
+    assert errors == []
+    browser.close()
+
+
+def test_a_body_that_is_taken_has_its_name_on_a_phone(server, chromium):
+    """Beside the place that is taken, within the picture; nothing is said to move what has no drive."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/wiper_rssr.html#de", touch=True)
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.get_by_role("button", name="Anhalten").click()
+    box = page.locator(".stage > svg").bounding_box()
+    name = page.locator("text.mark")
+    for down in np.arange(0.3, 0.8, 0.02):  # the rod lies across the middle
+        page.touchscreen.tap(box["x"] + box["width"] / 2, box["y"] + down * box["height"])
+        if name.count():
+            break
+    assert name.text_content() == "Schubstange"
+    drawn = name.bounding_box()
+    assert 0 < drawn["x"] < drawn["x"] + drawn["width"] < 390
+    page.goto(server.address + "space/susp_5link.html#en")
+    assert page.locator(".hint").first.text_content() == "Drag the background to turn the view."
+    assert page.locator('[data-panel="measures"]').count() == 0
     assert errors == []
     browser.close()
 

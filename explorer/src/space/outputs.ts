@@ -160,12 +160,14 @@ export class OutputPlots {
    * sign, that the plot has there. */
   #value(k: number): number {
     const reading = this.#readings[k]!;
+    const { turns } = reading;
+    const unit = turns ? DEGREES : 1;
     const value = valueIn(reading, this.machine.state);
-    if (!reading.turns) return value;
     const about = this.#values[k]?.[Math.round((this.#drive - this.#first) / this.#step)] ?? NaN;
-    if (Number.isNaN(about)) return value * DEGREES;
-    const tried = [value, isTotal(reading) ? -value : value].map((turn) => nearest(turn, about / DEGREES) * DEGREES);
-    return tried.sort((a, b) => Math.abs(a - about) - Math.abs(b - about))[0]!;
+    if (Number.isNaN(about)) return value * unit;
+    return [value, isTotal(reading) ? -value : value]
+      .map((told) => (turns ? nearest(told, about / unit) : told) * unit)
+      .sort((a, b) => Math.abs(a - about) - Math.abs(b - about))[0]!;
   }
 
   /** Where outputs and joints are, how far outputs go to and fro, what the transfer functions are there. */
@@ -177,9 +179,10 @@ export class OutputPlots {
         turns
           ? angle(value / DEGREES, DIGITS)
           : `${number(Math.abs(value) < 1e-6 * data.size ? 0 : value, DIGITS)} ${data.unit}`;
-      const facts = [{ name, text: text(this.#value(k)) }];
+      const total = isTotal(reading);
+      const facts: Fact[] = [{ name, text: text(this.#value(k)), ...(total ? { style: "wide" } : {}) }];
       const values = this.#values[k];
-      if (reading.link === null || isTotal(reading) || !values) return facts;
+      if (reading.link === null || total || !values) return facts;
       const far = highest(values) + highest(values.map((value) => -value));
       if (!(turns && far > 359.9))
         facts.push({ name: `${t(turns ? "Swing" : "Stroke")} ${reading.name}`, text: text(far) });
@@ -208,25 +211,27 @@ function valueIn({ along, joint, link, turns }: Reading, state: State): number {
 /** The same along rows, in degrees or lengths: angles go on over full turns, and that of the reference pose lies
  * between -180° and 180°. */
 function valuesOf(reading: Reading, rows: (State | null)[], home: number): Float64Array {
+  const { link, turns } = reading;
   const values = Float64Array.from(rows, (row) => (row ? valueIn(reading, row) : NaN));
-  if (!reading.turns) return values;
   const total = isTotal(reading);
+  if (!(turns || total)) return values;
+  const least = turns ? SAME : SAME * Math.max(...values.filter(Number.isFinite));
   let axis: Vector = [0, 0, 0];
   let last = 0;
   const along = values.map((value, k) => {
     const row = rows[k];
     if (!row) return NaN;
-    const way = wayOf(row.poses[reading.link ?? 0]!, true);
-    // beyond 0 or 180° its direction goes on, and the angle has a sign
+    const way = wayOf(row.poses[link ?? 0]!, turns);
+    // beyond 0, or 180°, its direction goes on, and what is told has a sign
     const side = total && dot(way, axis) < 0 ? -1 : 1;
-    if (Math.hypot(...way) > SAME) axis = way.map((part) => side * part) as Vector;
-    last = row.turned && !total ? value : nearest(side * value, last);
+    if (Math.hypot(...way) > least) axis = way.map((part) => side * part) as Vector;
+    last = (row.turned && !total) || !turns ? side * value : nearest(side * value, last);
     return last;
   });
-  const laps = reading.joint && rows[home]?.turned ? 0 : nearest(0, along[home] || 0);
+  const laps = !turns || (reading.joint && rows[home]?.turned) ? 0 : nearest(0, along[home] || 0);
   const known = along.filter(Number.isFinite).map((value) => value - laps);
   const down = total && Math.max(...known) < -Math.min(...known);
-  return along.map((value) => (down ? -1 : 1) * (value - laps) * DEGREES);
+  return along.map((value) => (down ? -1 : 1) * (value - laps) * (turns ? DEGREES : 1));
 }
 
 /** The direction of ways along a line, to the side of the longest; null if they have several. */

@@ -63,6 +63,7 @@ export class Scene {
   readonly #colours = new Map<string, Vector>();
   readonly #fingers = new Map<number, PointerEvent>();
   #pulling = false;
+  #links: string[] = [];
 
   constructor(
     private machine: Machine,
@@ -122,9 +123,11 @@ export class Scene {
   }
 
   /** Lay it out anew, in the language of the page. */
-  arrange(title: string, words: Record<string, string>, unit: string): void {
-    this.root.setAttribute("aria-label", `${title}. ${words.hint}`);
-    this.#hint.textContent = words.hint!;
+  arrange(title: string, links: string[], words: Record<string, string>, unit: string): void {
+    const hint = words[this.machine.drive ? "hint" : "turn"]!;
+    this.#links = links;
+    this.root.setAttribute("aria-label", `${title}. ${hint}`);
+    this.#hint.textContent = hint;
     const grid = unit ? `${words.grid} ${number(this.#step)} ${unit}` : "";
     this.#tools = h("div.tools", {}, ...zoomButtons(this));
     const picture = this.#painter ? [this.canvas, this.root] : [h("p.note.flat", { role: "alert" }, words.flat)];
@@ -226,10 +229,11 @@ export class Scene {
       return [((x + 1) * clientWidth) / 2, ((1 - y) * clientHeight) / 2];
     };
     const parts: SVGElement[] = arrowsOf(this.machine, poses).map((places) => headed(places.map(pixel)));
-    for (const { name, link, at } of this.machine.spots) {
+    for (const { link, at, name = this.#links[link] } of this.machine.spots) {
       const [px, py] = pixel(moved(poses[link]!, at));
       parts.push(svg("circle.spot", { cx: px, cy: py, r: 4.5 }));
-      if (name && this.shown.names) parts.push(svg("text.mark", { x: px + 9, y: py - 7 }, name));
+      const [side, anchor] = px < clientWidth / 2 ? [9, "start"] : [-9, "end"];
+      if (this.shown.names) parts.push(svg("text.mark", { x: px + side, y: py - 7, "text-anchor": anchor }, name!));
     }
     const [ox, oy] = [44, 46];
     ["x", "y", "z"].forEach((axis, k) => {

@@ -70,6 +70,7 @@ export class SpaceView implements Driven {
       taken: () => {
         this.transport.pause();
         this.#arrangeOptions();
+        this.posed();
       },
       pulled: () => this.posed(),
       turned: () => {
@@ -102,7 +103,7 @@ export class SpaceView implements Driven {
     document.documentElement.lang = currentLanguage();
     this.#host.lang = currentLanguage();
     this.#arrangeHeader();
-    this.scene.arrange(this.#texts.title, this.#words, this.data.unit);
+    this.scene.arrange(this.#texts.title, this.#texts.links, this.#words, this.data.unit);
     this.transport.arrange();
     renew(this.#side, ...this.#panels());
     this.#say("");
@@ -304,7 +305,7 @@ export class SpaceView implements Driven {
 
   /** What is shown beside the bodies, as far as there is any of it. */
   #arrangeOptions(): void {
-    const { data, linkage, scene } = this;
+    const { linkage, scene } = this;
     const option = (key: keyof Scene["shown"], text: string, there = true) => {
       const change = () => {
         scene.shown[key] = box.checked;
@@ -317,11 +318,7 @@ export class SpaceView implements Driven {
       this.#options,
       ...option("floor", t("Grid")),
       ...option("paths", this.#words.paths!, linkage.spots.length > 0),
-      ...option(
-        "names",
-        t("Names"),
-        data.points.some(({ name }) => name),
-      ),
+      ...option("names", t("Names"), linkage.spots.length > 0),
     );
   }
 

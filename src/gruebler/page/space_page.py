@@ -34,6 +34,7 @@ from gruebler.teaching.catalog import entry
 
 _WORDS = {
     "hint": message("Drag a body to move the machine, drag the background to turn the view."),
+    "turn": message("Drag the background to turn the view."),
     "pull": message("Drag a body"),
     "pulled": message("move the machine; the point that you drag draws its path"),
     "round": message("Drag the background, arrow keys on the picture"),
