@@ -26,8 +26,8 @@ export interface Series {
   marks?: readonly Pair[] | undefined;
 }
 
-const WIDTH = 300;
-const HEIGHT = 140;
+export const WIDTH = 300;
+export const HEIGHT = 140;
 const LEFT = 44;
 const RIGHT = 10;
 const TOP = 20;

@@ -757,7 +757,11 @@ def test_outputs_are_told_with_sign_and_full_turns(server, chromium):
     page.get_by_role("button", name="Pause").click()
     carrier, sun = page.locator(".rows input").all()
     name = "sun 2: turned from the reference pose"
+    links = page.locator('[data-panel="links"]')
+    before = links.bounding_box()["y"]
+    assert "Transfer function ψ′" in read_off(page)  # its row is there while the plots are made
     page.locator(".plot").first.wait_for()
+    assert abs(links.bounding_box()["y"] - before) < 6
     drive_to(page, "358.5")
     assert read_off(page)[name] == "717°"
     assert read_off(page)["Transfer function ψ′"] == "2"

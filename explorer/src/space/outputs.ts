@@ -4,7 +4,7 @@ import { TURN, wrapped } from "../cycle";
 import { h, renew } from "../dom";
 import type { Fact } from "../facts";
 import { angle, number, t } from "../language";
-import { Plot } from "../plot";
+import { HEIGHT, Plot, WIDTH } from "../plot";
 import { Span } from "../span";
 import { inBrackets } from "../wording";
 import { dot, type Vector } from "./algebra";
@@ -17,6 +17,7 @@ const EVEN = 1e-7; // values that differ by less are the same but for the digits
 const EVEN_RATES = 1e-5; // and their slopes, from rows that are hundredths apart
 const SAME = 1e-4; // of the longest: directions that differ by less are one
 const QUIET = 200; // milliseconds after the last change of another drive
+const GAP = 6; // below a plot
 const SLICE = 8; // milliseconds of solving between frames
 
 /** What is read of a machine: an output or a joint. */
@@ -45,7 +46,8 @@ export class OutputPlots {
   readonly #readings: Reading[];
   /** Of readings, from the first value of the drive on in such steps: degrees or lengths. */
   #values: Float64Array[] = [];
-  #rates: { name: string; note: string; now: () => number }[] = [];
+  /** Of outputs with a sign: what their transfer functions are where the drive stands. */
+  #rates: (() => number)[] = [];
   #first = 0;
   #step = 1;
   /** Which drive they are over, and where the others stand. */
@@ -74,6 +76,8 @@ export class OutputPlots {
       return { name, fact: name, link: null, joint, turns: joint.turns, along: null };
     });
     this.#readings = data.motions.length ? [...outputs, ...between] : [];
+    const count = this.#readings.length + this.#readings.filter(isRated).length;
+    this.element.style.aspectRatio = String(WIDTH / ((HEIGHT + GAP) * count)); // what is below stays
     this.follow();
   }
 
@@ -91,8 +95,7 @@ export class OutputPlots {
       return;
     }
     this.#known = known;
-    this.#values = [];
-    this.#rates = this.#rates.map((rate) => ({ ...rate, now: () => NaN }));
+    [this.#values, this.#rates] = [[], []];
     clearTimeout(this.#timer);
     this.#fade(true);
     const course = this.machine.course();
@@ -135,19 +138,25 @@ export class OutputPlots {
       const values = valuesOf(reading, rows, home);
       this.#values.push(values);
       show(name, unitOf(turns), values, link === null ? "--purple" : "--motion", () => this.#value(k));
-      if (link === null || isTotal(reading)) continue;
+      if (!isRated(reading)) continue;
       const rates = slopes(turns ? values.map((value) => value / DEGREES) : values, step, motion.round);
-      const [above, below] = [turns, drive!.turning].map((one) => (one ? "rad" : data.unit));
-      const note = above === below ? "" : `${above}/${below}`;
-      const told = t("Transfer function {sign}", { sign: `${turns ? "ψ" : "s"}′` });
-      const title = data.outputs[1] ? `${told}, ${name}` : told;
       const now = () => cubicAt(rates, (this.#drive - range[0]) / step, motion.round);
-      this.#rates.push({ name: title, note, now });
+      this.#rates.push(now);
+      const [title, note] = this.#rateOf(reading);
       show(title, note, rates, "--green", now, EVEN_RATES);
     }
+    this.element.style.aspectRatio = "";
     renew(this.element, ...this.#plots.map(({ element }) => element));
     this.#fade(false);
     this.follow();
+  }
+
+  /** The name of the transfer function of an output, and its unit. */
+  #rateOf({ name, turns }: Reading): [string, string] {
+    const { data, drive } = this.machine;
+    const [above, below] = [turns, drive!.turning].map((one) => (one ? "rad" : data.unit));
+    const told = t("Transfer function {sign}", { sign: `${turns ? "ψ" : "s"}′` });
+    return [data.outputs[1] ? `${told}, ${name}` : told, above === below ? "" : `${above}/${below}`];
   }
 
   /** Plots of what is no more are seen, but nothing is picked in them. */
@@ -179,16 +188,18 @@ export class OutputPlots {
         turns
           ? angle(value / DEGREES, DIGITS)
           : `${number(Math.abs(value) < 1e-6 * data.size ? 0 : value, DIGITS)} ${data.unit}`;
-      const total = isTotal(reading);
-      const facts: Fact[] = [{ name, text: text(this.#value(k)), ...(total ? { style: "wide" } : {}) }];
+      const facts: Fact[] = [{ name, text: text(this.#value(k)), ...(isTotal(reading) ? { style: "wide" } : {}) }];
       const values = this.#values[k];
-      if (reading.link === null || total || !values) return facts;
+      if (!values || !isRated(reading)) return facts;
       const far = highest(values) + highest(values.map((value) => -value));
       if (!(turns && far > 359.9))
         facts.push({ name: `${t(turns ? "Swing" : "Stroke")} ${reading.name}`, text: text(far) });
       return facts;
     });
-    const rates = this.#rates.map(({ name, note, now }) => ({ name, note, text: number(now(), 4) }));
+    const rates = this.#readings.filter(isRated).map((reading, k) => {
+      const [name, note] = this.#rateOf(reading);
+      return { name, note, text: number(this.#rates[k]?.() ?? NaN, DIGITS) };
+    });
     const outputs = data.outputs.length;
     return [...read.slice(0, outputs).flat(), ...rates, ...read.slice(outputs).flat()];
   }
@@ -197,6 +208,10 @@ export class OutputPlots {
 /** Whether an output has no axis: it is told how far it is turned or shifted in all. */
 function isTotal({ along, joint }: Pick<Reading, "along" | "joint">): boolean {
   return !along && !joint;
+}
+
+function isRated(reading: Reading): boolean {
+  return reading.link !== null && !isTotal(reading);
 }
 
 /** How far something is turned, in radians, or shifted. */
