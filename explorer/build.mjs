@@ -107,7 +107,7 @@ const own = `
   degrees fitted measured nudge recall spots
   longest margin inSpace advance destroy elsewhere emit follow heads letterOf posed showKeys taken undoing
   keepInside served setAdding setLength setTheme shiftLine shownDesign showPose showRange showValue
-  sized snapping switchMode toLocal turnTo upright writeSizes
+  arrows columns keepLoads sized snapping switchMode toLocal turnTo upright writeSizes
 `.match(/\w+/g);
 
 /** Long names that others call, too, above all the browser's own, and that stand in a module again and again. */
@@ -136,7 +136,7 @@ const often = `
   style synthesis tabindex tagName targets test text textContent title toFixed together toggle
   toLowerCase toUpperCase transform transmission transport trim turning turns unit unknowns unshift
   design history location point undoable variant
-  offsetLeft order plane value values velocities view viewBox viewport views width windings world zoom
+  loads offsetLeft order plane value values velocities view viewBox viewport views width windings world zoom
 `.match(/\w+/g);
 
 /** These names, as members and as keys, and what else stands there as often, as constants: texts that are keys or

@@ -20,6 +20,8 @@ export interface Beside {
   readonly letters?: string;
   /** Pairs of angles that were asked for, which the library reads and marks. */
   readonly pairs?: unknown;
+  /** The links whose masses lie along their bars, which the library reads; or all are of steel. */
+  readonly bars?: unknown;
   /** The drive turns clockwise to meet the targets in their order. */
   readonly backward?: boolean;
 }
@@ -33,8 +35,9 @@ export function wayOf({ backward }: Beside = {}): number {
 export function besideOf({ page }: LinkageDocument): Beside {
   const numbers = (row: unknown, ...counts: number[]) =>
     Array.isArray(row) && counts.includes(row.length) && row.every((one) => Number.isFinite(one));
-  const { backward, letters, locks, pairs, picture, rulers, targets } = (page ?? {}) as {
+  const { backward, bars, letters, locks, pairs, picture, rulers, targets } = (page ?? {}) as {
     backward?: unknown;
+    bars?: unknown;
     pairs?: unknown;
     letters?: unknown;
     locks?: unknown;
@@ -52,6 +55,7 @@ export function besideOf({ page }: LinkageDocument): Beside {
     ...(kept.length && { locks: kept }),
     ...(measured.length && { rulers: measured }),
     ...(!!pairs && { pairs }),
+    ...(!!bars && { bars }),
     ...(backward === true && { backward }),
     ...(typeof letters === "string" && { letters }),
   };

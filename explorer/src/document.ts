@@ -24,6 +24,7 @@ export function documentOf(linkage: Linkage, rows: Rows = linkage.pose, row = 0)
   out.points = Object.fromEntries(sizes.points.map((p) => [p.name, { link: model.links[p.link]!, at: [...p.at] }]));
   delete out.home;
   delete out.page;
+  out.loads = linkage.loads;
   out.reference_pose = Object.fromEntries(
     model.links.slice(0, model.own).map((name, link) => {
       const [c, s] = turn(rows, row, link);
@@ -47,6 +48,7 @@ export function applyDocument(linkage: Linkage, document: LinkageDocument, drive
   const meshes = meshesOf(linkage);
   linkage.change(() => {
     linkage.beside = besideOf(document);
+    linkage.loads = document.loads;
     if (drive !== undefined && Number.isFinite(drive)) linkage.drives[linkage.active] = drive;
     model.elements.forEach((e, k) => {
       const given = document.elements?.[model.links[e.link]!]?.[model.joints[e.joint]!.name];

@@ -1,49 +1,62 @@
 /** The panel of forces: what the drive and the joints carry over a turn, and how the linkage falls; by the library. */
 
 import { documentOf } from "./document";
-import { action, h, renew } from "./dom";
+import { action, h, renew, svg } from "./dom";
 import { FactList } from "./factlist";
+import type { Fact } from "./facts";
 import type { Fall } from "./falling";
 import { number, t } from "./language";
 import type { Linkage } from "./linkage";
-import { LoadForm } from "./loads";
+import { type Acting, LoadForm } from "./loads";
 import type { Model } from "./model";
 import type { PlaneTransport } from "./planetransport";
 import { Plot } from "./plot";
 import { Polar, type Vectors, vectorAt } from "./polar";
-import type { Pair } from "./rows";
-import type { Spring } from "./springs";
-import { driveText } from "./track";
+import { type Pair, place } from "./rows";
+import type { End, Spring } from "./springs";
+import type { Column } from "./table";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
-import { lengthUnit, momentUnit } from "./wording";
+import { lengthUnit } from "./wording";
 
 const ASKED_AFTER = 350; // milliseconds
 
 /** Numbers of JSON, null where one is not known. */
 type Numbers = (number | null)[];
 
-/** What the library says; without anything that acts only masses and speed. */
-interface Answer {
-  masses: number[];
-  speed: number | null;
-  springs: Spring[];
+/** What the library says; without anything that acts only what may be changed. */
+interface Answer extends Acting {
+  /** What the document is to keep, if the reader changed something. */
+  kept?: Kept;
   /** Where the masses come from, or how they would be assumed. */
   origin: string;
-  /** On what loads act that are not in the form. */
-  besides: string;
   drives?: number[];
+  /** What the effort of the drive is called. */
+  title: string;
   effort: Numbers;
-  effective: number;
-  /** In watts: the largest, and the mean. */
-  power: Pair;
-  /** By joint, with the link on which it acts. */
-  forces: { joint: number; link: number; force: [Numbers, Numbers] }[];
+  facts: Fact[];
+  /** Of joints: what they are called, how large they are at most, and where. */
+  forces: { joint: number; parts: Numbers[]; most: number; name: string; note: string }[];
+  /** Where loads act, and both parts of a force, or the moment. */
+  acting: { at: End; parts: Numbers[] }[];
   lines: string[];
 }
 
-/** A force on the stage: its joint, its direction, as long as the root of its part of the largest, and how much. */
-export type Arrow = [joint: number, x: number, y: number, force: number];
+/** Loads as a document has them, and the links whose masses lie along their bars. */
+export interface Kept {
+  loads: unknown;
+  bars: readonly number[] | "steel";
+}
+
+/** A force or a moment on the stage: its place, its direction, as long as the root of its part of the largest, how much
+ * it is, its unit, and whether it is a load. */
+export type Arrow = [x: number, y: number, dx: number, dy: number, amount: number, unit: string, load?: boolean];
+
+/** One over the range of the drive. */
+interface Force extends Vectors {
+  at: () => Pair;
+  unit: string;
+}
 
 /** What the panel asks of its view. */
 export interface Loaded {
@@ -51,6 +64,8 @@ export interface Loaded {
   readonly linkage: Linkage;
   readonly transport: PlaneTransport;
   redraw(): void;
+  /** The document has other loads, which can be undone if the reader changed them. */
+  keepLoads(kept: Kept, typed: boolean): void;
 }
 
 export class Forces {
@@ -66,9 +81,16 @@ export class Forces {
   readonly #polar = new Polar();
   readonly #joint = h("select", { "data-field": "force-joint", onchange: () => this.#showJoint() });
   #plot: Plot | null = null;
+  /** For a table. */
+  columns: Column[] = [];
   #model: Model | null = null;
-  #forces: (Vectors & { joint: number; name: string; note: string })[] = [];
+  /** That of several drives, which no document has. */
+  #speed: number | null = null;
+  #forces: (Force & { name: string; note: string })[] = [];
+  #loads: Force[] = [];
   #timer = 0;
+  /** How long it moves freely, in seconds. */
+  #until = 2;
   /** Whether the next forces are brought to sight. */
   #brings = false;
   readonly #view: Loaded;
@@ -90,15 +112,20 @@ export class Forces {
     }
     if (this.#model !== linkage.model) {
       this.#model = linkage.model;
-      this.#forces = [];
-      this.#form.clear();
+      this.#forces = this.#loads = this.columns = [];
+      this.#speed = null;
+      this.#form.change = {};
       this.#acting.open = false;
+      renew(this.#form.element);
       renew(this.#result);
     }
     this.#summary.textContent = t("Masses, loads");
     if (!this.#acting.isConnected) renew(this.element, this.#acting, this.#result);
     this.#result.classList.add("waiting");
-    if (!this.#opened()) return;
+    if (!this.#opened()) {
+      this.columns = [];
+      return;
+    }
     if (!this.#result.firstChild) renew(this.#result, moment());
     this.#timer = setTimeout(() => void this.#ask(), ASKED_AFTER);
   }
@@ -107,17 +134,29 @@ export class Forces {
     const { linkage } = this.#view;
     const { drives, model } = linkage;
     const held = [...drives].slice(0, model.drives.length);
-    return { document: documentOf(linkage), source: model.source, drives: held, ...this.#form.record };
+    const { bars } = linkage.beside;
+    return {
+      document: documentOf(linkage),
+      source: model.source,
+      drives: held,
+      bars,
+      speed: this.#speed,
+      ...this.#form.change,
+    };
   }
 
   async #ask(): Promise<void> {
     const { page, linkage } = this.#view;
     const { range } = this.#view.transport;
     const { active, cycle } = linkage;
-    const running = { active, range, full: cycle.full, speed: this.#form.speed };
+    const { change } = this.#form;
     try {
-      const found = await page.ask<Answer>("forces", { ...this.#question, ...running });
-      if (linkage === this.#view.linkage) this.#show(linkage, found);
+      const found = await page.ask<Answer>("forces", { ...this.#question, active, range, full: cycle.full });
+      if (linkage !== this.#view.linkage || change !== this.#form.change) return; // another is asked
+      if (found.kept) this.#view.keepLoads(found.kept, !!Object.keys(change)[0]);
+      this.#form.change = {};
+      if (linkage.model.drives[1]) this.#speed = change.speed ?? this.#speed;
+      this.#show(linkage, found);
     } catch (error) {
       renew(this.#result, h("p.note.error", {}, (error as Error).message));
     }
@@ -125,15 +164,15 @@ export class Forces {
   }
 
   #show(linkage: Linkage, answer: Answer): void {
-    const { besides, drives, effective, effort, forces, lines, masses, origin, power, speed, springs } = answer;
+    const { acting, drives, effort, facts, forces, lines, masses, origin, speed, title } = answer;
     const { drive, model } = linkage;
-    this.#form.show(linkage, masses, speed ?? 0, springs, besides);
+    const { transport } = this.#view;
+    this.#form.show(linkage, answer);
     this.#plot = null;
-    this.#forces = [];
+    this.#forces = this.#loads = this.columns = [];
     const assume = () => {
-      this.#form.steel = true;
       this.#brings = true;
-      this.changed();
+      this.#form.put({ bars: "steel" });
     };
     const button = masses.some(Boolean) ? null : action("assume", assume, t("Assume masses"));
     const offer = h("div.form", {}, button, h("p.note", {}, origin));
@@ -143,77 +182,60 @@ export class Forces {
     } else {
       this.#form.element.append(offer);
       const places = Float64Array.from(drives);
-      const turning = drive!.turning;
-      const unit = turning ? momentUnit(model) : "N";
-      const title = `${turning ? t("Drive torque") : t("Drive force")} [${unit}]`;
-      this.#plot = new Plot(turning ? "°" : lengthUnit(model), (value) => this.#view.transport.pick(value));
-      this.#plot.show(places, { title, colour: "--motion", values: numbers(effort) }, this.#view.transport.range);
-      const largestOf = (sizes: ArrayLike<number | null>) => {
-        const all = Array.from(sizes, (one) => Math.abs(one ?? 0) || 0);
-        return all.indexOf(Math.max(...all));
+      const values = numbers(effort);
+      this.#plot = new Plot(drive!.turning ? "°" : lengthUnit(model), (value) => transport.pick(value));
+      this.#plot.show(places, { title, colour: "--motion", values }, transport.range);
+      const vectors = (parts: Numbers[], its: string, where: () => Pair) => {
+        const [x, y = x.map(() => 0)] = parts.map(numbers) as [Float64Array, Float64Array?];
+        const most = Math.max(...x.map((one, k) => Math.hypot(one, y[k]!) || 0));
+        return { drives: places, x, y, most, unit: its, at: where };
       };
-      const drivenTo = (row: number) => driveText(linkage, drives.at(row)!, 4);
-      const at = (place: string) => t("at {place}", { place });
-      this.#forces = forces.map(({ joint, link, force }) => {
-        const [x, y] = force.map(numbers) as [Float64Array, Float64Array];
-        const sizes = x.map((one, k) => Math.hypot(one, y[k]!));
-        const links = model.joints[joint]!.links.filter((other) => other !== link);
-        const others = links.map((other) => linkage.linkName(other)).join(", ");
-        const name = t("{others} on {link}", { others, link: linkage.linkName(link) });
-        const row = largestOf(sizes);
-        return { joint, drives: places, x, y, most: sizes[row]!, name, note: at(drivenTo(row)) };
-      });
+      this.#loads = acting.map(({ at: [link, ...own], parts }) =>
+        vectors(parts, parts[1] ? "N" : "N·m", () => place(linkage.pose, 0, link, ...own)),
+      );
+      this.#forces = forces.map(({ joint, parts, ...more }) => ({
+        ...vectors(parts, "N", () => linkage.jointAt(joint)),
+        ...more,
+      }));
+      this.columns = [
+        [title, "", places, values],
+        ...this.#forces.flatMap(({ name, x, y }): Column[] => [
+          [`${name} Fx`, "N", places, x],
+          [`${name} Fy`, "N", places, y],
+        ]),
+      ];
       const chosen = this.#joint.selectedIndex;
       renew(this.#joint, ...this.#forces.map(({ name }, value) => h("option", { value }, name)));
       const fallen = h("div.form", {});
       const onclick = () => void this.#fall(fallen);
-      const play = () => this.#view.transport.playAt(speed!);
+      const until = this.#form.row("until", t("Duration"), "s", this.#until, (seconds) => {
+        this.#until = Math.min(20, seconds) || 2;
+      });
+      const play = () => transport.playAt(speed!);
       const release = t("Release the drive: free motion");
-      const most = largestOf(effort);
-      // a drive that gives way to what pushes it
-      const braking = (value: number) => (value < 0 ? t("braking") : "");
-      const strong = largestOf(this.#forces.map((force) => force.most));
-      const strongest = this.#forces[strong]!;
-      this.#joint.selectedIndex = chosen < 0 ? strong : chosen;
-      this.#facts.show([
-        {
-          name: turning ? t("Largest drive torque") : t("Largest drive force"),
-          text: `${figure(Math.abs(effort[most]!))} ${unit}`,
-          note: `${at(drivenTo(most))} ${braking(effort[most]! * speed!)}`,
-        },
-        { name: t("Effective (RMS)"), text: `${figure(effective)} ${unit}` },
-        { name: t("Largest drive power"), text: `${figure(Math.abs(power[0]))} W`, note: braking(power[0]) },
-        { name: t("Mean drive power"), text: `${figure(power[1])} W` },
-        {
-          name: t("Drive work"),
-          text: `${figure((power[1] * (drives.at(-1)! - drives[0]!)) / speed!)} J`,
-          note: `${drivenTo(0)} … ${drivenTo(-1)}`,
-        },
-        {
-          name: t("Largest joint force"),
-          text: `${figure(strongest.most)} N`,
-          note: `${strongest.note}, ${strongest.name}`,
-        },
-      ]);
+      const sizes = this.#forces.map((force) => force.most);
+      this.#joint.selectedIndex = chosen < 0 ? sizes.indexOf(Math.max(...sizes)) : chosen;
+      this.#facts.show(facts);
       renew(
         this.#result,
         this.#form.rate,
         this.#facts.element,
         this.#plot.element,
         h("div.form", {}, action("play", play, t("Play at this speed"))),
-        h("p.note", {}, t("Joint forces in this pose. Arrow length: square root of the force")),
+        h("p.note", {}, signOf("force"), t("Joint forces in this pose"), " ", signOf("force.load"), t("Loads")),
         this.#joints.element,
         h("div.form", {}, h("label", {}, t("Force vector"), this.#joint)),
         this.#polar.element,
         ...notes,
+        h("div.rows", {}, ...until),
         h("div.form", {}, action("fall", onclick, release)),
         fallen,
       );
       this.#showJoint();
-      if (this.#brings) this.element.parentElement!.parentElement!.scrollIntoView();
+      if (this.#brings) this.element.closest("details")!.scrollIntoView();
       this.#brings = false;
     }
-    this.at(this.#view.transport.drive);
+    this.at(transport.drive);
     this.#view.redraw();
   }
 
@@ -238,29 +260,43 @@ export class Forces {
     this.#polar.at(drive);
   }
 
+  get #shown(): boolean {
+    return this.#opened() && this.#model === this.#view.linkage.model;
+  }
+
   get springs(): readonly Spring[] {
-    return this.#opened() && this.#model === this.#view.linkage.model ? this.#form.shown : [];
+    return this.#shown ? this.#form.springs : [];
   }
 
   /** The forces on the stage where the drive is, against the largest of the range. */
   arrows(): Arrow[] {
-    if (!this.#opened() || this.#model !== this.#view.linkage.model) return [];
-    const most = Math.max(...this.#forces.map((force) => force.most));
-    return this.#forces.map((force) => {
+    const all = this.#shown ? [...this.#forces, ...this.#loads] : [];
+    return all.map((force, k) => {
+      const { at, unit } = force;
+      const most = Math.max(...all.map((other) => (other.unit === unit ? other.most : 0)));
       const [x, y] = vectorAt(force, this.#view.transport.drive);
       const here = Math.hypot(x, y) * force.most;
       const root = Math.sqrt(here * most) / force.most || 1; // small ones are seen, too
-      return [force.joint, x / root, y / root, here];
+      return [...at(), x / root, y / root, here, unit, k >= this.#forces.length];
     });
   }
 
-  async #fall(place: HTMLElement): Promise<void> {
+  async #fall(told: HTMLElement): Promise<void> {
     const { linkage, page } = this.#view;
-    const found = await awaited(place, () => page.ask<Fall>("fall", this.#question));
+    const found = await awaited(told, () => page.ask<Fall>("fall", { ...this.#question, until: this.#until }));
     if (!found || linkage !== this.#view.linkage) return;
-    renew(place, h("p.note", {}, found.lines.join(" ")));
+    renew(told, h("p.note", {}, found.lines.join(" ")));
     this.#view.transport.play(found);
   }
+}
+
+/** What arrows of a class look like. */
+function signOf(name: "force" | "force.load"): SVGElement {
+  return svg(
+    "svg",
+    { viewBox: "0 0 32 9", width: 32, height: 9 },
+    svg(`path.${name}`, { d: "M5 5H27M20 1L27 5L20 9" }),
+  );
 }
 
 function numbers(values: Numbers): Float64Array {

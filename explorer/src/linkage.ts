@@ -20,6 +20,8 @@ export class Linkage {
   readonly sizes: Sizes;
   /** What the page shows beside it. */
   beside: Beside;
+  /** What acts on it, as its document has it. */
+  loads: unknown;
   readonly program: Program;
   /** All drive values, held ones of idle rollers behind the others. */
   readonly drives: Float64Array;
@@ -48,6 +50,7 @@ export class Linkage {
     this.#kernel = new Kernel(p);
     this.sizes = new Sizes(model, p.size);
     this.beside = besideOf(model.document);
+    this.loads = model.document.loads;
     this.#offsets = Float64Array.from(model.sources, (source, k) => {
       const angle = Math.atan2(p.lines[2 * k + 1]!, p.lines[2 * k]!);
       return angle - (source < 0 ? 0 : this.sizes.angles[source]!);
@@ -289,6 +292,7 @@ export class Linkage {
       signs: [...this.state.signs],
       unknowns: [...this.state.unknowns],
       beside: this.beside,
+      loads: this.loads,
     };
   }
 
@@ -301,6 +305,7 @@ export class Linkage {
   #put(old: Snapshot): void {
     this.sizes.restore(old);
     this.beside = old.beside;
+    this.loads = old.loads;
     this.drives.set(old.drives);
     this.state.signs.set(old.signs);
     this.state.unknowns.set(old.unknowns);

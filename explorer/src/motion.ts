@@ -5,7 +5,7 @@ import { applyDocument, savedDocument } from "./document";
 import { action, h, wantsStill } from "./dom";
 import { Dragging } from "./dragging";
 import type { Found } from "./facts";
-import type { Arrow } from "./forces";
+import type { Arrow, Kept } from "./forces";
 import { drivenBy } from "./help";
 import { History } from "./history";
 import { keepSizes, keptSizes } from "./kept";
@@ -198,6 +198,14 @@ export class MotionView implements View, Editor, Driven {
     this.#end();
   }
 
+  keepLoads({ bars, loads }: Kept, typed: boolean): void {
+    const { linkage } = this;
+    if (typed) this.#history.add(this.#state());
+    linkage.loads = loads;
+    linkage.beside = { ...linkage.beside, bars: bars[0] && bars };
+    this.page.changed();
+  }
+
   #begin(): void {
     if (this.transport.falling) this.transport.pause();
     this.#before = this.#state();
@@ -363,8 +371,7 @@ export class MotionView implements View, Editor, Driven {
 
   posed(): void {
     this.stage.draw();
-    if (this.transport.falling) this.transport.showValue();
-    else this.side.showPose();
+    this.side.showPose();
   }
 
   #arrows(): Arrow[] {
@@ -401,6 +408,6 @@ export class MotionView implements View, Editor, Driven {
   }
 
   table(): string {
-    return tableOf(this.linkage);
+    return tableOf(this.linkage, this.side.forces.columns);
   }
 }

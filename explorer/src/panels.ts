@@ -231,7 +231,11 @@ function pointRow(editor: Editor, k: number): HTMLElement {
     });
     return field;
   };
-  const remove = () => editor.edit(() => points.splice(k, 1));
+  const remove = () =>
+    editor.edit(() => {
+      renameEnds(linkage, point.name, `${linkage.model.links[point.link]}:${point.at}`);
+      points.splice(k, 1);
+    });
   const row = h(
     "div.point-row",
     {},

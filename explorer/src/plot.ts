@@ -222,9 +222,9 @@ export class Plot {
     this.drive = drive;
     const { drives, series } = this;
     const place = Number.isNaN(this.#pointed) ? drive : this.#pointed;
-    if (!series || drives.length < 2 || Number.isNaN(place)) return;
+    if (!series || drives.length < 2) return;
     const value = valueAt(drives, series.values, place, series.turn);
-    const outside = place < this.domain[0] || place > this.domain[1];
+    const outside = !(place >= this.domain[0] && place <= this.domain[1]);
     const x = outside ? "-9" : this.#x(place).toFixed(1);
     put(this.#cursor, { d: `M${x} ${TOP}V${HEIGHT - BOTTOM}` });
     const y = Number.isFinite(value) ? Math.max(TOP, Math.min(HEIGHT - BOTTOM, this.#y(value))) : -9;
@@ -233,7 +233,7 @@ export class Plot {
     const told = Number.isFinite(exact) ? exact! : value; // of a pose without rates that at the drive
     const read = number(Math.abs(told) < series.same! ? 0 : told, 4);
     const where = `${number(place / this.#scale, 4)}${this.#scale === 1 ? "" : "°"}: ${read}`;
-    this.#value.textContent = place === drive ? read : where;
+    this.#value.textContent = Object.is(place, drive) ? read : where;
   }
 
   get #scale(): number {
@@ -331,7 +331,7 @@ export function valueAt(places: Float64Array, values: Float64Array, place: numbe
   const width = places[high]! - places[low]!;
   const part = width > 0 ? Math.max(0, Math.min(1, (place - places[low]!) / width)) : 0;
   const step = values[high]! - values[low]!;
-  const value = values[low]! + (part ? part * (turn ? step - turn * Math.round(step / turn) : step) : 0);
+  const value = values[low]! + (part !== 0 ? part * (turn ? step - turn * Math.round(step / turn) : step) : 0);
   return turn ? value - turn * Math.floor(value / turn) : value;
 }
 

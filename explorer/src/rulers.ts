@@ -28,9 +28,12 @@ export function readingsOf(linkage: Linkage): Reading[] {
   });
 }
 
-/** A point has another name from now on. */
+/** A point has another name from now on; that of a place on a link once it is gone, where its loads still act. */
 export function renameEnds(linkage: Linkage, old: string, name: string): void {
   const renamed = (one: string) => (one === old ? name : one);
   const rulers = linkage.beside.rulers?.map(([one, two]): Ruler => [renamed(one), renamed(two)]);
   linkage.beside = { ...linkage.beside, ...(rulers && { rulers }) };
+  linkage.loads &&= JSON.parse(
+    JSON.stringify(linkage.loads).replaceAll(JSON.stringify(old), JSON.stringify(name)),
+  ) as unknown;
 }

@@ -4,6 +4,7 @@ import { backdropElement, putBackdrop } from "./backdrop";
 import { Bodies } from "./bodies";
 import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
+import type { Arrow } from "./forces";
 import { DRIVEN, DRIVING, placed, STANDING, SUPPORT } from "./ground";
 import { clearAbout, convexHull, middleOf, pathThrough, sidesOf, toHull } from "./hull";
 import { clearOf, type Label, labelsOf } from "./labels";
@@ -43,9 +44,11 @@ export class Scene {
   #backdrop: SVGElement | null = null;
   /** Whether the pole is to be shown but lies outside of the picture. */
   poleAside = false;
-  readonly #arrows = ["force", "velocity", "acceleration"].map((kind) => svg(`path.${kind}`, {}));
-  /** Beside the longest arrow of each kind, how much it is. */
-  readonly #values = [0, 1, 2].map(() => svg("text", { "data-arrow": "", "text-anchor": "middle" }));
+  readonly #arrows = (["force", "force.load", "velocity", "acceleration"] as const).map((kind) =>
+    svg(`path.${kind}`, {}),
+  );
+  /** Beside arrows, how much they are. */
+  readonly #values = svg("g", {});
   readonly #springs = svg("path.spring-path", {});
   readonly #rulers = svg("path.ruler", {});
   readonly #circle = svg("circle.inflection", { r: 0 });
@@ -119,7 +122,7 @@ export class Scene {
     front.append(
       ...this.#labels.map(({ element }) => element),
       ...this.#arrows,
-      ...this.#values,
+      this.#values,
       this.#springs,
       this.#rulers,
       this.#circle,
@@ -214,14 +217,14 @@ export class Scene {
     }
     const taken: { x: number; y: number; half: number }[] = [];
     const hulls = this.#labels.map(({ hull }) => (hull && this.#labels.length < MOST_CLEAR ? hull(viewport) : []));
-    const kinds: [Vector[], string][] = [
-      [this.#forceArrows(linkage, shown), "N"],
-      ...([1, 2] as const).map((k): [Vector[], string] => {
-        const wanted = k === 1 ? shown.velocities : shown.accelerations;
-        return [this.#vectors(linkage, k, wanted), rateUnit(linkage, k, false)];
-      }),
-    ];
-    const arrows = kinds.flatMap(([all]) =>
+    const forces = shown.forces();
+    const kinds = [
+      forces.filter((one) => !one[6]),
+      forces.filter((one) => one[6]),
+      this.#vectors(linkage, 1, shown.velocities),
+      this.#vectors(linkage, 2, shown.accelerations),
+    ].map((all) => all.map((one) => this.#scaled(...one)));
+    const arrows = kinds.flatMap((all) =>
       all.map(([x, y, dx, dy]): Pair[] => [
         [x, y],
         [x + dx, y + dy],
@@ -289,10 +292,12 @@ export class Scene {
       ]);
       move(element, [x, y]);
     }
-    kinds.forEach(([all, unit], k) => {
-      put(this.#arrows[k]!, { d: all.map((vector) => arrow(...vector)).join("") });
-      this.#putValue(k, all, unit, drawn);
+    kinds.forEach((all, k) => {
+      put(this.#arrows[k]!, { d: all.map((one) => arrow(...one)).join("") });
     });
+    // a number may stand upon a plate, but not across its edges
+    const edges = [...hulls.flatMap(sidesOf), ...drawn.slice(hulls.filter((hull) => hull.length).length)];
+    this.#putValues(kinds, edges);
     const springs = shown.springs().map((spring) => springPath(linkage, viewport, spring));
     put(this.#springs, { d: springs.join("") });
     const lines = readingsOf(linkage).map(({ ends }) => pathThrough(ends.map((at) => viewport.screen(...at))));
@@ -300,21 +305,19 @@ export class Scene {
     this.#drawPole(linkage, shown);
   }
 
-  #forceArrows(linkage: Linkage, shown: Shown): Vector[] {
-    return shown.forces().map(([joint, x, y, force]): Vector => {
-      const [u, v] = this.viewport.screen(...linkage.jointAt(joint));
-      return [u, v, this.longest * x, -this.longest * y, force];
-    });
+  /** An arrow in pixels; of a moment its circle reaches so far to the right, if it is positive, or to the left. */
+  #scaled(...[x, y, dx, dy, amount, unit]: Arrow): Arrow {
+    const long = unit === "N·m" ? this.longest / 3 : this.longest;
+    return [...this.viewport.screen(x, y), long * dx, -long * dy, amount, unit];
   }
 
   /** Velocities (1) or accelerations (2) of all joints and points that move. */
-  #vectors(linkage: Linkage, k: 1 | 2, wanted: boolean): Vector[] {
+  #vectors(linkage: Linkage, k: 1 | 2, wanted: boolean): Arrow[] {
     const { model, pose, sizes } = linkage;
-    const places: Vector[] = [];
+    const places: Arrow[] = [];
     const add = (link: number, u: number, v: number) => {
-      const [x, y] = this.viewport.screen(...place(pose, 0, link, u, v));
       const [dx, dy] = place(pose, 0, link, u, v, k);
-      places.push([x, y, dx, -dy, Math.hypot(dx, dy)]);
+      places.push([...place(pose, 0, link, u, v), dx, dy, Math.hypot(dx, dy), rateUnit(linkage, k, false)]);
     };
     model.joints.forEach((joint, number) => {
       if (!wanted || (joint.links.includes(model.frame) && joint.pair.turning)) return;
@@ -324,18 +327,26 @@ export class Scene {
     });
     if (wanted) for (const point of sizes.points) add(point.link, ...point.at);
     const most = Math.max(...places.map((one) => one[4]).filter(Number.isFinite), 1e-12);
-    const shortened = (value: number) => (this.longest * value) / most;
-    return places.map(([x, y, dx, dy, size]): Vector => [x, y, shortened(dx), shortened(dy), size]);
+    return places.map(([x, y, dx, dy, ...more]): Arrow => [x, y, dx / most, dy / most, ...more]);
   }
 
-  /** Beside the longest arrow of a kind, clear of all else, how much it is. */
-  #putValue(k: number, arrows: readonly Vector[], unit: string, drawn: readonly (readonly Pair[])[]): void {
-    const text = this.#values[k]!;
-    const [x, y, dx, dy, most] = arrows.reduce((a, b) => (b[4] > a[4] ? b : a), [0, 0, 0, 0, 0]);
-    text.textContent = most > 0 ? `${numberText(most, 3)} ${unit.trim()}` : "";
-    if (!(most > 0)) return;
-    const [left, top] = clearAbout([x + dx, y + dy], 18, drawn, halfOf(text.textContent));
-    move(text, [left, top + 4]);
+  /** Beside the longest arrow of each kind, and beside other forces where there is room, how much they are. */
+  #putValues(kinds: Arrow[][], drawn: (readonly Pair[])[]): void {
+    const texts: Element[] = [];
+    for (const [k, all] of kinds.entries()) {
+      const largest = all.filter((one) => one[4] > 0).sort((a, b) => b[4] - a[4]);
+      for (const [n, [x, y, dx, dy, amount, unit]] of largest.entries()) {
+        if (n && k > 1) break;
+        const said = `${numberText(amount, 3)} ${unit}`.trim();
+        const half = halfOf(said);
+        const [left, top] = clearAbout([x + dx, y + dy], 18, drawn, half);
+        const free = left > half && left + half < this.viewport.width;
+        if ((n || k === 1) && !(free && drawn.every((one) => clearOf(one, half, [left, top + 4])))) continue;
+        texts.push(svg("text", { "data-arrow": "", "text-anchor": "middle", x: left, y: top + 4 }, said));
+        drawn.push([-half, half].flatMap((side) => [-5, 5].map((rise): Pair => [left + side, top + rise])));
+      }
+    }
+    this.#values.replaceChildren(...texts);
   }
 
   #drawPole(linkage: Linkage, shown: Shown): void {
@@ -355,17 +366,16 @@ export class Scene {
   }
 }
 
-/** An arrow: its start and its extent in pixels, and how much it is. */
-type Vector = [number, number, number, number, number];
-
 function move(element: SVGElement, [x, y]: Pair): void {
   put(element, { transform: `translate(${x.toFixed(2)} ${y.toFixed(2)})` });
 }
 
-/** An arrow with its head, in pixels; nothing if it is too short for one. */
-function arrow(...[x, y, dx, dy]: Vector): string {
+/** An arrow with its head, in pixels; nothing if it is too short for one. Of a moment three quarters of a circle. */
+function arrow(...[x, y, dx, dy, , unit]: Arrow): string {
   const length = Math.hypot(dx, dy);
   if (!(length > 3) || !Number.isFinite(length)) return "";
+  if (unit === "N·m")
+    return `M${x + dx} ${y}A${length} ${length} 0 1 ${Number(dx < 0)} ${x} ${y + length}${arrow(x, y + length, 9 * Math.sign(dx), 0, 0, "")}`;
   const [ux, uy] = [dx / length, dy / length];
   const [ex, ey] = [x + dx, y + dy];
   const at = (u: number, v: number) => `${u.toFixed(1)} ${v.toFixed(1)}`;

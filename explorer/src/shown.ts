@@ -1,5 +1,6 @@
 /** What of a linkage is shown, and in which colours. */
 
+import type { Arrow } from "./forces";
 import type { Spring } from "./springs";
 
 export interface Shown {
@@ -17,8 +18,7 @@ export interface Shown {
   link: number;
   /** The link that a click chose. */
   chosen: number | null;
-  /** The forces that are drawn: joints, with parts against the largest force, and how much each is. */
-  forces: () => [joint: number, x: number, y: number, force: number][];
+  forces: () => Arrow[];
   springs: () => readonly Spring[];
 }
 

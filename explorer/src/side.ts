@@ -163,10 +163,12 @@ export class Side {
   showPose(): void {
     const { linkage, transport } = this.view;
     if (linkage.drive) {
-      this.plots.at(transport.drive);
-      this.forces.at(transport.drive);
+      const drive = transport.falling ? NaN : transport.drive; // what is plotted is not of a free motion
+      this.plots.at(drive);
+      this.forces.at(drive);
     }
-    this.#showFacts();
+    if (transport.falling) transport.showValue();
+    else this.#showFacts();
   }
 
   #showFacts(): void {

@@ -11,6 +11,7 @@ export interface Snapshot {
   signs: number[];
   unknowns: number[];
   beside: Beside;
+  loads: unknown;
 }
 
 /** Whether sizes, points and assembly mode are the same but for rounding. */
@@ -21,7 +22,7 @@ export function alike(one: Snapshot, two: Snapshot, size: number): boolean {
     ...signs,
   ];
   const [first, second] = [values(one), values(two)];
-  const names = ({ points }: Snapshot) => points.map(({ name, link }) => `${name} ${link}`).join();
+  const names = ({ loads, points }: Snapshot) => JSON.stringify([loads, points.map(({ name, link }) => [name, link])]);
   return (
     first.length === second.length &&
     names(one) === names(two) &&
@@ -31,6 +32,6 @@ export function alike(one: Snapshot, two: Snapshot, size: number): boolean {
 
 /** Whether a change of the sizes, the points or the assembly mode left everything as it was. */
 export function sameSizes(one: Snapshot, two: Snapshot): boolean {
-  const key = ({ at, points, signs }: Snapshot) => JSON.stringify([at, points, signs]);
+  const key = ({ at, loads, points, signs }: Snapshot) => JSON.stringify([at, loads, points, signs]);
   return one.beside === two.beside && key(one) === key(two);
 }

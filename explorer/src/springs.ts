@@ -45,13 +45,15 @@ export function springPath(linkage: Linkage, viewport: Viewport, spring: Spring)
     if (joint < 0) return "";
     const [cx, cy] = viewport.screen(...linkage.jointAt(joint));
     const arm = (k: number) => 8 + k / 4;
-    return line(Array.from({ length: 49 }, (_, k) => [cx + arm(k) * Math.cos(k / 4), cy - arm(k) * Math.sin(k / 4)]));
+    return pathThrough(
+      Array.from({ length: 49 }, (_, k) => [cx + arm(k) * Math.cos(k / 4), cy - arm(k) * Math.sin(k / 4)]),
+    );
   }
   const along = (part: number, across: number): Pair => {
     const far = Math.hypot(u - x, v - y) || 1;
     return [x + (u - x) * part - ((v - y) / far) * across, y + (v - y) * part + ((u - x) / far) * across];
   };
-  const shape = (...places: Pair[]) => line(places.map((one) => along(...one)));
+  const shape = (...places: Pair[]) => pathThrough(places.map((one) => along(...one)));
   if (damping && !stiffness && known === null)
     return (
       shape([0, 0], [0.5, 0]) +
@@ -62,8 +64,4 @@ export function springPath(linkage: Linkage, viewport: Viewport, spring: Spring)
   const count = 2 * Math.max(3, Math.min(20, Math.round(Math.hypot(u - x, v - y) / 16)));
   const coils = Array.from({ length: count }, (_, k): Pair => [0.16 + (0.68 * k) / (count - 1), k % 2 ? 7 : -7]);
   return shape([0, 0], [0.13, 0], ...coils, [0.87, 0], [1, 0]);
-}
-
-function line(places: readonly Pair[]): string {
-  return pathThrough(places);
 }

@@ -8,6 +8,7 @@ import type { Rows } from "./kernel";
 import { currentLanguage, t } from "./language";
 import type { Linkage } from "./linkage";
 import { isAngle, output, transmission, unwrapped } from "./measures";
+import { valueAt } from "./plot";
 import { type Pair, place } from "./rows";
 import { inBrackets, lengthUnit, rateUnit } from "./wording";
 
@@ -15,7 +16,10 @@ const STEPS = 360; // of a turn or of a range
 const DIGITS = 6;
 const NOISE = 9; // places behind the point: what is left there is rounding
 
-export function tableOf(linkage: Linkage): string {
+/** A further one: its name, its unit, and its values at places of the drive. */
+export type Column = [name: string, unit: string, drives: Float64Array, values: Float64Array];
+
+export function tableOf(linkage: Linkage, more: readonly Column[] = []): string {
   const { drive, model, sizes } = linkage;
   const comma = currentLanguage() === "de";
   const columns: [name: string, unit: string, values: ArrayLike<number>][] = [];
@@ -54,6 +58,7 @@ export function tableOf(linkage: Linkage): string {
           order ? rateUnit(linkage, order, false) : length,
           read((rows) => place(rows, 1, link, ...at, order)[axis]),
         ]);
+  for (const [name, unit, ...own] of more) columns.push([name, unit, values.map((value) => valueAt(...own, value))]);
   const cell = (x: number) => {
     const text = Number.isFinite(x) ? String(Number(Number(x.toFixed(NOISE)).toPrecision(DIGITS)) + 0) : "";
     return comma ? text.replace(".", ",") : text;

@@ -24,7 +24,7 @@ export function drawingOf(linkage: Linkage): { drawing?: Drawing; other: string[
   const points = sizes.points.map(({ name, link, at }): Knot => {
     return { at: place(pose, 0, link, ...at), links: [names[link]!], name };
   });
-  const { picture, ...rest } = beside;
+  const { bars, picture, ...rest } = beside; // numbers of links, which a drawing may have otherwise
   // names as the drawing has them
   const called = new Map<string, string>(
     model.joints.map(({ name, links }) => [name, name.replace(/\(.*\)/, `(${links.map((k) => names[k]).join("-")})`)]),

@@ -14,11 +14,6 @@ export function lengthUnit({ unit }: Pick<Model, "unit">): string {
   return unit || t("length");
 }
 
-/** In which the library tells moments: in N·mm or N·m, whatever other unit lengths have. */
-export function momentUnit({ unit }: Pick<Model, "unit">): string {
-  return /^(mm)?$/.test(unit) ? `N·${lengthUnit({ unit })}` : "N·m";
-}
-
 /** Where in the period an extreme lies; it is known to about a millionth of a radian. */
 export function placeOf({ cycle, drive }: Linkage, value: number): number {
   const place = wrapped(cycle, value);

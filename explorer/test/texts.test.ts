@@ -15,7 +15,7 @@ import type { Least } from "../src/measures";
 import { chainText } from "../src/model";
 import { Status } from "../src/status";
 import { quoted, tableOf } from "../src/table";
-import { momentUnit, stopText } from "../src/wording";
+import { stopText } from "../src/wording";
 import { CRANK_ROCKER, fourBar } from "./fourbar";
 
 function inGerman(body: () => void): void {
@@ -97,11 +97,6 @@ test("the chain as text", () => {
   assert.equal(chainText(fourBar(CRANK_ROCKER, 1)), text);
 });
 
-test("moments are in N·mm or N·m, whatever other unit lengths have", () => {
-  const units = ["mm", "cm", "dm", "m", "in", ""].map((unit) => momentUnit({ unit }));
-  assert.deepEqual(units, ["N·mm", "N·m", "N·m", "N·m", "N·m", "N·length"]);
-});
-
 test("the table of a four-bar", () => {
   // shown at 1 rad, it begins at 0 and has a row for each degree
   const linkage = new Linkage(fourBar(CRANK_ROCKER, 1));
@@ -128,6 +123,19 @@ test("the table of a four-bar", () => {
   assert.ok(cells.every((cell) => Number(cell.toPrecision(6)) === cell));
   assert.equal(quoted('a "b", c'), '"a ""b"", c"');
   assert.equal(quoted("K x [mm]"), "K x [mm]");
+});
+
+test("a table takes further columns, read at its own places of the drive", () => {
+  const linkage = new Linkage(fourBar(CRANK_ROCKER, 1));
+  // a straight line from 5 N at 0 to 365 N after a turn: as many as degrees, and 5 more
+  const [head, ...rows] = tableOf(linkage, [
+    ["frame on crank Fx", "N", Float64Array.of(0, 2 * Math.PI), Float64Array.of(5, 365)],
+  ]).split("\n");
+  assert.ok(head!.endsWith(",frame on crank Fx [N]"));
+  assert.deepEqual(
+    [0, 90, 359].map((row) => rows[row]!.split(",").at(-1)),
+    ["5", "95", "364"],
+  );
 });
 
 test("what is read off a four-bar", () => {

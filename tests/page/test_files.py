@@ -246,7 +246,7 @@ def test_loads_and_speed_of_another_program_act_on_the_page():
     told = answer("forces", {"document": opened["model"]["document"], "drives": [1.0]}, "en", print)
     assert sorted(told["masses"])[-2:] == pytest.approx([0.002, 0.003])
     assert told["speed"] == pytest.approx(10 * 2 * math.pi / 60)
-    assert told["lines"]
+    assert told["facts"]
     linkage = linkage_from_json({key: value for key, value in opened["model"]["document"].items() if key != "loads"})
     drives = np.array(told["drives"])
     step = 1e-5

@@ -133,12 +133,14 @@ class ListChains(Params):
 
 
 class OuterLoad(Params):
-    """A force in newtons on a joint or a point, by its number; on a link a moment, x, in newtons times the unit."""
+    """A force in newtons on a joint or a point, by its number, or where a load acts; on a link a moment, x."""
 
-    on: Literal["joint", "point", "link"]
+    on: Literal["joint", "point", "link", "place"]
     number: Number
-    x: float
+    x: float = 0.0
     y: float = 0.0
+    known: Number | None = None
+    """The number of the load of the document or the catalog entry of which it has the law, whatever x and y are."""
 
 
 Amount = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
@@ -161,20 +163,22 @@ class OwnSpring(Params):
 
 
 class LoadedLinkage(Params):
-    """A linkage at values of its drives, what acts on it, and what of its motion is asked."""
+    """A linkage at values of its drives, what the reader changed of what acts on it, and what of its motion is asked.
+
+    What is not given acts as in the document, or as in the catalog entry if that has no loads.
+    """
 
     document: dict[str, Any]
     drives: Annotated[list[float], msgspec.Meta(min_length=1, max_length=20)]
     source: Word = ""
     masses: Annotated[list[Annotated[float, msgspec.Meta(ge=0, le=1e9)] | None], msgspec.Meta(max_length=200)] = []
-    """Of each link, in kilograms; without one those of the document or the catalog entry."""
-    steel: bool = False
-    """Whether the links are bars of steel, in place of their masses."""
-    gravity: bool = True
-    loads: Annotated[list[OuterLoad], msgspec.Meta(max_length=20)] = []
+    """Of each link, in kilograms."""
+    bars: Annotated[list[Number], msgspec.Meta(max_length=200)] | Literal["steel"] = []
+    """Links whose mass lies along their bars, however long these are; or all are of steel, if no masses are given."""
+    gravity: bool | None = None
+    loads: Annotated[list[OuterLoad], msgspec.Meta(max_length=20)] | None = None
     """Forces on one place add up, as do moments on one link."""
     springs: Annotated[list[OwnSpring], msgspec.Meta(max_length=20)] | None = None
-    """Without any those of the document or the catalog entry."""
     active: Number = 0
     """The drive that runs at constant speed."""
     range: tuple[float, float] = (0.0, 2 * pi)
