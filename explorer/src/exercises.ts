@@ -284,8 +284,10 @@ export class ExercisesView implements View {
 
   async #mark(): Promise<void> {
     const task = this.task!;
-    if (!Object.values(this.#answers).some((answer) => answer.trim()))
-      return this.#page.say(t("Give at least one answer."));
+    if (!Object.values(this.#answers).some((answer) => answer.trim())) {
+      this.#verdict.textContent = t("Give at least one answer.");
+      return;
+    }
     try {
       this.#marked = await this.#page.ask<Marked>("mark", { id: task.id, answers: this.#answers });
     } catch (error) {

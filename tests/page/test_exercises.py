@@ -7,6 +7,7 @@ import pytest
 from gruebler.base.text import Readable
 from gruebler.page.tasks import marked_task, task_kinds, task_record, tried_task
 from gruebler.teaching.exercises import KINDS, ascii_key, exercise, solve
+from gruebler.teaching.worksheets.blocks import with_signs
 
 KIND = "gruebler.views.exercises"
 
@@ -53,7 +54,7 @@ def test_a_wrong_number_after_a_dyad_has_a_hint_of_its_own():
         task = task_record(f"dyad-{level}-5", "en")
         wrong = {one["key"]: "123" for one in task["asked"] if not one["choices"]}
         hints = {mark["key"]: mark["hint"] for mark in marked_task(task["id"], wrong, "en")["marks"]}
-        assert "F' = 3(n - 1)" in hints["F_after"]
+        assert "F′ = 3(n − 1)" in hints["F_after"]
         assert not [hint for hint in hints.values() if "See the steps" in hint]
 
 
@@ -103,7 +104,7 @@ def test_every_exercise_of_the_text_has_figures_to_try_and_hints_by_the_likely_m
             if asked["choices"] and isinstance(mistake.value, bool):
                 said = "yes" if mistake.value else "no"
             (mark,) = marked_task(id, {asked["key"]: said}, "en")["marks"]
-            hints = [one.hint.in_language("en") for one in mistakes]
+            hints = [with_signs(one.hint.in_language("en")) for one in mistakes]
             assert mark["mark"] == "wrong", (asked["key"], said)
             assert mark["hint"] in hints, (asked["key"], said, mark["hint"])
 
@@ -163,7 +164,7 @@ def test_a_task_is_chosen_marked_mended_and_tried(exercises):
     begin(page, "grashof", 3)
     assert "a = 45 mm, b = 80 mm, c = 80 mm and d = 30 mm" in view.locator(".task").inner_text().replace("\xa0", " ")
     view.click('[data-act="mark"]')
-    assert "at least one answer" in view.locator(".message").inner_text()
+    assert "at least one answer" in view.locator("[data-result]").inner_text()
     view.locator('[data-answer="sum_ends"]').fill("110")
     view.locator('[data-answer="sum_others"]').fill("12,5 cm")
     view.locator('[data-answer="turns"] [data-value="yes"]').click()
@@ -288,6 +289,38 @@ def test_the_verdict_is_in_sight_and_read_out(exercises, width, height):
     view.locator('[data-answer="F"]').focus()  # what is typed into is not under the bar
     field, bar = (view.locator(part).bounding_box() for part in ('[data-answer="F"]', ".shown .go"))
     assert field["y"] + field["height"] <= bar["y"]
+
+
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (390, 844)])
+def test_that_an_answer_is_missing_is_said_beside_the_button_and_hides_nothing(exercises, width, height):
+    page = exercises(width=width, height=height, touch=width < 500)
+    begin(page, "mobility", 7)
+    page.page.click('[data-act="mark"]')
+    said = page.page.locator("[data-result]")
+    assert said.inner_text() == "Give at least one answer."
+    assert page.page.locator(".message").is_hidden()
+    box = said.bounding_box()
+    assert 0 < box["x"] < box["x"] + box["width"] <= width
+    assert box["y"] + box["height"] <= height
+    for act in ("mark", "next"):
+        button = page.page.locator(f'[data-act="{act}"]').bounding_box()
+        apart = button["x"] + button["width"] <= box["x"] or button["y"] + button["height"] <= box["y"]
+        assert apart or box["y"] + box["height"] <= button["y"]
+
+
+@pytest.mark.parametrize("lang", ["en", "de"])
+@pytest.mark.parametrize("id", ["velocity-2-1", "grashof-1-1", "dyad-1-1", "spherical-grashof-1-1", "differential-3-1"])
+def test_formulas_have_minus_signs_and_primes(id, lang):
+    """No hyphen before a quantity or between two, no quotation marks after one: -ω·a, l' + l''."""
+    task = task_record(id, lang)
+    wrong = marked_task(id, {each["key"]: (each["choices"] or ["12345"])[0] for each in task["asked"]}, lang)
+    texts = [task["task"], task["remark"], *(each["name"] for each in task["asked"])]
+    texts += [mark["hint"] for mark in wrong["marks"]]
+    for part in wrong["solution"]:
+        texts += [part["text"], part["formula"], *(cell for row in part["rows"] for cell in row)]
+    typed = re.compile(r"(?<![\w)])-|(?<= )-(?= )|(?<!\w)\w'(?!\w)|''")
+    assert not [text for text in texts if typed.search(text)]
+    assert any("−" in text or "′" in text for text in texts)
 
 
 def test_the_hint_is_in_sight(exercises):

@@ -18,6 +18,7 @@ from gruebler.teaching.exercises import Result, ascii_key, exercise, solve
 from gruebler.teaching.exercises.answers import units_for
 from gruebler.teaching.exercises.grading import FINE, NEARLY, NEARLY_RIGHT, common_mistakes
 from gruebler.teaching.exercises.solution import Value
+from gruebler.teaching.worksheets.blocks import with_signs
 
 TOLERANCES = {"fine": FINE, "nearly": NEARLY}
 """Relative differences of right and of nearly right answers."""
@@ -77,4 +78,4 @@ def _number_record(result: Result, known: Sequence[tuple[Value, Readable]], lang
 
 
 def _said(text: Readable, langs: Sequence[str]) -> dict[str, str]:
-    return {lang: text.in_language(lang) for lang in langs}
+    return {lang: with_signs(text.in_language(lang)) for lang in langs}

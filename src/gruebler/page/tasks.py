@@ -27,6 +27,7 @@ from gruebler.teaching.exercises import (
 from gruebler.teaching.exercises.dyads import CHANGES
 from gruebler.teaching.exercises.messages import answer_lines, cells_of_table, check_text, step_lines
 from gruebler.teaching.exercises.solution import TeachingTable
+from gruebler.teaching.worksheets.blocks import with_signs
 from gruebler.teaching.worksheets.exercise_figures import exercise_linkages
 from gruebler.teaching.worksheets.tasks import exercise_figure
 
@@ -63,15 +64,17 @@ def task_record(id: str, lang: str) -> dict[str, Any]:
     return {
         "id": task.id,
         "name": task.name.in_language(lang),
-        "task": task.task.in_language(lang),
-        "remark": task.remark.in_language(lang) if task.remark else "",
+        "task": with_signs(task.task.in_language(lang)),
+        "remark": with_signs(task.remark.in_language(lang)) if task.remark else "",
         "figures": _figures(task, lang),
         "tries": _tries(task, lang),
         "asked": [
             {
                 "key": ascii_key(result.key),
-                "name": result.name.in_language(lang),
-                "symbol": result.symbol if isinstance(result.value, int | float) and not _is_choice(result) else "",
+                "name": with_signs(result.name.in_language(lang)),
+                "symbol": with_signs(result.symbol)
+                if isinstance(result.value, int | float) and not _is_choice(result)
+                else "",
                 "unit": result.unit,
                 "choices": _choices(result, lang),
             }
@@ -134,7 +137,7 @@ def marked_task(id: str, answers: dict[str, str], lang: str) -> dict[str, Any]:
     >>> marked_task("dead-centre-1-7", {"H": "30", "l_a": "12"}, "en")["marks"][1]["hint"]
     'The formula is l_a = a + b.'
     >>> marked_task("mobility-1-3", {"F": "7"}, "en")["marks"][0]["hint"]
-    'The formula is F = 3(n - 1) - 2 g_1 - g_2.'
+    'The formula is F = 3(n − 1) − 2 g_1 − g_2.'
     """
     task = exercise(id)
     solution = solve(task)
@@ -149,11 +152,12 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
     >>> for part in solution_parts(task, solve(task), "en")[:2]:
     ...     print(part["text"], "|", part["formula"])
     1. Outer dead centre, crank and coupler stretched | l_a = a + b = 30 + 100 = 130 mm
-    2. Inner dead centre, crank and coupler overlapping | l_i = b - a = 100 - 30 = 70 mm
+    2. Inner dead centre, crank and coupler overlapping | l_i = b − a = 100 − 30 = 70 mm
     """
 
     def part(text: str, formula: str = "", *, heading: bool = False, rows: Sequence[list[str]] = ()) -> dict[str, Any]:
-        return {"text": text.strip(), "formula": formula.strip(), "heading": heading, "rows": list(rows)}
+        said, line = with_signs(text.strip()), with_signs(formula.strip())
+        return {"text": said, "formula": line, "heading": heading, "rows": [[*map(with_signs, row)] for row in rows]}
 
     parts = []
     count = 0
@@ -178,9 +182,9 @@ def _mark(task: Exercise, solution: Solution, key: str, given: str, lang: str) -
         graded = grade(task, {key: given})[0]
     except GrueblerError as error:
         said = error_in_language(error, lang)
-        return {"key": key, "mark": str(Mark.WRONG), "hint": said[:1].upper() + said[1:]}
+        return {"key": key, "mark": str(Mark.WRONG), "hint": with_signs(said[:1].upper() + said[1:])}
     hint = graded.hint or (way(task, solution, graded.result) if graded.mark is Mark.WRONG else None)
-    return {"key": key, "mark": str(graded.mark), "hint": hint.in_language(lang) if hint else ""}
+    return {"key": key, "mark": str(graded.mark), "hint": with_signs(hint.in_language(lang)) if hint else ""}
 
 
 def way(task: Exercise, solution: Solution, result: Result) -> Message:

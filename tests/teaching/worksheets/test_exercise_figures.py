@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from gruebler.mechanics.kinematics import move
+from gruebler.pictures.canvas.shapes import CircleShape, Polylines, TextShape
 from gruebler.teaching.exercises import exercise, solve
 from gruebler.teaching.sheets.page import PlacedPicture, TextLine
 from gruebler.teaching.worksheets.blocks import Document, Heading, Paragraph, Pictures, Rows
@@ -14,6 +15,48 @@ from gruebler.teaching.worksheets.files import document_bytes
 from gruebler.teaching.worksheets.paged import document_pages
 from gruebler.teaching.worksheets.solution_figures import solution_figures
 from gruebler.teaching.worksheets.tasks import exercise_figure, solution_document
+
+
+def points_of(shape):
+    if isinstance(shape, Polylines):
+        return [point for part in shape.parts for point in part]
+    return [shape.at] if isinstance(shape, TextShape | CircleShape) else []
+
+
+@pytest.mark.parametrize("id", ["grashof-1-1", "grashof-1-7", "dead-centre-3-1", "velocity-3-1"])
+def test_the_frame_is_a_line_between_its_pivots_with_its_letter(id):
+    """As long as d to the scale of crank a, which is drawn from pin to pin; its letter is nearest to it."""
+    given, figure = exercise(id).given, exercise_figure(exercise(id))
+    (line,) = [shape for shape in figure.shapes if isinstance(shape, Polylines) and shape.style == "measure"]
+    first, last = line.parts[0]
+    pins = [shape.at for shape in figure.shapes if isinstance(shape, CircleShape) and shape.style == "joint"]
+    assert all(any(pin.minus(end).length < 0.01 for pin in pins) for end in (first, last))
+    crank = float(given["a"]) / float(given["d"]) * last.minus(first).length
+    assert any(abs(pin.minus(first).length - crank) < 0.01 * crank for pin in pins)
+    (letter,) = [shape for shape in figure.shapes if isinstance(shape, TextShape) and shape.text == "d"]
+    assert min(first.x, last.x) < letter.at.x < max(first.x, last.x)
+    assert abs(letter.at.y - first.y) < 25
+
+
+@pytest.mark.parametrize("id", ["universal-joint-1-1", "universal-joint-2-2", "universal-joint-3-1"])
+@pytest.mark.parametrize("lang", ["en", "de"])
+def test_the_letters_of_a_universal_joint_stand_at_its_joints(id, lang):
+    """Two of the four floated where the axes of the cross leave the sphere, which is not drawn."""
+    shapes = exercise_figure(exercise(id), lang).shapes
+    letters = [shape for shape in shapes if isinstance(shape, TextShape)]
+    drawn = [point for shape in shapes if not isinstance(shape, TextShape) for point in points_of(shape)]
+    assert [shape.text for shape in letters] == ["D" if lang == "de" else "R"] * 4
+    assert all(min(point.minus(letter.at).length for point in drawn) < 25 for letter in letters)
+
+
+def test_the_frame_of_a_spherical_four_bar_is_an_arc_with_its_letter():
+    shapes = exercise_figure(exercise("spherical-grashof-3-1")).shapes
+    (arc,) = [shape for shape in shapes if isinstance(shape, Polylines) and shape.style == "measure"]
+    (letter,) = [shape for shape in shapes if isinstance(shape, TextShape) and shape.text == "d"]
+    (points,) = arc.parts
+    middle = points[len(points) // 2]
+    assert middle.minus(letter.at).length < 40
+
 
 WITH_PATHS = ["exercise-16", "exercise-17", "exercise-18", "exercise-19", "exercise-20", "example-3.5.4-lambda",
               "example-3.5.4-scott-russell"]  # fmt: skip

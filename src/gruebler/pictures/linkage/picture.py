@@ -110,7 +110,9 @@ def draw_linkage(
     context = LayerContext(posed, output, [*frame, *bodies, *pins], lang)
     layer_shapes = {key: layers[key].shapes(context) for key in layers if key in BELOW}
     below = [shape for shapes in layer_shapes.values() for shape in shapes]
+    ends = _ends_of_frame(posed, names) if labels else ()
     shapes = [
+        *((Polylines((ends,), "measure"),) if ends else ()),
         *frame,
         *(ghosts(posed, _count(ghost)) if ghost is not None else []),
         *(shape for shape in below if shape.style not in _MARKS),
@@ -169,13 +171,18 @@ def _named(
     """Names beside the bodies, and the entries of the list."""
     joint_slides = slides(posed)
     outlines = {link: _outline(posed, link, pieces, joint_slides) for link in posed.linkage.mechanism.chain.links}
+    if ends := _ends_of_frame(posed, names):
+        outlines[posed.lower.mechanism.frame] = ends
+    return labels_with_names(outlines, {link: len(outlines[link]) > 2 for link in outlines}, shapes, names)
+
+
+def _ends_of_frame(posed: PosedLinkage, names: Mapping[str, str] | None) -> tuple[Point, ...]:
+    """The two pivots between which the frame is a length with a letter, as a line that has it beside it; else none."""
     frame = posed.lower.mechanism.frame
     pins = dict.fromkeys(pins_of(posed.lower, frame))
-    if (
-        len((names or {}).get(frame, "").strip()) == 1 and len(pins) == 2
-    ):  # the letter of a length stands between its ends
-        outlines[frame] = _placed(posed, frame, [posed.local(pin) for pin in pins])
-    return labels_with_names(outlines, {link: len(outlines[link]) > 2 for link in outlines}, shapes, names)
+    if len((names or {}).get(frame, "").strip()) != 1 or len(pins) != 2:
+        return ()
+    return _placed(posed, frame, [posed.local(pin) for pin in pins])
 
 
 def _outline(

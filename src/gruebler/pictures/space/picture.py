@@ -103,4 +103,10 @@ def _with_names(
         for link, corners in scene.outlines.items()
         if len(corners) > 1
     }
-    return labels_or_numbers(outlines, {link: len(places) > 2 for link, places in outlines.items()}, shapes, names)
+    closed = {link: len(places) > 2 for link, places in outlines.items()}
+    frame, arc = scene.linkage.mechanism.frame, scene.frame_arc
+    if len(arc) and len((names or {}).get(frame, "")) == 1:  # the letter of a length stands beside it
+        line = points_on_paper(scene.placed(arc, _pose(scene, poses, frame)))
+        shapes = [Polylines((tuple(line),), "measure"), *shapes]
+        outlines[frame], closed[frame] = line[len(line) // 2 - 2 : len(line) // 2 + 3], False
+    return labels_or_numbers(outlines, closed, shapes, names)

@@ -53,7 +53,16 @@ class SpatialScene:
     outlines: Mapping[str, Reals]
     """The corners of each link, to which its name is put."""
     joints: Reals
-    """The places of the joints' symbols."""
+    """The places of the joints' symbols; of a cross those of an eye of each fork."""
+
+    @property
+    def frame_arc(self) -> Reals:
+        """On the sphere the places from one of two joints of the frame to the other; elsewhere none."""
+        mechanism = self.linkage.mechanism
+        held = [k for k, joint in enumerate(mechanism.chain.joints) if mechanism.frame in joint.links]
+        if mechanism.chain.space is not Space.SPHERICAL or len(held) != 2:
+            return np.zeros((0, 3))
+        return _arc(*self.joints[held])
 
     def placed(self, places: Reals, pose: Reals) -> Reals:
         """Places of a link on paper, after its rigid motion (4, 4) since the reference pose."""
@@ -158,7 +167,9 @@ def scene_of(linkage: SpatialLinkage, view: View, poses: Reals | None = None) ->
         lines=tuple(lines),
         outlines=outlines,
         solids=tuple(solids),
-        joints=np.array([joint.at for joint in joints]),
+        joints=np.array(
+            [symbols[k].parts[-1].points.mean(axis=0) if k in held else joint.at for k, joint in enumerate(joints)]
+        ),
     )
 
 

@@ -117,6 +117,7 @@ class Document:
 
 _NUMBERED = re.compile(r"(?<![\w=])([^\W\d_])([0-9])(?:_(\w)(?!\w))?(?![\w])")
 _PIVOTS = re.compile(r"(?<!\w)(?=[A-Z0]*[A-Z]0)(?:[A-Z]0?){2,}(?!\w)")
+_PRIMES = re.compile(r"(?<=(?<!\w)[^\W\d_])'{1,2}(?!\w)")
 _MINUS = re.compile(r"(?<=\s)-(?=\s)|(?<![\w)\]…-])-(?=[\d(√∞])|(?:(?<=\()|(?<==\s)|(?<=;\s))-(?=[^\W\d_])")
 
 
@@ -135,6 +136,15 @@ def typeset(text: str) -> str:
 
     text = _PIVOTS.sub(lambda match: match[0].replace("0", "₀"), text)
     return _MINUS.sub("−", _NUMBERED.sub(index, text))
+
+
+def with_signs(text: str) -> str:
+    """What is a minus becomes one, and quotation marks after a letter alone become primes.
+
+    >>> with_signs("s2 = l' + l'' = -ω·a, Grashof's 3(n - 1)")
+    "s2 = l′ + l″ = −ω·a, Grashof's 3(n − 1)"
+    """
+    return _PRIMES.sub(lambda match: "′″"[len(match[0]) - 1], _MINUS.sub("−", text))
 
 
 def _typeset_block(block: Block) -> Block:
