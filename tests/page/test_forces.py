@@ -644,3 +644,21 @@ def test_loads_are_drawn_where_they_act_and_go_with_the_point(tab, server):
     tab_.until(f"{LOADS}.includes('coupler:')")
     tab_.until(f"{ROOT}.querySelector('#force-load-0').selectedOptions[0].textContent.startsWith('coupler:')", 60)
     assert page.locator("#force-y-0").input_value() == "\N{MINUS SIGN}100"
+
+
+def test_the_law_of_a_load_stands_below_its_row(tab, tmp_path):
+    """As wide as all columns: in one of them it would take their room from the labels."""
+    from tests.page.conftest import Server
+
+    running = Server(tmp_path, "vcomp")
+    try:
+        page = tab().open(running.address).page
+        page.locator(f"{PANEL} summary").first.click()
+        page.locator(f"{PANEL} .words summary").first.click()
+        law = page.locator(f"{PANEL} .rows .note").first
+        law.wait_for()
+        assert law.inner_text() == "changes by a formula of velocity, place"
+        rows = page.locator(f"{PANEL} .words .rows").bounding_box()
+        assert law.bounding_box()["width"] == pytest.approx(rows["width"], abs=1)
+    finally:
+        running.kill()
