@@ -27,10 +27,10 @@ def test_gears_in_words(capsys):
 
 
 def test_gears_of_a_machine_of_the_catalog(capsys):
-    """Willis with suns of 30 and -60: sun1 + 2 sun2 = 3 carrier, as the entry's wheels have it."""
-    status, out, _ = run(capsys, "gears", "diff; sun1=90; sun2=30")
+    """Willis with a sun of 30 and a ring gear of 60: sun + 2 ring_gear = 3 carrier, as the entry's wheels have it."""
+    status, out, _ = run(capsys, "gears", "diff; sun=90; ring_gear=30")
     assert status == 0
-    assert "Speeds: sun1 - 3 carrier + 2 sun2 = 0" in out
+    assert "Speeds: sun - 3 carrier + 2 ring_gear = 0" in out
     assert re.search(r"^carrier +50$", out, re.MULTILINE)
     assert run(capsys, "gears", "cam")[0] == 2
     assert "Speeds: sun1 - 2 carrier + sun2 = 0" in run(capsys, "gears", "diff_bevel")[1]  # Willis, equal suns

@@ -281,7 +281,7 @@ def test_a_ring_is_filled_between_its_lines(tab, single_file):
     page.page.evaluate("(model) => gruebler.open(model)", model_of(entries()["diff"].linkage()))
     filled = page.page.evaluate(
         """() => {
-        const ring = gruebler.root.querySelector('.stage [data-link="sun2"] .shape.area');
+        const ring = gruebler.root.querySelector('.stage [data-link="ring_gear"] .shape.area');
         const { x, y, width, height } = ring.getBBox();
         // radii 60 and 62.08: the rim is 1.7 % of the width
         const at = (part) => ring.isPointInFill(new DOMPoint(x + part * width, y + height / 2));

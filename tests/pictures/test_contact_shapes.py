@@ -92,9 +92,9 @@ def test_coaxial_wheels_have_one_bearing_and_one_size_each():
         link: {round(w.radius, 6) for (_, owner), w in placed.wheels.items() if owner == link} for link in placed.bare
     }
     assert {link: len(radii) for link, radii in sizes.items() if radii} == dict.fromkeys(
-        ("sun1", "sun2", "planet1", "planet2"), 1
+        ("sun", "ring_gear", "planet1", "planet2"), 1
     )
-    centres = {w.centre for (_, owner), w in placed.wheels.items() if owner.startswith("sun")}
+    centres = {w.centre for (_, owner), w in placed.wheels.items() if owner in ("sun", "ring_gear")}
     assert len(centres) == 1
     assert {placed.joints[k] for k, joint in enumerate(placed.chain.joints) if "frame" in joint.links} == centres
 

@@ -45,7 +45,7 @@ def test_pitch_circles_touch(name, one, two):
 
 
 def test_a_ring_is_hollow_and_holds_its_planet():
-    (rings,) = (shape for link, _, shape, _ in placed("diff") if link == "sun2")
+    (rings,) = (shape for link, _, shape, _ in placed("diff") if link == "ring_gear")
     outer, inner = (abs(ring).max() for ring in rings)
     planet, radius = circles("diff")["planet"]
     assert inner == pytest.approx(60, rel=1e-9)

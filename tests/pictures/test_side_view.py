@@ -95,9 +95,9 @@ def test_what_is_no_train_is_refused(text, words):
 def test_bearings_of_one_axis_are_drawn_as_one():
     """Central wheels and carrier in bearings of their own: the distances of the wheels make these coaxial."""
     for id, together in (
-        ("diff", "R(frame-sun1-sun2-carrier) R(carrier-planet) G(sun1-planet) G(sun2-planet)"),
-        ("diff2p", "R(frame-sun1-sun2-carrier) R(carrier-planet1) R(carrier-planet2) G(sun1-planet1) G(sun2-planet1) "
-         "G(sun1-planet2) G(sun2-planet2)"),
+        ("diff", "R(frame-sun-ring_gear-carrier) R(carrier-planet) G(sun-planet) G(ring_gear-planet)"),
+        ("diff2p", "R(frame-sun-ring_gear-carrier) R(carrier-planet1) R(carrier-planet2) G(sun-planet1) "
+         "G(ring_gear-planet1) G(sun-planet2) G(ring_gear-planet2)"),
     ):  # fmt: skip
         apart = draw_side_view(Mechanism(entries()[id].chain(), "frame"))
         assert len(lines(apart, "pitch")) == 1 + together.count("(carrier-")

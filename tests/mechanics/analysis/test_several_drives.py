@@ -29,8 +29,8 @@ def test_a_differential_by_willis(name: str) -> None:
     """30 teeth outside, 60 inside: (ω1 - ωs) / (ω2 - ωs) = -60/30, so that 3 ωs = ω1 + 2 ω2."""
     linkage = entry(name).linkage()
     assert speed_relation(cached_plan(linkage), find_output(linkage)) == pytest.approx((1 / 3, 2 / 3), abs=1e-12)
-    assert "ω(carrier) = 0.3333 ω(sun 1) + 0.6667 ω(sun 2)." in told(name, "en")
-    assert "ω(Steg) = 0,3333 ω(Sonnenrad 1) + 0,6667 ω(Sonnenrad 2)." in told(name, "de")
+    assert "ω(carrier) = 0.3333 ω(sun) + 0.6667 ω(ring gear)." in told(name, "en")
+    assert "ω(Steg) = 0,3333 ω(Sonnenrad) + 0,6667 ω(Hohlrad)." in told(name, "de")
 
 
 def test_angles_of_an_arm_add() -> None:
@@ -90,7 +90,7 @@ def test_the_stroke_of_a_valve_with_the_reverser_held() -> None:
 
 def test_sizes_without_a_field_are_told() -> None:
     """Teeth of wheels, radii and law of a cam; the foot of Jansen's leg has sides of 49 and 65.7 (Jansen's numbers)."""
-    assert "sun 1 [mm]: pitch radius 30, teeth 30." in told("diff", "en")
+    assert "sun [mm]: pitch radius 30, teeth 30." in told("diff", "en")
     assert "Rolle [mm]: Radius 10." in told("cam_roller", "de")
     assert "F [cm]: 49 to lower rod – rocker, 65.7 to link." in told("jansen", "en")
 
