@@ -374,11 +374,8 @@ def test_gears_of_the_catalog_turn_as_their_teeth_say():
 @pytest.mark.filterwarnings("ignore::gruebler.base.errors.UnitWarning")  # rows far apart
 def test_cams_and_the_geneva_drive_of_the_catalog():
     valve, tappet = moved("cam", [0, 75, 150, 360]), moved("cam_roller", [0, 90, 150, 360])
-    assert valve.displacement("P(frame-valve)") - valve.displacement("P(frame-valve)")[0] == pytest.approx(
-        [0, 8, 0, 0], abs=1e-12
-    )
-    lift = tappet.displacement("P(frame-tappet)")
-    assert lift - lift[0] == pytest.approx([0, 20, 20, 0], abs=1e-11)
+    assert valve.displacement("P(frame-valve)") == pytest.approx([0, 8, 0, 0], abs=1e-12)
+    assert tappet.displacement("P(frame-tappet)") == pytest.approx([0, 20, 20, 0], abs=1e-11)  # from the low dwell on
     cross = moved("geneva", [0, 45, 180, 360]).angle("cross")
     assert cross - cross[0] == pytest.approx([0, -np.pi / 4, -np.pi / 4, -np.pi / 2], abs=1e-13)
 
