@@ -48,7 +48,7 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty()
     }),
     ...(picture
       ? [
-          rowsTable(frame, t("Picture"), ["x", "y", t("Width"), "φ [°]"], true, framed),
+          rowsTable(frame, t("Picture"), ["x", "y", t("Width"), "φ [°]"], true, framed, () => ""),
           option(t("Keep it in the document"), !!keeps, (on) => view.change({ ...drawing, keeps: on }), "keeps"),
         ]
       : []),

@@ -546,12 +546,14 @@ def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
     view.locator(".drawing").screenshot(path=tmp_path / "sketch.png")
     view.locator("input[accept]").set_input_files(tmp_path / "sketch.png")
     view.locator('[data-field="keeps"]').check()
-    angle = view.locator('[aria-label="Picture 1 φ [°]"]')
+    angle = view.locator('[aria-label="Picture φ [°]"]')
     angle.fill("30")
     angle.press("Enter")
     ends = view.locator("td input").evaluate_all("all => all.map(field => field.getBoundingClientRect().right)")
     assert max(ends) < view.viewport_size["width"]  # the fields stay within the panel
     assert "rotate(-30)" in view.locator(".drawing .backdrop").get_attribute("transform")
+    for field in view.locator('input[aria-label^="Picture"]').all():  # a number is seen whole
+        assert field.evaluate("(one) => one.scrollWidth <= one.clientWidth")
     left, top, wide, turned = view.evaluate("gruebler.views.build.drawing.picture.at")
     screen = "gruebler.views.build.viewport.screen"
     spot = view.evaluate(f"{screen}({left} + 20, {top} - 30)")  # on the picture, beside all else
@@ -567,8 +569,8 @@ def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
     plane.drag(plane.middle('[data-grip="size"]'), (-20, -10))
     assert view.evaluate("gruebler.views.build.drawing.picture.at[2]") < wide
     view.screenshot(path=tmp_path / "grips.png")
-    view.locator('[aria-label="Picture 1 φ [°]"]').fill("30")
-    view.locator('[aria-label="Picture 1 φ [°]"]').press("Enter")
+    view.locator('[aria-label="Picture φ [°]"]').fill("30")
+    view.locator('[aria-label="Picture φ [°]"]').press("Enter")
     view.locator('[data-act="move"]').click()
     plane.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.drives[0]?.name === 'P(2-3)'")
     assert view.evaluate("gruebler.motion.linkage.drive.turning") is False
