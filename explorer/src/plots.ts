@@ -63,9 +63,7 @@ export class Plots {
     const note = record?.note[currentLanguage()];
     if (record) {
       const name = linkage.linkName(record.link);
-      this.#still.textContent = isAngle(linkage)
-        ? t("Output {name} does not turn.", { name })
-        : t("Output {name} does not move.", { name });
+      this.#still.textContent = t("Output {name} is constant.", { name });
     }
     const tool = (sign: Icon, text: string, factor: number) =>
       h(
