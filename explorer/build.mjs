@@ -197,7 +197,7 @@ function arrowed(code) {
  * `this` become arrows. */
 const SMALLER = {
   module: true,
-  compress: { ecma: 2020, passes: 6, unsafe_arrows: true },
+  compress: { ecma: 2020, passes: 6, pure_getters: true, unsafe_arrows: true },
 };
 
 const { outputFiles } = await build({
