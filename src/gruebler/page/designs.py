@@ -172,11 +172,11 @@ def design_records(
         progress(translate("Drawing design {number} of {total}", lang, number=number, total=len(designs)))
         items.append(_record(design, task, lang))
     _mark_variants(items)
-    told = {
+    texts = {
         "note": [*left, *notes(result, items, len(designs))],
         "words": words(result, items, relative, space),
     }
-    said = {key: "\n".join(text.in_language(lang) for text in some) for key, some in told.items()}
+    said = {key: "\n".join(text.in_language(lang) for text in some) for key, some in texts.items()}
     return {"total": len(designs), "relative": relative, "less": less is not None, "items": items} | said
 
 
@@ -191,9 +191,9 @@ def _with_smaller_angle(task: Task, demands: Demands) -> SynthesisResult | None:
         return None
     for part in _LESS:
         less = replace(demands, transmission=part * demands.transmission)
-        found = synthesise(task, demands=less, sort=("transmission",))
-        if found.designs:
-            return replace(found, designs=found.designs[:_NEAREST])
+        result = synthesise(task, demands=less, sort=("transmission",))
+        if result.designs:
+            return replace(result, designs=result.designs[:_NEAREST])
     return None
 
 
