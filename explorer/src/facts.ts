@@ -3,7 +3,7 @@
 import { DEGREE, TURN, wrapped } from "./cycle";
 import { angle, number, t } from "./language";
 import type { Linkage } from "./linkage";
-import { type DeadCentre, isAngle, type Least, output, transmission } from "./measures";
+import { type DeadCentre, isAngle, type Least, output, stillRate, transmission } from "./measures";
 import { readingsOf } from "./rulers";
 import { driveText } from "./track";
 import { placeOf, rateUnit, transferName } from "./wording";
@@ -37,24 +37,24 @@ export function factsOf(
   const facts: Fact[] = [];
   const record = model.outputs[0];
   const turning = isAngle(linkage);
-  const length = (value: number) => `${number(value)} ${model.unit}`;
-  const size = (value: number) => (turning ? angle(value) : length(value));
+  const size = (value: number) => (turning ? angle(value) : `${number(value, 4)} ${model.unit}`);
   if (record) {
     const value = output(linkage, pose, 0);
     const text = size(turning ? inLap(value) : value);
     facts.push({ name: t("Output {name}", { name: linkage.linkName(record.link) }), text });
+    const rate = output(linkage, pose, 0, 1);
     facts.push({
       name: transferName(linkage, 1),
-      text: number(travel === 0 ? 0 : Math.round(1e12 * output(linkage, pose, 0, 1)) / 1e12),
+      text: number(travel === 0 || Math.abs(rate) < stillRate(linkage) ? 0 : rate, 4),
       note: rateUnit(linkage, 1),
     });
     const [one, two] = dead;
-    if (shift) facts.push({ name: t("Travel of its points"), text: length(shift) });
+    if (shift) facts.push({ name: t("Travel of its points"), text: `${number(shift, 4)} ${model.unit}` });
     else if (travel !== null) facts.push({ name: turning ? t("Swing") : t("Stroke"), text: size(travel) });
     if (one && two && dead.length === 2 && cycle.full) {
       const part = Math.abs(wrapped(cycle, one.value) - wrapped(cycle, two.value));
       const rest = cycle.turns * TURN - part;
-      facts.push({ name: t("Time ratio"), text: number(Math.max(part, rest) / Math.min(part, rest)) });
+      facts.push({ name: t("Time ratio"), text: number(Math.max(part, rest) / Math.min(part, rest), 4) });
     }
   }
   const mu = transmission(linkage, pose, 0);
@@ -86,5 +86,6 @@ export function factsOf(
     const name = t("Range of the drive") + (model.drives[1] ? ` ${linkage.jointName(drive.name)}` : "");
     facts.push({ name, text: here && cycle.full ? full : part });
   }
-  return [...facts, ...readingsOf(linkage)];
+  for (const { name, text } of readingsOf(linkage)) facts.push({ name, text });
+  return facts;
 }

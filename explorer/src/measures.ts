@@ -66,6 +66,12 @@ export function output({ model, sizes }: Linkage, rows: Rows, row: number, order
   return along(gap(2)) + 2 * w * across(first) + al * across(zeroth) - w * w * along(zeroth);
 }
 
+/** The rate below which the output does not move: what is less is rounding. */
+export function stillRate(linkage: Linkage): number {
+  const { drive, size } = linkage;
+  return (STILL * (isAngle(linkage) ? 1 : size)) / (drive?.turning ? 1 : size);
+}
+
 /** The output, or a derivative by the drive, at rows of the cycle that follow one another. An angle has no jumps, and
  * lies between -180° and 180° where the cycle was found, as the library measures it from a reference pose. */
 export function outputAlong(linkage: Linkage, rows: readonly number[]): Float64Array {
@@ -187,9 +193,7 @@ export function deadCentres(linkage: Linkage): DeadCentre[] {
   const speeds = every.map((row) => output(linkage, linkage.cycle.rows, row, 1));
   const usual = Math.max(0, ...speeds.map((v) => (Number.isFinite(v) ? Math.abs(v) : 0)));
   const out: DeadCentre[] = [];
-  const { drive, size } = linkage;
-  const natural = (isAngle(linkage) ? 1 : size) / (drive?.turning ? 1 : size);
-  if (!(usual > STILL * natural)) return out;
+  if (!(usual > stillRate(linkage))) return out;
   const still = 1e-9 * usual;
   const outputs = outputAlong(linkage, every);
   let last = -1;

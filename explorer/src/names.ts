@@ -10,7 +10,6 @@ const ALONE = 24; // pixels from the only joint of a body, such as a block, to i
 const GROUND = 22; // the height of a ground, but for where a name is near its bar
 const INK = 6; // half the height of a name, in pixels
 const GOOD = 300; // of a place at which nothing is wrong
-const LEAST = -20; // of a place where a name still tells its body
 const ROOM = 15; // pixels between a name in a body and the lines between its joints
 
 export interface NamePlace {
@@ -89,7 +88,7 @@ export function nameSpots(viewport: Viewport, { at, away, along = [0, 0], bar }:
 
 /** Which of its spots a name takes, so that it is nearer to its own body than to any other and touches no other name:
  * the one before if it still does, else the first that does, also clear of grounds if it can, else the one that is
- * least wrong; the complement of that, ~spot, where it would be taken for the name of another body. */
+ * least wrong. */
 export function clearSpot(
   spots: readonly Pair[],
   name: string,
@@ -115,6 +114,5 @@ export function clearSpot(
   if (spots[before] && score(spots[before]) === GOOD) return before;
   const scores = spots.map(score);
   const most = Math.max(...scores);
-  const best = most < GOOD && scores[before]! > most - INK ? before : scores.indexOf(most);
-  return most < LEAST ? ~best : best;
+  return most < GOOD && scores[before]! > most - INK ? before : scores.indexOf(most);
 }

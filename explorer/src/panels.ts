@@ -118,11 +118,13 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
       const right = wanted >= 0 && wanted < LONGEST;
       const here = editor.dragging.lengths().find((one) => one.first === first && one.second === second)!;
       const at = (part: number) => here.value + part * (wanted - here.value);
-      const told = (part: number) => `${name} ${number(at(part))} ${unit}`;
+      const told = (part: number) => `${name} ${number(at(part), 4)} ${unit}`;
       if (right) editor.attempt((part = 1) => editor.dragging.setLength(first, second, at(part)), told);
       input.setAttribute("aria-invalid", String(!right));
       if (right) return;
-      editor.page.say(t("Expected a length of at least 0 and below 10⁹, such as {value}.", { value: number(value) }));
+      editor.page.say(
+        t("Expected a length of at least 0 and below 10⁹, such as {value}.", { value: number(value, 4) }),
+      );
     },
     onkeydown: (event: KeyboardEvent) => event.stopPropagation(),
   });

@@ -63,7 +63,9 @@ export class Plots {
     const note = record?.note[currentLanguage()];
     if (record) {
       const name = linkage.linkName(record.link);
-      this.#still.textContent = t("Output {name} is constant.", { name });
+      this.#still.textContent = isAngle(linkage)
+        ? t("Output {name} does not turn.", { name })
+        : t("Output {name} does not move.", { name });
     }
     const tool = (sign: Icon, text: string, factor: number) =>
       h(

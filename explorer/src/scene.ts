@@ -239,12 +239,11 @@ export class Scene {
       grounds.push([-RING, RING].map((d): Pair => [u + d, v]));
     }
     const { height, width } = viewport;
-    const low = viewport.row || height < 2 * TOOLS ? 72 : TOOLS; // a low picture has one button only
-    const beside = viewport.row ? 4 * BESIDE : BESIDE;
+    const low = height < 2 * TOOLS ? 72 : TOOLS; // a low picture has one button only
     const buttons: Pair[] = [
       [width, 60],
-      [width + 2 - beside, 60],
-      [width + 2 - beside, 0],
+      [width - 54, 60],
+      [width - 54, 0],
     ];
     const [c, s] = turn(pose, 0, model.frame);
     const [ox, oy] = viewport.screen(...origin(pose, 0, model.frame));
@@ -263,9 +262,8 @@ export class Scene {
           (other) => half + other.half + 4 > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01,
         );
       const clear = (of: Pair[][]) => (at: Pair) => !touching(at) && of.every((one) => clearOf(one, half, at));
-      const seen = ([u, v]: Pair) => u > half + RULE && u + half < width - (v < low ? beside : 0);
+      const seen = ([u, v]: Pair) => u > half + RULE && u + half < width - (v < low ? BESIDE : 0);
       const free = clear(hulls[k]!.length ? arrows : drawn);
-      let lost: boolean | undefined;
       if (hulls[k]!.length) {
         // of a plate upon which it lies only the edges are others
         const mine = middleOf(hulls[k]!);
@@ -273,24 +271,26 @@ export class Scene {
           if (other === k) return [];
           return toHull(one, ...mine) ? [one] : sidesOf(one);
         });
-        const on = (at: Pair) => seen(at) && clear(grounds)(at);
-        const spot = clearSpot(places, name, [hulls[k]!, others], free, label.taken, on);
-        label.taken = Math.max(spot, ~spot);
-        lost = spot < 0 && (label.many || !free(places[~spot]!)); // a wheel or a block is larger than its joint
+        label.taken = clearSpot(
+          places,
+          name,
+          [hulls[k]!, others],
+          free,
+          label.taken,
+          (at) => seen(at) && clear(grounds)(at),
+        );
       } else if (label.taken >= NEAR || !free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
       const [left, top] = places[label.taken]!;
       const x = Math.max(half + 2, Math.min(width - half - 2, left)); // it is not cut
       let y = top;
       const way = y < (touching([x, y])?.y ?? 0) ? -1 : 1;
-      for (let other = touching([x, y]); other && !lost; other = touching([x, y])) y = other.y + way * LINE;
-      move(element, [x, y]);
-      put(element, { display: lost ? "none" : "" });
-      if (lost) continue;
+      for (let other = touching([x, y]); other; other = touching([x, y])) y = other.y + way * LINE;
       taken.push({ x, y, half });
       drawn.push([
         [x - half, y - 4],
         [x + half, y - 4],
       ]);
+      move(element, [x, y]);
     }
     kinds.forEach((all, k) => {
       put(this.#arrows[k]!, { d: all.map((one) => arrow(...one)).join("") });

@@ -6,7 +6,7 @@ import { FactList, InWords } from "./factlist";
 import { type Found, factsOf } from "./facts";
 import { Forces, type Loaded } from "./forces";
 import { t } from "./language";
-import { deadCentres, leastTransmission, shiftOf, travelOf } from "./measures";
+import { deadCentres, isAngle, leastTransmission, shiftOf, travelOf } from "./measures";
 import { type Editor, modesPanel, optionsPanel, pointsPanel, rulersPanel, SizeRows } from "./panels";
 import { Plots } from "./plots";
 import { panelOf } from "./shell";
@@ -117,7 +117,8 @@ export class Side {
     const { linkage } = this.view;
     const dead = deadCentres(linkage);
     const travel = travelOf(linkage, dead);
-    this.found = { ...this.found, dead, travel, shift: travel === 0 ? shiftOf(linkage) : 0 };
+    const shift = travel === 0 && isAngle(linkage) ? shiftOf(linkage) : 0;
+    this.found = { ...this.found, dead, travel, shift };
   }
 
   #findLeast(): void {

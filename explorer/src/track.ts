@@ -79,7 +79,11 @@ export class Track {
     const mark = (value: number, style: string, d: string, title: string) => {
       const here = wrap(value);
       if (here < this.#from || here > this.#to) return;
-      const group = svg("svg", { x: x(here) }, svg("path", { class: style, d }, svg("title", {}, title)));
+      const group = svg(
+        "svg",
+        { x: x(here), y: 0, overflow: "visible" },
+        svg("path", { class: style, d }, svg("title", {}, title)),
+      );
       parts.push(group);
     };
     this.#textOf = (value) => driveText({ drive: { turning }, model: { unit } }, value);
@@ -94,7 +98,7 @@ export class Track {
         t("Smallest transmission angle at {value}", { value: shown(least) }),
       );
     const label = (value: number, anchor: string, told = value) => {
-      const text = svg("text", { x: x(value), y: 43, "text-anchor": anchor }, turning ? angle(told) : number(told));
+      const text = svg("text", { x: x(value), y: 43, "text-anchor": anchor }, turning ? angle(told) : number(told, 4));
       parts.push(text);
     };
     const end = (value: number) => (Math.abs(value) < 1e-6 * (high - low) ? 0 : value); // but for rounding

@@ -40,11 +40,6 @@ export class Viewport {
   #ox = 0;
   #oy = 0;
 
-  /** Whether the buttons over the picture stand in a row, as on a phone; a low picture has one only. */
-  get row(): boolean {
-    return this.width <= 520 && this.height > 300;
-  }
-
   /** The pixel of a place. */
   screen(x: number, y: number): Pair {
     return [this.#ox + this.scale * x, this.#oy - this.scale * y];
@@ -57,16 +52,16 @@ export class Viewport {
 
   /** Show a rectangle, or at least a square of that width; what lies below, so many pixels high, is left out. */
   fit({ left, right, bottom, top }: Box, least: number, below?: number): void {
-    const narrow = this.width <= 520;
+    const narrow = this.width < 500;
     const margin = narrow ? 34 : this.margin;
-    const head = this.row ? 44 : 0; // those above
+    const keys = narrow ? 56 : 0; // the buttons on the right
     const rule = narrow ? 22 : 0; // the numbers on the left
     const foot = below ?? (narrow ? margin : 0); // what can be done, in two lines
     const wide = Math.max(right - left, least);
     const high = Math.max(top - bottom, least);
-    this.scale = Math.min((this.width - 2 * margin - rule) / wide, (this.height - 2 * margin - foot - head) / high);
-    this.#ox = (this.width + rule) / 2 - (this.scale * (left + right)) / 2;
-    this.#oy = (this.height - foot + head) / 2 + (this.scale * (bottom + top)) / 2;
+    this.scale = Math.min((this.width - 2 * margin - keys - rule) / wide, (this.height - 2 * margin - foot) / high);
+    this.#ox = (this.width - keys + rule) / 2 - (this.scale * (left + right)) / 2;
+    this.#oy = (this.height - foot) / 2 + (this.scale * (bottom + top)) / 2;
     this.fitted = true;
   }
 

@@ -25,6 +25,7 @@ import { type Drawn, Painter } from "./painter";
 
 const ARM = 26; // pixels of the axes in the corner
 const ROOM = 16; // pixels around the machine
+const BUTTONS = 56; // pixels
 const MOST_ROOM = 0.3; // of the picture
 const STEEP = 1.5; // radians: no farther up or down
 
@@ -161,7 +162,7 @@ export class Scene {
     const told = this.#hint.offsetHeight + ROOM;
     const [left, top, bottom] = [across(ROOM), down(ROOM), down(told)];
     return [
-      { left, right: Math.min((this.#tools.offsetWidth + 2 * ROOM) / Math.max(clientWidth, 1), 0.5), top, bottom },
+      { left, right: across(BUTTONS + ROOM), top, bottom },
       // as high as fingers need them
       {
         left,
