@@ -12,6 +12,7 @@ import { armOf, markSize, numberOf } from "./targets";
 import type { Viewport } from "./viewport";
 
 const DASHES = [6, 4];
+const FONT = "12px system-ui, sans-serif";
 const GHOST = 0.3; // how much is seen of the curves of other assembly modes; half of it while they may be old
 const FARTHEST = 1e5; // pixels: what is farther off is not drawn
 
@@ -77,7 +78,7 @@ export class Painter {
     const { pen, viewport } = this;
     pen.strokeStyle = pen.fillStyle = this.colour("--purple");
     pen.lineWidth = 2;
-    pen.font = "12px system-ui, sans-serif";
+    pen.font = FONT;
     pen.textAlign = "center";
     const ring = markSize(targets, 6, 1 / viewport.scale);
     const arm = armOf(targets, 26, 1 / viewport.scale);
@@ -125,6 +126,7 @@ export class Painter {
   #paintHodographs(linkage: Linkage): void {
     const { pen, viewport } = this;
     const { points } = linkage.sizes;
+    if (!points.length) return;
     const { rows, values } = linkage.cycle;
     const velocity = (point: PointRecord, row: number) => place(rows, row, point.link, ...point.at, 1);
     const reach = 0.16 * Math.min(viewport.width, viewport.height);
@@ -139,8 +141,13 @@ export class Painter {
       this.#trace(values.length, ownColour(k), 1.4, (row) => end(velocity(point, row)));
       pen.beginPath();
       pen.moveTo(x, y);
-      pen.lineTo(...end(place(linkage.pose, 0, point.link, ...point.at, 1)));
+      const tip = end(place(linkage.pose, 0, point.link, ...point.at, 1));
+      pen.lineTo(...tip);
       pen.stroke();
+      pen.fillStyle = pen.strokeStyle;
+      pen.font = FONT;
+      pen.textAlign = "center";
+      pen.fillText(`v(${linkage.pointName(point.name)})`, tip[0], tip[1] - 8);
     });
     pen.fillStyle = this.colour("--ink");
     pen.beginPath();

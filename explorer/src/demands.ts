@@ -30,10 +30,7 @@ export class Demands {
       max: 90,
       value: this.#least,
       "data-field": "least",
-      onchange: () => {
-        this.#least = Math.min(90, Math.max(0, +least.value));
-        least.value = `${this.#least}`;
-      },
+      onchange: () => (this.#least = +limited(least, 90)),
     });
     const reach = h("input", {
       type: "number",
@@ -42,7 +39,7 @@ export class Demands {
       placeholder: String(curve || "∞"),
       "data-field": "reach",
       onchange: () => {
-        this.#reach = reach.value = reach.value && `${Math.min(1e9, Math.max(0, +reach.value))}`;
+        this.#reach = reach.value && limited(reach, 1e9);
         changed();
       },
     });
@@ -76,10 +73,16 @@ export class Demands {
   asked(places: boolean, curve: number) {
     const ranks = places ? (this.order.match(/[^\s,;]+/g) ?? []) : [];
     return {
-      reach: (places && (+this.#reach || curve)) || null,
+      reach: places ? +(this.#reach || curve || NaN) : null,
       order: ranks.map((rank) => (/\d/.test(rank) ? +rank : null)),
       crank: this.#crank,
       transmission: this.#least,
     };
   }
+}
+
+/** What stands in a field, put between zero and a limit. */
+function limited(field: HTMLInputElement, most: number): string {
+  field.value = `${Math.min(most, Math.max(0, +field.value))}`;
+  return field.value;
 }

@@ -266,7 +266,7 @@ export class DesignCards {
     const extra: [string, string][] = [];
     if (point)
       extra.push([t("point along, left"), point.map((one) => this.#length(design, one)).join("\u00a0|\u00a0")]);
-    if (pairs) extra.push([t("first pair at"), pairs[0]!.map((one) => angle(one * DEGREE, 4)).join("\u00a0|\u00a0")]);
+    if (pairs) extra.push([t("first pair at"), pairs[0]!.map((one) => angle(one * DEGREE)).join("\u00a0|\u00a0")]);
     let touched = false; // by a finger, which only chooses it
     const play = () => {
       this.mark(design, card);

@@ -37,7 +37,7 @@ export function factsOf(
   const facts: Fact[] = [];
   const record = model.outputs[0];
   const turning = isAngle(linkage);
-  const size = (value: number) => (turning ? angle(value) : `${number(value, 4)} ${model.unit}`);
+  const size = (value: number) => (turning ? angle(value) : `${number(value)} ${model.unit}`);
   if (record) {
     const value = output(linkage, pose, 0);
     const text = size(turning ? inLap(value) : value);
@@ -45,23 +45,23 @@ export function factsOf(
     const rate = output(linkage, pose, 0, 1);
     facts.push({
       name: transferName(linkage, 1),
-      text: number(travel === 0 || Math.abs(rate) < stillRate(linkage) ? 0 : rate, 4),
+      text: number(travel === 0 || Math.abs(rate) < stillRate(linkage) ? 0 : rate),
       note: rateUnit(linkage, 1),
     });
     const [one, two] = dead;
-    if (shift) facts.push({ name: t("Travel of its points"), text: `${number(shift, 4)} ${model.unit}` });
+    if (shift) facts.push({ name: t("Travel of its points"), text: `${number(shift)} ${model.unit}` });
     else if (travel !== null) facts.push({ name: turning ? t("Swing") : t("Stroke"), text: size(travel) });
     if (one && two && dead.length === 2 && cycle.full) {
       const part = Math.abs(wrapped(cycle, one.value) - wrapped(cycle, two.value));
       const rest = cycle.turns * TURN - part;
-      facts.push({ name: t("Time ratio"), text: number(Math.max(part, rest) / Math.min(part, rest), 4) });
+      facts.push({ name: t("Time ratio"), text: number(Math.max(part, rest) / Math.min(part, rest)) });
     }
   }
   const mu = transmission(linkage, pose, 0);
   if (Number.isFinite(mu)) {
     facts.push({ name: t("Transmission angle μ"), text: angle(mu), style: mu < GOOD ? "bad" : "good" });
     if (least) {
-      const place = driveText(linkage, placeOf(linkage, least.value), 4);
+      const place = driveText(linkage, placeOf(linkage, least.value));
       // of four links it is no question which one pushes
       const link = model.own > 4 && least.leg?.links.map((one) => linkage.linkName(one)).join(", ");
       let note = least.leg ? t("at {place}", { place }) : t("throughout");
@@ -73,7 +73,7 @@ export function factsOf(
   if (dead.length) {
     const places = dead.map(({ value }) => placeOf(linkage, value)).sort((a, b) => a - b);
     const name = record?.inLine ? t("Dead centres") : t("Turns back at");
-    facts.push({ name, text: places.map((value) => driveText(linkage, value, 4)).join(", ") });
+    facts.push({ name, text: places.map((value) => driveText(linkage, value)).join(", ") });
   }
   for (const [k, drive] of model.drives.entries()) {
     const here = k === linkage.active;
@@ -82,10 +82,9 @@ export function factsOf(
     const full = cycle.turns === 1 ? t("full turns") : t("full turns, repeats after {turns}", { turns: cycle.turns });
     // that of a slide is rounded, which may leave 4e-14
     const from = drive.turning ? angle(low) : number(Math.abs(low) < linkage.sizes.near ? 0 : low);
-    const part = `${from} … ${driveText({ drive, model }, high!, 4).replace(" ", "\u00a0")}`;
+    const part = `${from} … ${driveText({ drive, model }, high!).replace(" ", "\u00a0")}`;
     const name = t("Range of the drive") + (model.drives[1] ? ` ${linkage.jointName(drive.name)}` : "");
     facts.push({ name, text: here && cycle.full ? full : part });
   }
-  for (const { name, text } of readingsOf(linkage)) facts.push({ name, text });
-  return facts;
+  return [...facts, ...readingsOf(linkage)];
 }

@@ -118,13 +118,11 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
       const right = wanted >= 0 && wanted < LONGEST;
       const here = editor.dragging.lengths().find((one) => one.first === first && one.second === second)!;
       const at = (part: number) => here.value + part * (wanted - here.value);
-      const told = (part: number) => `${name} ${number(at(part), 4)} ${unit}`;
+      const told = (part: number) => `${name} ${number(at(part))} ${unit}`;
       if (right) editor.attempt((part = 1) => editor.dragging.setLength(first, second, at(part)), told);
       input.setAttribute("aria-invalid", String(!right));
       if (right) return;
-      editor.page.say(
-        t("Expected a length of at least 0 and below 10⁹, such as {value}.", { value: number(value, 4) }),
-      );
+      editor.page.say(t("Expected a length of at least 0 and below 10⁹, such as {value}.", { value: number(value) }));
     },
     onkeydown: (event: KeyboardEvent) => event.stopPropagation(),
   });
@@ -338,11 +336,21 @@ async function listModes(editor: Editor, place: HTMLElement): Promise<void> {
 
 export function optionsPanel(editor: Editor): HTMLElement {
   const { shown } = editor;
-  const box = (key: Exclude<keyof Shown, "chosen" | "link" | "forces" | "springs">, text: string) =>
-    option(text, shown[key], (on) => {
+  type Key = Exclude<keyof Shown, "chosen" | "link" | "forces" | "springs">;
+  const box = (key: Key, text: string, ...lines: HTMLElement[]) => {
+    const label = option(text, shown[key], (on) => {
       shown[key] = on;
       editor.show();
     });
+    label.append(...lines);
+    return label;
+  };
+  /** What a line of the picture is, in its colour. */
+  const line = (colour: "green" | "purple", words: string) => {
+    const one = h("small", {}, words);
+    one.style.color = `var(--${colour})`;
+    return one;
+  };
   const link = linkMenu(editor, t("Link"));
   return h(
     "div.options",
@@ -350,9 +358,9 @@ export function optionsPanel(editor: Editor): HTMLElement {
     box("curves", t("Coupler curves")),
     box("velocities", t("Velocities")),
     box("accelerations", t("Accelerations")),
-    box("hodographs", t("Hodographs of the points")),
-    box("poles", t("Pole and centrodes")),
-    box("inflection", t("Inflection circle")),
+    box("hodographs", t("Hodographs")),
+    box("poles", t("Pole and centrodes"), line("green", `—\xa0${t("fixed")}`), line("purple", `┄\xa0${t("moving")}`)),
+    box("inflection", t("Inflection circle"), line("green", "┄")),
     h("label", {}, t("of the link"), link),
     box("labels", t("Names")),
     box("grid", t("Grid")),

@@ -139,7 +139,7 @@ export function planePicture(plane: Plane): SVGElement[] {
   const guides = aim !== "aiming" ? [] : guidelines(cursor, [...inLine, ...spots.map(({ at }) => at)]);
   const last = spots.at(-1);
   const [dx, dy] = last && aim === "aiming" ? [cursor[0] - last.at[0], cursor[1] - last.at[1]] : [0, 0];
-  const read = dx || dy ? `${number(Math.hypot(dx, dy), 4)} ${unitOf(drawing)}, ${angle(Math.atan2(dy, dx), 3)}` : "";
+  const read = dx || dy ? `${number(Math.hypot(dx, dy))} ${unitOf(drawing)}, ${angle(Math.atan2(dy, dx), 3)}` : "";
   const { picture } = drawing;
   const behind = picture ? [backdropElement(picture)] : [];
   for (const element of behind) putBackdrop(element, picture!, viewport);

@@ -231,8 +231,8 @@ export class Plot {
     put(this.#here, { cx: x, cy: y.toFixed(1) });
     const exact = place === drive ? series.now?.() : NaN;
     const told = Number.isFinite(exact) ? exact! : value; // of a pose without rates that at the drive
-    const read = number(Math.abs(told) < series.same! ? 0 : told, 4);
-    const where = `${number(place / this.#scale, 4)}${this.#scale === 1 ? "" : "°"}: ${read}`;
+    const read = number(Math.abs(told) < series.same! ? 0 : told);
+    const where = `${number(place / this.#scale)}${this.#scale === 1 ? "" : "°"}: ${read}`;
     this.#value.textContent = Object.is(place, drive) ? read : where;
   }
 

@@ -101,7 +101,13 @@ export class SynthesisView implements View {
     this.#demands.order = order.map((rank) => rank ?? "–").join(" ");
     const far = Math.max(...points.flat().map(Math.abs));
     this.#home = far > WIDE / 2 || far < WIDE / 12 ? 2.4 * far : 0;
+    this.#begin();
+  }
+
+  /** Nothing is found yet. */
+  #begin(): void {
     this.designs.show(null);
+    this.#play(null);
     this.arrange();
   }
 
@@ -215,11 +221,9 @@ export class SynthesisView implements View {
   #turnTo(kind: Kind): void {
     this.kind = kind;
     this.#puts = "";
-    this.designs.show(null);
-    this.#play(null);
     this.status.querySelector("button")?.click(); // what is looked for is given up
     renew(this.status);
-    this.arrange();
+    this.#begin();
   }
 
   #placeOf(event: PointerEvent): [number, number] {
@@ -281,9 +285,7 @@ export class SynthesisView implements View {
     this.rows[this.kind] = [];
     this.#pivots = [];
     this.#closed = false;
-    this.designs.show(null);
-    this.#play(null);
-    this.arrange();
+    this.#begin();
   }
 
   /** What is to be met, as the stage shows it. */

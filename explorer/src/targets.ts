@@ -126,7 +126,7 @@ export function swingMark(
   const [[x, y], [a, b], [c, d], [u, v]] = [pivot!, one!, two!, top!];
   const long = Math.hypot(a - x, b - y);
   const clockwise = (a - x) * (v - y) < (b - y) * (u - x);
-  const texts = [`${t("Time ratio")} ${number(ratio!, 4)}`, angle(swing! * DEGREE, 4)];
+  const texts = [`${t("Time ratio")} ${number(ratio!)}`, angle(swing! * DEGREE)];
   const left = u < x;
   const bodies = design?.ends?.flatMap((ends) => {
     const made = bodiesOf(design.members);

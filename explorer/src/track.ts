@@ -86,7 +86,7 @@ export class Track {
       );
       parts.push(group);
     };
-    this.#textOf = (value) => driveText({ drive: { turning }, model: { unit } }, value);
+    this.#textOf = (value) => driveText({ drive: { turning }, model: { unit } }, value, 5);
     const shown = (value: number) => this.#textOf(wrap(value));
     for (const value of dead)
       mark(value, "dead", "M0 8 L-5 0 H5 Z", t("Turns back at {value}", { value: shown(value) }));
@@ -98,7 +98,7 @@ export class Track {
         t("Smallest transmission angle at {value}", { value: shown(least) }),
       );
     const label = (value: number, anchor: string, told = value) => {
-      const text = svg("text", { x: x(value), y: 43, "text-anchor": anchor }, turning ? angle(told) : number(told, 4));
+      const text = svg("text", { x: x(value), y: 43, "text-anchor": anchor }, turning ? angle(told) : number(told));
       parts.push(text);
     };
     const end = (value: number) => (Math.abs(value) < 1e-6 * (high - low) ? 0 : value); // but for rounding
@@ -121,7 +121,7 @@ export class Track {
 export function driveText(
   { drive, model }: { drive: { turning: boolean } | null; model: { unit: string } },
   value: number,
-  digits = 5,
+  digits = 4,
 ): string {
   return drive?.turning ? angle(value, digits) : `${number(value, digits)} ${model.unit}`;
 }

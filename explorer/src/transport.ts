@@ -111,7 +111,7 @@ export class Transport<View extends Driven = Driven> {
 
   /** The value of the drive as it is shown. */
   protected get text(): string {
-    return this.view.linkage.drive ? driveText(this.view.linkage, this.drive, 4) : "";
+    return this.view.linkage.drive ? driveText(this.view.linkage, this.drive) : "";
   }
 
   showValue(): void {

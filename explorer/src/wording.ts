@@ -22,7 +22,7 @@ export function placeOf({ cycle, drive }: Linkage, value: number): number {
 
 /** Why the motion ends, or why the linkage cannot be assembled. */
 export function stopText(linkage: Linkage, stop: Stop): string {
-  const drives = driveText(linkage, stop.value, 4);
+  const drives = driveText(linkage, stop.value);
   const values = { drives, form: linkage.jointName(stop.form), links: linkage.linkList(stop.links) };
   if (stop.status === "open") return t("The motion ends at {drives}: there {form} is open.", values);
   if (stop.status === Status.START)

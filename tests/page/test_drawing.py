@@ -529,10 +529,8 @@ def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
     click(plane, (0, 0), (10, 40))
     view.keyboard.press("c")
     click(plane, (60, 0), (10, 40))
-    (x, y), box = (
-        view.evaluate("gruebler.views.build.viewport.screen(91, 40.6)"),
-        view.locator(".drawing").bounding_box(),
-    )
+    screen, drawing = "gruebler.views.build.viewport.screen", view.locator(".drawing")
+    (x, y), box = view.evaluate(f"{screen}(91, 40.6)"), drawing.bounding_box()
     view.mouse.move(box["x"] + x, box["y"] + y)
     assert view.evaluate("gruebler.views.build.cursor[1]") == 40  # in line with the end of the lever, with a guideline
     assert view.locator(".guide").get_attribute("d") != ""
@@ -552,13 +550,11 @@ def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
     ends = view.locator("td input").evaluate_all("all => all.map(field => field.getBoundingClientRect().right)")
     assert max(ends) < view.viewport_size["width"]  # the fields stay within the panel
     assert "rotate(-30)" in view.locator(".drawing .backdrop").get_attribute("transform")
-    for field in view.locator('input[aria-label^="Picture"]').all():  # a number is seen whole
-        assert field.evaluate("(one) => one.scrollWidth <= one.clientWidth")
+    whole = "all => all.map((one) => one.scrollWidth <= one.clientWidth)"
+    assert all(view.locator('input[aria-label^="Picture"]').evaluate_all(whole))
     left, top, wide, turned = view.evaluate("gruebler.views.build.drawing.picture.at")
-    screen = "gruebler.views.build.viewport.screen"
-    spot = view.evaluate(f"{screen}({left} + 20, {top} - 30)")  # on the picture, beside all else
-    box = view.locator(".drawing").bounding_box()
-    spot = (box["x"] + spot[0], box["y"] + spot[1])
+    x, y = view.evaluate(f"{screen}({left} + 20, {top} - 30)")  # on the picture, beside all else
+    spot = (box["x"] + x, box["y"] + y)
     view.mouse.click(*spot)
     plane.drag(spot, (30, 20))
     moved = view.evaluate("gruebler.views.build.drawing.picture.at")
@@ -568,7 +564,6 @@ def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
     assert view.evaluate("gruebler.views.build.drawing.picture.at[3]") < turned
     plane.drag(plane.middle('[data-grip="size"]'), (-20, -10))
     assert view.evaluate("gruebler.views.build.drawing.picture.at[2]") < wide
-    view.screenshot(path=tmp_path / "grips.png")
     view.locator('[aria-label="Picture φ [°]"]').fill("30")
     view.locator('[aria-label="Picture φ [°]"]').press("Enter")
     view.locator('[data-act="move"]').click()

@@ -240,6 +240,34 @@ def test_the_grid_has_numbers(tab, crank_rocker):
     assert ticks.count() == 0
 
 
+def test_lines_of_the_picture_are_named_in_their_colours(tab, crank_rocker):
+    """Each colour of the legend is one that its lines are drawn in; a hodograph without a point draws nothing."""
+    page = tab().open(crank_rocker)
+    page.page.evaluate("gruebler.motion.transport.pick(1)")
+    page.page.locator('summary:text("Show")').last.click()
+    colours = """(texts) => texts.map((text) => {
+        const lines = [...gruebler.root.querySelectorAll(".options small")];
+        return getComputedStyle(lines.find((one) => one.textContent.includes(text))).color;
+    })"""
+    fixed, moving = page.page.evaluate(colours, ["fixed", "moving"])
+    painted = """(() => {
+        const canvas = gruebler.root.querySelector(".motion canvas");
+        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        const found = new Set();
+        for (let k = 0; k < data.length; k += 4)
+            if (data[k + 3] === 255) found.add(`rgb(${data.slice(k, k + 3).join(", ")})`);
+        return [...found];
+    })()"""
+    page.page.get_by_label("Coupler curves").uncheck()
+    page.page.get_by_label("Hodographs").check()
+    assert page.page.evaluate(painted) == []
+    page.page.get_by_label("Pole and centrodes").check()
+    assert {fixed, moving} <= set(page.page.evaluate(painted))
+    assert fixed != moving
+    page.page.get_by_label("Inflection circle").check()
+    assert page.page.locator(".inflection").evaluate("(one) => getComputedStyle(one).stroke") == fixed
+
+
 def test_a_pole_outside_of_the_picture_is_told(tab, crank_rocker):
     """Where the lines of crank and rocker meet: with the crank at 180° in the right bearing, at 57.3° far above."""
     page = tab().open(crank_rocker)

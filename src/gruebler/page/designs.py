@@ -12,7 +12,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError
-from gruebler.base.text import LANGUAGES, Message, message, translate
+from gruebler.base.text import LANGUAGES, Message, joined_by_and, message, translate
 from gruebler.design.synthesis import (
     DeadCentreTask,
     Demands,
@@ -24,6 +24,7 @@ from gruebler.design.synthesis import (
     Task,
     synthesise,
 )
+from gruebler.design.synthesis.demands import ANGLE, TURNING
 from gruebler.design.synthesis.start_families import MOST_PAIRS
 from gruebler.design.synthesis.tasks import gives_lengths
 from gruebler.files import linkage_to_json
@@ -62,9 +63,7 @@ _LONG = message("Left out, as a link is longer than {length:g} mm: {count}.")
 _LESS = (0.9, 0.7, 0.4, 0.0)  # of a transmission angle that no design has
 _NEAREST = 12  # designs that are shown of these
 _MANY = 9  # points: a search takes too long to be made twice
-_NEARLY = message(
-    "No linkage was found whose transmission angle is {angle:n}° or more: these meet all else and come nearest to it."
-)
+_NEARLY = message("No linkage was found that meets all demands; these meet all but {demands}.")
 _FRAMES = 144  # of a motion, there and back if it does not turn fully
 
 
@@ -148,10 +147,10 @@ def design_records(
         progress=counted if isinstance(task, PathTask | PositionTask) else None,
     )
     left: list[Message] = []
-    less = None if result.designs else _with_smaller_angle(task, demands)
+    less = None if result.designs else _nearly(task, demands)
     if less is not None:
-        left.append(_NEARLY.filled(angle=transmission))
-        result, transmission = less, 0.0
+        result, transmission = less[0], 0.0
+        left.append(less[1])
     designs = list(result.designs)
     if crank:  # those that have the angle in all positions, if there are any
         whole = [each for each in designs if degrees(each.transmission_over_range) >= transmission]
@@ -180,20 +179,28 @@ def design_records(
     return {"total": len(designs), "relative": relative, "less": less is not None, "items": items} | said
 
 
-def _with_smaller_angle(task: Task, demands: Demands) -> SynthesisResult | None:
-    """The designs nearest to a transmission angle that none has, those that meet all other demands.
+def _nearly(task: Task, demands: Demands) -> tuple[SynthesisResult, Message] | None:
+    """The designs that come nearest to a transmission angle that none has, or whose drive does not turn fully, or both.
 
-    >>> found = _with_smaller_angle(task_of("dead-centres", [[60, 1.2]]), Demands(transmission=radians(60)))
-    >>> round(degrees(found.designs[0].verdict.transmission), 1)
-    40.3
+    They meet all other demands, if any do; and what is said of them.
+
+    >>> found, text = _nearly(task_of("dead-centres", [[60, 1.2]]), Demands(transmission=radians(60)))
+    >>> print(text, round(degrees(found.designs[0].verdict.transmission), 1))
+    No linkage was found that meets all demands; these meet all but a transmission angle of 60°. 40.3
     """
-    if not demands.transmission or is_curve(task) or (isinstance(task, PathTask) and len(task) >= _MANY):
+    if is_curve(task) or (isinstance(task, PathTask) and len(task) >= _MANY):
         return None
-    for part in _LESS:
-        less = replace(demands, transmission=part * demands.transmission)
-        result = synthesise(task, demands=less, sort=("transmission",))
-        if result.designs:
-            return replace(result, designs=result.designs[:_NEAREST])
+    angle = ANGLE.filled(angle=round(degrees(demands.transmission), 9))
+    for turning, lower in ((False, True), (True, False), (True, True)):
+        if (turning and not demands.crank) or (lower and not demands.transmission):
+            continue
+        crank, missed = demands.crank and not turning, [*[TURNING] * turning, *[angle] * lower]
+        for part in _LESS if lower else (1.0,):
+            less = replace(demands, crank=crank, transmission=part * demands.transmission)
+            result = synthesise(task, demands=less, sort=("transmission",))
+            if result.designs:
+                nearest = replace(result, designs=result.designs[:_NEAREST])
+                return nearest, _NEARLY.filled(demands=joined_by_and(missed))
     return None
 
 
