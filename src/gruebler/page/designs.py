@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import degrees, hypot, isfinite, radians
@@ -62,7 +63,6 @@ _LOW = message("Left out, as the transmission angle falls below {angle:g}° in o
 _LONG = message("Left out, as a link is longer than {length:g} mm: {count}.")
 _LESS = (0.9, 0.7, 0.4, 0.0)  # of a transmission angle that no design has
 _NEAREST = 12  # designs that are shown of these
-_MANY = 9  # points: a search takes too long to be made twice
 _NEARLY = message("No linkage was found that meets all demands; these meet all but {demands}.")
 _FRAMES = 144  # of a motion, there and back if it does not turn fully
 
@@ -147,7 +147,7 @@ def design_records(
         progress=counted if isinstance(task, PathTask | PositionTask) else None,
     )
     left: list[Message] = []
-    less = None if result.designs else _nearly(task, demands)
+    less = None if result.designs else _nearly(task, demands, finite=bool(result.count.theorem))
     if less is not None:
         result, transmission = less[0], 0.0
         left.append(less[1])
@@ -179,23 +179,23 @@ def design_records(
     return {"total": len(designs), "relative": relative, "less": less is not None, "items": items} | said
 
 
-def _nearly(task: Task, demands: Demands) -> tuple[SynthesisResult, Message] | None:
+def _nearly(task: Task, demands: Demands, *, finite: bool = False) -> tuple[SynthesisResult, Message] | None:
     """The designs that come nearest to a transmission angle that none has, or whose drive does not turn fully, or both.
 
-    They meet all other demands, if any do; and what is said of them.
+    They meet all other demands, if any do; and what is said of them. Of a finite number all are found at once.
 
     >>> found, text = _nearly(task_of("dead-centres", [[60, 1.2]]), Demands(transmission=radians(60)))
     >>> print(text, round(degrees(found.designs[0].verdict.transmission), 1))
     No linkage was found that meets all demands; these meet all but a transmission angle of 60°. 40.3
     """
-    if is_curve(task) or (isinstance(task, PathTask) and len(task) >= _MANY):
+    if is_curve(task):
         return None
     angle = ANGLE.filled(angle=round(degrees(demands.transmission), 9))
     for turning, lower in ((False, True), (True, False), (True, True)):
         if (turning and not demands.crank) or (lower and not demands.transmission):
             continue
         crank, missed = demands.crank and not turning, [*[TURNING] * turning, *[angle] * lower]
-        for part in _LESS if lower else (1.0,):
+        for part in ((0.0,) if finite else _LESS) if lower else (1.0,):
             less = replace(demands, crank=crank, transmission=part * demands.transmission)
             result = synthesise(task, demands=less, sort=("transmission",))
             if result.designs:
@@ -462,8 +462,17 @@ def _frames(linkage: Linkage, posed: PosedLinkage, path: Motion) -> dict[str, An
         "measures": measured,
         "lengths": lengths if one_loop else [],
         "point": _point_of(linkage, rows[0], pins, rails) if one_loop else None,
-        "names": {lang: [names[link] for link in bars] for lang, names in called.items()},
+        "names": {lang: [_parted(names[link]) for link in bars] for lang, names in called.items()},
     }
+
+
+def _parted(name: str) -> str:
+    r"""A name of a link with a soft hyphen where a long German one may be parted.
+
+    >>> _parted("Antriebsschwinge").split("\u00ad")
+    ['Antriebs', 'schwinge']
+    """
+    return re.sub(r"(?<=\w)schwinge$", "\u00adschwinge", name)
 
 
 def _point_of(
