@@ -79,7 +79,7 @@ export function factsOf(
     const here = k === linkage.active;
     const [low, high] = (here ? [cycle.low, cycle.high] : model.span.stops?.[k]) ?? [];
     if (low === undefined) continue;
-    const full = cycle.turns === 1 ? t("full turns") : t("full turns, repeats after {turns}", { turns: cycle.turns });
+    const full = cycle.turns === 1 ? t("full turns") : t("repeats after {turns} turns", { turns: cycle.turns });
     // that of a slide is rounded, which may leave 4e-14
     const from = drive.turning ? angle(low) : number(Math.abs(low) < linkage.sizes.near ? 0 : low);
     const part = `${from} … ${driveText({ drive, model }, high!).replace(" ", "\u00a0")}`;
