@@ -428,7 +428,7 @@ def test_a_machine_that_moves_by_its_dimensions_says_so_beside_the_count(tab, se
     assert "6 links, F = 1, by the count 0" in card.inner_text()
     assert page.page.locator('.card[data-id="crankrocker"]').inner_text().endswith("4 links, F = 1")
     # 6(11 - 1) - 3·5 - 12·3 = 9, of which each of the six rods has its spin: a platform that shifts in space
-    assert "11 links, F = 3, 6 idle" in page.page.locator('.card[data-id="delta"]').inner_text()
+    assert "11 links, F = 3, freely spinning parts: 6" in page.page.locator('.card[data-id="delta"]').inner_text()
 
 
 def test_tabs_of_a_phone_show_that_they_scroll_and_cards_have_one_height(tab, server):
