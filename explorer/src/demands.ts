@@ -71,9 +71,10 @@ export class Demands {
 
   /** What the library is told of them; what is of places only of these. */
   asked(places: boolean, curve: number) {
+    const reach = this.#reach || curve; // "0" is a reach, 0 is none
     const ranks = places ? (this.order.match(/[^\s,;]+/g) ?? []) : [];
     return {
-      reach: places ? +(this.#reach || curve || NaN) : null,
+      reach: places && reach !== 0 ? +reach : null,
       order: ranks.map((rank) => (/\d/.test(rank) ? +rank : null)),
       crank: this.#crank,
       transmission: this.#least,

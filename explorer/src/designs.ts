@@ -45,8 +45,8 @@ export interface Design extends Moving {
 
 export interface Found {
   total: number;
-  /** Whether they do not have the transmission angle that is asked for, but come near to it. */
-  less?: boolean;
+  /** Whether they do not meet all demands: those that come nearest to it. */
+  nearest?: boolean;
   /** Whether linkages of any size do it. */
   relative?: boolean;
   items: Design[];
@@ -98,7 +98,7 @@ export class DesignCards {
     if (found) {
       const orders = this.#orders();
       this.#order =
-        orders.find((by) => (found.less ? by === "transmission" : by === "error" || by === "balanced")) ??
+        orders.find((by) => (found.nearest ? by === "transmission" : by === "error" || by === "balanced")) ??
         orders[0] ??
         "balanced";
       found.items = this.#sorted().sort((one, two) => +!!one.variant - +!!two.variant);

@@ -235,7 +235,7 @@ def test_a_finger_takes_a_point_of_the_plane(tab, server):
     page = tab(width=390, height=844, touch=True).open(server.address)
     page.page.tap('[data-view="synthesis"]')
     box = page.page.locator(".plane").bounding_box()
-    assert box["height"] > 300  # nearly a square
+    assert box["height"] > 300  # nearest a square
     assert box["y"] < 215  # header and two rows of buttons
     key = page.page.locator('[data-act="synthesise"]')
     assert (key.is_disabled(), key.get_attribute("title")) == (True, "0 set, at least 5 needed")
@@ -817,15 +817,15 @@ def test_of_five_positions_without_a_design_it_is_said_what_is_wanting():
 
     rows = [[-40, 0, 10], [-15, 18, 20], [5, 24, 32], [22, 20, 48], [35, 10, 65]]
     asked = {"kind": "positions", "rows": rows, "crank": True, "transmission": 20}
-    nearly = answer("synthesise", asked, "en", print)
-    assert "these meet all but a drive that turns fully and a transmission angle of 20°." in nearly["note"]
-    assert (nearly["total"], nearly["less"]) == (1, True)
-    angle = nearly["items"][0]["transmission"]
+    nearest = answer("synthesise", asked, "en", print)
+    assert "these meet all but a drive that turns fully and a transmission angle of 20°." in nearest["note"]
+    assert (nearest["total"], nearest["nearest"]) == (1, True)
+    angle = nearest["items"][0]["transmission"]
     assert 1 < angle < 19
     for least, missed in ((angle - 0.1, False), (angle + 0.1, True)):
-        less = answer("synthesise", asked | {"crank": False, "transmission": least}, "en", print)
-        assert (less["total"], less["less"]) == (1, missed)
-        assert less["items"][0]["transmission"] == pytest.approx(angle, abs=0.06)
+        found = answer("synthesise", asked | {"crank": False, "transmission": least}, "en", print)
+        assert (found["total"], found["nearest"]) == (1, missed)
+        assert found["items"][0]["transmission"] == pytest.approx(angle, abs=0.06)
     said = answer("synthesise", asked, "de", print)["note"]
     assert "diese erfüllen alle bis auf: umlaufender Antrieb und Übertragungswinkel 20°" in said
 
@@ -948,7 +948,7 @@ def test_where_no_design_has_the_angle_those_that_come_nearest_are_shown():
 
     asked = {"kind": "dead-centres", "rows": [[60, 1.2]], "crank": True}
     found = answer("synthesise", asked | {"transmission": 60}, "en", print)
-    assert found["less"]
+    assert found["nearest"]
     assert "these meet all but a transmission angle of 60°." in found["note"]
     # by hand, for each crank on the circle of the pole: the rocker of unit length at 0 and 60 degrees
     swing, between = np.radians(60), np.pi * 0.2 / 2.2
@@ -965,6 +965,23 @@ def test_where_no_design_has_the_angle_those_that_come_nearest_are_shown():
     best = np.degrees(least[real].max())
     assert best == pytest.approx(40.3, abs=0.1)
     assert max(item["transmission"] for item in found["items"]) == pytest.approx(best, abs=0.1)
+
+
+def test_near_misses_of_nine_points_are_shown():
+    """The four-bar of which the points are is among the finitely many, whose angle is smaller than asked for."""
+    from gruebler.mechanics.fourbar import FourBar
+    from gruebler.page.requests import answer
+
+    points = move(FourBar(30, 80, 70, 90).linkage({"K": (40, 35)}), np.linspace(0, 5.2, 9)).point("K")
+    asked = {"kind": "points", "rows": points.tolist(), "crank": True, "transmission": 89}
+    found = answer("synthesise", asked, "en", lambda _: None)
+    assert found["nearest"]
+    assert "these meet all but a transmission angle of 89°." in found["note"]
+    own = [
+        item for item in found["items"] if np.allclose(item["lengths"], [90, 30, 80, 70], rtol=1e-5)
+    ]  # of five digits
+    assert len(own) == 1
+    assert own[0]["transmission"] < 89
 
 
 def test_a_given_pivot_that_no_linkage_can_have_is_told():

@@ -17,7 +17,7 @@ from gruebler.design.synthesis import (
     Task,
 )
 from gruebler.design.synthesis.demands import WITHOUT
-from gruebler.design.synthesis.given_pivots import BESIDE
+from gruebler.design.synthesis.given_pivots import OFF_CURVE
 from gruebler.design.synthesis.targets import GuidedCurve
 
 _BALANCED = message("Balanced: {criteria} count alike.")
@@ -52,7 +52,7 @@ def notes(result: SynthesisResult, items: Sequence[dict[str, Any]], total: int) 
     Rejected (1): the drive does not turn fully.
     """
     task, count = result.task, result.count
-    yield from (note for note in result.notes if note.text == BESIDE[False].text)
+    yield from (note for note in result.notes if note.text == OFF_CURVE[False].text)
     if isinstance(task, PositionTask) and len({angle for *_, angle in task.positions}) == 1:
         yield message("All at one angle: the link is shifted and does not turn.")
     if len(items) < total:

@@ -25,7 +25,8 @@ from gruebler.design.synthesis import (
     Task,
     synthesise,
 )
-from gruebler.design.synthesis.demands import ANGLE, TURNING
+from gruebler.design.synthesis.demands import FULL_TURN, LEAST_ANGLE
+from gruebler.design.synthesis.results import Progress
 from gruebler.design.synthesis.start_families import MOST_PAIRS
 from gruebler.design.synthesis.tasks import gives_lengths
 from gruebler.files import linkage_to_json
@@ -113,7 +114,8 @@ def design_records(
     there are shorter ones.
 
     Of cranks that turn fully the angle over the whole turn is what is asked for, too, where a design has it; of
-    positions it is what is sought. A design that is much like a better one is marked as its variant.
+    positions it is what is sought. A design that is much like a better one is marked as its variant. Where none meets
+    all demands, those that meet all but the angle, or a drive that turns fully, or both, are given as the nearest.
 
     >>> found = design_records(task_of("dead-centres", [[60, 1.2]]), True, 30.0, "en", print)
     Looking for four-bars
@@ -127,15 +129,19 @@ def design_records(
 
     totals: list[int] = []
 
+    def looked(done: int, total: int) -> None:
+        progress(translate("Looking for four-bars: {number} of {total}", lang, number=done, total=total))
+
     def counted(done: int, total: int) -> None:
         totals.append(total)
         if done == total:
             progress(translate("Judging the linkages found", lang))
         elif total == totals[0]:
-            progress(translate("Looking for four-bars: {number} of {total}", lang, number=done, total=total))
+            looked(done, total)
         else:  # what was found is counted anew
             progress(translate("Judging the linkages found: {number} of {total}", lang, number=done, total=total))
 
+    in_places = isinstance(task, PathTask | PositionTask)
     demands = Demands(crank=crank, transmission=radians(transmission))
     if space is not None:
         demands = replace(demands, region=space, size_ratio=SLENDER)
@@ -144,15 +150,18 @@ def design_records(
         demands=demands,
         sort=sort,
         number=_CURVES if is_curve(task) else None,
-        progress=counted if isinstance(task, PathTask | PositionTask) else None,
+        progress=counted if in_places else None,
     )
     left: list[Message] = []
-    less = None if result.designs else _nearly(task, demands, finite=bool(result.count.theorem))
-    if less is not None:
-        result, transmission = less[0], 0.0
-        left.append(less[1])
+    nearest = None
+    if not result.designs:
+        report, finite = looked if in_places else None, bool(result.count.theorem)
+        nearest = _nearest_designs(task, demands, progress=report, finite=finite)
+    if nearest is not None:
+        result, text = nearest
+        left.append(text)
     designs = list(result.designs)
-    if crank:  # those that have the angle in all positions, if there are any
+    if crank and nearest is None:  # those that have the angle in all positions, if there are any
         whole = [each for each in designs if degrees(each.transmission_over_range) >= transmission]
         if whole and whole != designs:
             left.append(_LOW.filled(angle=transmission, count=len(designs) - len(whole)))
@@ -176,28 +185,30 @@ def design_records(
         "words": words(result, items, relative, space),
     }
     said = {key: "\n".join(text.in_language(lang) for text in some) for key, some in texts.items()}
-    return {"total": len(designs), "relative": relative, "less": less is not None, "items": items} | said
+    return {"total": len(designs), "relative": relative, "nearest": nearest is not None, "items": items} | said
 
 
-def _nearly(task: Task, demands: Demands, *, finite: bool = False) -> tuple[SynthesisResult, Message] | None:
+def _nearest_designs(
+    task: Task, demands: Demands, *, progress: Progress | None = None, finite: bool = False
+) -> tuple[SynthesisResult, Message] | None:
     """The designs that come nearest to a transmission angle that none has, or whose drive does not turn fully, or both.
 
     They meet all other demands, if any do; and what is said of them. Of a finite number all are found at once.
 
-    >>> found, text = _nearly(task_of("dead-centres", [[60, 1.2]]), Demands(transmission=radians(60)))
+    >>> found, text = _nearest_designs(task_of("dead-centres", [[60, 1.2]]), Demands(transmission=radians(60)))
     >>> print(text, round(degrees(found.designs[0].verdict.transmission), 1))
     No linkage was found that meets all demands; these meet all but a transmission angle of 60°. 40.3
     """
     if is_curve(task):
         return None
-    angle = ANGLE.filled(angle=round(degrees(demands.transmission), 9))
+    angle = LEAST_ANGLE.filled(angle=round(degrees(demands.transmission), 9))
     for turning, lower in ((False, True), (True, False), (True, True)):
         if (turning and not demands.crank) or (lower and not demands.transmission):
             continue
-        crank, missed = demands.crank and not turning, [*[TURNING] * turning, *[angle] * lower]
+        crank, missed = demands.crank and not turning, [*[FULL_TURN] * turning, *[angle] * lower]
         for part in ((0.0,) if finite else _LESS) if lower else (1.0,):
             less = replace(demands, crank=crank, transmission=part * demands.transmission)
-            result = synthesise(task, demands=less, sort=("transmission",))
+            result = synthesise(task, demands=less, sort=("transmission",), progress=progress)
             if result.designs:
                 nearest = replace(result, designs=result.designs[:_NEAREST])
                 return nearest, _NEARLY.filled(demands=joined_by_and(missed))

@@ -23,7 +23,6 @@ from gruebler.page.params import LoadedLinkage
 from gruebler.page.reader_loads import (
     all_springs,
     amounts,
-    laden,
     law_text,
     load_acts,
     middle_of,
@@ -31,6 +30,7 @@ from gruebler.page.reader_loads import (
     outer_loads,
     point_masses,
     springs_of,
+    with_loads,
 )
 
 _FREE = message("Free motion: in {seconds:n} s the drive goes from {start} to {end}, between {least} and {most}.")
@@ -59,7 +59,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
 
     Without anything that acts only what is there to be changed. ``kept`` is there if the reader changed something.
     """
-    linkage, loads, usual, kept = laden(asked, lang)
+    linkage, loads, usual, kept = with_loads(asked, lang)
     rows = outer_loads(linkage, loads)
     record: dict[str, Any] = {
         "masses": [loads.bodies[link].mass if link in loads.bodies else 0.0 for link in linkage.mechanism.chain.links],
@@ -206,7 +206,7 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
 
     And why they end if they do too soon.
     """
-    linkage, loads, *_ = laden(asked, lang)
+    linkage, loads, *_ = with_loads(asked, lang)
     free = replace(loads, forces={}, moments={}, motors={})
     times = np.arange(round(asked.until * _A_SECOND) + 1) / _A_SECOND
     run = simulate(linkage, free, at=asked.drives, until=asked.until, times=times, tolerance=_ENOUGH)

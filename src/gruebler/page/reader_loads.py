@@ -41,7 +41,7 @@ _RATES = ("stiffness", "preload", "damping")
 _BLOCK = 0.020  # m: what a slider and other short links are long
 
 
-class Laden(NamedTuple):
+class WithLoads(NamedTuple):
     """A linkage with what acts on it, its links by their names in the reader's language."""
 
     linkage: Linkage
@@ -51,7 +51,7 @@ class Laden(NamedTuple):
     """What the document is to keep of them, links by their names there: ``loads``, and the ``bars`` of the page."""
 
 
-def laden(asked: LoadedLinkage, lang: str) -> Laden:
+def with_loads(asked: LoadedLinkage, lang: str) -> WithLoads:
     """Loads of the document, or of the catalog entry while its links are there; in their place what the reader gave."""
     plain = linkage_from_json(asked.document)
     names, entry = link_names(plain, asked.source, lang), entries().get(asked.source)
@@ -72,7 +72,7 @@ def laden(asked: LoadedLinkage, lang: str) -> Laden:
     table = loads_to_json(loads, plain, speed)
     linkage = plain.renamed(names)
     named = loads_from_json(renamed_loads(table, names), linkage)
-    return Laden(linkage, named, speed, {"loads": table, "bars": bars})
+    return WithLoads(linkage, named, speed, {"loads": table, "bars": bars})
 
 
 def _bodies(linkage: Linkage, loads: Loads, asked: LoadedLinkage) -> tuple[dict[str, RigidBody], list[int] | str]:

@@ -19,7 +19,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError, SynthesisError
 from gruebler.base.text import Message, joined_by_and, message
 from gruebler.design.synthesis.dead_centre_extremes import LONGEST, LengthSquares, is_half_turn
-from gruebler.design.synthesis.demands import ANGLE, Demands, tightest
+from gruebler.design.synthesis.demands import LEAST_ANGLE, Demands, tightest
 from gruebler.design.synthesis.given_lengths import scale_to_length
 from gruebler.design.synthesis.judging import transmission_fault, verdict_at_rest
 from gruebler.design.synthesis.results import MEASURES, PASSED, Design, SolutionCount, SynthesisResult, in_order_of
@@ -333,7 +333,7 @@ def _met(designs: Sequence[Design], demands: Demands) -> list[tuple[Message, NDA
         (ratio, np.array([verdict.size_ratio <= demands.size_ratio for verdict in verdicts])),
     ]
     if demands.transmission > 0:
-        angle = ANGLE.filled(angle=degrees(demands.transmission))
+        angle = LEAST_ANGLE.filled(angle=degrees(demands.transmission))
         met.append((angle, np.array([verdict.transmission >= demands.transmission for verdict in verdicts])))
     return met
 

@@ -27,7 +27,7 @@ BUILDABLE = 20.0
 """The longest length by the shortest, as a workshop accepts it; other ratios can be demanded."""
 EXACT_AT_MOST = 1e-6
 """With larger tolerances targets are approached, not met: the whole curve within the tolerance counts."""
-TURNING, ANGLE = message("a drive that turns fully"), message("a transmission angle of {angle:g}°")
+FULL_TURN, LEAST_ANGLE = message("a drive that turns fully"), message("a transmission angle of {angle:g}°")
 """Demands, as they are told."""
 WITHOUT = message("Designs that meet all but the demand of {demand}: {count:,}.")
 _NOT_EVEN = message("None of the designs that were tried meets the demand of {task}, whatever else is demanded.")
@@ -297,9 +297,9 @@ def demands_met(
     """What is demanded besides the targets by its names, each with the linkages that meet it."""
     met = []
     if demands.crank:
-        met.append((TURNING, turns))
+        met.append((FULL_TURN, turns))
     if demands.transmission > 0:
-        angle = ANGLE.filled(angle=degrees(demands.transmission))
+        angle = LEAST_ANGLE.filled(angle=degrees(demands.transmission))
         met.append((angle, transmission >= demands.transmission))
     met.append((message("a size ratio of {ratio:g}", ratio=demands.size_ratio), size_ratio <= demands.size_ratio))
     if demands.region is not None:

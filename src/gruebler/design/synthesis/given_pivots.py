@@ -14,7 +14,7 @@ from gruebler.design.synthesis.demands import Demands, inside_region
 from gruebler.design.synthesis.dyads import GuidingDyad
 from gruebler.design.synthesis.tasks import SAME, PositionTask
 
-BESIDE = {
+OFF_CURVE = {
     True: message(
         "The given pivot ({x:.6g}, {y:.6g}) is not on the circle-point curve of the four positions: its nearest point "
         "({u:.6g}, {v:.6g}), at a distance of {distance:.4g}, was taken."
@@ -44,6 +44,6 @@ def notes_on_pivots(task: PositionTask, dyads: Sequence[GuidingDyad], demands: D
         taken = dyad.moving if moving else dyad.fixed
         distance = abs(taken - complex(x, y))
         if distance > SAME * max(task.size, abs(taken)):
-            yield BESIDE[moving].filled(x=x, y=y, u=taken.real, v=taken.imag, distance=distance)
+            yield OFF_CURVE[moving].filled(x=x, y=y, u=taken.real, v=taken.imag, distance=distance)
         if not dyad.slides and not inside_region(np.array([dyad.fixed]), demands)[0]:
             yield _OUTSIDE.filled(x=x, y=y, u=dyad.fixed.real, v=dyad.fixed.imag)

@@ -239,7 +239,9 @@ def rows_apart(rows: Reals, number: int, *, gap: float = ALIKE) -> list[Reals]:
     """The first linkages, so many at most, each of which differs from those before it by more than a gap in sum."""
     chosen: list[Reals] = []
     for row in rows:
-        if len(chosen) < number and all(np.abs(row - other).sum() > gap for other in chosen):
+        if len(chosen) == number:
+            break
+        if all(np.abs(row - other).sum() > gap for other in chosen):
             chosen.append(row)
     return chosen
 
