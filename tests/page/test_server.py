@@ -309,24 +309,41 @@ def workers(server) -> list[int]:
     return [int(pid) for pid in children.read_text().split()]
 
 
+LONG = json.dumps({"id": 1, "method": "chains", "params": {"links": 12, "start": 6000}})
+
+
+def answers_to(socket, *frames: str, count: int = 1) -> list[dict]:
+    """The first answers after these frames, without what tells how far work is."""
+    for frame in frames:
+        socket.send(frame)
+    found: list[dict] = []
+    while len(found) < count:
+        answer = json.loads(socket.recv(timeout=60))
+        if "progress" not in answer:
+            found.append(answer)
+    return found
+
+
 def test_long_work_is_cancelled(server):
     with connected(server) as socket:
-        socket.send(json.dumps({"id": 1, "method": "chains", "params": {"links": 12, "start": 6000}}))
-        socket.send(json.dumps({"id": 2, "method": "exercise_kinds"}))
-        socket.send(json.dumps({"id": 1, "cancel": True}))
-        answers = [json.loads(socket.recv(timeout=60)) for _ in range(2)]
-        assert answers[0] == {"id": 1, "cancelled": True}
-        assert answers[1]["id"] == 2
+        waits = '{"id": 2, "method": "modes"}'
+        first, second = answers_to(socket, LONG, waits, '{"id": 1, "cancel": true}', count=2)
+        assert first == {"id": 1, "cancelled": True}
+        assert second["id"] == 2
+
+
+def test_a_search_does_not_wait_for_long_work_before_it(server):
+    with connected(server) as socket:
+        (answer,) = answers_to(socket, LONG, '{"id": 2, "method": "catalog", "params": {"words": "delta"}}')
+        assert (answer["id"], [each["id"] for each in answer["result"]]) == (2, ["delta"])
+        assert answers_to(socket, '{"id": 1, "cancel": true}') == [{"id": 1, "cancelled": True}]
 
 
 def test_a_request_that_waits_is_cancelled_before_the_one_it_waits_for(server):
     with connected(server) as socket:
-        socket.send(json.dumps({"id": 1, "method": "chains", "params": {"links": 12, "start": 6000}}))
-        socket.send(json.dumps({"id": 2, "method": "exercise_kinds"}))
-        socket.send(json.dumps({"id": 2, "cancel": True}))
-        assert json.loads(socket.recv(timeout=60)) == {"id": 2, "cancelled": True}
-        socket.send(json.dumps({"id": 1, "cancel": True}))
-        assert json.loads(socket.recv(timeout=60)) == {"id": 1, "cancelled": True}
+        waits = '{"id": 2, "method": "modes"}'
+        assert answers_to(socket, LONG, waits, '{"id": 2, "cancel": true}') == [{"id": 2, "cancelled": True}]
+        assert answers_to(socket, '{"id": 1, "cancel": true}') == [{"id": 1, "cancelled": True}]
 
 
 def test_answers_are_those_of_the_library(server):

@@ -214,15 +214,16 @@ class _Lane:
 
 
 class _Conversation:
-    """One page: its requests are answered one after the other, in their order; it may cancel any of them.
+    """One page: its requests are answered in three lanes, in each of them in their order; it may cancel any of them.
 
-    Pictures of the catalog have a lane of their own, so that no work waits for them. With what is answered at once they
-    take turns: one process serves both, where a second one would first have to load what the other has.
+    Long work and pictures of the catalog have lanes of their own, so that what is answered at once waits for neither.
+    It takes turns with pictures: one process serves both, where a second one would first have to load what the other
+    has.
     """
 
     def __init__(self, socket: WebSocket, workers: Workers) -> None:
         self.socket, self.workers = socket, workers
-        self.lanes = (_Lane(), _Lane())
+        self.at_once, self.pictures, self.long = self.lanes = (_Lane(), _Lane(), _Lane())
         self.turn = asyncio.Lock()
         self.events: dict[int, asyncio.Event] = {}
         self.lock = asyncio.Lock()
@@ -249,7 +250,7 @@ class _Conversation:
             if message.cancel:
                 await self._cancel(message.id)
                 return
-            lane = self.lanes[message.method == "picture"]
+            lane = self._lane(message.method)
             if len(lane.waiting) >= MOST_WAITING:
                 raise GrueblerError("more than {most} requests wait; ask again later", most=MOST_WAITING)
         except GrueblerError as error:
@@ -258,6 +259,11 @@ class _Conversation:
         event = self.events.setdefault(message.id, asyncio.Event())
         lane.waiting.append((message, event))
         lane.arrived.set()
+
+    def _lane(self, method: str) -> _Lane:
+        if method in _LONG:
+            return self.long
+        return self.pictures if method == "picture" else self.at_once
 
     async def _cancel(self, id: int) -> None:
         """End the work of a request; one that has not begun is answered at once, whatever goes before it."""
@@ -275,7 +281,7 @@ class _Conversation:
                 lane.arrived.clear()
                 await lane.arrived.wait()
             message, event = lane.waiting.popleft()
-            async with nullcontext() if message.method in _LONG else self.turn:
+            async with nullcontext() if lane is self.long else self.turn:
                 answer = await self._answer(message, event)
             self.events.pop(message.id, None)
             await self._send({"id": message.id} | answer)
