@@ -29,7 +29,7 @@ help:
 	@echo "make test-core   the tests of the C++ kernels, against plain Python and against print"
 	@echo "make core-sanitize  the C++ kernels with address and undefined-behaviour sanitizers, without Python"
 	@echo "make core-sanitize-python  the tests that call the C++ kernels most, with the same sanitizers; needs GCC"
-	@echo "make page        core/page/motion.wasm.gz from the kernels, and the built page; needs node"
+	@echo "make page        the modules of the page from the kernels, and the built page; needs node"
 	@echo "make bench       the benchmarks of benchmarks/README.md"
 	@echo "make evidence    the numbers of docs/tables derived again, contracted graphs by a second method"
 	@echo "make paper       the paper of paper/manuscript.md with its numbers and figures in build/paper"

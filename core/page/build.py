@@ -1,9 +1,10 @@
-"""Compiles what the page needs of the kernels into modules beside this file, by the clang of `ziglang`.
+"""Compiles what the page needs of the kernels into modules, by the clang of `ziglang`.
 
     python core/page/build.py      # needs `ziglang`, `zopfli` and npx; some minutes the first time, then a minute
 
-`motion.wasm.gz` moves linkages; `solutions.wasm.gz` finds four-bars through points, and is loaded when they are asked
-for. A module tells which sources it was made of, so that a test can say whether it belongs to those that are here.
+`motion.wasm.gz`, which every page carries, moves linkages; `solutions.wasm.gz` finds four-bars through points, and is
+loaded when they are asked for. A module tells which sources it was made of, so that a test can say whether it belongs to
+those that are here.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from typing import NamedTuple
 
 HERE = Path(__file__).parent
 CORE = HERE.parent
+PAGE = CORE.parent / "src/gruebler/page/static"
 SECTION = b"gruebler sources"
 """A custom section of a module: engines pass over it."""
 
@@ -25,22 +27,17 @@ SECTION = b"gruebler sources"
 class Module(NamedTuple):
     """What is compiled into one file."""
 
-    name: str
+    target: Path
     units: tuple[str, ...]
     exports: tuple[str, ...]
     hot: str
     """The unit in which nearly all of the time is spent; the others are compiled for their size."""
 
-    @property
-    def target(self) -> Path:
-        """The file."""
-        return HERE / f"{self.name}.wasm.gz"
-
 
 MOTION = ("bars", "closure", "closure_rates", "dyads", "newton", "placing", "plan", "sweep", "swept", "walk")
 MODULES = (
     Module(
-        name="motion",
+        target=PAGE / "motion.wasm.gz",
         units=(
             "page/door.cpp",
             *(f"src/motion/{name}.cpp" for name in MOTION),
@@ -49,7 +46,7 @@ MODULES = (
         hot="src/motion/sweep.cpp",  # rows of dyads abreast
     ),
     Module(
-        name="solutions",
+        target=HERE / "solutions.wasm.gz",
         units=("page/solutions_door.cpp", "src/algebra/tracking.cpp", "src/algebra/certificate.cpp"),
         exports=("reserve", "track", "refine", "certify"),
         hot="src/algebra/tracking.cpp",

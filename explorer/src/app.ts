@@ -9,7 +9,7 @@ import { languageMenu, saving, sayIn, sayWhetherOn, tabs, viewNames } from "./he
 import { showKeys } from "./help";
 import { Backend, type HostModel } from "./host";
 import { keptLink } from "./kept";
-import { missing } from "./kernel";
+import { loadKernel } from "./kernel";
 import { type Keyed, listenToKeys } from "./keys";
 import { currentLanguage, firstLanguage, type Language, setLanguage, t } from "./language";
 import { LibraryView } from "./library";
@@ -17,6 +17,7 @@ import { packed } from "./link";
 import type { Model } from "./model";
 import { MotionView } from "./motion";
 import { contentOf, takeDropped } from "./opening";
+import { fromBase64 } from "./packed";
 import { openShared, type Shared, sharedOf, shareLink } from "./sharing";
 import { firstTheme, setTheme, shell, themeTool, tool } from "./shell";
 import { IN_SPACE, type InSpace, stored } from "./storing";
@@ -85,11 +86,12 @@ export class App implements Page {
   }
 
   async start(): Promise<void> {
-    if (missing) {
+    try {
+      await loadKernel(fromBase64(String(this.model.get("kernel"))));
+    } catch (why) {
       this.#shadow.append(this.root);
       this.#appear();
-      const text = t("This page needs WebAssembly: {why}", { why: missing });
-      return this.say(text, "error");
+      return this.say(t("This page needs WebAssembly: {why}", { why: String(why) }), "error");
     }
     const addressed = this.#linkable && location.hash.length > 1;
     this.#unread = addressed; // until it is read

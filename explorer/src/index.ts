@@ -9,7 +9,7 @@ import { t } from "./language";
 
 export { documentOf } from "./document";
 export { Dragging } from "./dragging";
-export { Kernel } from "./kernel";
+export { Kernel, loadKernel } from "./kernel";
 export { packed, unpacked } from "./link";
 export { Linkage } from "./linkage";
 export * as measures from "./measures";

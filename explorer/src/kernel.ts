@@ -2,7 +2,6 @@
  *
  * core/page/door.cpp is the other side of the door and says what lies where in the block of memory between them. */
 
-import packed from "../../core/page/motion.wasm.gz";
 import { unpacked } from "./packed";
 import type { Program } from "./program";
 import type { Status } from "./status";
@@ -44,25 +43,18 @@ interface Core {
   unwound(x: number, y: number, near: number): number;
 }
 
-async function loaded(): Promise<Core> {
+let core: Core;
+
+/** Compile the packed module, once, before anything moves: some milliseconds. Fails where WebAssembly is forbidden or
+ * missing. */
+export async function loadKernel(packed: BlobPart): Promise<void> {
   const { instance } = await WebAssembly.instantiate(await unpacked(packed).arrayBuffer());
-  return instance.exports as unknown as Core;
-}
-
-// Once, before the page starts: some milliseconds.
-const core = await loaded().catch((error: unknown) => new Error(String(error)));
-
-/** Why no linkage can be moved here, if WebAssembly is forbidden or missing; the page says so instead of starting. */
-export const missing = core instanceof Error ? core.message : "";
-
-function exportsOf(): Core {
-  if (core instanceof Error) throw core;
-  return core;
+  core = instance.exports as unknown as Core;
 }
 
 /** The angle of a direction, with as many whole turns as bring it next to one near by. */
 export function unwoundAngle(x: number, y: number, near: number): number {
-  return exportsOf().unwound(x, y, near);
+  return core.unwound(x, y, near);
 }
 
 type Numbers = Float64Array | BigInt64Array;
@@ -120,19 +112,18 @@ export class Kernel {
     const lengths = [4, (order + 1) * 2 * links, 2 * links, order * links, dyads, this.#unknowns];
     const found = lengths.map((length, k) => (k ? length * count : length));
     const words = [...given.map((numbers) => numbers.length), ...found, Math.ceil((links * count) / 2)];
-    const wasm = exportsOf();
-    let at = wasm.reserve(words.reduce((sum, length) => sum + length, 0));
+    let at = core.reserve(words.reduce((sum, length) => sum + length, 0));
     for (const numbers of given) {
       const Kind = numbers instanceof Float64Array ? Float64Array : BigInt64Array;
-      new Kind(wasm.memory.buffer, at, numbers.length).set(numbers as never);
+      new Kind(core.memory.buffer, at, numbers.length).set(numbers as never);
       at += 8 * numbers.length;
     }
-    const wrong = wasm.run();
-    if (wrong) throw new Error(textAt(wasm.memory, wrong));
+    const wrong = core.run();
+    if (wrong) throw new Error(textAt(core.memory, wrong));
     const [outcome, places, turns, rates, roots, unknowns] = found.map((length) => {
       const from = at;
       at += 8 * length;
-      return new Float64Array(wasm.memory.buffer, from, length).slice();
+      return new Float64Array(core.memory.buffer, from, length).slice();
     }) as [Float64Array, Float64Array, Float64Array, Float64Array, Float64Array, Float64Array];
     const [status, reached, stop, fault] = outcome as unknown as [Status, number, number, number];
     return { status, reached, at: stop, fault, order, links, places, turns, rates, roots, unknowns };

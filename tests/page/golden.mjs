@@ -2,9 +2,9 @@
 // many numbers differ in a bit: `explorer.js` as first argument, the records as second.
 import { createReadStream } from "node:fs";
 import { createInterface } from "node:readline";
-import { pathToFileURL } from "node:url";
+import { pageModule } from "./page_module.mjs";
 
-const { Kernel, programOf } = await import(pathToFileURL(process.argv[2]).href);
+const { Kernel, programOf } = await pageModule(process.argv[2]);
 
 /** Row by row, and what is no number as NaN; `at` says where the numbers of a link are. */
 function ordered(array, orders, links, width, count, at) {

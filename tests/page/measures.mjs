@@ -1,9 +1,9 @@
 // Prints what the page measures of models that Python wrote, one JSON document a line; see test_linkage.py.
 import { createReadStream } from "node:fs";
 import { createInterface } from "node:readline";
-import { pathToFileURL } from "node:url";
+import { pageModule } from "./page_module.mjs";
 
-const { Dragging, documentOf, Linkage, linesOf, measures, turn } = await import(pathToFileURL(process.argv[2]).href);
+const { Dragging, documentOf, Linkage, linesOf, measures, turn } = await pageModule(process.argv[2]);
 
 for await (const line of createInterface({ input: createReadStream(process.argv[3]) })) {
   const linkage = new Linkage(JSON.parse(line));

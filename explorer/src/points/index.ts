@@ -1,7 +1,9 @@
 /** Four-bars through nine points, found without Python: the script of a worker that a static site starts when they are
  * asked for. It answers one question, and tells how far it is. */
 
+import packed from "../../../src/gruebler/page/static/motion.wasm.gz";
 import type { Found } from "../designs";
+import { loadKernel } from "../kernel";
 import type { Model } from "../model";
 import { place } from "../rows";
 import { bearingTurn } from "./bearings";
@@ -113,6 +115,8 @@ function designOf({ model, cycle, full, transmission }: Judged, targets: readonl
     bearings,
   };
 }
+
+await loadKernel(packed);
 
 const scope = globalThis as unknown as {
   WorkerGlobalScope?: unknown;

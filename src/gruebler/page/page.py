@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import html
 import json
 from collections.abc import Iterable, Mapping
@@ -29,6 +30,12 @@ WHOLE_WINDOW = "html,body,[data-gruebler]{height:100%;margin:0}"
 def module_text(name: str = "explorer") -> str:
     """The front end: one ES module, built from `explorer/` and shipped with the library; or what a static site adds."""
     return (_STATIC / f"{name}.js").read_text(encoding="utf-8")
+
+
+@cache
+def kernel_text() -> str:
+    """The kernel that moves linkages, a packed module of WebAssembly in base 64, as the front end is given it."""
+    return base64.b64encode((_STATIC / "motion.wasm.gz").read_bytes()).decode("ascii")
 
 
 def picture_styles() -> str:
@@ -121,6 +128,7 @@ def _page(lang: str, host: str, values: Mapping[str, Any], script: str, policy: 
     name = str(model["names"].get(lang or "en") or model["name"] or model["source"])
     title = f"{name} – gruebler" if name else "gruebler"
     tree = shadow_tree(page_styles(), _outline(name, lang, alone=host == "file"))
+    values = {"kernel": kernel_text(), **values}
     return data_page(title, lang, values, script, policy, f'<div data-gruebler="{host}">{tree}</div>')
 
 
