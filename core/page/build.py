@@ -3,8 +3,8 @@
     python core/page/build.py      # needs `ziglang`, `zopfli` and npx; some minutes the first time, then a minute
 
 `motion.wasm.gz`, which every page carries, moves linkages; `solutions.wasm.gz` finds four-bars through points, and is
-loaded when they are asked for. A module tells which sources it was made of, so that a test can say whether it belongs to
-those that are here.
+loaded when they are asked for. A module tells which sources it was made of, so that a test can say whether it belongs
+to those that are here.
 """
 
 from __future__ import annotations
