@@ -14,6 +14,7 @@ import {
   unitOf,
   without,
   withoutLink,
+  withoutLoose,
 } from "./drawing";
 import { parsed, spaced, t } from "./language";
 import { isPicture, type Plane } from "./plane";
@@ -29,13 +30,15 @@ interface Changing extends Plane {
   change(next: Drawing | null, text?: string): void;
 }
 
-/** Take what is chosen out of the drawing. */
+/** Take what is chosen out of the drawing, and the links that only it held. */
 export function removeChosen(view: Changing): void {
   const { chosen, drawing } = view;
   if (!chosen) return;
   const { knot, link } = chosen;
-  if (knot !== null) view.change(without(drawing, knot));
-  else view.change(link === null ? { ...drawing, picture: undefined } : withoutLink(drawing, link));
+  let next: Drawing = { ...drawing, picture: undefined };
+  if (knot !== null) next = without(drawing, knot);
+  else if (link !== null) next = withoutLink(drawing, link);
+  view.change(withoutLoose(drawing, next));
 }
 
 /** Whether what is chosen is at the lower edge of the plane, where else stands what can be done with it. */

@@ -22,6 +22,8 @@ export interface Knot {
   readonly part?: number;
   /** What it was called in the linkage that was taken over; an open end as the point of its link. */
   readonly name?: string;
+  /** What it is called without a name since another one was removed. */
+  readonly letter?: string;
 }
 
 export interface Drawing {
@@ -67,14 +69,15 @@ export function jointsOf({ knots }: Drawing): number[] {
 
 /** What a knot is called, so that its name is not taken for that of a link: A to Z, then A1; not as another one. */
 export function knotName({ knots }: Drawing, number: number): string {
-  const { name } = knots[number]!;
-  const taken = new Set(knots.map((knot) => knot.name));
-  let before = knots.slice(0, number).filter((knot) => !knot.name).length;
-  for (let k = 0; !name; k++) {
+  const names = knots.map(({ letter, name }) => name ?? letter);
+  const taken = new Set(names);
+  let before = names.slice(0, number).filter((one) => !one).length;
+  const own = names[number];
+  for (let k = 0; !own; k++) {
     const letter = String.fromCharCode(65 + (k % 26)) + (Math.floor(k / 26) || "");
     if (!taken.has(letter) && !before--) return letter;
   }
-  return name;
+  return own;
 }
 
 /** Of two wheels that meet in a knot. */
@@ -235,10 +238,11 @@ export function split(drawing: Drawing, number: number, step: number): Drawing {
   return { ...rest, knots: [...rest.knots, ...ends] };
 }
 
-/** Without a knot; links that have no other vanish. */
+/** Without a knot; links that have no other vanish, the other knots are called as before. */
 export function without(drawing: Drawing, number: number): Drawing {
   const drives = drawing.drives.filter((k) => k !== number).map((k) => (k > number ? k - 1 : k));
-  return { ...drawing, drives, knots: drawing.knots.filter((_, k) => k !== number) };
+  const knots = drawing.knots.map((knot, k) => ({ ...knot, letter: knotName(drawing, k) }));
+  return { ...drawing, drives, knots: knots.filter((_, k) => k !== number) };
 }
 
 /** Without a link: its joints keep their other links, its open ends vanish. */
@@ -255,6 +259,15 @@ export function withoutLink(drawing: Drawing, link: string): Drawing {
     }
   }
   return out;
+}
+
+/** What is left of a drawing after a change, without links that lost all of their knots but one. */
+export function withoutLoose(before: Drawing, after: Drawing): Drawing {
+  const knotsOf = ({ knots }: Drawing, link: string) => knots.filter(({ links }) => links.includes(link)).length;
+  const loose = linksOf(after).find(
+    (link) => link !== after.frame && knotsOf(after, link) < 2 && knotsOf(before, link) > 1,
+  );
+  return loose === undefined ? after : withoutLoose(before, withoutLink(after, loose));
 }
 
 /** Whether links may be called so. */

@@ -25,7 +25,9 @@ import {
   withGears,
   withGround,
   withLink,
+  without,
   withoutLink,
+  withoutLoose,
   withSlider,
 } from "../src/drawing";
 import { setLanguage } from "../src/language";
@@ -157,6 +159,29 @@ test("a link that is removed leaves the ends of the others", () => {
   assert.equal(jointsOf(rest).length, 2);
   assert.deepEqual(rest.drives, [0]);
   assert.deepEqual(withoutLink(drawing, "1").drives, []);
+});
+
+test("links that lose all joints but one go with the joint, and letters stay", () => {
+  const four = fourBar();
+  const drawing = withDyad(four, on("2", 30, 60), place(90, 90), on("frame", 120, 0)); // E, F, G
+  const left = (number: number) => {
+    const rest = withoutLoose(drawing, without(drawing, number));
+    return rest.knots.map(({ links }, k) => `${knotName(rest, k)} ${links.join("-")}`).sort();
+  };
+  assert.deepEqual(left(5), ["A frame-1", "B 1-2", "C 2-3", "D frame-3", "E 2", "G frame"]);
+  // the coupler is held by B and E yet; the rocker by D alone
+  assert.deepEqual(left(2), ["A frame-1", "B 1-2", "D frame", "E 2-4", "F 4-5", "G frame-5"]);
+  const more = withLink(four, knot(four, 1), place(9, 90));
+  const rest = withoutLoose(more, without(more, more.knots.length - 1)); // a bar without its end
+  assert.deepEqual(linksOf(rest), linksOf(four));
+});
+
+test("wheels go with their mesh, one that meshes twice stays", () => {
+  const pair = withGears(EMPTY, place(0, 0), place(60, 0), [20, 0])!;
+  const mesh = pair.knots.findIndex(({ part }) => part !== undefined);
+  assert.deepEqual(linksOf(withoutLoose(pair, without(pair, mesh))), ["frame"]);
+  const three = withGears(pair, knot(pair, 1), place(120, 0), [90, 0])!;
+  assert.deepEqual(linksOf(withoutLoose(three, without(three, mesh))), ["frame", "2", "3"]);
 });
 
 test("names", () => {

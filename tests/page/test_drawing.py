@@ -660,6 +660,22 @@ def test_joints_are_joined_split_named_and_removed(plane):
     assert view.evaluate(knots) == ["2", "2"]
 
 
+def test_a_joint_is_removed_with_the_links_that_only_it_held_and_letters_stay(plane):
+    view = plane.page
+    view.click('[data-begin="six-bar"]')
+    view.locator('.drawing [data-knot="6"]').wait_for()
+    names = ".drawing text.name"
+    assert sorted(view.locator(names).all_text_contents()) == [*"12345", *"ABCDEFGH"]
+    click(plane, view.evaluate("gruebler.views.build.drawing.knots[6].at"))  # of links 4 and 5
+    view.locator(".choosing b", has_text="G: 4 – 5").wait_for()
+    view.keyboard.press("Delete")
+    assert sorted(view.locator(names).all_text_contents()) == [*"123", *"ABCDEFH"]
+    plane.until(f"gruebler.root.querySelector('[data-place=mobility]').textContent.includes('{MOVES}')")
+    view.keyboard.press("Control+z")
+    assert sorted(view.locator(names).all_text_contents()) == [*"12345", *"ABCDEFGH"]
+    view.evaluate("localStorage.clear()")
+
+
 @pytest.mark.parametrize("machine", ["crane_cyl", "geartrain", "toggle_press"])
 def test_the_machine_at_hand_is_taken_over(plane, machine):
     """Cylinder, gears, slide and double joint: where a drawing of the machine moves to is where the machine does."""
