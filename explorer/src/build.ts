@@ -20,7 +20,7 @@ import { WAYS } from "./pointer";
 import type { Pair } from "./rows";
 import { zoomButtons } from "./shell";
 import { extentOf, starters } from "./starters";
-import { openDrawn } from "./taken";
+import { isOf, openDrawn } from "./taken";
 import type { Page, View } from "./view";
 import { type Box, Viewport } from "./viewport";
 
@@ -33,6 +33,8 @@ export class BuildView implements View, Plane, Drawn {
   /** The drawing as it was found, which Motion need not show, or what Motion was last given, and made of it. */
   #known = this.drawing;
   #made: Linkage | null = null;
+  /** The linkage whose loads are those of the drawing. */
+  #before: Linkage | null = null;
   #tool: Tool = this.drawing.knots.length ? "link" : "ground";
   spots: Spot[] = [];
   chosen: Chosen | null = null;
@@ -121,6 +123,8 @@ export class BuildView implements View, Plane, Drawn {
   }
 
   appeared(): void {
+    const { linkage } = this.page;
+    if (isOf(linkage, this.drawing)) this.#before = linkage;
     this.#resize();
     this.#offer();
   }
@@ -133,6 +137,7 @@ export class BuildView implements View, Plane, Drawn {
   begin(drawing: Drawing, known = false, tool: Tool = "move"): void {
     this.change(drawing);
     if (known) this.#known = drawing;
+    this.#before = known ? this.page.linkage : null;
     this.#take(tool);
     this.fit();
   }
@@ -378,8 +383,8 @@ export class BuildView implements View, Plane, Drawn {
   async move(): Promise<void> {
     this.#known = this.drawing;
     try {
-      await openDrawn(this.page, this.drawing);
-      this.#made = this.page.linkage;
+      await openDrawn(this.page, this.drawing, this.#before);
+      this.#made = this.#before = this.page.linkage;
     } catch (error) {
       this.page.say((error as Error).message);
     }

@@ -2,7 +2,18 @@
 
 import type { Beside } from "./beside";
 import { DEGREE } from "./cycle";
-import { type Drawing, documentOfDrawing, isName, type Knot, placed, traced } from "./drawing";
+import { savedDocument } from "./document";
+import {
+  type Drawing,
+  documentOfDrawing,
+  isName,
+  jointsOf,
+  type Knot,
+  knotName,
+  linksOf,
+  placed,
+  traced,
+} from "./drawing";
 import { t } from "./language";
 import type { Linkage } from "./linkage";
 import type { Model } from "./model";
@@ -12,9 +23,7 @@ import type { Page } from "./view";
 /** The drawing of a linkage in the pose that is shown; without one the joints that cannot be drawn. */
 export function drawingOf(linkage: Linkage): { drawing?: Drawing; other: string[] } {
   const { beside, model, pose, sizes } = linkage;
-  const shown = model.links.map((_, link) => linkage.linkName(link).replaceAll(" ", "_"));
-  const named = new Set(shown).size === shown.length && shown.every(isName);
-  const names = named ? shown : model.links;
+  const names = linkNames(linkage);
   const joints = model.joints.map((_, joint) => {
     const [knot, name] = [knotOf(linkage, joint, names), linkage.letterOf(joint)];
     return knot && name ? { ...knot, name } : knot;
@@ -48,6 +57,13 @@ export function drawingOf(linkage: Linkage): { drawing?: Drawing; other: string[
     },
     other,
   };
+}
+
+/** The links by the names that their drawing has. */
+function linkNames(linkage: Linkage): readonly string[] {
+  const { links } = linkage.model;
+  const shown = links.map((_, link) => linkage.linkName(link).replaceAll(" ", "_"));
+  return new Set(shown).size === shown.length && shown.every(isName) ? shown : links;
 }
 
 /** A joint as the drawing has it: a pin, a slide or a cylinder, two gears; null if it is another one. */
@@ -85,10 +101,27 @@ function ends(linkage: Linkage, one: number, two: number): [Pair, Pair] {
   return [linkage.elementAt(one), linkage.elementAt(two)];
 }
 
-/** Let Motion show the linkage of a drawing, with the curve of a point if it is a new one. */
-export async function openDrawn(page: Page, drawing: Drawing): Promise<void> {
+/** Links and joints of a linkage as its drawing calls them, from which the library tells what its loads act on now. */
+function loadedBefore(linkage: Linkage | null): object | undefined {
+  const { drawing } = (linkage && drawingOf(linkage)) ?? {};
+  if (!drawing) return;
+  const { joints, own, source } = linkage!.model;
+  const letters = joints.map((_, k) => knotName(drawing, k));
+  return { document: savedDocument(linkage!), source, letters, links: linkNames(linkage!).slice(0, own) };
+}
+
+/** Whether a linkage is that of a drawing, but for its sizes. */
+export function isOf({ beside, model }: Linkage, drawing: Drawing): boolean {
+  const own = jointsOf(drawing).map((k) => knotName(drawing, k));
+  return beside.letters === own.join(" ") && `${model.links}` === `${linksOf(drawing)}`;
+}
+
+/** Let Motion show the linkage of a drawing, with the loads of what it was before, and with the curve of a point if it
+ * is a new one. */
+export async function openDrawn(page: Page, drawing: Drawing, before: Linkage | null): Promise<void> {
   const { title } = drawing;
   const document = documentOfDrawing(title === undefined ? traced(drawing) : drawing);
-  const model = await page.ask<Model>("open_document", { document, name: title ?? t("New drawing") });
+  const name = title ?? t("New drawing");
+  const model = await page.ask<Model>("open_document", { document, name, before: loadedBefore(before) });
   page.open({ ...model, changed: title !== undefined });
 }

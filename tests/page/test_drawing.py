@@ -7,11 +7,14 @@ import math
 import numpy as np
 import pytest
 
-from gruebler.files import linkage_from_json
+from gruebler.files import linkage_from_json, linkage_to_json
+from gruebler.files.load_reading import loads_of_document
 from gruebler.mechanics.analysis.measuring import measures
+from gruebler.mechanics.fourbar import FourBar
 from gruebler.mechanics.kinematics import move
 from gruebler.page.drawings import drawing_record
 from gruebler.page.model import model_of
+from gruebler.page.requests import answer
 from gruebler.structure.chain import Chain
 from gruebler.structure.mobility import mobility_report
 from gruebler.teaching import catalog
@@ -92,6 +95,81 @@ def test_what_is_offered_leaves_a_machine_that_its_drives_move():
     # of a five-bar with a drive no other one is offered that works against it: a triangle on the ground stays as it is
     truss = drawing_record("R(0-1) R(1-2) R(2-0) R(0-3) R(3-4)", "0", [], "en")["offers"]
     assert {offer["joint"] for offer in truss if offer["kind"] == "drive"} == {3}
+
+
+def drawn_again(**more):
+    """A four-bar with loads, in place of which links 1, 2 and the rocker are drawn: the answer of the library."""
+    old = FourBar(25, 70, 40, 70).linkage().with_reference_pose(move(FourBar(25, 70, 40, 70).linkage(), [1.0]).pose())
+    loads = {
+        "speed": "10 rad/s",
+        "bodies": {"coupler": {"mass": "2 kg", "centre": [35, 7], "inertia": "700 kg mm2"}, "crank": {"mass": "1 kg"}},
+        "forces": {"R(coupler-rocker)": ["0 N", "-10 N"], "R(frame-crank)": ["1 N", "0 N"]},
+        "moments": {"rocker": "5 N mm"},
+        "springs": [{"between": ["frame:0,0", "R(coupler-rocker)"], "stiffness": "2 N/mm"}],
+    }
+    names = [*old.mechanism.chain.joint_names()]
+    letters = {"R(frame-crank)": "A", "R(crank-coupler)": "B", "R(coupler-rocker)": "C", "R(frame-rocker)": "D"}
+    numbers = {"crank": "1", "coupler": "2", "rocker": "3", "frame": "frame"}
+    document = {
+        "unit": "mm",
+        "joints": "R(frame-1) R(1-2) R(2-lever) R(frame-lever)",
+        "frame": "frame",
+        "drives": ["R(frame-1)"],
+        "page": {"letters": "A B C D"},
+        "places": {
+            "R(frame-1)": [0, 0],
+            "R(1-2)": [0, 25],
+            "R(2-lever)": [0, 165],
+            "R(frame-lever)": [90, 0],
+        },
+    }
+    before = {
+        "document": linkage_to_json(old) | {"loads": loads, "page": {"bars": [old.mechanism.chain.index("crank")]}},
+        "letters": [letters[name] for name in names],
+        "links": [numbers[link] for link in old.mechanism.chain.links],
+    }
+    return answer("open_document", {"document": document | more, "before": before}, "en", print)["document"]
+
+
+def test_loads_stay_where_links_and_joints_are_still_there():
+    """The rocker has another name, the coupler is twice as long as its 70, and upright: its body goes along."""
+    document = drawn_again()
+    linkage = linkage_from_json(document)
+    loads, speed = loads_of_document(document, linkage)
+    assert speed == pytest.approx(10)
+    assert loads.forces == {"R(2-lever)": (0.0, -10.0), "R(frame-1)": (1.0, 0.0)}
+    assert loads.moments == {"lever": 5.0}
+    body = loads.bodies["2"]
+    assert (body.mass, body.inertia) == pytest.approx((2, 700 * 4))
+    # 70 of 140 along the coupler, 14 to its left
+    assert linkage.reference_pose["2"].put(*body.centre) == pytest.approx((-14, 25 + 70))
+    assert loads.bodies["1"].mass == 1
+    assert document["page"]["bars"] == [linkage.mechanism.chain.index("1")]
+    (spring,) = loads.springs
+    assert spring.between[1] == "R(2-lever)"
+    assert spring.stiffness == 2
+
+
+def test_loads_on_what_is_gone_are_left_out():
+    """A five-bar: the coupler with joint B alone is left of it, and joint C is of other links."""
+    document = drawn_again(
+        joints="R(frame-1) R(1-2) R(4-5) R(frame-5) R(2-4)",
+        page={"letters": "A B C E F"},
+        drives=["R(frame-1)", "R(frame-5)"],
+        places={
+            "R(frame-1)": [0, 0],
+            "R(1-2)": [0, 25],
+            "R(4-5)": [80, 60],
+            "R(frame-5)": [90, 0],
+            "R(2-4)": [40, 70],
+        },
+    )
+    loads = document["loads"]
+    assert list(loads["forces"]) == ["R(frame-1)"]
+    assert sorted(loads["bodies"]) == ["1", "2"]
+    assert "moments" not in loads
+    assert "springs" not in loads
+    assert "speed" not in loads  # there are two drives
 
 
 @pytest.fixture
@@ -780,6 +858,27 @@ def test_classes_of_joints_are_indices_and_no_line_breaks_beside_an_equals_sign(
     offer.wait_for()
     assert "F\xa0=\xa01" in offer.text_content()
     assert view.locator('[data-place="mobility"] details').get_attribute("open") is not None  # as it was
+
+
+def test_loads_of_motion_stay_while_the_drawing_is_changed(plane):
+    view = plane.page
+    view.click('[data-begin="six-bar"]')
+    view.locator('[data-act="move"]').click()
+    plane.until("gruebler.view === 'motion'")
+    forces = {"R(4-5)": ["0 N", "-7 N"], "R(2-3)": ["3 N", "0 N"]}
+    view.evaluate(
+        f"gruebler.motion.linkage.loads = {json.dumps({'forces': forces, 'bodies': {'2': {'mass': '2 kg'}}})}"
+    )
+    view.click('[data-view="build"]')
+    view.keyboard.press("v")
+    click(plane, view.evaluate("gruebler.views.build.drawing.knots[6].at"))
+    view.keyboard.press("Delete")  # with links 4 and 5
+    view.locator('[data-act="move"]').click()
+    plane.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.links.length === 4")
+    loads = view.evaluate("gruebler.motion.linkage.loads")
+    assert loads["forces"] == {"R(2-3)": ["3.0 N", "0.0 N"]}
+    assert loads["bodies"]["2"]["mass"] == "2.0 kg"
+    view.evaluate("localStorage.clear()")
 
 
 def test_the_name_of_the_machine_at_hand_is_cut_between_words(plane):

@@ -55,12 +55,22 @@ class CatalogId(Params):
     id: Word
 
 
+class DrawnBefore(Params):
+    """A linkage out of which another one was drawn, and what the drawing called its links and joints."""
+
+    document: dict[str, Any]
+    links: Annotated[list[Word], msgspec.Meta(max_length=200)]
+    letters: Annotated[list[Word], msgspec.Meta(max_length=400)]
+    source: Word = ""
+
+
 class OpenDocument(Params):
-    """A linkage as plain data (`gruebler.files.linkage_to_json`)."""
+    """A linkage as plain data (`gruebler.files.linkage_to_json`), with the loads of one that it was before."""
 
     document: dict[str, Any]
     name: Word = ""
     source: Word = ""
+    before: DrawnBefore | None = None
 
 
 class MeasureLinkage(Params):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -54,11 +54,8 @@ class WithLoads(NamedTuple):
 def with_loads(asked: LoadedLinkage, lang: str) -> WithLoads:
     """Loads of the document, or of the catalog entry while its links are there; in their place what the reader gave."""
     plain = linkage_from_json(asked.document)
-    names, entry = link_names(plain, asked.source, lang), entries().get(asked.source)
-    if asked.document.get("loads") or entry is None or entry.loads is None or entry.chain().links != tuple(names):
-        loads, speed = loads_of_document(asked.document, plain)
-    else:
-        _, loads, speed = entry.loaded()
+    names = link_names(plain, asked.source, lang)
+    loads, speed = loads_at_hand(asked.document, asked.source, plain)
     bodies, bars = _bodies(plain, loads, asked)
     loads = replace(loads, bodies=bodies)
     if asked.gravity is not None and asked.gravity != any(loads.gravity):
@@ -73,6 +70,16 @@ def with_loads(asked: LoadedLinkage, lang: str) -> WithLoads:
     linkage = plain.renamed(names)
     named = loads_from_json(renamed_loads(table, names), linkage)
     return WithLoads(linkage, named, speed, {"loads": table, "bars": bars})
+
+
+def loads_at_hand(document: Mapping[str, Any], source: str, linkage: Linkage) -> tuple[Loads, float | None]:
+    """Loads of the document of a linkage, or of its catalog entry while its links are there; and the usual speed."""
+    entry = entries().get(source)
+    links = linkage.mechanism.chain.links
+    if document.get("loads") or entry is None or entry.loads is None or entry.chain().links != links:
+        return loads_of_document(document, linkage)
+    _, loads, speed = entry.loaded()
+    return loads, speed
 
 
 def _bodies(linkage: Linkage, loads: Loads, asked: LoadedLinkage) -> tuple[dict[str, RigidBody], list[int] | str]:

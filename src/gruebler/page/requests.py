@@ -189,7 +189,12 @@ def _open_document(asked: OpenDocument, _: str, __: Progress) -> dict[str, Any]:
     from gruebler.page.model import model_of, with_document
 
     linkage = linkage_from_json(asked.document)
-    return with_document(model_of(linkage, name=asked.name, source=asked.source), linkage, asked.document)
+    model = with_document(model_of(linkage, name=asked.name, source=asked.source), linkage, asked.document)
+    if asked.before is None:
+        return model
+    from gruebler.page.carried_loads import with_loads_before
+
+    return with_loads_before(model, linkage, asked.before)
 
 
 def _structure(asked: DescribeStructure, lang: str, _: Progress) -> dict[str, Any]:
