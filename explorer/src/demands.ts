@@ -4,6 +4,9 @@ import { h, option } from "./dom";
 import { t } from "./language";
 import type { Pair } from "./rows";
 
+/** So many times the extent of the targets a link is long at most where nothing is typed. */
+const FAR = 10;
+
 export class Demands {
   #crank = true;
   #least = 20; // degrees
@@ -11,12 +14,20 @@ export class Demands {
   order = "";
   /** How far fixed pivots may lie outside the places, as it is typed. */
   #reach = "";
+  /** How long a link may be, as it is typed. */
+  #longest = "";
+  /** Its field. */
+  #length: HTMLInputElement | undefined;
 
-  /** The corners of the region of fixed pivots, if one is typed. */
-  region(points: readonly number[][]): Pair[] {
+  /** The corners of the region of fixed pivots, if one is typed; the field of the longest link shows what holds where
+   * nothing is typed, as the library takes it. */
+  region(points: readonly number[][], curve: number): Pair[] {
+    const reach = +this.#reach || curve;
     const [low, high] = [Math.min, Math.max].map((far, k) =>
-      [0, 1].map((axis) => far(...points.map((row) => row[axis]!)) + (k ? 1 : -1) * +this.#reach),
+      [0, 1].map((axis) => far(...points.map((row) => row[axis]!)) + (k ? 1 : -1) * reach),
     ) as [Pair, Pair];
+    const across = (this.#reach || curve ? 1 : FAR) * Math.hypot(high[0] - low[0], high[1] - low[1]);
+    this.#length?.setAttribute("placeholder", points[1] ? String(+across.toPrecision(3)) : "∞");
     return this.#reach && points.length ? [low, [high[0], low[1]], high, [low[0], high[1]]] : [];
   }
 
@@ -43,6 +54,16 @@ export class Demands {
         changed();
       },
     });
+    this.#length = h("input", {
+      type: "number",
+      min: 0,
+      value: this.#longest,
+      "data-field": "longest",
+      onchange: ({ target }: Event) => {
+        const field = target as HTMLInputElement;
+        this.#longest = field.value && limited(field, 1e9);
+      },
+    });
     const order = h("input", {
       value: this.order,
       "aria-label": t("Order of the targets"),
@@ -55,8 +76,15 @@ export class Demands {
       {},
       closed,
       way && option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
-      h("label", {}, way ? t("transmission angle on the way at least") : t("transmission angle at least"), least, "°"),
-      places && h("label", {}, t("fixed pivots in the box of the targets +"), reach, "mm"),
+      h(
+        "label",
+        {},
+        way ? t("transmission angle between the targets at least") : t("transmission angle at least"),
+        least,
+        "°",
+      ),
+      places && h("label", {}, t("fixed pivots outside the targets at most"), reach, "mm"),
+      places && h("label", {}, t("longest link at most"), this.#length, "mm"),
       places &&
         (!curve || !!this.order) &&
         h(
@@ -64,7 +92,11 @@ export class Demands {
           { open: this.order !== "" },
           h("summary", {}, t("Order of the targets")),
           order,
-          h("p.note", {}, t("One number for each target: the same for those in any order, – for one at any time")),
+          h(
+            "p.note",
+            {},
+            t("When each target is passed: 1 first, then 2 …; equal numbers in any order, – at any time"),
+          ),
         ),
     );
   }
@@ -75,6 +107,7 @@ export class Demands {
     const ranks = places ? (this.order.match(/[^\s,;]+/g) ?? []) : [];
     return {
       reach: places && reach !== 0 ? +reach : null,
+      longest_link: places && this.#longest ? +this.#longest : null,
       order: ranks.map((rank) => (/\d/.test(rank) ? +rank : null)),
       crank: this.#crank,
       transmission: this.#least,

@@ -164,7 +164,7 @@ export class DesignCards {
     return {
       error: t("deviation"),
       range: t("μ in all positions"),
-      transmission: t("μ on the way"),
+      transmission: t("μ between targets"),
       size: t("longest link"),
       shift: t("sensitivity"),
       balanced: t("balanced"),
@@ -183,13 +183,14 @@ export class DesignCards {
     const forms = this.#forms();
     const kinds = forms.map((form): [string, string] => [form, `${form} · ${this.#of(form).length}`]);
     kinds.unshift(["", t("All")]);
+    const lines = (text: string) => text.split("\n").map((line) => h("p.note", {}, line));
     const list = (name: string, designs: Design[]) =>
       h("div.cards.sorted", { "data-list": name }, ...designs.map((design) => this.#card(design)));
     renew(
       this.element,
       h("h2", {}, items.length === 1 ? t("1 design") : t("{count} designs", { count: items.length })),
-      ...found.note.split("\n").map((line) => h("p.note", {}, line)),
-      found.words && h("details.words", {}, h("summary", {}, t("What the cards tell")), h("p.note", {}, found.words)),
+      ...lines(found.note),
+      found.words && h("details.words", {}, h("summary", {}, t("What the values mean")), ...lines(found.words)),
       items[0]?.stems ? this.#missed.element : "",
       h(
         "div.form",
@@ -265,7 +266,7 @@ export class DesignCards {
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
     const extra: [string, string][] = [];
     if (point)
-      extra.push([t("point along, left"), point.map((one) => this.#length(design, one)).join("\u00a0|\u00a0")]);
+      extra.push([t("point: along | left"), point.map((one) => this.#length(design, one)).join("\u00a0|\u00a0")]);
     if (pairs) extra.push([t("first pair at"), pairs[0]!.map((one) => angle(one * DEGREE)).join("\u00a0|\u00a0")]);
     let touched = false; // by a finger, which only chooses it
     const play = () => {

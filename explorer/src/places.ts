@@ -14,6 +14,7 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty()
   const { keeps, knots, picture } = drawing;
   const numbers = [...knots.keys()].filter((k) => isPin(knots[k]!));
   const rows = numbers.map((k) => [...knots[k]!.at]);
+  const say = (text: string) => view.page.say(text);
   const typed = () => {
     const k = rows.findIndex((row, m) => row.join() !== knots[numbers[m]!]!.at.join());
     view.change(moved(drawing, numbers[k]!, rows[k] as unknown as Pair));
@@ -37,6 +38,7 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty()
             ["x", "y"],
             false,
             typed,
+            say,
             (k) => knotName(drawing, numbers[k]!),
           ),
         ]
@@ -48,7 +50,7 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty()
     }),
     ...(picture
       ? [
-          rowsTable(frame, t("Picture"), ["x", "y", t("Width"), "φ [°]"], true, framed, () => ""),
+          rowsTable(frame, t("Picture"), ["x", "y", t("Width"), "φ [°]"], true, framed, say, () => ""),
           option(t("Keep it in the document"), !!keeps, (on) => view.change({ ...drawing, keeps: on }), "keeps"),
         ]
       : []),

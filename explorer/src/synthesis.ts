@@ -71,6 +71,7 @@ export class SynthesisView implements View {
   readonly #doing = h("div.doing", {});
   readonly #clearing = action("clear", () => this.#clear());
   readonly #page: Page;
+  readonly #say = (text: string) => this.#page.say(text);
 
   constructor(page: Page) {
     this.#page = page;
@@ -350,7 +351,7 @@ export class SynthesisView implements View {
     const single = this.kind === "dead-centres";
     const last = this.points.at(-1) ?? [];
     const table = (rows: number[][], title: string, head: string[]) =>
-      rowsTable(rows, title, head, !single, () => this.#draw(), single ? () => "" : undefined);
+      rowsTable(rows, title, head, !single, () => this.#draw(), this.#say, single ? () => "" : undefined);
     const add = () => {
       this.points.push(last.map((value) => value + 30));
       this.#draw();
@@ -412,7 +413,7 @@ export class SynthesisView implements View {
     const { kind, points } = this;
     const pivots = kind === "positions" ? this.#pivots : [];
     const closed = kind === "points" && this.#closed;
-    const region = this.#planar ? this.#demands.region([...points, ...pivots]) : [];
+    const region = this.#planar ? this.#demands.region([...points, ...pivots], this.#curve) : [];
     const task = { kind, points, pivots, region, closed, design: this.#shownDesign, home: this.#home };
     this.#picture.paint(task, !!this.#held);
   }

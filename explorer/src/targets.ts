@@ -25,6 +25,7 @@ export function rowsTable(
   head: string[],
   removable: boolean,
   changed: () => void,
+  say: (text: string) => void,
   numbered = (k: number) => String(k + 1),
 ): HTMLElement {
   const called = (k: number) => t("{title} {number}", { title, number: numbered(k) }).trim();
@@ -35,8 +36,10 @@ export function rowsTable(
       "aria-label": `${called(k)} ${head[axis]}`,
       onchange: () => {
         const value = parsed(input.value);
-        input.setAttribute("aria-invalid", String(!Number.isFinite(value)));
-        if (!Number.isFinite(value)) return;
+        const right = Number.isFinite(value);
+        input.setAttribute("aria-invalid", String(!right));
+        say(right ? "" : t("Expected a number, such as {value}.", { value: number(row[axis]!) }));
+        if (!right) return;
         row[axis] = value;
         changed();
       },

@@ -369,12 +369,12 @@ def test_the_transmission_angle_asked_for_says_where_it_holds(design):
     least = view.locator('label:has([data-field="least"])')
     for kind in ("points", "positions", "function"):
         view.click(f'[data-value="{kind}"]')
-        assert least.inner_text().startswith("transmission angle on the way at least")
+        assert least.inner_text().startswith("transmission angle between the targets at least")
     view.click('[data-act="synthesise"]')
-    view.locator('[data-list="designs"] .card:has-text("μ on the way")').first.wait_for(timeout=60_000)
+    view.locator('[data-list="designs"] .card:has-text("μ between targets")').first.wait_for(timeout=60_000)
     view.click(".designs summary")
     told = view.locator(".designs details").first.inner_text()
-    assert "On the way: from the first target to the last." in told
+    assert "between targets: on the way from the first to the last." in told
     assert "Sensitivity: how far a target is off" in told
     view.click('[data-value="dead-centres"]')
     assert least.inner_text().startswith("transmission angle at least")
@@ -920,11 +920,74 @@ def test_demands_stay_in_their_range_and_the_region_of_the_pivots_is_seen(design
     corners = re.findall(r"-?[\d.]+ -?[\d.]+", view.locator("[data-region]").get_attribute("d"))
     x, y = np.array([corner.split() for corner in corners], float).T
     assert [min(x), max(x), min(-y), max(-y)] == [-70, 65, -60, 55]
-    field.fill("0")  # none outside, which is not the same as no limit
+    # as long as a link is where nothing is typed: at most the diagonal of that space, ten times that of the points
+    longest = view.locator('[data-field="longest"]')
+    assert longest.get_attribute("placeholder") == f"{np.hypot(135, 115):.3g}"
+    field.fill("")
     field.press("Tab")
+    assert float(longest.get_attribute("placeholder")) == float(f"{10 * np.hypot(115, 95):.3g}")
+    field.fill("0")  # none outside, which is not the same as no limit
+    longest.fill("80")
+    longest.press("Tab")
     design.hold()
     view.click('[data-act="synthesise"]')
-    assert view.evaluate("held.at(-1).params.reach") == 0
+    assert view.evaluate("(({ reach, longest_link }) => [reach, longest_link])(held.at(-1).params)") == [0, 80]
+
+
+def test_no_link_is_longer_than_what_is_typed(found_for_three):
+    """Those that are left are as they were; of the others it is said how many there are."""
+    from gruebler.page.requests import answer
+
+    asked = {"kind": "positions", "rows": THREE, "crank": True, "transmission": 20, "longest_link": 150}
+    found = answer("synthesise", asked, "en", lambda _: None)
+    sizes = sorted(item["size"] for item in found_for_three["items"])
+    kept = [size for size in sizes if size <= 150]
+    assert 0 < len(kept) < len(sizes) < 24
+    assert sorted(item["size"] for item in found["items"]) == pytest.approx(kept)
+    assert f"longer than 150 mm: {len(sizes) + 2 - len(kept)}." in found["note"]
+
+
+def test_what_is_no_number_is_told_with_one_that_is(design):
+    view = design.page
+    view.click('[data-value="dead-centres"]')
+    field = view.locator(".targets input").first
+    told = view.locator('[role="alert"], [role="status"]').filter(has_text="Expected a number, such as 60.")
+    field.fill("abc")
+    field.press("Tab")
+    told.wait_for()
+    assert view.evaluate(f"{VIEW}.rows['dead-centres']") == [[60, 1.2]]
+    view.locator(".targets input").first.fill("70")
+    view.locator(".targets input").first.press("Tab")
+    assert view.evaluate(f"{VIEW}.rows['dead-centres']") == [[70, 1.2]]
+    assert told.count() == 0
+
+
+def test_how_far_a_rejected_linkage_misses_a_point_is_a_length():
+    """Of a point 7 mm above a coupler curve; how near that comes to it by 40,001 of its places."""
+    from gruebler.base.text import message
+    from gruebler.design.synthesis import Demands, PathTask, SynthesisResult
+    from gruebler.design.synthesis.judging import judge_design
+    from gruebler.design.synthesis.results import SolutionCount
+    from gruebler.design.synthesis.targets import point_targets
+    from gruebler.mechanics.fourbar import FourBar
+    from gruebler.page.design_words import notes
+
+    bar = FourBar(30, 80, 70, 90).linkage({"K": (40, 35)})
+    curve = move(bar, np.linspace(0, 2 * np.pi, 40_001)).complex_point("K")
+    points = curve[[0, 4000, 8000, 12000, 16000]]
+    points[2] += 7j
+    nearest = np.abs(curve - points[2]).min()
+    bar = bar.with_reference_pose(move(bar, [0.0]).pose(0))
+    rejected = judge_design(bar, point_targets("K", points, 50.0), Demands(), "four-bar")
+    task = PathTask(tuple((z.real, z.imag) for z in points))
+    count = SolutionCount(what=message("four-bars"), theorem=None, found=1, real=1)
+    told = [
+        str(note) for note in notes(SynthesisResult(task=task, designs=(), rejected=(rejected,), count=count), [], 0)
+    ]
+    assert told[-1] == (
+        f"Rejected (1): target 3 is missed by {nearest:.3g} mm, unless the linkage is taken apart and put together "
+        "the other way."
+    )
 
 
 def test_targets_last_when_the_page_is_loaded_again_and_none_is_left_when_cleared(design):
@@ -990,8 +1053,10 @@ def test_a_given_pivot_that_no_linkage_can_have_is_told():
     rows = [[-50, 0, 0], [-20, 25, 20], [20, 30, 40], [50, 5, 60]]
     asked = {"kind": "positions", "rows": rows, "pivots": [[-20, -60]], "crank": False}
     found = answer("synthesise", asked, "en", print)
-    x, y = map(float, re.search(r"its nearest point \((\S+), (\S+)\)", found["note"]).groups())
-    assert np.hypot(x + 20, y + 60) > 8
+    told = r"its nearest point \((\S+) \| (\S+)\) mm is taken, (\S+) mm away"
+    x, y, away = map(float, re.search(told, found["note"]).groups())
+    assert away > 8
+    assert np.hypot(x + 20, y + 60) == pytest.approx(away, abs=0.02)
     for item in found["items"]:
         frames = np.array(item["frames"])[:, : item["joints"]] - (x, y)
         assert np.abs(frames).max(axis=(0, 2)).min() < 1e-2  # one of its joints stays there

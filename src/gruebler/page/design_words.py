@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import inf, isnan
+from math import degrees, inf, isnan
 from typing import Any
 
 from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.design.synthesis import (
     DeadCentreTask,
-    DesignVerdict,
+    Design,
     FunctionTask,
     PathTask,
     PositionTask,
@@ -18,6 +18,7 @@ from gruebler.design.synthesis import (
 )
 from gruebler.design.synthesis.demands import WITHOUT
 from gruebler.design.synthesis.given_pivots import OFF_CURVE
+from gruebler.design.synthesis.judging import ANOTHER_ORDER, MISSED, SEVERAL_MISSED
 from gruebler.design.synthesis.targets import GuidedCurve
 
 _BALANCED = message("Balanced: {criteria} count alike.")
@@ -28,6 +29,21 @@ EXACT = message("All meet the targets exactly.")
 NONE = message("No linkage meets all demands: ask for less, or try other targets.")
 _FEW_DYADS = message("Of the {theorem} dyads of these positions {real:n} are real; a linkage needs two.")
 _AT_BEST = message("Rejected ({count}), at best: {reasons}.")
+_OFF_CURVE = message(
+    "Through four positions a fixed pivot cannot lie anywhere, but on a curve (the centre-point curve): in place of "
+    "({x:.4g} | {y:.4g}) mm its nearest point ({u:.4g} | {v:.4g}) mm is taken, {distance:.3g} mm away."
+)
+_IN_UNITS = {
+    MISSED.text: message(
+        "target {target} is missed by {missed}, unless the linkage is taken apart and put together the other way"
+    ),
+    SEVERAL_MISSED.text: message(
+        "targets {targets} are missed, the worst by {missed}, unless the linkage is taken apart and put "
+        "together the other way"
+    ),
+    ANOTHER_ORDER.text: message("the targets are met in another order; in theirs one is missed by {missed}"),
+}
+"""What the library tells in parts of the size of a task."""
 _TWO = 2  # dyads that a linkage needs
 _MOST_REASONS = 3
 """Kinds of rejections that are told."""
@@ -52,7 +68,7 @@ def notes(result: SynthesisResult, items: Sequence[dict[str, Any]], total: int) 
     Rejected (1): the drive does not turn fully.
     """
     task, count = result.task, result.count
-    yield from (note for note in result.notes if note.text == OFF_CURVE[False].text)
+    yield from (_OFF_CURVE.filled(**note.values) for note in result.notes if note.text == OFF_CURVE[False].text)
     if isinstance(task, PositionTask) and len({angle for *_, angle in task.positions}) == 1:
         yield message("All at one angle: the link is shifted and does not turn.")
     if len(items) < total:
@@ -76,18 +92,38 @@ def notes(result: SynthesisResult, items: Sequence[dict[str, Any]], total: int) 
 
 def _rejections(result: SynthesisResult, number: int = _MOST_REASONS) -> Iterator[Message]:
     """So many reasons with how many have them, those that lack the least first."""
-    kinds: dict[tuple[str, ...], list[DesignVerdict]] = {}
-    for verdict in (design.verdict for design in result.rejected):
-        kinds.setdefault(tuple(reason.text for reason in verdict.reasons), []).append(verdict)
+    kinds: dict[tuple[str, ...], list[Design]] = {}
+    for design in result.rejected:
+        kinds.setdefault(tuple(reason.text for reason in design.verdict.reasons), []).append(design)
     for _, some in sorted(kinds.items(), key=lambda kind: (len(kind[0]), -len(kind[1])))[:number]:
-        best = max(some, key=lambda verdict: -inf if isnan(verdict.transmission) else verdict.transmission)
-        texts = {joined(verdict.reasons).in_language("en") for verdict in some}
+        best = min(some, key=_shortfall)
+        texts = {joined(design.verdict.reasons).in_language("en") for design in some}
         text = message("Rejected ({count}): {reasons}.") if len(texts) == 1 else _AT_BEST
-        yield text.filled(count=len(some), reasons=joined_by_and(best.reasons))
+        yield text.filled(count=len(some), reasons=joined_by_and(_in_units(best, result.task)))
+
+
+def _shortfall(design: Design) -> tuple[float, float]:
+    """By what designs are told, the best first: their transmission angles, else how far they miss a target."""
+    angle, error = design.verdict.transmission, design.verdict.error
+    return inf if isnan(angle) else -angle, inf if isnan(error) else error
+
+
+def _in_units(design: Design, task: Task) -> list[Message]:
+    """Why a design is rejected; how far it misses targets is told as a length or an angle."""
+    reasons = [*design.verdict.reasons]
+    if design.targets is None or isinstance(task, DeadCentreTask):
+        return reasons
+    for k, reason in enumerate(reasons):
+        if text := _IN_UNITS.get(reason.text):
+            missed = design.targets.size * reason.values["error"]
+            angle = isinstance(task, FunctionTask)
+            far = message("{angle:.3g}°", angle=degrees(missed)) if angle else message("{length:.3g} mm", length=missed)
+            reasons[k] = text.filled(**reason.values, missed=far)
+    return reasons
 
 
 def words(
-    result: SynthesisResult, items: Sequence[dict[str, Any]], relative: bool, space: tuple[float, ...] | None
+    result: SynthesisResult, items: Sequence[dict[str, Any]], relative: bool, longest: float | None
 ) -> Iterator[Message]:
     """What stands on the cards of designs, explained, and why others are rejected."""
     if not items:
@@ -100,10 +136,11 @@ def words(
         yield _BALANCED.filled(criteria=joined_by_and(each))
     angles = [(item["range"], item["transmission"]) for item in items]
     if not isinstance(task, DeadCentreTask) and any(None not in both and both[0] < both[1] for both in angles):
-        yield message("On the way: from the first target to the last.")
-    if space is not None:
+        yield message("μ: the least transmission angle; between targets: on the way from the first to the last.")
+    if longest is not None:
         yield message(
-            "No link is longer than the diagonal of the space for fixed pivots, nor {ratio} times as long as another.",
+            "No link is longer than {length:.3g} mm, nor {ratio} times as long as another.",
+            length=longest,
             ratio=SLENDER,
         )
     if relative:

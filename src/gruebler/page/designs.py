@@ -105,13 +105,14 @@ def design_records(
     lang: str,
     progress: Callable[[str], object],
     reach: float | None = None,
+    longest: float | None = None,
 ) -> dict[str, Any]:
     """The accepted designs for a task, the best of them with pictures; transmission angles in degrees.
 
-    Fixed pivots lie within a reach of the rectangle about places, if one is given, and no link is longer than the
-    diagonal of that space, nor much longer than another: the curve that comes nearest to a drawn one often belongs to
-    a linkage many times as large. Else links ten times as long as the diagonal of that rectangle are left out if
-    there are shorter ones.
+    Fixed pivots lie within a reach of the rectangle about places, if one is given, and no link is longer than what is
+    given, by default than the diagonal of that space, nor much longer than another: the curve that comes nearest to a
+    drawn one often belongs to a linkage many times as large. With neither given links ten times as long as the
+    diagonal of that rectangle are left out if there are shorter ones.
 
     Of cranks that turn fully the angle over the whole turn is what is asked for, too, where a design has it; of
     positions it is what is sought. A design that is much like a better one is marked as its variant. Where none meets
@@ -168,9 +169,12 @@ def design_records(
             designs = whole
     near = space or _region(task, 0.0)
     if near is not None:
-        longest = (1 if space else _FAR) * hypot(near[2] - near[0], near[3] - near[1])
+        limited = space is not None or longest is not None
+        longest = (
+            longest if longest is not None else (1 if space else _FAR) * hypot(near[2] - near[0], near[3] - near[1])
+        )
         fitting, too_long = _short_enough(designs, longest)
-        if fitting or space:  # giants where there is nothing else
+        if fitting or limited:  # giants where there is nothing else
             designs, left = fitting, left + too_long
     relative = not gives_lengths(task)
     if relative:
@@ -182,7 +186,7 @@ def design_records(
     _mark_variants(items)
     texts = {
         "note": [*left, *notes(result, items, len(designs))],
-        "words": words(result, items, relative, space),
+        "words": words(result, items, relative, longest if space else None),
     }
     said = {key: "\n".join(text.in_language(lang) for text in some) for key, some in texts.items()}
     return {"total": len(designs), "relative": relative, "nearest": nearest is not None, "items": items} | said

@@ -223,6 +223,8 @@ class SynthesiseTask(Params):
     """The least transmission angle, in degrees."""
     reach: Annotated[float, msgspec.Meta(ge=0, le=1e9)] | None = None
     """How far fixed pivots lie outside the rectangle about all places at most; anywhere without one."""
+    longest_link: Annotated[float, msgspec.Meta(ge=0, le=1e9)] | None = None
+    """How long a link of a linkage through places is at most."""
 
 
 class Export(Params):

@@ -254,7 +254,7 @@ def _synthesise(asked: SynthesiseTask, lang: str, progress: Progress) -> dict[st
     from gruebler.page.designs import design_records, task_of
 
     task = task_of(asked.kind, asked.rows, closed=asked.closed, pivots=asked.pivots, order=asked.order)
-    return design_records(task, asked.crank, asked.transmission, lang, progress, asked.reach)
+    return design_records(task, asked.crank, asked.transmission, lang, progress, asked.reach, asked.longest_link)
 
 
 def _measures(asked: MeasureLinkage, lang: str, _: Progress) -> dict[str, Any]:

@@ -46,6 +46,17 @@ OTHER_LENGTH = message("the length of the {link} is not {wanted}, but {found}")
 NO_LENGTH = message("{link}: no length, since this link has fewer than two pins")
 OTHER_DIRECTION = message("the direction of the frame is not {wanted:.5g}°, but {found}")
 ONE_PIVOT = message("the frame has no direction, since it has fewer than two pivots")
+MISSED = message(
+    "target {target} cannot be reached without taking the linkage apart: the circuit comes no nearer than "
+    "{error:.3g} of the size"
+)
+SEVERAL_MISSED = message(
+    "targets {targets} cannot be reached without taking the linkage apart: the circuit comes no nearer than "
+    "{error:.3g} of the size"
+)
+ANOTHER_ORDER = message(
+    "the targets are met in another order; in that of the task one is missed by {error:.3g} of the size"
+)
 _DIGITS = range(6, 18)  # of a length: as many as tell it from the one that is given
 
 
@@ -402,28 +413,15 @@ def transmission_fault(transmission: float) -> Message:
 def _missed(targets: list[int], error: float) -> Message:
     """Which targets the circuit misses, at most nine by their numbers, and how near it comes to the worst."""
     if len(targets) == 1:
-        return message(
-            "target {target} cannot be reached without taking the linkage apart: the circuit comes no nearer than "
-            "{error:.3g} of the size",
-            target=targets[0],
-            error=error,
-        )
-    return message(
-        "targets {targets} cannot be reached without taking the linkage apart: the circuit comes no nearer than "
-        "{error:.3g} of the size",
-        targets=joined([*targets[:9], *(["..."] if len(targets) > 9 else [])]),
-        error=error,
-    )
+        return MISSED.filled(target=targets[0], error=error)
+    return SEVERAL_MISSED.filled(targets=joined([*targets[:9], *(["..."] if len(targets) > 9 else [])]), error=error)
 
 
 def _in_another_order(error: float) -> Message:
     """That the circuit passes the targets in another order; by how much one is missed in theirs, if that is known."""
     if np.isnan(error):
         return message("the targets are met in another order")
-    return message(
-        "the targets are met in another order; in that of the task one is missed by {error:.3g} of the size",
-        error=error,
-    )
+    return ANOTHER_ORDER.filled(error=error)
 
 
 def size_ratio(linkage: Linkage, travel: float = np.inf) -> float:
