@@ -163,7 +163,10 @@ export class App implements Page {
     const view = this.#viewOf(name);
     for (const [key, { element }] of Object.entries(this.views)) element.classList.toggle("shown", key === name);
     if (name === "motion") this.#space = "";
-    else this.motion.transport.pause();
+    else {
+      this.motion.transport.endFall();
+      this.motion.transport.pause();
+    }
     this.#arrangeHeader();
     if (fresh) view.arrange();
     view.appeared?.();

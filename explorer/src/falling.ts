@@ -4,12 +4,13 @@ import type { Rows } from "./kernel";
 import { number } from "./language";
 import type { Linkage } from "./linkage";
 
-/** Poses of all links, x and y, cosine and sine in turn, and the values of the drives, so many a second. */
+/** Poses of all links, x and y, cosine and sine in turn, values and speeds of the drives, so many a second. */
 export interface Fall {
   rate: number;
   places: number[][];
   turns: number[][];
   drives: number[][];
+  speeds: number[][];
   lines: string[];
 }
 
@@ -20,25 +21,41 @@ export class Falling {
   #at = 0;
 
   constructor(
-    private readonly fall: Fall,
+    readonly fall: Fall,
     linkage: Linkage,
   ) {
     this.start = linkage.pose;
   }
 
-  /** The values of the drives now. */
-  get drives(): number[] {
-    return this.fall.drives[Math.floor(this.#at)]!;
+  /** Since it was let go. */
+  get seconds(): number {
+    return Math.floor(this.#at) / this.fall.rate;
+  }
+
+  /** How long it lasts, in seconds. */
+  get until(): number {
+    return (this.fall.places.length - 1) / this.fall.rate;
   }
 
   get text(): string {
-    return `${number(this.#at / this.fall.rate, 3)} s`;
+    return `${number(Number(this.seconds.toFixed(2)))} s`;
   }
 
   /** The pose so many seconds later, without rates; the first one follows the last. */
   later(seconds: number): Rows {
-    const { rate, places, turns } = this.fall;
+    const { rate, places } = this.fall;
     this.#at = Math.max(0, this.#at + seconds * rate) % places.length; // the first frame may be older than the answer
+    return this.#pose();
+  }
+
+  /** The pose so many seconds after the start. */
+  at(seconds: number): Rows {
+    this.#at = Math.max(0, Math.min(seconds, this.until)) * this.fall.rate + 1e-6; // no row is missed by rounding
+    return this.#pose();
+  }
+
+  #pose(): Rows {
+    const { places, turns } = this.fall;
     const row = Math.floor(this.#at);
     const { start } = this;
     const still = new Float64Array(start.places.length).fill(NaN);

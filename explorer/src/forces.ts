@@ -1,5 +1,6 @@
 /** The panel of forces: what the drive and the joints carry over a turn, and how the linkage falls; by the library. */
 
+import { DEGREE } from "./cycle";
 import { documentOf } from "./document";
 import { action, h, renew, svg } from "./dom";
 import { FactList } from "./factlist";
@@ -88,6 +89,8 @@ export class Forces {
   #speed: number | null = null;
   #forces: (Force & { name: string; note: string })[] = [];
   #loads: Force[] = [];
+  /** Of the last free motion, over time. */
+  #fallen: Plot[] = [];
   #timer = 0;
   /** How long it moves freely, in seconds. */
   #until = 2;
@@ -105,6 +108,7 @@ export class Forces {
   changed(): void {
     const { page, linkage } = this.#view;
     clearTimeout(this.#timer);
+    this.#view.transport.endFall();
     if (!page.served || !linkage.drive) {
       const word = linkage.model.source || "LINK";
       renew(this.element, h("p.note", {}, t("Forces need the library: gruebler explore {word}", { word })));
@@ -168,7 +172,9 @@ export class Forces {
     const { drive, model } = linkage;
     const { transport } = this.#view;
     this.#form.show(linkage, answer);
+    transport.endFall();
     this.#plot = null;
+    this.#fallen = [];
     this.#forces = this.#loads = this.columns = [];
     const assume = () => {
       this.#brings = true;
@@ -206,12 +212,15 @@ export class Forces {
       ];
       const chosen = this.#joint.selectedIndex;
       renew(this.#joint, ...this.#forces.map(({ name }, value) => h("option", { value }, name)));
-      const fallen = h("div.form", {});
+      const fallen = h("div", {});
       const onclick = () => void this.#fall(fallen);
       const until = this.#form.row("until", t("Duration"), "s", this.#until, (seconds) => {
         this.#until = Math.min(20, seconds) || 2;
       });
-      const play = () => transport.playAt(speed!);
+      const play = () => {
+        transport.endFall();
+        transport.playAt(speed!);
+      };
       const release = t("Release the drive: free motion");
       const sizes = this.#forces.map((force) => force.most);
       this.#joint.selectedIndex = chosen < 0 ? sizes.indexOf(Math.max(...sizes)) : chosen;
@@ -250,6 +259,7 @@ export class Forces {
   at(drive: number): void {
     if (!this.#opened()) return;
     this.#plot?.at(drive);
+    for (const plot of this.#fallen) plot.at(this.#view.transport.falling?.seconds ?? NaN);
     this.#joints.show(
       this.#forces.map((force) => ({
         name: force.name,
@@ -270,23 +280,47 @@ export class Forces {
 
   /** The forces on the stage where the drive is, against the largest of the range. */
   arrows(): Arrow[] {
-    const all = this.#shown ? [...this.#forces, ...this.#loads] : [];
+    const { drive, falling } = this.#view.transport;
+    const joints = falling ? [] : this.#forces;
+    // of a free motion only loads that stay as they are act
+    const loads = this.#loads.filter(
+      ({ x, y }) => !falling || [x, y].every((part) => part.every((v) => v === part[0])),
+    );
+    const all = this.#shown ? [...joints, ...loads] : [];
     return all.map((force, k) => {
       const { at, unit } = force;
       const most = Math.max(...all.map((other) => (other.unit === unit ? other.most : 0)));
-      const [x, y] = vectorAt(force, this.#view.transport.drive);
+      const [x, y] = vectorAt(force, drive);
       const here = Math.hypot(x, y) * force.most;
       const root = Math.sqrt(here * most) / force.most || 1; // small ones are seen, too
-      return [...at(), x / root, y / root, here, unit, k >= this.#forces.length];
+      return [...at(), x / root, y / root, here, unit, k >= joints.length];
     });
   }
 
   async #fall(told: HTMLElement): Promise<void> {
     const { linkage, page } = this.#view;
     const found = await awaited(told, () => page.ask<Fall>("fall", { ...this.#question, until: this.#until }));
-    if (!found || linkage !== this.#view.linkage) return;
-    renew(told, h("p.note", {}, found.lines.join(" ")));
-    this.#view.transport.play(found);
+    if (!found || !told.isConnected) return;
+    const { transport } = this.#view;
+    const { model } = linkage;
+    const times = Float64Array.from(found.drives, (_, row) => row / found.rate);
+    this.#fallen = model.drives.flatMap(({ name, turning }, k) => {
+      const [unit, scale] = turning ? ["°", DEGREE] : [lengthUnit(model), 1];
+      const its = model.drives[1] ? ` ${linkage.jointName(name)}` : "";
+      const plot = (called: string, rows: number[][], of: string, degrees = false) => {
+        const made = new Plot("s", (seconds) => transport.seek(seconds, found));
+        const values = Float64Array.from(rows, (row) => row[k]! / scale);
+        const title = `${called}${its} [${of}]`;
+        made.show(times, { title, colour: "--motion", values, degrees }, [0, times[times.length - 1]!]);
+        return made;
+      };
+      return [
+        plot(turning ? t("Drive angle") : t("Drive travel"), found.drives, unit, turning),
+        plot(t("Drive speed"), found.speeds, `${unit}/s`),
+      ];
+    });
+    renew(told, ...this.#fallen.map((plot) => plot.element), h("p.note", {}, found.lines.join(" ")));
+    transport.play(found);
   }
 }
 

@@ -92,14 +92,23 @@ export class Linkage {
     return this.beside.letters?.split(" ")[joint];
   }
 
-  /** What the joint of this name is called in the reader's language. */
+  /** What the joint of this name is called for the reader: its letter, else its links, where they have no other. */
   jointName(name: string): string {
-    const number = this.model.joints.findIndex((one) => one.name === name);
+    const { joints } = this.model;
+    const number = joints.findIndex((one) => one.name === name);
     const letter = this.letterOf(number);
-    if (letter) return letter;
-    const joint = this.model.joints[number];
-    const links = joint?.links.map((link) => this.linkName(link)).join("-");
-    return links ? name.replace(/^(.*?)\(.*\)/, (_, sign: string) => `${inLetters(sign)}(${links})`) : name;
+    const links = joints[number]?.links;
+    if (letter || !links) return letter ?? name;
+    const alone = joints.every((one, k) => k === number || String(one.links) !== String(links));
+    return alone ? links.map((link) => this.linkName(link)).join(" – ") : this.jointSymbol(name);
+  }
+
+  /** The same as in tables, with the sign of its kind. */
+  jointSymbol(name: string): string {
+    const number = this.model.joints.findIndex((one) => one.name === name);
+    const links = this.model.joints[number]?.links.map((link) => this.linkName(link)).join("-");
+    const signed = () => name.replace(/^(.*?)\(.*\)/, (_, sign: string) => `${inLetters(sign)}(${links})`);
+    return this.letterOf(number) ?? (links ? signed() : name);
   }
 
   /** What a point is called in the reader's language. */

@@ -91,6 +91,7 @@ export class MotionView implements View, Editor, Driven {
 
   /** Show another linkage; the way back to the one before is undoing. */
   open(model: Model, view?: string): void {
+    this.transport.endFall();
     this.transport.pause();
     if (this.linkage) this.#history.add(this.#state());
     this.take(model);
@@ -207,7 +208,7 @@ export class MotionView implements View, Editor, Driven {
   }
 
   #begin(): void {
-    if (this.transport.falling) this.transport.pause();
+    this.transport.endFall();
     this.#before = this.#state();
     this.linkage.drag(true);
   }
@@ -282,7 +283,7 @@ export class MotionView implements View, Editor, Driven {
 
   #goTo(old: State | undefined): void {
     if (!old) return;
-    if (this.transport.falling) this.transport.pause();
+    this.transport.endFall();
     const other = old.linkage !== this.linkage;
     this.linkage = old.linkage;
     this.dragging = old.dragging;
@@ -323,6 +324,7 @@ export class MotionView implements View, Editor, Driven {
 
   /** The link that is to carry a coupler point; it stands still then. */
   #carry(link: number | null): void {
+    this.transport.endFall();
     this.transport.pause();
     this.page.say(link === null ? t("Coupler point: choose its link.") : "");
     this.#choose(link);
@@ -375,7 +377,7 @@ export class MotionView implements View, Editor, Driven {
   }
 
   #arrows(): Arrow[] {
-    return this.transport.falling ? [] : this.side.forces.arrows();
+    return this.side.forces.arrows();
   }
 
   // --- what is read off ----------------------------------------------------------------------------------------------
@@ -396,6 +398,7 @@ export class MotionView implements View, Editor, Driven {
   // --- what is taken away --------------------------------------------------------------------------------------------
 
   document(): LinkageDocument {
+    this.transport.endFall();
     return savedDocument(this.linkage);
   }
 

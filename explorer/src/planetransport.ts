@@ -2,32 +2,70 @@
 
 import { wayOf } from "./beside";
 import { wrapped } from "./cycle";
+import { action } from "./dom";
 import { type Fall, Falling } from "./falling";
+import { t } from "./language";
 import type { Linkage } from "./linkage";
 import { later } from "./player";
 import { place } from "./rows";
-import { type Driven, Transport } from "./transport";
+import { type Driven, type Marked, Transport } from "./transport";
 import { FRAMES } from "./video";
 
 /** The view of a linkage in the plane. */
 interface DrivenInPlane extends Driven {
   readonly linkage: Linkage;
+  readonly found: Marked;
 }
 
 export class PlaneTransport extends Transport<DrivenInPlane> {
-  /** Where poses of a free motion are played, not those of the drive. */
+  /** Where poses of a free motion are shown, not those of the drive. */
   falling: Falling | null = null;
 
   protected override get text(): string {
     return this.falling?.text ?? super.text;
   }
 
-  protected override get drives(): ArrayLike<number> {
-    return this.falling?.drives ?? super.drives;
+  protected override get place(): number | undefined {
+    return this.falling?.seconds ?? super.place;
+  }
+
+  protected override get scale(): number {
+    return this.falling ? 1 : super.scale;
+  }
+
+  protected override get ending(): HTMLElement | null {
+    return this.falling && action("end", () => this.endFall(), t("End free motion"));
+  }
+
+  override showRange(found: Marked): void {
+    if (!this.falling) return super.showRange(found);
+    const { until } = this.falling;
+    this.track.show({ full: false, turns: 0, low: 0, high: until, stops: [null, null] }, false, [], null, "s");
+  }
+
+  override pick(value: number, beyond = false): void {
+    this.endFall();
+    super.pick(value, beyond);
+  }
+
+  override nudge(steps: number): void {
+    if (this.falling) this.seek(this.falling.seconds + steps / this.falling.fall.rate);
+    else super.nudge(steps);
+  }
+
+  protected override turnTo(value: number): void {
+    if (this.falling) this.seek(value);
+    else super.turnTo(value);
+  }
+
+  protected override slid(value: number, beyond: boolean): void {
+    if (this.falling) this.seek(value);
+    else super.slid(value, beyond);
   }
 
   /** Let the drive follow a place of a link that is pulled, in a few steps along its velocity. */
   pull(link: number, u: number, v: number, x: number, y: number): void {
+    this.endFall();
     this.pause();
     const { linkage } = this.view;
     const [low, high] = this.range;
@@ -47,19 +85,42 @@ export class PlaneTransport extends Transport<DrivenInPlane> {
 
   /** Play poses of a free motion in real time, again and again until it is paused. */
   play(fall: Fall): void {
-    this.pause();
-    this.falling = new Falling(fall, this.view.linkage);
+    this.seek(0, fall);
     this.toggle();
   }
 
-  /** A free motion is over: the linkage is as it was. */
-  protected override paused(): void {
-    if (this.falling) {
-      this.view.linkage.pose = this.falling.start;
-      this.falling = null;
-      this.view.posed();
+  /** Stand still so many seconds after the start of a free motion. */
+  seek(seconds: number, fall = this.falling?.fall): void {
+    this.pause();
+    if (!fall) return;
+    if (this.falling?.fall !== fall) {
+      this.endFall();
+      this.falling = new Falling(fall, this.view.linkage);
+      this.turned();
     }
-    super.paused();
+    this.view.linkage.pose = this.falling!.at(seconds);
+    this.view.posed();
+  }
+
+  /** A free motion is over: the linkage is as it was. */
+  endFall(): void {
+    const { falling } = this;
+    if (!falling) return;
+    this.pause();
+    this.falling = null;
+    this.view.linkage.pose = falling.start;
+    this.turned();
+    this.view.posed();
+  }
+
+  /** From the drive to time, or back. */
+  private turned(): void {
+    this.arrange();
+    this.showRange(this.view.found);
+  }
+
+  protected override paused(): void {
+    if (!this.falling) super.paused();
   }
 
   protected override advance(seconds: number): void {
@@ -70,6 +131,7 @@ export class PlaneTransport extends Transport<DrivenInPlane> {
 
   /** What is shown in each frame of a film, once through the motion from where the drive is. */
   *film<Shown>(shown: () => Shown): Generator<Shown> {
+    this.endFall();
     const { playing } = this.player;
     this.pause();
     const { active, beside, cycle, drives } = this.view.linkage;

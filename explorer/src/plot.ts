@@ -69,7 +69,7 @@ export class Plot {
   #high = 1;
 
   constructor(
-    /** Of the drive: "°", else one of length. */
+    /** Of the drive: "°", else one of length; "s" of time. */
     private readonly unit: string,
     pick: (drive: number) => void,
     private readonly span = new Span(() => this.redraw()),
@@ -182,7 +182,7 @@ export class Plot {
     put(this.#band, { height: (foot - top).toFixed(1), y: top.toFixed(1) });
     if (this.element.getAttribute("aria-label") !== series.title) {
       this.#title.textContent = series.title;
-      this.#along.textContent = `${t("Drive")} [${this.unit}]`;
+      this.#along.textContent = `${this.unit === "s" ? t("Time") : t("Drive")} [${this.unit}]`;
       put(this.#value, { y: series.title.length > LONG ? TOP + 10 : 13 });
       this.#curve.style.stroke = `var(${series.colour})`;
       put(this.element, { "aria-label": series.title });

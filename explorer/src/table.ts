@@ -30,7 +30,7 @@ export function tableOf(linkage: Linkage, more: readonly Column[] = []): string 
   /** An angle or a length. */
   const add = (name: string, own: Float64Array, turning: boolean) =>
     columns.push([name, turning ? "°" : length, turning ? own.map((angle) => angle / DEGREE) : own]);
-  if (drive) add(linkage.jointName(drive.name), values, drive.turning);
+  if (drive) add(linkage.jointSymbol(drive.name), values, drive.turning);
   const record = model.outputs[0];
   if (record) {
     const turning = isAngle(linkage);

@@ -66,7 +66,8 @@ export class Track {
     this.#unit = turning ? DEGREE : 1;
     const [low, high] = limitsOf(cycle);
     this.#limits = [low, high];
-    [this.#from, this.#to] = shownRange(this.#limits, full);
+    const timed = unit === "s";
+    [this.#from, this.#to] = timed ? [from, to] : shownRange(this.#limits, full);
     const parts: SVGElement[] = [];
     const x = (value: number) => `${((value - this.#from) / (this.#to - this.#from)) * 100}%`;
     const line = (a: number, b: number, style: string) =>
@@ -98,15 +99,24 @@ export class Track {
         t("Smallest transmission angle at {value}", { value: shown(least) }),
       );
     const label = (value: number, anchor: string, told = value) => {
-      const text = svg("text", { x: x(value), y: 43, "text-anchor": anchor }, turning ? angle(told) : number(told));
+      const text = svg(
+        "text",
+        { x: x(value), y: 43, "text-anchor": anchor },
+        turning || timed ? this.#textOf(told) : number(told),
+      );
       parts.push(text);
     };
     const end = (value: number) => (Math.abs(value) < 1e-6 * (high - low) ? 0 : value); // but for rounding
-    label(low, full ? "start" : "middle", end(full ? low : from));
-    if (high > low) label(high, full ? "end" : "middle", end(full ? high : to));
+    const ended = full || timed;
+    label(low, ended ? "start" : "middle", end(full ? low : from));
+    if (high > low) label(high, ended ? "end" : "middle", end(full ? high : to));
     this.#root.replaceChildren(...parts, this.#knob);
     const [valuemin, valuemax] = [low / this.#unit, high / this.#unit];
-    put(this.element, { "aria-label": t("Drive"), "aria-valuemin": valuemin, "aria-valuemax": valuemax });
+    put(this.element, {
+      "aria-label": timed ? t("Time") : t("Drive"),
+      "aria-valuemin": valuemin,
+      "aria-valuemax": valuemax,
+    });
   }
 
   set(value: number): void {

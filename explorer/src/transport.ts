@@ -39,7 +39,7 @@ export interface Driven {
 }
 
 /** What is found over a cycle, to be marked. */
-interface Marked {
+export interface Marked {
   dead: { value: number }[];
   least: { value: number; leg: unknown } | null;
 }
@@ -52,7 +52,7 @@ export class Transport<View extends Driven = Driven> {
   );
   protected speed = 12; // turns a minute; of a slide, strokes
   #way = 1;
-  readonly #track = new Track((value, beyond) => this.pick(value, beyond));
+  protected readonly track = new Track((value, beyond) => this.slid(value, beyond));
   readonly #value = h("input.value", { size: 8, onchange: () => this.#typed() });
 
   constructor(protected readonly view: View) {}
@@ -83,30 +83,46 @@ export class Transport<View extends Driven = Driven> {
     const called = t("Drive");
     const drives = choices.length > 1 && h("select", { "aria-label": called, title: called, onchange }, ...choices);
     const speedLabel = h("label.speed", {}, t("Speed"), speed, rate);
-    this.#value.setAttribute("aria-label", t("Drive"));
-    const row = [this.player.button, drives, this.#track.element, this.#value, speedLabel];
+    this.#value.setAttribute("aria-label", this.ending ? t("Time") : t("Drive"));
+    const { button } = this.player;
+    const track = this.track.element;
+    const row = this.ending
+      ? [button, track, this.#value, this.ending]
+      : [button, drives, track, this.#value, speedLabel];
     renew(this.element, ...(this.view.linkage.drive ? row : []));
   }
 
-  protected get drives(): ArrayLike<number> {
-    return this.view.linkage.drives;
+  /** Where the slider stands. */
+  protected get place(): number | undefined {
+    const { active, drives } = this.view.linkage;
+    return drives[active];
+  }
+
+  /** Of what is typed. */
+  protected get scale(): number {
+    return this.view.linkage.drive?.turning ? DEGREE : 1;
+  }
+
+  /** What ends another motion than that of the drive. */
+  protected get ending(): HTMLElement | null {
+    return null;
   }
 
   /** The value of the drive as it is plotted. */
   get drive(): number {
-    const { active, cycle } = this.view.linkage;
-    return wrapped(cycle, this.drives[active] ?? 0);
+    const { active, cycle, drives } = this.view.linkage;
+    return wrapped(cycle, drives[active] ?? 0);
   }
 
   get range(): [number, number] {
-    return this.#track.range;
+    return this.track.range;
   }
 
   /** The range is another one, or what was found in it. */
   showRange({ dead, least }: Marked): void {
     const { cycle, drive, model } = this.view.linkage;
     const places = dead.map(({ value }) => value);
-    this.#track.show(cycle, drive?.turning ?? true, places, least?.leg ? least.value : null, model.unit);
+    this.track.show(cycle, drive?.turning ?? true, places, least?.leg ? least.value : null, model.unit);
   }
 
   /** The value of the drive as it is shown. */
@@ -116,8 +132,8 @@ export class Transport<View extends Driven = Driven> {
 
   showValue(): void {
     this.#value.value = this.text;
-    const drive = this.drives[this.view.linkage.active];
-    if (drive !== undefined) this.#track.set(drive);
+    const { place } = this;
+    if (place !== undefined) this.track.set(place);
   }
 
   // --- the drive is set ----------------------------------------------------------------------------------------------
@@ -132,22 +148,26 @@ export class Transport<View extends Driven = Driven> {
 
   /** A drive value that is typed, in degrees or in the unit of length. */
   #typed(): void {
-    const { drive } = this.view.linkage;
-    const value = parsed(this.#value.value.replace(/[^\d.,e−-]*$/, "")) * (drive?.turning ? DEGREE : 1);
-    if (Number.isFinite(value)) this.#turnTo(value);
+    const value = parsed(this.#value.value.replace(/[^\d.,e−-]*$/, "")) * this.scale;
+    if (Number.isFinite(value)) this.turnTo(value);
     this.showValue();
   }
 
   /** Move the drive by so many degrees, or hundredths of the size. */
   nudge(steps: number): void {
     const { drive, size } = this.view.linkage;
-    if (drive) this.#turnTo(this.drive + steps * (drive.turning ? DEGREE : size / 200));
+    if (drive) this.turnTo(this.drive + steps * (drive.turning ? DEGREE : size / 200));
   }
 
   /** As far as it goes. */
-  #turnTo(value: number): void {
+  protected turnTo(value: number): void {
     if (this.view.linkage.cycle.full) this.pick(value);
-    else this.#track.pickWithin(value);
+    else this.track.pickWithin(value);
+  }
+
+  /** The slider was moved. */
+  protected slid(value: number, beyond: boolean): void {
+    this.pick(value, beyond);
   }
 
   protected go(value: number): void {

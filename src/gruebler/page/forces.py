@@ -23,6 +23,7 @@ from gruebler.page.params import LoadedLinkage
 from gruebler.page.reader_loads import (
     all_springs,
     amounts,
+    by_law,
     law_text,
     load_acts,
     middle_of,
@@ -35,6 +36,7 @@ from gruebler.page.reader_loads import (
 
 _FREE = message("Free motion: in {seconds:n} s the drive goes from {start} to {end}, between {least} and {most}.")
 _BALANCE = message("The energy balance is off by {part:n} % at most.")
+_WITHOUT = message("Loads that change by a law do not act here.")
 _NOTHING = message("Nothing acts yet: type masses or loads.")
 _APART = message("Two ways to compute them differ by {part:.1e} of the largest load: these forces are not certain.")
 _TORQUE = (message("Drive torque"), message("Largest drive torque"), message("Drive torque, RMS"))
@@ -202,12 +204,14 @@ def _acting(run: InverseDynamics) -> list[dict[str, Any]]:
 
 
 def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
-    """Poses of all links and values of the drives, sixty a second, when only weights and springs act.
+    """Poses of all links, values and speeds of the drives, sixty a second, under weights, springs and steady loads.
 
     And why they end if they do too soon.
     """
     linkage, loads, *_ = with_loads(asked, lang)
-    free = replace(loads, forces={}, moments={}, motors={})
+    forces = {place: amount for place, amount in loads.forces.items() if not by_law(amount)}
+    moments = {link: amount for link, amount in loads.moments.items() if not by_law(amount)}
+    free = replace(loads, forces=forces, moments=moments, motors={})
     times = np.arange(round(asked.until * _A_SECOND) + 1) / _A_SECOND
     run = simulate(linkage, free, at=asked.drives, until=asked.until, times=times, tolerance=_ENOUGH)
     ends = (run.drives[0], run.drives[-1], run.drives.min(axis=0), run.drives.max(axis=0))
@@ -216,6 +220,8 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         _FREE.filled(seconds=float(run.times[-1]), start=start, end=end, least=least, most=most),
         _BALANCE.filled(part=float(f"{100 * run.defect:.2g}")),
     ]
+    if len(amounts(free)) < len(amounts(loads)):
+        said.append(_WITHOUT)
     places = np.stack([run.places[0].real, run.places[0].imag], axis=-1)
     turns = np.stack([run.turns.real, run.turns.imag], axis=-1)
     return {
@@ -223,6 +229,7 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         "places": _short(places).reshape(len(run), -1).tolist(),
         "turns": _short(turns).reshape(len(run), -1).tolist(),
         "drives": _short(run.drives).tolist(),
+        "speeds": _short(run.speeds).tolist(),
         "lines": [*(line.in_language(lang) for line in said), *filter(None, [run.message(lang)])],
     }
 

@@ -112,13 +112,14 @@ def _parts(amount: Any) -> tuple[Any, ...]:
     return tuple(amount) if isinstance(amount, tuple | list) else (amount,)
 
 
-def _by_law(amount: Any) -> bool:
+def by_law(amount: Any) -> bool:
+    """Whether a load changes, in one of its parts."""
     return not all(isinstance(part, float | int) for part in _parts(amount))
 
 
 def load_acts(amount: Any) -> bool:
     """Whether a load is none of nothing."""
-    return _by_law(amount) or any(_parts(amount))
+    return by_law(amount) or any(_parts(amount))
 
 
 def law_text(amount: Any) -> Message:
@@ -138,7 +139,7 @@ def outer_loads(linkage: Linkage, loads: Loads) -> list[OuterLoad]:
     chain, points = linkage.mechanism.chain, [*linkage.points]
     rows: list[OuterLoad] = []
     for number, (name, amount) in enumerate(zip([*loads.forces, *loads.moments], amounts(loads), strict=True)):
-        known, (x, *rest) = (number, (0.0, 0.0)) if _by_law(amount) else (None, _parts(amount))
+        known, (x, *rest) = (number, (0.0, 0.0)) if by_law(amount) else (None, _parts(amount))
         if number >= len(loads.forces):
             rows.append(OuterLoad("link", chain.index(str(name)), x * metres_of(linkage.unit), 0.0, known))
             continue
@@ -171,7 +172,7 @@ def _own_loads(linkage: Linkage, loads: Loads, own: list[OuterLoad]) -> Loads:
         if amount is None or isinstance(amount, tuple | list) == turns:
             own_parts = (each.x / metres_of(linkage.unit),) if turns else (each.x, each.y)
             before = table.get(name, 0.0 if turns else (0.0, 0.0))
-            parts = own_parts if _by_law(before) else tuple(map(sum, zip(_parts(before), own_parts, strict=True)))
+            parts = own_parts if by_law(before) else tuple(map(sum, zip(_parts(before), own_parts, strict=True)))
             amount = parts[0] if turns else parts
         table[name] = amount
     return replace(loads, forces=forces, moments=moments)
