@@ -22,11 +22,13 @@ interface Chains {
 const FEW = 6;
 
 /** A list of cards, the first ones and the one that is chosen or all, and a key for more if there are. */
-export function listOf(key: string, cards: HTMLElement[], all: boolean, more: () => void, rest = false): Node[] {
+export function listOf(key: string, cards: HTMLElement[], all: boolean, more: () => void, total = 0): Node[] {
   const shown = cards.filter((card, k) => all || k < FEW || card.ariaPressed === "true");
   const list = h(all ? "div.cards.few.whole" : "div.cards.few", { "data-list": key }, ...shown);
-  if (!rest && shown.length === cards.length) return [list];
-  return [list, h("button.plain", { "data-more": key, onclick: more }, t("More"))];
+  const count = Math.max(total, cards.length);
+  if (shown.length === count) return [list];
+  const text = t("More ({shown} of {total} shown)", { shown: shown.length, total: count });
+  return [list, h("button.plain", { "data-more": key, onclick: more }, text)];
 }
 
 /** Links and mobility of the list in which a structure stands: of one in space that of the plane with as many links. */
@@ -54,6 +56,7 @@ export class ChainList {
   constructor(
     private readonly page: Page,
     private readonly take: (text: string) => void,
+    private readonly waits: (on: boolean) => void,
   ) {
     const { links, drives } = page.shown; // as the machine at hand, whose structure is said a moment later
     [this.#links, this.mobility] = [links.length, drives.length || 1];
@@ -63,7 +66,7 @@ export class ChainList {
    * from another view. */
   follow(found: Structure | null, leads: boolean): void {
     // a size that the reader wants goes before
-    const typed = this.#list.matches(".asking") || !this.#is(this.#given());
+    const typed = this.waiting || !this.#is(this.#given());
     const turned = !typed && found && (leads || !this.#asked) && !this.#is(placeOf(found));
     if (turned) [this.#links, this.mobility] = placeOf(found);
     this.#chosen = found?.code ?? "";
@@ -73,6 +76,11 @@ export class ChainList {
     if (anew) this.#other = found;
     if (!typed && (leads || turned || anew)) this.arrange();
     if (turned || !this.#asked) void this.#ask(0);
+  }
+
+  /** Whether another list is counted. */
+  get waiting(): boolean {
+    return this.#list.matches(".asking");
   }
 
   /** Whether these are the links and the mobility of the list. */
@@ -134,13 +142,15 @@ export class ChainList {
     const number = ++this.#asked;
     this.#all = start > 0;
     this.#list.classList.toggle("asking", others); // those of the size before
-    if (others) this.#count.textContent = "\u00a0";
+    if (others) this.#count.textContent = t("counting …");
+    if (others) this.waits(true);
     const place = this.#found || others ? this.#status : this.#list;
     const found = this.#unlisted()
       ? { total: 0, items: [] }
       : await awaited(place, (progress) => this.page.ask<Chains>("chains", question, progress));
     if (number !== this.#asked) return; // another list is wanted by now
     this.#list.classList.remove("asking");
+    this.waits(false);
     const before = start ? this.#found!.items : [];
     if (found) this.#found = { ...found, items: [...before, ...found.items] };
     this.#show();
@@ -180,7 +190,7 @@ export class ChainList {
       this.#all = true;
       this.#show();
     };
-    renew(this.#list, ...listOf("chains", cards, this.#all, more, rest));
+    renew(this.#list, ...listOf("chains", cards, this.#all, more, rest ? total + cards.length - items.length : 0));
   }
 
   #card(code: string, text: string, picture: string, name: string, kinds: string): HTMLElement {

@@ -50,6 +50,7 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty()
     }),
     ...(picture
       ? [
+          h("h2", {}, t("Background picture")),
           rowsTable(frame, t("Picture"), ["x", "y", t("Width"), "φ [°]"], true, framed, say, () => ""),
           option(t("Keep it in the document"), !!keeps, (on) => view.change({ ...drawing, keeps: on }), "keeps"),
         ]

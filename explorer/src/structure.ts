@@ -43,7 +43,11 @@ export class StructureView implements View {
 
   constructor(page: Page) {
     this.#page = page;
-    this.chains = new ChainList(page, (text) => void this.describe(text));
+    this.chains = new ChainList(
+      page,
+      (text) => void this.describe(text),
+      (on) => this.#fade(on),
+    );
     this.#field.addEventListener("input", () => {
       clearTimeout(this.#typing);
       this.#typing = setTimeout(() => void this.describe(this.#field.value, true), 300);
@@ -81,6 +85,11 @@ export class StructureView implements View {
     if (this.text) void this.describe(this.text);
   }
 
+  /** What is said of the chain before, while another one is asked for. */
+  #fade(on: boolean): void {
+    for (const part of [this.#detail, this.#shown, this.#go]) part.classList.toggle("asking", on);
+  }
+
   /** Show the structure of a text, which may come from another view. */
   async describe(text: string, elsewhere = false): Promise<void> {
     const number = ++this.#asked;
@@ -88,9 +97,9 @@ export class StructureView implements View {
     if (!text) {
       this.text = text;
       for (const part of [this.#shown, this.#detail, this.#go]) renew(part);
-      return;
+      return this.#fade(false);
     }
-    this.#detail.classList.add("asking"); // a click would choose among frames of the chain before
+    this.#fade(true); // a click would choose among frames of the chain before
     try {
       const found = await this.#page.ask<Structure>("structure", {
         text,
@@ -121,7 +130,7 @@ export class StructureView implements View {
     }
     this.#field.setAttribute("aria-invalid", String(!!this.#error.textContent));
     this.#words.hidden = false;
-    this.#detail.classList.remove("asking");
+    this.#fade(this.chains.waiting);
   }
 
   /** The linkage at hand if the text is of its chain; else nothing. */

@@ -85,8 +85,8 @@ def test_the_site_answers_as_the_library_does(tab, folder, address):
     page = tab().open(address)
     for lang in ("en", "de"):
         chains = asked(page, "chains", {"links": 4, "mobility": 1, "start": 0}, lang)
-        assert [item["text"] for item in chains["items"]] == ["R(0-1) R(1-2) R(2-3) R(3-0)"]
-        for text in ("R(0-1) R(1-2) R(2-3) R(3-0)", "R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)"):
+        assert [item["text"] for item in chains["items"]] == ["R(1-2) R(2-3) R(3-4) R(4-1)"]
+        for text in ("R(1-2) R(2-3) R(3-4) R(4-1)", "R(1-2) R(2-3) R(3-4) R(4-1); frame=1; drive=R(1-2)"):
             of_site = asked(page, "structure", {"text": text}, lang)
             of_library = answer("structure", {"text": text}, lang, nothing)
             for key in (
@@ -129,7 +129,7 @@ def test_the_site_answers_as_the_library_does(tab, folder, address):
     assert asked(page, "open", {"id": "crankrocker"}) == json.loads(
         json.dumps(answer("open", {"id": "crankrocker"}, "en", nothing))
     )
-    moved = asked(page, "realise", {"text": "R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)"})
+    moved = asked(page, "realise", {"text": "R(1-2) R(2-3) R(3-4) R(4-1); frame=1; drive=R(1-2)"})
     assert moved["links"][:4] == ["frame", "crank", "coupler", "rocker"]
     assert moved["linkNames"]["de"][:4] == ["Gestell", "Kurbel", "Koppel", "Schwinge"]
     six = "R(0-1) R(1-2) R(2-3) R(0-3) R(3-4) R(4-5) R(0-5); frame=0; drive=R(0-1)"
@@ -228,8 +228,8 @@ def test_a_link_made_there_opens_there_for_everyone(tab, address):
     links.fill("4")
     links.press("Enter")
     page.page.locator("[data-chain]", has_text="Yours: four-bar chain").wait_for()
-    page.page.evaluate("gruebler.describe('R(0-1) R(1-2) R(2-3) R(3-0)')")
-    page.until("gruebler.views.structure.structure?.text.startsWith('R(0-1)')")
+    page.page.evaluate("gruebler.describe('R(1-2) R(2-3) R(3-4) R(4-1)')")
+    page.until("gruebler.views.structure.structure?.text.startsWith('R(1-2)')")
     page.page.click('[data-list="driven"] .card')
     page.page.click('[data-act="realise"]')
     page.until("gruebler.shown.name.startsWith('four-bar linkage')")

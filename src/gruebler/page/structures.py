@@ -37,7 +37,10 @@ from gruebler.structure.mobility.report import kinds_of_links
 _MOST_LINKS = 60  # more links are drawn and counted, but their inversions are not listed
 _LONGEST_LABEL = 3  # letters of a name beside its link in a small picture
 _AGAINST = message("{joint}: {link} against {other}")
-_APART = {"link": message("falls apart at a link"), "joint": message("falls apart at a joint")}
+_APART = {
+    "link": message("fractionated: it falls apart when one link is cut"),
+    "joint": message("fractionated: it falls apart when one joint is cut"),
+}
 _SPECIAL = message("These sizes are special: the mobility is {own}, not {generic} as at almost all sizes.")
 
 
@@ -60,12 +63,13 @@ def as_read(text: str) -> str:
 
 
 def listed_chains(links: int, mobility: int) -> Iterator[Chain]:
-    """The chains among which one chooses, each once: those that fall apart at a link or a joint at the end.
+    """The chains among which one chooses, each once, their links from 1: fractionated ones at the end.
 
-    >>> len(list(listed_chains(7, 2)))
-    4
+    >>> [chain.text() for chain in listed_chains(4, 1)]
+    ['R(1-2) R(2-3) R(3-4) R(4-1)']
     """
-    return chains(links, mobility, fractionated="all")
+    numbers = {str(link): str(link + 1) for link in range(links)}
+    return (chain.renamed(numbers) for chain in chains(links, mobility, fractionated="all"))
 
 
 def listed_number(links: int, mobility: int) -> int:
@@ -77,7 +81,7 @@ def kinds_as_read(chain: Chain, lang: str) -> str:
     r"""How many joints its links have, and where it falls apart, if it does; a number stays with its word.
 
     >>> [kinds_as_read(chain, "en") for chain in listed_chains(7, 2)][-2:]
-    ['5\xa0binary, 2\xa0ternary', '6\xa0binary, 1\xa0quaternary; falls apart at a link']
+    ['5\xa0binary, 2\xa0ternary', '6\xa0binary, 1\xa0quaternary; fractionated: it falls apart when one link is cut']
     """
     apart = _APART.get(fractionation(chain))
     kinds = re.sub(r"(?<=\d) ", "\u00a0", kinds_of_links(chain, lang))
