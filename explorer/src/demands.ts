@@ -79,11 +79,11 @@ export class Demands {
       h(
         "label",
         {},
-        way ? t("transmission angle between the targets at least") : t("transmission angle at least"),
+        way ? t("least transmission angle between targets") : t("transmission angle at least"),
         least,
         "°",
       ),
-      places && h("label", {}, t("fixed pivots outside the targets at most"), reach, "mm"),
+      places && h("label", {}, t("fixed pivots outside targets at most"), reach, "mm"),
       places && h("label", {}, t("longest link at most"), this.#length, "mm"),
       places &&
         (!curve || !!this.order) &&

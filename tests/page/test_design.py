@@ -369,7 +369,7 @@ def test_the_transmission_angle_asked_for_says_where_it_holds(design):
     least = view.locator('label:has([data-field="least"])')
     for kind in ("points", "positions", "function"):
         view.click(f'[data-value="{kind}"]')
-        assert least.inner_text().startswith("transmission angle between the targets at least")
+        assert least.inner_text().startswith("least transmission angle between targets")
     view.click('[data-act="synthesise"]')
     view.locator('[data-list="designs"] .card:has-text("μ between targets")').first.wait_for(timeout=60_000)
     view.click(".designs summary")
