@@ -447,7 +447,7 @@ def test_cards_tell_the_same_in_the_same_places_and_mark_the_best(tab, server):
         "all => all.map((one) => Math.round(one.getBoundingClientRect().right))"
     )
     assert len({*right}) == 1
-    for name, best in (("μ auf dem Weg", max), ("Empfindlichkeit", min)):
+    for name, best in (("μ zwischen Vorgaben", max), ("Empfindlichkeit", min)):
         numbers = [float(text.strip("≥ °").replace(",", ".")) for text in values_of(view, name)]
         marked = view.locator(".designs .card > span", has_text=name).locator("strong").all_text_contents()
         assert [float(text.strip("≥ °").replace(",", ".")) for text in marked] == [best(numbers)] * len(marked)
