@@ -269,7 +269,7 @@ export class App implements Page {
       tool("redo", t("Redo"), () => this.#undoing.redo?.(), !forth),
       file,
       tool("open", t("Open a file"), () => file.click()),
-      saving(() => this.#save(() => showExport(this.root, this, this.motion))),
+      saving(() => void this.#save(() => showExport(this.root, this, this.motion))),
       tool("link", t("Copy the link"), () => void this.share()),
       themeTool(this.host, this.#linkable, () => this.motion.stage.recoloured()),
       tool("keys", t("Keys"), () => this.#keyed.showKeys()),
@@ -325,6 +325,7 @@ export class App implements Page {
   /** Copy the address with the linkage in it. */
   async share(): Promise<void> {
     if (this.#space) return shareLink(this, new URL(this.#spacePage, location.href).href);
+    await this.#typed();
     await this.write();
     await shareLink(this, this.#linkable ? location.href : `#${await packed(this.#shared())}`);
   }
@@ -388,8 +389,15 @@ export class App implements Page {
     if (found.note) this.say(found.note, "done");
   }
 
+  /** What is typed counts, also what is still in its field. */
+  async #typed(): Promise<void> {
+    (this.#shadow.activeElement as HTMLElement | null)?.blur();
+    await this.motion.side.forces.settled();
+  }
+
   /** What the view shows is saved by itself, else the machine at hand. */
-  #save(machine: () => void): void {
+  async #save(machine: () => void): Promise<void> {
+    await this.#typed();
     const view = this.views[this.view];
     if (view?.save) view.save();
     else if (this.#space) location.assign(`${this.#spacePage}/again/save`);
@@ -401,7 +409,7 @@ export class App implements Page {
     return {
       here: this.views[this.view]!,
       motion: this.motion,
-      save: () => this.#save(() => saveDocument(this, this.motion)),
+      save: () => void this.#save(() => saveDocument(this, this.motion)),
       showKeys: () => showKeys(this.root, this.served),
       undoing: this.#undoing,
     };

@@ -149,6 +149,13 @@ export class Forces {
     };
   }
 
+  /** What was typed is in the document. */
+  async settled(): Promise<void> {
+    if (!Object.keys(this.#form.change)[0]) return;
+    clearTimeout(this.#timer);
+    await this.#ask();
+  }
+
   async #ask(): Promise<void> {
     const { page, linkage } = this.#view;
     const { range } = this.#view.transport;

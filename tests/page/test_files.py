@@ -100,6 +100,40 @@ def test_a_file_that_cannot_be_read_is_named_without_a_folder(name, content, wor
     assert "/tmp" not in str(refused.value)
 
 
+def broken(name, change):
+    """What the page says of the file of a linkage in which something is changed."""
+    document = linkage_to_json(BAR.linkage())
+    change(document)
+    asked = {"name": name, "base64": base64.b64encode(json.dumps(document).encode()).decode()}
+    with pytest.raises(GrueblerError) as refused:
+        answer("open_file", asked, "en", print)
+    return str(refused.value)
+
+
+def test_a_wrong_file_is_told_what_is_wrong_with_it_not_which_keys_there_are():
+    newer = 'This version of gruebler does not know "hinges" in the file a.json; a newer one may have written it.'
+    assert broken("a.json", lambda document: document.update(hinges=1)) == newer
+    assert broken("a.json", lambda document: document.pop("elements")) == (
+        "The file a.json has links and joints, but no sizes."
+    )
+    assert broken("a.json", lambda document: document.pop("joints")) == "The file a.json has sizes, but no joints."
+    assert broken("a.json", lambda document: document["elements"].pop("coupler")) == (
+        "The file a.json cannot be opened: R(crank-coupler) has no dimensions on 'coupler'"
+    )
+    foreign = "The file a.json holds no linkage, nor a chain or points of a path."
+    for other in ({"name": "a"}, [1, 2]):
+        asked = {"name": "a.json", "base64": base64.b64encode(json.dumps(other).encode()).decode()}
+        with pytest.raises(GrueblerError, match=f"^{foreign}$"):
+            answer("open_file", asked, "en", print)
+    for content, words in (
+        (b"\n", "The file a.toml is empty."),
+        (b"frame = 3\njoints = = 3", "cannot be read as TOML from line 2 on"),
+        (b"\xff\xfe", "The file a.toml cannot be read as TOML; it is damaged or something else."),
+    ):
+        with pytest.raises(GrueblerError, match=words):
+            answer("open_file", {"name": "a.toml", "base64": base64.b64encode(content).decode()}, "en", print)
+
+
 def dropped(page, name: str, content: bytes) -> None:
     """Let a file fall on the page."""
     text = base64.b64encode(content).decode()

@@ -1,6 +1,7 @@
 """The panel of forces: efforts and joint forces against velocities of the page's own kernel, and a free motion."""
 
 import base64
+import json
 import math
 import re
 from dataclasses import replace
@@ -629,6 +630,25 @@ def test_loads_are_kept_in_the_document_and_undone(tab, server, tmp_path):
     redo.click()
     redo.click()
     tab_.until(f"{ROOT}.querySelector('#force-y-0')?.value === '\N{MINUS SIGN}100'", 60)
+
+
+def test_what_was_typed_just_before_is_saved(tab, server):
+    """By keys from the field itself, and by the button."""
+    page = tab().open(server.address)
+    panel = page.page.locator(PANEL)
+    panel.locator("summary").first.click()
+    panel.locator('[data-act="assume"]').click()
+    panel.locator(".plot.polar").wait_for()
+    panel.locator(".words summary").click()
+    page.page.locator("#force-mass-1").fill("0.5")
+    with page.page.expect_download() as saved:
+        page.page.locator("#force-mass-1").press("Control+s")
+    assert json.loads(Path(saved.value.path()).read_text())["loads"]["bodies"]["crank"]["mass"] == "0.5 kg"
+    page.page.locator("#force-mass-1").fill("0.75")
+    page.page.click('[data-icon="save"]')
+    with page.page.expect_download() as saved:
+        page.page.get_by_role("button", name="JSON", exact=True).click()
+    assert json.loads(Path(saved.value.path()).read_text())["loads"]["bodies"]["crank"]["mass"] == "0.75 kg"
 
 
 def test_loads_are_drawn_where_they_act_and_go_with_the_point(tab, server):

@@ -29,7 +29,10 @@ if TYPE_CHECKING:
     Value: TypeAlias = Chain | list[Chain] | Linkage | SpatialLinkage | TrainReading | Task
 
 _TASKS = frozenset({"positions", "points", "inputs", "function", "swing", "stroke"})
-_LINKAGES = frozenset({"joints", "four_bar", "slider_crank", "inverted_slider_crank"})  # they may have points, too
+LINKAGES = frozenset({"joints", "four_bar", "slider_crank", "inverted_slider_crank"})
+"""Keys of which a document of a linkage has one; it may have points, too."""
+KINDS = LINKAGES | _TASKS | {"train", "elements", "places", "screws"}
+"""Keys of which each document of ours has one."""
 _LARGEST_TABLE = 1_000_000  # bytes
 _POSE = 4  # numbers: a place and a direction
 LOADS = message("loads, masses and the speed of the drive")
@@ -47,7 +50,7 @@ def read_own_document(path: Path, left_out: list[Message]) -> Value:
         raise GrueblerError("{path}: expected a table of keys", path=path)
     if (program := _program_of(data)) is not None:
         return drawn_linkage(path, partial(function_of(program, f"drawing_from_{program}"), data, left_out), left_out)
-    if not _TASKS.isdisjoint(data) and _LINKAGES.isdisjoint(data):
+    if not _TASKS.isdisjoint(data) and LINKAGES.isdisjoint(data):
         from gruebler.files.tasks import read_task
 
         return read_task(path)

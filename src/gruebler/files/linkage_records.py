@@ -87,7 +87,8 @@ class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_onl
 
 
 _DOORS = {"four_bar": FourBar, "slider_crank": SliderCrank, "inverted_slider_crank": InvertedSliderCrank}
-_WAYS = ("elements", "places", *_DOORS)
+WAYS = ("elements", "places", *_DOORS)
+"""How a document gives its sizes: it has one of these keys."""
 
 
 def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None) -> Linkage:
@@ -103,11 +104,11 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
 
 
 def _linkage(sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None) -> Linkage:
-    given = [form for form in _WAYS if getattr(sizes, form) is not None]
+    given = [form for form in WAYS if getattr(sizes, form) is not None]
     if len(given) != 1:
         raise LinkageError(
             "expected one of {ways}, but found {found}",
-            ways=", ".join(_WAYS),
+            ways=", ".join(WAYS),
             found=joined_by_and(given) if given else message("none"),
         )
     form = given[0]

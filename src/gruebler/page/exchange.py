@@ -14,10 +14,11 @@ from typing import Any
 from gruebler.base.atomic_files import temporary_directory, write_whole
 from gruebler.base.documents import load_document
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import Message, error_in_language, joined, translate
-from gruebler.files.documents import LOADS
+from gruebler.base.text import Message, error_in_language, joined, message, translate
+from gruebler.files.documents import KINDS, LINKAGES, LOADS
 from gruebler.files.formats import FORMATS, Format, loads_document
-from gruebler.files.linkages import toml_key, toml_value
+from gruebler.files.linkage_records import WAYS
+from gruebler.files.linkages import LinkageRecord, toml_key, toml_value
 from gruebler.files.load_reading import loads_of_document
 from gruebler.files.values import format_of, read, write, write_loaded
 from gruebler.mechanics.linkages import Linkage
@@ -28,6 +29,14 @@ _NO_LINKAGES = frozenset({"csv", "spreadsheet", "parquet", "dxf-links", "glb", "
 """Formats of tables and folders; the page writes its table by itself."""
 _IN_SPACE = frozenset({*_OWN, "urdf", "glb"})
 """Formats of one file that hold a linkage in space."""
+_EMPTY = message("The file {name} is empty.")
+_DAMAGED = message("The file {name} cannot be read as {form}; it is damaged or something else.")
+_DAMAGED_AT = message("The file {name} cannot be read as {form} from line {line} on; it is damaged or something else.")
+_SIZELESS = message("The file {name} has links and joints, but no sizes.")
+_JOINTLESS = message("The file {name} has sizes, but no joints.")
+_FOREIGN = message("The file {name} holds no linkage, nor a chain or points of a path.")
+_NEWER = message('This version of gruebler does not know "{keys}" in the file {name}; a newer one may have written it.')
+_WRONG = message("The file {name} cannot be opened: {problem}")
 _WITH_BUTTONS = frozenset({*_OWN, "dxf", "mjcf", "urdf"})
 
 
@@ -65,7 +74,7 @@ def opened_file(name: str, content: str, lang: str) -> dict[str, Any]:
             value: Any = read(file, left_out=notes)
         except GrueblerError as error:
             text = error_in_language(error, lang).replace(f"{folder}{os.sep}", "")
-            raise GrueblerError("{message}", message=text) from None
+            raise GrueblerError("{message}", message=_why_not(file, text)) from None
         document = document_of(file, value) if isinstance(value, Linkage) else {}
     chains = value if isinstance(value, list) else [value]
     shown: dict[str, Any]
@@ -81,6 +90,40 @@ def opened_file(name: str, content: str, lang: str) -> dict[str, Any]:
     else:
         raise GrueblerError("{path}: the page shows planar linkages, chains and points of a path", path=name)
     return shown | {"note": _note(notes, lang)}
+
+
+def _why_not(file: Path, problem: str) -> Message:
+    """Why a file cannot be opened, in one sentence for those who do not know how our documents are made."""
+    said = {"name": file.name, "problem": problem.removeprefix(f"{file.name}: ")}
+    form = file.suffix.lower().lstrip(".")
+    if not file.read_bytes().strip():
+        return _EMPTY.filled(**said)
+    if form not in _OWN:
+        return message("{problem}", problem=problem)
+    try:
+        document = load_document(file, lambda problem: GrueblerError("{problem}", problem=problem))
+    except GrueblerError:
+        line = re.search(r"line (\d+)", problem)
+        broken = _DAMAGED_AT.filled(line=line[1]) if line else _DAMAGED
+        return broken.filled(form=form.upper(), **said)
+    return _fault(document).filled(keys=joined(_unknown(document)), **said)
+
+
+def _unknown(document: Mapping[str, Any]) -> list[str]:
+    """The keys that no document of a linkage has."""
+    return [key for key in document if key not in LinkageRecord.__struct_fields__]
+
+
+def _fault(document: Any) -> Message:
+    """What is wrong with a document that was refused."""
+    if not isinstance(document, dict) or KINDS.isdisjoint(document):
+        return _FOREIGN
+    sized = not {*WAYS}.isdisjoint(document)
+    if LINKAGES.isdisjoint(document):
+        return _JOINTLESS if sized else _WRONG
+    if _unknown(document):
+        return _NEWER
+    return _WRONG if sized else _SIZELESS
 
 
 def _with_page(data: bytes, form: str, page: dict[str, Any]) -> bytes:
