@@ -155,6 +155,18 @@ def test_a_range_is_of_all_drives_of_one_kind():
         assert np.ptp(motion.drives, axis=0).max() == pytest.approx(0.3)
 
 
+def test_a_thread_winds_by_its_lead():
+    """Of the right-handed spindle, with 12 mm a turn: how far it is from its axis x is a wave over x/12 - turns."""
+    solids = moving_solids(entry("winch_screw").placed()).solids["spindle"]
+    (rod,) = (solid.vertices[1:-1] for solid in solids if len(solid.vertices) > 99)
+    x, y, z = rod.T
+    phase = 2 * np.pi * x / 12 - np.arctan2(z, y)
+    waves = np.stack([np.ones(len(x)), np.cos(phase), np.sin(phase)], axis=1)
+    found, *_ = np.linalg.lstsq(waves, np.hypot(y, z))
+    assert waves @ found == pytest.approx(np.hypot(y, z), abs=1e-9)
+    assert np.hypot(*found[1:]) > 0.2 * found[0]
+
+
 @pytest.mark.parametrize(("id", "joint"), [("winch_screw", "P(frame-nut)"), ("gough", "P(cylinder1-piston1)")])
 def test_a_sleeve_stays_on_its_rod(id, joint):
     """The rod is as long as its sleeve goes, and on that side: the nut of a winch goes one way only, by its lead."""

@@ -20,6 +20,7 @@ from gruebler.files.solids import (
     box_solid,
     cylinder_solid,
     plate_solid,
+    threaded_solid,
     turned_solid,
 )
 from gruebler.mechanics.screws import SpatialLinkage
@@ -36,6 +37,7 @@ _CONE = 0.75  # of the radius of the sphere, where a bevel wheel begins
 _BALL = 1.7
 _FORK, _SMALL_FORK = 5.0, 3.6  # radii of a bar from the middle of a cross to its forks, small without a body of its own
 _STOUT = 2.0  # a universal joint on the sphere against other linkages
+_FINEST = 1.0  # lead of a thread that is seen, in radii of a bar
 _PIECES = 24  # of a half circle
 _SAME = 1e-9
 
@@ -240,9 +242,9 @@ def _symbol(
                 along = [float((other[:3, 3] - at) @ axis) for other in linkage.frames]
                 lines = [float(np.linalg.norm(np.cross(other[:3, 3] - at, axis))) for other in linkage.frames]
                 on_axis = [t for t, off in zip(along, lines, strict=True) if off < r]
-                yield _thread(
-                    at + (min([low, *on_axis]) - 4 * r) * axis, at + (max([high, *on_axis]) + 4 * r) * axis, r
-                )
+                start, end = min([low, *on_axis]) - 4 * r, max([high, *on_axis]) + 4 * r
+                lead = 2 * pi * linkage.places[number].pitch or r  # without a pitch it only turns
+                yield _thread(at + start * axis, at + end * axis, r, lead)
             else:
                 yield cylinder_solid(at + (low - 4 * r) * axis, at + (high + 4 * r) * axis, _THIN * r)
         elif turns:
@@ -259,13 +261,10 @@ def _symbol(
         yield box_solid(at + axes @ plane.mean(axis=0), axes, half) if outer else ball_solid(at, r)
 
 
-def _thread(start: Reals, end: Reals, r: float) -> Solid:
-    """A rod with grooves, as a thread is drawn from the side."""
-    count = max(2, round(float(np.linalg.norm(end - start)) / (0.7 * r)))
-    along = np.linspace(0, 1, 2 * count + 1)
-    radii = np.where(np.arange(2 * count + 1) % 2, 1.25, 0.95) * r
-    profile = np.concatenate([[[0, 0]], np.stack([along, radii], axis=1), [[1, 0]]])
-    return turned_solid(start, end, profile)
+def _thread(start: Reals, end: Reals, r: float, lead: float) -> Solid:
+    """A threaded rod; a thread too fine to be seen is drawn with a multiple of its lead."""
+    seen = lead * max(1, round(_FINEST * r / abs(lead)))
+    return threaded_solid(start, end, 0.75 * r, 1.3 * r, seen)
 
 
 def _upright(heading: Reals, least: float) -> Reals:

@@ -56,6 +56,22 @@ def turned_solid(start: Reals, end: Reals, profile: Reals, phase: float = 0.0, s
     return _tube(start + profile[0, 0] * axis, rings, start + profile[-1, 0] * axis)
 
 
+def threaded_solid(start: Reals, end: Reals, inner: float, outer: float, lead: float) -> Solid:
+    """A rod with one groove that winds round it, right-handed where the lead is positive."""
+    axis = end - start
+    long = float(np.linalg.norm(axis))
+    unit = axis / long
+    u = np.cross(unit, np.eye(3)[int(np.argmin(np.round(abs(unit), 6)))])
+    u /= np.linalg.norm(u)
+    turn = 2 * pi * np.arange(_SIDES) / _SIDES
+    ring = np.cos(turn)[:, None] * u + np.sin(turn)[:, None] * np.cross(unit, u)
+    rings = []
+    for along in np.linspace(0, long, 1 + max(2, round(_SIDES * long / abs(lead)))):
+        radius = (outer + inner + (outer - inner) * np.cos(2 * pi * along / lead - turn)) / 2
+        rings.append(start + along * unit + radius[:, None] * ring)
+    return _tube(start, rings, end)
+
+
 def _tube(first: Reals, rings: Sequence[Reals], last: Reals) -> Solid:
     """From a place through rings, each counterclockwise about the way on, to another place."""
     sides = len(rings[0])
