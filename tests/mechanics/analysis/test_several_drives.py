@@ -60,10 +60,10 @@ def test_the_output_of_an_arm_is_its_last_link() -> None:
 
 
 def test_a_link_that_only_travels_is_told_with_its_way() -> None:
-    """The head of the desk lamp stays level, while each arm of 250 mm takes it round a circle."""
+    """The head of the desk lamp stays level, while each arm of 250 mm takes it along a chord: of 90° and of 100°."""
     first, second = told("lamp", "en").splitlines()[1:3]
-    assert first.endswith("The output head does not turn; its points travel 500 mm.")
-    assert second.endswith("The output head does not turn; its points travel 500 mm.")
+    assert first.endswith("The output head does not turn; its points travel 353.6 mm.")
+    assert second.endswith("The output head does not turn; its points travel 383 mm.")
 
 
 def test_the_stroke_of_a_valve_with_the_reverser_held() -> None:
