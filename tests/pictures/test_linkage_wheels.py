@@ -45,12 +45,16 @@ def test_pitch_circles_touch(name, one, two):
 
 
 def test_a_ring_is_hollow_and_holds_its_planet():
-    (rings,) = (shape for link, _, shape, _ in placed("diff") if link == "ring_gear")
+    (rings,) = (shape for link, style, shape, _ in placed("diff") if (link, style) == ("ring_gear", "area"))
     outer, inner = (abs(ring).max() for ring in rings)
     planet, radius = circles("diff")["planet"]
     assert inner == pytest.approx(60, rel=1e-9)
     assert abs(planet) + radius == pytest.approx(inner, rel=1e-9)
     assert outer > inner
+    (lines,) = (shape for link, style, shape, _ in placed("diff") if (link, style) == ("ring_gear", "hatch"))
+    assert len(lines) == 8  # they show that it turns
+    for line in lines:
+        assert abs(line) == pytest.approx([inner, outer], rel=1e-3)
 
 
 def test_a_belt_touches_both_pulleys():

@@ -35,6 +35,7 @@ from gruebler.pictures.machines.geneva_shape import GenevaShape
 
 _ROD_END = ROD / 2 + LINE  # pixels: the round end of a rod
 _RIM = 9.0  # pixels: the thickness of the rim of an internal wheel
+_RIM_LINES = 8  # across it, as many as show that it turns
 _ARM = 0.8  # of the radius: the cross that shows the rotation of a wheel
 _STEPS = 361  # points of the contour of a cam
 
@@ -161,12 +162,16 @@ def _centre_and_radius(disc: Wheel | Circle) -> tuple[float, ...]:
 
 
 def _disc(posed: PosedLinkage, link: str, element: Wheel | Circle, *, crossed: bool) -> RoundPart:
-    """A disc with a cross, or a ring for an internal wheel; fixed wheels in the style of the frame."""
+    """A disc with a cross, or for an internal wheel a ring with lines across; fixed ones in the style of the frame."""
     centre, radius = complex(element.x, element.y), posed.scale * abs(element.radius)
     at, style = posed.local(centre), _area(posed, link)
     if element.radius < 0:
         rings = tuple(_ring(at, r)[:: 1 if r > radius else -1] for r in (radius + _RIM, radius))
-        return RoundPart(link, (Polylines(rings, style, closed=True),))
+        ways = [cmath.rect(1, math.tau * (k + 0.5) / _RIM_LINES) for k in range(_RIM_LINES if crossed else 0)]
+        across = tuple(
+            tuple(Point(at.x + r * z.real, at.y + r * z.imag) for r in (radius, radius + _RIM)) for z in ways
+        )
+        return RoundPart(link, (Polylines(rings, style, closed=True), Polylines(across, "hatch")))
     shapes: list[Shape] = [CircleShape(at, radius, style)]
     if crossed:
         arm = (
