@@ -83,7 +83,7 @@ export function factsOf(
     // that of a slide is rounded, which may leave 4e-14
     const from = drive.turning ? angle(low) : number(Math.abs(low) < linkage.sizes.near ? 0 : low);
     const part = `${from} … ${driveText({ drive, model }, high!).replace(" ", "\u00a0")}`;
-    const name = t("Range of the drive") + (model.drives[1] ? ` ${linkage.jointName(drive.name)}` : "");
+    const name = t("Range of the drive") + (model.drives[1] ? `: ${linkage.driveName(k)}` : "");
     facts.push({ name, text: here && cycle.full ? full : part });
   }
   return [...facts, ...readingsOf(linkage)];

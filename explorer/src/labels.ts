@@ -1,14 +1,16 @@
 /** The names in the picture of a linkage, and where each of them may stand. */
 
 import { cylinderOf } from "./bodies";
+import { DEGREE } from "./cycle";
 import { svg } from "./dom";
-import { convexHull, middleOf, spotsAbout, toHull } from "./hull";
+import { away as apart, convexHull, middleOf, spotsAbout, toHull } from "./hull";
 import type { Linkage } from "./linkage";
 import { halfOf, type NamePlace, namePlace, nameSpots } from "./names";
 import { direction, type Pair, place } from "./rows";
 import type { Viewport } from "./viewport";
 
 const INK = 8; // pixels from a name to an arrow
+const RIM_PLACES: readonly Pair[] = [135, 45, -135, -45].map((a) => [Math.cos(a * DEGREE), Math.sin(a * DEGREE)]);
 const LETTER = 20; // from a joint to its letter
 
 /** A name and where it stands in the picture. */
@@ -45,7 +47,13 @@ export function labelsOf(linkage: Linkage): Label[] {
       ends = sizes.elementsOn(link).flatMap((k) => cylinderOf(linkage, sizes.element(k).joint)?.ends ?? []);
       on = namePlace(joints(), points(), name, scale);
     };
+    const rim = rimOf(linkage, link);
     const spots = (viewport: Viewport) => {
+      if (rim) {
+        const [x, y] = viewport.screen(...place(linkage.pose, 0, link, ...rim[0]));
+        const gap = rim[1] * viewport.scale + INK;
+        return RIM_PLACES.map(([c, s]): Pair => [x + c * gap + Math.sign(c) * halfOf(name), y - s * gap + 4]);
+      }
       if (ends.length) on = namePlace(joints(), [], name, viewport.scale); // it telescopes
       const { at, away, along, ...more } = on;
       const turned = (way: Pair) => direction(linkage.pose, 0, link, way);
@@ -68,7 +76,7 @@ export function labelsOf(linkage: Linkage): Label[] {
       sized,
       spots,
       taken: 0,
-      hull,
+      ...(!rim && { hull }),
       half: halfOf(name),
       many: convexHull(joints()).length > 1,
     };
@@ -99,6 +107,18 @@ export function labelsOf(linkage: Linkage): Label[] {
     return [{ element, name, spots, taken: 0, half: halfOf(name) }];
   });
   return [...letters, ...names, ...marks];
+}
+
+/** The centre of a ring, such as an internal gear, and how far its rim reaches. */
+function rimOf({ model }: Linkage, link: number): [centre: Pair, far: number] | null {
+  const ring = model.shapes.find(
+    ({ between, closed, lines, link: own }) => own === link && closed && !between && lines?.[1],
+  );
+  if (!ring) return null;
+  const rim = ring.lines![0]!;
+  const places = Array.from({ length: rim.length / 2 }, (_, k): Pair => [rim[2 * k]!, rim[2 * k + 1]!]);
+  const centre = middleOf(places);
+  return [centre, apart(places[0]!, ...centre)];
 }
 
 /** Whether a name keeps clear of an arrow. */

@@ -111,6 +111,21 @@ export class Linkage {
     return this.letterOf(number) ?? (links ? signed() : name);
   }
 
+  /** What a drive is called: as the link that it moves, of a cylinder its barrel, where that is a word; where the joint
+   * has a letter by that. */
+  driveName(number: number): string {
+    const { drives, frame, joints } = this.model;
+    const moved = ({ joint, turning }: DriveRecord) => {
+      const { links } = joints[joint]!;
+      const [one, other = one] = links.filter((own) => own !== frame);
+      return links[2] === undefined ? (turning ? other : one)! : -1;
+    };
+    const drive = drives[number]!;
+    const link = moved(drive);
+    const plain = this.letterOf(drive.joint) || drives.filter((one) => moved(one) === link)[1];
+    return plain || link < 0 || /^\d/.test(this.linkName(link)) ? this.jointName(drive.name) : this.linkName(link);
+  }
+
   /** What a point is called in the reader's language. */
   pointName(name: string): string {
     return this.model.pointNames?.[currentLanguage()]?.[name] ?? name;

@@ -346,7 +346,7 @@ export function optionsPanel(editor: Editor): HTMLElement {
     return label;
   };
   /** What a line of the picture is, in its colour. */
-  const line = (colour: "green" | "purple", words: string) => {
+  const line = (colour: "accent" | "green" | "motion" | "purple", words: string) => {
     const one = h("small", {}, words);
     one.style.color = `var(--${colour})`;
     return one;
@@ -356,8 +356,8 @@ export function optionsPanel(editor: Editor): HTMLElement {
     "div.options",
     {},
     box("curves", t("Coupler curves")),
-    box("velocities", t("Velocities")),
-    box("accelerations", t("Accelerations")),
+    box("velocities", t("Velocities"), line("motion", "→")),
+    box("accelerations", t("Accelerations"), line("accent", "⇢")),
     box("hodographs", t("Hodographs")),
     box("poles", t("Pole and centrodes"), line("green", `—\xa0${t("fixed")}`), line("purple", `┄\xa0${t("moving")}`)),
     box("inflection", t("Inflection circle"), line("green", "┄")),

@@ -17,7 +17,7 @@ export interface Drivable {
   readonly model: { drives: { name: string }[]; unit: string };
   readonly size: number;
   readonly beside?: Beside;
-  jointName(name: string): string;
+  driveName(number: number): string;
   choose(active: number): void;
   /** Whether it could. */
   moveTo(value: number): boolean;
@@ -77,8 +77,8 @@ export class Transport<View extends Driven = Driven> {
       this.view.linkage.choose(Number((event.target as HTMLSelectElement).value));
       this.view.chosen();
     };
-    const choices = model.drives.map((drive, k) =>
-      h("option", { value: k, selected: k === active }, this.view.linkage.jointName(drive.name)),
+    const choices = model.drives.map((_, k) =>
+      h("option", { value: k, selected: k === active }, this.view.linkage.driveName(k)),
     );
     const called = t("Drive");
     const drives = choices.length > 1 && h("select", { "aria-label": called, title: called, onchange }, ...choices);

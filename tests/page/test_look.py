@@ -55,18 +55,56 @@ def test_swing_and_time_ratio_are_figures(tab, crank_rocker):
 
 def test_machines_with_two_drives_show_what_both_of_them_move(tab, server):
     """The link of a five-bar that no drive turns by itself; of a lamp whose head stays level how far that goes, on
-    arms of 250 mm. 18.26° is 2° beside the pose in which arm and rod lie on one line, where rounding is multiplied."""
+    arms of 250 mm: with the lower one between 60° and 150° the chord of 90°."""
     page = tab().open(server.address).machine("pent")
     facts = """Object.fromEntries([...gruebler.root.querySelectorAll(".facts > div")].map((one) =>
         ["dt", "dd"].map((part) => one.querySelector(part).firstChild.textContent)))"""
     assert {"Output 4", "Swing"} <= set(page.page.evaluate(facts))
     assert page.page.locator(".plot:visible").count() == 3
-    page.machine("lamp").page.evaluate(f"gruebler.motion.transport.pick({np.radians(18.26)})")
+    page.machine("lamp")
     shown = page.page.evaluate(facts)
     assert shown["Output head"] == "106.3°"
     assert shown["Transfer function ψ′"] == "0"
-    assert shown["Travel of its points"] == "500 mm"
+    assert float(shown["Travel of its points"].removesuffix(" mm")) == pytest.approx(250 * np.sqrt(2), abs=0.1)
     assert page.page.locator("[data-note=still]").inner_text() == "Output head does not turn."
+
+
+def test_a_drive_is_called_as_what_it_moves(tab, server):
+    """Of a cylinder its barrel; links that are only numbered do not say which joint it is."""
+    page = tab().open(server.address)
+    names = """[...gruebler.root.querySelectorAll(".transport option")].map((one) => one.textContent)"""
+    for machine, drives in {
+        "excavator": ["boom cylinder", "stick cylinder", "bucket cylinder"],
+        "lamp": ["arm 1", "arm 2"],
+        "diff": ["sun", "ring gear"],
+        "pent": ["R(1-2)", "R(1-5)"],
+    }.items():
+        assert page.machine(machine).page.evaluate(names) == drives
+    page = tab(locale="de-DE").open(server.address).machine("excavator")
+    assert page.page.evaluate(names) == ["Auslegerzylinder", "Stielzylinder", "Löffelzylinder"]
+    assert page.page.locator(".facts").get_by_text("Bereich des Antriebs: Stielzylinder").count() == 1
+
+
+@pytest.mark.parametrize("width", [1440, 390])
+def test_a_ring_gear_has_its_name_at_its_rim_and_turns_visibly(tab, server, width):
+    """Its pitch radius is 60 mm; of a rim of 2 mm the eight lines are seen to turn."""
+    page = tab(width=width, height=844).open(server.address).machine("diff")
+    far, half, scale = page.page.evaluate("""() => {
+        const { root, motion } = gruebler;
+        const { viewport } = motion.stage;
+        const name = [...root.querySelectorAll("text.name")].find((one) => one.textContent === "ring gear");
+        const [x, y] = name.getAttribute("transform").match(/[-\\d.]+/g).map(Number);
+        const [u, v] = viewport.screen(0, 0);
+        return [Math.hypot(x - u, y - v), name.getComputedTextLength() / 2, viewport.scale];
+    }""")
+    assert 60 * scale < far < 63 * scale + half + 24
+    lines = page.page.locator("[data-link=ring_gear] .hatch").get_attribute("d")
+    ends = [[float(one) for one in line.replace("L", " ").split()] for line in lines.split("M")[1:]]
+    assert len(ends) == 8
+    for x, y, u, v in ends:
+        assert np.hypot(x, y) == pytest.approx(60 * scale, abs=0.05)
+        assert np.hypot(u, v) > 60 * scale + 1
+        assert np.angle((u + 1j * v) / (x + 1j * y)) == pytest.approx(0, abs=1e-3)
 
 
 def test_a_plot_says_the_value_at_the_pointer(tab, crank_rocker):
@@ -266,6 +304,9 @@ def test_lines_of_the_picture_are_named_in_their_colours(tab, crank_rocker):
     assert fixed != moving
     page.page.get_by_label("Inflection circle").check()
     assert page.page.locator(".inflection").evaluate("(one) => getComputedStyle(one).stroke") == fixed
+    arrow = page.page.locator("path.acceleration").evaluate("(one) => getComputedStyle(one).stroke")
+    assert arrow not in (fixed, moving)
+    assert page.page.get_by_text("⇢").evaluate("(one) => getComputedStyle(one).color") == arrow
 
 
 def test_a_pole_outside_of_the_picture_is_told(tab, crank_rocker):

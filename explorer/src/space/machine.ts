@@ -90,8 +90,8 @@ export class Machine implements Drivable {
     return { full, turns: Number(full), low: low - room, high: high + room, stops: [null, null] };
   }
 
-  jointName(name: string): string {
-    return this.data.texts[currentLanguage()].drives[Number(name)]!;
+  driveName(number: number): string {
+    return this.data.texts[currentLanguage()].drives[number]!;
   }
 
   choose(active: number): void {

@@ -328,7 +328,7 @@ export class SpaceView implements Driven {
     const { full, high, low } = linkage.cycleOf(drive);
     const input = h("input", {
       id: `drive-${drive}`,
-      title: linkage.jointName(linkage.model.drives[drive]!.name),
+      title: linkage.driveName(drive),
       type: "range",
       min: full ? -Math.PI : low,
       max: full ? Math.PI : high,
@@ -374,7 +374,7 @@ export class SpaceView implements Driven {
   posed(): void {
     const { linkage } = this;
     if (linkage.ended) this.transport.pause();
-    const drive = linkage.jointName(linkage.model.drives[linkage.active]?.name ?? "");
+    const drive = linkage.driveName(linkage.active);
     if (linkage.ended || !this.#told) this.#say(linkage.ended ? this.#words.end!.replace("{drive}", drive) : "");
     this.scene.draw();
     this.transport.showValue();

@@ -157,9 +157,9 @@ def test_stops_are_of_driven_joints_and_about_the_drawing():
     arm = entry("excavator")
     places = arm.dimensions.places
     cylinders = [
-        ("R(carriage-cylinder1)", "R(piston1-boom)"),
-        ("R(boom-cylinder2)", "R(piston2-stick)"),
-        ("R(stick-cylinder3)", "R(piston3-rocker-push_link)"),
+        ("R(carriage-boom_cylinder)", "R(boom_piston-boom)"),
+        ("R(boom-stick_cylinder)", "R(stick_piston-stick)"),
+        ("R(stick-bucket_cylinder)", "R(bucket_piston-rocker-push_link)"),
     ]
     for (one, other), (low, high) in zip(cylinders, arm.stops, strict=True):
         assert low < np.hypot(*np.subtract(places[one], places[other])) < high
