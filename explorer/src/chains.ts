@@ -142,8 +142,11 @@ export class ChainList {
     const number = ++this.#asked;
     this.#all = start > 0;
     this.#list.classList.toggle("asking", others); // those of the size before
-    if (others) this.#count.textContent = t("counting …");
-    if (others) this.waits(true);
+    if (others) {
+      this.#count.textContent = t("counting …");
+      this.#count.hidden = false; // it is where there were none
+      this.waits(true);
+    }
     const place = this.#found || others ? this.#status : this.#list;
     const found = this.#unlisted()
       ? { total: 0, items: [] }

@@ -229,6 +229,7 @@ def test_the_list_of_the_size_before_is_faded_while_another_one_is_counted(tab, 
     links.fill("8")
     links.press("Enter")
     page.until("held.some(({ method }) => method === 'chains')")
+    assert count.is_visible()
     assert count.inner_text() == "counting …"
     for faded in (".chains", ".described", '[data-page="structure"] .go'):  # all of it is of the four-bar
         assert view.locator(faded).evaluate("(part) => Number(getComputedStyle(part).opacity)") < 0.9, faded
