@@ -23,6 +23,10 @@ interface Entry {
   text: string;
 }
 
+/** Kinds of joints that are asked for by their number, or by "some". */
+const JOINTS = new Set(["revolute", "prismatic", "roll_slide", "spherical", "universal"]);
+const SOME = "some";
+
 const EMPTY = 24; // cards: more than a screen
 
 /** The place of a machine that is not there yet. */
@@ -42,6 +46,7 @@ export class CatalogView implements View {
   #typing = 0;
   #asked = 0;
   #filled = false;
+  #searching = false;
   readonly #watcher = new IntersectionObserver(
     (seen) => {
       for (const { target, isIntersecting } of seen) {
@@ -63,41 +68,65 @@ export class CatalogView implements View {
   }
 
   arrange(): void {
-    const field = (key: string, label: string, hint = "") => {
-      const input = h("input", {
-        value: this.#query[key] ?? "",
-        "aria-label": label,
-        placeholder: hint,
-        "data-field": key,
-        oninput: () => {
-          this.#query[key] = input.value;
-          clearTimeout(this.#typing);
-          this.#typing = setTimeout(() => void this.#search(), 250);
-        },
-      });
-      return h("label", {}, key !== "words" && label, input); // its hint says it
+    const words = h("input", {
+      value: this.#query.words ?? "",
+      "aria-label": t("Words"),
+      placeholder: t("Search: crank, six-bar, …"),
+      "data-field": "words",
+      oninput: () => {
+        this.#query.words = words.value;
+        clearTimeout(this.#typing);
+        this.#typing = setTimeout(() => void this.#search(), 250);
+      },
+    });
+    const summary = h("summary", {});
+    const count = () => {
+      const { words: _, ...set } = this.#query;
+      const number = Object.values(set).filter(Boolean).length;
+      summary.textContent = t("More filters") + (number ? ` (${number})` : "");
     };
-    const together = (...fields: HTMLElement[]) => h("div", {}, ...fields);
+    count();
+    const field = (key: string, label: string, most: number, least = 0) => {
+      const numbers = Array.from({ length: most - least + 1 }, (_, k) => String(least + k));
+      const options = [["", t("any")], ...numbers.map((one) => [one, one])] as [string, string][];
+      if (JOINTS.has(key)) options.splice(1, 0, [SOME, t("at least 1")]);
+      const choose = (value: string) => {
+        this.#query[key] = value;
+        count();
+        void this.#search();
+      };
+      return h("label", {}, label, menu(label, options, this.#query[key] ?? "", choose, { "data-field": key }));
+    };
+    const group = (title: string, ...fields: HTMLElement[]) => h("div", {}, h("h3", {}, title), ...fields);
     const more = h(
       "details.words",
       { open: this.#refining, "data-panel": "features", ontoggle: () => (this.#refining = more.open) },
-      h("summary", {}, t("More filters")),
+      summary,
       h(
         "div.form.numbers",
         {},
-        together(
-          field("pairs", t("Joint types: R turning, P sliding, G gears")),
-          field("joints", t("Joints by type"), t("R:4,P:0")),
+        group(
+          t("Joints"),
+          field("revolute", t("turning"), 14),
+          field("prismatic", t("sliding"), 6),
+          field("roll_slide", t("gears, cams, belts"), 4),
+          field("spherical", t("ball joints"), 12),
+          field("universal", t("universal joints"), 6),
+          field("multiple_joints", t("multiple joints"), 4),
         ),
-        together(field("drive_joints", t("Drive joints")), field("drive_joints_at_frame", t("of them at the frame"))),
-        together(
-          field("output_links", t("Output links")),
-          field("output_links_at_frame", t("of them jointed to the frame")),
+        group(
+          t("Links"),
+          field("links", t("in all, with the frame"), 14, 3),
+          field("binary", t("binary (2 joints)"), 12),
+          field("ternary", t("ternary (3 joints)"), 6),
+          field("output_links", t("outputs"), 3),
+          field("output_links_at_frame", t("of them at the frame"), 3),
         ),
-        together(field("links", t("Links")), field("mobility", t("Mobility by the count"))),
-        together(field("binary", t("Binary links")), field("ternary", t("Ternary links"))),
-        together(
-          field("multiple_joints", t("Multiple joints")),
+        group(
+          t("Mobility and drives"),
+          field("mobility", t("mobility by the count"), 9),
+          field("drive_joints", t("driven joints"), 6),
+          field("drive_joints_at_frame", t("of them at the frame"), 3),
           h("button.plain", { "data-act": "clear", onclick: () => this.#showAll() }, t("Clear")),
         ),
       ),
@@ -122,7 +151,6 @@ export class CatalogView implements View {
       ["guide", t("Guide mechanisms")],
       ["space", t("In space")],
     ];
-    const words = field("words", t("Words"), t("Search: crank, six-bar, …"));
     const choose = (kind: string) => {
       this.#kind = kind;
       void this.#search();
@@ -134,7 +162,7 @@ export class CatalogView implements View {
         {},
         h("div.form", {}, h("h2", {}, t("Catalog")), this.#note),
         choice(t("Kinds of machines"), kinds, this.#kind, choose, { class: "choice palette" }),
-        h("div.form.search", {}, words, order),
+        h("div.form.search", {}, h("label", {}, words), order),
         h("div.said", {}, more),
         this.#cards,
       ),
@@ -142,38 +170,55 @@ export class CatalogView implements View {
     if (this.#asked) void this.#search();
   }
 
+  /** What is looked for, as `gruebler.page.params.ListCatalog` has it. */
+  #wanted(): Record<string, unknown> {
+    const { words, ...numbers } = this.#query;
+    const [some, joints]: [string[], string[]] = [[], []];
+    const wanted: Record<string, unknown> = words ? { words } : {};
+    for (const [key, text] of Object.entries(numbers)) {
+      if (text === SOME) some.push(key);
+      else if (text && JOINTS.has(key)) joints.push(`${key}:${text}`);
+      else if (text) wanted[key] = Number(text);
+    }
+    return { ...wanted, pairs: some.join(" "), joints: joints.join() };
+  }
+
+  /** One search at a time; what is typed meanwhile is looked for after it, and alone the last of it. */
   async #search(): Promise<void> {
     const number = ++this.#asked;
-    const asked = Object.entries(this.#query).flatMap(([key, text]) => {
-      if (/^(words|pairs|joints)$/.test(key)) return [[key, text]];
-      return /^\s*\d+\s*$/.test(text) ? [[key, Number(text)]] : [];
-    });
     const cards = this.#cards;
     this.#note.textContent = t("Searching …");
     cards.classList.add("asking"); // those of the search before
     cards.toggleAttribute("data-waiting", !this.#filled);
     if (!this.#filled) renew(cards, ...Array.from({ length: EMPTY }, emptyCard));
+    if (this.#searching) return;
+    this.#searching = true;
+    let found: Entry[] | Error;
     try {
-      let found = await this.#page.ask<Entry[]>("catalog", Object.fromEntries(asked));
-      if (number !== this.#asked) return;
-      found = found.filter(({ kinds }) => !this.#kind || kinds.includes(this.#kind));
-      this.#filled = true;
-      cards.removeAttribute("data-waiting");
-      const few = [t("No machine has all of this."), t("One machine")];
-      this.#note.textContent = few[found.length] ?? t("{count} machines", { count: found.length });
-      const byName = (a: Entry, b: Entry) => a.name.localeCompare(b.name, currentLanguage());
-      // those whose name has what is looked for, not their description alone
-      const named = ({ name }: Entry) => +name.toLowerCase().includes((this.#query.words ?? "").toLowerCase());
-      found.sort((a, b) => (this.#byLinks && a.links - b.links) || named(b) - named(a) || byName(a, b));
-      renew(cards, ...found.map((entry) => this.#card(entry)));
-      for (const card of cards.children) this.#watcher.observe(card);
-      if (!found.length) renew(cards, h("button.plain", { onclick: () => this.#showAll() }, t("Show all")));
+      found = await this.#page.ask<Entry[]>("catalog", this.#wanted());
     } catch (error) {
-      if (number !== this.#asked) return;
-      this.#note.textContent = (error as Error).message;
-      if (!this.#filled) renew(cards);
+      found = error as Error;
     }
+    this.#searching = false;
+    if (number !== this.#asked) return this.#search();
     cards.classList.remove("asking");
+    if (found instanceof Error) {
+      this.#note.textContent = found.message;
+      if (!this.#filled) renew(cards);
+      return;
+    }
+    found = found.filter(({ kinds }) => !this.#kind || kinds.includes(this.#kind));
+    this.#filled = true;
+    cards.removeAttribute("data-waiting");
+    const few = [t("No machine has all of this."), t("One machine")];
+    this.#note.textContent = few[found.length] ?? t("{count} machines", { count: found.length });
+    const byName = (a: Entry, b: Entry) => a.name.localeCompare(b.name, currentLanguage());
+    // those whose name has what is looked for, not their description alone
+    const named = ({ name }: Entry) => +name.toLowerCase().includes((this.#query.words ?? "").toLowerCase());
+    found.sort((a, b) => (this.#byLinks && a.links - b.links) || named(b) - named(a) || byName(a, b));
+    renew(cards, ...found.map((entry) => this.#card(entry)));
+    for (const card of cards.children) this.#watcher.observe(card);
+    if (!found.length) renew(cards, h("button.plain", { onclick: () => this.#showAll() }, t("Show all")));
   }
 
   #showAll(): void {

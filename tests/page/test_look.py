@@ -711,8 +711,8 @@ def test_features_to_search_for_are_in_line_on_a_phone(tab, server, locale):
     page = tab(width=390, height=844, locale=locale, touch=True).open(server.address)
     page.page.click('[data-view="catalog"]')
     page.page.click('[data-panel="features"] summary')
-    fields = page.page.locator('[data-panel="features"] input')
-    assert fields.count() > 9
+    fields = page.page.locator('[data-panel="features"] select')
+    assert fields.count() == 14
     edges = "all => all.map((one) => one.getBoundingClientRect()).map(({ left, right }) => [left, right].join())"
     assert len(set(fields.evaluate_all(edges))) == 1
 

@@ -457,8 +457,10 @@ def test_the_catalog_is_searched_by_access_features(tab, server):
     page.page.click('[data-view="catalog"]')
     page.page.locator('[data-list="catalog"] .card').nth(60).wait_for()
     page.page.locator('[data-panel="features"] summary').click()
-    page.page.locator('[data-field="ternary"]').fill("2")
-    page.page.locator('[data-field="joints"]').fill("D:7")
+    panel = page.page.locator('[data-panel="features"]')
+    panel.get_by_label("ternär (3 Gelenke)").select_option("2")
+    panel.get_by_label("Drehgelenke").select_option("7")
+    assert panel.locator("summary").inner_text() == "Weitere Filter (2)"
     wanted = [one["id"] for one in answer("catalog", {"ternary": 2, "joints": "R:7"}, "en", print)]
     assert len(wanted) > 1
     root = "document.querySelector('.gruebler-explorer').shadowRoot"
@@ -467,8 +469,11 @@ def test_the_catalog_is_searched_by_access_features(tab, server):
     assert sorted(cards.evaluate_all("all => all.map((e) => e.dataset.id)")) == sorted(wanted)
     names = cards.locator("b").all_text_contents()
     assert names == sorted(names)  # all begin with a capital letter without dots
-    page.page.locator('[data-field="joints"]').fill("D7")
-    page.until("document.querySelector('.gruebler-explorer').shadowRoot.textContent.includes('D7')")
+    panel.get_by_label("ternär (3 Gelenke)").select_option("")
+    panel.get_by_label("Drehgelenke").select_option(label="mindestens 1")
+    panel.get_by_label("Kugelgelenke").select_option("2")
+    ids = f"[...{root}.querySelectorAll('[data-id]')].map(({{ dataset }}) => dataset.id).sort().join()"
+    page.until(f"{ids} === 'cargo_bike,wiper_rssr'")  # an RSSR each, the tie rod and the coupler between two balls
     # what is counted stands above how many of them are at the frame; all is cleared at once
     for whole in ("drive_joints", "output_links"):
         above, below = (
@@ -477,8 +482,9 @@ def test_the_catalog_is_searched_by_access_features(tab, server):
         assert below["x"] == above["x"]
         assert above["y"] < below["y"] < above["y"] + 60
     page.page.click('[data-panel="features"] [data-act="clear"]')
-    fields = page.page.locator('[data-page="catalog"] input')
+    fields = page.page.locator('[data-page="catalog"] :is(input, select)')
     assert set(fields.evaluate_all("all => all.map((one) => one.value)")) == {""}
+    assert panel.locator("summary").inner_text() == "Weitere Filter"
     page.page.locator('[data-field="words"]').fill("zzzz")
     page.page.get_by_role("button", name="Alle zeigen").click()
     page.until(f"{root}.querySelectorAll('[data-id]').length === {len(answer('catalog', {}, 'de', print))}")

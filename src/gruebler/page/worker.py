@@ -27,6 +27,7 @@ _FIRST: tuple[tuple[str, dict[str, Any]], ...] = (
     # their laws are told once: among the first of the catalog they took half of the time
     ("picture", {"id": "cam_rocker"}),
     ("picture", {"id": "cam_rocker_flat"}),
+    ("catalog", {"words": "crank"}),  # in which words are sought
 )
 
 

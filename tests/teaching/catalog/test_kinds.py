@@ -2,7 +2,7 @@
 
 import pytest
 
-from gruebler.teaching.catalog import entries, entry
+from gruebler.teaching.catalog import entries, entry, kinds, loader
 from gruebler.teaching.catalog.kinds import KINDS, machine_kinds
 from gruebler.teaching.catalog.loader import Query, search
 
@@ -11,6 +11,13 @@ WITH_CYLINDERS = {"crane_cyl", "excavator", "gough", "hubpodium_blocks", "loader
 
 def of_kind(kind: str) -> set[str]:
     return {id for id, machine in entries().items() if kind in machine_kinds(machine)}
+
+
+def test_what_machines_have_is_found_once_for_all_searches(monkeypatch):
+    search(Query(words=("crank",)))
+    monkeypatch.setattr(kinds, "guided_links", None)  # nothing can be found any more
+    monkeypatch.setattr(loader, "family", None)
+    assert {each.id for each in search(Query(words=("hydraulic",)))} == WITH_CYLINDERS
 
 
 def test_machines_that_are_called_gears_or_level_have_none():

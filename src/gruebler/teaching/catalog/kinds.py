@@ -8,8 +8,10 @@ from gruebler.base.text import Message, message
 from gruebler.files.catalog_records import Entry
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog.features import guided_links
+from gruebler.teaching.catalog.record_folders import told_once
 
 
+@told_once
 def machine_kinds(machine: Entry) -> tuple[str, ...]:
     """The kinds of `KINDS` that a machine is of.
 
@@ -51,6 +53,7 @@ def _has_cam(machine: Entry) -> bool:
     return "cam" in _contacts(machine)
 
 
+@told_once
 def _contacts(machine: Entry) -> set[str]:
     """What its links touch each other with, as the pictures tell it apart."""
     if machine.dimensions is None:

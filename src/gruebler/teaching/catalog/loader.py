@@ -20,7 +20,7 @@ from gruebler.structure.mobility import counted
 from gruebler.teaching.catalog.claims import CheckedEntry, WrongClaim, check_claims
 from gruebler.teaching.catalog.features import purpose
 from gruebler.teaching.catalog.kinds import KINDS, machine_kinds
-from gruebler.teaching.catalog.record_folders import RecordFolder
+from gruebler.teaching.catalog.record_folders import RecordFolder, told_once
 
 
 def catalog_folder() -> Path:
@@ -188,6 +188,7 @@ def plain_word(text: str) -> str:
     return re.sub(r"[-\u2010\u2011–'’]", "", "".join(sign for sign in letters if not unicodedata.combining(sign)))
 
 
+@told_once
 def searched_text(candidate: Entry) -> str:
     """Everything in which a word is looked for, as `plain_word` writes it.
 

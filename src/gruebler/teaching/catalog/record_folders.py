@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from functools import wraps
 from pathlib import Path
 from typing import Protocol, TypeVar, final
 
@@ -15,6 +16,22 @@ class _Named(Protocol):
 
 
 Record = TypeVar("Record", bound=_Named)
+
+
+Told = TypeVar("Told")
+
+
+def told_once(tell: Callable[[Record], Told]) -> Callable[[Record], Told]:
+    """What a function tells of a record, found once: records do not change, and those of a folder are kept."""
+    known: dict[int, tuple[Record, Told]] = {}  # with the record, so that its id stays its own
+
+    @wraps(tell)
+    def found(record: Record) -> Told:
+        if id(record) not in known:
+            known[id(record)] = (record, tell(record))
+        return known[id(record)][1]
+
+    return found
 
 
 @final
