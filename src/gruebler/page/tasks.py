@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import Message, Readable, error_in_language, joined, message, translate
+from gruebler.base.text import Message, Readable, error_in_language, joined, joined_by_and, message, translate
 from gruebler.files import Exercise
 from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES
 from gruebler.structure.chain import Chain
@@ -137,7 +137,7 @@ def marked_task(id: str, answers: dict[str, str], lang: str) -> dict[str, Any]:
     >>> marked_task("dead-centre-1-7", {"H": "30", "l_a": "12"}, "en")["marks"][1]["hint"]
     'The formula is l_a = a + b.'
     >>> marked_task("mobility-1-3", {"F": "7"}, "en")["marks"][0]["hint"]
-    'The formula is F = 3(n − 1) − 2 g_1 − g_2.'
+    'Check n, g_1 and g_2 first, then put them into F = 3(n − 1) − 2 g_1 − g_2.'
     """
     task = exercise(id)
     solution = solve(task)
@@ -188,7 +188,7 @@ def _mark(task: Exercise, solution: Solution, key: str, given: str, lang: str) -
 
 
 def way(task: Exercise, solution: Solution, result: Result) -> Message:
-    """What helps with a wrong answer that is no likely mistake: the formula without its numbers, or what is counted.
+    """What helps with a wrong answer that is no likely mistake: the formula, what is put into it, or what is counted.
 
     >>> task = exercise("mobility-1-3")  # a four-bar: R(2-3) R(3-4) R(4-1) R(1-2)
     >>> way(task, solve(task), solve(task).results["g1"]).in_language("en")
@@ -199,8 +199,38 @@ def way(task: Exercise, solution: Solution, result: Result) -> Message:
     formula = next((step.formula for step in steps if step.formula.startswith(beginning) and step.numbers), "")
     if formula:
         indexed = re.sub(r"\b([^\W\d_])(\d+)\b", r"\1_\2", formula)
+        counts = _put_in(task, solution, result, formula)
+        if any("=" in count for count in counts):
+            return message("Put {counts} into {formula}.", counts=joined_by_and(counts), formula=indexed)
+        if counts:
+            counted = joined_by_and(counts)
+            return message("Check {counts} first, then put them into {formula}.", counts=counted, formula=indexed)
         return message("The formula is {formula}.", formula=indexed)
     return _counted(task).get(result.key, _OTHERWISE)
+
+
+def _put_in(task: Exercise, solution: Solution, result: Result, formula: str) -> list[str]:
+    """What is put into the formula of a mobility, with its numbers where the task does not ask for them.
+
+    >>> task = exercise("dyad-1-7")  # a chain of five links and five joints
+    >>> result = solve(task).results["F_after"]
+    >>> _put_in(task, solve(task), result, "F' = 3(n - 1) - 2 g1")
+    ['n = 5 + 2', 'g_1 = 5 + 3']
+    """
+    key, dot, machine = result.key.partition(".")
+    if key not in ("F", "F_before", "F_after"):
+        return []
+    symbols = [symbol for symbol in ("n", "g1", "g2") if re.search(rf"\b{symbol}\b", formula)]
+    names = [symbol.replace("g", "g_") for symbol in symbols]
+    numbers = [solution.results[f"{symbol}{dot}{machine}"].value for symbol in symbols]
+    if key != "F":
+        start = Chain.parse(_chain_of(task))
+        before = {"n": start.n} | {f"g{f}": number for f, number in start.joints_by_freedom.items()}
+        numbers = [f"{before[symbol]} + {solution.number(symbol) - before[symbol]:g}" for symbol in symbols]
+        numbers = numbers if key == "F_after" else [before[symbol] for symbol in symbols]
+    elif {question.key for question in task.asked} & {*symbols}:
+        return names
+    return [f"{name} = {number}" for name, number in zip(names, numbers, strict=True)]
 
 
 def _counted(task: Exercise) -> dict[str, Message]:
