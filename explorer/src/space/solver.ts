@@ -3,7 +3,7 @@
 // A joint has a frame in the reference pose, common to its links. The frame E of its second link, seen from its first,
 // keeps the directions in which the joint does not slide and turn; drives, and wheels on common carriers, add rows.
 
-import { moved, type Vector } from "./algebra";
+import { cross, dot, minus, moved, type Vector } from "./algebra";
 
 export interface Joint {
   links: [number, number];
@@ -38,14 +38,18 @@ export interface Live {
 }
 
 export type Pose = number[];
-type Row = { value: number; links: number[]; of: (poses: Pose[]) => number };
+/** A number of a joint, and how it grows as the second link turns and shifts, in radians and sizes; it does the opposite
+ * as the first one does. */
+type Reading = { value: number; slopes: number[] };
+/** What is to be 0, and how it grows with six unknowns each of some links, from numbers on. */
+type Row = { gap: number; slopes: [first: number, by: number[]][] };
 
 const STEP = 0.08; // radians, or parts of the size, from one solution to the next
 const SHORTEST = 1 / 64; // of it
 const LEAP = 0.25; // radians or sizes: a link that goes farther in a step is in another assembly mode
 const CLOSED = 1e-9;
 const MOST = 12;
-const SMALL = 1e-6; // of the differences by which rows are derived
+const SMALL = 1e-6; // of the differences by which the place of a pointer is derived
 const WEIGHT = 0.03; // of the pointer against the joints
 const HOLD = 3e-3; // of the drives' values while a link is pulled
 
@@ -60,11 +64,10 @@ function times(a: Pose, b: Pose): Pose {
   return c;
 }
 
-function inverse(a: Pose): Pose {
-  const out: Pose = [];
-  for (let k = 0; k < 3; k++)
-    out.push(a[k]!, a[k + 4]!, a[k + 8]!, -(a[k]! * a[3]! + a[k + 4]! * a[7]! + a[k + 8]! * a[11]!));
-  return out;
+/** Readings of one joint with their weights, added. */
+function sum(parts: [Reading, number][]): Reading {
+  const value = parts.reduce((all, [one, weight]) => all + weight * one.value, 0);
+  return { value, slopes: [0, 1, 2, 3, 4, 5].map((k) => parts.reduce((all, [one, w]) => all + w * one.slopes[k]!, 0)) };
 }
 
 /** The pose turned by a small rotation vector about a place, and shifted. */
@@ -97,8 +100,8 @@ export class Solver {
   readonly values: number[];
   /** The turns of all joints, whole ones counted. */
   turned: number[];
-  readonly #moving: number[];
-  readonly #backs: Pose[];
+  /** The first of six unknowns of each link that moves. */
+  readonly #places: Map<number, number>;
 
   constructor(
     private readonly live: Live,
@@ -109,8 +112,8 @@ export class Solver {
     this.poses = Array.from({ length: links }, () => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]);
     this.values = live.drives.map(() => 0);
     this.turned = live.joints.map(() => 0);
-    this.#moving = this.poses.map((_, k) => k).filter((k) => k !== live.frame);
-    this.#backs = live.joints.map(({ frame }) => inverse(frame));
+    const moving = this.poses.map((_, k) => k).filter((k) => k !== live.frame);
+    this.#places = new Map(moving.map((link, k) => [link, 6 * k]));
   }
 
   /** Another one, which goes on from here. */
@@ -121,97 +124,112 @@ export class Solver {
     return other;
   }
 
-  /** The second link's frame of a joint, seen from its first one. */
-  #seen(poses: Pose[], number: number): Pose {
-    const { links, frame } = this.live.joints[number]!;
-    return times(this.#backs[number]!, times(inverse(poses[links[0]]!), times(poses[links[1]]!, frame)));
+  /** The angle of a joint from that of a frame of its second link, seen from its first one, with full turns. */
+  #angle(poses: Pose[], number: number, axis = 2): Reading {
+    const e = this.#seen(poses, number);
+    const [one, two] = [(axis + 1) % 3, (axis + 2) % 3];
+    const [x, y] = [e.cosine(one, one), e.cosine(two, one)];
+    const far = x.value ** 2 + y.value ** 2;
+    const turned = this.turned[number]!;
+    return {
+      value: turned + wrapped(Math.atan2(y.value, x.value) - turned),
+      slopes: y.slopes.map((slope, k) => (x.value * slope - y.value * x.slopes[k]!) / far),
+    };
   }
 
-  #angle(poses: Pose[], number: number, axis = 2): number {
-    const e = this.#seen(poses, number);
-    const [a, b] = [(axis + 1) % 3, (axis + 2) % 3];
-    const turn = Math.atan2(e[4 * b + a]!, e[4 * a + a]!);
-    return this.turned[number]! + wrapped(turn - this.turned[number]!);
+  /** What is read of the second link's frame of a joint, seen from its first one. */
+  #seen(poses: Pose[], number: number) {
+    const { links, frame } = this.live.joints[number]!;
+    const [a, b] = links.map((link) => times(poses[link]!, frame)) as [Pose, Pose];
+    const column = (pose: Pose, k: number): Vector => [pose[k]!, pose[k + 4]!, pose[k + 8]!];
+    const place = column(b, 3);
+    return {
+      /** The cosine between an axis of the first and one of the second. */
+      cosine: (first: number, second: number): Reading => {
+        const [u, v] = [column(a, first), column(b, second)];
+        return { value: dot(u, v), slopes: [...cross(v, u), 0, 0, 0] };
+      },
+      /** How far the second is along an axis of the first. */
+      way: (axis: number): Reading => {
+        const u = column(a, axis);
+        const slopes = [...cross(minus(place, this.middle), u), ...u.map((part) => this.size * part)];
+        return { value: dot(u, minus(place, column(a, 3))), slopes };
+      },
+    };
   }
 
   /** What a drive stands at. */
-  #value(poses: Pose[], { joint, axis, turns, sign }: Drive): number {
-    return sign * (turns ? this.#angle(poses, joint, axis) : this.#seen(poses, joint)[4 * axis + 3]!);
+  #value(poses: Pose[], { joint, axis, turns, sign }: Drive): Reading {
+    return sum([[turns ? this.#angle(poses, joint, axis) : this.#seen(poses, joint).way(axis), sign]]);
   }
 
-  #rows(targets: number[], hold: number): Row[] {
+  #rows(poses: Pose[], targets: number[], hold: number): Row[] {
+    const { drives, gears, joints } = this.live;
     const rows: Row[] = [];
-    this.live.joints.forEach(({ links, turns, slides, pitch }, number) => {
-      const add = (of: (e: Pose) => number) =>
-        rows.push({ value: 0, links, of: (poses) => of(this.#seen(poses, number)) });
-      for (let k = 0; k < 3; k++) {
-        if (pitch && k === 2)
-          rows.push({
-            value: 0,
-            links,
-            of: (p) => (this.#seen(p, number)[11]! - pitch * this.#angle(p, number)) / this.size,
-          });
-        else if (!slides.includes("xyz"[k]!)) add((e) => e[4 * k + 3]! / this.size);
-      }
+    const slopesOf = (number: number, { slopes }: Reading, weight = 1): Row["slopes"] =>
+      joints[number]!.links.flatMap((link, side) => {
+        const first = this.#places.get(link);
+        const sign = side ? weight : -weight;
+        return first === undefined ? [] : [[first, slopes.map((slope) => sign * slope)]];
+      });
+    joints.forEach(({ pitch, slides, turns }, number) => {
+      const seen = this.#seen(poses, number);
+      const add = (...parts: [Reading, number][]) => {
+        const read = sum(parts);
+        rows.push({ gap: read.value, slopes: slopesOf(number, read) });
+      };
+      for (let k = 0; k < 3; k++)
+        if (pitch && k === 2) add([seen.way(k), 1 / this.size], [this.#angle(poses, number), -pitch / this.size]);
+        else if (!slides.includes("xyz"[k]!)) add([seen.way(k), 1 / this.size]);
       if (turns === "")
         for (const [a, b] of [
           [0, 1],
           [1, 2],
           [2, 0],
         ] as const)
-          add((e) => (e[4 * b + a]! - e[4 * a + b]!) / 2);
-      if (turns === "xy") add((e) => e[1]!);
+          add([seen.cosine(b, a), 0.5], [seen.cosine(a, b), -0.5]);
+      if (turns === "xy") add([seen.cosine(0, 1), 1]);
       if (turns.length === 1) {
         const k = "xyz".indexOf(turns);
-        for (const n of [0, 1, 2]) if (n !== k) add((e) => e[4 * n + k]!);
+        for (const n of [0, 1, 2]) if (n !== k) add([seen.cosine(n, k), 1]);
       }
     });
-    for (const gear of this.live.gears) {
-      const links = [...new Set(gear.flatMap(([joint]) => this.live.joints[joint]!.links))];
-      rows.push({ value: 0, links, of: (p) => gear.reduce((sum, [joint, w]) => sum + w * this.#angle(p, joint), 0) });
+    for (const gear of gears) {
+      const turned = gear.map(([joint]) => this.#angle(poses, joint));
+      rows.push({
+        gap: gear.reduce((all, [, weight], k) => all + weight * turned[k]!.value, 0),
+        slopes: gear.flatMap(([joint, weight], k) => slopesOf(joint, turned[k]!, weight)),
+      });
     }
-    this.live.drives.forEach((drive, k) => {
+    drives.forEach((drive, k) => {
       const unit = hold / (drive.turns ? 1 : this.size);
-      const { links } = this.live.joints[drive.joint]!;
-      rows.push({ value: unit * targets[k]!, links, of: (p) => unit * this.#value(p, drive) });
+      const read = this.#value(poses, drive);
+      rows.push({ gap: unit * (read.value - targets[k]!), slopes: slopesOf(drive.joint, read, unit) });
     });
     return rows;
   }
 
-  /** Poses in which all rows have their values as nearly as can be, and the largest miss of the first ones. */
-  #solved(rows: Row[], start: Pose[], most: number): { poses: Pose[]; miss: number } {
-    let poses = start;
-    const place = new Map(this.#moving.map((link, k) => [link, 6 * k]));
-    const n = 6 * this.#moving.length;
+  /** Poses in which all rows are 0 as nearly as can be, and the largest miss. */
+  #solved(rowsOf: (poses: Pose[]) => Row[], most: number): { poses: Pose[]; miss: number } {
+    let { poses } = this;
+    const n = 6 * this.#places.size;
     let miss = Infinity;
     for (let step = 0; step <= most; step++) {
-      const gaps = rows.map((row) => row.of(poses) - row.value);
-      miss = Math.max(...gaps.map(Math.abs));
+      const rows = rowsOf(poses);
+      miss = Math.max(...rows.map(({ gap }) => Math.abs(gap)));
       if (miss < CLOSED || step === most) break;
       const normal = new Float64Array(n * n);
       const right = new Float64Array(n);
-      rows.forEach((row, r) => {
-        const entries: [number, number][] = [];
-        for (const link of row.links) {
-          const first = place.get(link);
-          if (first === undefined) continue;
+      for (const { gap, slopes } of rows)
+        for (const [i, a] of slopes)
           for (let k = 0; k < 6; k++) {
-            const by = [0, 0, 0, 0, 0, 0];
-            by[k] = SMALL;
-            const tried = poses.slice();
-            tried[link] = nudged(poses[link]!, by, 0, this.middle, this.size);
-            const slope = (row.of(tried) - row.value - gaps[r]!) / SMALL;
-            if (slope) entries.push([first + k, slope]);
+            if (!a[k]) continue;
+            right[i + k]! -= a[k]! * gap;
+            for (const [j, b] of slopes) for (let m = 0; m < 6; m++) normal[n * (i + k) + j + m]! += a[k]! * b[m]!;
           }
-        }
-        for (const [i, a] of entries) {
-          right[i]! -= a * gaps[r]!;
-          for (const [j, b] of entries) normal[n * i + j]! += a * b;
-        }
-      });
       const by = solvedSystem(normal, right, n);
       poses = poses.map((pose, link) => {
-        const first = place.get(link);
+        const first = this.#places.get(link);
         return first === undefined ? pose : nudged(pose, by, first, this.middle, this.size);
       });
     }
@@ -232,10 +250,10 @@ export class Solver {
     while (part < 1) {
       const next = Math.min(part + step, 1);
       const targets = ends.map((v, k) => starts[k]! + (v - starts[k]!) * next);
-      const { poses, miss } = this.#solved(this.#rows(targets, 1), this.poses, MOST);
+      const { poses, miss } = this.#solved((tried) => this.#rows(tried, targets, 1), MOST);
       if (miss < 1e-6 && this.#leap(poses) < LEAP) {
         this.poses = poses;
-        this.turned = this.live.joints.map((_, k) => this.#angle(poses, k));
+        this.turned = this.live.joints.map((_, k) => this.#angle(poses, k).value);
         this.values.splice(0, targets.length, ...targets);
         part = next;
       } else {
@@ -248,7 +266,7 @@ export class Solver {
 
   /** How far any link has gone since the last poses, in radians or sizes: far leads into another assembly mode. */
   #leap(poses: Pose[]): number {
-    return this.#moving.reduce((most, link) => {
+    return [...this.#places.keys()].reduce((most, link) => {
       const [a, b] = [this.poses[link]!, poses[link]!];
       const shift = moved(a, this.middle).map((v, k) => (v - moved(b, this.middle)[k]!) / this.size);
       return Math.max(
@@ -261,12 +279,27 @@ export class Solver {
 
   /** Bring a place of a link as near as can be to where two functions of it are 0, by all drives. */
   pull(link: number, at: (pose: Pose) => [number, number]): void {
-    const rows = this.#rows(this.values, HOLD);
-    for (const k of [0, 1]) rows.push({ value: 0, links: [link], of: (p) => WEIGHT * at(p[link]!)[k]! });
-    const { poses } = this.#solved(rows, this.poses, 4);
+    const first = this.#places.get(link);
+    const rows = (tried: Pose[]): Row[] => {
+      const pose = tried[link]!;
+      const gaps = at(pose);
+      const slopes: [number[], number[]] = [[], []];
+      for (let k = 0; k < 6; k++) {
+        const by = [0, 0, 0, 0, 0, 0];
+        by[k] = SMALL;
+        at(nudged(pose, by, 0, this.middle, this.size)).forEach((value, n) => {
+          slopes[n]!.push((WEIGHT * (value - gaps[n]!)) / SMALL);
+        });
+      }
+      return [
+        ...this.#rows(tried, this.values, HOLD),
+        ...gaps.map((gap, n): Row => ({ gap: WEIGHT * gap, slopes: first === undefined ? [] : [[first, slopes[n]!]] })),
+      ];
+    };
+    const { poses } = this.#solved(rows, 4);
     const wanted = this.live.drives.map((drive, k) => {
       const most = 2 * STEP * (drive.turns ? 1 : this.size); // the pointer may be where the link cannot come
-      return Math.min(Math.max(this.#value(poses, drive), this.values[k]! - most), this.values[k]! + most);
+      return Math.min(Math.max(this.#value(poses, drive).value, this.values[k]! - most), this.values[k]! + most);
     });
     if (wanted.every(Number.isFinite)) this.drive(wanted);
   }
