@@ -249,7 +249,7 @@ def check_sizes_plots_and_files(page):
     assert "300 mm · 33.69°" in sizes
     assert "45 mm" in sizes  # the crank
     swing = next(each for each in entry("wiper_rssr").quantities if each.kind == "swing")
-    told = page.locator('[data-panel="measures"] dt:text-is("Swing rocker") + dd')
+    told = page.locator('[data-panel="measures"] dt:text-is("rocker: swing") + dd')
     assert told.inner_text() == f"{swing.degrees:.4g}°"
     drive_to(page, "90")
     turned = page.locator('[data-panel="measures"] dd').first.inner_text()
@@ -743,6 +743,10 @@ def test_outputs_are_told_with_sign_and_full_turns(server, chromium):
 
     page.goto(server.address + "space/winch_screw.html#en")
     page.get_by_role("button", name="Pause").click()
+    for degrees in ("0", "360"):  # at an end of the range too
+        drive_to(page, degrees)
+        assert number_in(read_off(page)["Transfer function s′"]) == pytest.approx(-12 / (2 * math.pi), abs=1e-3)
+    assert read_off(page)["nut: travel"] == "12 mm"
     drive_to(page, "100")
     facts = read_off(page)
     assert number_in(facts["nut: shifted from the reference pose"]) == pytest.approx(-12 * 100 / 360, abs=1e-3)

@@ -161,3 +161,67 @@ def test_words_on_the_picture_keep_apart_and_the_chosen_tab_is_marked_under_the_
     assert hint["x"] + hint["width"] <= grid["x"]
     assert errors == []
     browser.close()
+
+
+HELD = """
+const later = window.setTimeout;
+let count = 0;
+window.held = [];
+window.setTimeout = (what, time, ...more) => (time || count++ < 12 ? later(what, time, ...more) : held.push(what));
+let now = 0;
+performance.now = () => (now += 60);
+"""
+"""A clock that goes on by 60 ms when it is read, and work in pieces that stops after a dozen of them."""
+
+
+def test_plots_of_several_drives_grow_while_they_are_made(server, chromium):
+    """What is known by then is there; how far an output goes is told when all is."""
+    browser, page, errors = browsed_at(chromium, "about:blank", "body")
+    page.emulate_media(reduced_motion="reduce")
+    page.add_init_script(HELD)
+    page.goto(server.address + "space/wobble_plate.html#en")  # with one drive: at once
+    assert page.locator(".plot").count() == 7
+    page.goto(server.address + "space/susp_rack.html#en")
+    while not page.evaluate("held.length"):  # the policy forbids waiting within the page
+        page.wait_for_timeout(50)
+    curve = page.locator(".plot path.curve").first
+    wide = "d => { const x = d.match(/[ML][^ ]+/g).map((at) => +at.slice(1)); return x.at(-1) - x[0]; }"
+    part = page.evaluate(wide, curve.get_attribute("d"))
+    assert 10 < part < 200
+    page.evaluate("async () => { for (let next; (next = held.shift()); ) next(); }")
+    assert page.evaluate(wide, curve.get_attribute("d")) == pytest.approx(246)  # of 300, beside the numbers
+    assert errors == []
+    browser.close()
+
+
+def test_a_machine_without_a_drive_leads_to_the_one_with_it(server, chromium):
+    """And all have the header of the other views: what cannot be undone has its button too."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/susp_5link.html#de")
+    page.get_by_role("link", name=entry("susp_5link_lift").name.in_language("de")).click()
+    page.wait_for_url("**/space/susp_5link_lift.html#de")
+    page.locator(".plot").first.wait_for()
+    assert page.get_by_text("Kein Antrieb bewegt dieses Getriebe.").count() == 0
+    page.goto(server.address + "space/diff_bevel.html#en")
+    for name in ("Undo", "Redo"):
+        assert page.get_by_role("button", name=name).is_disabled()
+    assert errors == []
+    browser.close()
+
+
+def test_what_has_no_size_is_not_offered_and_glass_is_a_body_too(server, chromium):
+    browser, page, errors = browsed_at(chromium, server.address + "space/cardan_shaft.html#en")
+    labels = page.locator('[data-panel="sizes"] label').all_inner_texts()
+    assert labels == ["frame", "Angle", "shaft"]  # the axes of the two ends go through the crosses
+    page.goto(server.address + "space/winch_screw.html#en")
+    assert page.locator('[data-panel="sizes"]').count() == 0
+    page.set_viewport_size({"width": 1024, "height": 768})
+    page.emulate_media(reduced_motion="reduce")
+    page.goto(server.address + "space/schatz.html#en")
+    for step in range(100):  # until the picture is fitted
+        page.mouse.move(200 + step % 2, 330)  # beside the bar in the vessel
+        if page.locator(".stage").get_attribute("title") == "vessel":
+            break
+    else:
+        raise AssertionError("the vessel is not found")
+    assert errors == []
+    browser.close()

@@ -144,8 +144,9 @@ export class Machine implements Drivable {
     return { poses, turned: turned.map((turn, joint) => turn - whole[joint]!) };
   }
 
-  /** All rows of the motion of the drive, the others where they stand; null where it cannot be. Solving takes long. */
-  *course(): Generator<void, (State | null)[]> {
+  /** All rows of the motion of the drive, the others where they stand; null where it cannot be, and where it is not
+   * known yet: solving takes long. */
+  *course(): Generator<(State | null)[], (State | null)[]> {
     const [motion, start] = [this.#motion!, this.#solver?.copy()];
     if (!start) return motion.poses.map((poses) => ({ poses }));
     const [whole, value] = [this.#whole, this.drives[this.active]!];
@@ -160,7 +161,7 @@ export class Machine implements Drivable {
         const next = base + low + (row / last) * (high - low);
         if (!solver.drive(withValue(solver.values, motion.drive, next))) break;
         rows[row] = this.#counted(solver, whole);
-        yield;
+        yield rows;
       }
     }
     return rows;

@@ -71,6 +71,8 @@ export interface Model {
   points: Spot[];
   /** The linkage as the library reads it. */
   document: Record<string, unknown>;
+  /** The machine of the catalog that has a drive, where this one has none. */
+  driven: { id: string; titles: Record<Language, string> } | null;
   /** Of links with two joints: how far these are apart, and the angle of their axes in degrees. */
   sizes: { link: number; distance: number | null; angle: number | null }[];
   /** The links whose motion is wanted, and the joint with the frame by which one is read, if there is one. */

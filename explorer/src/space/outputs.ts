@@ -17,8 +17,10 @@ const EVEN = 1e-7; // values that differ by less are the same but for the digits
 const EVEN_RATES = 1e-5; // and their slopes, from rows that are hundredths apart
 const SAME = 1e-4; // of the longest: directions that differ by less are one
 const QUIET = 200; // milliseconds after the last change of another drive
+const BENT = 0.05; // of differences of rows: those next to limits change faster
 const GAP = 6; // below a plot
 const SLICE = 8; // milliseconds of solving between frames
+const PART = 200; // milliseconds after which what is solved by then is plotted, where nothing is yet
 
 /** What is read of a machine: an output or a joint. */
 interface Reading {
@@ -44,6 +46,7 @@ export class OutputPlots {
   readonly element = h("div", {});
   #plots: Plot[] = [];
   readonly #readings: Reading[];
+  readonly #words: Record<string, string>;
   /** Of readings, from the first value of the drive on in such steps: degrees or lengths. */
   #values: Float64Array[] = [];
   /** Of outputs with a sign: what their transfer functions are where the drive stands. */
@@ -53,6 +56,8 @@ export class OutputPlots {
   /** Which drive they are over, and where the others stand. */
   #known = "";
   #timer = 0;
+  /** Whether they have been there once over the whole range. */
+  #whole = false;
 
   constructor(
     private readonly machine: Machine,
@@ -61,6 +66,7 @@ export class OutputPlots {
     /** They are there, after a while. */
     private readonly made: () => void,
   ) {
+    this.#words = words;
     const { data, reached, turning } = machine;
     const outputs = data.outputs.map(({ joint, link }) => {
       const turns = joint ? joint.turns : turning.has(link);
@@ -99,18 +105,27 @@ export class OutputPlots {
     clearTimeout(this.#timer);
     this.#fade(true);
     const course = this.machine.course();
-    if (data.live) this.#timer = setTimeout(() => this.#solve(course), QUIET);
+    if (data.live) this.#timer = setTimeout(() => this.#solve(course), this.#whole ? QUIET : 0);
     else this.#solve(course);
   }
 
-  #solve(course: ReturnType<Machine["course"]>): void {
+  #solve(course: ReturnType<Machine["course"]>, since = performance.now()): void {
     const end = performance.now() + SLICE;
     let next = course.next();
     while (!next.done && performance.now() < end) next = course.next();
     if (next.done) {
+      this.#whole = true;
       this.#show(next.value);
+      this.#fade(false);
       if (this.machine.data.live) this.made();
-    } else this.#timer = setTimeout(() => this.#solve(course));
+      return;
+    }
+    const part = !this.#whole && performance.now() > since + PART;
+    if (part) {
+      this.#show(next.value);
+      [this.#values, this.#rates] = [[], []]; // how far it goes is not known yet
+    }
+    this.#timer = setTimeout(() => this.#solve(course, part ? undefined : since));
   }
 
   #show(rows: (State | null)[]): void {
@@ -147,7 +162,6 @@ export class OutputPlots {
     }
     this.element.style.aspectRatio = "";
     renew(this.element, ...this.#plots.map(({ element }) => element));
-    this.#fade(false);
     this.follow();
   }
 
@@ -162,7 +176,7 @@ export class OutputPlots {
   /** Plots of what is no more are seen, but nothing is picked in them. */
   #fade(old: boolean): void {
     this.element.inert = old;
-    this.element.style.opacity = old ? "0.3" : "";
+    this.element.style.opacity = old && this.#whole ? "0.3" : "";
   }
 
   /** What is read where the drives stand, in degrees or lengths: with the full turns, and without an axis with the
@@ -193,7 +207,7 @@ export class OutputPlots {
       if (!values || !isRated(reading)) return facts;
       const far = highest(values) + highest(values.map((value) => -value));
       if (!(turns && far > 359.9))
-        facts.push({ name: `${t(turns ? "Swing" : "Stroke")} ${reading.name}`, text: text(far) });
+        facts.push({ name: this.#words[turns ? "swing" : "travel"]!.replace("{link}", reading.name), text: text(far) });
       return facts;
     });
     const rates = this.#readings.filter(isRated).map((reading, k) => {
@@ -280,18 +294,26 @@ function rowAt(values: Float64Array, row: number, round: boolean): number {
   return values[row] ?? (round ? values[(row + last) % last]! + (row < 0 ? -whole : whole) : NaN);
 }
 
-/** The derivative of values that are a step apart, over a full turn or not; unknown at ends. */
-function slopes(values: Float64Array, step: number, round: boolean): Float64Array {
+/** The derivative of values that are a step apart, over a full turn or not; at ends from the one side, but unknown
+ * next to limits, where it is without bound. */
+export function slopes(values: Float64Array, step: number, round: boolean): Float64Array {
   const at = (row: number) => rowAt(values, row, round);
+  const end = (row: number, way: number) => {
+    const [a, b, c] = [0, 1, 2].map((k) => way * (at(row + (k + 1) * way) - at(row + k * way))) as Vector;
+    const even = Math.abs(a - 2 * b + c) <= BENT * Math.max(...[a, b, c].map(Math.abs));
+    return even ? (11 * a - 7 * b + 2 * c) / 3 : NaN;
+  };
   return values.map((_, row) => {
     const [near, far] = [at(row + 1) - at(row - 1), at(row + 2) - at(row - 2)];
-    return (Number.isNaN(far) ? near : (8 * near - far) / 6) / (2 * step);
+    const told = [(8 * near - far) / 6, near, end(row, 1), end(row, -1)].find((each) => !Number.isNaN(each));
+    return (told ?? NaN) / (2 * step);
   });
 }
 
 /** A value between rows: on the cubic through four of them. */
 function cubicAt(values: Float64Array, at: number, round: boolean): number {
-  const low = Math.max(0, Math.min(Math.floor(at), values.length - 2));
+  const out = Number(!round); // at ends of a range the cubic is that of the first or last four
+  const low = Math.max(out, Math.min(Math.floor(at), values.length - 2 - out));
   const x = at - low;
   const [a, b, c, d] = [-1, 0, 1, 2].map((k) => rowAt(values, low + k, round)) as [number, number, number, number];
   return ((x - 1) * (x - 2) * (b * (3 * x + 3) - a * x) + (x + 1) * x * (d * (x - 1) - c * (3 * x - 6))) / 6;

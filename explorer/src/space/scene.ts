@@ -293,8 +293,10 @@ export class Scene {
     const { from, along } = ray(this.#camera, this.#wide, x, y);
     let best: Spot | null = null;
     let nearest = Infinity;
-    this.machine.poses.forEach((pose, link) => {
-      const { vertices, triangles } = this.machine.data.bodies[link]!;
+    const { data, poses } = this.machine;
+    const solid = data.bodies.map((body, k) => ({ ...body, link: k }));
+    for (const { link, vertices, triangles } of [...solid, ...data.glass]) {
+      const pose = poses[link]!;
       const start = before(pose, from);
       const end = before(pose, from.map((v, k) => v + along[k]!) as Vector);
       const way = end.map((v, k) => v - start[k]!) as Vector;
@@ -303,7 +305,7 @@ export class Scene {
         const far = meeting(start, way, corner(triangles[k]!), corner(triangles[k + 1]!), corner(triangles[k + 2]!));
         if (far < nearest) [nearest, best] = [far, { link, at: start.map((v, n) => v + far * way[n]!) as Vector }];
       }
-    });
+    }
     return best;
   }
 

@@ -117,7 +117,7 @@ export class SpaceView implements Driven {
     this.#keep();
     renew(
       this.#header,
-      h("h1", {}, "gruebler ", h("small", {}, title)),
+      h("h1", {}, "gruebler ", h("small", { title }, title)),
       ...(this.data.home ? [this.#ways()] : []),
       h("span.spring", {}),
       ...this.#tools(),
@@ -177,7 +177,7 @@ export class SpaceView implements Driven {
     return `${location.protocol === "file:" ? "../index.html" : "../"}#${currentLanguage()}/${view}/${own}`;
   }
 
-  /** As in the other views: files are opened on the page above, and what this one lacks keeps its room. */
+  /** As in the other views: files are opened on the page above. */
   #tools(): HTMLElement[] {
     const save = saving(() => this.showExport());
     if (!this.data.home) return [save];
@@ -186,7 +186,6 @@ export class SpaceView implements Driven {
       tool("undo", t("Undo"), () => this.#resizing.undo(), !undoable),
       tool("redo", t("Redo"), () => this.#resizing.redo(), !redoable),
     ];
-    if (!this.data.resizable) for (const one of steps) one.classList.add("away");
     const open = tool("open", t("Open a file"), () => location.assign(this.#above("motion")));
     return [...steps, open, save, tool("link", t("Copy the link"), () => void this.#share())];
   }
@@ -254,7 +253,7 @@ export class SpaceView implements Driven {
     const measured = linkage.drive || linkage.spots.length;
     const panels = measured ? [panelOf("measures", t("Measures"), true, this.#facts.element)] : [];
     const alone = words.alone ? [h("p.note", {}, words.alone)] : [];
-    if (!linkage.drive) alone.push(h("p.note", {}, words.none));
+    if (!linkage.drive) alone.push(h("p.note", {}, words.none), ...this.#driven());
     this.#sliders = data.motions.length > 1 ? data.motions.map((_, k) => this.#slider(k)) : [];
     const rows = this.#sliders.flatMap(({ input, output }) => [
       h("label", { for: input.id }, input.title),
@@ -301,6 +300,15 @@ export class SpaceView implements Driven {
     this.#arrangeOptions();
     panels.push(panelOf("show", t("Show"), true, this.#views, this.#options));
     return panels;
+  }
+
+  /** The way to the machine of the catalog that is this one with a drive. */
+  #driven(): HTMLParagraphElement[] {
+    const { driven, home } = this.data;
+    if (!driven || !home) return [];
+    const lang = currentLanguage();
+    const told = `${this.#words.driven!} `;
+    return [h("p.note", {}, told, h("a", { href: `${driven.id}.html#${lang}` }, driven.titles[lang]))];
   }
 
   /** What is shown beside the bodies, as far as there is any of it. */

@@ -30,7 +30,7 @@ from gruebler.pictures.structure.messages import title
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.chain.spaces import Freedom, Space
 from gruebler.structure.mechanism import Mechanism
-from gruebler.teaching.catalog import entry
+from gruebler.teaching.catalog import entries, entry
 
 _WORDS = {
     "hint": message("Drag a body to move the machine, drag the background to turn the view."),
@@ -46,6 +46,8 @@ _WORDS = {
     "total": message("{link}: total turn from the reference pose"),
     "all": message("{link}: total turn"),
     "shifted": message("{link}: shifted from the reference pose"),
+    "swing": message("{link}: swing"),
+    "travel": message("{link}: travel"),
     "traced": message("{link}: dragged point"),
     "paths": message("Paths of points"),
     "grid": message("Grid"),
@@ -55,6 +57,7 @@ _WORDS = {
     "side": message("Side"),
     "top": message("Top"),
     "none": message("No drive moves this linkage."),
+    "driven": message("With a drive:"),
     "end": message("{drive} goes no farther while the other drives stand here."),
     "angle": message("Angle"),
     "crossed": message("angle"),
@@ -101,6 +104,7 @@ def space_model(
     drives: Mapping[str, Sequence[str]] | None = None,
     links: Mapping[str, Sequence[str]] | None = None,
     between: tuple[float, float] | None = None,
+    driven: dict[str, Any] | None = None,
     home: bool = False,
     asks: bool = False,
 ) -> dict[str, Any]:
@@ -108,6 +112,8 @@ def space_model(
 
     With several drives the page moves them itself, from joints, ranges of the drives and rows of wheels. ``between``
     are values of the drives in place of all that they can reach.
+
+    ``driven`` is the machine of the catalog that has a drive, by id and titles, where this one has none.
 
     ``titles`` and names of ``drives`` and ``links`` by language are those of the linkage unless they are given; with
     ``home`` the page with the other views lies above this one, in a server or a site. A page that ``asks``
@@ -153,6 +159,7 @@ def space_model(
         "names": list(chain.links),
         "unit": "" if spherical else linkage.unit,
         "document": screws_to_json(linkage),
+        "driven": driven,
         "sizes": [
             {
                 "link": chain.index(size.link),
@@ -160,6 +167,7 @@ def space_model(
                 "angle": None if size.angle is None else _rounded(size.angle),
             }
             for size in link_sizes(linkage)
+            if size.distance or size.angle  # nothing lies between joints on one axis
         ],
         "outputs": [
             {"link": chain.index(link), "joint": joint and _read_joint(linkage, *joint)}
@@ -340,9 +348,16 @@ def machine_model(id: str, *, home: bool = False, asks: bool = False) -> dict[st
         },
         links={lang: list(record.link_names(lang).values()) for lang in LANGUAGES},
         between=record.between,
+        driven=None if linkage.mechanism.drives else _driven(id),
         home=home,
         asks=asks,
     )
+
+
+def _driven(id: str) -> dict[str, Any] | None:
+    """The machine that is another one with something that drives it: its id goes on from that of the other one."""
+    found = next((each for each in entries() if each.startswith(f"{id}_") and entry(each).drives), None)
+    return found and {"id": found, "titles": {lang: entry(found).name.in_language(lang) for lang in LANGUAGES}}
 
 
 def _numbers(values: Any, digits: int = 6) -> list[float]:
