@@ -67,6 +67,7 @@ def test_what_is_said_of_a_machine_in_space_is_so(server, chromium):
     measures = page.locator('[data-panel="measures"]')
     measures.get_by_text("gedreht").first.wait_for()
     assert "verschoben" not in measures.inner_text()
+    measures.get_by_text("D(Steg-Ausgleichskegelrad)", exact=True).wait_for()  # the carrier has two names
     for id, low in (("winch_screw", "0°"), ("sarrus", "−30°")):
         page.goto(f"{server.address}space/{id}.html")
         page.get_by_role("button", name="Pause").click()
@@ -190,6 +191,9 @@ def test_plots_of_several_drives_grow_while_they_are_made(server, chromium):
     assert 10 < part < 200
     page.evaluate("async () => { for (let next; (next = held.shift()); ) next(); }")
     assert page.evaluate(wide, curve.get_attribute("d")) == pytest.approx(246)  # of 300, beside the numbers
+    arrows = page.locator(".stage path.driven")
+    page.locator(".transport select").select_option(index=1)
+    assert ["resting" in arrow.get_attribute("class") for arrow in arrows.all()] == [True, False]
     assert errors == []
     browser.close()
 

@@ -228,7 +228,11 @@ export class Scene {
       const [x, y] = seen(view, at);
       return [((x + 1) * clientWidth) / 2, ((1 - y) * clientHeight) / 2];
     };
-    const parts: SVGElement[] = arrowsOf(this.machine, poses).map((places) => headed(places.map(pixel)));
+    const parts: SVGElement[] = arrowsOf(this.machine, poses).map((places, drive) => {
+      const arrow = headed(places.map(pixel));
+      if (drive !== this.machine.active) arrow.classList.add("resting");
+      return arrow;
+    });
     for (const { link, at, name = this.#links[link] } of this.machine.spots) {
       const [px, py] = pixel(moved(poses[link]!, at));
       parts.push(svg("circle.spot", { cx: px, cy: py, r: 4.5 }));

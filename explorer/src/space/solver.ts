@@ -38,8 +38,8 @@ export interface Live {
 }
 
 export type Pose = number[];
-/** A number of a joint, and how it grows as the second link turns and shifts, in radians and sizes; it does the opposite
- * as the first one does. */
+/** A number of a joint, and how it grows as the second link turns and shifts, in radians and sizes; as the first one
+ * does, it shrinks by as much. */
 type Reading = { value: number; slopes: number[] };
 /** What is to be 0, and how it grows with six unknowns each of some links, from numbers on. */
 type Row = { gap: number; slopes: [first: number, by: number[]][] };

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
@@ -245,8 +246,9 @@ def _solved(linkage: SpatialLinkage) -> list[int]:
 
 
 def _titled(linkage: SpatialLinkage, names: Sequence[str], number: int, lang: str) -> str:
-    """The name of a joint with links that are called by names."""
-    links = dict(zip(linkage.mechanism.chain.links, names, strict=True))
+    """The name of a joint with links that are called by names, without what these have in brackets."""
+    short = (re.sub(r" \(.*\)", "", name) for name in names)
+    links = dict(zip(linkage.mechanism.chain.links, short, strict=True))
     joint = linkage.mechanism.chain.joints[number]
     return f"{joint.pair.symbol(Alphabet.of_language(lang))}({'-'.join(links[link] for link in joint.links)})"
 
@@ -356,8 +358,8 @@ def machine_model(id: str, *, home: bool = False, asks: bool = False) -> dict[st
 
 def _driven(id: str) -> dict[str, Any] | None:
     """The machine that is another one with something that drives it: its id goes on from that of the other one."""
-    found = next((each for each in entries() if each.startswith(f"{id}_") and entry(each).drives), None)
-    return found and {"id": found, "titles": {lang: entry(found).name.in_language(lang) for lang in LANGUAGES}}
+    other = next((each for each in entries() if each.startswith(f"{id}_") and entry(each).drives), None)
+    return other and {"id": other, "titles": {lang: entry(other).name.in_language(lang) for lang in LANGUAGES}}
 
 
 def _numbers(values: Any, digits: int = 6) -> list[float]:
