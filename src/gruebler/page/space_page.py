@@ -359,7 +359,9 @@ def machine_model(id: str, *, home: bool = False, asks: bool = False) -> dict[st
 def _driven(id: str) -> dict[str, Any] | None:
     """The machine that is another one with something that drives it: its id goes on from that of the other one."""
     other = next((each for each in entries() if each.startswith(f"{id}_") and entry(each).drives), None)
-    return other and {"id": other, "titles": {lang: entry(other).name.in_language(lang) for lang in LANGUAGES}}
+    if other is None:
+        return None
+    return {"id": other, "titles": {lang: entry(other).name.in_language(lang) for lang in LANGUAGES}}
 
 
 def _numbers(values: Any, digits: int = 6) -> list[float]:
