@@ -1,13 +1,15 @@
 /** The list of all chains of a size, of which one is taken. */
 
 import { inPlane, type Structure } from "./chain";
-import { h, renew, thumbnail } from "./dom";
+import { h, menu, renew, thumbnail } from "./dom";
 import { currentLanguage, type Language, t } from "./language";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
 
 interface Chains {
   total: number;
+  /** The link assortments of the size: numbers of binary, ternary, ... links, in words, and how many chains have it. */
+  assortments: { links: number[]; kinds: Record<Language, string>; chains: number }[];
   /** Each with its code, the same for chains of one structure, its name in the literature, if it has one, and what
    * links it has. */
   items: {
@@ -45,9 +47,12 @@ export class ChainList {
   /** The last structure that was described without a card of its own. */
   #other: Structure | null = null;
   #found: Chains | null = null;
-  /** The code of the chain that is described. */
-  #chosen = "";
+  /** The one that is described. */
+  #chosen: Structure | null = null;
   #all = false;
+  /** The link assortment of those that are shown, as 4,6; any if empty. */
+  #assortment = "";
+  readonly #assortments = h("span", {});
   readonly #list = h("div.chains", {});
   readonly #count = h("span.note", {}, "\u00a0");
   readonly #status = h("div.form", {});
@@ -67,11 +72,11 @@ export class ChainList {
   follow(found: Structure | null, leads: boolean): void {
     // a size that the reader wants goes before
     const typed = this.waiting || !this.#is(this.#given());
-    const turned = !typed && found && (leads || !this.#asked) && !this.#is(placeOf(found));
-    if (turned) [this.#links, this.mobility] = placeOf(found);
-    this.#chosen = found?.code ?? "";
+    const turned = !typed && found && (leads || !this.#asked) && !(this.#is(placeOf(found)) && this.#fits(found));
+    if (turned) this.#turn(placeOf(found));
+    this.#chosen = found;
     const cards = [...this.#list.querySelectorAll<HTMLElement>("[data-of]")];
-    for (const card of cards) card.setAttribute("aria-pressed", String(card.dataset.of === this.#chosen));
+    for (const card of cards) card.setAttribute("aria-pressed", String(card.dataset.of === found?.code));
     const anew = found && !cards.some(({ dataset }) => dataset.of === found.code);
     if (anew) this.#other = found;
     if (!typed && (leads || turned || anew)) this.arrange();
@@ -86,6 +91,19 @@ export class ChainList {
   /** Whether these are the links and the mobility of the list. */
   #is(size: number[]): boolean {
     return String(size) === String([this.#links, this.mobility]);
+  }
+
+  /** Turn to all chains of a size. */
+  #turn(size: number[]): void {
+    [this.#links, this.mobility] = size as [number, number];
+    this.#assortment = "";
+    renew(this.#assortments);
+  }
+
+  /** Whether a chain has the link assortment that is wanted. */
+  #fits({ kinds }: Structure): boolean {
+    const wanted = this.#found?.assortments.find(({ links }) => String(links) === this.#assortment);
+    return !wanted || Object.values(wanted.kinds).includes(kinds.split(";")[0]!);
   }
 
   /** What stands in the fields. */
@@ -123,6 +141,7 @@ export class ChainList {
         {},
         field("links", t("Links"), this.#links),
         field("mobility", t("Mobility"), this.mobility),
+        this.#assortments,
         this.#count,
         this.#status,
       ),
@@ -132,24 +151,31 @@ export class ChainList {
   }
 
   #typed(): void {
-    [this.#links, this.mobility] = this.#given() as [number, number];
+    this.#turn(this.#given());
     void this.#ask(0, true);
   }
 
-  /** Ask for some more of them; the first one is taken if others are wanted, or none. */
-  async #ask(start: number, others = false): Promise<void> {
-    const question = { links: this.#links, mobility: this.mobility, start };
+  /** Show those of a link assortment, or all. */
+  #only(assortment: string): void {
+    this.#assortment = assortment;
+    void this.#ask(0, true, !assortment || (!!this.#chosen && this.#fits(this.#chosen)));
+  }
+
+  /** Ask for some more of them; the first one is taken if others are wanted, or none, unless the chosen one stays. */
+  async #ask(start: number, others = false, stays = false): Promise<void> {
+    const assortment = this.#assortment ? this.#assortment.split(",").map(Number) : null;
+    const question = { links: this.#links, mobility: this.mobility, start, assortment };
     const number = ++this.#asked;
     this.#all = start > 0;
     this.#list.classList.toggle("asking", others); // those of the size before
     if (others) {
       this.#count.textContent = t("counting …");
       this.#count.hidden = false; // it is where there were none
-      this.waits(true);
+      this.waits(!stays);
     }
     const place = this.#found || others ? this.#status : this.#list;
     const found = this.#unlisted()
-      ? { total: 0, items: [] }
+      ? { total: 0, assortments: [], items: [] }
       : await awaited(place, (progress) => this.page.ask<Chains>("chains", question, progress));
     if (number !== this.#asked) return; // another list is wanted by now
     this.#list.classList.remove("asking");
@@ -157,22 +183,34 @@ export class ChainList {
     const before = start ? this.#found!.items : [];
     if (found) this.#found = { ...found, items: [...before, ...found.items] };
     this.#show();
-    if (others && found) this.take(found.items[0]?.text ?? "");
+    if (others && found && !stays) this.take(found.items[0]?.text ?? "");
   }
 
   #show(): void {
     const { own } = this;
     const [found, other] = [this.#found, this.#other];
     if (!found) return renew(this.#list, moment());
-    const { items, total } = found;
+    const { assortments, items, total } = found;
     this.#count.textContent = total === 1 ? t("one chain") : t("{total} chains", { total });
     this.#count.hidden = !total;
+    const language = currentLanguage();
+    const all = assortments.reduce((sum, one) => sum + one.chains, 0);
+    const options = assortments.map((one): [string, string] => [
+      String(one.links),
+      `${one.kinds[language]} · ${one.chains}`,
+    ]);
+    const every = t("All link assortments · {total}", { total: all });
+    const choose = (assortment: string) => this.#only(assortment);
+    const filter = menu(t("Link assortment"), [["", every], ...options], this.#assortment, choose);
+    renew(this.#assortments, options.length > 1 && filter);
     const cardOf = (drawn: Structure, name: string) => {
       // without a list of names, if there is one
       const { picture } = drawn.inversions.find(({ frame }) => frame === drawn.chosen) ?? drawn;
       // of a chain no link is the frame yet
       const plain = picture.replace(/<path class=.gr-hatch.*?>/g, "").replaceAll("gr-frame", "gr-body");
-      return this.#is(placeOf(drawn)) && this.#card(drawn.code, drawn.text, plain, name, drawn.kinds);
+      return (
+        this.#is(placeOf(drawn)) && this.#fits(drawn) && this.#card(drawn.code, drawn.text, plain, name, drawn.kinds)
+      );
     };
     const listed = [own, ...items].some((each) => each?.code === other?.code);
     const mine = [
@@ -180,7 +218,6 @@ export class ChainList {
       other && !listed && cardOf(other, other.name || t("Chosen")),
     ];
     if (!total) return renew(this.#list, h("p.note", {}, this.#whyNone()), h("div.cards.few", {}, ...mine));
-    const language = currentLanguage();
     const chains = items.map(
       ({ code, name, text, picture, kinds }, k) =>
         // the machine at hand takes the place of its chain
@@ -202,7 +239,7 @@ export class ChainList {
       {
         "data-chain": text,
         "data-of": code,
-        "aria-pressed": String(code === this.#chosen),
+        "aria-pressed": String(code === this.#chosen?.code),
         onclick: () => this.take(text),
       },
       thumbnail(picture, text),

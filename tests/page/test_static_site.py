@@ -25,6 +25,7 @@ from gruebler.teaching.exercises import exercise
 GROUPS = [
     FileGroup("chains", (4, 1)),
     FileGroup("chains", (6, 1)),  # with which the view begins
+    FileGroup("chains", (7, 2)),
     FileGroup("structures", (4, 1, 0)),
     FileGroup("machine", ("crankrocker",)),
     FileGroup("catalog", ("bennett", "crankrocker", "lambda")),
@@ -67,6 +68,11 @@ def content(folder, name):
     return json.loads(gzip.decompress(base64.b64decode(text.split('"')[3])))
 
 
+def plain(found):
+    """An answer as it is sent."""
+    return json.loads(json.dumps(found))
+
+
 def asked(page, method, params, lang="en"):
     """What the site answers to a request of the page."""
     return page.page.evaluate("([m, p, l]) => gruebler.backend.ask(m, p, l)", [method, params, lang])
@@ -86,6 +92,13 @@ def test_the_site_answers_as_the_library_does(tab, folder, address):
     for lang in ("en", "de"):
         chains = asked(page, "chains", {"links": 4, "mobility": 1, "start": 0}, lang)
         assert [item["text"] for item in chains["items"]] == ["R(1-2) R(2-3) R(3-4) R(4-1)"]
+        for assortment in (None, [5, 2], [6, 0, 1], [7]):
+            params = {"links": 7, "mobility": 2, "start": 0, "assortment": assortment}
+            of_site, of_library = (
+                found | {"items": [item | {"picture": ""} for item in found["items"]]}
+                for found in (asked(page, "chains", params, lang), plain(answer("chains", params, lang, nothing)))
+            )
+            assert of_site == of_library
         for text in ("R(1-2) R(2-3) R(3-4) R(4-1)", "R(1-2) R(2-3) R(3-4) R(4-1); frame=1; drive=R(1-2)"):
             of_site = asked(page, "structure", {"text": text}, lang)
             of_library = answer("structure", {"text": text}, lang, nothing)

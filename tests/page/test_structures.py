@@ -367,6 +367,76 @@ def test_all_chains_are_listed_with_the_kinds_of_their_links(links, mobility, to
         assert any(each.endswith("; fractionated: it falls apart when one link is cut") for each in kinds)
 
 
+# Woo, J. Eng. Ind. 89 (1967) 159: the 230 chains of ten links by their link assortments
+TEN = {
+    (4, 6): 50,
+    (5, 4, 1): 95,
+    (6, 2, 2): 57,
+    (6, 3, 0, 1): 15,
+    (7, 0, 3): 3,
+    (7, 1, 1, 1): 8,
+    (8, 0, 0, 2): 2,
+}
+
+
+def test_chains_are_listed_by_their_link_assortment():
+    for assortment, count in TEN.items():
+        found = answer("chains", {"links": 10, "mobility": 1, "start": 40, "assortment": assortment}, "en", print)
+        assert {each["links"]: each["chains"] for each in found["assortments"]} == TEN
+        assert found["total"] == count
+        assert len(found["items"]) == max(0, min(60, count - 40))
+        assert {each["assortment"] for each in found["items"]} <= {assortment}
+    none = answer("chains", {"links": 10, "mobility": 1, "assortment": [9, 1]}, "en", print)
+    assert (none["total"], none["items"]) == (0, [])
+
+
+def test_a_link_assortment_is_chosen(tab, server):
+    page = tab(width=390, height=844, touch=True, locale="de-DE").open(server.address)
+    view = page.page
+    view.click('[data-view="structure"]')
+    step = view.locator(".step").first
+    step.locator(".card").first.wait_for()
+    choice = step.locator("select")
+    assert choice.count() == 0  # of four links there is one chain
+    links = step.locator("input").first
+    links.fill("8")
+    links.press("Enter")
+    choice.wait_for()
+    # 9, 5 and 2 in every textbook
+    assert choice.locator("option").all_inner_texts() == [
+        "Alle Gliedersortimente · 16",
+        "4\xa0binär, 4\xa0ternär · 9",
+        "5\xa0binär, 2\xa0ternär, 1\xa0quaternär · 5",
+        "6\xa0binär, 2\xa0quaternär · 2",
+    ]
+    box = choice.bounding_box()
+    assert box["x"] + box["width"] <= 390 - 12
+    page.until("gruebler.views.structure.structure.size === 8")
+    choice.select_option("6,0,2")
+    step.get_by_text("2 Ketten").wait_for()
+    assert step.locator(".card span").all_inner_texts() == ["6\xa0binär, 2\xa0quaternär"] * 2
+    page.until("gruebler.views.structure.structure.kinds === '6\xa0binär, 2\xa0quaternär'")
+    # what is described stays where it is among those that are wanted
+    card = step.locator(".card").nth(1)
+    second = card.get_attribute("data-chain")
+    card.click()
+    page.until(f"gruebler.views.structure.structure.text.startsWith('{second}')")
+    choice.select_option("")
+    step.get_by_text("16 Ketten").wait_for()
+    assert view.evaluate("gruebler.views.structure.structure.text").startswith(second)
+    # a chain of another one turns the list back to all
+    choice.select_option("4,4")
+    step.get_by_text("9 Ketten").wait_for()
+    page.until("gruebler.views.structure.structure.kinds === '4\xa0binär, 4\xa0ternär'")
+    view.evaluate(f"gruebler.describe('{second}')")
+    step.get_by_text("16 Ketten").wait_for()
+    assert choice.input_value() == ""
+    links.fill("6")
+    links.press("Enter")
+    step.get_by_text("2 Ketten").wait_for()
+    assert choice.count() == 0
+
+
 def test_the_page_scrolls_and_not_its_lists(tab, server):
     """Of 16 chains of eight links six are shown first, and the one that is chosen; no card is cut."""
     page = tab(width=1440, height=900).open(server.address)

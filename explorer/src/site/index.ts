@@ -16,6 +16,7 @@ interface Params {
   links: number;
   mobility: number;
   start: number;
+  assortment: number[] | null;
   part: number;
   answers: Record<string, string>;
   kind: string;
@@ -43,7 +44,10 @@ interface TaskPack extends Tolerances {
   }[];
 }
 
-type Chains = { text: string; picture: string }[];
+interface Chains {
+  assortments: object[];
+  items: { text: string; assortment: number[] }[];
+}
 type Texts = (text: string, values?: Record<string, string | number>) => string;
 
 class SiteModel extends StillModel {
@@ -139,15 +143,16 @@ class SiteModel extends StillModel {
     return model;
   }
 
-  async #chains({ links, mobility, start }: Params): Promise<{ total: number; start: number; items: Chains }> {
-    const items = await this.#list(links, mobility);
-    return { total: items.length, start, items: items.slice(start, start + 60) };
+  async #chains({ links, mobility, start, assortment }: Params): Promise<Chains & { total: number; start: number }> {
+    const { assortments, items } = await this.#list(links, mobility);
+    const found = items.filter((item) => !assortment || String(item.assortment) === String(assortment));
+    return { total: found.length, start, assortments, items: found.slice(start, start + 60) };
   }
 
   /** All chains of a class; none where there are none, or none here. */
   async #list(links: number, mobility: number): Promise<Chains> {
-    const here = this.get("chains") as string[];
-    return here.includes(`${links}-${mobility}`) ? await pack<Chains>(`chains-${links}-${mobility}`) : [];
+    const here = (this.get("chains") as string[]).includes(`${links}-${mobility}`);
+    return here ? await pack<Chains>(`chains-${links}-${mobility}`) : { assortments: [], items: [] };
   }
 
   /** Links, mobility and number of a chain of the lists, by which its files are named. */
@@ -155,7 +160,7 @@ class SiteModel extends StillModel {
     const joints = chain.match(/R\([^)]*\)/g) ?? [];
     const links = new Set(joints.flatMap((joint) => joint.slice(2, -1).split("-"))).size;
     const mobility = 3 * (links - 1) - 2 * joints.length;
-    const number = (await this.#list(links, mobility)).findIndex(({ text }) => text === chain);
+    const number = (await this.#list(links, mobility)).items.findIndex(({ text }) => text === chain);
     return number < 0 ? "" : `${links}-${mobility}-${number}`;
   }
 

@@ -140,6 +140,8 @@ class ListChains(Params):
     links: Annotated[int, _within("links")]
     mobility: Annotated[int, _within("mobility")] = 1
     start: Annotated[int, msgspec.Meta(ge=0, le=10_000)] = 0
+    assortment: Annotated[list[Number], msgspec.Meta(min_length=1, max_length=20)] | None = None
+    """The numbers of binary, ternary, ... links that they have; any if None."""
 
 
 class OuterLoad(Params):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Callable, Mapping
-from functools import cache
+from functools import cache, partial
 from itertools import islice
 from typing import Any
 
@@ -226,21 +226,29 @@ def _modes(asked: ListModes, _: str, __: Progress) -> list[dict[str, Any]]:
 
 
 def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
-    from gruebler.page.structures import kinds_as_read, listed_chains, listed_number
+    from gruebler.page.structures import kinds_as_read, kinds_in_words, listed_chains, listed_numbers
     from gruebler.pictures.structure import draw_structure
     from gruebler.pictures.structure.messages import chain_name
     from gruebler.structure.isomorphism import code
 
-    total = listed_number(asked.links, asked.mobility)
+    def said(text: Callable[[str], str]) -> dict[str, str]:
+        return {language: text(language) for language in LANGUAGES}
+
+    numbers = listed_numbers(asked.links, asked.mobility)
+    total = sum(numbers.values()) if asked.assortment is None else numbers.get(tuple(asked.assortment), 0)
+    listed = listed_chains(asked.links, asked.mobility, asked.assortment) if total else iter(())
     items = []
-    for chain in islice(listed_chains(asked.links, asked.mobility), asked.start, asked.start + _PAGE):
+    for chain in islice(listed, asked.start, asked.start + _PAGE):
         picture = draw_structure(chain, lang=lang).svg(styled=False)
-        names = {language: chain_name(chain, language) for language in LANGUAGES}
-        kinds = {language: kinds_as_read(chain, language) for language in LANGUAGES}
-        items.append({"code": code(chain), "text": chain.text(), "name": names, "kinds": kinds, "picture": picture})
+        item = {"code": code(chain), "text": chain.text(), "assortment": chain.assortment, "picture": picture}
+        items.append(item | {"name": said(partial(chain_name, chain)), "kinds": said(partial(kinds_as_read, chain))})
         if len(items) % 10 == 0:
             progress(translate("{done} of {total} chains", lang, done=asked.start + len(items), total=total))
-    return {"total": total, "start": asked.start, "items": items}
+    assortments = [
+        {"links": links, "kinds": said(partial(kinds_in_words, dict(enumerate(links, 2)))), "chains": count}
+        for links, count in numbers.items()
+    ]
+    return {"total": total, "start": asked.start, "assortments": assortments, "items": items}
 
 
 def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:

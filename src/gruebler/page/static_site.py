@@ -135,7 +135,7 @@ def _chain_packs(links: int, mobility: int) -> _Packs:
     while len(items) < listed_number(links, mobility):
         page = answer("chains", asked | {"start": len(items)}, LANGUAGES[0], _nothing)
         items += [item | {"picture": _bare(item["picture"])} for item in page["items"]]
-    yield f"chains-{links}-{mobility}", items
+    yield f"chains-{links}-{mobility}", {"assortments": page["assortments"], "items": items}
 
 
 def _structure_packs(links: int, mobility: int, first: int) -> _Packs:

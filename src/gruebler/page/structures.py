@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -10,7 +9,7 @@ from itertools import islice
 from typing import Any
 
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import message
+from gruebler.base.text import arity, message
 from gruebler.design.realisation.realising import with_drives
 from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.screws import SpatialLinkage
@@ -32,7 +31,6 @@ from gruebler.structure.mechanism import Drive, Mechanism
 from gruebler.structure.mechanism.drives import check_drives
 from gruebler.structure.mechanism.inversion import driven_mechanisms, family, inversions
 from gruebler.structure.mobility import MobilityReport, generic, mobility_report
-from gruebler.structure.mobility.report import kinds_of_links
 
 _MOST_LINKS = 60  # more links are drawn and counted, but their inversions are not listed
 _LONGEST_LABEL = 3  # letters of a name beside its link in a small picture
@@ -62,29 +60,50 @@ def as_read(text: str) -> str:
     return spaced(text).replace('"', "")
 
 
-def listed_chains(links: int, mobility: int) -> Iterator[Chain]:
+def listed_chains(links: int, mobility: int, assortment: Sequence[int] | None = None) -> Iterator[Chain]:
     """The chains among which one chooses, each once, their links from 1: fractionated ones at the end.
+
+    All of them, or those with these numbers of binary, ternary, ... links.
 
     >>> [chain.text() for chain in listed_chains(4, 1)]
     ['R(1-2) R(2-3) R(3-4) R(4-1)']
     """
     numbers = {str(link): str(link + 1) for link in range(links)}
-    return (chain.renamed(numbers) for chain in chains(links, mobility, fractionated="all"))
+    named_from_0 = chains(links, mobility, fractionated="all", assortment=assortment)
+    return (chain.renamed(numbers) for chain in named_from_0)
+
+
+def listed_numbers(links: int, mobility: int) -> dict[tuple[int, ...], int]:
+    """How many these are of each link assortment.
+
+    >>> listed_numbers(8, 1)
+    {(4, 4): 9, (5, 2, 1): 5, (6, 0, 2): 2}
+    """
+    return count_chains(links, mobility, fractionated="all").by_assortment
 
 
 def listed_number(links: int, mobility: int) -> int:
-    """How many these are."""
-    return count_chains(links, mobility, fractionated="all").chains
+    """How many these are together."""
+    return sum(listed_numbers(links, mobility).values())
+
+
+def kinds_in_words(numbers: Mapping[int, int], lang: str) -> str:
+    r"""How many links have so many joints; a number stays with its word.
+
+    >>> kinds_in_words({2: 6, 3: 0, 4: 2}, "de")
+    '6\xa0binär, 2\xa0quaternär'
+    """
+    return ", ".join(f"{count}\u00a0{arity(joints, lang)}" for joints, count in numbers.items() if count)
 
 
 def kinds_as_read(chain: Chain, lang: str) -> str:
-    r"""How many joints its links have, and where it falls apart, if it does; a number stays with its word.
+    r"""How many joints its links have, and where it falls apart, if it does.
 
     >>> [kinds_as_read(chain, "en") for chain in listed_chains(7, 2)][-2:]
     ['5\xa0binary, 2\xa0ternary', '6\xa0binary, 1\xa0quaternary; fractionated: it falls apart when one link is cut']
     """
     apart = _APART.get(fractionation(chain))
-    kinds = re.sub(r"(?<=\d) ", "\u00a0", kinds_of_links(chain, lang))
+    kinds = kinds_in_words(chain.link_kinds, lang)
     return f"{kinds}; {apart.in_language(lang)}" if apart else kinds
 
 
