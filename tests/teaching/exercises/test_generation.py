@@ -108,6 +108,8 @@ def test_fresh_chains_grow_with_the_level():
         ("exercise-13", "mu_min2", "78.2", "the printed answer. Misprint"),
         ("exercise-21", "v_B", "248.66", "towards the crank"),
         ("exercise-21", "v_B", "-246.74", "small λ"),
+        ("exercise-21", "v_B", "-160.92", "negative where the rod falls"),  # -250 sin 37.99°/cos 17.01°
+        ("exercise-21", "v_B", "-204.79", "endless rod"),  # -250 sin 55°
         ("exercise-8", "d_max", "110", "full turn"),
         ("exercise-3", "F_after", "-1", "two couplers"),
     ],

@@ -20,6 +20,10 @@ _COUPLER_RATE = message("angular velocity of the coupler")
 _COUPLER_ACCELERATION = message("angular acceleration of the coupler")
 _SPEED_A = message("velocity of the crank pin A")
 _ACCELERATION_A = message("acceleration of A, towards A0 (constant speed of the crank)")
+_SIGN_OF_BETA = message(
+    "β has a sign: it is negative where the rod falls from A to B. With the acute angle |β| there, φ + |β| stands in "
+    "place of φ - β."
+)
 _TURNED = message("The sign says in which sense: positive is counter-clockwise, as the crank turns.")
 
 
@@ -241,6 +245,10 @@ def slider_crank(
         -omega * a * sin(crank - beta) / cos(beta),
         unit=f"{unit}/s",
         values=values,
+    )
+    builder.mistake("v_B", -omega * a * sin(crank + beta) / cos(beta), _SIGN_OF_BETA)
+    builder.mistake(
+        "v_B", -omega * a * sin(crank), message("That holds for an endless rod: here it is inclined, by β.")
     )
     builder.find("a_A", _ACCELERATION_A, "a·ω²", a * omega**2, unit=f"{unit}/s²", a=a, ω=omega)
     values["ω_b"] = rate
