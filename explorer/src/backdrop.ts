@@ -84,6 +84,12 @@ export function gripped(picture: Backdrop, grip: Grip, from: Pair, to: Pair): Ba
   return { ...picture, at: at[grip] };
 }
 
+/** The picture so many times as large, with a place that stays. */
+export function enlarged(picture: Backdrop, [x, y]: Pair, times: number): Backdrop {
+  const [left, top, wide, turned] = picture.at as [number, number, number, number];
+  return { ...picture, at: [x + times * (left - x), y + times * (top - y), times * wide, turned] };
+}
+
 /** Put it where a viewport has it. */
 export function putBackdrop(element: SVGElement, { at }: Backdrop, viewport: Viewport): void {
   const [x, y, , turned] = at as [number, number, number, number];

@@ -1,9 +1,9 @@
 /** The view in which a mechanism is drawn on an empty plane; its mobility is told while it grows. */
 
-import { gripAt, gripped } from "./backdrop";
-import { choiceOf, isLow, removeChosen } from "./choice";
+import { enlarged, gripAt, gripped } from "./backdrop";
+import { choiceOf, field, isLow, removeChosen } from "./choice";
 import { h, lowered, option, renew, svg } from "./dom";
-import { type Drawing, EMPTY, joined, joining, linksOf, moved, type Spot, same } from "./drawing";
+import { type Drawing, EMPTY, joined, joining, linksOf, moved, type Spot, same, unitOf } from "./drawing";
 import { Fingers, pixelIn, wheelZooms, whileDown } from "./fingers";
 import { stepOf } from "./grid";
 import { zoomedBy } from "./help";
@@ -146,6 +146,11 @@ export class BuildView implements View, Plane, Drawn {
     this.begin(EMPTY, false, "ground");
   }
 
+  /** Two places of the picture are put, then their distance is typed. */
+  scale(): void {
+    this.#take("scale");
+  }
+
   #take(tool: Tool): void {
     this.#tool = tool;
     this.spots = [];
@@ -213,6 +218,11 @@ export class BuildView implements View, Plane, Drawn {
     const { spots } = this;
     spots.push(spot);
     if (this.aim === "aiming") this.aim = "here";
+    if (tool === "scale") {
+      if (spots.length > 2) this.spots = [spot]; // other places are wanted
+      this.#draw();
+      return this.#showChoice();
+    }
     if (spots.length < NEEDED[tool]) return this.#draw();
     this.spots = [];
     const [from] = spots as [Spot];
@@ -257,6 +267,7 @@ export class BuildView implements View, Plane, Drawn {
   // --- the pointer ---------------------------------------------------------------------------------------------------
 
   #spot(pixel: Pair, upright: boolean, but = -1): Spot {
+    if (this.#tool === "scale") return { at: this.viewport.world(...pixel), knot: null, link: null };
     return spotAt(this, pixel, { snapping: this.#snapping, upright, but });
   }
 
@@ -350,6 +361,7 @@ export class BuildView implements View, Plane, Drawn {
     } else if (event.key === "Delete" || event.key === "Backspace") removeChosen(this);
     else if (event.key === "Escape") {
       this.spots = [];
+      if (this.#tool === "scale") this.#take("move");
       this.#draw();
     } else if (tool) this.#take(tool);
     else return zoomedBy(event, this);
@@ -358,10 +370,22 @@ export class BuildView implements View, Plane, Drawn {
 
   // --- beside it -----------------------------------------------------------------------------------------------------
 
+  /** How far two places of the picture lie apart. */
+  #distance(from: Pair, to: Pair): HTMLElement {
+    const { drawing } = this;
+    const far = away(to, ...from);
+    return field(this, `${t("Distance")} [${unitOf(drawing)}]`, "distance", far, (distance) => {
+      if (!(distance > 0)) return null;
+      this.#take("move");
+      return { ...drawing, picture: enlarged(drawing.picture!, from, distance / far) };
+    });
+  }
+
   #showChoice(): void {
-    renew(this.#choice, ...choiceOf(this));
+    const [from, to] = this.#tool === "scale" ? this.spots : [];
+    renew(this.#choice, ...(from && to ? [this.#distance(from.at, to.at)] : choiceOf(this)));
     this.#choice.classList.toggle("above", isLow(this));
-    this.#hint.hidden = !!this.chosen;
+    this.#hint.hidden = !!(this.chosen || to);
   }
 
   get title(): string {

@@ -49,7 +49,13 @@ export function isLow({ chosen, drawing, viewport }: Plane): boolean {
 }
 
 /** A number in a field that changes the drawing. */
-function field(view: Changing, text: string, key: string, value: number, set: (value: number) => Drawing | null) {
+export function field(
+  view: Changing,
+  text: string,
+  key: string,
+  value: number,
+  set: (value: number) => Drawing | null,
+) {
   const input: HTMLInputElement = h("input", {
     ...digits(value),
     size: 7,

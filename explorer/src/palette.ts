@@ -15,10 +15,19 @@ import {
 import { icon } from "./icons";
 import { t } from "./language";
 
-export type Tool = "move" | "ground" | "link" | "slider" | "dyad" | "cylinder" | "gears";
+export type Tool = "move" | "ground" | "link" | "slider" | "dyad" | "cylinder" | "gears" | "scale";
 
 /** How many places a tool needs. */
-export const NEEDED: Record<Tool, number> = { move: 0, ground: 1, link: 2, slider: 1, dyad: 3, cylinder: 2, gears: 3 };
+export const NEEDED: Record<Tool, number> = {
+  move: 0,
+  ground: 1,
+  link: 2,
+  slider: 1,
+  dyad: 3,
+  cylinder: 2,
+  gears: 3,
+  scale: 2,
+};
 
 /** The drawing with what a tool makes at its places; null where two of them are one. */
 export function withTool(tool: Tool, drawing: Drawing, spots: readonly Spot[]): Drawing | null {
@@ -32,7 +41,7 @@ export function withTool(tool: Tool, drawing: Drawing, spots: readonly Spot[]): 
   return same(two, three) ? null : withDyad(drawing, one, two, three);
 }
 
-export const KEYS: Record<string, Tool> = {
+export const KEYS: Record<string, Exclude<Tool, "scale">> = {
   v: "move",
   g: "ground",
   l: "link",
@@ -51,6 +60,7 @@ export function nameOf(tool: Tool): string {
     dyad: t("Dyad"),
     cylinder: t("Cylinder"),
     gears: t("Gear pair"),
+    scale: t("Scale of the picture"),
   };
   return names[tool];
 }
@@ -82,6 +92,7 @@ export function hintOf(tool: Tool): (Node | string)[] {
     link: t("Place joint after joint, or drag from end to end."),
     cylinder: t("Place both ends, or drag from end to end."),
     dyad: t("Place an end, the middle, the other end."),
+    scale: t("Place two points of the picture, then type their distance."),
     gears: t("Place both centres, then the contact (outside: ring gear)."),
   };
   return [h("b", {}, nameOf(tool)), ": ", hints[tool]];

@@ -9,7 +9,9 @@ import type { Pair } from "./rows";
 import { rowsTable } from "./targets";
 import type { Viewport } from "./viewport";
 
-export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty(): void }): HTMLElement[] {
+export function placesPanel(
+  view: Drawn & { readonly viewport: Viewport; empty(): void; scale(): void },
+): HTMLElement[] {
   const { drawing, viewport } = view;
   const { keeps, knots, picture } = drawing;
   const numbers = [...knots.keys()].filter((k) => isPin(knots[k]!));
@@ -52,6 +54,11 @@ export function placesPanel(view: Drawn & { readonly viewport: Viewport; empty()
       ? [
           h("h2", {}, t("Background picture")),
           rowsTable(frame, t("Picture"), ["x", "y", t("Width"), "φ [°]"], true, framed, say, () => ""),
+          h(
+            "div.form",
+            {},
+            action("scale", () => view.scale(), t("Scale by two points")),
+          ),
           option(t("Keep it in the document"), !!keeps, (on) => view.change({ ...drawing, keeps: on }), "keeps"),
         ]
       : []),

@@ -1,5 +1,6 @@
 """A mechanism is drawn on an empty plane in a browser, and what is said of it while it grows."""
 
+import base64
 import itertools
 import json
 import math
@@ -650,6 +651,60 @@ def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
     assert "rotate(-30)" in view.locator(".stage .backdrop").last.get_attribute("transform")
     assert view.evaluate("gruebler.motion.document().page.picture.href.slice(0, 11)") == "data:image/"
     view.evaluate("localStorage.clear()")
+
+
+@pytest.mark.parametrize("touch", [False, True])
+def test_a_picture_gets_its_scale_by_two_points(tab, server, touch, tmp_path):
+    """Of 400 by 200 pixels, two marked ones at (50, 50) and (350, 150): the place of the first one stays."""
+    page = tab(width=1440, height=900, touch=touch).open(server.address)
+    view = page.page
+    view.click('[data-view="build"]')
+    view.evaluate("gruebler.views.build.empty()")
+    data = view.evaluate("""() => {
+        const canvas = Object.assign(document.createElement("canvas"), { width: 400, height: 200 });
+        canvas.getContext("2d").fillRect(50, 50, 300, 100);
+        return canvas.toDataURL("image/png").split(",")[1];
+    }""")
+    (tmp_path / "marked.png").write_bytes(base64.b64decode(data))
+    view.locator("input[accept]").set_input_files(tmp_path / "marked.png")
+    view.locator('[aria-label="Picture φ [°]"]').fill("30")
+    view.locator('[aria-label="Picture φ [°]"]').press("Enter")
+    picture = "gruebler.views.build.drawing.picture.at"
+    before = view.evaluate(picture)
+
+    def place(column, row):
+        """Of a pixel of the picture, in the plane."""
+        x, y, wide, turned = view.evaluate(picture)
+        u, v = (column - 200) / 400 * wide, (100 - row) / 400 * wide
+        c, s = math.cos(math.radians(turned)), math.sin(math.radians(turned))
+        return x + c * u - s * v, y + s * u + c * v
+
+    def put(x, y):
+        u, v = view.evaluate(f"gruebler.views.build.viewport.screen({x}, {y})")
+        (view.touchscreen.tap if touch else view.mouse.click)(box["x"] + u, box["y"] + v)
+
+    box = view.locator(".drawing").bounding_box()
+    marks = [place(50, 50), place(350, 150)]
+    view.click('[data-act="scale"]')
+    put(*marks[1])
+    assert view.locator('[data-tool="move"]').get_attribute("aria-pressed") == "false"
+    view.keyboard.press("Escape")  # given up
+    assert view.locator('[data-tool="move"]').get_attribute("aria-pressed") == "true"
+    view.click('[data-act="scale"]')
+    put(*marks[0])
+    put(*marks[1])
+    field = view.locator('[data-field="distance"]')
+    field.fill("0")
+    field.press("Enter")
+    assert view.evaluate(picture) == before
+    field.fill("240")
+    field.press("Enter")
+    assert math.dist(place(50, 50), place(350, 150)) == pytest.approx(240, rel=0.01)  # a click is in whole pixels
+    assert place(50, 50) == pytest.approx(marks[0], abs=2)
+    assert view.evaluate(picture)[3] == 30
+    assert field.count() == 0
+    view.evaluate("gruebler.views.build.undo()")
+    assert view.evaluate(picture) == before
 
 
 def test_links_are_drawn_in_a_row_or_by_dragging_and_the_drawing_is_saved(plane, tmp_path):
