@@ -233,7 +233,7 @@ MISTAKES = [
         '"R(rod-piston)" = [5, 0], "R(piston-rod)" = [5, 0]',
         "this joint is given twice",
     ),
-    (', "R(rod-piston)" = [50, 0]', "", "R(rod-piston) has no dimensions on 'rod'"),
+    (', "R(rod-piston)" = [50, 0]', "", "the place of R(rod-piston) on 'rod' is missing"),
     ("[0, 10, 0]", "[0, 10, true]", "expected an angle in degrees, but found True"),
     ("[0, 10, 0]", '[0, 10, "right"]', "expected an angle in degrees, but found 'right'"),
     ("[0, 10, 0]", f"[0, 10, {'9' * 400}]", "expected an angle in degrees, but found a number of many digits"),

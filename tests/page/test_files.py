@@ -118,7 +118,10 @@ def test_a_wrong_file_is_told_what_is_wrong_with_it_not_which_keys_there_are():
     )
     assert broken("a.json", lambda document: document.pop("joints")) == "The file a.json has sizes, but no joints."
     assert broken("a.json", lambda document: document["elements"].pop("coupler")) == (
-        "The file a.json cannot be opened: R(crank-coupler) has no dimensions on 'coupler'"
+        "The file a.json cannot be opened: the place of R(crank-coupler) on 'coupler' is missing."
+    )
+    assert broken("a.json", lambda document: document["elements"].update(crank=5)) == (
+        "In the file a.json, elements.crank is wrong: expected a table of joints, but found 5."
     )
     foreign = "The file a.json holds no linkage, nor a chain or points of a path."
     for other in ({"name": "a"}, [1, 2]):

@@ -36,7 +36,8 @@ _SIZELESS = message("The file {name} has links and joints, but no sizes.")
 _JOINTLESS = message("The file {name} has sizes, but no joints.")
 _FOREIGN = message("The file {name} holds no linkage, nor a chain or points of a path.")
 _NEWER = message('This version of gruebler does not know "{keys}" in the file {name}; a newer one may have written it.')
-_WRONG = message("The file {name} cannot be opened: {problem}")
+_WRONG = message("The file {name} cannot be opened: {problem}.")
+_WRONG_THERE = message("In the file {name}, {where} is wrong: {problem}.")
 _WITH_BUTTONS = frozenset({*_OWN, "dxf", "mjcf", "urdf"})
 
 
@@ -106,7 +107,10 @@ def _why_not(file: Path, problem: str) -> Message:
         line = re.search(r"line (\d+)", problem)
         broken = _DAMAGED_AT.filled(line=line[1]) if line else _DAMAGED
         return broken.filled(form=form.upper(), **said)
-    return _fault(document).filled(keys=joined(_unknown(document)), **said)
+    fault, (where, _, problem) = _fault(document), said["problem"].partition(": ")
+    if fault is _WRONG and where.split(".")[0] in document:
+        return _WRONG_THERE.filled(name=file.name, where=where, problem=problem)
+    return fault.filled(keys=joined(_unknown(document)), **said)
 
 
 def _unknown(document: Mapping[str, Any]) -> list[str]:

@@ -38,7 +38,7 @@ def _check_joints(mechanism: Mechanism, elements: Mapping[tuple[int, str], Eleme
         for link in joint.links:
             if (number, link) not in elements:
                 raise LinkageError(
-                    "{joint} has no dimensions on {link!r}", joint=mechanism.chain.joint_title(number), link=link
+                    "the place of {joint} on {link!r} is missing", joint=mechanism.chain.joint_title(number), link=link
                 )
         check_elements_fit(joint.pair, names[number], {link: elements[number, link] for link in joint.links})
     if any(element.is_round for element in elements.values()):
