@@ -12,8 +12,9 @@ import pytest
 
 from gruebler.base.errors import GrueblerError
 from gruebler.files import linkage_to_json
+from gruebler.files.load_reading import loads_of_document
 from gruebler.mechanics.analysis import drive_cycle
-from gruebler.mechanics.dynamics import inverse_dynamics
+from gruebler.mechanics.dynamics import inverse_dynamics, simulate
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
 from gruebler.mechanics.kinematics import move
 from gruebler.page.requests import answer
@@ -142,6 +143,18 @@ def test_a_pendulum_swings_in_its_own_time():
     wanted = [0.02 * math.cos(math.sqrt(9.80665 / 0.04) * k / told["rate"]) for k in range(len(crank))]
     assert crank == pytest.approx(wanted, abs=2e-5)
     assert [one + math.pi / 2 for (one,) in told["drives"]] == pytest.approx(wanted, abs=2e-5)
+
+
+def test_speeds_of_a_free_motion_are_plotted_without_corners():
+    """The line from row to row is off by less than a twentieth of the largest speed of a fast fall."""
+    linkage = entries()["lambda"].linkage()
+    question = asked(linkage, drives=[1.0], bars="steel", until=1.0)
+    told = answer("fall", question, "en", print)
+    loads, _ = loads_of_document({"loads": answer("forces", question, "en", print)["kept"]["loads"]}, linkage)
+    finer = np.linspace(0.0, 1.0, 2001)
+    exact = simulate(linkage, loads, at=1.0, until=1.0, times=finer).speeds[:, 0]
+    plotted = np.interp(finer, np.arange(len(told["speeds"])) / told["rate"], np.ravel(told["speeds"]))
+    assert np.abs(plotted - exact).max() < 0.05 * np.abs(exact).max()
 
 
 def test_a_released_linkage_falls_under_steady_loads_too():

@@ -51,7 +51,7 @@ _ROWS = 720  # of a turn, so that what is read between two has four digits
 _MOST_ROWS = 2160
 _NO_ENDS = 0.02  # of a range, at either end: no drive keeps its speed up to where it turns back
 _USUAL = 2 * pi  # of a drive, rad/s or sizes a second: one turn
-_A_SECOND = 60  # poses of a free motion
+_A_SECOND = 240  # poses of a free motion, whose speeds would be plotted with corners by those of a screen
 _NOISE = 1e-7  # of the largest power: what is left of a mean that is none
 _ENOUGH = 1e-6  # of each of its steps: for the eye
 
@@ -204,7 +204,7 @@ def _acting(run: InverseDynamics) -> list[dict[str, Any]]:
 
 
 def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
-    """Poses of all links, values and speeds of the drives, sixty a second, under weights, springs and steady loads.
+    """Poses of all links, values and speeds of the drives, 240 a second, under weights, springs and steady loads.
 
     And why they end if they do too soon.
     """
