@@ -14,18 +14,20 @@ import { type Keyed, listenToKeys } from "./keys";
 import { currentLanguage, firstLanguage, type Language, setLanguage, t } from "./language";
 import { LibraryView } from "./library";
 import { packed } from "./link";
+import type { Change } from "./loads";
 import type { Model } from "./model";
 import { MotionView } from "./motion";
 import { contentOf, takeDropped } from "./opening";
 import { fromBase64 } from "./packed";
 import { openShared, type Shared, sharedOf, shareLink } from "./sharing";
 import { firstTheme, setTheme, shell, themeTool, tool } from "./shell";
-import { IN_SPACE, type InSpace, stored } from "./storing";
+import { IN_SPACE, type InSpace, store, stored } from "./storing";
 import { StructureView } from "./structure";
 import { SynthesisView } from "./synthesis";
 import type { Page, Place, View } from "./view";
 import { drawn } from "./waiting";
 
+const TYPED = "gruebler-typed"; // for the page that is loaded again
 const PATIENCE = 10_000; // ms, until a page appears without what its address names
 
 export class App implements Page {
@@ -113,10 +115,16 @@ export class App implements Page {
       this.#returnTo(place);
       this.motion.forget();
       if (addressed) this.motion.recall();
+      const typed = stored<{ of: string; change: Change }>(TYPED);
+      if (typed?.of === this.hash) void this.motion.side.forces.typedBefore(typed.change);
       this.#appear();
       this.#arrangeHeader();
       history.scrollRestoration = "manual"; // each view knows where it was
       addEventListener("popstate", (event) => void this.#goneBack(event));
+      addEventListener("pagehide", () => {
+        this.#leaveField();
+        store(TYPED, { of: this.hash, change: this.motion.side.forces.typed });
+      });
     }
   }
 
@@ -391,8 +399,12 @@ export class App implements Page {
 
   /** What is typed counts, also what is still in its field. */
   async #typed(): Promise<void> {
-    (this.#shadow.activeElement as HTMLElement | null)?.blur();
+    this.#leaveField();
     await this.motion.side.forces.settled();
+  }
+
+  #leaveField(): void {
+    (this.#shadow.activeElement as HTMLElement | null)?.blur();
   }
 
   /** What the view shows is saved by itself, else the machine at hand. */

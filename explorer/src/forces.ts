@@ -8,7 +8,7 @@ import type { Fact } from "./facts";
 import type { Fall } from "./falling";
 import { number, t } from "./language";
 import type { Linkage } from "./linkage";
-import { type Acting, LoadForm } from "./loads";
+import { type Acting, type Change, LoadForm } from "./loads";
 import type { Model } from "./model";
 import type { PlaneTransport } from "./planetransport";
 import { Plot } from "./plot";
@@ -147,6 +147,18 @@ export class Forces {
       speed: this.#speed,
       ...this.#form.change,
     };
+  }
+
+  /** What was typed and is not in the document yet. */
+  get typed(): Change {
+    return this.#form.change;
+  }
+
+  /** What was typed just before the page was loaded again. */
+  async typedBefore(change: Change): Promise<void> {
+    this.changed();
+    this.#form.change = change;
+    await this.settled();
   }
 
   /** What was typed is in the document. */

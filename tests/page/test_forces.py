@@ -664,6 +664,25 @@ def test_what_was_typed_just_before_is_saved(tab, server):
     assert json.loads(Path(saved.value.path()).read_text())["loads"]["bodies"]["crank"]["mass"] == "0.75 kg"
 
 
+def test_what_was_typed_just_before_the_page_is_loaded_again_is_kept(tab, server):
+    """Left at once, and still in its field."""
+    page = tab().open(server.address)
+    panel = page.page.locator(PANEL)
+    panel.locator("summary").first.click()
+    panel.locator('[data-act="assume"]').click()
+    panel.locator(".plot.polar").wait_for()
+    panel.locator(".words summary").click()
+    mass = "gruebler.motion?.linkage.loads?.bodies?.{}?.mass"
+    page.until(mass.format("crank"))
+    page.until("gruebler.hash && location.hash === gruebler.hash")
+    page.page.locator("#force-mass-1").fill("0.5")
+    page.page.locator("#force-mass-1").press("Tab")
+    page.page.locator("#force-mass-2").fill("0.25")
+    page.page.reload()
+    kept = mass.replace("gruebler", "window.gruebler?", 1)
+    assert page.until(f"{kept.format('crank')} === '0.5 kg' && {kept.format('coupler')}") == "0.25 kg"
+
+
 def test_loads_are_drawn_where_they_act_and_go_with_the_point(tab, server):
     tab_ = tab().open(server.address)
     page = tab_.page
