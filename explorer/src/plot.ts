@@ -34,6 +34,7 @@ const TOP = 20;
 const BOTTOM = 30;
 const WIDE = WIDTH - LEFT - RIGHT;
 const LONG = 39; // letters of a title beside which a value has no room
+const FULL = 45; // letters of a title that fill its line
 const EVEN = 200; // places of the drive at which values are compared
 const PART = 0.05; // of the drive: where values may be without bound
 const ONE = 1e-5; // of values: those that differ by less are read as one
@@ -183,7 +184,9 @@ export class Plot {
     if (this.element.getAttribute("aria-label") !== series.title) {
       this.#title.textContent = series.title;
       this.#along.textContent = `${this.unit === "s" ? t("Time") : t("Drive")} [${this.unit}]`;
-      put(this.#value, { y: series.title.length > LONG ? TOP + 10 : 13 });
+      const letters = series.title.length;
+      put(this.#value, { y: letters > LONG ? TOP + 10 : 13 });
+      this.#title.style.fontSize = letters > FULL ? `${(12 * FULL) / letters}px` : "";
       this.#curve.style.stroke = `var(${series.colour})`;
       put(this.element, { "aria-label": series.title });
     }

@@ -15,7 +15,7 @@ import { clearSpot, halfOf } from "./names";
 import { origin, type Pair, place, turn } from "./rows";
 import { readingsOf } from "./rulers";
 import { ownColour, type Shown } from "./shown";
-import { springPath } from "./springs";
+import { springLines } from "./springs";
 import type { Viewport } from "./viewport";
 import { rateUnit } from "./wording";
 
@@ -69,7 +69,7 @@ export class Scene {
 
   /** The length of the longest arrow: in a low picture others would be covered by it. */
   get longest(): number {
-    return Math.min(LONGEST_ARROW, 0.3 * this.viewport.height);
+    return Math.min(LONGEST_ARROW, (this.viewport.narrow ? 0.2 : 0.3) * this.viewport.height);
   }
 
   /** Give one link a class, or none. */
@@ -230,6 +230,8 @@ export class Scene {
         [x + dx, y + dy],
       ]),
     );
+    const springs = shown.springs().map((spring) => springLines(linkage, viewport, spring));
+    arrows.push(...springs.map((parts) => convexHull(parts.flat())).filter((hull) => hull.length));
     const grounds = this.#pins
       .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
       .map(({ joint }) => placed(STANDING, pixels(joint), model.bearings[joint]));
@@ -240,11 +242,12 @@ export class Scene {
     }
     const { height, width } = viewport;
     const low = height < 2 * TOOLS ? 72 : TOOLS; // a low picture has one button only
-    const buttons: Pair[] = [
-      [width, 60],
-      [width - 54, 60],
-      [width - 54, 0],
-    ];
+    const buttons = convexHull(
+      [0, low - 12].flatMap((y): Pair[] => [
+        [width - 54, y],
+        [width, y],
+      ]),
+    );
     const [c, s] = turn(pose, 0, model.frame);
     const [ox, oy] = viewport.screen(...origin(pose, 0, model.frame));
     const fixed = (x: number, y: number): Pair => [ox + c * x + s * y, oy - s * x + c * y];
@@ -262,7 +265,8 @@ export class Scene {
           (other) => half + other.half + 4 > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01,
         );
       const clear = (of: Pair[][]) => (at: Pair) => !touching(at) && of.every((one) => clearOf(one, half, at));
-      const seen = ([u, v]: Pair) => u > half + RULE && u + half < width - (v < low ? BESIDE : 0);
+      const right = (v: number) => width - (v < low ? BESIDE : 0);
+      const seen = ([u, v]: Pair) => u > half + RULE && u + half < right(v);
       const free = clear(hulls[k]!.length ? arrows : drawn);
       if (hulls[k]!.length) {
         // of a plate upon which it lies only the edges are others
@@ -281,15 +285,12 @@ export class Scene {
         );
       } else if (label.taken >= NEAR || !free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
       const [left, top] = places[label.taken]!;
-      const x = Math.max(half + 2, Math.min(width - half - 2, left)); // it is not cut
+      const x = Math.max(half + 2, Math.min(right(top) - half - 2, left)); // it is not cut
       let y = top;
       const way = y < (touching([x, y])?.y ?? 0) ? -1 : 1;
       for (let other = touching([x, y]); other; other = touching([x, y])) y = other.y + way * LINE;
       taken.push({ x, y, half });
-      drawn.push([
-        [x - half, y - 4],
-        [x + half, y - 4],
-      ]);
+      drawn.push(lettersAt(x, y, half));
       move(element, [x, y]);
     }
     kinds.forEach((all, k) => {
@@ -298,8 +299,7 @@ export class Scene {
     // a number may stand upon a plate, but not across its edges
     const edges = [...hulls.flatMap(sidesOf), ...drawn.slice(hulls.filter((hull) => hull.length).length)];
     this.#putValues(kinds, edges);
-    const springs = shown.springs().map((spring) => springPath(linkage, viewport, spring));
-    put(this.#springs, { d: springs.join("") });
+    put(this.#springs, { d: springs.flat().map(pathThrough).join("") });
     const lines = readingsOf(linkage).map(({ ends }) => pathThrough(ends.map((at) => viewport.screen(...at))));
     put(this.#rulers, { d: lines.join("") });
     this.#drawPole(linkage, shown);
@@ -339,11 +339,12 @@ export class Scene {
         if (n && k > 1) break;
         const said = `${numberText(amount, 3)} ${unit}`.trim();
         const half = halfOf(said);
-        const [left, top] = clearAbout([x + dx, y + dy], 18, drawn, half);
-        const free = left > half && left + half < this.viewport.width;
-        if ((n || k === 1) && !(free && drawn.every((one) => clearOf(one, half, [left, top + 4])))) continue;
+        const less = n > 0 || k === 1; // only where it is near and clear
+        const [left, top] = clearAbout([x + dx, y + dy], 18, drawn, half, less ? 16 : 32);
+        const free = left > half && left + half < this.viewport.width && top > 8;
+        if (less && !(free && drawn.every((one) => clearOf(one, half, [left, top + 4])))) continue;
         texts.push(svg("text", { "data-arrow": "", "text-anchor": "middle", x: left, y: top + 4 }, said));
-        drawn.push([-half, half].flatMap((side) => [-5, 5].map((rise): Pair => [left + side, top + rise])));
+        drawn.push(lettersAt(left, top + 4, half));
       }
     }
     this.#values.replaceChildren(...texts);
@@ -364,6 +365,11 @@ export class Scene {
     const [cx, cy] = viewport.screen(found.x + found.dx / 2, found.y + found.dy / 2);
     put(this.#circle, { cx: cx.toFixed(1), cy: cy.toFixed(1), r: radius.toFixed(1) });
   }
+}
+
+/** The corners of a text that stands upon a line. */
+function lettersAt(x: number, y: number, half: number): Pair[] {
+  return convexHull([-half, half].flatMap((side) => [-9, 1].map((rise): Pair => [x + side, y + rise])));
 }
 
 function move(element: SVGElement, [x, y]: Pair): void {

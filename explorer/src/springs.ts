@@ -1,6 +1,5 @@
 /** Springs and dampers between links: their ends, and how they are drawn. */
 
-import { pathThrough } from "./hull";
 import type { Linkage } from "./linkage";
 import { type Pair, place } from "./rows";
 import type { Viewport } from "./viewport";
@@ -34,34 +33,34 @@ export function endsOf(linkage: Linkage): [End, string, string][] {
   ];
 }
 
-/** A coil, a piston in its cylinder, or a spiral about the joint of two links. */
-export function springPath(linkage: Linkage, viewport: Viewport, spring: Spring): string {
-  const { damping, ends, known, stiffness, turning } = spring;
+/** The lines, in pixels, of a coil, a piston in its cylinder, or a spiral about the joint of two links; none of a spring
+ * that does not act yet. */
+export function springLines(linkage: Linkage, viewport: Viewport, spring: Spring): Pair[][] {
+  const { damping, ends, known, preload, stiffness, turning } = spring;
+  if (!stiffness && !preload && !damping && typeof known !== "number") return [];
   const at = ([link, ...own]: End) => viewport.screen(...place(linkage.pose, 0, link, ...own));
   const [[x, y], [u, v]] = ends.map(at) as [Pair, Pair];
   if (turning) {
     const both = ({ links }: { links: number[] }) => ends.every(([link]) => links.includes(link));
     const joint = linkage.model.joints.findIndex(both);
-    if (joint < 0) return "";
+    if (joint < 0) return [];
     const [cx, cy] = viewport.screen(...linkage.jointAt(joint));
     const arm = (k: number) => 8 + k / 4;
-    return pathThrough(
-      Array.from({ length: 49 }, (_, k) => [cx + arm(k) * Math.cos(k / 4), cy - arm(k) * Math.sin(k / 4)]),
-    );
+    return [Array.from({ length: 49 }, (_, k) => [cx + arm(k) * Math.cos(k / 4), cy - arm(k) * Math.sin(k / 4)])];
   }
   const along = (part: number, across: number): Pair => {
     const far = Math.hypot(u - x, v - y) || 1;
     return [x + (u - x) * part - ((v - y) / far) * across, y + (v - y) * part + ((u - x) / far) * across];
   };
-  const shape = (...places: Pair[]) => pathThrough(places.map((one) => along(...one)));
+  const line = (...places: Pair[]) => places.map((one) => along(...one));
   if (damping && !stiffness && known === null)
-    return (
-      shape([0, 0], [0.5, 0]) +
-      shape([0.5, 6], [0.5, -6]) +
-      shape([0.35, 8], [0.7, 8], [0.7, -8], [0.35, -8]) +
-      shape([0.7, 0], [1, 0])
-    );
+    return [
+      line([0, 0], [0.5, 0]),
+      line([0.5, 6], [0.5, -6]),
+      line([0.35, 8], [0.7, 8], [0.7, -8], [0.35, -8]),
+      line([0.7, 0], [1, 0]),
+    ];
   const count = 2 * Math.max(3, Math.min(20, Math.round(Math.hypot(u - x, v - y) / 16)));
   const coils = Array.from({ length: count }, (_, k): Pair => [0.16 + (0.68 * k) / (count - 1), k % 2 ? 7 : -7]);
-  return shape([0, 0], [0.13, 0], ...coils, [0.87, 0], [1, 0]);
+  return [line([0, 0], [0.13, 0], ...coils, [0.87, 0], [1, 0])];
 }

@@ -173,10 +173,10 @@ export class Stage implements Board {
   draw(): void {
     if (!this.linkage) return;
     const { viewport } = this;
-    const { margin } = viewport;
+    const { arrows } = viewport;
     const { accelerations, forces, velocities } = this.shown;
-    viewport.margin = velocities || accelerations || forces()[0] ? this.#scene.longest + 8 : 60;
-    if (viewport.margin !== margin && viewport.fitted) this.fit();
+    viewport.arrows = velocities || accelerations || forces()[0] ? this.#scene.longest + 8 : 0;
+    if (viewport.arrows !== arrows && viewport.fitted) this.fit();
     this.#rule(this.linkage.model.unit);
     this.#scene.draw(this.linkage, this.shown);
     this.#scene.mark(this.chosen, "chosen");

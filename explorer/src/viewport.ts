@@ -35,10 +35,15 @@ export class Viewport {
   scale = 1;
   /** Whether it shows everything, and goes on doing so in another size. */
   fitted = true;
-  /** Pixels beside all of it. */
-  margin = 60;
+  /** Pixels that arrows reach beyond all of it. */
+  arrows = 0;
   #ox = 0;
   #oy = 0;
+
+  /** Whether it is that of a phone, whose buttons and numbers take room from it. */
+  get narrow(): boolean {
+    return this.width < 500;
+  }
 
   /** The pixel of a place. */
   screen(x: number, y: number): Pair {
@@ -52,14 +57,15 @@ export class Viewport {
 
   /** Show a rectangle, or at least a square of that width; what lies below, so many pixels high, is left out. */
   fit({ left, right, bottom, top }: Box, least: number, below?: number): void {
-    const narrow = this.width < 500;
-    const margin = narrow ? 34 : this.margin;
+    const { narrow } = this;
+    const margin = narrow ? 34 : this.arrows || 60;
     const keys = narrow ? 56 : 0; // the buttons on the right
     const rule = narrow ? 22 : 0; // the numbers on the left
-    const foot = below ?? (narrow ? margin : 0); // what can be done, in two lines
+    const foot = below ?? (narrow && this.height > 300 ? margin : 0); // what can be done, in two lines
+    const above = Math.max(margin, this.arrows);
     const wide = Math.max(right - left, least);
     const high = Math.max(top - bottom, least);
-    this.scale = Math.min((this.width - 2 * margin - keys - rule) / wide, (this.height - 2 * margin - foot) / high);
+    this.scale = Math.min((this.width - 2 * margin - keys - rule) / wide, (this.height - 2 * above - foot) / high);
     this.#ox = (this.width - keys + rule) / 2 - (this.scale * (left + right)) / 2;
     this.#oy = (this.height - foot) / 2 + (this.scale * (bottom + top)) / 2;
     this.fitted = true;

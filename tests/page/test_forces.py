@@ -349,9 +349,11 @@ def test_springs_are_chosen_drawn_and_turn_the_drive(tab, server):
     # at first it spans two joints that come nearer to each other, as no two joints of one link do
     chosen = f"{ROOT}.querySelector('#spring-0-1').selectedOptions[0].textContent"
     assert page.page.evaluate(chosen) == "coupler – rocker"
+    path = f"{ROOT}.querySelector('.stage path.spring-path').getAttribute('d')"
+    page.page.evaluate("gruebler.motion.redraw()")
+    assert not page.page.evaluate(path)  # it pulls nothing yet
     page.page.locator("#force-stiffness-0").fill("2")
     page.page.locator("#force-stiffness-0").press("Tab")
-    path = f"{ROOT}.querySelector('.stage path.spring-path').getAttribute('d')"
     drawn = page.until(path)
     assert drawn.count("M") == 1
     assert 6 <= drawn.count("L") - 3 <= 40  # turns of one coil, and what leads to them
@@ -364,6 +366,8 @@ def test_springs_are_chosen_drawn_and_turn_the_drive(tab, server):
         stored.append(page.page.evaluate(square) / 1000)  # 2/2 r², in joules
     assert read == pytest.approx((stored[0] - stored[1]) / 0.002, rel=5e-3)
     page.page.locator("#spring-1").select_option(label="torsion")
+    page.page.locator("#force-stiffness-1").fill("1")
+    page.page.locator("#force-stiffness-1").press("Tab")
     page.until(f"{path}.split('M').length === 3")
     page.page.locator("#spring-0").select_option(label="none")
     page.until(f"{path}.split('M').length === 2")
@@ -493,6 +497,57 @@ def test_arrows_of_a_low_picture_are_shorter_and_their_value_is_not_under_a_butt
         button, text = (one.bounding_box() for one in (page.page.locator(".stage .tools button").last, value))
         apart = (button["x"] - text["x"] - text["width"], text["y"] - button["y"] - button["height"])
         assert max(apart) >= 0, drive
+
+
+TEXTS = f"""[...{ROOT}.querySelectorAll('.stage text:is(.name, .mark, [data-arrow])')]
+  .map((one) => one.getBoundingClientRect()).map(({{x, y, width, height}}) => [x, y, x + width, y + height])"""
+SPRINGS = f"""((path) => {{ const {{x, y}} = path.ownerSVGElement.getBoundingClientRect();
+  return Array.from({{length: 400}}, (_, k) => path.getPointAtLength(k / 399 * path.getTotalLength()))
+    .map((at) => [x + at.x, y + at.y]) }})({ROOT}.querySelector('.stage path.spring-path'))"""
+
+
+def test_springs_pass_through_no_name_and_no_number(tab, server):
+    """The name of the elbow of the desk lamp stood on the spring of its upper arm; long words stay in their panel."""
+    page = tab(width=1440, height=900, locale="de-DE").open(server.address)
+    page.machine("lamp")
+    page.page.locator(f"{PANEL} summary").first.click()
+    page.page.locator(f"{PANEL} .plot.polar").wait_for()
+    for drive in range(65, 150, 10):
+        page.page.evaluate(f"gruebler.motion.transport.pick({math.radians(drive)})")
+        texts, springs = page.page.evaluate(TEXTS), page.page.evaluate(SPRINGS)
+        assert len(texts) >= 7
+        for left, top, right, bottom in texts:
+            # the box of a text has some room above and below its letters
+            assert not [p for p in springs if left < p[0] < right and top + 3 < p[1] < bottom - 3], drive
+    panel = page.page.locator('[data-field="force-joint"]').bounding_box()
+    assert panel["x"] + panel["width"] <= 1440 - 16
+    its = '.plot[aria-label*="Birne"]'
+    title, plot = (page.page.locator(f'[data-panel="plots"] {one}').first for one in (its + " text.title", its))
+    assert title.text_content().endswith("[mm/rad]")
+    ends = [box["x"] + box["width"] for box in (title.bounding_box(), plot.bounding_box())]
+    assert ends[0] <= ends[1]
+
+
+def test_numbers_of_a_low_picture_keep_clear_of_names_and_arrows_of_its_edges(tab, server):
+    page = tab(width=390, height=844, touch=True).open(server.address)
+    page.machine("vcomp")
+    page.page.locator(f"{PANEL} summary").first.click()
+    page.page.locator(f"{PANEL} .plot.polar").wait_for()
+    page.page.locator(f"{PANEL} .plot.polar").scroll_into_view_if_needed()
+    page.until(f"{ROOT}.querySelector('.stage.low')")
+    stage = page.page.locator(".stage").bounding_box()
+    for drive in range(0, 360, 20):
+        page.page.evaluate(f"gruebler.motion.transport.pick({math.radians(drive)})")
+        for kind in ("force", "force.load"):
+            drawn = page.page.evaluate(f"{ROOT}.querySelector('.stage path.{kind}').getAttribute('d')")
+            assert drawn or kind == "force.load", drive
+            rows = [float(y) for y in re.findall(r"[ML]\S+ (\S+?)(?=[ML]|$)", drawn)]
+            assert all(4 < y < stage["height"] - 4 for y in rows), drive
+        texts = page.page.evaluate(TEXTS)
+        for k, (left, top, right, bottom) in enumerate(texts):
+            for x, y, u, v in texts[:k]:
+                over = min(right, u) - max(left, x), min(bottom, v) - max(top, y)
+                assert min(over) <= 3, drive  # letters do not fill their boxes
 
 
 def test_arrows_of_forces_stay_in_the_picture(tab, server):
