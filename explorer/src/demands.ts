@@ -41,7 +41,10 @@ export class Demands {
       max: 90,
       value: this.#least,
       "data-field": "least",
-      onchange: () => (this.#least = +limited(least, 90)),
+      onchange: () => {
+        this.#least = +limited(least, 90);
+        changed();
+      },
     });
     const reach = h("input", {
       type: "number",
@@ -62,6 +65,7 @@ export class Demands {
       onchange: ({ target }: Event) => {
         const field = target as HTMLInputElement;
         this.#longest = field.value && limited(field, 1e9);
+        changed();
       },
     });
     const order = h("input", {
@@ -69,13 +73,20 @@ export class Demands {
       "aria-label": t("Order of the targets"),
       placeholder: "1 2 3",
       "data-field": "order",
-      onchange: () => (this.order = order.value),
+      onchange: () => {
+        this.order = order.value;
+        changed();
+      },
     });
+    const turns = (on: boolean) => {
+      this.#crank = on;
+      changed();
+    };
     return h(
       "div.form",
       {},
       closed,
-      way && option(t("the crank turns fully"), this.#crank, (on) => (this.#crank = on), "crank"),
+      way && option(t("the crank turns fully"), this.#crank, turns, "crank"),
       h(
         "label",
         {},

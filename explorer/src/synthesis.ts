@@ -51,7 +51,7 @@ export class SynthesisView implements View {
   /** How wide the plane is before there is anything in it; that of points out of a file is as wide as they need. */
   #home = 0;
   readonly #history = new History<State>();
-  /** The targets that the designs meet. */
+  /** The question that the designs answer. */
   #asked = "";
   /** The targets before the change that is going on. */
   #before = this.#state;
@@ -60,7 +60,7 @@ export class SynthesisView implements View {
   readonly #picture = new TaskPicture(() => this.element.classList.contains("shown"));
   readonly #key = h("button.key", { "data-act": "synthesise", onclick: () => void this.#search() });
   readonly #list = h("div.targets", {});
-  /** How many are set; while linkages are looked for, how far that is stands in its place. */
+  /** How many targets are missing; whether the designs answer another question. */
   readonly #told = h("span.note", { "data-fact": "set" });
   private readonly designs = new DesignCards(
     (design) => this.#play(design),
@@ -207,7 +207,7 @@ export class SynthesisView implements View {
               this.kind !== "dead-centres",
               this.#planar && this.#page.served,
               this.#curve,
-              () => this.#paint(),
+              () => this.#draw(),
             ),
             this.#list,
             this.designs.element,
@@ -275,6 +275,7 @@ export class SynthesisView implements View {
     this.#held = (place) => {
       line.push(place);
       const { places, closed } = evenly(line, OF_STROKE);
+      if (this.#shownDesign) this.#play(null);
       this.rows.points = places;
       this.#closed = closed;
       this.#draw();
@@ -363,7 +364,7 @@ export class SynthesisView implements View {
     this.#clearing.disabled = !count && !this.#pivots.length;
     this.#key.title = lacks;
     const former =
-      this.designs.element.firstChild && this.#asked !== this.#state[1] && t("Designs for the former targets");
+      this.designs.element.firstChild && this.#asked !== this.#question && t("Designs for the former requirements");
     this.#told.textContent = (this.#puts !== "curve" && lacks) || former || "";
     const tables = h(
       "div.points",
@@ -383,19 +384,25 @@ export class SynthesisView implements View {
     return !!this.status.querySelector("progress");
   }
 
+  /** What the library is asked, as a text. */
+  get #question(): string {
+    const { kind } = this;
+    return JSON.stringify({
+      kind,
+      rows: this.points,
+      pivots: kind === "positions" ? this.#pivots : [],
+      closed: kind === "points" && this.#closed,
+      ...this.#demands.asked(this.#planar, this.#curve),
+    });
+  }
+
   async #search(): Promise<void> {
     if (this.#searching) return;
     const { kind } = this;
-    const question = {
-      kind,
-      rows: this.points,
-      pivots: this.kind === "positions" ? this.#pivots : [],
-      closed: this.kind === "points" && this.#closed,
-      ...this.#demands.asked(this.#planar, this.#curve),
-    };
-    this.#told.textContent = "";
-    const [, asked] = this.#state;
-    const found = await awaited(this.status, (progress) => this.#page.ask<Found>("synthesise", question, progress));
+    const asked = this.#question;
+    const found = await awaited(this.status, (progress) =>
+      this.#page.ask<Found>("synthesise", JSON.parse(asked), progress),
+    );
     if (kind !== this.kind) return renew(this.status);
     if (!found) return;
     this.#asked = asked;

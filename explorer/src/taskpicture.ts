@@ -122,7 +122,7 @@ export class TaskPicture {
       ...gridOf(this.#area, angles ? wordsOf(kind).heads : []),
       svg("path.shape.dead", { "data-region": "", d: region[0] ? `${pathOf(region)}Z` : "" }),
       ...(swing ? swingMark(swing, points[0]!, unit, design) : []),
-      ...(charted ? [svg("path.curve", { d: pathOf(charted) }), this.#here] : [this.#ghost.element]),
+      ...(charted ? [svg("path.curve", { d: pathOf(charted) }), this.#here] : [design !== null && this.#ghost.element]),
       ...(swing ? [] : [...(charted ? [] : [wanted]), ...points.map(mark)]),
       ...pivots.map((place) => svg("g", { "data-pivot": "" }, groundMark(place, unit))),
     );

@@ -560,11 +560,43 @@ def test_designs_of_former_targets_say_so(design):
     cell = view.locator(".points input").nth(3)
     cell.fill("31")
     cell.press("Enter")
-    assert told.inner_text() == "Designs for the former targets"
+    assert told.inner_text() == "Designs for the former requirements"
     assert cards.count() == count
     assert view.locator(".designs .card[aria-current]").count() == 0  # none plays over other targets
     view.click('header [data-icon="undo"]')
     assert told.inner_text() == ""
+    least = view.locator('[data-field="least"]')
+    for angle, says in (("45", "Designs for the former requirements"), ("20", "")):
+        least.fill(angle)
+        least.press("Tab")
+        assert told.inner_text() == says
+    view.locator('[data-field="crank"]').uncheck()
+    assert told.inner_text() == "Designs for the former requirements"
+
+
+def test_a_curve_that_is_drawn_takes_the_place_of_a_design(tab, server):
+    """It goes with the first stroke; when that ends the plane is as wide as before anything was in it."""
+    page = tab(width=390, height=844, locale="de-DE").open(server.address)
+    view = page.page
+    view.click('[data-view="synthesis"]')
+    plane = view.locator(".plane").first
+    width = plane.evaluate("(one) => one.viewBox.baseVal.width")
+    view.evaluate(f"{VIEW}.rows.points = [[20, -20], [0, -30], [-20, -20], [-20, 10], [10, 20]]")
+    view.click('[data-value="points"]')
+    view.click('[data-act="synthesise"]')
+    view.locator('[data-list="designs"] .card').first.wait_for(timeout=60_000)
+    view.locator('[data-field="longest"]').fill("70")
+    view.locator('[data-field="longest"]').press("Tab")
+    told, up = (view.locator(one) for one in ('[data-fact="set"]', '[data-act="back"]'))
+    assert told.inner_text() == "Entwürfe für die vorigen Vorgaben"
+    note, button = told.bounding_box(), up.bounding_box()
+    assert note["y"] + note["height"] <= button["y"] or note["x"] + note["width"] <= button["x"]
+    view.click('[data-value="curve"]')
+    assert view.locator("[data-ghost]").count() == 1
+    (middle, _), (x, y) = page.target(0, 0), page.target(40, 0)
+    page.drag((x, y), (middle - x, middle - x), (middle - x, x - middle))
+    assert view.locator("[data-ghost]").count() == 0
+    assert plane.evaluate("(one) => one.viewBox.baseVal.width") == width
 
 
 def test_a_click_puts_whole_millimetres_where_a_pixel_is_as_large(design):
