@@ -389,7 +389,7 @@ def test_no_name_lies_on_the_hatching_of_a_rail(tab, server):
         assert min(page.page.evaluate(gaps)) > 0, drive
 
 
-@pytest.mark.parametrize("id_", ["crankrocker", "crane"])
+@pytest.mark.parametrize("id_", ["crankrocker", "crane", "excavator"])
 def test_names_of_a_phone_are_not_cut_and_not_under_buttons(tab, server, id_):
     page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
     page.page.click('[data-view="catalog"]')
