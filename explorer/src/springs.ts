@@ -33,8 +33,8 @@ export function endsOf(linkage: Linkage): [End, string, string][] {
   ];
 }
 
-/** The lines, in pixels, of a coil, a piston in its cylinder, or a spiral about the joint of two links; none of a spring
- * that does not act yet. */
+/** The lines, in pixels, of a coil, a piston in its cylinder, or a spiral about the joint of two links; none of a
+ * spring that does not act yet. */
 export function springLines(linkage: Linkage, viewport: Viewport, spring: Spring): Pair[][] {
   const { damping, ends, known, preload, stiffness, turning } = spring;
   if (!stiffness && !preload && !damping && typeof known !== "number") return [];
