@@ -1,5 +1,6 @@
 """The server of the page: who may talk to it, what it refuses, in which order it answers."""
 
+import asyncio
 import json
 import os
 import re
@@ -23,6 +24,7 @@ from websockets.exceptions import InvalidStatus  # noqa: E402
 from gruebler.files import linkage_to_json  # noqa: E402
 from gruebler.mechanics.fourbar import FourBar  # noqa: E402
 from gruebler.page import worker  # noqa: E402
+from gruebler.page import workers as processes_of_the_page  # noqa: E402
 from gruebler.page.model import model_of  # noqa: E402
 from gruebler.page.requests import answer  # noqa: E402
 from gruebler.teaching.catalog import entry  # noqa: E402
@@ -337,6 +339,28 @@ def test_a_search_does_not_wait_for_long_work_before_it(server):
         (answer,) = answers_to(socket, LONG, '{"id": 2, "method": "catalog", "params": {"words": "delta"}}')
         assert (answer["id"], [each["id"] for each in answer["result"]]) == (2, ["delta"])
         assert answers_to(socket, '{"id": 1, "cancel": true}') == [{"id": 1, "cancelled": True}]
+
+
+def test_a_process_that_is_about_to_answer_is_kept(monkeypatch):
+    """Whoever leaves, or loads the page again, leaves it for the next request, which need not wait for a new one."""
+    monkeypatch.setattr(processes_of_the_page, "_NEARLY", 30.0)  # also where the machine is busy
+
+    async def processes() -> list[int]:
+        made, gone = processes_of_the_page.Workers(), asyncio.Event()
+        try:
+            asking = asyncio.create_task(made.ask("structure", {"text": "R(0-1) R(1-2)"}, "en", print, gone))
+            while not made._all:
+                await asyncio.sleep(0.01)
+            seen = [process.pid for process in made._all]
+            gone.set()
+            with pytest.raises(processes_of_the_page.CancelledError):
+                await asking
+            return [*seen, *(process.pid for process in made._free)]
+        finally:
+            await made.close()
+
+    before, after = asyncio.run(processes())
+    assert before == after
 
 
 def test_a_request_that_waits_is_cancelled_before_the_one_it_waits_for(server):

@@ -15,6 +15,8 @@ from gruebler.base.errors import GrueblerError
 
 LONGEST = 120.0
 """Seconds after which a request is ended."""
+_NEARLY = 0.5
+"""Seconds in which a process may still answer who does not want it any more: to start another one takes longer."""
 _WIDEST = 64_000_000  # bytes of an answer
 
 
@@ -60,21 +62,25 @@ class Workers:
             reply = None
             try:
                 await asyncio.wait({answer, stop}, timeout=longest, return_when=asyncio.FIRST_COMPLETED)
-                if answer.done():
-                    reply = answer.result()
             finally:  # whoever went away leaves no process with half an answer
                 stop.cancel()
+                if not answer.done():
+                    await asyncio.wait({answer}, timeout=_NEARLY)
+                done = answer.done()
                 answer.cancel()
+                if done and answer.exception() is None:
+                    reply = answer.result()
                 if reply is not None:
                     self._free += used
                 else:
                     for process in used:
                         await self._end(process)
+            if cancelled.is_set():
+                raise CancelledError
             if reply is None:
-                if cancelled.is_set():
-                    raise CancelledError
-                if answer.cancelled() or not answer.done():
+                if not done:
                     raise GrueblerError("this took longer than {seconds:g} s and was ended", seconds=longest)
+                answer.result()  # or what went wrong on this side
                 raise GrueblerError("gruebler failed at this request; its terminal shows the reason")
             kind, content = reply
             if kind == "error":
