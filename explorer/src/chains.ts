@@ -71,7 +71,8 @@ export class ChainList {
    * from another view. */
   follow(found: Structure | null, leads: boolean): void {
     // a size that the reader wants goes before
-    const typed = this.waiting || !this.#is(this.#given());
+    const wrong = this.element.querySelector('[aria-invalid="true"]');
+    const typed = this.waiting || (!wrong && !this.#is(this.#given()));
     const turned = !typed && found && (leads || !this.#asked) && !(this.#is(placeOf(found)) && this.#fits(found));
     if (turned) this.#turn(placeOf(found));
     this.#chosen = found;
@@ -150,8 +151,20 @@ export class ChainList {
     this.#show();
   }
 
+  /** Take what is typed; of sizes that are not listed it is said, and the list stays. */
   #typed(): void {
-    this.#turn(this.#given());
+    const before = [this.#links, this.mobility] as const;
+    const size = this.#given();
+    [this.#links, this.mobility] = size as [number, number];
+    const unlisted = !!this.#unlisted();
+    for (const field of this.element.querySelectorAll("input"))
+      field.setAttribute("aria-invalid", String(!field.value || !field.checkValidity()));
+    this.page.say(unlisted ? this.#whyNone() : "");
+    if (unlisted) {
+      [this.#links, this.mobility] = before;
+      return;
+    }
+    this.#turn(size);
     void this.#ask(0, true);
   }
 

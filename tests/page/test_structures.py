@@ -273,6 +273,9 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     assert cards.evaluate_all("all => all.map((e) => e.ariaPressed)") == ["true", "false"]
     links.fill("40")
     links.press("Enter")
+    assert links.get_attribute("aria-invalid") == "true"
+    assert cards.count() == 2  # the list stays, and what is said of the chain
+    assert view.locator(".described .facts").count() == 1
     refused = view.get_by_text(f"Chains are listed with 3 … {links.get_attribute('max')} links")  # none is asked for
     refused.wait_for()
     links.fill("")
@@ -280,6 +283,8 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     refused.wait_for()
     links.fill("7")  # F = 3·6 - 2g is even
     links.press("Enter")
+    assert links.get_attribute("aria-invalid") == "false"
+    refused.wait_for(state="hidden")
     page.until("gruebler.root.textContent.includes('one of n and F is even')")
     parts = '[data-list="driven"] .card, .described .facts, [data-act="realise"]'
     assert view.locator(parts).count() == 0  # nothing is shown of the chain before
