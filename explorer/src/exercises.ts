@@ -250,7 +250,7 @@ export class ExercisesView implements View {
     const words = {
       right: `✓ ${t("right")}`,
       near: `≈ ${t("nearly right")}`,
-      wrong: `✗ ${t("wrong")}`,
+      wrong: `✗ ${!choices.length && !/\d/.test(given) ? t("not a number") : t("wrong")}`,
       missing: t("missing"),
     };
     const input = h("input", {

@@ -184,12 +184,18 @@ def test_a_task_is_chosen_marked_mended_and_tried(exercises):
     assert "a = 45 mm, b = 80 mm, c = 80 mm and d = 30 mm" in view.locator(".task").inner_text().replace("\xa0", " ")
     view.click('[data-act="mark"]')
     assert "at least one answer" in view.locator("[data-result]").inner_text()
+    view.locator('[data-answer="sum_ends"]').fill("abc")
+    view.locator('[data-answer="sum_others"]').fill("12")
+    view.click('[data-act="mark"]')
+    view.locator("[data-mark]").first.wait_for()
+    said = view.locator("[data-mark] > b").all_inner_texts()[:2]
+    assert said == ["✗ not a number", "✗ wrong"]
     view.locator('[data-answer="sum_ends"]').fill("110")
     view.locator('[data-answer="sum_others"]').fill("12,5 cm")
     view.locator('[data-answer="turns"] [data-value="yes"]').click()
     view.click('[data-act="mark"]')
     marks = view.locator("[data-mark]")
-    marks.first.wait_for()
+    view.locator('[data-mark="right"]').first.wait_for()
     seen = "all => all.map((e) => e.dataset.mark)"
     assert marks.evaluate_all(seen) == ["right", "right", "right", "missing"]
     assert marks.last.locator("b").inner_text() == "missing"
