@@ -179,6 +179,12 @@ export class Machine implements Drivable {
     return this.spots.map(({ link, at }) => rows.map((poses) => moved(poses[link]!, at)));
   }
 
+  /** Whether a link is one of those that a drive moves. */
+  moves(link: number): boolean {
+    const [first, ...others] = this.reached.map((poses) => String(poses[link]));
+    return others.some((pose) => pose !== first);
+  }
+
   /** A place is taken: its path begins. */
   take(spot: Spot): void {
     this.traced = spot;

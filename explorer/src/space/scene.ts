@@ -326,7 +326,7 @@ export class Scene {
     this.marked = null;
     if (this.#fingers.size > 1) return;
     const spot = this.#hit(...this.#placed(event));
-    if (!spot) return;
+    if (!spot || !this.machine.moves(spot.link)) return;
     this.#pulling = true;
     this.machine.take(spot);
     this.events.taken();
@@ -337,7 +337,7 @@ export class Scene {
     if (!old) {
       if (event.pointerType !== "mouse") return;
       const link = this.#hit(...this.#placed(event))?.link ?? null;
-      this.root.style.cursor = link === null ? "" : "move";
+      this.root.style.cursor = link !== null && this.machine.moves(link) ? "move" : "";
       this.mark(link);
       this.events.pointed(link);
       return;
