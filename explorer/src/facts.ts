@@ -37,7 +37,7 @@ export function factsOf(
   const facts: Fact[] = [];
   const record = model.outputs[0];
   const turning = isAngle(linkage);
-  const size = (value: number) => (turning ? angle(value) : `${number(value)} ${model.unit}`);
+  const size = (value: number) => (turning ? angle(value) : `${number(linkage.sizes.clean(value))} ${model.unit}`);
   if (record) {
     const value = output(linkage, pose, 0);
     const text = size(turning ? inLap(value) : value);
@@ -81,7 +81,7 @@ export function factsOf(
     if (low === undefined) continue;
     const full = cycle.turns === 1 ? t("full turns") : t("repeats after {turns} turns", { turns: cycle.turns });
     // that of a slide is rounded, which may leave 4e-14
-    const from = drive.turning ? angle(low) : number(Math.abs(low) < linkage.sizes.near ? 0 : low);
+    const from = drive.turning ? angle(low) : number(linkage.sizes.clean(low));
     const part = `${from} … ${driveText({ drive, model }, high!).replace(" ", "\u00a0")}`;
     const name = t("Range of the drive") + (model.drives[1] ? `: ${linkage.driveName(k)}` : "");
     facts.push({ name, text: here && cycle.full ? full : part });

@@ -97,6 +97,11 @@ export class Sizes {
     return this.gap(k, m) <= this.near;
   }
 
+  /** A length or a coordinate as it is shown: what rounding leaves of 0 is 0. */
+  clean(value: number): number {
+    return Math.abs(value) < this.near ? 0 : value;
+  }
+
   /** How far a place of its link lies left of a line. */
   leftOf(line: number, x: number, y: number): number {
     const [c, s] = this.line(line);

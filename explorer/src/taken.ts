@@ -43,7 +43,10 @@ export function drawingOf(linkage: Linkage): { drawing?: Drawing; other: string[
   const { locks, rulers } = rest;
   return {
     drawing: {
-      knots: [...(joints as Knot[]), ...points],
+      knots: [...(joints as Knot[]), ...points].map((knot) => ({
+        ...knot,
+        at: knot.at.map((value) => sizes.clean(value)) as Pair,
+      })),
       frame: names[model.frame]!,
       drives: model.drives.map(({ joint }) => joint),
       unit: model.unit,
