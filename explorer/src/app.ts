@@ -307,8 +307,9 @@ export class App implements Page {
   open(model: Model, drive?: number): void {
     this.say("");
     if (this.motion.linkage) this.#remember("motion");
-    this.motion.open(model, this.views[this.view]?.title && this.view);
+    const drawnIn = this.views[this.view]?.title && this.view;
     this.show("motion");
+    this.motion.open(model, drawnIn);
     if (drive === undefined) this.motion.run();
     else this.motion.transport.pick(drive);
     // what had the focus is out of sight

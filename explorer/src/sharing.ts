@@ -11,6 +11,8 @@ import type { Page } from "./view";
 export interface Shared {
   document: LinkageDocument;
   name: string;
+  /** Its name in other languages, if it has them. */
+  names?: Model["names"];
   source: string;
   drive: number;
   /** Whether it has other sizes than what its name and its source stand for. */
@@ -32,10 +34,10 @@ export function isOf(model: Model, document: LinkageDocument): boolean {
 
 export function sharedOf(motion: MotionView, withModel: boolean): Shared {
   const { active, drives, model } = motion.linkage;
-  const { name, source } = model;
+  const { name, names, source } = model;
   const document = motion.document();
   const whole = withModel && !source ? { model: { ...model, document: {} } } : {};
-  return { document, name, source, drive: drives[active] ?? 0, changed: motion.changed, ...whole };
+  return { document, name, names, source, drive: drives[active] ?? 0, changed: motion.changed, ...whole };
 }
 
 /** What the text behind # carries; an error if it is none. */
@@ -46,8 +48,8 @@ async function unshared(text: string): Promise<Shared> {
 }
 
 /** The model of what a link carries: from the library, from the link itself, or from the machine of its name. */
-async function modelOf({ document, name, source, model }: Shared, page: Page): Promise<Model> {
-  if (page.served) return page.ask<Model>("open_document", { document, name, source });
+async function modelOf({ document, name, names = {}, source, model }: Shared, page: Page): Promise<Model> {
+  if (page.served) return { ...(await page.ask<Model>("open_document", { document, name, source })), names };
   const found = model ? { ...model, document } : await page.ask<Model>("open", { id: source });
   if (!isOf(found, document)) throw another();
   return found;
