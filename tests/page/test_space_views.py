@@ -123,6 +123,57 @@ def test_header_structure_and_save_are_of_the_machine_in_space(server, chromium)
     browser.close()
 
 
+def test_the_way_back_from_space_keeps_the_name_in_the_language_of_the_page(server, tab):
+    """And a panel that was scrolled begins at its top for another machine."""
+    page = tab(width=1440, height=500, locale="de-DE").open(server.address).machine("umbrella")
+    side = page.page.locator(".motion .side")
+    side.evaluate("panel => (panel.scrollTop = 200)")
+    page.machine("lambda")
+    assert side.evaluate("panel => panel.scrollTop") == 0
+    address = page.page.evaluate("location.hash")
+    page.machine("umbrella")
+    page.until(f"location.hash !== '{address}'")  # it is kept
+    page.page.wait_for_timeout(500)
+    name = entry("umbrella").name.in_language("de")
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-id="bennett"]').click()
+    page.page.get_by_role("link", name="Zeichnen").click()
+    card = page.page.locator('[data-begin="hand"]')
+    card.wait_for()
+    assert card.inner_text() == f"{name} bearbeiten"
+    card.click()  # all joints of the stick lie on the axis x = 0
+    places = page.page.evaluate("gruebler.views.build.drawing.knots.map(({ at }) => at[0])")
+    assert sorted(map(abs, places))[:3] == [0, 0, 0]
+
+
+def test_the_frame_is_not_traced_and_a_click_leaves_no_ring(server, chromium):
+    """What is pressed there turns the view, as beside the machine."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/bennett.html#en")
+    page.get_by_role("button", name="Pause").click()
+    moves = page.evaluate("gruebler.linkage.data.names.map((name, link) => [name, gruebler.linkage.moves(link)])")
+    fixed = [name for name, moving in moves if not moving]
+    assert fixed == [entry("bennett").placed().mechanism.frame]
+    picture = page.locator(".stage > svg")
+    box = picture.bounding_box()
+    tips = {}
+    for across in range(1, 30):
+        for down in range(1, 20):
+            x, y = box["x"] + across * box["width"] / 30, box["y"] + down * box["height"] / 20
+            page.mouse.move(x, y)
+            tips.setdefault(page.evaluate("gruebler.scene.marked"), (x, y))
+        if len(tips) == 1 + len(moves):
+            break
+    wide = page.locator('[data-panel="measures"] .wide')
+    frame = [moving for _, moving in moves].index(False)
+    page.mouse.click(*tips[frame])
+    assert wide.count() == 0
+    assert picture.evaluate("e => e.matches(':focus') && getComputedStyle(e).outlineStyle") == "none"
+    page.mouse.click(*tips[(frame + 1) % len(moves)])
+    assert wide.count() == 1
+    assert errors == []
+    browser.close()
+
+
 def test_a_machine_in_space_is_left_without_a_look_at_another_one(server, chromium):
     """Its structure was preceded by the machine with which the page begins, with buttons that could be pressed."""
     browser, page, errors = browsed_at(chromium, server.address + "space/bennett.html#en")
