@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { TURN, wrapped } from "../src/cycle";
+import { factsOf } from "../src/facts";
 import { Linkage } from "../src/linkage";
 import {
   deadCentres,
@@ -158,6 +159,14 @@ test("a slider-crank: way, velocity, acceleration, transmission angle, dead cent
   dead.sort(([one], [other]) => one - other);
   near(dead.flat(), [line, rod + crank, line + Math.PI, rod - crank], 1e-6);
   close(leastTransmission(linkage)!.mu, Math.PI / 2 - Math.asin(crank / rod));
+});
+
+test("an output that is 0 but for rounding is told as 0", () => {
+  for (const theta of [1.7, 2, 2.5, 3, 4, 4.5]) {
+    const linkage = new Linkage(sliderCrank(70, 70, 0, theta)); // folded: its slider is on the pivot of the crank
+    const [told] = factsOf(linkage, { dead: [], travel: null, least: null }, (angle) => angle);
+    assert.ok(told!.text.startsWith("0 "), told!.text);
+  }
 });
 
 test("zeros of functions", () => {
