@@ -31,6 +31,7 @@ from gruebler.base.errors import GrueblerError, RunError
 from gruebler.base.private_folder import private_folder
 from gruebler.base.text import LANGUAGES, error_in_language, message, reason_of
 from gruebler.page.page import module_text, served_page, style_policy
+from gruebler.page.requests import error_on_page
 from gruebler.page.workers import CancelledError, Workers
 
 LARGEST = 400_000
@@ -161,7 +162,7 @@ class ExplorerServer:
             result = await self._workers.ask(method, asked.params, lang, lambda _: None, asyncio.Event())
             content = {"result": result}
         except GrueblerError as error:
-            content = {"error": error_in_language(error, lang)}
+            content = {"error": error_on_page(error, lang)}
         return Response(msgspec.json.encode(content), media_type="application/json", headers=_HEADERS)
 
     async def _nothing(self, _: Request) -> Response:
@@ -298,7 +299,7 @@ class _Conversation:
         except CancelledError:
             return {"cancelled": True}
         except GrueblerError as error:
-            return {"error": error_in_language(error, message.lang)}
+            return {"error": error_on_page(error, message.lang)}
         return {"result": result}
 
     async def _send(self, content: dict[str, Any]) -> None:
