@@ -9,7 +9,7 @@ import { halfOf, type NamePlace, namePlace, nameSpots } from "./names";
 import { direction, type Pair, place } from "./rows";
 import type { Viewport } from "./viewport";
 
-export const INK = 8; // pixels from a name to an arrow
+const INK = 8; // pixels from a name to an arrow
 const RIM_PLACES: readonly Pair[] = [135, 45, -135, -45].map((a) => [Math.cos(a * DEGREE), Math.sin(a * DEGREE)]);
 const LETTER = 20; // from a joint to its letter
 

@@ -24,7 +24,7 @@ export function readingsOf(linkage: Linkage): Reading[] {
     const [[x, y], [u, v]] = ends;
     const length = `${number(Math.hypot(u - x, v - y), 5)} ${linkage.model.unit}`.trim();
     const text = `${length}, ${angle(Math.atan2(v - y, u - x), 5)}`;
-    return [{ name: `${found[0]![1]} – ${found[1]![1]}`, text, ends }];
+    return [{ name: `${found[0]![1]} ↔ ${found[1]![1]}`, text, ends }];
   });
 }
 

@@ -6,8 +6,8 @@ import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import type { Arrow } from "./forces";
 import { DRIVEN, DRIVING, placed, STANDING, SUPPORT } from "./ground";
-import { away as apart, clearAbout, convexHull, middleOf, pathThrough, sidesOf, toHull } from "./hull";
-import { clearOf, INK, type Label, labelsOf } from "./labels";
+import { clearAbout, convexHull, middleOf, pathThrough, sidesOf, toHull } from "./hull";
+import { clearOf, type Label, labelsOf } from "./labels";
 import { number as numberText } from "./language";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
@@ -24,9 +24,7 @@ const LINE = 15; // pixels that names are apart
 const MOST_CLEAR = 40; // names that look for a place of their own in every picture
 const TOOLS = 218; // down to where names are clear of the buttons over the picture
 const BESIDE = 56; // from the right edge of the picture to the left one of these
-const NARROW = 500; // pixels: pictures in which only names that tell their link are drawn
-const LOST = 40; // pixels from its body to a name that no one would take for its own
-const MISTAKEN = 14; // pixels that a name is nearer to another body than to its own, for which it is taken
+const NARROW = 500; // pixels: pictures in which a name that would be cut is left out
 const NEAR = 16; // places of a letter of which others are twice as far
 const RULE = 34; // from the left edge to where the numbers of the grid end
 const RING = 6; // the radius of a target
@@ -270,7 +268,7 @@ export class Scene {
       const clear = (of: Pair[][]) => (at: Pair) => !touching(at) && of.every((one) => clearOf(one, half, at));
       const right = (v: number) => width - (v < low ? BESIDE : 0);
       const seen = ([u, v]: Pair) => u > half + RULE && u + half < right(v);
-      const free = clear(hulls[k]!.length ? [...arrows, buttons] : drawn);
+      const free = clear(hulls[k]!.length ? arrows : drawn);
       if (hulls[k]!.length) {
         // of a plate upon which it lies only the edges are others
         const mine = middleOf(hulls[k]!);
@@ -292,13 +290,7 @@ export class Scene {
       let y = top;
       const way = y < (touching([x, y])?.y ?? 0) ? -1 : 1;
       for (let other = touching([x, y]); other; other = touching([x, y])) y = other.y + way * LINE;
-      const far = (body: readonly Pair[]) => Math.min(...[-half, 0, half].map((d) => toHull(body, x + d, y - 4)));
-      const own = hulls[k]!.length ? far(hulls[k]!) : apart([x, y], left, top);
-      // what is left out comes back a little later, so that it does not flicker
-      const sure = element.getAttribute("display") === "none" ? INK : 0;
-      const others = hulls[k]!.length ? hulls.filter((one, other) => other !== k && one.length).map(far) : [];
-      const lost = own > Math.min(LOST, ...others.map((one) => one + MISTAKEN)) - sure;
-      const hidden = width < NARROW && (lost || x + half > right(y));
+      const hidden = width < NARROW && x + half > right(y);
       put(element, { display: hidden ? "none" : "inline" });
       if (hidden) continue;
       taken.push({ x, y, half });

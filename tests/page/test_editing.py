@@ -692,7 +692,7 @@ def test_a_measurement_line_follows_the_motion(tab, crank_rocker):
             "const [c, s] = [pose.turns[2 * link], pose.turns[2 * link + 1]];"
             "return [pose.places[2 * link] + c * u - s * v, pose.places[2 * link + 1] + s * u + c * v]; })()"
         )
-        said = facts.locator("div", has_text="R(frame-crank) – K1").locator("dd").inner_text()
+        said = facts.locator("div", has_text="frame – crank ↔ K1").locator("dd").inner_text()
         length, unit, degrees = said.replace("−", "-").replace("°", "").replace(",", "").split()
         assert unit == "mm"
         assert float(length) == pytest.approx(math.hypot(x, y), rel=1e-4)
@@ -703,7 +703,7 @@ def test_a_measurement_line_follows_the_motion(tab, crank_rocker):
     field = page.page.locator("[data-field=point-name-0]")
     field.fill("tip")
     field.press("Enter")
-    page.until(f"{ROOT}.querySelector('.facts').textContent.includes('– tip')")
+    page.until(f"{ROOT}.querySelector('.facts').textContent.includes('↔ tip')")
     kept = page.page.evaluate("gruebler.motion.document().page.rulers")
     assert kept == [["R(frame-crank)", "tip"]]
     page.page.evaluate("gruebler.motion.undo(), gruebler.motion.undo()")

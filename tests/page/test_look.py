@@ -77,7 +77,7 @@ def test_a_drive_is_called_as_what_it_moves(tab, server):
         "excavator": ["boom cylinder", "stick cylinder", "bucket cylinder"],
         "lamp": ["arm 1", "arm 2"],
         "diff": ["sun", "ring gear"],
-        "pent": ["R(1-2)", "R(1-5)"],
+        "pent": ["1 – 2", "1 – 5"],
     }.items():
         assert page.machine(machine).page.evaluate(names) == drives
     page = tab(locale="de-DE").open(server.address).machine("excavator")

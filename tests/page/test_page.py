@@ -196,7 +196,7 @@ def test_from_a_chain_to_a_moving_mechanism(tab, server):
     assert "n\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}6" in view.locator(".described").inner_text()
     # Watt's chain: a ternary or a binary frame, each with two joints that no symmetry exchanges
     frames, drives = (view.locator(f'[data-list="{key}"] .card') for key in ("inversions", "driven"))
-    assert frames.locator("b").all_text_contents() == ["Frame 0", "Frame 2"]
+    assert frames.locator("b").all_text_contents() == ["Frame 1", "Frame 3"]
     # the page chooses the first of each, and marks it
     pressed = "all => all.map((e) => e.ariaPressed)"
     assert [cards.evaluate_all(pressed) for cards in (frames, drives)] == [["true", "false"]] * 2
@@ -205,7 +205,7 @@ def test_from_a_chain_to_a_moving_mechanism(tab, server):
         view.locator(f'[data-list="inversions"] .card:nth-child({number + 1})[aria-pressed="true"]').wait_for()
         assert drives.count() == 2
         numbers = frames.nth(number).locator("svg text").all_text_contents()
-        assert sorted(numbers) == list("012345")
+        assert sorted(numbers) == list("123456")
         assert frames.locator("b").nth(number).inner_text().removeprefix("Frame ") in numbers
     drives.nth(1).click()
     page.until("gruebler.views.structure.text.includes('drive=')")

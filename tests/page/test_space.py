@@ -470,7 +470,7 @@ def test_sizes_are_typed_undone_and_refused_with_the_reason(server, chromium):
     page.locator("header small", has_text="geändert").wait_for(state="attached")
     changed = resized(entry("wiper_rssr").placed(), {"crank": (50.5, None)})
     swing = np.degrees(gr.measures(changed).travel)
-    told = page.locator('[data-panel="measures"] dt:text-is("Schwingwinkel Wischerhebel") + dd')
+    told = page.locator('[data-panel="measures"] dt:text-is("Wischerhebel: Schwingwinkel") + dd')
     assert float(told.inner_text().rstrip("°").replace(",", ".")) == pytest.approx(swing, rel=1e-3)
     with page.expect_download() as taken:
         page.keyboard.press("Control+s")

@@ -14,7 +14,7 @@ from gruebler.files.load_writing import loads_to_json
 from gruebler.mechanics.forces import Loads, RigidBody, Spring
 from gruebler.mechanics.forces.springs import check_between_links
 from gruebler.mechanics.linkages import Linkage, LinkPoint
-from gruebler.mechanics.linkages.elements import Pin, Pose2D
+from gruebler.mechanics.linkages.elements import Pose2D
 from gruebler.mechanics.linkages.points import PointLike, points_of
 from gruebler.page.params import DrawnBefore
 from gruebler.page.reader_loads import loads_at_hand
@@ -31,7 +31,13 @@ def with_loads_before(model: dict[str, Any], linkage: Linkage, before: DrawnBefo
     if loads == Loads():
         return model
     page = model["document"].get("page") or {}
-    change = _Change(old, linkage, before.links, before.letters, str(page.get("letters", "")).split())
+    change = _Change(
+        old=old,
+        new=linkage,
+        drawn=before.links,
+        letters_before=before.letters,
+        letters=str(page.get("letters", "")).split(),
+    )
     kept = loads_to_json(change.carried(loads), linkage, speed if change.same_drive else None)
     bars = (before.document.get("page") or {}).get("bars") or []
     if bars != "steel":
@@ -42,7 +48,7 @@ def with_loads_before(model: dict[str, Any], linkage: Linkage, before: DrawnBefo
     return model | {"document": document}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class _Change:
     """From a linkage to one that was drawn out of it."""
 
@@ -100,7 +106,7 @@ class _Change:
         """Where the joints of a link were, and are."""
         for k, m in self.joints.items():
             pin, other = self.old.elements.get((k, link)), self.new.elements.get((m, name))
-            if isinstance(pin, Pin) and isinstance(other, Pin):
+            if pin and other and pin.is_pin and other.is_pin:
                 yield (
                     complex(*_pose(self.old, link).put(pin.x, pin.y)),
                     complex(*_pose(self.new, name).put(other.x, other.y)),
