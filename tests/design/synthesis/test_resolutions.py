@@ -220,7 +220,7 @@ def test_derivatives_of_the_conditions_of_points_are_difference_quotients(kind):
     assert np.abs(quotients - family.equations(rows)[1]).max() < 1e-6
 
 
-@pytest.mark.parametrize("count", [3, 4])
+@pytest.mark.parametrize("count", [pytest.param(3, marks=pytest.mark.slow), 4])
 @pytest.mark.parametrize(
     ("sort", "demands"), [("sensitivity", Demands()), ("near-pivots", Demands(near_pivots=[(0, -2)]))]
 )

@@ -87,7 +87,7 @@ def test_no_four_bar_of_a_sample_has_pivots_nearer_to_preferred_ones(places, deg
     assert nearer == 0
 
 
-@pytest.mark.parametrize("count", [2, 3, 4])
+@pytest.mark.parametrize("count", [pytest.param(2, marks=pytest.mark.slow), 3, 4])
 def test_pivots_of_a_known_linkage_are_found_again(count):
     bar = FourBar(2, 6, 5, 7).linkage({"P": (3.0, 2.5)})
     from gruebler.mechanics.kinematics import move
