@@ -79,12 +79,13 @@ export function factsOf(
     const here = k === linkage.active;
     const [low, high] = (here ? [cycle.low, cycle.high] : model.span.stops?.[k]) ?? [];
     if (low === undefined) continue;
-    const full = cycle.turns === 1 ? t("full turns") : t("repeats after {turns} turns", { turns: cycle.turns });
+    const whole = here && cycle.full;
+    const note = whole && cycle.turns > 1 ? t("repeats after {turns} turns", { turns: cycle.turns }) : undefined;
     // that of a slide is rounded, which may leave 4e-14
     const from = drive.turning ? angle(low) : number(linkage.sizes.clean(low));
     const part = `${from} … ${driveText({ drive, model }, high!).replace(" ", "\u00a0")}`;
     const name = t("Range of the drive") + (model.drives[1] ? `: ${linkage.driveName(k)}` : "");
-    facts.push({ name, text: here && cycle.full ? full : part });
+    facts.push({ name, text: whole ? t("full turns") : part, ...(note && { note }) });
   }
   return [...facts, ...readingsOf(linkage)];
 }

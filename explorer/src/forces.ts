@@ -9,12 +9,11 @@ import type { Fall } from "./falling";
 import { number, t } from "./language";
 import type { Linkage } from "./linkage";
 import { type Acting, type Change, LoadForm } from "./loads";
-import type { Model } from "./model";
+import type { End, Model, Spring } from "./model";
 import type { PlaneTransport } from "./planetransport";
 import { Plot } from "./plot";
 import { Polar, type Vectors, vectorAt } from "./polar";
 import { type Pair, place } from "./rows";
-import type { End, Spring } from "./springs";
 import type { Column } from "./table";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
@@ -294,7 +293,8 @@ export class Forces {
   }
 
   get springs(): readonly Spring[] {
-    return this.#shown ? this.#form.springs : [];
+    const { model } = this.#view.linkage;
+    return (this.#model === model && this.#form.springs) || (model.springs ?? []);
   }
 
   /** The forces on the stage where the drive is, against the largest of the range. */

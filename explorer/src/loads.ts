@@ -3,7 +3,8 @@
 import { h, option, renew } from "./dom";
 import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
-import { type End, endsOf, type Spring } from "./springs";
+import type { End, Spring } from "./model";
+import { endsOf } from "./springs";
 import { lengthUnit } from "./wording";
 
 const MOST = 1e9;
@@ -54,8 +55,9 @@ export class LoadForm {
     this.changed();
   }
 
-  get springs(): readonly Spring[] {
-    return this.element.firstChild ? this.#acting.springs : [];
+  /** None while the library has not said what acts. */
+  get springs(): readonly Spring[] | null {
+    return this.element.firstChild && this.#acting.springs;
   }
 
   show(linkage: Linkage, acting: Acting): void {

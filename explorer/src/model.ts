@@ -91,6 +91,22 @@ export interface PairRecord {
 /** A place that is to be met; of a position its angle in degrees, too. */
 export type Target = [number, number, number?];
 
+/** A link and a place there. */
+export type End = [link: number, x: number, y: number];
+
+/** A spring or damper as the library knows it: angles in radians; of a torsion spring the places of its ends say nothing. */
+export interface Spring {
+  turning: boolean;
+  ends: [End, End];
+  stiffness: number;
+  /** The length or angle at which only the preload acts. */
+  free: number;
+  preload: number;
+  damping: number;
+  /** The number of a spring of the library that has a law of its own, such as that of a gas. */
+  known: number | null;
+}
+
 export interface Model {
   version: number;
   name: string;
@@ -128,6 +144,8 @@ export interface Model {
   span: { turns: number; between: Pair | null; stops?: (Pair | null)[] };
   outputs: OutputRecord[];
   shapes: ShapeRecord[];
+  /** Those that act on it as it was opened. */
+  springs?: Spring[];
 }
 
 /** The chain of a linkage as text, with its frame and its drives. */

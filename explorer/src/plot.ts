@@ -28,11 +28,10 @@ export interface Series {
 
 export const WIDTH = 300;
 export const HEIGHT = 140;
-const LEFT = 44;
 const RIGHT = 10;
 const TOP = 20;
 const BOTTOM = 30;
-const WIDE = WIDTH - LEFT - RIGHT;
+const TICK = 6.6; // pixels of a digit at an axis
 const LONG = 39; // letters of a title beside which a value has no room
 const FULL = 45; // letters of a title that fill its line
 const EVEN = 200; // places of the drive at which values are compared
@@ -46,7 +45,7 @@ export class Plot {
     role: "img",
   });
   readonly #curve = svg("path.curve", {});
-  readonly #band = svg("rect.band", { x: LEFT, width: WIDE, height: 0 });
+  readonly #band = svg("rect.band", { height: 0 });
   readonly #zero = svg("path.axis", {});
   readonly #cursor = svg("path.cursor", {});
   readonly #here = svg("circle.here", { r: 3, cy: -9 });
@@ -55,6 +54,9 @@ export class Plot {
   readonly #beyond = svg("path.here", {});
   readonly #mesh = svg("path.mesh", {});
   readonly #marks = svg("path.curve", { stroke: "var(--purple)" });
+  readonly #frame = svg("path.axis", { fill: "none" });
+  /** What is enlarged ends at the axes. */
+  readonly #inner = svg("svg", {}, this.#curve, this.#beyond, this.#marks);
   readonly #along = svg("text", { x: WIDTH - RIGHT, y: HEIGHT - 3, "text-anchor": "end" });
   readonly #upward = svg("g");
   readonly #across = svg("g");
@@ -75,22 +77,16 @@ export class Plot {
     pick: (drive: number) => void,
     private readonly span = new Span(() => this.redraw()),
   ) {
-    const frame = svg("path.axis", {
-      d: `M${LEFT} ${TOP}V${HEIGHT - BOTTOM}H${WIDTH - RIGHT}`,
-      fill: "none",
-    });
     const { element } = this;
-    // what is enlarged ends at the axes
-    const inner = { x: LEFT, y: 0, width: WIDE, height: HEIGHT, viewBox: `${LEFT} 0 ${WIDE} ${HEIGHT}` };
     element.append(
       this.#band,
       this.#mesh,
       this.#upward,
       this.#across,
       this.#along,
-      frame,
+      this.#frame,
       this.#zero,
-      svg("svg", inner, this.#curve, this.#beyond, this.#marks),
+      this.#inner,
       this.#cursor,
       this.#here,
       this.#title,
@@ -98,7 +94,7 @@ export class Plot {
     );
     const partOf = (x: number) => {
       const box = element.getBoundingClientRect();
-      return (((x - box.left) / box.width) * WIDTH - LEFT) / WIDE;
+      return (((x - box.left) / box.width) * WIDTH - this.span.left) / this.#wide;
     };
     const driveOf = (event: MouseEvent) => {
       const [first, last] = this.domain;
@@ -143,7 +139,7 @@ export class Plot {
       (event) => {
         const along = event.deltaX || (event.shiftKey ? event.deltaY : 0);
         if (event.ctrlKey || event.metaKey) this.span.zoom(Math.exp(-0.005 * event.deltaY), partOf(event.clientX));
-        else if (along && !this.span.whole) this.span.pan(along / WIDE);
+        else if (along && !this.span.whole) this.span.pan(along / this.#wide);
         else return;
         event.preventDefault();
       },
@@ -166,6 +162,10 @@ export class Plot {
     const { low, high } = plotRange(series.values.filter(within), series.same, drives.filter(within));
     const room = 0.06 * (high - low);
     [this.#low, this.#high] = [low - room, high + room];
+    const upward = (series.degrees ? degreeValues : roundValues)(this.#low, this.#high, 3);
+    const letters = Math.max(...upward.map((value) => number(value, 7).length));
+    if (this.span.widen(TICK * letters + 6)) return; // all of them anew
+    const { left } = this.span;
     const across = drives.map((drive) => this.#x(drive));
     const sides = series.values.map((value) => Number(value > this.#high) - Number(value < this.#low));
     const places = series.values.map((value, k) => {
@@ -177,41 +177,44 @@ export class Plot {
     const ring = ([x, y]: Pair) => `M${this.#x(x)} ${this.#y(y) - 4}a4 4 0 1 0 .1 0`;
     put(this.#marks, { d: (series.marks ?? []).map(ring).join("") });
     const crossed = this.#low < 0 && this.#high > 0;
-    put(this.#zero, { d: crossed ? `M${LEFT} ${this.#y(0).toFixed(1)}H${WIDTH - RIGHT}` : "" });
+    put(this.#zero, { d: crossed ? `M${left} ${this.#y(0).toFixed(1)}H${WIDTH - RIGHT}` : "" });
     const foot = HEIGHT - BOTTOM;
     const top = Math.max(TOP, Math.min(foot, this.#y(series.floor ?? -Infinity)));
-    put(this.#band, { height: (foot - top).toFixed(1), y: top.toFixed(1) });
+    const wide = this.#wide;
+    put(this.#frame, { d: `M${left} ${TOP}V${foot}H${WIDTH - RIGHT}` });
+    put(this.#inner, { x: left, width: wide, height: HEIGHT, viewBox: `${left} 0 ${wide} ${HEIGHT}` });
+    put(this.#band, { x: left, width: wide, height: (foot - top).toFixed(1), y: top.toFixed(1) });
     if (this.element.getAttribute("aria-label") !== series.title) {
       this.#title.textContent = series.title;
       this.#along.textContent = `${this.unit === "s" ? t("Time") : t("Drive")} [${this.unit}]`;
-      const letters = series.title.length;
-      put(this.#value, { y: letters > LONG ? TOP + 10 : 13 });
-      this.#title.style.fontSize = letters > FULL ? `${(12 * FULL) / letters}px` : "";
+      const long = series.title.length;
+      put(this.#value, { y: long > LONG ? TOP + 10 : 13 });
+      this.#title.style.fontSize = long > FULL ? `${(12 * FULL) / long}px` : "";
       this.#curve.style.stroke = `var(${series.colour})`;
       put(this.element, { "aria-label": series.title });
     }
-    this.#showTicks(this.domain);
+    this.#showTicks(this.domain, upward);
     this.at(this.drive);
   }
 
   /** Round values at both axes; they are made anew where they are others. */
-  #showTicks(domain: Pair): void {
+  #showTicks(domain: Pair, upward: number[]): void {
     const unit = this.#scale;
     const [first, last] = [domain[0] / unit, domain[1] / unit];
     const [low, high] = [this.#low, this.#high];
     const across = (unit === 1 ? roundValues : degreeValues)(first, last, 4);
-    const upward = (this.series!.degrees ? degreeValues : roundValues)(low, high, 3);
-    const told = [first, last, low, high].join();
+    const { left } = this.span;
+    const told = [first, last, low, high, left].join();
     if (told === this.#ticked) return;
     this.#ticked = told;
     const lines = [
-      ...upward.map((value) => `M${LEFT} ${this.#y(value).toFixed(1)}H${WIDTH - RIGHT}`),
+      ...upward.map((value) => `M${left} ${this.#y(value).toFixed(1)}H${WIDTH - RIGHT}`),
       ...across.map((value) => `M${this.#x(value * unit).toFixed(1)} ${TOP}V${HEIGHT - BOTTOM}`),
     ];
     put(this.#mesh, { d: lines.join("") });
     relabel(
       this.#upward,
-      upward.map((value) => [LEFT - 4, this.#y(value) + 4, value]),
+      upward.map((value) => [left - 4, this.#y(value) + 4, value]),
       "end",
     );
     relabel(
@@ -243,9 +246,13 @@ export class Plot {
     return this.unit === "°" ? DEGREE : 1;
   }
 
+  get #wide(): number {
+    return WIDTH - this.span.left - RIGHT;
+  }
+
   #x(drive: number): number {
     const [first, last] = this.domain;
-    return LEFT + ((drive - first) / (last - first || 1)) * WIDE;
+    return this.span.left + ((drive - first) / (last - first || 1)) * this.#wide;
   }
 
   #y(value: number): number {

@@ -48,6 +48,7 @@ export class Plots {
   /** Empty plots: of another linkage, with other points, in another language. */
   arrange(linkage: Linkage): void {
     const { drive, model, sizes } = linkage;
+    this.#span.narrow();
     const record = model.outputs[0];
     const series = record ? outputSeries(linkage, record, (angle) => this.plottedAngle(linkage, angle)) : [];
     for (const { name, link, at } of sizes.points)

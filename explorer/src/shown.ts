@@ -1,7 +1,7 @@
 /** What of a linkage is shown, and in which colours. */
 
 import type { Arrow } from "./forces";
-import type { Spring } from "./springs";
+import type { Spring } from "./model";
 
 export interface Shown {
   curves: boolean;

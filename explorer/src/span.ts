@@ -1,18 +1,37 @@
-/** Which part of the drive's range plots show: one for all that stand together. */
+/** Which part of the drive's range plots show, and where it begins: one for all that stand together. */
 
 import type { Pair } from "./rows";
 
 /** So many times a range can be enlarged: as far as its rows still make a curve. */
 const MOST = 30;
+/** Left of the plots: as much as numbers mostly take. */
+const LEFT = 44;
 
 export class Span {
   /** Its ends, as parts of the range. */
   #ends: Pair = [0, 1];
+  /** Pixels for the numbers at their left, as many as the longest takes. */
+  left = LEFT;
 
   constructor(private readonly changed: () => void) {}
 
   get whole(): boolean {
     return this.#ends[1] - this.#ends[0] >= 1;
+  }
+
+  /** Whether the numbers need more room than they had. */
+  widen(left: number): boolean {
+    const wider = left > this.left;
+    if (wider) {
+      this.left = left;
+      this.changed();
+    }
+    return wider;
+  }
+
+  /** Of other plots. */
+  narrow(): void {
+    this.left = LEFT;
   }
 
   /** What is shown of a range. */

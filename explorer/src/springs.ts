@@ -1,24 +1,9 @@
 /** Springs and dampers between links: their ends, and how they are drawn. */
 
 import type { Linkage } from "./linkage";
+import type { End, Spring } from "./model";
 import { type Pair, place } from "./rows";
 import type { Viewport } from "./viewport";
-
-/** A link and a place there. */
-export type End = [link: number, x: number, y: number];
-
-/** As the library knows it: angles in radians; of a torsion spring the places of its ends say nothing. */
-export interface Spring {
-  turning: boolean;
-  ends: [End, End];
-  stiffness: number;
-  /** The length or angle at which only the preload acts. */
-  free: number;
-  preload: number;
-  damping: number;
-  /** The number of a spring of the library that has a law of its own, such as that of a gas. */
-  known: number | null;
-}
 
 /** Places at which a spring may end, with what they are called and their names: joints, then points. */
 export function endsOf(linkage: Linkage): [End, string, string][] {

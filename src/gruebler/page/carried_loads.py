@@ -16,8 +16,8 @@ from gruebler.mechanics.forces.springs import check_between_links
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.linkages.elements import Pose2D
 from gruebler.mechanics.linkages.points import PointLike, points_of
+from gruebler.page.known_loads import loads_at_hand
 from gruebler.page.params import DrawnBefore
-from gruebler.page.reader_loads import loads_at_hand
 
 
 def with_loads_before(model: dict[str, Any], linkage: Linkage, before: DrawnBefore) -> dict[str, Any]:

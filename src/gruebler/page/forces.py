@@ -18,10 +18,10 @@ from gruebler.mechanics.forces.acting import ActingLoads, moving_links
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
+from gruebler.page.known_loads import all_springs, springs_of
 from gruebler.page.model import spaced
 from gruebler.page.params import LoadedLinkage
 from gruebler.page.reader_loads import (
-    all_springs,
     amounts,
     by_law,
     law_text,
@@ -30,7 +30,6 @@ from gruebler.page.reader_loads import (
     origin_of_masses,
     outer_loads,
     point_masses,
-    springs_of,
     with_loads,
 )
 

@@ -27,6 +27,7 @@ from gruebler.mechanics.fourbar import LinkageType, grashof
 from gruebler.mechanics.kinematics.branches import labelled_groups
 from gruebler.mechanics.kinematics.plan import Dyad, Plan
 from gruebler.mechanics.linkages import Linkage
+from gruebler.page.known_loads import loads_at_hand, springs_of
 from gruebler.pictures.canvas.shapes import CircleShape, Polylines
 from gruebler.pictures.linkage.bodies import bearing_sides, ground_hatching
 from gruebler.pictures.linkage.element_pictures import round_parts
@@ -66,6 +67,7 @@ def with_document(model: dict[str, Any], linkage: Linkage, document: Mapping[str
     if document.get("loads"):
         loads, speed = loads_of_document(document, linkage)
         kept["loads"] = loads_to_json(loads, linkage, speed)
+        model = model | {"springs": springs_of(linkage, loads)}
     return model | {"document": model["document"] | kept}
 
 
@@ -169,6 +171,7 @@ def model_of(
         "outputs": _output(linkage, plan),
         "shapes": list(_shapes(posed)),
         "bearings": bearing_turns(posed),
+        "springs": springs_of(linkage, loads_at_hand({}, source, linkage)[0]),
     }
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -11,15 +11,15 @@ from gruebler.base.text import Message, joined, message
 from gruebler.base.units import metres_of
 from gruebler.files import linkage_from_json
 from gruebler.files.catalog_records import renamed_loads
-from gruebler.files.load_reading import loads_from_json, loads_of_document
+from gruebler.files.load_reading import loads_from_json
 from gruebler.files.load_writing import loads_to_json
 from gruebler.mechanics.forces import Curve, LoadFormula, Loads, RigidBody, Spring, TorsionSpring
 from gruebler.mechanics.forces.springs import check_between_links
 from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.page.known_loads import RATES, all_springs, loads_at_hand, spring_ends
 from gruebler.page.model import link_names
 from gruebler.page.params import LoadedLinkage, OuterLoad, OwnSpring
 from gruebler.structure.chain.pairs import Alphabet
-from gruebler.teaching.catalog import entries
 
 _POINT_MASSES = message("There are further masses at {places}.")
 _FROM_CATALOG = message("Masses as in the catalog.")
@@ -37,7 +37,6 @@ _QUANTITIES = {
     "omega": message("angular velocity"),
 }
 _STEEL_BAR = 7850 * 0.020 * 0.005  # kg/m: a cross-section of 20 mm by 5 mm
-_RATES = ("stiffness", "preload", "damping")
 _BLOCK = 0.020  # m: what a slider and other short links are long
 
 
@@ -70,16 +69,6 @@ def with_loads(asked: LoadedLinkage, lang: str) -> WithLoads:
     linkage = plain.renamed(names)
     named = loads_from_json(renamed_loads(table, names), linkage)
     return WithLoads(linkage, named, speed, {"loads": table, "bars": bars})
-
-
-def loads_at_hand(document: Mapping[str, Any], source: str, linkage: Linkage) -> tuple[Loads, float | None]:
-    """Loads of the document of a linkage, or of its catalog entry while its links are there; and the usual speed."""
-    entry = entries().get(source)
-    links = linkage.mechanism.chain.links
-    if document.get("loads") or entry is None or entry.loads is None or entry.chain().links != links:
-        return loads_of_document(document, linkage)
-    _, loads, speed = entry.loaded()
-    return loads, speed
 
 
 def _bodies(linkage: Linkage, loads: Loads, asked: LoadedLinkage) -> tuple[dict[str, RigidBody], list[int] | str]:
@@ -191,43 +180,16 @@ def point_masses(linkage: Linkage, loads: Loads, lang: str) -> str:
     return _POINT_MASSES.filled(places=places).in_language(lang)
 
 
-def all_springs(loads: Loads) -> tuple[Spring | TorsionSpring, ...]:
-    """Straight ones, then torsion springs."""
-    return (*loads.springs, *loads.torsion_springs)
-
-
-def springs_of(linkage: Linkage, loads: Loads) -> list[dict[str, Any]]:
-    """The springs, straight ones first, as the page sends them back."""
-    records: list[dict[str, Any]] = []
-    for known, spring in enumerate(all_springs(loads)):
-        turning, ends = isinstance(spring, TorsionSpring), _ends(linkage, spring)
-        free = spring.free_angle if isinstance(spring, TorsionSpring) else spring.free_length
-        scale = metres_of(linkage.unit) if turning else 1.0
-        rates = {rate: scale * getattr(spring, rate) for rate in _RATES} | {"free": free}
-        records.append({"turning": turning, "ends": ends, "known": None if spring.law is None else known, **rates})
-    return records
-
-
-def _ends(linkage: Linkage, spring: Spring | TorsionSpring) -> tuple[tuple[int, float, float], ...]:
-    """The links of its ends, and the places there; those of a torsion spring say nothing."""
-    index = linkage.mechanism.chain.index
-    if isinstance(spring, TorsionSpring):
-        return tuple((index(link), 0.0, 0.0) for link in spring.between)
-    places = [linkage.points_named(end) for end in spring.between]
-    pairs = ((near, far) for near in places[0] for far in places[1] if near.link != far.link)
-    return tuple((index(place.link), place.x, place.y) for place in next(pairs))
-
-
 def _own_springs(linkage: Linkage, loads: Loads, own: list[OwnSpring]) -> Loads:
     links = linkage.mechanism.chain.links
     known = all_springs(loads)
-    named = {_ends(linkage, each): each.between for each in loads.springs}  # ends that go with a point or a joint
+    named = {spring_ends(linkage, each): each.between for each in loads.springs}  # ends that go with a point or a joint
     springs, torsion_springs = [], []
     for number, each in enumerate(own):
         _check_number("link", max(end[0] for end in each.ends), links)
         _check_number("spring", each.known, known)
         scale = metres_of(linkage.unit) if each.turning else 1.0
-        rates = {rate: getattr(each, rate) / scale for rate in _RATES}
+        rates = {rate: getattr(each, rate) / scale for rate in RATES}
         law = None if each.known is None else known[each.known].law
         (first, *here), (second, *there) = each.ends
         if each.turning:
