@@ -292,8 +292,8 @@ export class Forces {
     return this.#opened() && this.#model === this.#view.linkage.model;
   }
 
-  get springs(): readonly Spring[] {
-    const { model } = this.#view.linkage;
+  /** The springs of a linkage: as they were typed, else as it was opened. */
+  springsOf(model: Model): readonly Spring[] {
     return (this.#model === model && this.#form.springs) || (model.springs ?? []);
   }
 

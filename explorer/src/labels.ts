@@ -22,6 +22,10 @@ export interface Label {
   /** Where it may stand, and which of these places it takes. */
   spots: (viewport: Viewport) => Pair[];
   taken: number;
+  /** The place that it takes at the end of a line; none if it stands beside its body. */
+  leader?: number | undefined;
+  /** Its link, of which it is the name. */
+  link?: number;
   /** The corners of its link. */
   hull?: (viewport: Viewport) => Pair[];
   /** Half its width, in pixels. */
@@ -76,7 +80,7 @@ export function labelsOf(linkage: Linkage): Label[] {
       sized,
       spots,
       taken: 0,
-      ...(!rim && { hull }),
+      ...(!rim && { hull, link }),
       half: halfOf(name),
       many: convexHull(joints()).length > 1,
     };

@@ -43,7 +43,7 @@ export class MotionView implements View, Editor, Driven {
   readonly shown: Shown = {
     ...AT_FIRST,
     forces: () => this.#arrows(),
-    springs: () => this.side.forces.springs,
+    springs: (linkage) => this.side.forces.springsOf(linkage.model),
   };
   linkage!: Linkage;
   dragging!: Dragging;

@@ -86,6 +86,22 @@ export function nameSpots(viewport: Viewport, { at, away, along = [0, 0], bar }:
   );
 }
 
+/** How much nearer a name is to its own body than to any other, in pixels. */
+export function nearerBy(
+  [x, y]: Pair,
+  half: number,
+  own: readonly Pair[],
+  others: readonly (readonly Pair[])[],
+): number {
+  let least = Infinity;
+  for (const d of [-half, 0, half]) {
+    let gap = 1e3;
+    for (const hull of others) gap = Math.min(gap, toHull(hull, x + d, y - 4));
+    least = Math.min(least, gap - toHull(own, x + d, y - 4));
+  }
+  return least;
+}
+
 /** Which of its spots a name takes, so that it is nearer to its own body than to any other and touches no other name:
  * the one before if it still does, else the first that does, also clear of grounds if it can, else the one that is
  * least wrong. */
@@ -97,15 +113,8 @@ export function clearSpot(
   before = 0,
   clear = (_: Pair) => true,
 ): number {
-  const half = halfOf(name);
   const score = (spot: Pair) => {
-    const [x, y] = spot;
-    let least = Infinity;
-    for (const d of [-half, 0, half]) {
-      let gap = 1e3;
-      for (const hull of others) gap = Math.min(gap, toHull(hull, x + d, y - 4));
-      least = Math.min(least, gap - toHull(own, x + d, y - 4));
-    }
+    let least = nearerBy(spot, halfOf(name), own, others);
     if (!free(spot)) least -= 1e4;
     const lost = clear(spot) ? 0 : 99;
     if (least > INK && !lost) return GOOD;

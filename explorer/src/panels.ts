@@ -11,6 +11,7 @@ import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
 import type { Kept } from "./locks";
 import type { LinkageDocument } from "./model";
+import { roundRows } from "./rounds";
 import { renameEnds } from "./rulers";
 import { cross } from "./shell";
 import { ownColour, type Shown } from "./shown";
@@ -63,9 +64,10 @@ export class SizeRows {
     // the only length of a link needs no other name
     const alone = ({ link }: Length) => sizes.filter((one) => one.link === link).length === 1;
     const rows = sizes.map((size) => sizeRow(editor, size, alone(size)));
-    const names = rows.map(([label]) => label!.outerHTML).join("");
+    const fixed = roundRows(editor.linkage);
+    const names = [...rows.map(([label]) => label!), ...fixed].map((one) => one.outerHTML).join("");
     const anew = names !== this.#names || !this.element.isConnected;
-    this.element.closest("details")!.hidden = !names; // wheels and cams have none
+    this.element.closest("details")!.hidden = !names;
     if (anew) {
       this.#names = names;
       this.#labels = rows.map(([label]) => label!);
@@ -78,7 +80,7 @@ export class SizeRows {
       });
       const more = lengths.length - sizes.length;
       const rest = more > 0 ? [h("p.note", {}, t("… {count} more", { count: more }))] : [];
-      renew(this.element, ...rows.flat(), ...this.#locks, ...rest);
+      renew(this.element, ...rows.flat(), ...this.#locks, ...rest, ...fixed);
     }
     sizes.forEach(({ link }, k) => {
       this.#labels[k]!.classList.toggle("chosen", link === editor.shown.chosen);

@@ -6,14 +6,17 @@ import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import type { Arrow } from "./forces";
 import { DRIVEN, DRIVING, placed, STANDING, SUPPORT } from "./ground";
-import { clearAbout, convexHull, middleOf, pathThrough, sidesOf, toHull } from "./hull";
+import { clearAbout, convexHull, middleOf, pathThrough, sidesOf, spotsAbout, toHull } from "./hull";
 import { clearOf, type Label, labelsOf } from "./labels";
 import { number as numberText } from "./language";
+import { besideAll, leaderOf } from "./leaders";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
-import { clearSpot, halfOf } from "./names";
+import type { ShapeRecord } from "./model";
+import { clearSpot, halfOf, nearerBy } from "./names";
 import { origin, type Pair, place, turn } from "./rows";
 import { readingsOf } from "./rulers";
+import { linesOf } from "./shapes";
 import { ownColour, type Shown } from "./shown";
 import { springLines } from "./springs";
 import type { Viewport } from "./viewport";
@@ -28,6 +31,11 @@ const NARROW = 500; // pixels: pictures in which a name that would be cut is lef
 const NEAR = 16; // places of a letter of which others are twice as far
 const RULE = 34; // from the left edge to where the numbers of the grid end
 const RING = 6; // the radius of a target
+const JOINT = 11; // from the middle of a joint to that of a name
+const BODY = 9; // from the middle of a bar to that of a name beside it
+const INK = 8; // from a name to an arrow or a ground
+const GAP = 5; // from the middle of a name to a ground beside which it still stands well
+const FOOT = 26; // below which are the numbers of the grid
 const RAIL = 6; // half the width of a rail with its hatching, and some room
 
 export class Scene {
@@ -50,6 +58,8 @@ export class Scene {
   );
   /** Beside arrows, how much they are. */
   readonly #values = svg("g", {});
+  /** From names to bodies beside which they have no place. */
+  readonly #leaders = svg("path", { fill: "var(--faint)", stroke: "var(--faint)" });
   readonly #springs = svg("path.spring-path", {});
   readonly #rulers = svg("path.ruler", {});
   readonly #circle = svg("circle.inflection", { r: 0 });
@@ -121,6 +131,7 @@ export class Scene {
     });
     this.#labels = shown.labels ? labelsOf(linkage) : [];
     front.append(
+      this.#leaders,
       ...this.#labels.map(({ element }) => element),
       ...this.#arrows,
       this.#values,
@@ -231,7 +242,7 @@ export class Scene {
         [x + dx, y + dy],
       ]),
     );
-    const springs = shown.springs().map((spring) => springLines(linkage, viewport, spring));
+    const springs = shown.springs(linkage).map((spring) => springLines(linkage, viewport, spring));
     arrows.push(...springs.map((parts) => convexHull(parts.flat())).filter((hull) => hull.length));
     const grounds = this.#pins
       .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
@@ -258,15 +269,35 @@ export class Scene {
       );
     const drawn = [...hulls.filter((hull) => hull.length), ...arrows, ...grounds, buttons];
     const order = [...this.#labels.entries()].sort(([, one], [, other]) => +!!one.many - +!!other.many);
+    const far: [number, Label][] = []; // names that have no place beside their bodies
+    const right = (v: number) => width - (v < low ? BESIDE : 0);
+    const pins = this.#pins.map(({ joint }) => [pixels(joint)]);
+    const touchingOne = (half: number) => (at: Pair) =>
+      taken.find(
+        (other) => half + other.half + 4 > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01,
+      );
+    const takes = ({ element, half }: Label, [x, y]: Pair) => {
+      put(element, { display: "inline" });
+      taken.push({ x, y, half });
+      drawn.push(lettersAt(x, y, half));
+      move(element, [x, y]);
+    };
+    /** At its place beside its body, though something is there. */
+    const stands = (label: Label, [left, top]: Pair) => {
+      const { element, half } = label;
+      const touching = touchingOne(half);
+      const x = Math.max(half + 2, Math.min(right(top) - half - 2, left)); // it is not cut
+      let y = top;
+      const way = y < (touching([x, y])?.y ?? 0) ? -1 : 1;
+      for (let other = touching([x, y]); other; other = touching([x, y])) y = other.y + way * LINE;
+      if (width < NARROW && x + half > right(y)) put(element, { display: "none" });
+      else takes(label, [x, y]);
+    };
     for (const [k, label] of order) {
-      const { element, half, name, spots } = label;
+      const { half, name, spots } = label;
       const places = spots(viewport);
-      const touching = (at: Pair) =>
-        taken.find(
-          (other) => half + other.half + 4 > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01,
-        );
+      const touching = touchingOne(half);
       const clear = (of: Pair[][]) => (at: Pair) => !touching(at) && of.every((one) => clearOf(one, half, at));
-      const right = (v: number) => width - (v < low ? BESIDE : 0);
       const seen = ([u, v]: Pair) => u > half + RULE && u + half < right(v);
       const free = clear(hulls[k]!.length ? arrows : drawn);
       if (hulls[k]!.length) {
@@ -284,19 +315,46 @@ export class Scene {
           label.taken,
           (at) => seen(at) && clear(grounds)(at),
         );
+        const [x, y] = places[label.taken]!;
+        const own = hulls[k]!.length > 2 && !toHull(hulls[k]!, x, y - 4); // on its plate
+        const alone = besideAll(pins, half, [x, y - 4], JOINT) && (own || besideAll(others, half, [x, y - 4], BODY));
+        const off = besideAll(grounds, half, [x, y - 4], GAP) && seen([x, y]) && free([x, y]);
+        if (!alone || !off || !(nearerBy([x, y], half, hulls[k]!, others) > 0)) {
+          far.push([k, label]);
+          continue;
+        }
+        label.leader = undefined;
       } else if (label.taken >= NEAR || !free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
-      const [left, top] = places[label.taken]!;
-      const x = Math.max(half + 2, Math.min(right(top) - half - 2, left)); // it is not cut
-      let y = top;
-      const way = y < (touching([x, y])?.y ?? 0) ? -1 : 1;
-      for (let other = touching([x, y]); other; other = touching([x, y])) y = other.y + way * LINE;
-      const hidden = width < NARROW && x + half > right(y);
-      put(element, { display: hidden ? "none" : "inline" });
-      if (hidden) continue;
-      taken.push({ x, y, half });
-      drawn.push(lettersAt(x, y, half));
-      move(element, [x, y]);
+      stands(label, places[label.taken]!);
     }
+    const outlines = far.length ? outlinesOf(linkage, viewport) : [];
+    const curves = far.length && shown.curves ? curvesOf(linkage, viewport) : [];
+    const lines: [Pair, Pair][] = [];
+    for (const [k, label] of far) {
+      const { half, link, spots } = label;
+      const others = hulls.filter((hull, other) => other !== k && hull.length);
+      others.push(...outlines.flatMap(([its, outline]) => (its === link ? [] : [outline])));
+      const wide = (outline: Pair[]) => Math.max(...outline.map(([x]) => x)) - Math.min(...outline.map(([x]) => x));
+      const homes = outlines.flatMap(([its, outline]) => (its === link && outline.length > 2 ? [outline] : []));
+      const home = homes.sort((one, other) => wide(other) - wide(one))[0] ?? [];
+      const blocked = [...arrows, ...grounds, buttons, ...curves];
+      const free = ([u, v]: Pair) =>
+        u > half + RULE &&
+        u + half < right(v) &&
+        v > 14 &&
+        v < height - FOOT &&
+        !taken.some((one) => half + one.half + 4 > Math.abs(u - one.x) && Math.abs(v - one.y) < LINE) &&
+        blocked.every((one) => besideAll([one], half, [u, v - 4], INK));
+      const found = leaderOf(hulls[k]!, home, others, half, free, lines, taken, label.leader);
+      label.leader = found?.chosen;
+      if (!found) {
+        stands(label, spots(viewport)[label.taken]!);
+        continue;
+      }
+      takes(label, found.at);
+      if (found.line) lines.push(found.line);
+    }
+    put(this.#leaders, { d: lines.map((line) => `${pathThrough(line)}${dotAt(line[0])}`).join("") });
     kinds.forEach((all, k) => {
       put(this.#arrows[k]!, { d: all.map((one) => arrow(...one)).join("") });
     });
@@ -304,8 +362,8 @@ export class Scene {
     const edges = [...hulls.flatMap(sidesOf), ...drawn.slice(hulls.filter((hull) => hull.length).length)];
     this.#putValues(kinds, edges);
     put(this.#springs, { d: springs.flat().map(pathThrough).join("") });
-    const lines = readingsOf(linkage).map(({ ends }) => pathThrough(ends.map((at) => viewport.screen(...at))));
-    put(this.#rulers, { d: lines.join("") });
+    const rulers = readingsOf(linkage).map(({ ends }) => pathThrough(ends.map((at) => viewport.screen(...at))));
+    put(this.#rulers, { d: rulers.join("") });
     this.#drawPole(linkage, shown);
   }
 
@@ -371,9 +429,48 @@ export class Scene {
   }
 }
 
+/** Places on the coupler curves, in pixels. */
+function curvesOf({ cycle, sizes }: Linkage, viewport: Viewport): Pair[][] {
+  const step = Math.ceil(cycle.values.length / 60);
+  return sizes.points.flatMap(({ at, link }) => {
+    const places: Pair[][] = [];
+    for (let row = 0; row < cycle.values.length; row += step)
+      places.push([viewport.screen(...place(cycle.rows, row, link, ...at))]);
+    return places;
+  });
+}
+
+/** What wheels, blocks and the like cover, in pixels: hulls, of what is open the pieces. */
+function outlinesOf({ model, pose, sizes }: Linkage, viewport: Viewport): [link: number, hull: Pair[]][] {
+  return model.shapes.flatMap((shape) => outlineOf(shape).map((hull): [number, Pair[]] => [shape.link, hull]));
+
+  function outlineOf(shape: ShapeRecord): Pair[][] {
+    const at = (x: number, y: number) => viewport.screen(...place(pose, 0, shape.link, x, y));
+    if (shape.circle) {
+      const [x, y, radius] = shape.circle;
+      return [
+        spotsAbout([x, y], radius)
+          .slice(0, 16)
+          .map((one) => at(...one)),
+      ];
+    }
+    return linesOf(sizes, shape).flatMap((line) => {
+      const step = 2 * Math.ceil(line.length / 96);
+      const places: Pair[] = [];
+      for (let k = 0; k + 1 < line.length; k += step) places.push(at(line[k]!, line[k + 1]!));
+      return shape.closed ? [convexHull(places)] : sidesOf(places).slice(0, -1);
+    });
+  }
+}
+
 /** The corners of a text that stands upon a line. */
 function lettersAt(x: number, y: number, half: number): Pair[] {
   return convexHull([-half, half].flatMap((side) => [-9, 1].map((rise): Pair => [x + side, y + rise])));
+}
+
+/** The end of a line on a body. */
+function dotAt([x, y]: Pair): string {
+  return `M${(x - 1.5).toFixed(1)} ${y.toFixed(1)}a1.5 1.5 0 1 0 3 0a1.5 1.5 0 1 0 -3 0`;
 }
 
 function move(element: SVGElement, [x, y]: Pair): void {

@@ -1,6 +1,7 @@
 /** What of a linkage is shown, and in which colours. */
 
 import type { Arrow } from "./forces";
+import type { Linkage } from "./linkage";
 import type { Spring } from "./model";
 
 export interface Shown {
@@ -19,7 +20,7 @@ export interface Shown {
   /** The link that a click chose. */
   chosen: number | null;
   forces: () => Arrow[];
-  springs: () => readonly Spring[];
+  springs: (linkage: Linkage) => readonly Spring[];
 }
 
 const PALETTE = ["--motion", "--accent", "--green", "--purple"] as const;

@@ -195,10 +195,18 @@ export class Stage implements Board {
         ? t("A point of {name}: place it on the link or beside it.", { name })
         : t("Coupler point: choose its link.");
     const aside = this.#scene.poleAside ? ` ${t("The pole lies outside of the picture.")}` : "";
-    if (!name) return t("Drag a joint to change sizes, a link to move it.") + aside;
-    const mine = this.dragging!.lengths().filter(({ link }) => link === chosen);
-    const lengths = mine.map(({ value }) => `${number(value, 5)} ${linkage.model.unit}`.trim());
-    return [name, lengths.join(", ")].filter(Boolean).join(": ") + aside;
+    const { dragging } = this;
+    const lengths = dragging!.lengths();
+    if (!name) {
+      const can = this.joints.some((joint) => dragging!.draggable(joint));
+      let text = t("Drag a link to move it.");
+      if (can) text = t("Drag an axis to shift it, a link to turn it.");
+      if (can && lengths[0]) text = t("Drag a joint to change sizes, a link to move it.");
+      return text + aside;
+    }
+    const mine = lengths.filter(({ link }) => link === chosen);
+    const values = mine.map(({ value }) => `${number(value, 5)} ${linkage.model.unit}`.trim());
+    return [name, values.join(", ")].filter(Boolean).join(": ") + aside;
   }
 
   #rule(unit: string): void {

@@ -67,6 +67,8 @@ def test_machines_with_two_drives_show_what_both_of_them_move(tab, server):
     assert shown["Transfer function ψ′"] == "0"
     assert float(shown["Travel of its points"].removesuffix(" mm")) == pytest.approx(250 * np.sqrt(2), abs=0.1)
     assert page.page.locator("[data-note=still]").inner_text() == "Output head does not turn."
+    path = page.page.locator(".stage path.spring-path").get_attribute("d")  # before its forces were asked for
+    assert path.count("M") == 2
 
 
 def test_a_drive_is_called_as_what_it_moves(tab, server):
@@ -105,6 +107,23 @@ def test_a_ring_gear_has_its_name_at_its_rim_and_turns_visibly(tab, server, widt
         assert np.hypot(x, y) == pytest.approx(60 * scale, abs=0.05)
         assert np.hypot(u, v) > 60 * scale + 1
         assert np.angle((u + 1j * v) / (x + 1j * y)) == pytest.approx(0, abs=1e-3)
+    sizes = page.page.locator(".rows.sizes > *").all_inner_texts()
+    assert sizes[:4] == ["planet, teeth", "15", "", ""]
+    assert sizes[-4:] == ["planet – ring gear, axis distance", "45", "mm", ""]
+    assert page.page.locator(".stage .hint").inner_text() == "Drag an axis to shift it, a link to turn it."
+    page.machine("excavator")  # eleven links, of which most have no room beside them on a phone
+    names, joints = page.page.evaluate("""() => {
+        const box = (one) => one.getBoundingClientRect();
+        const { root } = gruebler;
+        const names = [...root.querySelectorAll(".stage text.name")].map(box);
+        return [names.map((one) => [one.x, one.y + 3, one.right, one.bottom - 3]).filter((one) => one[2] > one[0]),
+            [...root.querySelectorAll(".stage circle.joint")].map(box).map((one) => [one.x + 5, one.y + 5])];
+    }""")
+    assert len(names) == 11
+    for k, (left, top, right, bottom) in enumerate(names):
+        assert not [one for one in joints if left < one[0] < right and top < one[1] < bottom]
+        others = names[:k]
+        assert not [o for o in others if left < o[2] and o[0] < right and top < o[3] and o[1] < bottom]
 
 
 def test_a_plot_says_the_value_at_the_pointer(tab, crank_rocker):

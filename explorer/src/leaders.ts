@@ -1,0 +1,114 @@
+/** Names that have no place beside their bodies: farther off, each with a line to its body. */
+
+import { away, middleOf, sidesOf, toHull } from "./hull";
+import type { Pair } from "./rows";
+
+const NEAREST = 22; // pixels from the place on its body to a name
+const STEP = 12;
+const STEPS = 12;
+const WAYS = 16;
+const BAR = 15; // pixels from the middle of a bar to the middle of a name that stands beside it
+const RIM = 9; // pixels from an outline of its own
+const SAMPLE = 14; // pixels between places of a name that are compared with bodies
+const CROSSED = 45; // pixels of a longer line that are better than one across another body
+const PARTS = [0.15, 0.3, 0.5, 0.7, 0.85];
+const SIXTHS = [0, 1, 2, 3, 4, 5, 6].map((k) => k / 6);
+const CLEAR = 10; // pixels from another body to where a line ends
+const SEEN = 4; // pixels of a longer line that are better than an end one pixel nearer to another body
+const ENDS = 4; // places of a body from which lines are tried
+
+/** A name and its line, in pixels: where the name stands, and from its body to it; none if it lies in its body. */
+export interface Leader {
+  at: Pair;
+  line: [Pair, Pair] | null;
+  /** The number of its place. */
+  chosen: number;
+}
+
+/** Whether a name, its middle given, keeps so clear of bodies. */
+export function besideAll(bodies: readonly (readonly Pair[])[], half: number, [x, y]: Pair, room: number): boolean {
+  const count = Math.ceil((2 * half) / SAMPLE);
+  for (let k = 0; k <= count; k++) {
+    const u = x - half + (2 * half * k) / count;
+    for (const body of bodies) if (toHull(body, u, y) < room) return false;
+  }
+  return true;
+}
+
+/** The nearest free place about a body from which a line to it crosses as little as possible; the one before while
+ * that is free. */
+export function leaderOf(
+  own: readonly Pair[],
+  /** The outline of its body, if it has one. */
+  home: readonly Pair[],
+  others: readonly (readonly Pair[])[],
+  half: number,
+  free: (at: Pair) => boolean,
+  lines: readonly [Pair, Pair][],
+  names: readonly { x: number; y: number; half: number }[],
+  before = -1,
+): Leader | null {
+  const places = home[0] ? placesIn(home) : placesOn(own);
+  const rim = sidesOf(home);
+  const gaps = places.map((at) => Math.min(CLEAR, ...others.map((one) => toHull(one, ...at))));
+  const bodies = [own, ...others];
+  let best: Leader | null = null;
+  let least = Infinity;
+  const tried = (chosen: number) => {
+    const spot = Math.floor(chosen / WAYS / STEPS);
+    const from = places[spot];
+    if (!from) return;
+    const phi = ((chosen % WAYS) * 2 * Math.PI) / WAYS;
+    const far = NEAREST + STEP * (Math.floor(chosen / WAYS) % STEPS);
+    const [c, s] = [Math.cos(phi), Math.sin(phi)];
+    const [x, y] = [from[0] + (far + half) * c, from[1] - far * s];
+    const end = (at: number, middle: number, room: number) => middle + Math.max(-room, Math.min(room, at - middle));
+    const to: Pair = [end(from[0], x, half + 3), end(from[1], y, 8)];
+    const inside = home[0] && !toHull(home, x, y);
+    let cost = (inside ? 0 : away(from, ...to)) - SEEN * gaps[spot]!;
+    if (cost >= least || !free([x, y + 4]) || !besideAll(bodies, half, [x, y], BAR)) return;
+    if (!besideAll(rim, half, [x, y], RIM)) return;
+    if (inside) {
+      [best, least] = [{ at: [x, y + 4], line: null, chosen }, cost];
+      return;
+    }
+    const along = PARTS.map((part) => between(from, to, part));
+    const hides =
+      ({ x: u, y: v, half: wide }: { x: number; y: number; half: number }) =>
+      (at: Pair) =>
+        Math.abs(at[0] - u) < wide + 2 && Math.abs(at[1] - v) < 9;
+    if (names.some((one) => along.some(hides({ ...one, y: one.y - 4 })))) return;
+    const mine = hides({ x, y, half });
+    for (const line of lines) if (meet(line, [from, to]) || SIXTHS.some((part) => mine(between(...line, part)))) return;
+    cost += CROSSED * others.filter((body) => along.slice(1).some((at) => toHull(body, ...at) < 5)).length;
+    if (cost < least) [best, least] = [{ at: [x, y + 4], line: [from, to], chosen }, cost];
+  };
+  if (before >= 0) tried(before);
+  if (best) return best;
+  // from where the body is seen best
+  const order = [...places.keys()].sort((one, other) => gaps[other]! - gaps[one]!).slice(0, ENDS);
+  for (let k = 0; k < WAYS * STEPS; k++) for (const spot of order) tried(spot * WAYS * STEPS + k);
+  return best;
+}
+
+/** Places in an outline: its middle, and some near its rim. */
+function placesIn(home: readonly Pair[]): Pair[] {
+  const middle = middleOf(home);
+  const step = Math.ceil(home.length / 12);
+  return [middle, ...home.filter((_, k) => k % step === 0).map((one) => between(middle, one, 0.7))];
+}
+
+/** Places of a body at which a line may end: its middle and places of its sides. */
+function placesOn(own: readonly Pair[]): Pair[] {
+  return [middleOf(own), ...sidesOf(own).flatMap((side) => PARTS.map((part) => between(...side, part)))];
+}
+
+function between([x, y]: Pair, [u, v]: Pair, part: number): Pair {
+  return [x + part * (u - x), y + part * (v - y)];
+}
+
+/** Whether two lines meet. */
+function meet([a, b]: [Pair, Pair], [c, d]: [Pair, Pair]): boolean {
+  const side = (p: Pair, q: Pair, r: Pair) => (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+}

@@ -1,0 +1,81 @@
+/** The sizes of wheels, cams and slotted wheels, as the document has them: they are read, not changed, on the page. */
+
+import { h } from "./dom";
+import { away } from "./hull";
+import { number, t } from "./language";
+import type { Linkage } from "./linkage";
+
+type Given = Record<string, unknown>;
+
+/** A row for each size of each of them, and for the distance of the axes of two that mesh. */
+export function roundRows(linkage: Linkage): HTMLElement[] {
+  const { model, sizes } = linkage;
+  const { document, joints, links, unit } = model;
+  const rows = new Map<string, HTMLElement[]>(); // a wheel that meets several has them once
+  const add = (name: string, what: string, value: string, its = unit) => {
+    const shown = h("span", {}, value);
+    Object.assign(shown.style, { textAlign: "right", padding: "3px 7px" });
+    const cells = [h("span", {}, h("b", {}, name), `, ${what}`), shown, h("span.unit", {}, its), h("span", {})];
+    rows.set(name + what, cells);
+  };
+  const given = (k: number) => {
+    const { joint, link } = sizes.element(k);
+    return document.elements![links[link]!]![joints[joint]!.name] as Given;
+  };
+  const centred = (k: number) => ["radius", "slots", "pins", "transfer"].some((key) => key in given(k));
+  const wording = words();
+  for (const joint of joints.keys()) {
+    const mine = sizes.elementsOf(joint).filter((k) => sizes.is(k, "round"));
+    for (const k of mine) {
+      const name = linkage.linkName(sizes.element(k).link);
+      const own = given(k);
+      for (const [key, [what, its]] of Object.entries(wording)) {
+        const value = own[key];
+        if (typeof value === "number" && (value || key === "pins")) add(name, what, number(Math.abs(value)), its);
+      }
+      if (typeof own.cam === "string")
+        rows.set(`${name} lift`, [h("p.note", {}, `${name}, ${t("lift")}: ${liftText(own.cam, unit)}`)]);
+    }
+    const [one, two] = mine;
+    if (one === undefined || two === undefined || !centred(one) || !centred(two)) continue;
+    const far = away(linkage.elementAt(one), ...linkage.elementAt(two));
+    if (far > sizes.near)
+      add([one, two].map((k) => linkage.linkName(sizes.element(k).link)).join(" – "), t("axis distance"), number(far));
+  }
+  return [...rows.values()].flat();
+}
+
+/** What the sizes are called, and their unit where that is not the one of the linkage. */
+function words(): Record<string, [string, string?]> {
+  return {
+    teeth: [t("teeth"), ""],
+    radius: [t("pitch radius")],
+    circle: [t("radius")],
+    base: [t("radius of the base circle")],
+    roller: [t("radius of the roller")],
+    arm: [t("length of the follower arm")],
+    distance: [t("axis distance")],
+    offset: [t("offset of the follower")],
+    face: [t("distance of the face")],
+    pins: [t("pins"), ""],
+    slots: [t("slots"), ""],
+  };
+}
+
+/** A law of lift in words: "rise 20 90; dwell" is a rise of 20 within 90 degrees, then a dwell for the rest. */
+function liftText(law: string, unit: string): string {
+  const parts = law.split(";").map((part) => {
+    const [kind, far, angle, ...more] = part.trim().split(/\s+/);
+    const kinds: Record<string, string> = { rise: t("rise"), fall: t("fall"), dwell: t("dwell") };
+    const name = kinds[kind!];
+    const [size, turned] = [Number(far), Number(angle)];
+    if (!name || more[0]) return part.trim();
+    if (kind === "dwell") return far ? `${name} ${number(size)}°` : name;
+    return t("{kind} {length} over {angle}", {
+      kind: name,
+      length: `${number(size)} ${unit}`.trim(),
+      angle: `${number(turned)}°`,
+    });
+  });
+  return parts.join(", ");
+}
