@@ -35,9 +35,9 @@ export function documentOf(linkage: Linkage, rows: Rows = linkage.pose, row = 0)
 }
 
 /** The same with what the page keeps beside it, as it is saved. */
-export function savedDocument(linkage: Linkage): LinkageDocument {
+export function savedDocument(linkage: Linkage, pose = linkage.pose): LinkageDocument {
   const { beside } = linkage;
-  return { ...documentOf(linkage), ...(Object.keys(beside).length && { page: beside }) };
+  return { ...documentOf(linkage, pose), ...(Object.keys(beside).length && { page: beside }) };
 }
 
 /** Take sizes and pose from the document of a linkage of the same structure. */

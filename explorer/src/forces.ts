@@ -20,12 +20,13 @@ import { awaited, moment } from "./waiting";
 import { lengthUnit } from "./wording";
 
 const ASKED_AFTER = 350; // milliseconds
+const LASTS: Pair = [0.01, 20]; // seconds of a free motion
 
 /** Numbers of JSON, null where one is not known. */
 type Numbers = (number | null)[];
 
 /** What the library says; without anything that acts only what may be changed. */
-interface Answer extends Acting {
+interface Answer extends Acting, Carried {
   /** What the document is to keep, if the reader changed something. */
   kept?: Kept;
   /** Where the masses come from, or how they would be assumed. */
@@ -35,11 +36,15 @@ interface Answer extends Acting {
   title: string;
   effort: Numbers;
   facts: Fact[];
+  lines: string[];
+}
+
+/** What joints carry and loads do, over the range of the drive or the time of a free motion. */
+interface Carried {
   /** Of joints: what they are called, how large they are at most, and where. */
   forces: { joint: number; parts: Numbers[]; most: number; name: string; note: string }[];
   /** Where loads act, and both parts of a force, or the moment. */
   acting: { at: End; parts: Numbers[] }[];
-  lines: string[];
 }
 
 /** Loads as a document has them, and the links whose masses lie along their bars. */
@@ -52,11 +57,18 @@ export interface Kept {
  * it is, its unit, and whether it is a load. */
 export type Arrow = [x: number, y: number, dx: number, dy: number, amount: number, unit: string, load?: boolean];
 
-/** One over the range of the drive. */
 interface Force extends Vectors {
   at: () => Pair;
   unit: string;
 }
+
+/** The forces of joints, and loads. */
+interface Shown {
+  joints: (Force & { name: string; note: string })[];
+  loads: Force[];
+}
+
+const NOTHING: Shown = { joints: [], loads: [] };
 
 /** What the panel asks of its view. */
 export interface Loaded {
@@ -86,10 +98,12 @@ export class Forces {
   #model: Model | null = null;
   /** That of several drives, which no document has. */
   #speed: number | null = null;
-  #forces: (Force & { name: string; note: string })[] = [];
-  #loads: Force[] = [];
+  /** Over the range of the drive; of the last free motion over time; which of both is shown. */
+  #driven = NOTHING;
+  #fallen = NOTHING;
+  #of = NOTHING;
   /** Of the last free motion, over time. */
-  #fallen: Plot[] = [];
+  #plots: Plot[] = [];
   #timer = 0;
   /** How long it moves freely, in seconds. */
   #until = 2;
@@ -115,7 +129,8 @@ export class Forces {
     }
     if (this.#model !== linkage.model) {
       this.#model = linkage.model;
-      this.#forces = this.#loads = this.columns = [];
+      this.#driven = this.#fallen = NOTHING;
+      this.columns = [];
       this.#speed = null;
       this.#form.change = {};
       this.#acting.open = false;
@@ -134,12 +149,12 @@ export class Forces {
   }
 
   get #question(): Record<string, unknown> {
-    const { linkage } = this.#view;
+    const { linkage, transport } = this.#view;
     const { drives, model } = linkage;
     const held = [...drives].slice(0, model.drives.length);
     const { bars } = linkage.beside;
     return {
-      document: documentOf(linkage),
+      document: documentOf(linkage, transport.pose),
       source: model.source,
       drives: held,
       bars,
@@ -186,14 +201,15 @@ export class Forces {
   }
 
   #show(linkage: Linkage, answer: Answer): void {
-    const { acting, drives, effort, facts, forces, lines, masses, origin, speed, title } = answer;
+    const { drives, effort, facts, lines, masses, origin, speed, title } = answer;
     const { drive, model } = linkage;
     const { transport } = this.#view;
     this.#form.show(linkage, answer);
     transport.endFall();
     this.#plot = null;
-    this.#fallen = [];
-    this.#forces = this.#loads = this.columns = [];
+    this.#plots = [];
+    this.#driven = this.#fallen = NOTHING;
+    this.columns = [];
     const assume = () => {
       this.#brings = true;
       this.#form.put({ bars: "steel" });
@@ -209,38 +225,29 @@ export class Forces {
       const values = numbers(effort);
       this.#plot = new Plot(drive!.turning ? "°" : lengthUnit(model), (value) => transport.pick(value));
       this.#plot.show(places, { title, colour: "--motion", values }, transport.range);
-      const vectors = (parts: Numbers[], its: string, where: () => Pair) => {
-        const [x, y = x.map(() => 0)] = parts.map(numbers) as [Float64Array, Float64Array?];
-        const most = Math.max(...x.map((one, k) => Math.hypot(one, y[k]!) || 0));
-        return { drives: places, x, y, most, unit: its, at: where };
-      };
-      this.#loads = acting.map(({ at: [link, ...own], parts }) =>
-        vectors(parts, parts[1] ? "N" : "N·m", () => place(linkage.pose, 0, link, ...own)),
-      );
-      this.#forces = forces.map(({ joint, parts, ...more }) => ({
-        ...vectors(parts, "N", () => linkage.jointAt(joint)),
-        ...more,
-      }));
+      this.#driven = shownOf(linkage, answer, places);
       this.columns = [
         [title, "", places, values],
-        ...this.#forces.flatMap(({ name, x, y }): Column[] => [
+        ...this.#driven.joints.flatMap(({ name, x, y }): Column[] => [
           [`${name} Fx`, "N", places, x],
           [`${name} Fy`, "N", places, y],
         ]),
       ];
+      const { joints } = this.#driven;
       const chosen = this.#joint.selectedIndex;
-      renew(this.#joint, ...this.#forces.map(({ name }, value) => h("option", { value }, name)));
+      renew(this.#joint, ...joints.map(({ name }, value) => h("option", { value }, name)));
       const fallen = h("div", {});
       const onclick = () => void this.#fall(fallen);
-      const until = this.#form.row("until", t("Duration"), "s", this.#until, (seconds) => {
-        this.#until = Math.min(20, seconds) || 2;
-      });
+      const last = (seconds: number) => {
+        this.#until = seconds;
+      };
+      const until = this.#form.row("until", t("Duration"), "s", this.#until, last, LASTS);
       const play = () => {
         transport.endFall();
         transport.playAt(speed!);
       };
       const release = t("Release the drive: free motion");
-      const sizes = this.#forces.map((force) => force.most);
+      const sizes = joints.map((force) => force.most);
       this.#joint.selectedIndex = chosen < 0 ? sizes.indexOf(Math.max(...sizes)) : chosen;
       this.#facts.show(facts);
       renew(
@@ -258,7 +265,6 @@ export class Forces {
         h("div.form", {}, action("fall", onclick, release)),
         fallen,
       );
-      this.#showJoint();
       if (this.#brings) this.element.closest("details")!.scrollIntoView();
       this.#brings = false;
     }
@@ -267,25 +273,38 @@ export class Forces {
   }
 
   #showJoint(): void {
-    const force = this.#forces[this.#joint.selectedIndex];
+    const force = this.#of.joints[this.#joint.selectedIndex];
     if (!force) return;
     this.#polar.show(force, "N");
-    this.#polar.at(this.#view.transport.drive);
+    this.#polar.at(this.#place);
   }
 
-  /** The drive is elsewhere. */
+  /** Where what is shown stands: the drive, or the seconds of a free motion. */
+  get #place(): number {
+    const { drive, falling } = this.#view.transport;
+    return falling?.seconds ?? drive;
+  }
+
+  /** The drive is elsewhere, or in a free motion nowhere. */
   at(drive: number): void {
     if (!this.#opened()) return;
+    const { falling } = this.#view.transport;
+    const where = this.#place;
     this.#plot?.at(drive);
-    for (const plot of this.#fallen) plot.at(this.#view.transport.falling?.seconds ?? NaN);
+    for (const plot of this.#plots) plot.at(falling?.seconds ?? NaN);
+    const of = falling ? this.#fallen : this.#driven;
+    if (of !== this.#of) {
+      this.#of = of;
+      this.#showJoint();
+    }
     this.#joints.show(
-      this.#forces.map((force) => ({
+      of.joints.map((force) => ({
         name: force.name,
-        text: `${figure(force.most * Math.hypot(...vectorAt(force, drive)))} N`,
+        text: `${figure(force.most * Math.hypot(...vectorAt(force, where)))} N`,
         note: `max. ${figure(force.most)} N ${force.note}`,
       })),
     );
-    this.#polar.at(drive);
+    this.#polar.at(where);
   }
 
   get #shown(): boolean {
@@ -297,19 +316,15 @@ export class Forces {
     return (this.#model === model && this.#form.springs) || (model.springs ?? []);
   }
 
-  /** The forces on the stage where the drive is, against the largest of the range. */
+  /** The forces on the stage where the drive is, against the largest of the range; of a free motion likewise. */
   arrows(): Arrow[] {
-    const { drive, falling } = this.#view.transport;
-    const joints = falling ? [] : this.#forces;
-    // of a free motion only loads that stay as they are act
-    const loads = this.#loads.filter(
-      ({ x, y }) => !falling || [x, y].every((part) => part.every((v) => v === part[0])),
-    );
+    const { joints, loads } = this.#view.transport.falling ? this.#fallen : this.#driven;
     const all = this.#shown ? [...joints, ...loads] : [];
+    const where = this.#place;
     return all.map((force, k) => {
       const { at, unit } = force;
       const most = Math.max(...all.map((other) => (other.unit === unit ? other.most : 0)));
-      const [x, y] = vectorAt(force, drive);
+      const [x, y] = vectorAt(force, where);
       const here = Math.hypot(x, y) * force.most;
       const root = Math.sqrt(here * most) / force.most || 1; // small ones are seen, too
       return [...at(), x / root, y / root, here, unit, k >= joints.length];
@@ -318,12 +333,15 @@ export class Forces {
 
   async #fall(told: HTMLElement): Promise<void> {
     const { linkage, page } = this.#view;
-    const found = await awaited(told, () => page.ask<Fall>("fall", { ...this.#question, until: this.#until }));
+    const found = await awaited(told, () =>
+      page.ask<Fall & Carried>("fall", { ...this.#question, until: this.#until }),
+    );
     if (!found || !told.isConnected) return;
     const { transport } = this.#view;
     const { model } = linkage;
     const times = Float64Array.from(found.drives, (_, row) => row / found.rate);
-    this.#fallen = model.drives.flatMap(({ name, turning }, k) => {
+    this.#fallen = shownOf(linkage, found, times);
+    this.#plots = model.drives.flatMap(({ name, turning }, k) => {
       const [unit, scale] = turning ? ["°", DEGREE] : [lengthUnit(model), 1];
       const its = model.drives[1] ? ` ${linkage.jointName(name)}` : "";
       const plot = (called: string, rows: number[][], of: string, degrees = false) => {
@@ -338,9 +356,27 @@ export class Forces {
         plot(t("Drive speed"), found.speeds, `${unit}/s`),
       ];
     });
-    renew(told, ...this.#fallen.map((plot) => plot.element), h("p.note", {}, found.lines.join(" ")));
+    renew(told, ...this.#plots.map((plot) => plot.element), h("p.note", {}, found.lines.join(" ")));
     transport.play(found);
+    told.scrollIntoView({ block: "nearest" });
   }
+}
+
+function shownOf(linkage: Linkage, { acting, forces }: Carried, places: Float64Array): Shown {
+  const vectors = (parts: Numbers[], unit: string, at: () => Pair): Force => {
+    const [x, y = x.map(() => 0)] = parts.map(numbers) as [Float64Array, Float64Array?];
+    const most = Math.max(...x.map((one, k) => Math.hypot(one, y[k]!) || 0));
+    return { drives: places, x, y, most, unit, at };
+  };
+  return {
+    joints: forces.map(({ joint, parts, ...more }) => ({
+      ...vectors(parts, "N", () => linkage.jointAt(joint)),
+      ...more,
+    })),
+    loads: acting.map(({ at: [link, ...own], parts }) =>
+      vectors(parts, parts[1] ? "N" : "N·m", () => place(linkage.pose, 0, link, ...own)),
+    ),
+  };
 }
 
 /** What arrows of a class look like. */

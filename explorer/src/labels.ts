@@ -9,6 +9,8 @@ import { halfOf, type NamePlace, namePlace, nameSpots } from "./names";
 import { direction, type Pair, place } from "./rows";
 import type { Viewport } from "./viewport";
 
+const EDGE = 4; // pixels of a picture in which texts would be cut
+const PAST = 999;
 const INK = 8; // pixels from a name to an arrow
 const RIM_PLACES: readonly Pair[] = [135, 45, -135, -45].map((a) => [Math.cos(a * DEGREE), Math.sin(a * DEGREE)]);
 const LETTER = 20; // from a joint to its letter
@@ -128,4 +130,16 @@ function rimOf({ model }: Linkage, link: number): [centre: Pair, far: number] | 
 /** Whether a name keeps clear of an arrow. */
 export function clearOf(one: readonly Pair[], half: number, [x, y]: Pair): boolean {
   return [-half, 0, half].every((d) => !(toHull(one, x + d, y - 4) < INK));
+}
+
+/** What lies past the edges of a picture, where texts would be cut. */
+export function pastEdges(width: number, height: number): Pair[][] {
+  const [right, low] = [width + PAST, height + PAST];
+  const sides = [
+    [-PAST, -PAST, right, EDGE],
+    [-PAST, height - EDGE, right, low],
+    [-PAST, -PAST, 0, low],
+    [width, -PAST, right, low],
+  ] as const;
+  return sides.map(([x, y, u, v]) => convexHull([x, u].flatMap((p) => [y, v].map((q): Pair => [p, q]))));
 }

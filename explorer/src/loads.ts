@@ -4,10 +4,13 @@ import { h, option, renew } from "./dom";
 import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
 import type { End, Spring } from "./model";
+import type { Pair } from "./rows";
 import { endsOf } from "./springs";
 import { lengthUnit } from "./wording";
 
 const MOST = 1e9;
+const ANY: Pair = [-MOST, MOST];
+const AMOUNT: Pair = [0, MOST];
 
 /** A force on a joint, a point or another place, or a moment, as x, on a link. */
 interface Load {
@@ -68,13 +71,18 @@ export class LoadForm {
     const [called, its, factor] = rate;
     renew(
       this.rate,
-      ...this.row("speed", called, its, speed! / factor, (v) => this.put({ speed: v > 0 ? v * factor : null })),
+      ...this.row("speed", called, its, speed! / factor, (v) => this.put({ speed: v * factor || null }), AMOUNT),
     );
     const rows: HTMLElement[] = [];
     for (const link of links)
       rows.push(
-        ...this.row(`mass-${link}`, t("Mass {link}", { link: linkage.linkName(link) }), "kg", masses[link]!, (v) =>
-          this.put({ masses: replaced(this.#acting.masses, link, Math.max(0, v)) }),
+        ...this.row(
+          `mass-${link}`,
+          t("Mass {link}", { link: linkage.linkName(link) }),
+          "kg",
+          masses[link]!,
+          (v) => this.put({ masses: replaced(this.#acting.masses, link, v) }),
+          AMOUNT,
         ),
       );
     const all: [string, string][] = [
@@ -181,22 +189,39 @@ export class LoadForm {
     return rows;
   }
 
-  /** A field with its label and unit; the one in which the reader types stays as it is. */
-  row(key: string, label: string, unit: string, value: number, take: (value: number) => void): HTMLElement[] {
+  /** A field with its label and unit, and what it expects if something else is typed; the one in which the reader types
+   * stays as it is. */
+  row(
+    key: string,
+    label: string,
+    unit: string,
+    value: number,
+    take: (value: number) => void,
+    [least, most]: Pair = ANY,
+  ): HTMLElement[] {
     const id = `force-${key}`;
     const onchange = () => {
       const typed = parsed(field.value || "0");
-      const right = Math.abs(typed) <= MOST;
+      const right = typed >= least && typed <= most;
       field.setAttribute("aria-invalid", String(!right));
+      const ends = { least: endText(least), most: endText(most) };
+      const said = h("p.note.error", { role: "alert" }, t("Expected a number from {least} to {most}.", ends));
+      if (unitText.nextElementSibling?.matches(".error")) unitText.nextElementSibling.remove();
       if (right) take(typed);
+      else unitText.after(said);
     };
     const onkeydown = (event: KeyboardEvent) => event.stopPropagation();
     const shown = value ? number(value) : "";
     const made = h("input", { id, value: shown, inputmode: "decimal", onchange, onkeydown });
     const old = this.element.querySelector<HTMLInputElement>(":focus");
     const field = old?.id === id ? old : made;
-    return [h("label", { for: id }, label), field, h("span.unit", {}, unit)];
+    const unitText = h("span.unit", {}, unit);
+    return [h("label", { for: id }, label), field, unitText];
   }
+}
+
+function endText(value: number): string {
+  return Math.abs(value) < MOST ? number(value) : `${value < 0 ? "−" : ""}10⁹`;
 }
 
 /** A list with another item in place of one, or without it. */

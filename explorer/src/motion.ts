@@ -398,8 +398,7 @@ export class MotionView implements View, Editor, Driven {
   // --- what is taken away --------------------------------------------------------------------------------------------
 
   document(): LinkageDocument {
-    this.transport.endFall();
-    return savedDocument(this.linkage);
+    return savedDocument(this.linkage, this.transport.pose);
   }
 
   picture(): string {

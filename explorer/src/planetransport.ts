@@ -4,6 +4,7 @@ import { wayOf } from "./beside";
 import { wrapped } from "./cycle";
 import { action } from "./dom";
 import { type Fall, Falling } from "./falling";
+import type { Rows } from "./kernel";
 import { t } from "./language";
 import type { Linkage } from "./linkage";
 import { later } from "./player";
@@ -111,6 +112,11 @@ export class PlaneTransport extends Transport<DrivenInPlane> {
     this.view.linkage.pose = falling.start;
     this.turned();
     this.view.posed();
+  }
+
+  /** The pose at the drive, also while another one is shown. */
+  get pose(): Rows {
+    return this.falling?.start ?? this.view.linkage.pose;
   }
 
   /** From the drive to time, or back. */

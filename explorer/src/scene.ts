@@ -7,7 +7,7 @@ import type { Dragging } from "./dragging";
 import type { Arrow } from "./forces";
 import { DRIVEN, DRIVING, placed, STANDING, SUPPORT } from "./ground";
 import { clearAbout, convexHull, middleOf, pathThrough, sidesOf, spotsAbout, toHull } from "./hull";
-import { clearOf, type Label, labelsOf } from "./labels";
+import { clearOf, type Label, labelsOf, pastEdges } from "./labels";
 import { number as numberText } from "./language";
 import { besideAll, leaderOf } from "./leaders";
 import type { Linkage } from "./linkage";
@@ -360,6 +360,7 @@ export class Scene {
     });
     // a number may stand upon a plate, but not across its edges
     const edges = [...hulls.flatMap(sidesOf), ...drawn.slice(hulls.filter((hull) => hull.length).length)];
+    edges.push(...pastEdges(width, height));
     this.#putValues(kinds, edges);
     put(this.#springs, { d: springs.flat().map(pathThrough).join("") });
     const rulers = readingsOf(linkage).map(({ ends }) => pathThrough(ends.map((at) => viewport.screen(...at))));
@@ -403,8 +404,7 @@ export class Scene {
         const half = halfOf(said);
         const less = n > 0 || k === 1; // only where it is near and clear
         const [left, top] = clearAbout([x + dx, y + dy], 18, drawn, half, less ? 16 : 32);
-        const free = left > half && left + half < this.viewport.width && top > 8;
-        if (less && !(free && drawn.every((one) => clearOf(one, half, [left, top + 4])))) continue;
+        if (less && !drawn.every((one) => clearOf(one, half, [left, top + 4]))) continue;
         texts.push(svg("text", { "data-arrow": "", "text-anchor": "middle", x: left, y: top + 4 }, said));
         drawn.push(lettersAt(left, top + 4, half));
       }

@@ -84,7 +84,7 @@ class Formula:
         self._check(tree, 0)
         settle(self, tree=tree)
 
-    @property
+    @cached_property
     def names(self) -> tuple[str, ...]:
         """The variables on which it depends, sorted."""
         names = {node.id for node in ast.walk(self.tree) if isinstance(node, ast.Name)}

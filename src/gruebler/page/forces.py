@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from math import degrees, pi
 from typing import Any
@@ -35,7 +36,6 @@ from gruebler.page.reader_loads import (
 
 _FREE = message("Free motion: in {seconds:n} s the drive goes from {start} to {end}, between {least} and {most}.")
 _BALANCE = message("The energy balance is off by {part:n} % at most.")
-_WITHOUT = message("Loads that change by a law do not act here.")
 _NOTHING = message("Nothing acts yet: type masses or loads.")
 _APART = message("Two ways to compute them differ by {part:.1e} of the largest load: these forces are not certain.")
 _TORQUE = (message("Drive torque"), message("Largest drive torque"), message("Drive torque, RMS"))
@@ -43,16 +43,18 @@ _FORCE = (message("Drive force"), message("Largest drive force"), message("Drive
 _TURNED, _SHIFTED = message("{value:n}°"), message("{value:n} {unit}")
 _TURNS, _SLIDES = message("Forces at drive speed"), message("Speed of the driven slide")
 _BRAKING = message("braking")
-_AT = message("at {place}")
+_AT, _WHEN = message("at {place}"), message("{seconds:n} s")
 _ON = message("{others} on {link}")
 _CERTAIN = 1e-6  # of the largest load: how far two ways to compute forces may differ
 _ROWS = 720  # of a turn, so that what is read between two has four digits
 _MOST_ROWS = 2160
 _NO_ENDS = 0.02  # of a range, at either end: no drive keeps its speed up to where it turns back
-_USUAL = 2 * pi  # of a drive, rad/s or sizes a second: one turn
+_USUAL = 2 * pi  # of a drive, rad/s: one turn; of a slide about its range
 _A_SECOND = 240  # poses of a free motion, whose speeds would be plotted with corners by those of a screen
 _NOISE = 1e-7  # of the largest power: what is left of a mean that is none
 _ENOUGH = 1e-6  # of each of its steps: for the eye
+_ENOUGH_BY_LAW = 1e-4  # where loads change by a law, which takes a hundred times as long
+_NOTHING_OF = 1e-9  # of the largest joint force: what is left of one that is none
 
 
 def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
@@ -87,7 +89,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     if not (loads.bodies or loads.masses or pulling or any(load_acts(amount) for amount in amounts(loads))):
         return record | {"lines": [_NOTHING.in_language(lang)]}
     active, (low, high) = asked.active, asked.range
-    speed = record["speed"] or (_USUAL if turning else _USUAL * linkage.size)
+    speed = record["speed"] or (_USUAL if turning else float(f"{high - low:.1g}"))
     if not asked.full:
         low, high = low + _NO_ENDS * (high - low), high - _NO_ENDS * (high - low)
     turns = abs(high - low) / (2 * pi) if turning else 1.0
@@ -102,7 +104,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         lines.append(_APART.filled(part=run.disagreement).in_language(lang))
     lines += filter(None, [motion.message(lang), run.statics.message(lang)])
     effort = _short((metres_of(linkage.unit) if turning else 1.0) * run.drive[:, active])
-    forces = _joint_forces(run, active, lang)
+    forces = _joint_forces(run, lambda row: _drive_text(motion, active, row), lang)
     return record | {
         "speed": speed,
         "drives": motion.drives[:, active].tolist(),
@@ -115,21 +117,26 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     }
 
 
-def _joint_forces(run: InverseDynamics, active: int, lang: str) -> list[dict[str, Any]]:
+def _joint_forces(run: InverseDynamics, place: Callable[[int], Message], lang: str) -> list[dict[str, Any]]:
     """By joint and link: both parts in each row, what it is called, how large it is at most, and where."""
     chain = run.motion.linkage.mechanism.chain
+    each = [
+        (k, joint, link, run.statics.force(k, link=link))
+        for k, joint in enumerate(chain.joints)
+        for link in (joint.links if len(joint.links) > 2 else joint.links[1:])
+    ]
+    least = _NOTHING_OF * max(float(np.nanmax(np.abs(force), initial=0.0)) for *_, force in each)
     records: list[dict[str, Any]] = []
-    for k, joint in enumerate(chain.joints):
-        for link in joint.links if len(joint.links) > 2 else joint.links[1:]:
-            force = _short(run.statics.force(k, link=link))
-            others = joined(message(spaced(other)) for other in joint.links if other != link)
-            row = _largest(np.hypot(*force.T))
-            said = {
-                "name": _ON.filled(others=others, link=spaced(link)),
-                "note": _AT.filled(place=_drive_text(run.motion, active, row)),
-            }
-            words = {key: text.in_language(lang) for key, text in said.items()}
-            records.append({"joint": k, "parts": force.T.tolist(), "most": float(np.hypot(*force[row])), **words})
+    for k, joint, link, exact in each:
+        force = _short(np.where(np.abs(exact) < least, 0.0, exact))
+        others = joined(message(spaced(other)) for other in joint.links if other != link)
+        row = _largest(np.hypot(*force.T))
+        said = {
+            "name": _ON.filled(others=others, link=spaced(link)),
+            "note": _AT.filled(place=place(row)),
+        }
+        words = {key: text.in_language(lang) for key, text in said.items()}
+        records.append({"joint": k, "parts": force.T.tolist(), "most": float(np.hypot(*force[row])), **words})
     return records
 
 
@@ -203,32 +210,33 @@ def _acting(run: InverseDynamics) -> list[dict[str, Any]]:
 
 
 def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
-    """Poses of all links, values and speeds of the drives, 240 a second, under weights, springs and steady loads.
+    """Poses of all links, values and speeds of the drives, forces of the joints, 240 a second, under all that acts.
 
     And why they end if they do too soon.
     """
     linkage, loads, *_ = with_loads(asked, lang)
-    forces = {place: amount for place, amount in loads.forces.items() if not by_law(amount)}
-    moments = {link: amount for link, amount in loads.moments.items() if not by_law(amount)}
-    free = replace(loads, forces=forces, moments=moments, motors={})
+    free = replace(loads, motors={})
     times = np.arange(round(asked.until * _A_SECOND) + 1) / _A_SECOND
-    run = simulate(linkage, free, at=asked.drives, until=asked.until, times=times, tolerance=_ENOUGH)
+    law = any(by_law(amount) for amount in amounts(free))  # friction by a law is far faster than the motion
+    tolerance = _ENOUGH_BY_LAW if law else _ENOUGH
+    run = simulate(linkage, free, at=asked.drives, until=asked.until, times=times, tolerance=tolerance, stiff=law)
     ends = (run.drives[0], run.drives[-1], run.drives.min(axis=0), run.drives.max(axis=0))
     start, end, least, most = (_drive_texts(linkage, values) for values in ends)
     said = [
         _FREE.filled(seconds=float(run.times[-1]), start=start, end=end, least=least, most=most),
         _BALANCE.filled(part=float(f"{100 * run.defect:.2g}")),
     ]
-    if len(amounts(free)) < len(amounts(loads)):
-        said.append(_WITHOUT)
     places = np.stack([run.places[0].real, run.places[0].imag], axis=-1)
     turns = np.stack([run.turns.real, run.turns.imag], axis=-1)
+    carried = inverse_dynamics(run.motion, free, times=run.times)
     return {
         "rate": _A_SECOND,
         "places": _short(places).reshape(len(run), -1).tolist(),
         "turns": _short(turns).reshape(len(run), -1).tolist(),
         "drives": _short(run.drives).tolist(),
         "speeds": _short(run.speeds).tolist(),
+        "forces": _joint_forces(carried, lambda row: _WHEN.filled(seconds=float(f"{run.times[row]:.3g}")), lang),
+        "acting": _acting(carried),
         "lines": [*(line.in_language(lang) for line in said), *filter(None, [run.message(lang)])],
     }
 
