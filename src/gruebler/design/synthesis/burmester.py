@@ -69,10 +69,10 @@ class BurmesterCurves:
             inside = (region[0] <= x) & (x <= region[2]) & (region[1] <= y) & (y <= region[3])
             chosen = chosen[inside] if inside.any() else chosen
         chosen = chosen[np.unique(np.linspace(0, len(chosen) - 1, min(number, len(chosen))).astype(int))]
-        # A closed piece ends in its first point.
+        near_curve = np.stack([side[chosen] for side in self._points], axis=1)
+        near_curve = np.array(list(dict.fromkeys(map(tuple, near_curve))))  # a closed piece ends in its first point
         given, *_ = Displacements.of(self.task.origins, self.task.turns)
-        exact = (_sharpened(given, *(complex(side[k]) for side in self._points)) for k in chosen)
-        return (*dict.fromkeys(dyad.moved(size, origin) for dyad in exact), *self.sliding)
+        return (*(dyad.moved(size, origin) for dyad in _sharpened(given, near_curve)), *self.sliding)
 
     @cached_property
     def _points(self) -> CurvePiece:
@@ -126,7 +126,7 @@ class BurmesterCurves:
         x, m = (complex((1 - share) * side[after - 1] + share * side[after]) for side in self._points)
         origin, size = self._unit
         displacements, *_ = Displacements.of(self.task.origins, self.task.turns)
-        return _sharpened(displacements, x, m).moved(size, origin)
+        return _sharpened(displacements, np.array([[x, m]]))[0].moved(size, origin)
 
 
 def burmester_curves(task: PositionTask, points: int = 400) -> BurmesterCurves:
@@ -211,18 +211,25 @@ def _centres(given: Displacements, x: Complexes) -> tuple[Complexes, NDArray[np.
     return m, good
 
 
-def _sharpened(given: Displacements, x: complex, m: complex) -> GuidingDyad:
-    """The nearest exact dyad of three displacements, by Gauss and Newton."""
+def _sharpened(given: Displacements, pivots: Complexes) -> list[GuidingDyad]:
+    """The nearest exact dyads of three displacements, by Gauss and Newton.
+
+    Args:
+        given: displacements.
+        pivots: (dyads, 2) those on the body and those on the frame, near to dyads.
+    """
+    pivots, left = pivots.copy(), np.arange(len(pivots))
     for _ in range(20):
-        residual, matrix = guiding_conditions(given, np.complex128(x), np.complex128(m))
-        step, *_ = np.linalg.lstsq(matrix, -residual, rcond=1e-13)
-        x, m = x + complex(step[0], step[1]), m + complex(step[2], step[3])
-        if np.abs(step).max() < 1e-15 * (1 + abs(x) + abs(m)):
+        residual, matrix = guiding_conditions(given, pivots[left, 0], pivots[left, 1])
+        step = -(np.linalg.pinv(matrix, rcond=1e-13) @ residual[..., None])[..., 0]
+        pivots[left] += step.view(np.complex128)
+        left = left[np.abs(step).max(axis=1) >= 1e-15 * (1 + np.abs(pivots[left]).sum(axis=1))]
+        if not len(left):
             break
-    dyad = GuidingDyad(CRANK, x, m)
-    if misfit(given, dyad) > 1e-10 * (1 + abs(x) + abs(m)):
+    dyads = [GuidingDyad(CRANK, complex(x), complex(m)) for x, m in pivots]
+    if any(misfit(given, dyad) > 1e-10 * (1 + abs(dyad.moving) + abs(dyad.fixed)) for dyad in dyads):
         raise SynthesisError("no dyad of the four positions lies near this place")
-    return dyad
+    return dyads
 
 
 def _nearest_dyad(given: Displacements, x: complex, m: complex, target: complex, side: int) -> GuidingDyad:
@@ -234,7 +241,7 @@ def _nearest_dyad(given: Displacements, x: complex, m: complex, target: complex,
         longest = _LONGEST * (1 + abs(x) + abs(m))
         along = float(np.clip(along, -longest, longest))
         for _ in range(_HALVINGS):  # where the curve bends about the place, a whole step leads past the nearest point
-            dyad = _sharpened(given, x + along * complex(*tangent[:2]), m + along * complex(*tangent[2:]))
+            (dyad,) = _sharpened(given, np.array([[x, m]]) + along * tangent.view(np.complex128))
             if abs((dyad.moving, dyad.fixed)[side] - target) <= abs((x, m)[side] - target):
                 break
             along /= 2
