@@ -27,6 +27,8 @@ export interface Structure {
   /** The text of the driven mechanism of the list that is; empty if none is. */
   driver: string;
   picture: string;
+  /** The names of the links by their numbers, where these stand in the picture. */
+  numbered: Record<string, string>;
   joints: {
     name: string;
     at: [number, number];

@@ -99,6 +99,7 @@ export class ChainList {
     [this.#links, this.mobility] = size as [number, number];
     this.#assortment = "";
     renew(this.#assortments);
+    this.#count.textContent = t("counting …"); // no longer as many as before
   }
 
   /** Whether a chain has the link assortment that is wanted. */

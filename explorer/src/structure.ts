@@ -159,7 +159,16 @@ export class StructureView implements View {
         h(
           "div",
           {},
-          h("div.chain-picture", {}, drawn),
+          h(
+            "div.chain-picture",
+            {},
+            drawn,
+            h(
+              "div.form.note",
+              {},
+              ...Object.entries(found.numbered).map(([number, name]) => h("span", {}, `${number}\u00a0${name}`)),
+            ),
+          ),
           typesOf(found.joints[this.#joint], (text) => void this.describe(text)),
         ),
         h(

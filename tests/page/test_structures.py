@@ -318,6 +318,12 @@ def test_a_machine_beside_the_lists_has_its_size_and_its_card(tab, server):
     assert "There is none" not in said
     assert "Chains are listed with 3 … 12 links and mobility 0 … 6." in said
     assert "0 chains" not in said
+    # German names of its links are too long for the picture: they stand below it, as large as text
+    view.locator("header select").select_option("de")
+    drawn = view.locator('[data-page="structure"] .chain-picture')
+    drawn.get_by_text("8\xa0Schieberschubstange").wait_for()
+    assert drawn.locator("svg text", has_text="Schieberschubstange").count() == 0
+    view.locator("header select").select_option("en")
     # nor is its card in a list of other chains
     links.fill("6")
     mobility.fill("1")
@@ -533,17 +539,20 @@ def test_links_that_have_numbers_have_them_on_the_cards_of_frames_too():
 
     def written(text: str, names: dict[str, str]) -> list[list[str]]:
         record = answer("structure", {"text": text, "names": names}, "en", print)
+        numbered.append(record["numbered"])
         pictures = [record["picture"], *(each["picture"] for each in record["inversions"])]
         assert {each["frame"] for each in record["inversions"]} <= {name.replace("_", " ") for name in names.values()}
         return [sorted(re.findall(r"<text[^>]*>([^<]*)</text>", picture)) for picture in pictures]
 
+    numbered: list[dict[str, str]] = []
     leg = entries()["klann"].linkage().mechanism
     large, *cards = written(leg.text(), {link: link for link in leg.chain.links})
-    assert "5  upper rocker" in large
-    assert cards[0] == list("123456")
+    assert large == cards[0] == list("123456")
+    assert numbered[0]["5"] == "upper rocker"
     watt = "R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)"
     large, *cards = written(watt, {"0": "frame", **{str(k): str(k) for k in range(1, 6)}})
     assert "frame" in large
+    assert not numbered[1]
     assert cards == [list("12345")] * 2
 
 

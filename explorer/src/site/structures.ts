@@ -14,6 +14,7 @@ interface Frame {
   driver: string;
   family: Said;
   picture: string;
+  numbered: Record<string, string>;
   /** The picture without names, where those are long. */
   card?: string;
   /** How far it lies from the picture. */
@@ -98,6 +99,7 @@ export function structureOf(pack: StructurePack, text: string, lang: Language, p
     chosen: frame.like,
     driver: chosen?.[4] ?? frame.driver,
     picture: over(frame.picture, (chosen ?? given)?.[2] ?? ""),
+    numbered: frame.numbered,
     joints: pack.names[lang].map((name, k) => ({ name, at: frame.at[k]!, types: types(k) })),
     links: marks,
     frame: frame.frame,

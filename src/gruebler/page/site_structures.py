@@ -59,6 +59,7 @@ def structure_pack(
         record: dict[str, Any] = {
             "text": bare.text(),
             "picture": drawn.picture,
+            "numbered": drawn.numbered,
             "at": drawn.at,
             "outlines": {link: drawn.outlines[link] for link in [*strained, *rigid]},
             "frame": as_read(named.get(frame, frame)),

@@ -16,7 +16,7 @@ from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.mobility_report import Freedoms, freedoms
 from gruebler.page.model import spaced
 from gruebler.pictures.canvas.figure import Figure
-from gruebler.pictures.canvas.labels import labels_with_names, legend
+from gruebler.pictures.canvas.labels import labels_with_names
 from gruebler.pictures.canvas.shapes import Point, Shape, bounds, moved_shape
 from gruebler.pictures.canvas.svg import svg_element
 from gruebler.pictures.linkage.element_pictures import contact_shapes
@@ -171,6 +171,7 @@ def structure_record(
         "name": chain_name(chain, lang),
         "kinds": kinds_as_read(chain, lang),
         "picture": drawn.with_drives(moved),
+        "numbered": drawn.numbered,
         "joints": list(_joints(mechanism, shown, drawn, lang)),
         "links": list(_links(chain, drawn, report)),
         "frame": mechanism.frame,
@@ -260,8 +261,10 @@ class DrawnFrame:
 
     picture: str
     """With the names of the links, or numbers."""
+    numbered: dict[str, str]
+    """The names by their numbers, where these stand in the picture."""
     card: str
-    """Without the list of names, or names that are too long for a small picture, and as much smaller."""
+    """Without names that are too long for a small picture, and as much smaller."""
     shift: list[float]
     """How far the card lies from the picture."""
     at: list[list[float]]
@@ -315,9 +318,7 @@ def drawn_frame(
     names = {link: as_read(called.get(link, link)) for link in chain.links}
     texts, numbered = labels_with_names(outlines, placed.closed, bodies, names)
     labelled = [*bodies, *texts]
-    held_at = [point for outline in outlines.values() for point in outline]
-    listed = legend(numbered, held_at, labelled) if numbered else ()
-    corner, picture = _picture([*labelled, *listed], heads.values())
+    corner, picture = _picture(labelled, heads.values())
     if not numbered:
         brief = {link: outline for link, outline in outlines.items() if len(names[link]) <= _LONGEST_LABEL}
         most = len(brief) >= chain.n - 1  # of a drawing the frame alone has a name
@@ -330,6 +331,7 @@ def drawn_frame(
 
     return DrawnFrame(
         picture=picture,
+        numbered={number: name for name, number in numbered.items()},
         card=card,
         shift=[round(corner.x - small.x, 1), round(corner.y - small.y, 1)],
         at=spots(placed.joints[places[number]] for number in range(len(chain.joints))),
