@@ -51,6 +51,7 @@ def test_the_endings_told_for_an_unknown_file_are_those_that_can_be_opened(name)
     asked = {"name": name, "base64": base64.b64encode(b"BM").decode()}
     with pytest.raises(GrueblerError, match=f"^{name}: expected .*linkage2") as told:
         answer("open_file", asked, "en", print)
+    assert len(re.findall(r"\.\w+", str(told.value))) <= 7  # the usual ones, and how many more there are
     for written_only in (".dxf", ".mjcf", ".urdf", ".glb", ".parquet"):
         assert written_only not in str(told.value)
 

@@ -18,7 +18,7 @@ from gruebler.design.synthesis import (
 )
 from gruebler.design.synthesis.demands import WITHOUT
 from gruebler.design.synthesis.given_pivots import OFF_CURVE
-from gruebler.design.synthesis.judging import ANOTHER_ORDER, MISSED, SEVERAL_MISSED
+from gruebler.design.synthesis.judging import ANOTHER_ORDER, MISSED, SEVERAL_MISSED, TOO_FAR
 from gruebler.design.synthesis.targets import GuidedCurve
 
 _BALANCED = message("Balanced: {criteria} count alike.")
@@ -42,6 +42,7 @@ _IN_UNITS = {
         "together the other way"
     ),
     ANOTHER_ORDER.text: message("the targets are met in another order; in theirs one is missed by {missed}"),
+    TOO_FAR.text: message("a target is missed by {missed}"),
 }
 """What the library tells in parts of the size of a task."""
 _TWO = 2  # dyads that a linkage needs
@@ -111,12 +112,13 @@ def _shortfall(design: Design) -> tuple[float, float]:
 def _in_units(design: Design, task: Task) -> list[Message]:
     """Why a design is rejected; how far it misses targets is told as a length or an angle."""
     reasons = [*design.verdict.reasons]
-    if design.targets is None or isinstance(task, DeadCentreTask):
+    angle = isinstance(task, FunctionTask) and task.output == "angle"
+    if isinstance(task, DeadCentreTask) or not (design.targets or angle):
         return reasons
+    size = design.targets.size if design.targets else 1.0
     for k, reason in enumerate(reasons):
         if text := _IN_UNITS.get(reason.text):
-            missed = design.targets.size * reason.values["error"]
-            angle = isinstance(task, FunctionTask)
+            missed = size * reason.values["error"]
             far = message("{angle:.3g}°", angle=degrees(missed)) if angle else message("{length:.3g} mm", length=missed)
             reasons[k] = text.filled(**reason.values, missed=far)
     return reasons

@@ -38,6 +38,8 @@ _FOREIGN = message("The file {name} holds no linkage, nor a chain or points of a
 _NEWER = message('This version of gruebler does not know "{keys}" in the file {name}; a newer one may have written it.')
 _WRONG = message("The file {name} cannot be opened: {problem}.")
 _WRONG_THERE = message("In the file {name}, {where} is wrong: {problem}.")
+_UNKNOWN = message("{path}: expected {usual} or one of {count} other endings, not {suffix!r}")
+_USUAL = (".json", ".toml", ".csv", ".txt", ".linkage2")
 _WITH_BUTTONS = frozenset({*_OWN, "dxf", "mjcf", "urdf"})
 
 
@@ -99,6 +101,10 @@ def _why_not(file: Path, problem: str) -> Message:
     form = file.suffix.lower().lstrip(".")
     if not file.read_bytes().strip():
         return _EMPTY.filled(**said)
+    if not any(file.name.lower().endswith(each.suffixes) for each in FORMATS):
+        read = [ending for each in FORMATS if each.read for ending in each.suffixes if not ending.endswith(".gz")]
+        more = len({*read} - {*_USUAL})
+        return _UNKNOWN.filled(path=file.name, usual=", ".join(_USUAL), count=more, suffix=file.suffix)
     if form not in _OWN:
         return message("{problem}", problem=problem)
     try:

@@ -12,11 +12,20 @@ from typing import Any
 import msgspec
 
 from gruebler.base.errors import GrueblerError
+from gruebler.base.text import message
 
 LONGEST = 120.0
 """Seconds after which a request is ended."""
 _NEARLY = 0.5
 """Seconds in which a process may still answer who does not want it any more: to start another one takes longer."""
+_LONG = message("this took longer than {seconds:g} s and was ended")
+_ENDED = {
+    "synthesise": message(
+        "this took longer than {seconds:g} s and was ended; fewer targets, a fixed order of all of them or no least "
+        "transmission angle take less time"
+    )
+}
+"""What is said of requests that are so long, with what makes them shorter."""
 _WIDEST = 64_000_000  # bytes of an answer
 
 
@@ -79,7 +88,9 @@ class Workers:
                 raise CancelledError
             if reply is None:
                 if not done:
-                    raise GrueblerError("this took longer than {seconds:g} s and was ended", seconds=longest)
+                    raise GrueblerError(
+                        "{text}", text=_ENDED.get(method, _LONG).filled(seconds=longest).in_language(lang)
+                    )
                 answer.result()  # or what went wrong on this side
                 raise GrueblerError("gruebler failed at this request; its terminal shows the reason")
             kind, content = reply

@@ -34,7 +34,7 @@ from gruebler.design.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.design.synthesis.freudenstein import output_errors
 from gruebler.design.synthesis.function_bounds import improved_couplers, seen_from_crank
 from gruebler.design.synthesis.given_lengths import scale_to_length
-from gruebler.design.synthesis.judging import judge_design
+from gruebler.design.synthesis.judging import TOO_FAR, judge_design
 from gruebler.design.synthesis.law_motion import over_interval
 from gruebler.design.synthesis.minimax_search import minimax as minimax_near
 from gruebler.design.synthesis.nearest_functions import nearest_linkages
@@ -260,7 +260,7 @@ def _nearest_pairs(task: FunctionTask, wanted: Demands) -> tuple[list[Design], l
         design = _judged_at_starts(task, wanted, solution, turned, moved, size, error)
         verdict = replace(design.verdict, error=error)
         if error > wanted.tolerance:
-            reason = message("a target is missed by {error:.3g} of the size", error=error)
+            reason = TOO_FAR.filled(error=error)
             verdict = replace(verdict, reasons=(*verdict.reasons, reason))
         designs.append(replace(design, verdict=verdict))
     said = _DEAD_STARTS.filled(count=len(unsteady), error=min(unsteady, default=0.0))

@@ -50,6 +50,7 @@ MISSED = message(
     "target {target} cannot be reached without taking the linkage apart: the circuit comes no nearer than "
     "{error:.3g} of the size"
 )
+TOO_FAR = message("a target is missed by {error:.3g} of the size")
 SEVERAL_MISSED = message(
     "targets {targets} cannot be reached without taking the linkage apart: the circuit comes no nearer than "
     "{error:.3g} of the size"
@@ -280,7 +281,7 @@ def judge_with_drives(linkage: Linkage, targets: Targets, demands: Demands, form
     if not np.isfinite(error):
         reasons.append(message("`move` does not lead through all targets"))
     elif error > demands.tolerance + rounding:
-        reasons.append(message("a target is missed by {error:.3g} of the size", error=error))
+        reasons.append(TOO_FAR.filled(error=error))
     elif targets.allowed is not None:
         reasons += _beyond_tolerance(misses, targets.allowed, rounding)
     if demands.crank:
@@ -373,7 +374,7 @@ def _faults_of_way(
     elif not np.isfinite(carried):
         yield message("`move` does not lead through all targets")
     elif not carried <= limit:
-        yield message("a target is missed by {error:.3g} of the size", error=carried)
+        yield TOO_FAR.filled(error=carried)
     elif targets.allowed is not None:
         yield from _beyond_tolerance(misses, targets.allowed, limit - demands.tolerance)
 
