@@ -66,6 +66,19 @@ def test_wrong_ones_are_named(changes, said):
         wheeled(**changes)
 
 
+def test_a_link_with_joints_in_no_plane_is_one_body_and_no_bar_goes_to_a_rim():
+    """The knuckle of five links: balls on the corners of a body, a spindle to the wheel, none to its contact."""
+    linkage = entry("susp_5link_lift").placed()
+    knuckle = link_solids(linkage)["knuckle"]
+    corners = linkage.frames[7:12, :3, 3]
+    body = max(knuckle[:-1], key=lambda solid: solid.volume)  # the last is the wheel
+    for corner in corners:
+        assert np.linalg.norm(body.vertices - corner, axis=1).min() < 1.1 * linkage.size / 45
+    (spindle,) = [solid for solid in knuckle[:-1] if solid.vertices[:, 0].max() > 850]
+    assert spindle.vertices[:, 2].min() > 250
+    assert all(np.ptp(solid.vertices[:, 2]) < 60 for solid in knuckle[:-1] if solid is not body)
+
+
 def test_a_file_names_the_key():
     document = screws_to_json(wheeled())
     document["screws"]["round_bodies"]["wheel"]["radius"] = "wide"

@@ -41,6 +41,9 @@ export interface ReadJoint {
   number: number;
 }
 
+/** A joint in the reference pose: a point of it, and the axes that it needs. */
+export type Placed = Partial<Record<"at" | "x" | "y" | "z", number[]>>;
+
 interface Texts {
   title: string;
   drives: string[];
@@ -70,7 +73,9 @@ export interface Model {
   glass: (Body & { link: number })[];
   points: Spot[];
   /** The linkage as the library reads it. */
-  document: Record<string, unknown>;
+  document: { screws: { joints: Record<string, Placed> } };
+  /** The links of each joint. */
+  ends: number[][];
   /** The machine of the catalog that has a drive, where this one has none. */
   driven: { id: string; titles: Record<Language, string> } | null;
   /** Of links with two joints: how far these are apart, and the angle of their axes in degrees. */

@@ -1,11 +1,11 @@
-/** The sizes of a machine in space, typed: the server makes the machine with them, which can be undone. */
+/** Sizes and joints of a machine in space, typed: the server makes the machine with them, which can be undone. */
 
 import { h, renew } from "../dom";
 import { currentLanguage, number, parsed } from "../language";
 import { store, stored } from "../storing";
 import { moment } from "../waiting";
 import { asked } from "./asking";
-import type { Model } from "./model";
+import type { Model, Placed } from "./model";
 
 /** Distance and angle of a link, null where it stays. */
 type Size = [number | null, number | null];
@@ -24,6 +24,8 @@ const MOST = 10; // changes
 
 export class Resizing {
   readonly element = h("div", {});
+  /** Where the joints are. */
+  readonly joints = h("div", {});
   readonly #said = h("p.error", { role: "alert" });
   #past: Model[] = [];
   readonly #future: Model[] = [];
@@ -71,6 +73,50 @@ export class Resizing {
       ];
     });
     renew(this.element, h("div.rows", {}, ...rows), this.#said);
+    const own = h("p.error", { role: "alert" });
+    renew(this.joints, h("div.rows", {}, ...this.#places(own)), own);
+  }
+
+  /** Places and axes of the joints in the reference pose: what makes the machine in full. */
+  #places(said: HTMLElement): HTMLElement[] {
+    const { document, ends, texts, unit } = this.owner.shown();
+    const { links, words } = texts[currentLanguage()];
+    return Object.entries(document.screws.joints).flatMap(([key, place], joint) => {
+      const given = (["x", "y", "z"] as const).filter((axis) => place[axis]);
+      const name = ends[joint]!.map((link) => links[link]!).join(" – ");
+      return [
+        h("b", {}, name),
+        ...(unit ? this.#vector(key, joint, "at", words.place!, said) : []), // on a sphere there are axes alone
+        ...given.flatMap((axis) => {
+          const label = given.length > 1 ? words[`${axis}-axis`]! : words.axis!;
+          return this.#vector(key, joint, axis, label, said);
+        }),
+      ];
+    });
+  }
+
+  #vector(key: string, joint: number, what: keyof Placed, label: string, said: HTMLElement): HTMLElement[] {
+    const data = this.owner.shown();
+    const { document, resizable, unit } = data;
+    const { joints } = document.screws;
+    const old = joints[key]![what]!;
+    const shown = old.map((part) => number(part, what === "at" ? DIGITS - 1 : DIGITS - 2));
+    const id = `joint-${joint}-${what}`;
+    const field = h("input", {
+      id,
+      readonly: !resizable,
+      value: shown.join(" | "),
+      onchange: () => {
+        const parts = field.value.split(/[|;\s]+/).filter(Boolean);
+        const wanted = parts.map((text, k) => (text === shown[k] ? old[k]! : parsed(text))); // with all its digits
+        const bad = wanted.length !== 3 || wanted.some(Number.isNaN);
+        field.setAttribute("aria-invalid", String(bad));
+        if (bad) return;
+        const screws = { ...document.screws, joints: { ...joints, [key]: { ...joints[key], [what]: wanted } } };
+        void this.#ask({ ...data, document: { ...document, screws } }, {}, said);
+      },
+    });
+    return [h("label", { for: id }, label), field, h("span.unit", {}, what === "at" ? unit : "")];
   }
 
   #row(link: number, which: 0 | 1, label: HTMLElement | string, value: number, unit: string): HTMLElement[] {
@@ -88,29 +134,31 @@ export class Resizing {
         const size: Size = [...(this.#typed.get(link) ?? [null, null])];
         size[which] = wanted;
         this.#typed.set(link, size);
-        void this.#ask();
+        const data = this.owner.shown();
+        const sizes = [...this.#typed].map(([each, one]) => [data.names[each]!, one]);
+        void this.#ask(data, Object.fromEntries(sizes), this.#said);
       },
     });
     return [h("label", { for: id }, label), field, h("span.unit", {}, unit)];
   }
 
-  async #ask(): Promise<void> {
+  /** The machine with sizes; what is wrong with them is said. */
+  async #ask(data: Model, sizes: Record<string, Size>, said: HTMLElement): Promise<void> {
     const question = ++this.#asked;
     const before = this.owner.shown();
-    const sizes = Object.fromEntries([...this.#typed].map(([link, size]) => [before.names[link]!, size]));
-    renew(this.#said, moment());
+    renew(said, moment());
     try {
-      const made = await asked<Model>("resize", before, { sizes });
+      const made = await asked<Model>("resize", data, { sizes });
       if (question !== this.#asked) return;
-      this.#said.textContent = "";
+      said.textContent = "";
       this.#typed = new Map();
       this.#past.push(before);
       this.#future.length = 0;
       this.#take(made);
     } catch (error) {
       if (question !== this.#asked) return;
-      this.#said.textContent = (error as Error).message;
-      this.#refused();
+      said.textContent = (error as Error).message;
+      if (said === this.#said) this.#refused();
     }
   }
 

@@ -27,6 +27,7 @@ const ARM = 26; // pixels of the axes in the corner
 const ROOM = 16; // pixels around the machine
 const BUTTONS = 56; // pixels
 const MOST_ROOM = 0.3; // of the picture
+const DIRECTIONS = 160;
 const STEEP = 1.5; // radians: no farther up or down
 
 export interface SceneEvents {
@@ -52,6 +53,9 @@ export class Scene {
   readonly #painter: Painter | null = null;
   #camera: Camera;
   #whole = true;
+  /** What is kept in the picture, and whether below the buttons rather than beside them. */
+  #places: Vector[] = [];
+  #below = 0;
   /** The lowest and the highest coordinates of what stands on the floor. */
   #extent: [Vector, Vector] = [
     [0, 0, 0],
@@ -147,10 +151,15 @@ export class Scene {
     this.#whole = true;
     if (!this.#wide) return; // it is not laid out yet
     const reached = this.machine.reached;
-    const places = [...this.#corners(reached), ...reached.flatMap((poses) => arrowsOf(this.machine, poses).flat())];
-    const [one, other] = this.#margins.map((room) => fitted(this.#camera, this.#wide, places, room));
-    this.#camera = one!.distance < other!.distance ? one! : other!;
+    this.#places = [...this.#corners(reached), ...reached.flatMap((poses) => arrowsOf(this.machine, poses).flat())];
+    const cameras = this.#margins.map((room) => this.#fitted(room));
+    this.#below = Number(cameras[0]!.distance >= cameras[1]!.distance);
+    this.#camera = cameras[this.#below]!;
     this.draw();
+  }
+
+  #fitted(room: Margins): Camera {
+    return fitted(this.#camera, this.#wide, this.#places, room);
   }
 
   /** What is beside the machine: words below, buttons to the right or above; of a small picture a third at most. */
@@ -189,6 +198,7 @@ export class Scene {
     this.#camera.turn += turn;
     this.#camera.lift = Math.min(Math.max(this.#camera.lift + lift, -STEEP), STEEP);
     this.events.turned();
+    if (this.#whole) this.#camera = this.#fitted(this.#margins[this.#below]!); // with the same room: it does not jump
     this.draw();
   }
 
@@ -367,20 +377,19 @@ export class Scene {
   }
 }
 
-/** The places of a body that are farthest in 26 directions: enough to tell how far it reaches. */
+/** The places of a body that are farthest in many directions, evenly spread: enough to tell how far it reaches. */
 function farthest(vertices: number[]): Vector[] {
   const found = new Set<number>();
-  const signs = [-1, 0, 1];
-  for (const x of signs)
-    for (const y of signs)
-      for (const z of signs) {
-        let [best, most] = [0, -Infinity];
-        for (let k = 0; k < vertices.length; k += 3) {
-          const far = x * vertices[k]! + y * vertices[k + 1]! + z * vertices[k + 2]!;
-          if (far > most) [best, most] = [k, far];
-        }
-        if (vertices.length) found.add(best);
-      }
+  for (let n = 0; vertices.length && n < DIRECTIONS; n++) {
+    const z = (2 * n + 1) / DIRECTIONS - 1;
+    const [x, y] = [Math.cos, Math.sin].map((part) => part(2.4 * n) * Math.sqrt(1 - z * z)) as [number, number];
+    let [best, most] = [0, -Infinity];
+    for (let k = 0; k < vertices.length; k += 3) {
+      const far = x * vertices[k]! + y * vertices[k + 1]! + z * vertices[k + 2]!;
+      if (far > most) [best, most] = [k, far];
+    }
+    found.add(best);
+  }
   return [...found].map((k) => vertices.slice(k, k + 3) as Vector);
 }
 

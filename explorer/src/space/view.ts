@@ -272,8 +272,8 @@ export class SpaceView implements Driven {
       const shown = data.resizable ? this.#resizing.element : this.#sizes.element;
       const said = data.unit ? [h("p.note", {}, words.axes)] : []; // on a sphere there are angles alone
       panels.push(panelOf("sizes", t("Sizes"), true, shown, ...said));
-      this.#resizing.arrange();
     }
+    this.#resizing.arrange();
     const pick = (value: number) => this.transport.pick(value);
     this.#plots = new OutputPlots(linkage, texts, pick, () => this.#facts.show(this.#measures()));
     if (linkage.drive) panels.push(panelOf("plots", t("Plots"), true, this.#plots.element));
@@ -286,6 +286,8 @@ export class SpaceView implements Driven {
       return chip;
     });
     panels.push(panelOf("links", t("Links"), true, h("div.chips", {}, ...chips)));
+    const open = this.#side.querySelector<HTMLDetailsElement>('[data-panel="joints"]')?.open ?? false;
+    panels.push(panelOf("joints", words.joints!, open, h("p.note", {}, words.placed), this.#resizing.joints));
     const { scene } = this;
     const look = (name: string) => {
       this.#view = name;

@@ -19,6 +19,7 @@ from gruebler.files.solids import (
     bent_solid,
     box_solid,
     cylinder_solid,
+    hull_solid,
     plate_solid,
     threaded_solid,
     turned_solid,
@@ -113,21 +114,31 @@ def link_solids(
             holds[link].append(hold)
     for cross in crosses:
         solids[cross.body or list(cross.arms)[-1]] += _spider(cross, radius)
-    for link, point in linkage.points.values():
-        holds[link].append(np.array(point))
+    points = {link: [np.array(at) for of, at in linkage.points.values() if of == link] for link in chain.links}
     for link, held in holds.items():
         if link != frame and all(link != cross.body for cross in crosses):
-            solids[link] += _bars(np.array(held), radius, spherical)
+            rims = [body for body in linkage.round_bodies.values() if body.link == link]
+            inner = [[at for at in each if not any(_on_rim(at, rim) for rim in rims)] for each in (held, points[link])]
+            solids[link] += _bars(*inner, radius, spherical)
     for body in linkage.round_bodies.values():
         solids[body.link].append(round_solid(body))
     return {link: _distinct(each) for link, each in solids.items()}
 
 
-def _bars(held: Reals, r: float, spherical: bool) -> list[Solid]:
-    """What joins the joints of a link: a plate, bars, on a sphere arcs about its middle."""
-    plate = plate_solid(held, r) if len(held) > 2 and not spherical else None
-    if plate is not None:
-        return [plate]
+def _bars(joints: Sequence[Reals], points: Sequence[Reals], r: float, spherical: bool) -> list[Solid]:
+    """What joins the joints and points of a link: a plate, a body from which bars go to points, bars, on a sphere arcs
+    about its middle."""
+    held = np.array([*joints, *points])
+    if len(held) > 2 and not spherical:
+        plate = plate_solid(held, r)
+        if plate is not None:
+            return [plate]
+        if len(joints) > 2:
+            places = np.array(joints)
+            body = plate_solid(places, r) or (hull_solid(places, r) if len(joints) > 3 else None)
+            if body is not None:
+                middle = places.mean(axis=0)
+                return [body, *(cylinder_solid(middle, at, r, phase=0.05 * k) for k, at in enumerate(points, 1))]
     bars = []
     for k, (a, b) in enumerate(bars_between(held), 1):
         if np.linalg.norm(b - a) <= r / 4:
@@ -135,6 +146,14 @@ def _bars(held: Reals, r: float, spherical: bool) -> list[Solid]:
         arc = _arc(a, b) if spherical else None
         bars.append(cylinder_solid(a, b, r, phase=0.05 * k) if arc is None else bent_solid(arc, r, phase=0.05 * k))
     return bars
+
+
+def _on_rim(at: Reals, body: TurnedBody) -> bool:
+    """Whether a place lies on the outside of a round body, as the contact of a tyre: the body itself leads to it."""
+    away = at - np.array(body.at)
+    axis = np.array(body.z) / np.linalg.norm(body.z)
+    along = float(away @ axis)
+    return abs(along) <= body.length / 2 and 0.9 < float(np.linalg.norm(away - along * axis)) / body.radius < 1.1
 
 
 def _distinct(solids: Sequence[Solid]) -> tuple[Solid, ...]:

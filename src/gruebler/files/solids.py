@@ -134,6 +134,24 @@ def box_solid(middle: Reals, axes: Reals, halves: Sequence[float] | Reals) -> So
     return Solid(middle + (signs * np.array(halves)) @ axes.T, np.array(triangles, np.intp))
 
 
+def hull_solid(places: Reals, radius: float) -> Solid:
+    """The convex body about balls at places.
+
+    >>> corners = np.array([[0, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 9.0]])
+    >>> 9**3 / 6 < hull_solid(corners, 1.0).volume < 11**3
+    True
+    """
+    from scipy.spatial import ConvexHull
+
+    hull = ConvexHull(np.concatenate([ball_solid(place, radius).vertices for place in places]))
+    corners, triangles = np.unique(hull.simplices, return_inverse=True)
+    vertices, triangles = hull.points[corners], triangles.reshape(-1, 3)
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    inward = (np.cross(b - a, c - a) * hull.equations[:, :3]).sum(axis=1) < 0
+    triangles[inward] = triangles[inward, ::-1]
+    return Solid(vertices, triangles)
+
+
 def plate_solid(places: Reals, radius: float) -> Solid | None:
     """A plate under places of a plane, as far beyond them and as thick as the radius; None if they lie in no plane.
 

@@ -64,6 +64,13 @@ _WORDS = {
     "crossed": message("angle"),
     "lost": message("The connection to gruebler is lost."),
     "axes": message("Between two axes their distance and angle; to a ball the distance alone."),
+    "joints": message("Joints"),
+    "placed": message("In the reference pose; coordinates x | y | z."),
+    "place": message("place"),
+    "axis": message("axis"),
+    "x-axis": message("x axis"),
+    "y-axis": message("y axis"),
+    "z-axis": message("z axis"),
     "file": message("File"),
     "document": message("As gruebler reads it: gruebler explore FILE"),
     "bodied": message("Bodies"),
@@ -74,6 +81,7 @@ _WORDS = {
     "without": message("It leads to the machine without the sizes that were changed here."),
     "flat": message("This browser cannot draw in space: it has no WebGL 2."),
 }
+_AGAINST = message("{other} relative to {one}")
 _ALONE = message("The drives move one at a time here, since the page does not solve {joint}.")
 
 
@@ -158,13 +166,14 @@ def space_model(
         "resizable": asks and can_be_resized(linkage),
         "text": mechanism.text(),
         "names": list(chain.links),
+        "ends": [[chain.index(link) for link in joint.links] for joint in chain.joints],
         "unit": "" if spherical else linkage.unit,
         "document": screws_to_json(linkage),
         "driven": driven,
         "sizes": [
             {
                 "link": chain.index(size.link),
-                "distance": None if spherical else _rounded(size.distance),
+                "distance": _rounded(size.distance) if size.distance else None,  # axes that meet have none
                 "angle": None if size.angle is None else _rounded(size.angle),
             }
             for size in link_sizes(linkage)
@@ -246,11 +255,12 @@ def _solved(linkage: SpatialLinkage) -> list[int]:
 
 
 def _titled(linkage: SpatialLinkage, names: Sequence[str], number: int, lang: str) -> str:
-    """The name of a joint with links that are called by names, without what these have in brackets."""
-    short = (re.sub(r" \(.*\)", "", name) for name in names)
-    links = dict(zip(linkage.mechanism.chain.links, short, strict=True))
-    joint = linkage.mechanism.chain.joints[number]
-    return f"{joint.pair.symbol(Alphabet.of_language(lang))}({'-'.join(links[link] for link in joint.links)})"
+    """Which link is measured against which in a joint, as its sign has it, without what names have in brackets."""
+    first, second = linkage.mechanism.chain.joints[number].links[:2]
+    if against_frame(linkage, number) < 0:
+        first, second = second, first
+    one, other = (re.sub(r" \(.*\)", "", names[linkage.mechanism.chain.index(link)]) for link in (first, second))
+    return _AGAINST.filled(one=one, other=other).in_language(lang)
 
 
 def _arrow(linkage: SpatialLinkage, drive: int) -> dict[str, Any]:
