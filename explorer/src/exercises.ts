@@ -52,10 +52,10 @@ interface Marked {
   solution: Part[];
 }
 
-/** A formula whose quantities are slanted, with their indices: s1 and l_a. */
+/** A formula whose quantities are slanted, with their indices: s1 and l_a; units behind numbers are upright. */
 function formula(text: string): (string | Node)[] {
   return text
-    .split(/(?<![\p{L}\d])(\p{L}(?:_[\p{L}\d]+|\d+)?)(?![\p{L}(])/u)
+    .split(/(?<![\p{L}\d]|\d (?:\w+\/)?(?=[ms]²?(?:[\s;,.)/]|$)))(\p{L}(?:_[\p{L}\d]+|\d+)?)(?![\p{L}(])/u)
     .map((part, k) => (k % 2 ? h("i", {}, part[0], h("sub", {}, part.slice(1).replace("_", ""))) : part));
 }
 
@@ -130,7 +130,7 @@ export class ExercisesView implements View {
       void this.fresh();
     };
     const kinds = choice(t("Topic"), options, this.kind, choose, { class: "choice palette" });
-    kinds.prepend(t("Topic"));
+    kinds.prepend(h("span", {}, t("Topic")));
     renew(this.#kinds, kinds);
     return this.fresh();
   }

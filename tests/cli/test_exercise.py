@@ -33,7 +33,7 @@ def test_solve(capsys):
     assert "H = l_a - l_i = 133,51 - 61,8466 = 71,6637 mm" in out
     assert "[gedruckt 7,2 cm: stimmt]" in out
     assert "[gedruckt 18,4°: abweichend. Aus einer Zeichnung abgelesen" in out
-    assert "stimmt überein" in out
+    assert "beide Verfahren ergeben" in out
     status, out, _ = run(capsys, "exercise", "solve", "15", "16", "--json")
     fifteen, sixteen = json.loads(out)
     assert fifteen["results"]["H"]["value"] == pytest.approx(71.66371484392198)

@@ -49,7 +49,7 @@ def test_methods_that_differ_are_said():
     wrong = Solution(
         right.parts, right.results, (*right.checks, Check(text=message("d by drawing"), first=91.2, second=91.3))
     )
-    assert [str(fault) for fault in faults(task, wrong)] == ["exercise-12: d by drawing: 91.2 | 91.3: DIFFERS"]
+    assert [str(fault) for fault in faults(task, wrong)] == ["exercise-12: d by drawing: 91.2 and 91.3 DIFFER"]
 
 
 def test_the_written_solution_says_what_is_printed():

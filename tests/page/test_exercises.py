@@ -95,6 +95,14 @@ def test_the_page_shows_kinds_figure_and_hints(exercises):
     wrong.first.wait_for()
     assert page.page.locator("[id^=hint-]").count() == wrong.count() == page.page.locator("input[data-answer]").count()
     assert page.page.locator("h2 + .note").text_content() == "0 of 1 solved"  # said once, beside the title
+    letters = page.page.locator(".task figure text").all_text_contents()
+    assert {"a", "b", "A", "B", "φ", "β"} <= set(letters)  # of which text and solution speak
+    slanted = page.page.locator(".solution .formula i").all_text_contents()
+    assert "ω" in slanted
+    assert "s" not in slanted  # of mm/s
+    assert "by the general solver: both methods give" in page.page.locator(".solution").text_content()
+    tops = [button.bounding_box()["y"] for button in kinds.all()]
+    assert tops == [tops[0]] * 5 + [tops[5]] * 5  # two rows below each other
 
 
 @pytest.mark.parametrize("level", [1, 2, 3])

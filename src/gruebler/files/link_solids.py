@@ -118,16 +118,20 @@ def link_solids(
     for link, held in holds.items():
         if link != frame and all(link != cross.body for cross in crosses):
             rims = [body for body in linkage.round_bodies.values() if body.link == link]
-            inner = [[at for at in each if not any(_on_rim(at, rim) for rim in rims)] for each in (held, points[link])]
-            solids[link] += _bars(*inner, radius, spherical)
+            joints, named = (
+                [at for at in each if not any(_on_rim(at, rim) for rim in rims)] for each in (held, points[link])
+            )
+            solids[link] += _bars(joints, named, radius, spherical)
     for body in linkage.round_bodies.values():
         solids[body.link].append(round_solid(body))
     return {link: _distinct(each) for link, each in solids.items()}
 
 
 def _bars(joints: Sequence[Reals], points: Sequence[Reals], r: float, spherical: bool) -> list[Solid]:
-    """What joins the joints and points of a link: a plate, a body from which bars go to points, bars, on a sphere arcs
-    about its middle."""
+    """What joins the joints and points of a link: a plate, a body from which bars go to points, or bars.
+
+    On a sphere they are arcs about its middle.
+    """
     held = np.array([*joints, *points])
     if len(held) > 2 and not spherical:
         plate = plate_solid(held, r)

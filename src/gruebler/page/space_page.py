@@ -81,7 +81,7 @@ _WORDS = {
     "without": message("It leads to the machine without the sizes that were changed here."),
     "flat": message("This browser cannot draw in space: it has no WebGL 2."),
 }
-_AGAINST = message("{other} relative to {one}")
+_AGAINST = message("{moved} relative to {still}")
 _ALONE = message("The drives move one at a time here, since the page does not solve {joint}.")
 
 
@@ -259,8 +259,8 @@ def _titled(linkage: SpatialLinkage, names: Sequence[str], number: int, lang: st
     first, second = linkage.mechanism.chain.joints[number].links[:2]
     if against_frame(linkage, number) < 0:
         first, second = second, first
-    one, other = (re.sub(r" \(.*\)", "", names[linkage.mechanism.chain.index(link)]) for link in (first, second))
-    return _AGAINST.filled(one=one, other=other).in_language(lang)
+    still, moved = (re.sub(r" \(.*\)", "", names[linkage.mechanism.chain.index(link)]) for link in (first, second))
+    return _AGAINST.filled(still=still, moved=moved).in_language(lang)
 
 
 def _arrow(linkage: SpatialLinkage, drive: int) -> dict[str, Any]:

@@ -103,7 +103,11 @@ def driven_angle(posed: PosedLinkage) -> int | None:
 
 
 def angle_marks(context: LayerContext) -> list[Shape]:
-    """φ of the driven link and ψ of the output at their joints with the frame, measured from its x-axis."""
+    """φ of the driven link and ψ of the output at their joints with the frame, measured from its x-axis.
+
+    Where the output slides it is β, the inclination of the coupler from the crank pin on, less than half a turn either
+    way.
+    """
     posed, mechanism = context.posed, context.posed.lower.mechanism
     joints = mechanism.chain.joints
     turning = [k for k, joint in enumerate(joints) if joint.pair.is_turning and mechanism.frame in joint.links]
@@ -112,6 +116,8 @@ def angle_marks(context: LayerContext) -> list[Shape]:
     asked = [("φ", k, link) for k in turning if k == driven for link in joints[k].links if link != mechanism.frame][:1]
     drives = {drive.joint for drive in mechanism.drives}
     asked += [("ψ", k, output) for k in turning if output in joints[k].links and k not in drives][:1]
+    if len(asked) == 1 and (coupler := _coupler(posed, asked[0][2], output)):
+        asked.append(("β", *coupler))
     shapes: list[Shape] = []
     for (letter, number, link), radius in zip(asked, _ARCS, strict=False):
         at = _pin(posed, number)
@@ -119,13 +125,26 @@ def angle_marks(context: LayerContext) -> list[Shape]:
         if not others:
             continue
         along = others[0].minus(at)
-        turn = math.atan2(-along.y, along.x) % (2 * math.pi)
+        turn = math.atan2(-along.y, along.x)
+        if letter != "β":
+            turn %= 2 * math.pi
         arc = ArcShape(at, radius=radius, begin=0.0, extent=-turn, style="measure")
         line = Polylines((_between(at, at.plus(Point(1.0, 0.0), radius + _BEYOND + RADIUS)),), "dead")
-        head = [arrow_head(arc)] if turn > _SHORT else []
+        head = [arrow_head(arc)] if abs(turn) > _SHORT else []
         shapes += [line, arc, *(Polylines(shape.parts, "dot", closed=True) for shape in head)]
         shapes.append(note_near(arc.place(0.5), letter, "name", [*context.drawn, *shapes]))
     return shapes
+
+
+def _coupler(posed: PosedLinkage, crank: str, output: str) -> tuple[int, str] | None:
+    """The turning joint of the crank with a link that turns in an output that slides, and this link."""
+    joints = [(k, joint.links) for k, joint in enumerate(posed.lower.mechanism.chain.joints) if joint.pair.is_turning]
+    for number, links in joints:
+        if crank in links:
+            for link in links:
+                if link != crank and any({link, output} <= set(other) for _, other in joints):
+                    return number, link
+    return None
 
 
 def _pin(posed: PosedLinkage, number: int) -> Point:

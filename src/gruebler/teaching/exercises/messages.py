@@ -176,8 +176,13 @@ def printed_text(comparison: Comparison, lang: str) -> str:
 def check_text(check: Check, lang: str) -> str:
     """The quantity by both methods, and whether they agree."""
     first, second = (value_text(value, check.unit, lang) for value in (check.first, check.second))
-    verdict = translate("agrees" if check.holds else "DIFFERS", lang)
-    return f"{check.text.in_language(lang)}: {first} | {second}: {verdict}"
+    if not check.holds:
+        sentence = message("{what}: {first} and {second} DIFFER")
+    elif first == second:
+        sentence = message("{what}: both methods give {first}")
+    else:
+        sentence = message("{what}: {first} and {second} agree")
+    return sentence.filled(what=check.text, first=first, second=second).in_language(lang)
 
 
 def cells_of_table(table: TeachingTable, lang: str) -> list[list[str]]:

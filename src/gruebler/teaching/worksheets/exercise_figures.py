@@ -38,6 +38,8 @@ class DrawnLinkage:
     drive: float | None = None
     between: tuple[float, float] | None = None
     curves: tuple[str, ...] = ()
+    show: tuple[str, ...] = ()
+    """Layers of the picture."""
     name: Text | None = None
     """What distinguishes it from the other linkages of the exercise."""
     source: str = ""
@@ -50,6 +52,7 @@ class DrawnLinkage:
             at=self.drive,
             between=self.between,
             curves=self.curves,
+            show=self.show,
             labels=bool(self.letters),
             lang=lang,
             names=self.letters,
@@ -120,7 +123,8 @@ def _of_lengths(exercise: Exercise) -> DrawnLinkage | None:
     else:
         return None
     phi = radians(float(given["phi"])) if "phi" in given else None
-    return DrawnLinkage(linkage=size.linkage(), letters=letters, drive=phi) if size.limits else None
+    show = () if phi is None else ("joints", "angles")  # of which the text speaks
+    return DrawnLinkage(linkage=size.linkage(), letters=letters, drive=phi, show=show) if size.limits else None
 
 
 _LETTERS = {"crank": "a", "coupler": "b", "rocker": "c", "frame": "d", "slider": " "}
