@@ -2,7 +2,7 @@
 
 import { choice, h, menu, ownPage, renew, thumbnail } from "./dom";
 import { movesOnHover } from "./hover";
-import { currentLanguage, t } from "./language";
+import { currentLanguage, t, number as written } from "./language";
 import type { Model } from "./model";
 import type { Page, View } from "./view";
 
@@ -82,13 +82,13 @@ export class CatalogView implements View {
     const summary = h("summary", {});
     const count = () => {
       const { words: _, ...set } = this.#query;
-      const number = Object.values(set).filter(Boolean).length;
-      summary.textContent = t("More filters") + (number ? ` (${number})` : "");
+      const filters = Object.values(set).filter(Boolean).length;
+      summary.textContent = t("More filters") + (filters ? ` (${filters})` : "");
     };
     count();
     const field = (key: string, label: string, most: number, least = 0) => {
-      const numbers = Array.from({ length: most - least + 1 }, (_, k) => String(least + k));
-      const options = [["", t("any")], ...numbers.map((one) => [one, one])] as [string, string][];
+      const numbers = Array.from({ length: most - least + 1 }, (_, k) => least + k);
+      const options = [["", t("any")], ...numbers.map((one) => [String(one), written(one)])] as [string, string][];
       if (JOINTS.has(key)) options.splice(1, 0, [SOME, t("at least 1")]);
       const choose = (value: string) => {
         this.#query[key] = value;
@@ -124,7 +124,7 @@ export class CatalogView implements View {
         ),
         group(
           t("Mobility and drives"),
-          field("mobility", t("mobility by the count"), 9),
+          field("mobility", t("mobility by the count"), 9, -7),
           field("drive_joints", t("driven joints"), 6),
           field("drive_joints_at_frame", t("of them at the frame"), 3),
           h("button.plain", { "data-act": "clear", onclick: () => this.#showAll() }, t("Clear")),

@@ -481,6 +481,10 @@ def test_the_catalog_is_searched_by_access_features(tab, server):
         )
         assert below["x"] == above["x"]
         assert above["y"] < below["y"] < above["y"] + 60
+    panel.get_by_label("Kugelgelenke").select_option("")
+    panel.get_by_label("Drehgelenke").select_option("")
+    panel.get_by_label("Laufgrad, gezählt").select_option(label="−7")
+    page.until(f"{ids} === 'car_door'")
     page.page.click('[data-panel="features"] [data-act="clear"]')
     fields = page.page.locator('[data-page="catalog"] :is(input, select)')
     assert set(fields.evaluate_all("all => all.map((one) => one.value)")) == {""}

@@ -39,7 +39,7 @@ class ListCatalog(Params):
     joints: Word = ""
     """Numbers of joints by type, such as ``R:4,P:0``."""
     links: Number | None = None
-    mobility: Number | None = None
+    mobility: Annotated[int, msgspec.Meta(ge=-100, le=100)] | None = None
     drive_joints: Number | None = None
     drive_joints_at_frame: Number | None = None
     output_links: Number | None = None
