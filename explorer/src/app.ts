@@ -19,7 +19,7 @@ import type { Model } from "./model";
 import { MotionView } from "./motion";
 import { contentOf, takeDropped } from "./opening";
 import { fromBase64 } from "./packed";
-import { openShared, type Shared, sharedOf, shareLink } from "./sharing";
+import { openShared, type Shared, sharedOf, shareLink, unshared } from "./sharing";
 import { firstTheme, setTheme, shell, themeTool, tool } from "./shell";
 import { IN_SPACE, type InSpace, store, stored } from "./storing";
 import { StructureView } from "./structure";
@@ -28,6 +28,7 @@ import type { Page, Place, View } from "./view";
 import { drawn } from "./waiting";
 
 const TYPED = "gruebler-typed"; // for the page that is loaded again
+const LEFT = "gruebler-left"; // what the address did not hold yet when the page was left, with this address
 const PATIENCE = 10_000; // ms, until a page appears without what its address names
 
 export class App implements Page {
@@ -52,6 +53,8 @@ export class App implements Page {
    * is changed. */
   #unread = false;
   #writing = 0;
+  /** Whether the address holds what is shown. */
+  #written = true;
   private hash = "";
 
   constructor(
@@ -124,6 +127,8 @@ export class App implements Page {
       addEventListener("pagehide", () => {
         this.#leaveField();
         store(TYPED, { of: this.hash, change: this.motion.side.forces.typed });
+        store(LEFT, this.#written ? null : { of: this.hash, shared: this.#shared() });
+        if (!this.#written) this.motion.keep(this.hash);
       });
     }
   }
@@ -327,6 +332,7 @@ export class App implements Page {
     this.#arrangeHeader();
     if (this.#unread && !this.motion.undoable[0]) return;
     this.#unread = false;
+    this.#written = false;
     clearTimeout(this.#writing);
     this.#writing = setTimeout(() => void this.write(), 150);
   }
@@ -351,11 +357,15 @@ export class App implements Page {
     this.hash = `#${await packed(shared)}`;
     this.motion.keep(this.hash);
     history.replaceState(this.#placed(this.view), "", this.hash);
+    this.#written = true;
   }
 
   async #read(): Promise<void> {
     let text = location.hash.slice(1);
-    if (!text) return;
+    const left = stored<{ of: string; shared: Shared }>(LEFT);
+    const shared = left?.of === location.hash && left.shared;
+    store(LEFT, null);
+    if (!text && !shared) return;
     this.hash = location.hash;
     const [lang, named = "", space] = text.split("/");
     const view = named.replace("forces", "motion"); // a part of it
@@ -365,7 +375,7 @@ export class App implements Page {
       text = keptLink().slice(1);
     }
     try {
-      if (text && (await openShared(text, this)) && !below) this.show("motion");
+      if ((shared || text) && (await openShared(shared || (await unshared(text)), this)) && !below) this.show("motion");
       this.#unread = false;
       this.changed();
     } catch (error) {
@@ -374,7 +384,7 @@ export class App implements Page {
     }
     if (!below) return;
     clearTimeout(this.#writing);
-    this.#unread = true;
+    this.#unread = this.#written = true;
     this.#returnTo({ view, space });
     this.arrange();
     if (view !== named) this.motion.side.open(named);

@@ -41,7 +41,7 @@ export function sharedOf(motion: MotionView, withModel: boolean): Shared {
 }
 
 /** What the text behind # carries; an error if it is none. */
-async function unshared(text: string): Promise<Shared> {
+export async function unshared(text: string): Promise<Shared> {
   const shared = (await unpacked(text)) as Shared;
   if (typeof shared?.document?.joints !== "string") throw new Error(t("This address holds no mechanism."));
   return shared;
@@ -55,12 +55,11 @@ async function modelOf({ document, name, names = {}, source, model }: Shared, pa
   return found;
 }
 
-/** Take what the text behind # carries: other sizes of the linkage at hand, or another linkage; whether it is one. */
+/** Take what a link carries: other sizes of the linkage at hand, or another linkage; whether it is one. */
 export async function openShared(
-  text: string,
+  shared: Shared,
   page: Page & { backend: Backend; motion: MotionView },
 ): Promise<boolean> {
-  const shared = await unshared(text);
   const { document, drive, name, changed = false } = shared;
   const { backend, motion, shown, served } = page;
   const other = !isOf(shown, document) || (shown.name !== name && backend.present);

@@ -169,8 +169,7 @@ def test_a_direction_that_is_kept_stays_in_the_link_and_is_undone(tab, crank_roc
     page.page.keyboard.press("Control+z")
     assert page.page.evaluate("gruebler.motion.document().page.locks") == locks[:1]
     page.page.keyboard.press("Control+y")
-    page.page.evaluate("gruebler.write()")
-    page.page.reload()
+    page.page.reload()  # at once, before the address is written
     page.until("window.gruebler?.motion?.linkage?.beside.locks")
     page.until(f"{ROOT}.querySelector('[data-lock=direction][aria-pressed=true]')")
     page.drag(page.middle('[data-joint="R(frame-rocker)"] .joint'), (40, -60))
