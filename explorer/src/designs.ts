@@ -77,6 +77,8 @@ function worth({ error, range, shift, size, transmission }: Design, by: Value): 
 export class DesignCards {
   readonly element = h("div.designs", {});
   /** By how much the design that plays misses its pairs. */
+  /** That they answer another question than the one that is put now. */
+  readonly #outdated = h("p.error", {});
   readonly #missed = new Plot("°", () => {});
   #found: Found | null = null;
   #order: Order = "error";
@@ -112,6 +114,11 @@ export class DesignCards {
   mark(design: Design | null, card?: Element): void {
     this.#playing = design;
     for (const one of this.element.querySelectorAll(".card")) one.toggleAttribute("aria-current", one === card);
+  }
+
+  /** Say that they are of other demands; or nothing. */
+  outdate(text: string): void {
+    renew(this.#outdated, text);
   }
 
   #plot(): void {
@@ -189,6 +196,7 @@ export class DesignCards {
     renew(
       this.element,
       h("h2", {}, items.length === 1 ? t("1 design") : t("{count} designs", { count: items.length })),
+      this.#outdated,
       ...lines(found.note),
       found.words && h("details.words", {}, h("summary", {}, t("What the values mean")), ...lines(found.words)),
       items[0]?.stems ? this.#missed.element : "",
@@ -266,7 +274,10 @@ export class DesignCards {
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
     const extra: [string, string][] = [];
     if (point)
-      extra.push([t("point: along | left"), point.map((one) => this.#length(design, one)).join("\u00a0|\u00a0")]);
+      extra.push([
+        t("point: along | left").replace(" | ", "\u00a0|\u00a0"),
+        point.map((one) => this.#length(design, one)).join("\u00a0|\u00a0"),
+      ]);
     if (pairs) extra.push([t("first pair at"), pairs[0]!.map((one) => angle(one * DEGREE)).join("\u00a0|\u00a0")]);
     let touched = false; // by a finger, which only chooses it
     const play = () => {

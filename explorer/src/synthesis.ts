@@ -50,6 +50,8 @@ export class SynthesisView implements View {
   #shownDesign: Design | null = null;
   /** How wide the plane is before there is anything in it; that of points out of a file is as wide as they need. */
   #home = 0;
+  /** The curve that is being drawn. */
+  #line: number[][] | null = null;
   readonly #history = new History<State>();
   /** The question that the designs answer. */
   #asked = "";
@@ -83,6 +85,7 @@ export class SynthesisView implements View {
     for (const event of ["pointerup", "pointercancel"])
       plane.addEventListener(event, () => {
         this.#held = null;
+        this.#line = null;
         if (this.#puts === "curve")
           this.arrange(); // whether it is closed
         else this.#draw();
@@ -236,7 +239,7 @@ export class SynthesisView implements View {
     const [x, y] = this.#placeOf(event);
     this.#picture.plane.setPointerCapture(event.pointerId);
     if (this.#puts === "curve") return this.#stroke(x, y);
-    const { unit } = this.#picture;
+    const { unit, marked } = this.#picture;
     const reach = (event.pointerType === "touch" ? 2 : 1) * NEAR * unit;
     const near = ([u, v]: number[]) => Math.hypot(u! - x, v! - y) < reach;
     const move = (row: number[]) => {
@@ -245,7 +248,7 @@ export class SynthesisView implements View {
         this.#draw();
       };
     };
-    const arm = unit * armOf(this.points, ARM, unit);
+    const arm = marked * armOf(this.points, ARM, marked);
     const turned = this.kind === "positions" && this.points.find((row) => near(tip(row, arm)));
     // an arrow points where its end is dragged to, that of a new position from its place on
     const turn = (row: number[]) => {
@@ -273,6 +276,7 @@ export class SynthesisView implements View {
   #stroke(x: number, y: number): void {
     const line = [[x, y]];
     this.#held = (place) => {
+      this.#line = line;
       line.push(place);
       const { places, closed } = evenly(line, OF_STROKE);
       if (this.#shownDesign) this.#play(null);
@@ -366,6 +370,7 @@ export class SynthesisView implements View {
     const former =
       this.designs.element.firstChild && this.#asked !== this.#question && t("Designs for the former requirements");
     this.#told.textContent = (this.#puts !== "curve" && lacks) || former || "";
+    this.designs.outdate(former || "");
     const tables = h(
       "div.points",
       {},
@@ -404,6 +409,11 @@ export class SynthesisView implements View {
       this.#page.ask<Found>("synthesise", JSON.parse(asked), progress),
     );
     if (kind !== this.kind) return renew(this.status);
+    const why = this.status.textContent;
+    if (!found && why !== t("Cancelled.")) {
+      renew(this.status); // in a bar there is no room for a sentence
+      this.#page.say(why);
+    }
     if (!found) return;
     this.#asked = asked;
     this.#play(this.designs.show(found));
@@ -421,7 +431,8 @@ export class SynthesisView implements View {
     const pivots = kind === "positions" ? this.#pivots : [];
     const closed = kind === "points" && this.#closed;
     const region = this.#planar ? this.#demands.region([...points, ...pivots], this.#curve) : [];
-    const task = { kind, points, pivots, region, closed, design: this.#shownDesign, home: this.#home };
+    const [stroke, design, home] = [this.#line, this.#shownDesign, this.#home];
+    const task = { kind, points, pivots, region, closed, stroke, design, home };
     this.#picture.paint(task, !!this.#held);
   }
 

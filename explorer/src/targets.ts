@@ -6,7 +6,7 @@ import type { Design } from "./designs";
 import { digits } from "./digits";
 import { h, svg } from "./dom";
 import { bodiesOf, pathOf, putBodies } from "./ghost";
-import { clearAbout } from "./hull";
+import { away, clearAbout } from "./hull";
 import { angle, number, parsed, t } from "./language";
 import { valueAt } from "./plot";
 import type { Pair } from "./rows";
@@ -16,6 +16,7 @@ export const ARM = 14; // of the arrow that shows the angle of a position
 const LONG = 100; // millimetres of a rocker of which only the swing is known
 const AWAY = 6; // from a point to the middle of its number
 export const HEAD = "M-1.8 -1.8L2.4 0L-1.8 1.8Z"; // of an arrow
+const MOST = 1e6; // of what is typed: marks of others would fall into one
 export const CROWD = 9; // targets, of more only some have their numbers
 
 /** A table whose cells change the rows; each row may be removed. */
@@ -36,9 +37,12 @@ export function rowsTable(
       "aria-label": `${called(k)} ${head[axis]}`,
       onchange: () => {
         const value = parsed(input.value);
-        const right = Number.isFinite(value);
+        const right = Math.abs(value) <= MOST;
         input.setAttribute("aria-invalid", String(!right));
-        say(right ? "" : t("Expected a number, such as {value}.", { value: number(row[axis]!) }));
+        const why = Number.isFinite(value)
+          ? t("Expected a number from {least} to {most}.", { least: number(-MOST), most: number(MOST) })
+          : t("Expected a number, such as {value}.", { value: number(row[axis]!) });
+        say(right ? "" : why);
         if (!right) return;
         row[axis] = value;
         changed();
@@ -121,12 +125,14 @@ export function swingOf(swing: number, design: Design | null): Pair[] {
 
 /** The same as a picture with its angle and its time ratio, in units that are so long. */
 export function swingMark(
-  [pivot, one, two, top]: readonly Pair[],
+  places: readonly Pair[],
   [swing, ratio]: readonly number[],
   unit: number,
   design: Design | null,
+  corner: readonly Pair[],
 ): SVGElement[] {
-  const [[x, y], [a, b], [c, d], [u, v]] = [pivot!, one!, two!, top!];
+  const [pivot, one, two, top] = places as [Pair, Pair, Pair, Pair];
+  const [[x, y], [a, b], [c, d], [u, v]] = [pivot, one, two, top];
   const long = Math.hypot(a - x, b - y);
   const clockwise = (a - x) * (v - y) < (b - y) * (u - x);
   const texts = [`${t("Time ratio")} ${number(ratio!)}`, angle(swing! * DEGREE)];
@@ -137,8 +143,9 @@ export function swingMark(
     return made.flat();
   });
   return [
-    ...(bodies ? [svg("g.faded", {}, ...bodies)] : [svg("path.arm", { d: pathOf([one!, pivot!, two!]) })]),
-    groundMark(pivot!, unit),
+    ...(design ? endNames(places, design, unit, left, corner) : []),
+    ...(bodies ? [svg("g.faded", {}, ...bodies)] : [svg("path.arm", { d: pathOf([one, pivot, two]) })]),
+    groundMark(pivot, unit),
     svg("path.polygon", { d: `M${a} ${-b}A${long} ${long} 0 ${+(swing! > 180)} ${+clockwise} ${c} ${-d}` }),
     ...texts.map((text, k) =>
       svg(
@@ -153,6 +160,33 @@ export function swingMark(
       ),
     ),
   ];
+}
+
+/** What the dead centres of a design are called, beside the ends of its rocker, clear of links and other words. */
+function endNames(
+  [, ...places]: readonly Pair[],
+  design: Design,
+  unit: number,
+  left: boolean,
+  corner: readonly Pair[],
+): SVGElement[] {
+  const [one, two, top] = places as [Pair, Pair, Pair];
+  const ends = design.ends ?? [];
+  const words = [0, 4, 8].map((up) =>
+    [0, left ? -30 : 30].map((beside): Pair => [top[0] + beside * unit, top[1] + up * unit]),
+  );
+  const links = ends.flatMap((at) => design.members.map((own) => own.map((joint) => at[joint]!)));
+  const drawn = [...words, ...links, [one, top], [top, two], corner];
+  // crank and coupler in one line: beyond each other where the rocker is the farther from the crank
+  const spans = ends.map((at, k) => away(at[design.drive!]!, ...places[k]!));
+  return spans.map((span, k) => {
+    const name = span > spans[1 - k]! ? t("extended") : t("folded");
+    const room = name.length * unit;
+    const [x, y] = clearAbout(places[k]!, 5 * unit, drawn, room);
+    drawn.push([-room, room].map((d): Pair => [x + d, y]));
+    const transform = `translate(${x} ${-y}) scale(${unit})`;
+    return svg("text.tick", { "text-anchor": "middle", transform, y: 1.3 }, name);
+  });
 }
 
 /** What a target is called beside it; of many every fifth. */

@@ -12,7 +12,9 @@ import { type Kind, wordsOf } from "./tasks";
 const WIDE = 240; // of the plane, in millimetres; that of a phone is narrower
 const PART = 0.64; // of the height of the window, at most
 const DOT = 2.6; // units: the radius of a target
-const LOW = 0.28; // the same on a phone, where designs need room
+const LOW = 0.34; // the same on a phone, where designs need room
+const SMALL = 0.7; // as large are marks beside a design there
+const CORNER = [52, 84] as const; // pixels from its upper right corner that a button covers there
 
 /** What is met, and by what. */
 interface Task {
@@ -22,6 +24,8 @@ interface Task {
   /** Where fixed pivots shall lie, if that is asked for. */
   region: Pair[];
   closed: boolean;
+  /** The curve that is being drawn, as it is. */
+  stroke: readonly number[][] | null;
   design: Design | null;
   /** How wide the plane is before there is anything in it; 0 is as usual. */
   home: number;
@@ -38,6 +42,7 @@ export class TaskPicture {
   readonly #here = svg("circle.joint", {});
   readonly #ghost: Ghost;
   #area!: Area;
+  #marked = 0;
 
   /** It stands still while it is not seen. */
   constructor(seen: () => boolean) {
@@ -50,6 +55,23 @@ export class TaskPicture {
     return this.#area.unit;
   }
 
+  /** The same of marks of targets, which may be smaller. */
+  get marked(): number {
+    return this.#marked;
+  }
+
+  /** Where a button may be: its lower left corner, then the others. */
+  get #corner(): [Pair, Pair, Pair, Pair] {
+    const { right, top, unit } = this.#area;
+    const [left, low] = [right - (CORNER[0] * unit) / MARK, top - (CORNER[1] * unit) / MARK];
+    return [
+      [left, low],
+      [right, low],
+      [right, top],
+      [left, top],
+    ];
+  }
+
   /** Where a pointer is; in round numbers the last digit is the first that it can tell. */
   at(event: PointerEvent, round: boolean): [number, number] {
     const box = this.#marks.getScreenCTM()!.inverse();
@@ -59,7 +81,7 @@ export class TaskPicture {
   }
 
   /** Draw all of it; while a mark is held what is seen stays, and the design goes on as it is. */
-  paint({ kind, points, pivots, region, closed, design, home }: Task, held: boolean): void {
+  paint({ kind, points, pivots, region, closed, stroke, design, home }: Task, held: boolean): void {
     const angles = kind === "function";
     const swing = kind === "dead-centres" ? swingOf(points[0]![0]!, design) : null;
     const charted = angles && design?.angles;
@@ -87,9 +109,16 @@ export class TaskPicture {
         ...(charted ? [] : moving).filter((one) => off(one) < far),
       ];
       const wide = angles || swing ? 0 : home || (narrow ? 0.6 : 1) * WIDE;
-      this.#area = areaOf(design && !angles ? -Infinity : wide, part, places, this.plane);
+      const seen = (more: Pair[]) =>
+        areaOf(design && !angles ? -Infinity : wide, part, [...places, ...more], this.plane);
+      this.#area = seen([]);
+      const [[edge, low]] = this.#corner;
+      if (narrow && design && places.some(([u, v]) => u! > edge && v! > low))
+        this.#area = seen([[this.#area.right, low]]);
     }
     const { unit } = this.#area;
+    const size = narrow && design ? SMALL * unit : unit;
+    this.#marked = size;
     const loop = closed && points.length > 2 ? "Z" : "";
     const way = angles ? [...points].sort(([one], [two]) => one! - two!) : points;
     const { left, right, bottom, top } = this.#area;
@@ -112,18 +141,19 @@ export class TaskPicture {
       [x! + 5 * unit, y! - 7 * unit],
     ]);
     const parts = curve.slice(1).map((next, k): Pair[] => [curve[k]!, next]);
-    const at = numberPlaces(points, closed, unit, [...(angles ? axes : []), ...parts, ...grounds]);
+    const at = numberPlaces(points, closed, size, [...(angles ? axes : []), ...parts, ...grounds]);
     put(this.#here, { r: 1.5 * unit });
-    const dot = markSize(points, DOT, unit) * (design && points[CROWD] ? 0.5 : 1);
-    const mark = (_: unknown, k: number) => targetMark(points, k, at[k]!, unit, dot);
+    const dot = markSize(points, DOT, size) * (design && points[CROWD] ? 0.5 : 1);
+    const mark = (_: unknown, k: number) => targetMark(points, k, at[k]!, size, dot);
     const wanted = svg("path.polygon", { d: kind === "positions" ? "" : pathOf(way) + loop });
+    const marks = stroke ? [svg("path.arm", { d: pathOf(stroke) })] : points.map(mark);
     renew(
       this.#marks,
       ...gridOf(this.#area, angles ? wordsOf(kind).heads : []),
       svg("path.shape.dead", { "data-region": "", d: region[0] ? `${pathOf(region)}Z` : "" }),
-      ...(swing ? swingMark(swing, points[0]!, unit, design) : []),
+      ...(swing ? swingMark(swing, points[0]!, unit, design, this.#corner) : []),
       ...(charted ? [svg("path.curve", { d: pathOf(charted) }), this.#here] : [design !== null && this.#ghost.element]),
-      ...(swing ? [] : [...(charted ? [] : [wanted]), ...points.map(mark)]),
+      ...(swing ? [] : [...(charted || stroke ? [] : [wanted]), ...marks]),
       ...pivots.map((place) => svg("g", { "data-pivot": "" }, groundMark(place, unit))),
     );
     put(this.plane, { viewBox: viewBoxOf(this.#area) });

@@ -170,6 +170,7 @@ def test_a_curve_is_drawn_by_hand(design):
     view.mouse.move(x[0], y[0])  # another one takes its place
     view.mouse.down()
     view.mouse.move(x[9], y[9], steps=5)
+    assert (view.locator(".plane .arm").count(), view.locator("[data-point]").count()) == (1, 0)  # as it is drawn
     view.mouse.up()
     assert not view.locator('[data-field="closed"]').is_checked()
     assert len(view.evaluate(f"{VIEW}.points")) == len(points)
@@ -308,7 +309,9 @@ def test_dead_centres_are_those_that_were_asked_for(design):
     assert beside > view.locator(".plane .axis").first.bounding_box()["x"]
     assert np.degrees(np.arccos((a * c + b * d) / np.hypot(a, b) / np.hypot(c, d))) == pytest.approx(48)
     cards = found_designs(view)
-    assert view.locator(".plane text").all_text_contents()[-2:] == ["Time ratio 1.25", "48°"]
+    ends, beside = view.locator(".plane text").all_text_contents()[-4:-2], view.locator(".plane text")
+    assert sorted(ends) == ["extended", "folded"]
+    assert beside.all_text_contents()[-2:] == ["Time ratio 1.25", "48°"]
     # of each link both positions, faint, and the one that moves; the rocker stands at the ends of the swing
     assert (view.locator(".faded .bar").count(), view.locator("[data-ghost] .bar").count()) == (6, 3)
     rockers = [view.locator(".faded .bar").nth(k).get_attribute("d") for k in (2, 5)]
@@ -471,6 +474,9 @@ def test_the_bar_of_a_task_is_as_high_when_all_is_set(tab, server):
     view.click('[data-value="points"]')
     assert view.locator('[data-fact="set"]').inner_text() == ""
     assert (bar.bounding_box(), plane.bounding_box()) == before
+    view.click('[data-value="positions"]')  # whose tools are wider, and all in one row
+    tops = [view.locator(one).bounding_box()["y"] for one in ('[data-value="pivot"]', '[data-act="synthesise"]')]
+    assert tops[0] == pytest.approx(tops[1], abs=8)
 
 
 def test_what_turns_fully_is_no_rocker_and_goes_from_0_to_360(tab, server):
@@ -560,7 +566,7 @@ def test_designs_of_former_targets_say_so(design):
     cell = view.locator(".points input").nth(3)
     cell.fill("31")
     cell.press("Enter")
-    assert told.inner_text() == "Designs for the former requirements"
+    assert told.inner_text() == view.locator(".designs .error").inner_text() == "Designs for the former requirements"
     assert cards.count() == count
     assert view.locator(".designs .card[aria-current]").count() == 0  # none plays over other targets
     view.click('header [data-icon="undo"]')
@@ -992,6 +998,10 @@ def test_what_is_no_number_is_told_with_one_that_is(design):
     view.locator(".targets input").first.press("Tab")
     assert view.evaluate(f"{VIEW}.rows['dead-centres']") == [[70, 1.2]]
     assert told.count() == 0
+    view.locator(".targets input").first.fill("1e9")  # of a place: all others would fall into one
+    view.locator(".targets input").first.press("Tab")
+    view.get_by_text("Expected a number from −1000000 to 1000000.").wait_for()
+    assert view.evaluate(f"{VIEW}.rows['dead-centres']") == [[70, 1.2]]
 
 
 def test_how_far_a_rejected_linkage_misses_a_point_is_a_length():
@@ -1062,6 +1072,14 @@ def test_where_no_design_has_the_angle_those_that_come_nearest_are_shown():
     assert max(item["transmission"] for item in found["items"]) == pytest.approx(best, abs=0.1)
 
 
+def test_how_far_six_pairs_are_missed_is_an_angle():
+    from gruebler.page.requests import answer
+
+    rows = [[0, 0], [20, 10], [40, 15], [60, 40], [80, 42], [100, 70]]
+    asked = {"kind": "function", "rows": rows, "crank": False, "transmission": 0}
+    assert re.search(r"a target is missed by [\d.]+°\.", answer("synthesise", asked, "en", lambda _: None)["note"])
+
+
 def test_near_misses_of_nine_points_are_shown():
     """The four-bar of which the points are is among the finitely many, whose angle is smaller than asked for."""
     from gruebler.mechanics.fourbar import FourBar
@@ -1107,6 +1125,10 @@ def test_a_finger_chooses_a_card_then_opens_it_and_the_drive_turns_clockwise(tab
     cards = view.locator('[data-list="designs"] .card')
     assert cards.first.get_attribute("aria-current") is not None
     assert view.locator("[data-ghost] .support").count() == 2  # crank and rocker
+    up = view.locator('[data-act="back"]').bounding_box()
+    for k in range(3):  # it does not lie over what is to be met
+        x, y = page.middle(f'[data-point="{k}"] circle')
+        assert x < up["x"] or y > up["y"] + up["height"]
     cards.nth(1).tap()
     assert cards.first.get_attribute("aria-current") is None
     assert view.evaluate("gruebler.view") == "synthesis"
