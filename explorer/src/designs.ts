@@ -274,10 +274,7 @@ export class DesignCards {
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
     const extra: [string, string][] = [];
     if (point)
-      extra.push([
-        t("point: along | left").replace(" | ", "\u00a0|\u00a0"),
-        point.map((one) => this.#length(design, one)).join("\u00a0|\u00a0"),
-      ]);
+      extra.push([t("point: along | left"), point.map((one) => this.#length(design, one)).join("\u00a0|\u00a0")]);
     if (pairs) extra.push([t("first pair at"), pairs[0]!.map((one) => angle(one * DEGREE)).join("\u00a0|\u00a0")]);
     let touched = false; // by a finger, which only chooses it
     const play = () => {
