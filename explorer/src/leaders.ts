@@ -25,18 +25,25 @@ export interface Leader {
   chosen: number;
 }
 
-/** Whether a name, its middle given, keeps so clear of bodies. */
-export function besideAll(bodies: readonly (readonly Pair[])[], half: number, [x, y]: Pair, room: number): boolean {
-  const count = Math.ceil((2 * half) / SAMPLE);
-  for (let k = 0; k <= count; k++) {
-    const u = x - half + (2 * half * k) / count;
-    for (const body of bodies) if (toHull(body, u, y) < room) return false;
-  }
-  return true;
+/** Whether a name, half its width and its middle given, keeps so clear of bodies; asked some thousand times. */
+export function clearBy(room: number, bodies: readonly (readonly Pair[])[]): (half: number, at: Pair) => boolean {
+  const boxes = bodies.map((body) => {
+    const [x, y] = [0, 1].map((axis) => body.map((at) => at[axis]!)) as [number[], number[]];
+    return [Math.min(...x) - room, Math.max(...x) + room, Math.min(...y) - room, Math.max(...y) + room];
+  });
+  return (half, [x, y]) => {
+    const count = Math.ceil((2 * half) / SAMPLE);
+    for (const [number, body] of bodies.entries()) {
+      const [left, right, top, bottom] = boxes[number] as [number, number, number, number];
+      if (x + half < left || x - half > right || y < top || y > bottom) continue;
+      for (let k = 0; k <= count; k++) if (toHull(body, x - half + (2 * half * k) / count, y) < room) return false;
+    }
+    return true;
+  };
 }
 
-/** The nearest free place about a body from which a line to it crosses as little as possible; the one before while
- * that is free. */
+/** Finds the nearest free place about a body from which a line to it crosses as little as possible; of the one before,
+ * whether it is still free. */
 export function leaderOf(
   own: readonly Pair[],
   /** The outline of its body, if it has one. */
@@ -46,14 +53,13 @@ export function leaderOf(
   free: (at: Pair) => boolean,
   lines: readonly [Pair, Pair][],
   names: readonly { x: number; y: number; half: number }[],
-  before = -1,
-): Leader | null {
+): (before?: number) => Leader | null {
   const places = home[0] ? placesIn(home) : placesOn(own);
   const rim = sidesOf(home);
   const gaps = places.map((at) => Math.min(CLEAR, ...others.map((one) => toHull(one, ...at))));
-  const bodies = [own, ...others];
-  let best: Leader | null = null;
-  let least = Infinity;
+  const [clear, clearOfRim] = [clearBy(BAR, [own, ...others]), clearBy(RIM, rim)];
+  let best: Leader | null;
+  let least: number;
   const tried = (chosen: number) => {
     const spot = Math.floor(chosen / WAYS / STEPS);
     const from = places[spot];
@@ -66,8 +72,7 @@ export function leaderOf(
     const to: Pair = [end(from[0], x, half + 3), end(from[1], y, 8)];
     const inside = home[0] && !toHull(home, x, y);
     let cost = (inside ? 0 : away(from, ...to)) - SEEN * gaps[spot]!;
-    if (cost >= least || !free([x, y + 4]) || !besideAll(bodies, half, [x, y], BAR)) return;
-    if (!besideAll(rim, half, [x, y], RIM)) return;
+    if (cost >= least || !free([x, y + 4]) || !clear(half, [x, y]) || !clearOfRim(half, [x, y])) return;
     if (inside) {
       [best, least] = [{ at: [x, y + 4], line: null, chosen }, cost];
       return;
@@ -83,19 +88,31 @@ export function leaderOf(
     cost += CROSSED * others.filter((body) => along.slice(1).some((at) => toHull(body, ...at) < 5)).length;
     if (cost < least) [best, least] = [{ at: [x, y + 4], line: [from, to], chosen }, cost];
   };
-  if (before >= 0) tried(before);
-  if (best) return best;
   // from where the body is seen best
   const order = [...places.keys()].sort((one, other) => gaps[other]! - gaps[one]!).slice(0, ENDS);
-  for (let k = 0; k < WAYS * STEPS; k++) for (const spot of order) tried(spot * WAYS * STEPS + k);
-  return best;
+  return (before) => {
+    [best, least] = [null, Infinity];
+    if (before !== undefined) tried(before);
+    else for (let k = 0; k < WAYS * STEPS; k++) for (const spot of order) tried(spot * WAYS * STEPS + k);
+    return best;
+  };
 }
 
-/** Places in an outline: its middle, and some near its rim. */
+/** Places in an outline: its middle, and some near its rim, in the same directions however it is turned. */
 function placesIn(home: readonly Pair[]): Pair[] {
-  const middle = middleOf(home);
-  const step = Math.ceil(home.length / 12);
-  return [middle, ...home.filter((_, k) => k % step === 0).map((one) => between(middle, one, 0.7))];
+  const [x, y] = middleOf(home);
+  const towards = Array.from({ length: 12 }, (_, k): Pair => {
+    const [c, s] = [Math.cos((k * Math.PI) / 6), Math.sin((k * Math.PI) / 6)];
+    let far = 0;
+    for (const [[px, py], [qx, qy]] of sidesOf(home)) {
+      const [p, q] = [c * (py - y) - s * (px - x), c * (qy - y) - s * (qx - x)];
+      if (p * q > 0 || p === q) continue;
+      const part = p / (p - q);
+      far = Math.max(far, c * (px + part * (qx - px) - x) + s * (py + part * (qy - py) - y));
+    }
+    return [x + 0.7 * far * c, y + 0.7 * far * s];
+  });
+  return [[x, y], ...towards];
 }
 
 /** Places of a body at which a line may end: its middle and places of its sides. */

@@ -364,6 +364,7 @@ export class MotionView implements View, Editor, Driven {
   }
 
   paused(): void {
+    this.stage.settled();
     this.page.changed();
   }
 

@@ -9,7 +9,7 @@ import { DRIVEN, DRIVING, placed, STANDING, SUPPORT } from "./ground";
 import { clearAbout, convexHull, middleOf, pathThrough, sidesOf, spotsAbout, toHull } from "./hull";
 import { clearOf, type Label, labelsOf, pastEdges } from "./labels";
 import { number as numberText } from "./language";
-import { besideAll, leaderOf } from "./leaders";
+import { clearBy, type Leader, leaderOf } from "./leaders";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
 import type { ShapeRecord } from "./model";
@@ -34,6 +34,7 @@ const RING = 6; // the radius of a target
 const JOINT = 11; // from the middle of a joint to that of a name
 const BODY = 9; // from the middle of a bar to that of a name beside it
 const INK = 8; // from a name to an arrow or a ground
+const BACK = 8; // more room, for a name that stood farther off
 const GAP = 5; // from the middle of a name to a ground beside which it still stands well
 const FOOT = 26; // below which are the numbers of the grid
 const RAIL = 6; // half the width of a rail with its hatching, and some room
@@ -81,6 +82,11 @@ export class Scene {
   /** The length of the longest arrow: in a low picture others would be covered by it. */
   get longest(): number {
     return Math.min(LONGEST_ARROW, (this.viewport.narrow ? 0.2 : 0.3) * this.viewport.height);
+  }
+
+  /** Names look for their best places, wherever they stood while it moved. */
+  settle(): void {
+    for (const label of this.#labels) Object.assign(label, { taken: 0, leader: undefined });
   }
 
   /** Give one link a class, or none. */
@@ -271,7 +277,11 @@ export class Scene {
     const order = [...this.#labels.entries()].sort(([, one], [, other]) => +!!one.many - +!!other.many);
     const far: [number, Label][] = []; // names that have no place beside their bodies
     const right = (v: number) => width - (v < low ? BESIDE : 0);
-    const pins = this.#pins.map(({ joint }) => [pixels(joint)]);
+    const offJoints = clearBy(
+      JOINT,
+      this.#pins.map(({ joint }) => [pixels(joint)]),
+    );
+    const offGrounds = clearBy(GAP, grounds);
     const touchingOne = (half: number) => (at: Pair) =>
       taken.find(
         (other) => half + other.half + 4 > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01,
@@ -317,9 +327,10 @@ export class Scene {
         );
         const [x, y] = places[label.taken]!;
         const own = hulls[k]!.length > 2 && !toHull(hulls[k]!, x, y - 4); // on its plate
-        const alone = besideAll(pins, half, [x, y - 4], JOINT) && (own || besideAll(others, half, [x, y - 4], BODY));
-        const off = besideAll(grounds, half, [x, y - 4], GAP) && seen([x, y]) && free([x, y]);
-        if (!alone || !off || !(nearerBy([x, y], half, hulls[k]!, others) > 0)) {
+        const wide = label.leader === undefined ? half : half + BACK; // back it comes where there is more room
+        const alone = offJoints(wide, [x, y - 4]) && (own || clearBy(BODY, others)(wide, [x, y - 4]));
+        const off = offGrounds(wide, [x, y - 4]) && seen([x, y]) && free([x, y]);
+        if (!alone || !off || !(nearerBy([x, y], wide, hulls[k]!, others) > wide - half)) {
           far.push([k, label]);
           continue;
         }
@@ -329,7 +340,15 @@ export class Scene {
     }
     const outlines = far.length ? outlinesOf(linkage, viewport) : [];
     const curves = far.length && shown.curves ? curvesOf(linkage, viewport) : [];
+    const offInk = clearBy(INK, [...arrows, ...grounds, buttons, ...curves]);
     const lines: [Pair, Pair][] = [];
+    const hangs = (label: Label, found: Leader | null) => {
+      label.leader = found?.chosen ?? -1;
+      if (found) takes(label, found.at);
+      if (found?.line) lines.push(found.line);
+      return !!found;
+    };
+    const anew: (() => void)[] = []; // after those that stay where they were
     for (const [k, label] of far) {
       const { half, link, spots } = label;
       const others = hulls.filter((hull, other) => other !== k && hull.length);
@@ -337,23 +356,20 @@ export class Scene {
       const wide = (outline: Pair[]) => Math.max(...outline.map(([x]) => x)) - Math.min(...outline.map(([x]) => x));
       const homes = outlines.flatMap(([its, outline]) => (its === link && outline.length > 2 ? [outline] : []));
       const home = homes.sort((one, other) => wide(other) - wide(one))[0] ?? [];
-      const blocked = [...arrows, ...grounds, buttons, ...curves];
       const free = ([u, v]: Pair) =>
         u > half + RULE &&
         u + half < right(v) &&
         v > 14 &&
         v < height - FOOT &&
         !taken.some((one) => half + one.half + 4 > Math.abs(u - one.x) && Math.abs(v - one.y) < LINE) &&
-        blocked.every((one) => besideAll([one], half, [u, v - 4], INK));
-      const found = leaderOf(hulls[k]!, home, others, half, free, lines, taken, label.leader);
-      label.leader = found?.chosen;
-      if (!found) {
-        stands(label, spots(viewport)[label.taken]!);
-        continue;
-      }
-      takes(label, found.at);
-      if (found.line) lines.push(found.line);
+        offInk(half, [u, v - 4]);
+      const find = leaderOf(hulls[k]!, home, others, half, free, lines, taken);
+      if (!hangs(label, find(label.leader ?? -1)))
+        anew.push(() => {
+          if (!hangs(label, find())) stands(label, spots(viewport)[label.taken]!);
+        });
     }
+    for (const find of anew) find();
     put(this.#leaders, { d: lines.map((line) => `${pathThrough(line)}${dotAt(line[0])}`).join("") });
     kinds.forEach((all, k) => {
       put(this.#arrows[k]!, { d: all.map((one) => arrow(...one)).join("") });
@@ -442,7 +458,8 @@ function curvesOf({ cycle, sizes }: Linkage, viewport: Viewport): Pair[][] {
 
 /** What wheels, blocks and the like cover, in pixels: hulls, of what is open the pieces. */
 function outlinesOf({ model, pose, sizes }: Linkage, viewport: Viewport): [link: number, hull: Pair[]][] {
-  return model.shapes.flatMap((shape) => outlineOf(shape).map((hull): [number, Pair[]] => [shape.link, hull]));
+  const solid = model.shapes.filter(({ style }) => style !== "hatch" && style !== "dead");
+  return solid.flatMap((shape) => outlineOf(shape).map((hull): [number, Pair[]] => [shape.link, hull]));
 
   function outlineOf(shape: ShapeRecord): Pair[][] {
     const at = (x: number, y: number) => viewport.screen(...place(pose, 0, shape.link, x, y));

@@ -209,6 +209,12 @@ export class Stage implements Board {
     return [name, values.join(", ")].filter(Boolean).join(": ") + aside;
   }
 
+  /** It has come to rest. */
+  settled(): void {
+    this.#scene.settle();
+    this.draw();
+  }
+
   #rule(unit: string): void {
     const ruled = this.shown.grid ? JSON.stringify([this.viewport, unit, currentLanguage()]) : "";
     if (ruled !== this.#ruled) renew(this.#grid, ...(ruled ? gridOf(this.viewport, unit) : []));
