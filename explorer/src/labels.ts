@@ -112,7 +112,26 @@ export function labelsOf(linkage: Linkage): Label[] {
     const element = svg("text.name", { "text-anchor": "middle" }, name);
     return [{ element, name, spots, taken: 0, half: halfOf(name) }];
   });
-  return [...letters, ...names, ...marks];
+  return [...letters, ...names, ...frameOf(linkage), ...marks];
+}
+
+/** Of links that have numbers only that of the frame, too, beside one of its bearings. */
+function frameOf(linkage: Linkage): Label[] {
+  const { model } = linkage;
+  const name = linkage.linkName(model.frame);
+  const joint = model.joints.findIndex(({ links, pair }) => links.includes(model.frame) && pair.turning);
+  if (!/^\d+$/.test(name) || joint < 0) return [];
+  const spots = (viewport: Viewport) => {
+    const [x, y] = viewport.screen(...linkage.jointAt(joint));
+    return [
+      [0, 36],
+      [28, 18],
+      [-28, 18],
+      [0, -20],
+    ].map(([right, down]): Pair => [x + right!, y + down!]);
+  };
+  const element = svg("text.name", { "text-anchor": "middle" }, name);
+  return [{ element, name, spots, taken: 0, half: halfOf(name), many: true }];
 }
 
 /** The centre of a ring, such as an internal gear, and how far its rim reaches. */

@@ -61,6 +61,8 @@ def test_machines_with_two_drives_show_what_both_of_them_move(tab, server):
         ["dt", "dd"].map((part) => one.querySelector(part).firstChild.textContent)))"""
     assert {"Output 4", "Swing"} <= set(page.page.evaluate(facts))
     assert page.page.locator(".plot:visible").count() == 3
+    # the frame, of which there is a size, has its number as the others
+    assert sorted(page.page.locator(".stage text.name").all_text_contents()) == ["1", "2", "3", "4", "5"]
     page.machine("lamp")
     shown = page.page.evaluate(facts)
     assert shown["Output head"] == "106.3°"
