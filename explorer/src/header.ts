@@ -4,6 +4,17 @@ import { h, menu } from "./dom";
 import { currentLanguage, type Language, setLanguage, t } from "./language";
 import { tool } from "./shell";
 
+/** What long words of German names end with, or go on with. */
+const PARTS =
+  "antrieb|differential|führung|gelenk|getriebe|greifer|haube|hebe|kette|kinematik|kompressor|lampe|lenk|maschine|" +
+  "presse|räder|scheibe|schneider|schwinge|stange|verdichter|vorrichtung|wischer|zylinder";
+
+/** A name that can be broken within long words, also where the browser has no dictionary. */
+export function softened(name: string): string {
+  const between = new RegExp(`(?<=\\p{L}{4})(?<!ge)(?=${PARTS})`, "gu");
+  return name.replace(/\p{L}{15,}/gu, (word) => word.replace(between, "\u00ad"));
+}
+
 /** The names of the views in the language of the page. */
 export function viewNames(): Record<string, string> {
   return {

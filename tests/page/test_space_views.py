@@ -219,6 +219,9 @@ def test_words_on_the_picture_keep_apart_and_the_chosen_tab_is_marked_under_the_
     page.set_viewport_size({"width": 390, "height": 844})
     hint, grid = (page.locator(".stage .hint").nth(k).bounding_box() for k in (0, 1))
     assert hint["x"] + hint["width"] <= grid["x"]
+    page.goto(server.address + "space/wobble_plate.html#de")  # long words of a name can be broken between their parts
+    name = page.locator("header small").text_content()
+    assert name.startswith("Taumel\u00adscheiben\u00adverdichter (Taumel\u00adscheiben\u00adkompressor)")
     assert errors == []
     browser.close()
 

@@ -142,10 +142,16 @@ export class Painter {
       gl.drawArrays(pairs ? gl.LINES : gl.LINE_STRIP, 0, places.length);
     }
     for (const k of [1, 2]) gl.enableVertexAttribArray(k);
+    // of glass the nearest side alone is seen: first its depths, then its colours
+    gl.depthFunc(gl.LEQUAL);
+    gl.colorMask(false, false, false, false);
+    bodies(false, true);
+    gl.colorMask(true, true, true, true);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     bodies(false, true);
     gl.disable(gl.BLEND);
+    gl.depthFunc(gl.LESS);
   }
 }
 

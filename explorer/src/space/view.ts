@@ -5,7 +5,7 @@ import { choice, h, renew, wantsStill } from "../dom";
 import { download, group } from "../export";
 import { FactList } from "../factlist";
 import type { Fact } from "../facts";
-import { centred, languageMenu, saving, sayIn, viewNames } from "../header";
+import { centred, languageMenu, saving, sayIn, softened, viewNames } from "../header";
 import { drivenBy, showOver, showRows } from "../help";
 import { angle, currentLanguage, type Language, number, t } from "../language";
 import { fromBase64 } from "../packed";
@@ -117,7 +117,7 @@ export class SpaceView implements Driven {
     this.#keep();
     renew(
       this.#header,
-      h("h1", {}, "gruebler ", h("small", { title }, title)),
+      h("h1", {}, "gruebler ", h("small", { title }, softened(title))),
       ...(this.data.home ? [this.#ways()] : []),
       h("span.spring", {}),
       ...this.#tools(),
