@@ -100,6 +100,7 @@ export class App implements Page {
     }
     const addressed = this.#linkable && location.hash.length > 1;
     this.#unread = addressed; // until it is read
+    const place = history.state as Place | null; // that of a page which is loaded again, before it is written anew
     await drawn();
     this.motion.take(this.model.get("machine") as Model);
     await drawn();
@@ -113,7 +114,6 @@ export class App implements Page {
     }
     if (this.shown.plays && !addressed) this.motion.run();
     if (this.#linkable) {
-      const place = history.state as Place | null; // that of a page which is loaded again
       await Promise.race([this.#read(), new Promise((go) => setTimeout(go, PATIENCE))]);
       this.#returnTo(place);
       this.motion.forget();

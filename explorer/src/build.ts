@@ -9,7 +9,7 @@ import { stepOf } from "./grid";
 import { zoomedBy } from "./help";
 import { History } from "./history";
 import { away } from "./hull";
-import { keepDrawing, keptDrawing, saveDrawing } from "./kept";
+import { keepDrawing, keepDrawn, keptDrawing, keptDrawn, saveDrawing } from "./kept";
 import { spaced, t } from "./language";
 import type { Linkage } from "./linkage";
 import { type Drawn, MobilityPanel } from "./mobility";
@@ -53,7 +53,11 @@ export class BuildView implements View, Plane, Drawn {
     onpointerdown: (event: PointerEvent) => this.#down(event),
     onpointermove: (event: PointerEvent) => this.#hover(event),
     onpointerleave: () => this.#aimAt("away"),
-    onpointerup: (event: PointerEvent) => this.#fingers.lift(event.pointerId),
+    onpointerup: (event: PointerEvent) => {
+      this.#fingers.lift(event.pointerId);
+      this.#typeDistance();
+    },
+    onclick: () => this.#typeDistance(), // of a finger what is pressed has the focus after it is lifted
     onpointercancel: (event: PointerEvent) => this.#fingers.lift(event.pointerId),
   });
   readonly #tools = h("div.transport.palette", {});
@@ -67,6 +71,9 @@ export class BuildView implements View, Plane, Drawn {
 
   constructor(readonly page: Page) {
     this.viewport.scale = 4;
+    const { past, tool } = keptDrawn(this.drawing);
+    if (tool) this.#tool = tool;
+    for (const one of past) this.#history.add(one);
     const stage = h("div.stage", {}, this.root, this.#hint, this.#choice, this.#starters, this.#buttons);
     this.element.append(stage, this.#tools, this.#side);
     wheelZooms(this.root, (...about) => this.zoom(...about));
@@ -98,7 +105,8 @@ export class BuildView implements View, Plane, Drawn {
     const room = 0.1 * (box.right - box.left); // for letters
     box.left -= room;
     box.right += room;
-    this.viewport.fit(seen ? box : FIRST, 1e-9, this.#hint.offsetHeight + 12);
+    const below = Math.max(this.#hint.offsetHeight, this.#choice.offsetHeight);
+    this.viewport.fit(seen ? box : FIRST, 1e-9, below + 12);
     this.#draw();
   }
 
@@ -201,6 +209,7 @@ export class BuildView implements View, Plane, Drawn {
 
   #changed(): void {
     keepDrawing(this.drawing);
+    keepDrawn(this.drawing, this.#history.all, this.#tool);
     this.#draw();
     this.#offer();
     this.#showChoice();
@@ -379,6 +388,10 @@ export class BuildView implements View, Plane, Drawn {
       this.#take("move");
       return { ...drawing, picture: enlarged(drawing.picture!, from, distance / far) };
     });
+  }
+
+  #typeDistance(): void {
+    this.#choice.querySelector<HTMLElement>('[data-field="distance"]')?.focus();
   }
 
   #showChoice(): void {

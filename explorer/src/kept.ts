@@ -4,6 +4,7 @@ import { type Drawing, EMPTY } from "./drawing";
 import { download } from "./export";
 import { t } from "./language";
 import { chainText, type Model } from "./model";
+import type { Tool } from "./palette";
 import type { Snapshot } from "./snapshot";
 import { store, stored } from "./storing";
 import type { Page } from "./view";
@@ -45,6 +46,36 @@ const DRAWING = "gruebler-drawing";
 /** Keep the drawing for when the page is opened again. */
 export function keepDrawing(drawing: Drawing): void {
   store(DRAWING, drawing, "localStorage");
+}
+
+const DRAWN = "gruebler-drawn";
+
+/** What was drawn before in this tab, and with which tool; each picture is kept once. */
+interface Drawn {
+  now: Drawing["knots"];
+  tool: Tool;
+  past: Drawing[];
+  hrefs: string[];
+}
+
+function withHref(drawing: Drawing, of: (href: string) => string): Drawing {
+  const { picture } = drawing;
+  return picture ? { ...drawing, picture: { ...picture, href: of(picture.href) } } : drawing;
+}
+
+export function keepDrawn({ knots: now }: Drawing, all: readonly Drawing[], tool: Tool): void {
+  const last = all.slice(-MOST);
+  const hrefs = [...new Set(last.flatMap(({ picture }) => picture?.href ?? []))];
+  const past = last.map((one) => withHref(one, (href) => String(hrefs.indexOf(href))));
+  store(DRAWN, { now, tool, past, hrefs });
+}
+
+/** What can be undone of a drawing, the oldest first, and its tool, if it was left so in this tab. */
+export function keptDrawn({ knots }: Drawing): { past: Drawing[]; tool?: Tool } {
+  const found = stored<Drawn>(DRAWN);
+  if (!found || JSON.stringify(found.now) !== JSON.stringify(knots)) return { past: [] };
+  const { hrefs, past, tool } = found;
+  return { past: past.map((one) => withHref(one, (k) => hrefs[Number(k)]!)), tool };
 }
 
 /** Save a drawing as it is opened again, and say under which name. */

@@ -21,11 +21,14 @@ export function placesPanel(
     const k = rows.findIndex((row, m) => row.join() !== knots[numbers[m]!]!.at.join());
     view.change(moved(drawing, numbers[k]!, rows[k] as unknown as Pair));
   };
-  const frame = picture ? [[...picture.at]] : [];
-  const framed = () => view.change({ ...drawing, picture: frame[0] && { ...picture!, at: frame[0] } });
+  const [middle, sizes] = picture ? [[picture.at.slice(0, 2)], [picture.at.slice(2)]] : [];
+  const framed = () => {
+    const at = middle![0] && [...middle![0], ...sizes![0]!];
+    view.change({ ...drawing, picture: at && { ...picture!, at } });
+  };
   const read = () => {
-    const middle = viewport.world(viewport.width / 2, viewport.height / 2);
-    backdropOf(file.files![0]!, (0.6 * viewport.width) / viewport.scale, middle).then(
+    const here = viewport.world(viewport.width / 2, viewport.height / 2);
+    backdropOf(file.files![0]!, (0.6 * viewport.width) / viewport.scale, here).then(
       (made) => view.change({ ...view.drawing, picture: made }),
       () => view.page.say(t("This file is no picture that the browser reads.")),
     );
@@ -53,7 +56,8 @@ export function placesPanel(
     ...(picture
       ? [
           h("h2", {}, t("Background picture")),
-          rowsTable(frame, t("Picture"), ["x", "y", t("Width"), "φ [°]"], true, framed, say, () => ""),
+          rowsTable(middle!, t("Picture"), ["x", "y"], true, framed, say, () => ""),
+          rowsTable(sizes!, t("Picture"), [t("Width"), "φ [°]"], false, framed, say, () => ""),
           h(
             "div.form",
             {},
