@@ -403,6 +403,7 @@ export class SynthesisView implements View {
 
   async #search(): Promise<void> {
     if (this.#searching) return;
+    this.#page.say(""); // why the search before found nothing
     const { kind } = this;
     const asked = this.#question;
     const found = await awaited(this.status, (progress) =>

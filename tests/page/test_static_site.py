@@ -333,9 +333,9 @@ def test_the_search_for_nine_points_can_be_cancelled_and_says_what_it_does_not_d
     page.page.click('[data-act="cancel"]')
     page.until("gruebler.views.synthesis.status.textContent === 'Abgebrochen.'")
     searching(page, [[float(k), 0.5 * k] for k in range(9)])
-    page.until("gruebler.views.synthesis.status.textContent.startsWith('9 der Punkte liegen auf einer Geraden')", 60)
+    page.until("gruebler.message.textContent.startsWith('9 der Punkte liegen auf einer Geraden')", 60)
     searching(page, [*ROWS, (0.0, 0.0)])
-    page.until("gruebler.views.synthesis.status.textContent.includes('gruebler explore')")
+    page.until("gruebler.message.textContent.includes('gruebler explore')")
 
 
 def test_frames_and_drives_are_drawn_in_one_picture(folder):
