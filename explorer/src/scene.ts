@@ -6,37 +6,22 @@ import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import type { Arrow } from "./forces";
 import { DRIVEN, DRIVING, placed, STANDING, SUPPORT } from "./ground";
-import { clearAbout, convexHull, middleOf, pathThrough, sidesOf, spotsAbout, toHull } from "./hull";
-import { clearOf, type Label, labelsOf, pastEdges } from "./labels";
+import { clearAbout, convexHull, pathThrough } from "./hull";
+import { clearOf, pastEdges } from "./labels";
 import { number as numberText } from "./language";
-import { clearBy, type Leader, leaderOf } from "./leaders";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
-import type { ShapeRecord } from "./model";
-import { clearSpot, halfOf, nearerBy } from "./names";
+import { halfOf } from "./names";
+import { lettersAt, Naming } from "./naming";
 import { origin, type Pair, place, turn } from "./rows";
 import { readingsOf } from "./rulers";
-import { linesOf } from "./shapes";
 import { ownColour, type Shown } from "./shown";
 import { springLines } from "./springs";
 import type { Viewport } from "./viewport";
 import { rateUnit } from "./wording";
 
 const LONGEST_ARROW = 90; // pixels
-const LINE = 15; // pixels that names are apart
-const MOST_CLEAR = 40; // names that look for a place of their own in every picture
-const TOOLS = 218; // down to where names are clear of the buttons over the picture
-const BESIDE = 56; // from the right edge of the picture to the left one of these
-const NARROW = 500; // pixels: pictures in which a name that would be cut is left out
-const NEAR = 16; // places of a letter of which others are twice as far
-const RULE = 34; // from the left edge to where the numbers of the grid end
 const RING = 6; // the radius of a target
-const JOINT = 11; // from the middle of a joint to that of a name
-const BODY = 9; // from the middle of a bar to that of a name beside it
-const INK = 8; // from a name to an arrow or a ground
-const BACK = 8; // more room, for a name that stood farther off
-const GAP = 5; // from the middle of a name to a ground beside which it still stands well
-const FOOT = 26; // below which are the numbers of the grid
 const RAIL = 6; // half the width of a rail with its hatching, and some room
 
 export class Scene {
@@ -50,7 +35,7 @@ export class Scene {
   #rails: Pair[][] = [];
   #pins: { element: SVGGElement; joint: number }[] = [];
   #marks: { element: SVGGElement; point: number }[] = [];
-  #labels: Label[] = [];
+  readonly #names: Naming;
   #backdrop: SVGElement | null = null;
   /** Whether the pole is to be shown but lies outside of the picture. */
   poleAside = false;
@@ -59,8 +44,6 @@ export class Scene {
   );
   /** Beside arrows, how much they are. */
   readonly #values = svg("g", {});
-  /** From names to bodies beside which they have no place. */
-  readonly #leaders = svg("path", { fill: "var(--faint)", stroke: "var(--faint)" });
   readonly #springs = svg("path.spring-path", {});
   readonly #rulers = svg("path.ruler", {});
   readonly #circle = svg("circle.inflection", { r: 0 });
@@ -72,7 +55,9 @@ export class Scene {
     private readonly under: SVGSVGElement,
     private readonly viewport: Viewport,
     private readonly keys: Record<"joint" | "point", (event: KeyboardEvent, number: number) => void>,
-  ) {}
+  ) {
+    this.#names = new Naming(viewport);
+  }
 
   /** The joints that are drawn. */
   get joints(): number[] {
@@ -86,7 +71,7 @@ export class Scene {
 
   /** Names look for their best places, wherever they stood while it moved. */
   settle(): void {
-    for (const label of this.#labels) Object.assign(label, { taken: 0, leader: undefined });
+    this.#names.settle();
   }
 
   /** Give one link a class, or none. */
@@ -135,10 +120,8 @@ export class Scene {
       marks.append(element);
       return { element, point: number };
     });
-    this.#labels = shown.labels ? labelsOf(linkage) : [];
     front.append(
-      this.#leaders,
-      ...this.#labels.map(({ element }) => element),
+      ...this.#names.build(linkage, shown.labels),
       ...this.#arrows,
       this.#values,
       this.#springs,
@@ -179,7 +162,7 @@ export class Scene {
 
   /** Draw the bodies of the links and find where their names stand on them, after their sizes or the scale changed. */
   sized(linkage: Linkage): void {
-    for (const label of this.#labels) label.sized?.(this.viewport.scale);
+    this.#names.sized();
     const { frame } = linkage.model;
     const bodies = new Bodies(linkage, this.viewport.scale);
     this.#stretched = [];
@@ -233,8 +216,6 @@ export class Scene {
       const record = sizes.points[point];
       if (record) move(element, viewport.screen(...place(pose, 0, record.link, ...record.at)));
     }
-    const taken: { x: number; y: number; half: number }[] = [];
-    const hulls = this.#labels.map(({ hull }) => (hull && this.#labels.length < MOST_CLEAR ? hull(viewport) : []));
     const forces = shown.forces();
     const kinds = [
       forces.filter((one) => !one[6]),
@@ -258,14 +239,6 @@ export class Scene {
       const [u, v] = viewport.screen(x, y);
       grounds.push([-RING, RING].map((d): Pair => [u + d, v]));
     }
-    const { height, width } = viewport;
-    const low = height < 2 * TOOLS ? 72 : TOOLS; // a low picture has one button only
-    const buttons = convexHull(
-      [0, low - 12].flatMap((y): Pair[] => [
-        [width - 54, y],
-        [width, y],
-      ]),
-    );
     const [c, s] = turn(pose, 0, model.frame);
     const [ox, oy] = viewport.screen(...origin(pose, 0, model.frame));
     const fixed = (x: number, y: number): Pair => [ox + c * x + s * y, oy - s * x + c * y];
@@ -273,111 +246,13 @@ export class Scene {
       grounds.push(
         convexHull(ends.flatMap(([x, y]) => [-RAIL, RAIL].flatMap((d) => [fixed(x + d, y + d), fixed(x + d, y - d)]))),
       );
-    const drawn = [...hulls.filter((hull) => hull.length), ...arrows, ...grounds, buttons];
-    const order = [...this.#labels.entries()].sort(([, one], [, other]) => +!!one.many - +!!other.many);
-    const far: [number, Label][] = []; // names that have no place beside their bodies
-    const right = (v: number) => width - (v < low ? BESIDE : 0);
-    const offJoints = clearBy(
-      JOINT,
-      this.#pins.map(({ joint }) => [pixels(joint)]),
-    );
-    const offGrounds = clearBy(GAP, grounds);
-    const touchingOne = (half: number) => (at: Pair) =>
-      taken.find(
-        (other) => half + other.half + 4 > Math.abs(at[0] - other.x) && Math.abs(at[1] - other.y) < LINE - 0.01,
-      );
-    const takes = ({ element, half }: Label, [x, y]: Pair) => {
-      put(element, { display: "inline" });
-      taken.push({ x, y, half });
-      drawn.push(lettersAt(x, y, half));
-      move(element, [x, y]);
-    };
-    /** At its place beside its body, though something is there. */
-    const stands = (label: Label, [left, top]: Pair) => {
-      const { element, half } = label;
-      const touching = touchingOne(half);
-      const x = Math.max(half + 2, Math.min(right(top) - half - 2, left)); // it is not cut
-      let y = top;
-      const way = y < (touching([x, y])?.y ?? 0) ? -1 : 1;
-      for (let other = touching([x, y]); other; other = touching([x, y])) y = other.y + way * LINE;
-      if (width < NARROW && x + half > right(y)) put(element, { display: "none" });
-      else takes(label, [x, y]);
-    };
-    for (const [k, label] of order) {
-      const { half, name, spots } = label;
-      const places = spots(viewport);
-      const touching = touchingOne(half);
-      const clear = (of: Pair[][]) => (at: Pair) => !touching(at) && of.every((one) => clearOf(one, half, at));
-      const seen = ([u, v]: Pair) => u > half + RULE && u + half < right(v);
-      const free = clear(hulls[k]!.length ? arrows : drawn);
-      if (hulls[k]!.length) {
-        // of a plate upon which it lies only the edges are others
-        const mine = middleOf(hulls[k]!);
-        const others = hulls.flatMap((one, other) => {
-          if (other === k) return [];
-          return toHull(one, ...mine) ? [one] : sidesOf(one);
-        });
-        label.taken = clearSpot(
-          places,
-          name,
-          [hulls[k]!, others],
-          free,
-          label.taken,
-          (at) => seen(at) && clear(grounds)(at),
-        );
-        const [x, y] = places[label.taken]!;
-        const own = hulls[k]!.length > 2 && !toHull(hulls[k]!, x, y - 4); // on its plate
-        const wide = label.leader === undefined ? half : half + BACK; // back it comes where there is more room
-        const alone = offJoints(wide, [x, y - 4]) && (own || clearBy(BODY, others)(wide, [x, y - 4]));
-        const off = offGrounds(wide, [x, y - 4]) && seen([x, y]) && free([x, y]);
-        if (!alone || !off || !(nearerBy([x, y], wide, hulls[k]!, others) > wide - half)) {
-          far.push([k, label]);
-          continue;
-        }
-        label.leader = undefined;
-      } else if (label.taken >= NEAR || !free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
-      stands(label, places[label.taken]!);
-    }
-    const outlines = far.length ? outlinesOf(linkage, viewport) : [];
-    const curves = far.length && shown.curves ? curvesOf(linkage, viewport) : [];
-    const offInk = clearBy(INK, [...arrows, ...grounds, buttons, ...curves]);
-    const lines: [Pair, Pair][] = [];
-    const hangs = (label: Label, found: Leader | null) => {
-      label.leader = found?.chosen ?? -1;
-      if (found) takes(label, found.at);
-      if (found?.line) lines.push(found.line);
-      return !!found;
-    };
-    const anew: (() => void)[] = []; // after those that stay where they were
-    for (const [k, label] of far) {
-      const { half, link, spots } = label;
-      const others = hulls.filter((hull, other) => other !== k && hull.length);
-      others.push(...outlines.flatMap(([its, outline]) => (its === link ? [] : [outline])));
-      const wide = (outline: Pair[]) => Math.max(...outline.map(([x]) => x)) - Math.min(...outline.map(([x]) => x));
-      const homes = outlines.flatMap(([its, outline]) => (its === link && outline.length > 2 ? [outline] : []));
-      const home = homes.sort((one, other) => wide(other) - wide(one))[0] ?? [];
-      const free = ([u, v]: Pair) =>
-        u > half + RULE &&
-        u + half < right(v) &&
-        v > 14 &&
-        v < height - FOOT &&
-        !taken.some((one) => half + one.half + 4 > Math.abs(u - one.x) && Math.abs(v - one.y) < LINE) &&
-        offInk(half, [u, v - 4]);
-      const find = leaderOf(hulls[k]!, home, others, half, free, lines, taken);
-      if (!hangs(label, find(label.leader ?? -1)))
-        anew.push(() => {
-          if (!hangs(label, find())) stands(label, spots(viewport)[label.taken]!);
-        });
-    }
-    for (const find of anew) find();
-    put(this.#leaders, { d: lines.map((line) => `${pathThrough(line)}${dotAt(line[0])}`).join("") });
+    const joints = this.#pins.map(({ joint }) => pixels(joint));
+    const covered = this.#names.place(linkage, { arrows, grounds, joints, curves: shown.curves });
     kinds.forEach((all, k) => {
       put(this.#arrows[k]!, { d: all.map((one) => arrow(...one)).join("") });
     });
     // a number may stand upon a plate, but not across its edges
-    const edges = [...hulls.flatMap(sidesOf), ...drawn.slice(hulls.filter((hull) => hull.length).length)];
-    edges.push(...pastEdges(width, height));
-    this.#putValues(kinds, edges);
+    this.#putValues(kinds, [...covered, ...pastEdges(viewport.width, viewport.height)]);
     put(this.#springs, { d: springs.flat().map(pathThrough).join("") });
     const rulers = readingsOf(linkage).map(({ ends }) => pathThrough(ends.map((at) => viewport.screen(...at))));
     put(this.#rulers, { d: rulers.join("") });
@@ -443,51 +318,6 @@ export class Scene {
     const [cx, cy] = viewport.screen(found.x + found.dx / 2, found.y + found.dy / 2);
     put(this.#circle, { cx: cx.toFixed(1), cy: cy.toFixed(1), r: radius.toFixed(1) });
   }
-}
-
-/** Places on the coupler curves, in pixels. */
-function curvesOf({ cycle, sizes }: Linkage, viewport: Viewport): Pair[][] {
-  const step = Math.ceil(cycle.values.length / 60);
-  return sizes.points.flatMap(({ at, link }) => {
-    const places: Pair[][] = [];
-    for (let row = 0; row < cycle.values.length; row += step)
-      places.push([viewport.screen(...place(cycle.rows, row, link, ...at))]);
-    return places;
-  });
-}
-
-/** What wheels, blocks and the like cover, in pixels: hulls, of what is open the pieces. */
-function outlinesOf({ model, pose, sizes }: Linkage, viewport: Viewport): [link: number, hull: Pair[]][] {
-  const solid = model.shapes.filter(({ style }) => style !== "hatch" && style !== "dead");
-  return solid.flatMap((shape) => outlineOf(shape).map((hull): [number, Pair[]] => [shape.link, hull]));
-
-  function outlineOf(shape: ShapeRecord): Pair[][] {
-    const at = (x: number, y: number) => viewport.screen(...place(pose, 0, shape.link, x, y));
-    if (shape.circle) {
-      const [x, y, radius] = shape.circle;
-      return [
-        spotsAbout([x, y], radius)
-          .slice(0, 16)
-          .map((one) => at(...one)),
-      ];
-    }
-    return linesOf(sizes, shape).flatMap((line) => {
-      const step = 2 * Math.ceil(line.length / 96);
-      const places: Pair[] = [];
-      for (let k = 0; k + 1 < line.length; k += step) places.push(at(line[k]!, line[k + 1]!));
-      return shape.closed ? [convexHull(places)] : sidesOf(places).slice(0, -1);
-    });
-  }
-}
-
-/** The corners of a text that stands upon a line. */
-function lettersAt(x: number, y: number, half: number): Pair[] {
-  return convexHull([-half, half].flatMap((side) => [-9, 1].map((rise): Pair => [x + side, y + rise])));
-}
-
-/** The end of a line on a body. */
-function dotAt([x, y]: Pair): string {
-  return `M${(x - 1.5).toFixed(1)} ${y.toFixed(1)}a1.5 1.5 0 1 0 3 0a1.5 1.5 0 1 0 -3 0`;
 }
 
 function move(element: SVGElement, [x, y]: Pair): void {

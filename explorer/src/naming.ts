@@ -1,0 +1,244 @@
+/** Where the names of a picture stand: in or beside their bodies, else farther off with a line. */
+
+import { put, svg } from "./dom";
+import { convexHull, middleOf, pathThrough, sidesOf, spotsAbout, toHull } from "./hull";
+import { clearOf, type Label, labelsOf } from "./labels";
+import { clearBy, type Leader, leaderOf } from "./leaders";
+import type { Linkage } from "./linkage";
+import type { ShapeRecord } from "./model";
+import { clearSpot, nearerBy } from "./names";
+import { type Pair, place } from "./rows";
+import { linesOf } from "./shapes";
+import type { Viewport } from "./viewport";
+
+const LINE = 15; // pixels that names are apart
+const MOST_CLEAR = 40; // names that look for a place of their own in every picture
+const TOOLS = 218; // down to where names are clear of the buttons over the picture
+const BESIDE = 56; // from the right edge of the picture to the left one of these
+const NARROW = 500; // pixels: pictures in which a name that would be cut is left out
+const NEAR = 16; // places of a letter of which others are twice as far
+const RULE = 34; // from the left edge to where the numbers of the grid end
+const JOINT = 11; // from the middle of a joint to that of a name
+const BODY = 9; // from the middle of a bar to that of a name beside it
+const INK = 8; // from a name to an arrow or a ground
+const BACK = 8; // more room, for a name that stood farther off
+const GAP = 5; // from the middle of a name to a ground beside which it still stands well
+const FOOT = 26; // below which are the numbers of the grid
+
+/** What is drawn beside bodies, in pixels, and whether curves are. */
+export interface Around {
+  arrows: Pair[][];
+  grounds: Pair[][];
+  joints: Pair[];
+  curves: boolean;
+}
+
+export class Naming {
+  /** From names to bodies beside which they have no place. */
+  readonly leaders = svg("path", { fill: "var(--faint)", stroke: "var(--faint)" });
+  #labels: Label[] = [];
+  /** Names that have their places. */
+  #taken: { x: number; y: number; half: number }[] = [];
+  /** What no other text is to cover. */
+  #drawn: Pair[][] = [];
+
+  constructor(private readonly viewport: Viewport) {}
+
+  /** The elements of the names of a linkage; none if they are not wanted. */
+  build(linkage: Linkage, wanted: boolean): SVGElement[] {
+    this.#labels = wanted ? labelsOf(linkage) : [];
+    return [this.leaders, ...this.#labels.map(({ element }) => element)];
+  }
+
+  /** After sizes or the scale changed. */
+  sized(): void {
+    for (const label of this.#labels) label.sized?.(this.viewport.scale);
+  }
+
+  /** Names look for their best places, wherever they stood while it moved. */
+  settle(): void {
+    for (const label of this.#labels) Object.assign(label, { taken: 0, leader: undefined });
+  }
+
+  /** Put all names where they have room; what other texts are to keep clear of, names included. */
+  place(linkage: Linkage, { arrows, curves, grounds, joints }: Around): Pair[][] {
+    const { viewport } = this;
+    const hulls = this.#labels.map(({ hull }) => (hull && this.#labels.length < MOST_CLEAR ? hull(viewport) : []));
+    const bodies = hulls.filter((hull) => hull.length);
+    const still = [...arrows, ...grounds, this.#buttons];
+    this.#taken = [];
+    this.#drawn = [...bodies, ...still];
+    const order = [...this.#labels.entries()].sort(([, one], [, other]) => +!!one.many - +!!other.many);
+    const offJoints = clearBy(
+      JOINT,
+      joints.map((at) => [at]),
+    );
+    const offGrounds = clearBy(GAP, grounds);
+    const far: [number, Label][] = [];
+    for (const [k, label] of order) {
+      const { half, name, spots } = label;
+      const places = spots(viewport);
+      const clear = (of: Pair[][]) => (at: Pair) =>
+        !this.#touching(half, at) && of.every((one) => clearOf(one, half, at));
+      const free = clear(hulls[k]!.length ? arrows : this.#drawn);
+      if (hulls[k]!.length) {
+        // of a plate upon which it lies only the edges are others
+        const mine = middleOf(hulls[k]!);
+        const others = hulls.flatMap((one, other) => {
+          if (other === k) return [];
+          return toHull(one, ...mine) ? [one] : sidesOf(one);
+        });
+        const seen = (at: Pair) => this.#seen(half, at);
+        const quiet = clear(grounds);
+        label.taken = clearSpot(places, name, [hulls[k]!, others], free, label.taken, (at) => seen(at) && quiet(at));
+        const [x, y] = places[label.taken]!;
+        const own = hulls[k]!.length > 2 && !toHull(hulls[k]!, x, y - 4); // on its plate
+        const wide = label.leader === undefined ? half : half + BACK; // back it comes where there is more room
+        const alone = offJoints(wide, [x, y - 4]) && (own || clearBy(BODY, others)(wide, [x, y - 4]));
+        const off = offGrounds(wide, [x, y - 4]) && seen([x, y]) && free([x, y]);
+        if (!alone || !off || !(nearerBy([x, y], wide, hulls[k]!, others) > wide - half)) {
+          far.push([k, label]);
+          continue;
+        }
+        label.leader = undefined;
+      } else if (label.taken >= NEAR || !free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
+      this.#stands(label, places[label.taken]!);
+    }
+    const more = far.length && curves ? curvesOf(linkage, viewport) : [];
+    this.#putFar(linkage, hulls, far, clearBy(INK, [...still, ...more]));
+    // upon a plate they may stand, but not across its edges
+    return [...bodies.flatMap(sidesOf), ...this.#drawn.slice(bodies.length)];
+  }
+
+  /** Those that have no place beside their bodies: first the ones that may stay where they were. */
+  #putFar(
+    linkage: Linkage,
+    hulls: Pair[][],
+    far: [number, Label][],
+    offInk: (half: number, at: Pair) => boolean,
+  ): void {
+    const { height } = this.viewport;
+    const outlines = far.length ? outlinesOf(linkage, this.viewport) : [];
+    const lines: [Pair, Pair][] = [];
+    const hangs = (label: Label, found: Leader | null) => {
+      label.leader = found?.chosen ?? -1;
+      if (found) this.#takes(label, found.at);
+      if (found?.line) lines.push(found.line);
+      return !!found;
+    };
+    const anew: (() => void)[] = [];
+    for (const [k, label] of far) {
+      const { half, link, spots } = label;
+      const others = hulls.filter((hull, other) => other !== k && hull.length);
+      others.push(...outlines.flatMap(([its, outline]) => (its === link ? [] : [outline])));
+      const wide = (outline: Pair[]) => Math.max(...outline.map(([x]) => x)) - Math.min(...outline.map(([x]) => x));
+      const homes = outlines.flatMap(([its, outline]) => (its === link && outline.length > 2 ? [outline] : []));
+      const home = homes.sort((one, other) => wide(other) - wide(one))[0] ?? [];
+      const free = ([u, v]: Pair) =>
+        this.#seen(half, [u, v]) &&
+        v > 14 &&
+        v < height - FOOT &&
+        !this.#touching(half, [u, v]) &&
+        offInk(half, [u, v - 4]);
+      const find = leaderOf(hulls[k]!, home, others, half, free, lines, this.#taken);
+      if (!hangs(label, find(label.leader ?? -1)))
+        anew.push(() => {
+          if (!hangs(label, find())) this.#stands(label, spots(this.viewport)[label.taken]!);
+        });
+    }
+    for (const find of anew) find();
+    put(this.leaders, { d: lines.map((line) => `${pathThrough(line)}${dotAt(line[0])}`).join("") });
+  }
+
+  /** At its place beside its body, though something is there. */
+  #stands(label: Label, [left, top]: Pair): void {
+    const { half } = label;
+    const right = this.#right(top);
+    const x = Math.max(half + 2, Math.min(right - half - 2, left)); // it is not cut
+    let y = top;
+    const way = y < (this.#touching(half, [x, y])?.y ?? 0) ? -1 : 1;
+    for (let other = this.#touching(half, [x, y]); other; other = this.#touching(half, [x, y]))
+      y = other.y + way * LINE;
+    if (this.viewport.width < NARROW && x + half > this.#right(y)) put(label.element, { display: "none" });
+    else this.#takes(label, [x, y]);
+  }
+
+  #takes({ element, half }: Label, [x, y]: Pair): void {
+    put(element, { display: "inline", transform: `translate(${x.toFixed(2)} ${y.toFixed(2)})` });
+    this.#taken.push({ x, y, half });
+    this.#drawn.push(lettersAt(x, y, half));
+  }
+
+  #touching(half: number, [u, v]: Pair) {
+    return this.#taken.find(({ half: its, x, y }) => half + its + 4 > Math.abs(u - x) && Math.abs(v - y) < LINE - 0.01);
+  }
+
+  #seen(half: number, [x, y]: Pair): boolean {
+    return x > half + RULE && x + half < this.#right(y);
+  }
+
+  /** Where the buttons over the picture end; a low one has one only. */
+  get #low(): number {
+    return this.viewport.height < 2 * TOOLS ? 72 : TOOLS;
+  }
+
+  /** The right edge of the picture, or the left one of these. */
+  #right(y: number): number {
+    return this.viewport.width - (y < this.#low ? BESIDE : 0);
+  }
+
+  get #buttons(): Pair[] {
+    const { width } = this.viewport;
+    return convexHull(
+      [0, this.#low - 12].flatMap((y): Pair[] => [
+        [width - 54, y],
+        [width, y],
+      ]),
+    );
+  }
+}
+
+/** The corners of a text that stands upon a line. */
+export function lettersAt(x: number, y: number, half: number): Pair[] {
+  return convexHull([-half, half].flatMap((side) => [-9, 1].map((rise): Pair => [x + side, y + rise])));
+}
+
+/** Places on the coupler curves, in pixels. */
+function curvesOf({ cycle, sizes }: Linkage, viewport: Viewport): Pair[][] {
+  const step = Math.ceil(cycle.values.length / 60);
+  return sizes.points.flatMap(({ at, link }) => {
+    const places: Pair[][] = [];
+    for (let row = 0; row < cycle.values.length; row += step)
+      places.push([viewport.screen(...place(cycle.rows, row, link, ...at))]);
+    return places;
+  });
+}
+
+/** What wheels, blocks and the like cover, in pixels: hulls, of what is open the pieces. */
+function outlinesOf({ model, pose, sizes }: Linkage, viewport: Viewport): [link: number, hull: Pair[]][] {
+  const solid = model.shapes.filter(({ style }) => style !== "hatch" && style !== "dead");
+  return solid.flatMap((shape) => outlineOf(shape).map((hull): [number, Pair[]] => [shape.link, hull]));
+
+  function outlineOf(shape: ShapeRecord): Pair[][] {
+    const at = (x: number, y: number) => viewport.screen(...place(pose, 0, shape.link, x, y));
+    if (shape.circle) {
+      const [x, y, radius] = shape.circle;
+      return [
+        spotsAbout([x, y], radius)
+          .slice(0, 16)
+          .map((one) => at(...one)),
+      ];
+    }
+    return linesOf(sizes, shape).flatMap((line) => {
+      const step = 2 * Math.ceil(line.length / 96);
+      const places: Pair[] = [];
+      for (let k = 0; k + 1 < line.length; k += step) places.push(at(line[k]!, line[k + 1]!));
+      return shape.closed ? [convexHull(places)] : sidesOf(places).slice(0, -1);
+    });
+  }
+}
+
+/** The end of a line on a body. */
+function dotAt([x, y]: Pair): string {
+  return `M${(x - 1.5).toFixed(1)} ${y.toFixed(1)}a1.5 1.5 0 1 0 3 0a1.5 1.5 0 1 0 -3 0`;
+}
