@@ -25,39 +25,44 @@ export interface Leader {
   chosen: number;
 }
 
+/** A body and the rectangle about it: left, right, top, bottom. */
+export type Boxed = readonly [body: readonly Pair[], left: number, right: number, top: number, bottom: number];
+
+export function boxed(body: readonly Pair[]): Boxed {
+  const [x, y] = [0, 1].map((axis) => body.map((at) => at[axis]!)) as [number[], number[]];
+  return [body, Math.min(...x), Math.max(...x), Math.min(...y), Math.max(...y)];
+}
+
 /** Whether a name, half its width and its middle given, keeps so clear of bodies; asked some thousand times. */
-export function clearBy(room: number, bodies: readonly (readonly Pair[])[]): (half: number, at: Pair) => boolean {
-  const boxes = bodies.map((body) => {
-    const [x, y] = [0, 1].map((axis) => body.map((at) => at[axis]!)) as [number[], number[]];
-    return [Math.min(...x) - room, Math.max(...x) + room, Math.min(...y) - room, Math.max(...y) + room];
-  });
-  return (half, [x, y]) => {
-    const count = Math.ceil((2 * half) / SAMPLE);
-    for (const [number, body] of bodies.entries()) {
-      const [left, right, top, bottom] = boxes[number] as [number, number, number, number];
-      if (x + half < left || x - half > right || y < top || y > bottom) continue;
-      for (let k = 0; k <= count; k++) if (toHull(body, x - half + (2 * half * k) / count, y) < room) return false;
-    }
-    return true;
-  };
+export function clearBy(room: number, bodies: readonly Boxed[], half: number, [x, y]: Pair): boolean {
+  const count = Math.ceil((2 * half) / SAMPLE);
+  for (const [body, left, right, top, bottom] of bodies) {
+    if (x + half < left - room || x - half > right + room || y < top - room || y > bottom + room) continue;
+    for (let k = 0; k <= count; k++) if (toHull(body, x - half + (2 * half * k) / count, y) < room) return false;
+  }
+  return true;
 }
 
 /** Finds the nearest free place about a body from which a line to it crosses as little as possible; of the one before,
  * whether it is still free. */
 export function leaderOf(
-  own: readonly Pair[],
+  own: Boxed,
   /** The outline of its body, if it has one. */
   home: readonly Pair[],
-  others: readonly (readonly Pair[])[],
+  others: readonly Boxed[],
   half: number,
   free: (at: Pair) => boolean,
   lines: readonly [Pair, Pair][],
   names: readonly { x: number; y: number; half: number }[],
 ): (before?: number) => Leader | null {
-  const places = home[0] ? placesIn(home) : placesOn(own);
-  const rim = sidesOf(home);
-  const gaps = places.map((at) => Math.min(CLEAR, ...others.map((one) => toHull(one, ...at))));
-  const [clear, clearOfRim] = [clearBy(BAR, [own, ...others]), clearBy(RIM, rim)];
+  const places = home[0] ? placesIn(home) : placesOn(own[0]);
+  const rim = sidesOf(home).map(boxed);
+  const bodies = [own, ...others];
+  const gaps: number[] = [];
+  const gapOf = (spot: number) => {
+    gaps[spot] ??= Math.min(CLEAR, ...others.map(([one]) => toHull(one, ...places[spot]!)));
+    return gaps[spot];
+  };
   let best: Leader | null;
   let least: number;
   const tried = (chosen: number) => {
@@ -71,8 +76,9 @@ export function leaderOf(
     const end = (at: number, middle: number, room: number) => middle + Math.max(-room, Math.min(room, at - middle));
     const to: Pair = [end(from[0], x, half + 3), end(from[1], y, 8)];
     const inside = home[0] && !toHull(home, x, y);
-    let cost = (inside ? 0 : away(from, ...to)) - SEEN * gaps[spot]!;
-    if (cost >= least || !free([x, y + 4]) || !clear(half, [x, y]) || !clearOfRim(half, [x, y])) return;
+    let cost = (inside ? 0 : away(from, ...to)) - SEEN * gapOf(spot);
+    if (cost >= least || !free([x, y + 4]) || !clearBy(BAR, bodies, half, [x, y]) || !clearBy(RIM, rim, half, [x, y]))
+      return;
     if (inside) {
       [best, least] = [{ at: [x, y + 4], line: null, chosen }, cost];
       return;
@@ -85,15 +91,18 @@ export function leaderOf(
     if (names.some((one) => along.some(hides({ ...one, y: one.y - 4 })))) return;
     const mine = hides({ x, y, half });
     for (const line of lines) if (meet(line, [from, to]) || SIXTHS.some((part) => mine(between(...line, part)))) return;
-    cost += CROSSED * others.filter((body) => along.slice(1).some((at) => toHull(body, ...at) < 5)).length;
+    cost += CROSSED * others.filter(([body]) => along.slice(1).some((at) => toHull(body, ...at) < 5)).length;
     if (cost < least) [best, least] = [{ at: [x, y + 4], line: [from, to], chosen }, cost];
   };
-  // from where the body is seen best
-  const order = [...places.keys()].sort((one, other) => gaps[other]! - gaps[one]!).slice(0, ENDS);
   return (before) => {
     [best, least] = [null, Infinity];
-    if (before !== undefined) tried(before);
-    else for (let k = 0; k < WAYS * STEPS; k++) for (const spot of order) tried(spot * WAYS * STEPS + k);
+    if (before !== undefined) {
+      tried(before);
+      return best;
+    }
+    // from where the body is seen best
+    const order = [...places.keys()].sort((one, other) => gapOf(other) - gapOf(one)).slice(0, ENDS);
+    for (let k = 0; k < WAYS * STEPS; k++) for (const spot of order) tried(spot * WAYS * STEPS + k);
     return best;
   };
 }

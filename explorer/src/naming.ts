@@ -3,7 +3,7 @@
 import { put, svg } from "./dom";
 import { convexHull, middleOf, pathThrough, sidesOf, spotsAbout, toHull } from "./hull";
 import { clearOf, type Label, labelsOf } from "./labels";
-import { clearBy, type Leader, leaderOf } from "./leaders";
+import { type Boxed, boxed, clearBy, type Leader, leaderOf } from "./leaders";
 import type { Linkage } from "./linkage";
 import type { ShapeRecord } from "./model";
 import { clearSpot, nearerBy } from "./names";
@@ -69,11 +69,8 @@ export class Naming {
     this.#taken = [];
     this.#drawn = [...bodies, ...still];
     const order = [...this.#labels.entries()].sort(([, one], [, other]) => +!!one.many - +!!other.many);
-    const offJoints = clearBy(
-      JOINT,
-      joints.map((at) => [at]),
-    );
-    const offGrounds = clearBy(GAP, grounds);
+    const pins = joints.map((at) => boxed([at]));
+    const [stands, drawn] = [grounds.map(boxed), still.map(boxed)];
     const far: [number, Label][] = [];
     for (const [k, label] of order) {
       const { half, name, spots } = label;
@@ -94,8 +91,9 @@ export class Naming {
         const [x, y] = places[label.taken]!;
         const own = hulls[k]!.length > 2 && !toHull(hulls[k]!, x, y - 4); // on its plate
         const wide = label.leader === undefined ? half : half + BACK; // back it comes where there is more room
-        const alone = offJoints(wide, [x, y - 4]) && (own || clearBy(BODY, others)(wide, [x, y - 4]));
-        const off = offGrounds(wide, [x, y - 4]) && seen([x, y]) && free([x, y]);
+        const alone =
+          clearBy(JOINT, pins, wide, [x, y - 4]) && (own || clearBy(BODY, others.map(boxed), wide, [x, y - 4]));
+        const off = clearBy(GAP, stands, wide, [x, y - 4]) && seen([x, y]) && free([x, y]);
         if (!alone || !off || !(nearerBy([x, y], wide, hulls[k]!, others) > wide - half)) {
           far.push([k, label]);
           continue;
@@ -105,20 +103,16 @@ export class Naming {
       this.#stands(label, places[label.taken]!);
     }
     const more = far.length && curves ? curvesOf(linkage, viewport) : [];
-    this.#putFar(linkage, hulls, far, clearBy(INK, [...still, ...more]));
+    this.#putFar(linkage, hulls, far, [...drawn, ...more.map(boxed)]);
     // upon a plate they may stand, but not across its edges
     return [...bodies.flatMap(sidesOf), ...this.#drawn.slice(bodies.length)];
   }
 
   /** Those that have no place beside their bodies: first the ones that may stay where they were. */
-  #putFar(
-    linkage: Linkage,
-    hulls: Pair[][],
-    far: [number, Label][],
-    offInk: (half: number, at: Pair) => boolean,
-  ): void {
+  #putFar(linkage: Linkage, hulls: Pair[][], far: [number, Label][], ink: readonly Boxed[]): void {
     const { height } = this.viewport;
     const outlines = far.length ? outlinesOf(linkage, this.viewport) : [];
+    const [boxes, more] = [hulls.map(boxed), outlines.map(([its, outline]) => [its, boxed(outline)] as const)];
     const lines: [Pair, Pair][] = [];
     const hangs = (label: Label, found: Leader | null) => {
       label.leader = found?.chosen ?? -1;
@@ -129,8 +123,8 @@ export class Naming {
     const anew: (() => void)[] = [];
     for (const [k, label] of far) {
       const { half, link, spots } = label;
-      const others = hulls.filter((hull, other) => other !== k && hull.length);
-      others.push(...outlines.flatMap(([its, outline]) => (its === link ? [] : [outline])));
+      const others = boxes.filter(([hull], other) => other !== k && hull.length);
+      others.push(...more.flatMap(([its, box]) => (its === link ? [] : [box])));
       const wide = (outline: Pair[]) => Math.max(...outline.map(([x]) => x)) - Math.min(...outline.map(([x]) => x));
       const homes = outlines.flatMap(([its, outline]) => (its === link && outline.length > 2 ? [outline] : []));
       const home = homes.sort((one, other) => wide(other) - wide(one))[0] ?? [];
@@ -139,8 +133,8 @@ export class Naming {
         v > 14 &&
         v < height - FOOT &&
         !this.#touching(half, [u, v]) &&
-        offInk(half, [u, v - 4]);
-      const find = leaderOf(hulls[k]!, home, others, half, free, lines, this.#taken);
+        clearBy(INK, ink, half, [u, v - 4]);
+      const find = leaderOf(boxes[k]!, home, others, half, free, lines, this.#taken);
       if (!hangs(label, find(label.leader ?? -1)))
         anew.push(() => {
           if (!hangs(label, find())) this.#stands(label, spots(this.viewport)[label.taken]!);
