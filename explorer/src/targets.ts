@@ -1,12 +1,12 @@
 /** What a linkage is to meet: marks in the plane, and a table in which they are typed. */
 
-import { groundMark } from "./area";
+import { type Area, groundMark } from "./area";
 import { DEGREE } from "./cycle";
 import type { Design } from "./designs";
 import { digits } from "./digits";
 import { h, svg } from "./dom";
 import { bodiesOf, pathOf, putBodies } from "./ghost";
-import { away, clearAbout } from "./hull";
+import { away, clearAbout, convexHull, spotsAbout } from "./hull";
 import { angle, number, parsed, t } from "./language";
 import { valueAt } from "./plot";
 import type { Pair } from "./rows";
@@ -123,14 +123,15 @@ export function swingOf(swing: number, design: Design | null): Pair[] {
   return [one[pivot]!, one[end]!, two[end]!, [x + part * (a + c - 2 * x), y + part * (b + d - 2 * y)]];
 }
 
-/** The same as a picture with its angle and its time ratio, in units that are so long. */
+/** The same as a picture with its angle and its time ratio, and the names of the ends, which stand above what moves. */
 export function swingMark(
   places: readonly Pair[],
   [swing, ratio]: readonly number[],
-  unit: number,
+  area: Area,
   design: Design | null,
   corner: readonly Pair[],
-): SVGElement[] {
+): [picture: SVGElement[], names: SVGElement[]] {
+  const { unit } = area;
   const [pivot, one, two, top] = places as [Pair, Pair, Pair, Pair];
   const [[x, y], [a, b], [c, d], [u, v]] = [pivot, one, two, top];
   const long = Math.hypot(a - x, b - y);
@@ -142,8 +143,7 @@ export function swingMark(
     putBodies(made, design.members, ends);
     return made.flat();
   });
-  return [
-    ...(design ? endNames(places, design, unit, left, corner) : []),
+  const picture = [
     ...(bodies ? [svg("g.faded", {}, ...bodies)] : [svg("path.arm", { d: pathOf([one, pivot, two]) })]),
     groundMark(pivot, unit),
     svg("path.polygon", { d: `M${a} ${-b}A${long} ${long} 0 ${+(swing! > 180)} ${+clockwise} ${c} ${-d}` }),
@@ -160,13 +160,15 @@ export function swingMark(
       ),
     ),
   ];
+  return [picture, design ? endNames(places, design, area, left, corner) : []];
 }
 
-/** What the dead centres of a design are called, beside the ends of its rocker, clear of links and other words. */
+/** What the dead centres of a design are called, beside the ends of its rocker, clear of all that links pass over, of
+ * other words and of the edges of the picture. */
 function endNames(
-  [, ...places]: readonly Pair[],
+  [pivot, ...places]: readonly Pair[],
   design: Design,
-  unit: number,
+  { bottom, left: west, right: east, top: north, unit }: Area,
   left: boolean,
   corner: readonly Pair[],
 ): SVGElement[] {
@@ -176,7 +178,20 @@ function endNames(
     [0, left ? -30 : 30].map((beside): Pair => [top[0] + beside * unit, top[1] + up * unit]),
   );
   const links = ends.flatMap((at) => design.members.map((own) => own.map((joint) => at[joint]!)));
-  const drawn = [...words, ...links, [one, top], [top, two], corner];
+  // the coupler stays between the circle of the crank and the arc of the rocker
+  const crank = links.find((own) => own.length === 2 && own.includes(ends[0]![design.drive!]!));
+  const circle = crank ? spotsAbout(ends[0]![design.drive!]!, away(crank[0]!, ...crank[1]!)).slice(0, 16) : [];
+  const passed = convexHull([pivot!, one, top, two, ...circle]);
+  const beyond = [-1, 1].map((side): Pair[] => {
+    const edge = side < 0 ? west : east;
+    return convexHull(
+      [edge, edge + side * (east - west)].flatMap((x): Pair[] => [
+        [x, bottom],
+        [x, north],
+      ]),
+    );
+  });
+  const drawn = [...words, ...links, passed, ...beyond, corner];
   // crank and coupler in one line: beyond each other where the rocker is the farther from the crank
   const spans = ends.map((at, k) => away(at[design.drive!]!, ...places[k]!));
   return spans.map((span, k) => {

@@ -147,13 +147,14 @@ export class TaskPicture {
     const mark = (_: unknown, k: number) => targetMark(points, k, at[k]!, size, dot);
     const wanted = svg("path.polygon", { d: kind === "positions" ? "" : pathOf(way) + loop });
     const marks = stroke ? [svg("path.arm", { d: pathOf(stroke) })] : points.map(mark);
+    const [picture, names] = swing ? swingMark(swing, points[0]!, this.#area, design, this.#corner) : [[], []];
     renew(
       this.#marks,
       ...gridOf(this.#area, angles ? wordsOf(kind).heads : []),
       svg("path.shape.dead", { "data-region": "", d: region[0] ? `${pathOf(region)}Z` : "" }),
-      ...(swing ? swingMark(swing, points[0]!, unit, design, this.#corner) : []),
+      ...picture,
       ...(charted ? [svg("path.curve", { d: pathOf(charted) }), this.#here] : [design !== null && this.#ghost.element]),
-      ...(swing ? [] : [...(charted || stroke ? [] : [wanted]), ...marks]),
+      ...(swing ? names : [...(charted || stroke ? [] : [wanted]), ...marks]),
       ...pivots.map((place) => svg("g", { "data-pivot": "" }, groundMark(place, unit))),
     );
     put(this.plane, { viewBox: viewBoxOf(this.#area) });

@@ -218,6 +218,8 @@ def test_the_springs_of_the_catalog_are_told_and_changed():
     low, high = cycle.span.low, cycle.span.high
     question = asked(hood.linkage(), source="hood", drives=[(low + high) / 2], range=[low, high], full=False)
     told = answer("forces", question, "en", print)
+    a_second = (high - low) * 30 / math.pi  # through its range, in turns per minute
+    assert told["speed"] * 30 / math.pi == pytest.approx(a_second, rel=0.4)
     (gas,) = told["springs"]
     assert (gas["known"], gas["damping"], [end[1:] for end in gas["ends"]]) == (0, 4.0, [(55, -40), (25, -4)])
     again = answer("forces", {**question, "springs": [gas]}, "en", print)

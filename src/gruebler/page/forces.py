@@ -49,7 +49,7 @@ _CERTAIN = 1e-6  # of the largest load: how far two ways to compute forces may d
 _ROWS = 720  # of a turn, so that what is read between two has four digits
 _MOST_ROWS = 2160
 _NO_ENDS = 0.02  # of a range, at either end: no drive keeps its speed up to where it turns back
-_USUAL = 2 * pi  # of a drive, rad/s: one turn; of a slide about its range
+_USUAL = 2 * pi  # of a drive, rad/s: one turn; of one with limits about its range
 _A_SECOND = 240  # poses of a free motion, whose speeds would be plotted with corners by those of a screen
 _NOISE = 1e-7  # of the largest power: what is left of a mean that is none
 _ENOUGH = 1e-6  # of each of its steps: for the eye
@@ -78,9 +78,8 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         "speed": asked.speed or usual,
     }
     turning = linkage.mechanism.drives[asked.active].turning
-    record["rate"] = (
-        (_TURNS.in_language(lang), "1/min", pi / 30) if turning else (_SLIDES.in_language(lang), f"{linkage.unit}/s", 1)
-    )
+    called, unit, factor = (_TURNS, "1/min", pi / 30) if turning else (_SLIDES, f"{linkage.unit}/s", 1)
+    record["rate"] = (called.in_language(lang), unit, factor)
     record["origin"] = origin_of_masses(asked, record["masses"]).in_language(lang)
     if asked.masses or asked.bars or asked.speed or (asked.gravity, asked.loads, asked.springs) != (None, None, None):
         record["kept"] = kept
@@ -89,7 +88,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     if not (loads.bodies or loads.masses or pulling or any(load_acts(amount) for amount in amounts(loads))):
         return record | {"lines": [_NOTHING.in_language(lang)]}
     active, (low, high) = asked.active, asked.range
-    speed = record["speed"] or (_USUAL if turning else float(f"{high - low:.1g}"))
+    speed = record["speed"] or (_USUAL if asked.full else float(f"{(high - low) / factor:.1g}") * factor)
     if not asked.full:
         low, high = low + _NO_ENDS * (high - low), high - _NO_ENDS * (high - low)
     turns = abs(high - low) / (2 * pi) if turning else 1.0

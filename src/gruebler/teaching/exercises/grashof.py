@@ -170,7 +170,7 @@ def _add_shortest(
 ) -> None:
     """The range with the free length as the shortest link: the crank turns fully there only if that is the frame."""
     upper = crank + short - long
-    name = message("{free} as the shortest link, up to", free=free)
+    name = message("shortest link {free}, up to", free=free)
     symbol = f"{free}'"
     if free != "d" or upper <= 0:
         builder.keep("shortest_upper", name, upper, unit=builder.unit, symbol=symbol)
