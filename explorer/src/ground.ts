@@ -6,6 +6,8 @@ import type { Pair } from "./rows";
 export const SUPPORT = "M0 0L-11 17H11ZM-17 17H17M-14 23l5-6M-5 23l5-6M4 23l5-6M13 23l4-5";
 /** Counter-clockwise, as a drive grows. */
 export const DRIVEN = "M9.5-9.5A13.4 13.4 0 0 0-12.5-5m0 0l6-1.5m-6 1.5l-.6-6";
+/** Beside a slide that is driven, along it. */
+export const PUSHED = "M-16-15H16m-6-5l6 5-6 5";
 /** A block, in pixels about its middle. */
 export const BOX = "M-15-9h30v18h-30z";
 export const RAIL = 11; // pixels from there to its rail
@@ -33,6 +35,11 @@ export const DRIVING: Pair[] = [
   [-8, -6],
   [-7, -13],
   [9, -11],
+];
+
+export const PUSHING: Pair[] = [
+  [-16, -15],
+  [16, -15],
 ];
 
 /** Where a sign is that is turned. */

@@ -1,18 +1,16 @@
 /** The names in the picture of a linkage, and where each of them may stand. */
 
 import { cylinderOf } from "./bodies";
-import { DEGREE } from "./cycle";
 import { svg } from "./dom";
 import { away as apart, convexHull, middleOf, spotsAbout, toHull } from "./hull";
 import type { Linkage } from "./linkage";
-import { halfOf, type NamePlace, namePlace, nameSpots } from "./names";
+import { halfOf, type NamePlace, namePlace, nameSpots, rimSpots } from "./names";
 import { direction, type Pair, place } from "./rows";
 import type { Viewport } from "./viewport";
 
 const EDGE = 4; // pixels of a picture in which texts would be cut
 const PAST = 999;
 const INK = 8; // pixels from a name to an arrow
-const RIM_PLACES: readonly Pair[] = [135, 45, -135, -45].map((a) => [Math.cos(a * DEGREE), Math.sin(a * DEGREE)]);
 const LETTER = 20; // from a joint to its letter
 
 /** A name and where it stands in the picture. */
@@ -56,9 +54,8 @@ export function labelsOf(linkage: Linkage): Label[] {
     const rim = rimOf(linkage, link);
     const spots = (viewport: Viewport) => {
       if (rim) {
-        const [x, y] = viewport.screen(...place(linkage.pose, 0, link, ...rim[0]));
-        const gap = rim[1] * viewport.scale + INK;
-        return RIM_PLACES.map(([c, s]): Pair => [x + c * gap + Math.sign(c) * halfOf(name), y - s * gap + 4]);
+        const centre = viewport.screen(...place(linkage.pose, 0, link, ...rim[0]));
+        return rimSpots(centre, rim[1] * viewport.scale, name);
       }
       if (ends.length) on = namePlace(joints(), [], name, viewport.scale); // it telescopes
       const { at, away, along, ...more } = on;

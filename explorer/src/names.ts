@@ -1,5 +1,6 @@
 /** Where the name of a link stands: in its body if that has room, else beside it. */
 
+import { DEGREE } from "./cycle";
 import { convexHull, away as distance, middleOf, sidesOf, toHull } from "./hull";
 import type { Pair } from "./rows";
 import type { Viewport } from "./viewport";
@@ -9,6 +10,8 @@ const BODY = 9; // pixels from the line between two joints to a name: half the w
 const ALONE = 24; // pixels from the only joint of a body, such as a block, to its name
 const GROUND = 22; // the height of a ground, but for where a name is near its bar
 const INK = 6; // half the height of a name, in pixels
+const OUTSIDE = 8; // pixels from a rim to a name
+const RIM_PLACES: readonly Pair[] = [135, 45, -135, -45].map((a) => [Math.cos(a * DEGREE), Math.sin(a * DEGREE)]);
 const GOOD = 300; // of a place at which nothing is wrong
 const ROOM = 15; // pixels between a name in a body and the lines between its joints
 
@@ -84,6 +87,12 @@ export function nameSpots(viewport: Viewport, { at, away, along = [0, 0], bar }:
       (bar ? [gap, -gap] : [gap]).map((off): Pair => [x + part * dx + off * u, y - part * dy - off * v + 4]),
     ),
   );
+}
+
+/** Where the name of a ring stands, outside its rim. */
+export function rimSpots([x, y]: Pair, radius: number, name: string): Pair[] {
+  const gap = radius + OUTSIDE;
+  return RIM_PLACES.map(([c, s]): Pair => [x + c * gap + Math.sign(c) * halfOf(name), y - s * gap + 4]);
 }
 
 /** How much nearer a name is to its own body than to any other, in pixels. */

@@ -16,15 +16,18 @@ import {
   unitOf,
 } from "./drawing";
 import { gridOf } from "./grid";
-import { BOX, DRIVEN, DRIVING, HATCH, placed, RAIL, SUPPORT } from "./ground";
-import { away, clearAbout, convexHull, nearest, onLine, pathThrough, toHull } from "./hull";
+import { BOX, DRIVEN, DRIVING, HATCH, PUSHED, PUSHING, placed, RAIL, SUPPORT } from "./ground";
+import { away, clearAbout, convexHull, middleOf, nearest, onLine, pathThrough, sidesOf, toHull } from "./hull";
 import { angle, number, spaced } from "./language";
-import { clearSpot, halfOf, namePlace, nameSpots } from "./names";
+import { clearSpot, halfOf, namePlace, nameSpots, rimSpots } from "./names";
 import type { Pair } from "./rows";
 import { guidelines, snapped } from "./snapping";
 import type { Viewport } from "./viewport";
 
 export const GRIP = 16; // pixels
+const TOOLS = 165; // down to where the buttons over the plane end
+const BESIDE = 56; // from its right edge to the left one of these
+const RING = 8; // pixels from the teeth of a ring gear to its rim
 
 /** A knot, else a link, else the picture behind them. */
 export interface Chosen {
@@ -108,29 +111,53 @@ export function mechanismPicture(plane: Drawn): SVGElement[] {
     return [svg("path", { class: `outline${mark}`, d, "data-link": link }), svg("path.bar", { d })];
   });
   const knots = drawing.knots.map((knot, k) => knotElement(plane, k, knot.at));
-  const pins = (wanted: boolean) => knots.filter((_, k) => isPin(drawing.knots[k]!) === wanted);
-  return [...pins(false), ...links, ...pins(true)];
+  const those = (wanted: (knot: Knot) => boolean) => knots.filter((_, k) => wanted(drawing.knots[k]!));
+  // as in Motion a cylinder lies upon the plates that it moves
+  return [...those((knot) => !isPin(knot) && !isCylinder(knot)), ...links, ...those(isCylinder), ...those(isPin)];
 }
 
 /** The picture of all of it, with the spots that are put already and the place of the cursor. */
 export function planePicture(plane: Plane): SVGElement[] {
   const { aim, chosen, cursor, drawing, spots, viewport } = plane;
   const bodies = bodiesOf(plane);
-  const hulls = bodies.map((link) => outlineOf(plane, link));
-  const arrows = drawing.drives.map((k) => placed(DRIVING, viewport.screen(...drawing.knots[k]!.at)));
-  const letters = lettersOf(plane, [...hulls, ...arrows]);
-  const names = bodies.map((link, k) => {
-    const hull = hulls[k]!;
-    const joints = drawing.knots.filter((knot) => knot.links.includes(link)).map(({ at }) => at);
-    const name = spaced(link);
-    const places = nameSpots(viewport, namePlace(joints, [], name, viewport.scale), name);
-    const others = [...hulls, ...arrows].filter((one) => one !== hull && one.length);
-    const free = (spot: Pair) =>
-      letters.every(({ at: [u, v], name: letter }) => {
-        return Math.abs(v - spot[1]) > 14 || Math.abs(u - spot[0]) > 8 + halfOf(name) + halfOf(letter);
-      });
-    return text(name, places[clearSpot(places, name, [hull, others], free)]!);
+  const hulls = bodies.map((link) => {
+    const held = drawing.knots.filter((knot) => isCylinder(knot) && knot.links.includes(link)); // a half of it
+    return convexHull([...outlineOf(plane, link), ...held.map(({ at }) => viewport.screen(...at))]);
   });
+  const arrows = drawing.drives.map((k) => {
+    const way = wayOf(drawing.knots[k]!);
+    return placed(way === null ? DRIVING : PUSHING, viewport.screen(...drawing.knots[k]!.at), -(way ?? 0));
+  });
+  const letters = lettersOf(plane, [...hulls, ...arrows]);
+  const texts = [...letters];
+  for (const [k, link] of bodies.entries()) {
+    const hull = hulls[k]!;
+    const mine = drawing.knots.filter((knot) => knot.links.includes(link));
+    const joints = mine.map(({ at }) => at);
+    const name = spaced(link);
+    const ring = mine.find((knot) => knot.links[ringOf(knot)] === link);
+    const places = ring
+      ? rimSpots(
+          viewport.screen(...ring.between![ringOf(ring)]!),
+          Math.max(...radiiOf(ring)) * viewport.scale + RING,
+          name,
+        )
+      : nameSpots(viewport, namePlace(joints, [], name, viewport.scale), name);
+    // of a plate upon which it lies only the edges are others
+    const over = hull[0] ? middleOf(hull) : null;
+    const others = [...hulls, ...arrows].flatMap((one) => {
+      if (one === hull || !one.length) return [];
+      return over && one[2] && !toHull(one, ...over) ? sidesOf(one) : [one];
+    });
+    const half = halfOf(name);
+    const free = ([x, y]: Pair) =>
+      x > half &&
+      x + half < viewport.width - (y < TOOLS ? BESIDE : 0) &&
+      texts.every(({ at: [u, v], name: other }) => Math.abs(v - y) > 14 || Math.abs(u - x) > 8 + half + halfOf(other));
+    const put = places[clearSpot(places, name, [hull, others], free)]!;
+    if (!viewport.narrow || free(put)) texts.push({ at: put, name });
+  }
+  const names = texts.slice(letters.length).map(({ at, name }) => text(name, at));
   const waiting = [...spots.map(({ at }) => at), ...(aim === "away" ? [] : [cursor])].map((at) =>
     viewport.screen(...at),
   );
@@ -229,8 +256,26 @@ function grips({ viewport }: Plane, picture: Backdrop): SVGElement[] {
   ];
 }
 
+function isCylinder({ between, part }: Knot): boolean {
+  return !!between && part === undefined;
+}
+
+/** The direction in degrees in which a joint slides; null if it turns or meshes. */
+function wayOf(knot: Knot): number | null {
+  if (!isCylinder(knot)) return knot.slide ?? null;
+  const [[x, y], [u, v]] = knot.between!;
+  return Math.atan2(v - y, u - x) / DEGREE;
+}
+
+/** Which of two wheels is a ring that has the other one within it; -1 if none is. */
+function ringOf({ part = 0.5 }: Knot): number {
+  if (part >= 0 && part <= 1) return -1;
+  return part < 0 ? 1 : 0;
+}
+
 /** A cylinder with its rod, or two wheels, from end to end along x; in pixels about where they meet. */
-function alongEnds({ between, part }: Knot, scale: number): SVGElement {
+function alongEnds(knot: Knot, scale: number): SVGElement {
+  const { between, part } = knot;
   const [[x, y], [u, v]] = between!;
   const [dx, dy] = [u - x, v - y];
   const long = Math.hypot(dx, dy) * scale;
@@ -240,8 +285,16 @@ function alongEnds({ between, part }: Knot, scale: number): SVGElement {
       ...["outline", "bar"].map((kind) => svg(`path.${kind}`, { d: `M0 0H${long / 2}` })),
       svg("rect.block", { x: -long / 2, y: -7, width: 0.6 * long, height: 14, rx: 3 }),
     );
-  else for (const cx of [-part * long, (1 - part) * long]) turned.append(svg("circle.wheel", { cx, r: Math.abs(cx) }));
+  else
+    for (const [k, cx] of [-part * long, (1 - part) * long].entries()) {
+      const circles = [0, RING].slice(0, k === ringOf(knot) ? 2 : 1).map((more) => circle(cx, Math.abs(cx) + more));
+      turned.append(svg("path.shape", { d: circles.join("") }));
+    }
   return turned;
+}
+
+function circle(x: number, radius: number): string {
+  return `M${x - radius} 0a${radius} ${radius} 0 1 0 ${2 * radius} 0a${radius} ${radius} 0 1 0 ${-2 * radius} 0Z`;
 }
 
 function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair): SVGElement {
@@ -255,6 +308,7 @@ function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair):
     transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})`,
   });
   const ground = drawing.frame !== null && links.includes(drawing.frame);
+  const way = wayOf(drawing.knots[k]!);
   if (between) element.append(alongEnds(drawing.knots[k]!, viewport.scale));
   else if (slide !== undefined) {
     const turned = svg("g", { transform: `rotate(${-slide})` });
@@ -263,6 +317,7 @@ function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair):
     element.append(turned);
   } else if (ground) element.append(svg("path.support", { d: SUPPORT }));
   if (slide === undefined && !between) element.append(svg("circle.joint", { r: links.length > 1 || ground ? 5 : 3.2 }));
-  if (drawing.drives.includes(k)) element.append(svg("path.driven", { d: DRIVEN }));
+  if (drawing.drives.includes(k))
+    element.append(svg("path.driven", way === null ? { d: DRIVEN } : { d: PUSHED, transform: `rotate(${-way})` }));
   return element;
 }
