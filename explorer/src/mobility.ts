@@ -70,7 +70,10 @@ export class MobilityPanel {
     const loose = all.find((link) => !jointsOf(drawing).some((k) => drawing.knots[k]!.links.includes(link)));
     let missing = loose && t("Link {link} has no joint yet.", { link: spaced(loose) });
     if (all.length < 3) missing = t("Draw at least three links.");
-    if (frame === null) missing = t("Choose an example or place ground joints.");
+    if (frame === null)
+      missing = all.length
+        ? t("Place ground at a joint, or choose a link and hold it as frame.")
+        : t("Choose an example or place ground joints.");
     if (missing) return renew(this.element, all.length > 2 && count, h("p.note", {}, missing));
     if (this.element.querySelector("[data-fact=freedoms]")) this.element.firstChild!.replaceWith(count);
     else renew(this.element, count, moment());

@@ -57,7 +57,15 @@ export function placesPanel(
       ? [
           h("h2", {}, t("Background picture")),
           rowsTable(middle!, t("Picture"), ["x", "y"], true, framed, say, () => ""),
-          rowsTable(sizes!, t("Picture"), [t("Width"), "φ [°]"], false, framed, say, () => ""),
+          rowsTable(
+            sizes!,
+            t("Picture"),
+            [`${t("Width")} [${unitOf(drawing)}]`, "φ [°]"],
+            false,
+            framed,
+            say,
+            () => "",
+          ),
           h(
             "div.form",
             {},
@@ -67,7 +75,7 @@ export function placesPanel(
         ]
       : []),
     file,
-    action("picture", () => file.click(), t("Background picture")),
+    action("picture", () => file.click(), picture ? t("Replace picture") : t("Background picture")),
     ...(knots.length
       ? [
           h(

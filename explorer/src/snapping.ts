@@ -33,7 +33,10 @@ export function snapped([x, y]: Pair, viewport: Viewport, { places, from, length
   const [inX, inY] = [Math.abs(other[0]! - x) < reach, Math.abs(other[1]! - y) < reach];
   const part = (value: number) => (Math.abs(value) < 1e-12 ? 0 : value); // exactly upright, exactly level
   let found: Pair = [inX ? other[0]! : onGrid(x), inY ? other[1]! : onGrid(y)];
-  if (away(found, x, y) < reach) return found;
+  if (away(found, x, y) < reach || (inX && inY)) return found;
+  const meet = (place: Pair) => {
+    if (away(place, x, y) < away(found, x, y)) found = place;
+  };
   for (const [u, v] of from) {
     const [dx, dy] = [x - u, y - v];
     const far = Math.hypot(dx, dy);
@@ -42,10 +45,17 @@ export function snapped([x, y]: Pair, viewport: Viewport, { places, from, length
     const length = nearest(lengths, far);
     const turned = far * Math.abs(angle - round) < reach;
     const known = Math.abs(length - far) < reach;
-    if (!turned && (!known || inX || inY)) continue;
+    if (inX || inY) {
+      // level with a joint, or above it, it stays; there it may meet a round angle or a known length
+      const off = inY ? other[1]! - v : other[0]! - u;
+      const rest = Math.sqrt(length * length - off * off);
+      const way = inY ? off / Math.tan(round) : off * Math.tan(round);
+      for (const one of [rest, -rest, turned ? way : NaN]) meet(inY ? [u + one, other[1]!] : [other[0]!, v + one]);
+      continue;
+    }
+    if (!turned && !known) continue;
     const [r, phi] = [known ? length : onGrid(far), turned ? round : angle];
-    const polar: Pair = [u + r * part(Math.cos(phi)), v + r * part(Math.sin(phi))];
-    if (away(polar, x, y) < away(found, x, y)) found = polar;
+    meet([u + r * part(Math.cos(phi)), v + r * part(Math.sin(phi))]);
   }
   return found;
 }

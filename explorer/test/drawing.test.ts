@@ -271,6 +271,11 @@ test("a place snaps to what is in line, to round angles and known lengths, else 
   const level = { ...linked, places: linked.from, lengths: [69.6] };
   assert.deepEqual(snapped([69.7, 0.6], viewport, level), [70, 0]); // not 69.6 long and a little off the axis
   near(snapped([67.8, 0.6], viewport, { ...level, lengths: [67.3] }), [67.3, 0]); // between two places of the grid
+  viewport.scale = 1; // a place of the grid every 20
+  const rocker = { places: [[0, 0]], from: [[60, 40]], lengths: [40] } as typeof linked;
+  // level before 40 long at 75 degrees, which is (70.35, 1.36): where both lines meet
+  near(snapped([70, 0.2], viewport, rocker), [60 + 40 * Math.tan(Math.PI / 12), 0]);
+  viewport.scale = 3.5;
   const between = {
     ...linked,
     from: [

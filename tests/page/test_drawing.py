@@ -641,6 +641,8 @@ def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
     assert "rotate(-30)" in view.locator(".drawing .backdrop").get_attribute("transform")
     whole = "all => all.map((one) => one.scrollWidth <= one.clientWidth)"
     assert all(view.locator('input[aria-label^="Picture"]').evaluate_all(whole))
+    assert view.locator('[data-act="picture"]').inner_text() == "Replace picture"
+    assert view.locator("th", has_text="Width").inner_text() == "Width [mm]"
     left, top, wide, turned = view.evaluate("gruebler.views.build.drawing.picture.at")
     x, y = view.evaluate(f"{screen}({left} + 20, {top} - 30)")  # on the picture, beside all else
     spot = (box["x"] + x, box["y"] + y)
@@ -782,6 +784,7 @@ def test_joints_are_joined_split_named_and_removed(plane):
     plane.drag((box["x"] + x, box["y"] + y), (u - x, v - y))
     knots = "gruebler.views.build.drawing.knots.map((knot) => knot.links.join('-')).sort()"
     assert view.evaluate(knots) == ["1", "1-2", "2"]
+    assert "hold it as frame" in view.locator('[data-place="mobility"]').inner_text()
     places = ".palette button, .side > *, .drawing"
     before = [one.bounding_box() for one in view.locator(places).all()]
     click(plane, (40, 0))
@@ -842,7 +845,14 @@ def test_the_machine_at_hand_is_taken_over(plane, machine):
     }"""
     view.evaluate(taken, machine)
     first = json.loads(view.evaluate(shown))
+    if machine == "geartrain":  # its wheels are as in Motion, in the card, too
+        filled = view.locator("[data-begin=hand] path.shape").evaluate_all(
+            "all => all.map((one) => getComputedStyle(one).fillOpacity)"
+        )
+        assert filled == ["0.75", "0.75"]
     view.click('[data-begin="hand"]')
+    turned = view.locator(".drawing .driven").get_attribute("transform")
+    assert bool(turned) == (machine == "crane_cyl")  # along the cylinder; what turns has its arc
     assert not view.locator("[data-begin]").count()  # taken over, it is offered no more
     view.locator('[data-act="move"]').click()
     plane.until("gruebler.view === 'motion'")
