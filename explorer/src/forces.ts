@@ -1,6 +1,6 @@
 /** The panel of forces: what the drive and the joints carry over a turn, and how the linkage falls; by the library. */
 
-import { DEGREE } from "./cycle";
+import { DEGREE, wrapped } from "./cycle";
 import { documentOf } from "./document";
 import { action, h, renew, svg } from "./dom";
 import { FactList } from "./factlist";
@@ -150,8 +150,9 @@ export class Forces {
 
   get #question(): Record<string, unknown> {
     const { linkage, transport } = this.#view;
-    const { drives, model } = linkage;
+    const { active, cycle, drives, model } = linkage;
     const held = [...drives].slice(0, model.drives.length);
+    held[active] = wrapped(cycle, held[active]!); // however often it has turned
     const { bars } = linkage.beside;
     return {
       document: documentOf(linkage, transport.pose),
@@ -301,7 +302,7 @@ export class Forces {
       of.joints.map((force) => ({
         name: force.name,
         text: `${figure(force.most * Math.hypot(...vectorAt(force, where)))} N`,
-        note: `max. ${figure(force.most)} N ${force.note}`,
+        note: `max. ${figure(force.most)} N ${force.note.replace(/ (\S+)$/, "\u00a0$1")}`,
       })),
     );
     this.#polar.at(where);

@@ -31,6 +31,8 @@ export interface Around {
   grounds: Pair[][];
   joints: Pair[];
   curves: boolean;
+  /** Whether arrows of forces are, which have numbers. */
+  forces: boolean;
 }
 
 export class Naming {
@@ -61,7 +63,7 @@ export class Naming {
   }
 
   /** Put all names where they have room; what other texts are to keep clear of, names included. */
-  place(linkage: Linkage, { arrows, curves, grounds, joints }: Around): Pair[][] {
+  place(linkage: Linkage, { arrows, curves, forces, grounds, joints }: Around): Pair[][] {
     const { viewport } = this;
     const hulls = this.#labels.map(({ hull }) => (hull && this.#labels.length < MOST_CLEAR ? hull(viewport) : []));
     const bodies = hulls.filter((hull) => hull.length);
@@ -103,6 +105,8 @@ export class Naming {
       this.#stands(label, places[label.taken]!);
     }
     const more = far.length && curves ? curvesOf(linkage, viewport) : [];
+    // in a low picture they give way to numbers
+    if (forces && viewport.narrow) for (const [, { element }] of far.splice(0)) put(element, { display: "none" });
     this.#putFar(linkage, hulls, far, [...drawn, ...more.map(boxed)]);
     // upon a plate they may stand, but not across its edges
     return [...bodies.flatMap(sidesOf), ...this.#drawn.slice(bodies.length)];

@@ -247,7 +247,13 @@ export class Scene {
         convexHull(ends.flatMap(([x, y]) => [-RAIL, RAIL].flatMap((d) => [fixed(x + d, y + d), fixed(x + d, y - d)]))),
       );
     const joints = this.#pins.map(({ joint }) => pixels(joint));
-    const covered = this.#names.place(linkage, { arrows, grounds, joints, curves: shown.curves });
+    const covered = this.#names.place(linkage, {
+      arrows,
+      grounds,
+      joints,
+      curves: shown.curves,
+      forces: forces.length > 0,
+    });
     kinds.forEach((all, k) => {
       put(this.#arrows[k]!, { d: all.map((one) => arrow(...one)).join("") });
     });

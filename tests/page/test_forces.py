@@ -343,7 +343,7 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     assert [slider.get_attribute(f"aria-value{end}") for end in ("min", "max")] == ["2e-7", "1.9999998"]
     # what is known of the drive only is not said of these poses; their forces are those of the fall
     assert page.page.evaluate(READ) == "–"
-    assert re.fullmatch(r"[\d.,]+ N\s+max. [\d.,]+ N (at|bei) [\d.,]+ s", joint.inner_text())
+    assert re.fullmatch(r"[\d.,]+ N\s+max. [\d.,]+ N (at|bei) [\d.,]+\ss", joint.inner_text())
     assert page.page.evaluate(ARROWS).count("L") == 12
     assert page.page.evaluate(marked).startswith("M-9 ")
     page.page.locator("button.play").click()  # it stands still, until it is ended
@@ -483,7 +483,7 @@ def test_each_joint_has_its_force_where_the_drive_is_and_masses_their_source(tab
     for k, one in enumerate(told["forces"]):
         sizes = [math.hypot(x, y) for x, y in zip(*one["parts"], strict=True)]
         value, most = re.fullmatch(
-            r"(\S+) N max\. (\S+) N at \S+°", read.nth(k).locator("dd").inner_text().replace("\n", " ")
+            r"(\S+) N max\. (\S+) N at\s\S+°", read.nth(k).locator("dd").inner_text().replace("\n", " ")
         ).groups()
         assert float(value) == pytest.approx(sizes[row], rel=6e-3)
         assert float(most) == pytest.approx(max(sizes), rel=6e-3)
