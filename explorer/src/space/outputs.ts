@@ -122,13 +122,14 @@ export class OutputPlots {
     }
     const part = !this.#whole && performance.now() > since + PART;
     if (part) {
-      this.#show(next.value);
-      [this.#values, this.#rates] = [[], []]; // how far it goes is not known yet
+      this.#show(next.value, true);
+      this.#values = []; // how far it goes is not known yet
     }
     this.#timer = setTimeout(() => this.#solve(course, part ? undefined : since));
   }
 
-  #show(rows: (State | null)[]): void {
+  /** Plot rows; of a part of them nothing of outputs without an axis, whose sign is that of their farthest way. */
+  #show(rows: (State | null)[], part = false): void {
     const { active, data, drive } = this.machine;
     const motion = data.motions[active]!;
     const range = endsOf(motion);
@@ -150,9 +151,11 @@ export class OutputPlots {
     };
     for (const [k, reading] of this.#readings.entries()) {
       const { link, name, turns } = reading;
-      const values = valuesOf(reading, rows, home);
+      const unsigned = part && isTotal(reading);
+      const values = valuesOf(reading, unsigned ? rows.map(() => null) : rows, home);
       this.#values.push(values);
-      show(name, unitOf(turns), values, link === null ? "--purple" : "--motion", () => this.#value(k));
+      const at = () => (unsigned ? NaN : this.#value(k));
+      show(name, unitOf(turns), values, link === null ? "--purple" : "--motion", at);
       if (!isRated(reading)) continue;
       const rates = slopes(turns ? values.map((value) => value / DEGREES) : values, step, motion.round);
       const now = () => cubicAt(rates, (this.#drive - range[0]) / step, motion.round);
