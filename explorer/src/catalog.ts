@@ -4,6 +4,7 @@ import { choice, h, menu, ownPage, renew, thumbnail } from "./dom";
 import { movesOnHover } from "./hover";
 import { currentLanguage, t, number as written } from "./language";
 import type { Model } from "./model";
+import { store, stored } from "./storing";
 import type { Page, View } from "./view";
 
 interface Entry {
@@ -27,6 +28,17 @@ interface Entry {
 const JOINTS = new Set(["revolute", "prismatic", "roll_slide", "spherical", "universal"]);
 const SOME = "some";
 
+const LEFT = "gruebler-catalog";
+
+/** What was looked for, and how far the page was scrolled, when a machine was opened on a page of its own. */
+interface Left {
+  query: Record<string, string>;
+  kind: string;
+  refining: boolean;
+  byLinks: boolean;
+  top: number;
+}
+
 const EMPTY = 24; // cards: more than a screen
 
 /** The place of a machine that is not there yet. */
@@ -41,6 +53,8 @@ export class CatalogView implements View {
   #kind = "";
   #refining = false;
   #byLinks = false;
+  /** How far to scroll once it is filled. */
+  #top = 0;
   readonly #cards = h("div.cards", { "data-list": "catalog" });
   readonly #note = h("span.note", { role: "status" });
   #typing = 0;
@@ -61,6 +75,11 @@ export class CatalogView implements View {
 
   constructor(page: Page) {
     this.#page = page;
+    const left = stored<Left>(LEFT);
+    if (!left) return;
+    [this.#query, this.#kind, this.#byLinks] = [left.query, left.kind, left.byLinks];
+    [this.#refining, this.#top] = [left.refining, left.top];
+    store(LEFT, null);
   }
 
   appeared(): void {
@@ -219,6 +238,8 @@ export class CatalogView implements View {
     renew(cards, ...found.map((entry) => this.#card(entry)));
     for (const card of cards.children) this.#watcher.observe(card);
     if (!found.length) renew(cards, h("button.plain", { onclick: () => this.#showAll() }, t("Show all")));
+    if (this.#top) for (const scrolled of [this.element, window]) scrolled.scrollTo(0, this.#top);
+    this.#top = 0;
   }
 
   #showAll(): void {
@@ -260,6 +281,8 @@ export class CatalogView implements View {
 
   async #choose(entry: Entry): Promise<void> {
     if (entry.space && ownPage()) {
+      const [query, kind, refining, byLinks] = [this.#query, this.#kind, this.#refining, this.#byLinks];
+      store(LEFT, { query, kind, refining, byLinks, top: scrollY || this.element.scrollTop } satisfies Left);
       location.href = `space/${entry.id}.html#${currentLanguage()}`;
       return;
     }

@@ -1,7 +1,7 @@
 /** The list of all chains of a size, of which one is taken. */
 
 import { inPlane, type Structure } from "./chain";
-import { h, menu, renew, thumbnail } from "./dom";
+import { type Child, h, menu, renew, thumbnail } from "./dom";
 import { currentLanguage, type Language, t } from "./language";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
@@ -25,9 +25,10 @@ const FEW = 6;
 
 /** A list of cards, the first ones and the one that is chosen or all, and a key for more if there are. */
 export function listOf(key: string, cards: HTMLElement[], all: boolean, more: () => void, total = 0): Node[] {
-  const shown = cards.filter((card, k) => all || k < FEW || card.ariaPressed === "true");
-  const list = h(all ? "div.cards.few.whole" : "div.cards.few", { "data-list": key }, ...shown);
   const count = Math.max(total, cards.length);
+  const most = count === FEW + 1 ? count : FEW; // one more takes no more room than a key for it
+  const shown = cards.filter((card, k) => all || k < most || card.ariaPressed === "true");
+  const list = h(all ? "div.cards.few.whole" : "div.cards.few", { "data-list": key }, ...shown);
   if (shown.length === count) return [list];
   const text = t("More ({shown} of {total} shown)", { shown: shown.length, total: count });
   return [list, h("button.plain", { "data-more": key, onclick: more }, text)];
@@ -81,7 +82,12 @@ export class ChainList {
     const anew = found && !cards.some(({ dataset }) => dataset.of === found.code);
     if (anew) this.#other = found;
     if (!typed && (leads || turned || anew)) this.arrange();
-    if (turned || !this.#asked) void this.#ask(0);
+    if ((turned || !this.#asked) && !this.#inSpace) void this.#ask(0);
+  }
+
+  /** Whether the one that is described is of no list. */
+  get #inSpace(): boolean {
+    return !!this.#chosen && !inPlane(this.#chosen);
   }
 
   /** Whether another list is counted. */
@@ -108,9 +114,10 @@ export class ChainList {
     return !wanted || Object.values(wanted.kinds).includes(kinds.split(";")[0]!);
   }
 
-  /** What stands in the fields. */
+  /** What stands in the fields, where there are any. */
   #given(): number[] {
-    return [...this.element.querySelectorAll("input")].map(({ value }) => Number(value || NaN));
+    const fields = [...this.element.querySelectorAll("input")];
+    return fields.length ? fields.map(({ value }) => Number(value || NaN)) : [this.#links, this.mobility];
   }
 
   /** The sizes of which there are lists, if this is none of them. */
@@ -138,15 +145,16 @@ export class ChainList {
     };
     renew(
       this.element,
-      h(
-        "div.form",
-        {},
-        field("links", t("Links"), this.#links),
-        field("mobility", t("Mobility"), this.mobility),
-        this.#assortments,
-        this.#count,
-        this.#status,
-      ),
+      !this.#inSpace &&
+        h(
+          "div.form",
+          {},
+          field("links", t("Links"), this.#links),
+          field("mobility", t("Mobility"), this.mobility),
+          this.#assortments,
+          this.#count,
+          this.#status,
+        ),
       this.#list,
     );
     this.#show();
@@ -203,6 +211,21 @@ export class ChainList {
   #show(): void {
     const { own } = this;
     const [found, other] = [this.#found, this.#other];
+    const cardOf = (drawn: Structure, name: string) => {
+      // without a list of names, if there is one
+      const { picture } = drawn.inversions.find(({ frame }) => frame === drawn.chosen) ?? drawn;
+      // of a chain no link is the frame yet
+      const plain = picture.replace(/<path class=.gr-hatch.*?>/g, "").replaceAll("gr-frame", "gr-body");
+      return (
+        this.#is(placeOf(drawn)) && this.#fits(drawn) && this.#card(drawn.code, drawn.text, plain, name, drawn.kinds)
+      );
+    };
+    const listed = [own, ...(found?.items ?? [])].some((each) => each?.code === other?.code);
+    const mine = [
+      own && cardOf(own, own.name ? t("Yours: {name}", { name: own.name }) : t("Your machine")),
+      other && !listed && cardOf(other, other.name || t("Chosen")),
+    ];
+    if (this.#inSpace) return this.#showAlone(mine);
     if (!found) return renew(this.#list, moment());
     const { assortments, items, total } = found;
     this.#count.textContent = total === 1 ? t("one chain") : t("{total} chains", { total });
@@ -217,20 +240,6 @@ export class ChainList {
     const choose = (assortment: string) => this.#only(assortment);
     const filter = menu(t("Link assortment"), [["", every], ...options], this.#assortment, choose);
     renew(this.#assortments, options.length > 1 && filter);
-    const cardOf = (drawn: Structure, name: string) => {
-      // without a list of names, if there is one
-      const { picture } = drawn.inversions.find(({ frame }) => frame === drawn.chosen) ?? drawn;
-      // of a chain no link is the frame yet
-      const plain = picture.replace(/<path class=.gr-hatch.*?>/g, "").replaceAll("gr-frame", "gr-body");
-      return (
-        this.#is(placeOf(drawn)) && this.#fits(drawn) && this.#card(drawn.code, drawn.text, plain, name, drawn.kinds)
-      );
-    };
-    const listed = [own, ...items].some((each) => each?.code === other?.code);
-    const mine = [
-      own && cardOf(own, own.name ? t("Yours: {name}", { name: own.name }) : t("Your machine")),
-      other && !listed && cardOf(other, other.name || t("Chosen")),
-    ];
     if (!total) return renew(this.#list, h("p.note", {}, this.#whyNone()), h("div.cards.few", {}, ...mine));
     const chains = items.map(
       ({ code, name, text, picture, kinds }, k) =>
@@ -245,6 +254,18 @@ export class ChainList {
       this.#show();
     };
     renew(this.#list, ...listOf("chains", cards, this.#all, more, rest ? total + cards.length - items.length : 0));
+  }
+
+  /** A chain in space without the list, to which a key leads. */
+  #showAlone(cards: Child[]): void {
+    const turn = () => {
+      this.#chosen = null;
+      this.arrange();
+      void this.#ask(0, true);
+    };
+    const told = t("Only chains of the plane are listed; this one is in space.");
+    const list = h("button.plain", { "data-act": "plane", onclick: turn }, t("Chains of the plane"));
+    renew(this.#list, h("div.cards.few", {}, ...cards), h("p.note", {}, told), list);
   }
 
   #card(code: string, text: string, picture: string, name: string, kinds: string): HTMLElement {

@@ -17,7 +17,7 @@ export function showKeys(root: HTMLElement, draws: boolean): void {
     [t("Space"), t("play and pause")],
     ["Esc", t("give up a drag")],
     [t("Shift"), t("snap while dragging")],
-    ["← →", t("move the drive by 1°, with Shift by 10°")],
+    ["← →", t("move the drive a little (an angle by 1°), with Shift ten times as far")],
     ["Tab, ← → ↑ ↓", t("move a joint, with Shift in small steps")],
     [t("Enter, double-click"), t("hold or release a joint")],
     [`${ctrl} Z, ${ctrl} Y`, t("undo, redo")],

@@ -87,7 +87,7 @@ export class StructureView implements View {
 
   /** What is said of the chain before, while another one is asked for. */
   #fade(on: boolean): void {
-    for (const part of [this.#detail, this.#shown, this.#go]) part.classList.toggle("asking", on);
+    for (const part of [this.#detail, this.#shown, ...this.#go.children]) part.classList.toggle("asking", on);
   }
 
   /** Show the structure of a text, which may come from another view. */

@@ -487,6 +487,9 @@ def test_sizes_are_typed_undone_and_refused_with_the_reason(server, chromium):
     rod.press("Enter")
     page.locator('[data-panel="sizes"] [role="alert"]', has_text="Schubstange: Die Gelenke lassen sich bis").wait_for()
     assert page.locator("#size-2-0").get_attribute("aria-invalid") == "true"
+    rod.fill("abc")
+    rod.press("Enter")  # what was said of 100 mm no longer stands there
+    assert page.locator('[data-panel="sizes"] [role="alert"]').inner_text() == "Erwartet wird eine Zahl, etwa 302,572."
     undo.click()  # what was typed
     assert page.locator("#size-2-0").input_value() == "302,572"
     undo.click()
@@ -603,6 +606,11 @@ def test_the_way_back_leads_to_the_other_views(server, chromium):
     page.get_by_role("link", name="Katalog").click()
     page.locator(".view.shown h2", has_text="Katalog").wait_for()
     assert page.evaluate(tabs) == pytest.approx(places, abs=0.5)  # they stay where they are
+    chip = page.get_by_role("button", name="Im Raum", exact=True)
+    chip.click()
+    view = page.locator('[data-page="catalog"]')
+    page.locator('[data-id="bennett"]').wait_for()
+    view.evaluate("(view) => view.scrollTo(0, 90)")
     page.locator('[data-id="gough"]').click()
     page.locator("header small", has_text="Gough-Plattform").wait_for()
     page.get_by_role("button", name="Datei öffnen").click()  # on the page above
@@ -610,7 +618,9 @@ def test_the_way_back_leads_to_the_other_views(server, chromium):
     page.go_back()
     page.locator("header small", has_text="Gough-Plattform").wait_for()
     page.go_back()
-    page.locator(".view.shown h2", has_text="Katalog").wait_for()
+    page.locator('[data-id="bennett"]').wait_for()
+    assert chip.get_attribute("aria-pressed") == "true"
+    assert view.evaluate("(view) => view.scrollTop") >= 90
     assert errors == []
     browser.close()
 

@@ -127,6 +127,8 @@ def test_drives_are_listed_of_the_chosen_frame():
     for frame in "014":
         record = structure_record(f"{chain}; frame={frame}", "en")
         assert {each["frame"] for each in record["driven"]} == {frame} == {record["chosen"]}
+        # said of the drive that is shown, too, where the text has none
+        assert record["drives"] == "Mobility 1 and one drive: the motion is determined."
 
 
 @pytest.mark.parametrize(("lang", "said"), [("en", ["", "double-slide"]), ("de", ["S2", "Doppelschubgelenk"])])
@@ -231,7 +233,8 @@ def test_the_list_of_the_size_before_is_faded_while_another_one_is_counted(tab, 
     page.until("held.some(({ method }) => method === 'chains')")
     assert count.is_visible()
     assert count.inner_text() == "counting …"
-    for faded in (".chains", ".described", '[data-page="structure"] .go'):  # all of it is of the four-bar
+    assert view.locator('[data-page="structure"] .go').evaluate("bar => getComputedStyle(bar).opacity") == "1"
+    for faded in (".chains", ".described", '[data-page="structure"] .go .key'):  # all of it is of the four-bar
         assert view.locator(faded).evaluate("(part) => Number(getComputedStyle(part).opacity)") < 0.9, faded
     assert view.locator('[data-page="structure"]').get_by_text("Cancel").is_visible()
 

@@ -1,7 +1,7 @@
 /** Sizes and joints of a machine in space, typed: the server makes the machine with them, which can be undone. */
 
 import { h, renew } from "../dom";
-import { currentLanguage, number, parsed } from "../language";
+import { currentLanguage, number, parsed, t } from "../language";
 import { store, stored } from "../storing";
 import { moment } from "../waiting";
 import { asked } from "./asking";
@@ -130,7 +130,10 @@ export class Resizing {
       onchange: () => {
         const wanted = parsed(field.value);
         field.setAttribute("aria-invalid", String(Number.isNaN(wanted)));
-        if (Number.isNaN(wanted)) return;
+        if (Number.isNaN(wanted)) {
+          this.#said.textContent = t("Expected a number, such as {value}.", { value: number(value, DIGITS) });
+          return;
+        }
         const size: Size = [...(this.#typed.get(link) ?? [null, null])];
         size[which] = wanted;
         this.#typed.set(link, size);

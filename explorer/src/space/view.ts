@@ -441,7 +441,7 @@ export class SpaceView implements Driven {
       [words.round!, words.rounded!],
       [words.near!, words.nearer!],
       [t("Space"), t("play and pause")],
-      ["← →", t("move the drive by 1°, with Shift by 10°")],
+      ["← →", t("move the drive a little (an angle by 1°), with Shift ten times as far")],
       ["+ − 0", t("zoom, show everything")],
       ["?", t("this list")],
     ]);

@@ -182,7 +182,7 @@ def structure_record(
         "own": None if special is None else special.mobility,
         "verdict": str(report.verdict),
         "lines": as_read(shown_report.explain(lang)).splitlines(),
-        "drives": as_read("\n".join(_said_of_drives(shown, special, lang))),
+        "drives": as_read("\n".join(_said_of_drives(moved.renamed(called), special, lang))),
         "inversions": [_choice(bare, cards[frame], lang, called) for frame, bare in frames.items()],
         "driven": [_choice(each, cards[each.frame], lang, called) for each in driven],
     }
