@@ -23,6 +23,8 @@ type Drawn = [tag: "circle" | "path" | "rect", attributes: Record<string, string
 const SLOT = ["slot-outline", "slot"];
 const ROD = ["rod-outline", "rod"];
 const SLOT_SIDE = 9; // pixels from the middle of a pin to the rail beside it
+const BARREL = 0.86; // of a cylinder that is drawn in as far as it goes
+const SEEN = 0.4; // of a rod beyond the round end of its barrel
 const STROKE = 1.75; // of a cylinder drawn out to drawn in: barrel and rod have room in each other
 const ROOM = 26; // pixels that a bar or a rail reaches beyond the middle of a block
 const BEYOND = 1.2; // the same for a shape, in halves of its length
@@ -205,7 +207,7 @@ export class Bodies {
     const { ends, near, far } = found;
     const barrel = sizes.elementsOf(joint)[0] === k;
     const [own, other] = (barrel ? ends : [...ends].reverse()) as Pair;
-    const [whole, part] = barrel ? [0.86 * near, 0.86] : [Math.min(far - 0.62 * near, 0.95 * near), 0.95];
+    const [whole, part] = barrel ? [BARREL * near, BARREL] : [Math.min(far - 0.62 * near, 0.95 * near), 0.95];
     const path = () => {
       const [x, y] = sizes.xy(own);
       const [u, v] = linkage.toLocal(link, ...linkage.elementAt(other));
@@ -218,6 +220,14 @@ export class Bodies {
     this.stretched.set(link, path);
     return (barrel ? SLOT : ROD).map((style) => ["path", { class: style, d: path() }]);
   }
+}
+
+/** Where the barrel of a cylinder ends, or some way on, where its rod is seen. */
+export function mouthOf(linkage: Linkage, { ends, near }: { ends: number[]; near: number }, rod: boolean): Pair {
+  const [[x, y], [u, v]] = ends.map((k) => linkage.elementAt(k)) as [Pair, Pair];
+  const mouth = BARREL * Math.min(near / (away([x, y], u, v) || 1), 1);
+  const reach = rod ? mouth + SEEN * (1 - mouth) : mouth;
+  return [x + (u - x) * reach, y + (v - y) * reach];
 }
 
 /** The pins of a cylinder and how far they come apart, at least and at most; null if the slide is none. */

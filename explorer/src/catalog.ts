@@ -1,6 +1,7 @@
 /** The catalog: every machine with its picture, found by words of either language and by its features. */
 
 import { choice, h, menu, ownPage, renew, thumbnail } from "./dom";
+import { softened } from "./header";
 import { movesOnHover } from "./hover";
 import { currentLanguage, t, number as written } from "./language";
 import type { Model } from "./model";
@@ -262,7 +263,7 @@ export class CatalogView implements View {
       "button.card",
       { "data-id": id, onclick: () => void this.#choose(entry) },
       h("div", { "data-place": "" }),
-      h("b", {}, entry.name),
+      h("b", {}, softened(entry.name)),
       h("span", {}, joined([joined(sizes, ", "), kind], " · ")),
     );
     if (moves) movesOnHover(card, id, () => this.#page.ask("moving", { id }));

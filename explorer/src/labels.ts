@@ -1,6 +1,6 @@
 /** The names in the picture of a linkage, and where each of them may stand. */
 
-import { cylinderOf } from "./bodies";
+import { cylinderOf, mouthOf } from "./bodies";
 import { svg } from "./dom";
 import { away as apart, convexHull, middleOf, spotsAbout, toHull } from "./hull";
 import type { Linkage } from "./linkage";
@@ -40,15 +40,16 @@ export function labelsOf(linkage: Linkage): Label[] {
   const links = [...model.links.slice(0, model.own).keys()].filter((link) => link !== model.frame);
   const names = links.map((link): Label => {
     const name = linkage.linkName(link);
-    let ends: readonly number[] = []; // of a cylinder, whose half towards the other one is this link
+    let held: ReturnType<typeof cylinderOf> = null; // of a cylinder its barrel, or what is seen of its rod
     const joints = () => [
       ...sizes.elementsOn(link).map((k) => sizes.xy(k)),
-      ...(ends.length ? [linkage.toLocal(link, ...middleOf(ends.map((k) => linkage.elementAt(k))))] : []),
+      ...(held ? [linkage.toLocal(link, ...mouthOf(linkage, held, sizes.element(held.ends[1]!).link === link))] : []),
     ];
     let on!: NamePlace;
     const points = () => sizes.points.filter((point) => point.link === link).map((point) => point.at);
     const sized = (scale: number) => {
-      ends = sizes.elementsOn(link).flatMap((k) => cylinderOf(linkage, sizes.element(k).joint)?.ends ?? []);
+      const found = sizes.elementsOn(link).map((k) => cylinderOf(linkage, sizes.element(k).joint));
+      held = found.find((one) => one) ?? null;
       on = namePlace(joints(), points(), name, scale);
     };
     const rim = rimOf(linkage, link);
@@ -57,7 +58,7 @@ export function labelsOf(linkage: Linkage): Label[] {
         const centre = viewport.screen(...place(linkage.pose, 0, link, ...rim[0]));
         return rimSpots(centre, rim[1] * viewport.scale, name);
       }
-      if (ends.length) on = namePlace(joints(), [], name, viewport.scale); // it telescopes
+      if (held) on = namePlace(joints(), [], name, viewport.scale); // it telescopes
       const { at, away, along, ...more } = on;
       const turned = (way: Pair) => direction(linkage.pose, 0, link, way);
       const where = { at: at.map((one) => place(linkage.pose, 0, link, ...one)), away: away && turned(away) };
@@ -66,7 +67,7 @@ export function labelsOf(linkage: Linkage): Label[] {
     const hull = (viewport: Viewport) =>
       convexHull(
         [
-          ...(ends.length
+          ...(held
             ? joints().map((at) => place(linkage.pose, 0, link, ...at))
             : sizes.elementsOn(link).map((k) => linkage.jointAt(sizes.element(k).joint))),
           ...points().map((at) => place(linkage.pose, 0, link, ...at)),

@@ -15,7 +15,8 @@ const LINE = 15; // pixels that names are apart
 const MOST_CLEAR = 40; // names that look for a place of their own in every picture
 const TOOLS = 218; // down to where names are clear of the buttons over the picture
 const BESIDE = 56; // from the right edge of the picture to the left one of these
-const NARROW = 500; // pixels: pictures in which a name that would be cut is left out
+const TOP = 14; // pixels from the upper edge, in which a name would be cut
+const LOW = 4; // and from the lower one
 const NEAR = 16; // places of a letter of which others are twice as far
 const RULE = 34; // from the left edge to where the numbers of the grid end
 const JOINT = 11; // from the middle of a joint to that of a name
@@ -134,7 +135,7 @@ export class Naming {
       const home = homes.sort((one, other) => wide(other) - wide(one))[0] ?? [];
       const free = ([u, v]: Pair) =>
         this.#seen(half, [u, v]) &&
-        v > 14 &&
+        v > TOP &&
         v < height - FOOT &&
         !this.#touching(half, [u, v]) &&
         clearBy(INK, ink, half, [u, v - 4]);
@@ -157,7 +158,8 @@ export class Naming {
     const way = y < (this.#touching(half, [x, y])?.y ?? 0) ? -1 : 1;
     for (let other = this.#touching(half, [x, y]); other; other = this.#touching(half, [x, y]))
       y = other.y + way * LINE;
-    if (this.viewport.width < NARROW && x + half > this.#right(y)) put(label.element, { display: "none" });
+    const { height, narrow } = this.viewport;
+    if (narrow && (x + half > this.#right(y) || y < TOP || y > height - LOW)) put(label.element, { display: "none" });
     else this.#takes(label, [x, y]);
   }
 

@@ -4,6 +4,7 @@ import { h } from "./dom";
 import { away } from "./hull";
 import { number, t } from "./language";
 import type { Linkage } from "./linkage";
+import type { Pair } from "./rows";
 
 type Given = Record<string, unknown>;
 
@@ -24,6 +25,7 @@ export function roundRows(linkage: Linkage): HTMLElement[] {
   };
   const centred = (k: number) => ["radius", "slots", "pins", "transfer"].some((key) => key in given(k));
   const wording = words();
+  const known = new Set<string>(); // two wheels about one axis are as far from a third one
   for (const joint of joints.keys()) {
     const mine = sizes.elementsOf(joint).filter((k) => sizes.is(k, "round"));
     for (const k of mine) {
@@ -31,21 +33,29 @@ export function roundRows(linkage: Linkage): HTMLElement[] {
       const own = given(k);
       for (const [key, [what, its]] of Object.entries(wording)) {
         const value = own[key];
+        if (key === "roller" && mine.some((m) => given(m).circle === value)) continue;
         if (typeof value === "number" && (value || key === "pins")) add(name, what, number(Math.abs(value)), its);
       }
       if (typeof own.cam === "string")
-        rows.set(`${name} lift`, [h("p.note", {}, `${name}, ${t("lift")}: ${liftText(own.cam, unit)}`)]);
+        rows.set(`${name} lift`, [
+          h("p.note", {}, `${name}, ${t("lift")}: ${liftText(own.cam, own.distance ? "°" : ` ${unit}`)}`),
+        ]);
     }
     const [one, two] = mine;
     if (one === undefined || two === undefined || !centred(one) || !centred(two)) continue;
-    const far = away(linkage.elementAt(one), ...linkage.elementAt(two));
-    if (far > sizes.near)
+    const axes = [one, two].map((k) => linkage.elementAt(k)) as [Pair, Pair];
+    const far = away(axes[0], ...axes[1]);
+    const shown = axes
+      .map((at) => at.map((value) => number(sizes.clean(value))))
+      .sort()
+      .join(" ");
+    if (far > sizes.near && !known.has(shown) && known.add(shown))
       add([one, two].map((k) => linkage.linkName(sizes.element(k).link)).join(" – "), t("axis distance"), number(far));
   }
   return [...rows.values()].flat();
 }
 
-/** What the sizes are called, and their unit where that is not the one of the linkage. */
+/** What the sizes are called that no other link has as a length, and their unit if it is not that of the linkage. */
 function words(): Record<string, [string, string?]> {
   return {
     teeth: [t("teeth"), ""],
@@ -53,10 +63,7 @@ function words(): Record<string, [string, string?]> {
     circle: [t("radius")],
     base: [t("radius of the base circle")],
     roller: [t("radius of the roller")],
-    arm: [t("length of the follower arm")],
-    distance: [t("axis distance")],
     offset: [t("offset of the follower")],
-    face: [t("distance of the face")],
     pins: [t("pins"), ""],
     slots: [t("slots"), ""],
   };
@@ -73,7 +80,7 @@ function liftText(law: string, unit: string): string {
     if (kind === "dwell") return far ? `${name} ${number(size)}°` : name;
     return t("{kind} {length} over {angle}", {
       kind: name,
-      length: `${number(size)} ${unit}`.trim(),
+      length: `${number(size)}${unit}`.trim(),
       angle: `${number(turned)}°`,
     });
   });

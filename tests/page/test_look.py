@@ -111,7 +111,7 @@ def test_a_ring_gear_has_its_name_at_its_rim_and_turns_visibly(tab, server, widt
         assert np.angle((u + 1j * v) / (x + 1j * y)) == pytest.approx(0, abs=1e-3)
     sizes = page.page.locator(".rows.sizes > *").all_inner_texts()
     assert sizes[:4] == ["planet, teeth", "15", "", ""]
-    assert sizes[-4:] == ["planet – ring gear, axis distance", "45", "mm", ""]
+    assert [one for one in sizes if "axis" in one] == ["planet – sun, axis distance"]  # the ring has the sun's axis
     assert page.page.locator(".stage .hint").inner_text() == "Drag an axis to shift it, a link to turn it."
     page.machine("excavator")  # eleven links, of which most have no room beside them on a phone
     names, joints = page.page.evaluate("""() => {

@@ -16,13 +16,15 @@ def given_sizes(linkage: Linkage, points: Mapping[str, str], lang: str) -> Itera
     >>> from gruebler.teaching.catalog import entry
     >>> linkage = entry("cam").linkage()
     >>> list(given_sizes(linkage, {}, "en"))
-    ['cam [mm]: lift rise 8 75; fall 8 75; dwell, base circle 40, flat face.']
+    ['cam [mm]: lift (rise 8 over 75°, fall 8 over 75°, dwell), base circle 40, flat face.']
+    >>> list(given_sizes(entry("cam_rocker_flat").linkage(), {}, "de"))[0][:59]
+    'cam [mm]: Hub (Anstieg 12° über 90°; Rast 60°; Abstieg 12° '
     """
     unit = f" [{linkage.unit}]" if linkage.unit else ""
     between = number_separator(lang)
     lines: dict[str, None] = {}
     for (_, link), element in sorted(linkage.elements.items()):
-        sizes = between.join(element_sizes(element, lang)) if element.form == "round" else ""
+        sizes = between.join(element_sizes(element, lang, in_words=True)) if element.form == "round" else ""
         if sizes:
             lines[f"{link}{unit}: {sizes}."] = None  # a wheel that meets several is said once
     yield from lines

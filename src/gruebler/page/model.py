@@ -351,7 +351,7 @@ def _output(linkage: Linkage, plan: Plan) -> list[dict[str, Any]]:
     try:
         path = force_path(plan, output)
     except NoTransmissionAngleError as error:
-        notes = {lang: (said := error_in_language(error, lang))[0].upper() + said[1:] for lang in LANGUAGES}
+        notes = {lang: (said := error_in_language(error, lang))[0].upper() + said[1:] + "." for lang in LANGUAGES}
         return [record | {"note": notes}]
 
     def place(element: tuple[str, complex, complex]) -> list[float]:

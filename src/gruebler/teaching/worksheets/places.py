@@ -36,6 +36,11 @@ SIZES: Mapping[str, Message] = {
 """What an element has besides its place, as the table calls it."""
 PITCH_RADIUS = message("pitch radius")
 """The radius of what rolls without slip; a smooth circle has a ``radius``."""
+_PARTS = {
+    "rise": message("rise {size} over {angle}°"),
+    "fall": message("fall {size} over {angle}°"),
+    "dwell": message("dwell"),
+}
 _BELTS = {"open": message("open"), "crossed": message("crossed")}
 
 
@@ -84,8 +89,11 @@ def written_numbers(values: Iterable[float | None], size: float, lang: str, digi
         yield "" if value is None else number(0.0 if abs(value) < 1e-9 * size else value, lang, f".{digits}g")
 
 
-def element_sizes(element: Element, lang: str) -> Iterator[str]:
-    """What an element has besides its place: radius and teeth of a wheel, lift and base circle of a cam."""
+def element_sizes(element: Element, lang: str, *, in_words: bool = False) -> Iterator[str]:
+    """What an element has besides its place: radius and teeth of a wheel, lift and base circle of a cam.
+
+    The lift stands as it is read again, or in words.
+    """
     for field in fields(element):
         value = getattr(element, field.name)
         if field.name in ("x", "y", *element.angles) or (value == field.default and field.name != "pins"):
@@ -99,5 +107,20 @@ def element_sizes(element: Element, lang: str) -> Iterator[str]:
                 yield f"{name} {number(math.degrees(value), lang, '.6g')}°"
         elif field.name == "belt":
             yield f"{name} {_BELTS[value].in_language(lang)}"
+        elif in_words and field.name == "lift":
+            parts = _lift_parts(value, lang, "°" if getattr(element, "distance", 0) else "")
+            yield f"{name} ({number_separator(lang).join(parts)})"
         else:
             yield f"{name} {value if isinstance(value, str) else number(value, lang, '.6g')}"
+
+
+def _lift_parts(lift: str, lang: str, unit: str) -> Iterator[str]:
+    """The parts of a lift in words; `gruebler.machines.cams.lift.read_lift` says how they are written."""
+    for part in lift.replace("\n", ";").split(";"):
+        kind, *rest = part.partition("#")[0].split() or [""]
+        values = [number(float(value), lang, ".6g") for value in rest[:2]]
+        if kind == "dwell":
+            yield " ".join([_PARTS[kind].in_language(lang), *(f"{value}°" for value in values)])
+        elif kind:
+            text = _PARTS[kind].filled(size=values[0] + unit, angle=values[1]).in_language(lang)
+            yield " ".join([text, *rest[2:]])
