@@ -44,6 +44,8 @@ export class SpaceView implements Driven {
   readonly #sizes = new FactList();
   #plots: OutputPlots | null = null;
   #sliders: { input: HTMLInputElement; output: HTMLElement }[] = [];
+  /** Of the links. */
+  #chips: HTMLElement[] = [];
   /** The view that is shown, if it is one with a name. */
   #view = "oblique";
   #views: HTMLElement | null = null;
@@ -70,6 +72,7 @@ export class SpaceView implements Driven {
       taken: () => {
         this.transport.pause();
         this.#arrangeOptions();
+        this.#pointed(null);
         this.posed();
       },
       pulled: () => this.posed(),
@@ -277,7 +280,7 @@ export class SpaceView implements Driven {
     const pick = (value: number) => this.transport.pick(value);
     this.#plots = new OutputPlots(linkage, texts, pick, () => this.#facts.show(this.#measures()));
     if (linkage.drive) panels.push(panelOf("plots", t("Plots"), true, this.#plots.element));
-    const chips = texts.links.map((name, link) => {
+    this.#chips = texts.links.map((name, link) => {
       const chip = h("span.chip", {}, h("i", {}), name);
       const colour = data.bodies[link]!.colour.map((part) => Math.round(255 * part)).join(" ");
       chip.style.setProperty("--own", `rgb(${colour})`);
@@ -285,7 +288,7 @@ export class SpaceView implements Driven {
       chip.addEventListener("pointerleave", () => this.scene.mark(null));
       return chip;
     });
-    panels.push(panelOf("links", t("Links"), true, h("div.chips", {}, ...chips)));
+    panels.push(panelOf("links", t("Links"), true, h("div.chips", {}, ...this.#chips)));
     const open = this.#side.querySelector<HTMLDetailsElement>('[data-panel="joints"]')?.open ?? false;
     panels.push(panelOf("joints", words.joints!, open, h("p.note", {}, words.placed), this.#resizing.joints));
     const { scene } = this;
@@ -427,8 +430,10 @@ export class SpaceView implements Driven {
     return facts;
   }
 
-  /** The name of the link under the mouse, as a tip. */
+  /** The name of the link under the mouse, as a tip; it, else the one that was taken, is marked among the links. */
   #pointed(link: number | null): void {
+    const marked = link ?? this.linkage.traced?.link;
+    for (const [k, chip] of this.#chips.entries()) chip.classList.toggle("on", k === marked);
     this.scene.element.title = link === null ? "" : this.#texts.links[link]!;
   }
 
