@@ -331,10 +331,9 @@ def test_a_machine_plays_turns_and_is_pulled_in_a_browser(tmp_path, chromium):
     page.mouse.move(box["x"] + spot[0], box["y"] + spot[1])
     assert page.locator(".stage").get_attribute("title") == "crank"
     assert page.locator('[data-panel="links"] .chip.on').all_inner_texts() == ["crank"]
-    paths = page.get_by_label("Paths of points")
-    assert paths.count() == 0  # no point has one yet
+    assert page.get_by_label("Paths of points").count() == 0  # no point has one yet
     page.mouse.down()
-    assert paths.is_checked()
+    assert page.get_by_label("Paths of points").is_checked()
     for step in range(12):
         page.mouse.move(box["x"] + spot[0] + 4 * step, box["y"] + spot[1] - 5 * step)
     page.mouse.up()
