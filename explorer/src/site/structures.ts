@@ -107,7 +107,7 @@ export function structureOf(pack: StructurePack, text: string, lang: Language, p
     generic: pack.generic,
     verdict: pack.verdict,
     lines: pack.lines[lang],
-    drives: chosen?.[3][lang][2] ?? "",
+    drives: (chosen ?? given)?.[3][lang][2] ?? "",
     inversions: pack.frames
       .filter(({ listed }) => listed)
       .map((one) => ({
