@@ -205,10 +205,9 @@ export class LoadForm {
       const right = typed >= least && typed <= most;
       field.setAttribute("aria-invalid", String(!right));
       const ends = { least: endText(least), most: endText(most) };
-      const said = h("p.note.error", { role: "alert" }, t("Expected a number from {least} to {most}.", ends));
       if (unitText.nextElementSibling?.matches(".error")) unitText.nextElementSibling.remove();
       if (right) take(typed);
-      else unitText.after(said);
+      else unitText.after(h("p.note.error", { role: "alert" }, t("Expected a number from {least} to {most}.", ends)));
     };
     const onkeydown = (event: KeyboardEvent) => event.stopPropagation();
     const shown = value ? number(value) : "";
