@@ -1,6 +1,7 @@
 /** Names that have no place beside their bodies: farther off, each with a line to its body. */
 
 import { away, middleOf, sidesOf, toHull } from "./hull";
+import { between } from "./names";
 import type { Pair } from "./rows";
 
 const NEAREST = 22; // pixels from the place on its body to a name
@@ -127,10 +128,6 @@ function placesIn(home: readonly Pair[]): Pair[] {
 /** Places of a body at which a line may end: its middle and places of its sides. */
 function placesOn(own: readonly Pair[]): Pair[] {
   return [middleOf(own), ...sidesOf(own).flatMap((side) => PARTS.map((part) => between(...side, part)))];
-}
-
-function between([x, y]: Pair, [u, v]: Pair, part: number): Pair {
-  return [x + part * (u - x), y + part * (v - y)];
 }
 
 /** Whether two lines meet. */

@@ -55,7 +55,8 @@ export function namePlace(joints: readonly Pair[], points: readonly Pair[], name
   };
 }
 
-function between([x, y]: Pair, [u, v]: Pair, part: number): Pair {
+/** A place on the way from one to another, or beyond. */
+export function between([x, y]: Pair, [u, v]: Pair, part: number): Pair {
   return [x + part * (u - x), y + part * (v - y)];
 }
 

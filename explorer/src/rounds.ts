@@ -71,7 +71,7 @@ function words(): Record<string, [string, string?]> {
 
 /** A law of lift in words: "rise 20 90; dwell" is a rise of 20 within 90 degrees, then a dwell for the rest. */
 function liftText(law: string, unit: string): string {
-  const parts = law.split(";").map((part) => {
+  const parts = law.split(/[;\n]/).map((part) => {
     const [kind, far, angle, ...more] = part.trim().split(/\s+/);
     const kinds: Record<string, string> = { rise: t("rise"), fall: t("fall"), dwell: t("dwell") };
     const name = kinds[kind!];
