@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler.design.synthesis import PositionTask, synthesise
-from gruebler.design.synthesis.sensitivity import length_sensitivity
+from gruebler.design.synthesis.pair_shifts import farthest_of_all_signs
+from gruebler.design.synthesis.sensitivity import farthest_sum, length_sensitivity
 from gruebler.design.synthesis.structures import same_machine
 from gruebler.design.synthesis.targets import Probe
 from gruebler.mechanics.fourbar import FourBar, SliderCrank
@@ -135,6 +136,16 @@ def test_worst_case_is_that_of_all_signs():
     signs = 1 - 2 * (np.arange(2**count)[:, None] >> np.arange(count) & 1)
     every = np.abs(found.moves @ signs.T).max(axis=2)
     assert found.worst == pytest.approx(every, rel=1e-9)
+
+
+@given(st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=1, max_size=6), st.floats(0, 7))
+def test_farthest_sums_by_directions_and_by_signs_are_those_of_all_signs(sides, turn):
+    """Whole numbers, turned: many of them parallel, opposite, equal or 0, some of them by rounding only."""
+    moves = np.exp(1j * turn) * np.array([complex(*side) for side in sides])
+    signs = 1 - 2 * (np.arange(2 ** len(moves))[:, None] >> np.arange(len(moves)) & 1)
+    every = np.abs(signs @ moves).max()
+    assert float(farthest_sum(moves)) == pytest.approx(every, rel=1e-12)
+    assert float(farthest_of_all_signs(list(moves[:, None]))[0]) == pytest.approx(every, rel=1e-12)
 
 
 def test_designs_tell_their_sensitivity():

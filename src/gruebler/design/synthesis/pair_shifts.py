@@ -13,7 +13,7 @@ import numpy as np
 
 from gruebler.base.arrays import Complexes, Reals
 from gruebler.design.synthesis.dyads import BLOCK, CRANK, DyadKind
-from gruebler.design.synthesis.sensitivity import LENGTH_ERROR, farthest_sum
+from gruebler.design.synthesis.sensitivity import LENGTH_ERROR
 
 
 class PairPlaces(NamedTuple):
@@ -87,7 +87,7 @@ def _moved(kind: DyadKind, at: PairPlaces, point: Complexes) -> Reals:
     """How far a point of the coupler moves at most, for lengths that are wrong by themselves."""
     rates, arm = _rates(kind, at), point - at.pin
     moves = [pin + 1j * turn * arm for pin, turn in zip(rates.pins, rates.turns, strict=True)]
-    return farthest_sum(_side_by_side([*moves, arm, 1j * arm]))
+    return farthest_of_all_signs([*moves, arm, 1j * arm])
 
 
 def output_shifts(kind: DyadKind, at: PairPlaces, size: float) -> Reals:
@@ -108,5 +108,26 @@ def output_shifts(kind: DyadKind, at: PairPlaces, size: float) -> Reals:
         return np.asarray(LENGTH_ERROR * np.max(worst, axis=-1) / size)
 
 
-def _side_by_side(moves: Sequence[Complexes]) -> Complexes:
-    return np.stack(np.broadcast_arrays(*moves), axis=-1)
+def farthest_of_all_signs(moves: Sequence[Complexes]) -> Reals:
+    """As `farthest_sum`, of a few moves in arrays of their own: tries all signs, one changes each time.
+
+    Args:
+        moves: one or more, of shapes that fit each other.
+
+    Cost: doubles with every move. For the six of a pair four times faster than by directions, and a search asks for
+    millions of them.
+
+    >>> farthest_of_all_signs([np.array([3]), np.array([4j, 1]), np.array([-1])]).round(3).tolist()
+    [5.657, 5.0]
+    """
+    shape = np.broadcast_shapes(*(move.shape for move in moves))
+    across, along = (np.zeros(shape) + sum(part) for part in zip(*((m.real, m.imag) for m in moves), strict=True))
+    doubled = [(2 * move.real, 2 * move.imag) for move in moves]
+    farthest = across * across + along * along
+    for step in range(1, 2 ** (len(moves) - 1)):
+        changed = (step & -step).bit_length() - 1  # a Gray code: which one, and whether back
+        change = np.add if step >> changed & 2 else np.subtract
+        for total, part in zip((across, along), doubled[changed], strict=True):
+            change(total, part, out=total)
+        np.maximum(farthest, across * across + along * along, out=farthest)
+    return np.asarray(np.sqrt(farthest))

@@ -17,7 +17,6 @@ LENGTH_ERROR = 1e-3
 """Of each length."""
 _NONE = 1e-9  # of the size of the linkage: so short is no length
 _ROWS = 16  # poses from one target to the next
-_PARALLEL = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -153,18 +152,18 @@ class Sensitivity:
 def farthest_sum(moves: Complexes) -> Reals:
     """How far the sum of moves of the last axis leads at most, each taken forwards or backwards.
 
+    The farthest is a corner of a polygon whose sides are the moves, each taken twice, in the order of their directions.
+    Parallel moves may come in either order: the corner between them is then a place on a side.
+
     >>> float(farthest_sum(np.array([3, 4j, -1])))
     5.65...
     """
-    worst = np.zeros(moves.shape[:-1])
-    for k in range(moves.shape[-1]):
-        edge = moves[..., k : k + 1]
-        turned = np.conj(edge) * moves
-        flat = np.abs(turned.imag) <= _PARALLEL * np.abs(turned)
-        signed = np.where(flat, np.sign(turned.real), np.sign(turned.imag)) * moves
-        aligned, others = np.where(flat, signed, 0).sum(axis=-1), np.where(flat, 0, signed).sum(axis=-1)
-        worst = np.maximum(worst, np.maximum(np.abs(others + aligned), np.abs(others - aligned)))
-    return worst
+    upward = np.where(moves.imag < 0, -moves, moves)
+    with np.errstate(divide="ignore", invalid="ignore"):  # a move of 0 is a side of no length: anywhere
+        order = np.argsort(-upward.real / np.abs(upward.imag), axis=-1)
+    sides = 2 * np.take_along_axis(upward, order, axis=-1)
+    corners = upward.sum(axis=-1, keepdims=True) - np.cumsum(sides, axis=-1)
+    return np.asarray(np.abs(corners).max(axis=-1, initial=0.0))
 
 
 def length_sensitivity(linkage: Linkage, probes: tuple[Probe, ...], drives: Reals) -> Sensitivity:
