@@ -1,6 +1,7 @@
 /** The bodies of links in SVG: bars and plates, rails and blocks, cylinders. */
 
 import { DEGREE } from "./cycle";
+import { isFace, type Stem, stemOf } from "./followers";
 import { BOX, HATCH, RAIL, railOf } from "./ground";
 import { away, convexHull, middleOf, pathThrough } from "./hull";
 import type { Linkage } from "./linkage";
@@ -26,12 +27,16 @@ const SLOT_SIDE = 9; // pixels from the middle of a pin to the rail beside it
 const BARREL = 0.86; // of a cylinder that is drawn in as far as it goes
 const SEEN = 0.4; // of a rod beyond the round end of its barrel
 const STROKE = 1.75; // of a cylinder drawn out to drawn in: barrel and rod have room in each other
+const STEM = 8; // from the middle of a stem to the rail beside it
+const FACE = 8; // from a face to the end of its stem, within its plate
 const ROOM = 26; // pixels that a bar or a rail reaches beyond the middle of a block
 const BEYOND = 1.2; // the same for a shape, in halves of its length
 const FEW_ROWS = 60; // of a cycle: enough for its extent
 
 export class Bodies {
   readonly #bands: ReadonlyMap<number, Band>;
+  /** Of links that a cam pushes along a slide of the frame. */
+  readonly #stems = new Map<number, Stem>();
   readonly #linkage: Linkage;
   /** Pixels a unit of length. */
   readonly #scale: number;
@@ -45,6 +50,10 @@ export class Bodies {
     this.#linkage = linkage;
     this.#scale = scale;
     this.#bands = bandsOf(linkage);
+    for (const link of linkage.model.links.keys()) {
+      const stem = stemOf(linkage, link);
+      if (stem) this.#stems.set(link, stem);
+    }
   }
 
   /** What is drawn of a link, in its own coordinates. */
@@ -75,7 +84,8 @@ export class Bodies {
       const closed = hull.length > 2;
       const d = this.#through(hull) + (closed ? "Z" : "");
       const wide = closed ? " plate" : "";
-      out.unshift(["path", { class: `outline${wide}`, d }], ["path", { class: `bar${wide}`, d }]);
+      out.unshift(["path", { class: `outline${wide}`, d }]);
+      out.splice(this.#stems.has(link) ? out.length : 1, 0, ["path", { class: `bar${wide}`, d }]);
     }
     // a plate and its rod are one body
     const outlined = ([, { class: name }]: Drawn) => +/outline/.test(String(name));
@@ -103,7 +113,8 @@ export class Bodies {
     const out: Drawn[] = [];
     for (const shape of model.shapes) {
       if (shape.link !== link) continue;
-      const style = `shape ${shape.style}`;
+      if (this.#stems.has(link) && !shape.closed) continue; // rods of where its guide is drawn elsewhere
+      const style = shape.style === "block" ? "block" : `shape ${shape.style}`;
       if (shape.circle) {
         const [x, y, r] = shape.circle;
         out.push(["circle", { class: style, cx: this.#px(x), cy: this.#px(-y), r: this.#px(r) }]);
@@ -122,13 +133,24 @@ export class Bodies {
   /** Draw the line of a slide: a cylinder, rails, a bar or a block; add the places that the body reaches to. Returns
    * whether it is the bar of a link that moves. */
   #addLine(k: number, out: Drawn[], nodes: Pair[]): boolean {
-    const { model, sizes } = this.#linkage;
+    const linkage = this.#linkage;
+    const { model, sizes } = linkage;
     const { link } = sizes.element(k);
     const cylinder = this.#cylinder(k);
     if (cylinder) {
       out.push(...cylinder);
       return false;
     }
+    const stem = this.#stems.get(link);
+    if (stem) {
+      const { foot, top } = stem;
+      const [dx, dy] = [top[0] - foot[0], top[1] - foot[1]];
+      const plated = sizes.elementsOn(link).every((m) => !sizes.is(m, "pin"));
+      const part = plated ? FACE / this.#scale / Math.hypot(dx, dy) : 0;
+      nodes.push([foot[0] + part * dx, foot[1] + part * dy], top);
+      return false;
+    }
+    if (isFace(linkage, k)) return false; // it has an outline
     const ends = this.#ends(k);
     if (!ends) {
       const here = sizes.xy(k);
@@ -150,13 +172,22 @@ export class Bodies {
   #rails(k: number, ends: [Pair, Pair]): Drawn[] {
     const [, wide] = this.#sliding(k) ?? [];
     const block = this.#pinned(k) ? SLOT_SIDE : RAIL;
-    const half = wide ? wide * this.#scale + 2 : block;
+    const along = wide ? wide * this.#scale + 2 : block;
+    const half = this.#stemOn(k) ? STEM : along;
     const sides = half === RAIL ? [1] : [1, -1];
     return sides.flatMap((side) => {
       const [rail, hatch] = [half, half + HATCH].map((off) => railOf(ends, (side * off) / this.#scale));
       this.rails.push(this.#pixels(hatch!));
       return [this.#stroke("rail", rail!), this.#stroke("rail-hatch", hatch!)];
     });
+  }
+
+  /** The stem that slides along a line of the frame. */
+  #stemOn(line: number): Stem | undefined {
+    const { model, sizes } = this.#linkage;
+    const { joint, link } = sizes.element(line);
+    const others = model.joints[joint]!.links.filter((one) => one !== link);
+    return link === model.frame ? this.#stems.get(others[0]!) : undefined;
   }
 
   /** Half the length and half the width of the shape that slides along a line; none of a block. */
@@ -172,11 +203,18 @@ export class Bodies {
   /** The ends of rods and slots that move, each with its link. */
   get rods(): [link: number, at: Pair][] {
     const { model, sizes } = this.#linkage;
-    return [...this.#bands.keys()].flatMap((k) => {
-      const { link } = sizes.element(k);
-      const ends = link === model.frame || link >= model.own || this.#cylinder(k) ? null : this.#ends(k);
-      return (ends ?? []).map((at): [number, Pair] => [link, at]);
-    });
+    return [...this.#bands.keys()]
+      .flatMap((k) => {
+        const { link } = sizes.element(k);
+        const ends = link === model.frame || link >= model.own || this.#cylinder(k) ? null : this.#ends(k);
+        return (ends ?? []).map((at): [number, Pair] => [link, at]);
+      })
+      .concat(
+        [...this.#stems].flatMap(([link, { guide, top }]): [number, Pair][] => [
+          [link, top],
+          [model.frame, guide[1]],
+        ]),
+      );
   }
 
   /** Where what slides on a line begins and ends; null for a block, whose partner bears that. */
@@ -185,6 +223,8 @@ export class Bodies {
     const { joint, link } = sizes.element(k);
     const frame = link === model.frame;
     if (!frame && !this.#pinned(k) && model.joints[joint]!.guide !== link) return null;
+    const stem = this.#stemOn(k);
+    if (stem) return stem.guide;
     const { x, y, c, s, low, high } = this.#bands.get(k)!;
     const [long = 0] = (frame && this.#sliding(k)) || [];
     const room = BEYOND * long || ROOM / this.#scale;

@@ -5,6 +5,7 @@ import { svg } from "./dom";
 import { away as apart, convexHull, middleOf, spotsAbout, toHull } from "./hull";
 import type { Linkage } from "./linkage";
 import { halfOf, type NamePlace, namePlace, nameSpots, rimSpots } from "./names";
+import { quietSpots } from "./quiet";
 import { direction, type Pair, place } from "./rows";
 import type { Viewport } from "./viewport";
 
@@ -53,6 +54,7 @@ export function labelsOf(linkage: Linkage): Label[] {
       on = namePlace(joints(), points(), name, scale);
     };
     const rim = rimOf(linkage, link);
+    const quiet = quietSpots(linkage, link, name);
     const spots = (viewport: Viewport) => {
       if (rim) {
         const centre = viewport.screen(...place(linkage.pose, 0, link, ...rim[0]));
@@ -80,7 +82,7 @@ export function labelsOf(linkage: Linkage): Label[] {
       sized,
       spots,
       taken: 0,
-      ...(!rim && { hull, link }),
+      ...(quiet ? { spots: quiet } : !rim && { hull, link }),
       half: halfOf(name),
       many: convexHull(joints()).length > 1,
     };

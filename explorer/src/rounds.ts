@@ -1,17 +1,16 @@
 /** The sizes of wheels, cams and slotted wheels, as the document has them: they are read, not changed, on the page. */
 
 import { h } from "./dom";
+import { givenOf } from "./followers";
 import { away } from "./hull";
 import { number, t } from "./language";
 import type { Linkage } from "./linkage";
 import type { Pair } from "./rows";
 
-type Given = Record<string, unknown>;
-
 /** A row for each size of each of them, and for the distance of the axes of two that mesh. */
 export function roundRows(linkage: Linkage): HTMLElement[] {
   const { model, sizes } = linkage;
-  const { document, joints, links, unit } = model;
+  const { joints, unit } = model;
   const rows = new Map<string, HTMLElement[]>(); // a wheel that meets several has them once
   const add = (name: string, what: string, value: string, its = unit) => {
     const shown = h("span", {}, value);
@@ -19,10 +18,7 @@ export function roundRows(linkage: Linkage): HTMLElement[] {
     const cells = [h("span", {}, h("b", {}, name), `, ${what}`), shown, h("span.unit", {}, its), h("span", {})];
     rows.set(name + what, cells);
   };
-  const given = (k: number) => {
-    const { joint, link } = sizes.element(k);
-    return document.elements![links[link]!]![joints[joint]!.name] as Given;
-  };
+  const given = (k: number) => givenOf(linkage, k);
   const centred = (k: number) => ["radius", "slots", "pins", "transfer"].some((key) => key in given(k));
   const wording = words();
   const known = new Set<string>(); // two wheels about one axis are as far from a third one

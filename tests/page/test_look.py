@@ -374,6 +374,23 @@ def test_the_knob_of_the_drive_stays_in_its_track(tab, server, id_):
         assert all(left <= a and b <= right for a, b, width in parts if width), drive
 
 
+@pytest.mark.parametrize(("id_", "follower", "lower"), [("cam", "valve", ".block"), ("cam_roller", "roller", "circle")])
+def test_the_stem_of_a_follower_stays_in_a_guide_that_touches_nothing(tab, server, id_, follower, lower):
+    page = tab().open(server.address).machine(id_)
+    boxes = """(lower) => [".ground .rail", ".bodies .bar", lower].map((what) => {
+        const { top, bottom } = gruebler.root.querySelector(what).getBoundingClientRect();
+        return [top, bottom];
+    }).concat([[...gruebler.root.querySelectorAll("text.name")].filter((e) => e.textContent === "cam")
+        .map((e) => e.getAttribute("transform"))])"""
+    names = set()
+    for drive in range(0, 360, 45):
+        page.page.evaluate(f"gruebler.motion.transport.pick({np.radians(drive)})")
+        rail, stem, plate, (name,) = page.page.evaluate(boxes, f"[data-link={follower}] {lower}")
+        assert stem[0] < rail[0] < rail[1] < plate[0] < stem[1], drive
+        names.add(name)
+    assert len(names) == 1  # that of the cam keeps still
+
+
 def test_names_of_a_six_bar_do_not_lie_on_each_other(tab, server):
     page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
     page.page.click('[data-view="catalog"]')

@@ -65,13 +65,19 @@ def test_a_belt_touches_both_pulleys():
             assert abs(((at - start) * along.conjugate()).imag) == pytest.approx(radius, rel=1e-9), link
 
 
-def test_a_cam_touches_its_flat_face():
-    shapes = list(placed("cam"))
+@pytest.mark.parametrize(("name", "follower"), [("cam", "valve"), ("cam_rocker_flat", "rocker")])
+def test_a_cam_touches_a_face_that_is_as_long_as_it_needs(name, follower):
+    shapes = list(placed(name))
     (contour,) = (shape[0] for link, style, shape, r in shapes if link == "cam" and style == "area")
-    *_, (start, end) = (shape[0] for link, style, shape, r in shapes if link == "valve" and style == "rail")  # the face
+    (plate,) = (shape[0] for link, style, shape, r in shapes if link == follower and style == "block")
+    middle = plate.mean()
+    sides = zip(plate, np.roll(plate, -1), strict=True)
+    start, end = max(sides, key=lambda side: (abs(side[1] - side[0]) > 20, abs(middle) - abs(sum(side) / 2)))
     along = (end - start) / abs(end - start)
     beyond = ((contour - start) * along.conjugate()).imag
     assert beyond.max() == pytest.approx(0, abs=2e-3) or beyond.min() == pytest.approx(0, abs=2e-3)
+    touching = ((contour[np.argmin(abs(beyond))] - start) * along.conjugate()).real
+    assert 0 < touching < abs(end - start)
 
 
 def test_a_geneva_wheel_has_its_slots():

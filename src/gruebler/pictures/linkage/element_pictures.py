@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gruebler.base.arrays import Complexes
 from gruebler.machines.geneva import Geneva
 from gruebler.mechanics.kinematics.contours import cam_of
 from gruebler.mechanics.kinematics.noncircular import transfer_of
@@ -31,6 +32,7 @@ from gruebler.mechanics.linkages.elements import (
 from gruebler.pictures.canvas.shapes import CircleShape, Point, Polylines, Shape
 from gruebler.pictures.canvas.styles import LINE, ROD
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage
+from gruebler.pictures.linkage.slides import pins_of
 from gruebler.pictures.machines.geneva_shape import GenevaShape
 
 _ROD_END = ROD / 2 + LINE  # pixels: the round end of a rod
@@ -38,6 +40,12 @@ _RIM = 9.0  # pixels: the thickness of the rim of an internal wheel
 _RIM_LINES = 8  # across it, as many as show that it turns
 _ARM = 0.8  # of the radius: the cross that shows the rotation of a wheel
 _STEPS = 361  # points of the contour of a cam
+_PAST_CONTACT = 1.25  # how far a flat follower reaches, of the way to the last place of contact
+_NARROWEST = 0.3  # of the base circle: half a flat follower
+_PLATE = 0.3  # its thickness, of that half
+_ARM_THICKNESS = 0.055  # of a swinging one, of its length
+_BOSS = 1.4  # of what a boss about its pivot covers
+_BOSS_STEPS = 37
 
 
 class RoundPart(NamedTuple):
@@ -63,6 +71,8 @@ class ElementPicture:
     """What elements of one link have in common that are drawn once; None if each is drawn."""
     face: Callable[[PosedLinkage, str, Element, str, Any], tuple[float, float]] | None = None
     """The extent of a face or rack of another link, along its line, that touches it."""
+    follower: Callable[[PosedLinkage, str, Element, str, Any], Complexes] | None = None
+    """The outline of a body of another link whose face touches it, in coordinates of its line."""
     between: Callable[[PosedLinkage, int, list[Any]], RoundPart | None] | None = None
     """What is drawn between it and another of its kind in a joint."""
 
@@ -78,9 +88,7 @@ def round_parts(posed: PosedLinkage) -> Iterator[RoundPart]:
         if picture.part is not None:
             key = (joint,) if picture.key is None else picture.key(element)
             parts.setdefault((link, *key), picture.part(posed, joint, link, element))
-    for (joint, link), element in elements.items():
-        if element.is_line and (ends := _face(posed, joint, link, element)):
-            parts[link, joint] = RoundPart(link, tuple(_flat(posed, link, element, ends)))
+    parts |= dict(_faces(posed))
     yield from sorted(parts.values(), key=lambda part: -_size(part))
     for number, contact in enumerate(posed.linkage.mechanism.chain.joints):
         members = [elements[number, link] for link in contact.links]
@@ -186,38 +194,82 @@ def _disc_face(_: PosedLinkage, __: str, ___: Element, ____: str, disc: Wheel | 
     return -1.5 * abs(disc.radius), 1.5 * abs(disc.radius)
 
 
-def _cam_face(posed: PosedLinkage, link: str, line: Element, owner: str, cam: CamDisc) -> tuple[float, float]:
-    """That of a swinging follower extends from its point to beyond the cam's axis."""
-    wide = 0.7 * cam.base * cam.scale
-    if not cam.distance:
-        return -wide, wide
+def _cam_follower(posed: PosedLinkage, link: str, line: Element, owner: str, cam: CamDisc) -> Complexes:
+    """The outline of a flat follower in coordinates of its face: as long as the contact travels, the cam below."""
     k = posed.pose.link_index(link)
     axis = complex(posed.pose.complex_point(LinkPoint(owner, cam.x, cam.y))[0])
-    relative = (axis - posed.pose.places[0, 0, k]) / posed.pose.turns[0, k] - complex(line.x, line.y)
-    offset = float((relative * cmath.rect(1, -line.direction)).real)
-    return min(0.0, offset - wide), max(0.0, offset + wide)
+    axis = _on_face(line, complex((axis - posed.pose.places[0, 0, k]) / posed.pose.turns[0, k]))
+    away = -math.copysign(1.0, axis.imag)
+    near, far = (cam.scale * end.value for end in cam_of(cam).findings().face)
+    pivot = next((_on_face(line, z) for z in pins_of(posed.lower, link)), None)
+    if pivot is None or not cam.distance:
+        wide = _PAST_CONTACT * max(-near, far, _NARROWEST * cam.scale * cam.base)
+        thick = _PLATE * wide
+        corners = [complex(x, y) for x, y in ((-wide, 0), (wide, 0), (wide, thick), (-wide, thick))]
+        return np.array([axis.real + z.real + 1j * away * z.imag for z in corners])
+    return _arm(pivot.imag * away, _PAST_CONTACT * far, math.copysign(1.0, axis.real - pivot.real), away) + pivot.real
 
 
-def _face(posed: PosedLinkage, joint: int, link: str, line: Element) -> tuple[float, float] | None:
-    """The extent of a face or rack along its line where it touches a round part; None without one."""
-    for (number, owner), element in posed.linkage.elements.items():
-        if number == joint and (face := PICTURES[type(element)].face) is not None:
-            return face(posed, link, line, owner, element)
-    return None
+def _arm(face: float, reach: float, side: float, away: float) -> Complexes:
+    """That of a swinging one: of one thickness from the boss about its pivot, which stands off the face."""
+    thick = _ARM_THICKNESS * reach
+    boss = _BOSS * max(abs(face), abs(thick - face))
+    low, high = (math.asin(height / boss) for height in (-face, thick - face))
+    round_pivot = boss * np.exp(1j * np.linspace(low, high - math.tau, _BOSS_STEPS)) + 1j * face
+    outline = np.concatenate([[complex(reach, thick), complex(reach, 0)], round_pivot])
+    turned: Complexes = side * outline.real + 1j * away * outline.imag
+    return turned
+
+
+def _on_face(line: Element, place: complex) -> complex:
+    """A place of a link in coordinates of a line of it."""
+    return (place - complex(line.x, line.y)) * cmath.rect(1, -line.direction)
+
+
+def _faces(posed: PosedLinkage) -> Iterator[tuple[tuple[str, int], RoundPart]]:
+    """The flat followers and racks, by link and joint."""
+    elements = posed.linkage.elements
+    for (joint, link), line in elements.items():
+        if not line.is_line:
+            continue
+        for (number, owner), element in elements.items():
+            picture = PICTURES[type(element)]
+            if number != joint:
+                continue
+            if picture.follower is not None:
+                outline = picture.follower(posed, link, line, owner, element)
+                yield (link, joint), RoundPart(link, tuple(_flat_follower(posed, link, line, outline)))
+            elif picture.face is not None:
+                ends = picture.face(posed, link, line, owner, element)
+                yield (link, joint), RoundPart(link, tuple(_flat(posed, link, line, ends)))
 
 
 def _flat(posed: PosedLinkage, link: str, line: Element, ends: tuple[float, float]) -> Iterator[Shape]:
     """A face or rack, and the rods that support it."""
     foot, along = complex(line.x, line.y), cmath.rect(1, line.direction)
     if link != posed.linkage.mechanism.frame:
-        for (_, owner), other in posed.lower.elements.items():
-            if owner == link and not other.is_round:
-                start, end = posed.local(foot), posed.local(complex(other.x, other.y))
-                yield Polylines(((start, end),), "rail")
-                if (rod := end.minus(start)).length > _ROD_END:  # its round end stays on its side of the face
-                    ends_of_rod = (start.plus(rod.unit, _ROD_END), end)
-                    yield from (Polylines((ends_of_rod,), style) for style in ("outline-rod", "body-rod"))
+        for start, end in _rods(posed, link, foot):
+            yield Polylines(((start, end),), "rail")
+            if (rod := end.minus(start)).length > _ROD_END:  # its round end stays on its side of the face
+                ends_of_rod = (start.plus(rod.unit, _ROD_END), end)
+                yield from (Polylines((ends_of_rod,), style) for style in ("outline-rod", "body-rod"))
     yield Polylines((tuple(posed.local(foot + offset * along) for offset in ends),), "rail")
+
+
+def _flat_follower(posed: PosedLinkage, link: str, line: Element, outline: Complexes) -> Iterator[Shape]:
+    """A body with a face, and the stems by which it slides."""
+    plate = Polylines((_contour(posed, complex(line.x, line.y), line.direction, outline),), "block", closed=True)
+    stems = () if pins_of(posed.lower, link) else _rods(posed, link, complex(line.x, line.y))
+    stems = tuple((start.plus(end.minus(start).unit, _ROD_END), end) for start, end in stems if start != end)
+    yield from (Polylines((stem,), "outline-rod") for stem in stems)
+    yield plate
+    yield from (Polylines((stem,), "body-rod") for stem in stems)
+
+
+def _rods(posed: PosedLinkage, link: str, foot: complex) -> tuple[tuple[Point, Point], ...]:
+    """From a face to the other joints of its link."""
+    others = (e for (_, owner), e in posed.lower.elements.items() if owner == link and not e.is_round)
+    return tuple((posed.local(foot), posed.local(complex(e.x, e.y))) for e in others)
 
 
 def _ring(at: Point, radius: float) -> tuple[Point, ...]:
@@ -320,7 +372,7 @@ PICTURES: dict[type[Element], ElementPicture] = {
         sign=_wheel_sign, on_line="rack", part=_wheel, key=_centre_and_radius, face=_disc_face, between=_belt
     ),
     Circle: ElementPicture(sign=_always("roller"), part=_circle, key=_centre_and_radius, face=_disc_face),
-    CamDisc: ElementPicture(sign=_always("cam"), part=_cam, face=_cam_face),
+    CamDisc: ElementPicture(sign=_always("cam"), part=_cam, follower=_cam_follower),
     GenevaDriver: ElementPicture(sign=_always("geneva-driver"), part=_geneva_driver),
     GenevaWheel: ElementPicture(sign=_always("geneva-wheel"), part=_geneva_wheel),
     NonCircular: ElementPicture(sign=_always("oval"), part=_noncircular),
