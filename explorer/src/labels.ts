@@ -3,6 +3,7 @@
 import { cylinderOf, mouthOf } from "./bodies";
 import { svg } from "./dom";
 import { away as apart, convexHull, middleOf, spotsAbout, toHull } from "./hull";
+import { numberOf } from "./legend";
 import type { Linkage } from "./linkage";
 import { halfOf, type NamePlace, namePlace, nameSpots, rimSpots } from "./names";
 import { quietSpots } from "./quiet";
@@ -13,6 +14,8 @@ const EDGE = 4; // pixels of a picture in which texts would be cut
 const PAST = 999;
 const INK = 8; // pixels from a name to an arrow
 const LETTER = 20; // from a joint to its letter
+const RIM = 3; // from a name on a wheel to its rim
+const SHARES = [0.6, 0.45, 0.7]; // of the radius of a wheel, at which its name may stand
 
 /** A name and where it stands in the picture. */
 export interface Label {
@@ -25,6 +28,8 @@ export interface Label {
   taken: number;
   /** The place that it takes at the end of a line; none if it stands beside its body. */
   leader?: number | undefined;
+  /** Of a wheel with spokes: places between them, which turn with it, and the spokes. */
+  wheel?: ((viewport: Viewport) => { places: Pair[]; spokes: Pair[][] }) | undefined;
   /** Its link, of which it is the name. */
   link?: number;
   /** The corners of its link. */
@@ -35,12 +40,16 @@ export interface Label {
   many?: boolean;
 }
 
-/** The names of links, in or beside their bodies, and of points. */
-export function labelsOf(linkage: Linkage): Label[] {
+/** The links that have names in the picture. */
+export function namedLinks({ model }: Linkage): number[] {
+  return [...model.links.slice(0, model.own).keys()].filter((link) => link !== model.frame);
+}
+
+/** The names of links or their numbers, in or beside their bodies, and the names of points. */
+export function labelsOf(linkage: Linkage, numbered: boolean): Label[] {
   const { model, sizes } = linkage;
-  const links = [...model.links.slice(0, model.own).keys()].filter((link) => link !== model.frame);
-  const names = links.map((link): Label => {
-    const name = linkage.linkName(link);
+  const names = namedLinks(linkage).map((link): Label => {
+    const name = numbered ? numberOf(link) : linkage.linkName(link);
     let held: ReturnType<typeof cylinderOf> = null; // of a cylinder its barrel, or what is seen of its rod
     const joints = () => [
       ...sizes.elementsOn(link).map((k) => sizes.xy(k)),
@@ -75,11 +84,12 @@ export function labelsOf(linkage: Linkage): Label[] {
           ...points().map((at) => place(linkage.pose, 0, link, ...at)),
         ].map((at) => viewport.screen(...at)),
       );
-    const element = svg("text.name", { "text-anchor": "middle" }, name);
+    const element = svg("text.name", { "text-anchor": "middle", "font-weight": numbered ? 600 : null }, name);
     return {
       element,
       name,
       sized,
+      wheel: wheelOf(linkage, link, halfOf(name)),
       spots,
       taken: 0,
       ...(quiet ? { spots: quiet } : !rim && { hull, link }),
@@ -144,6 +154,37 @@ function rimOf({ model }: Linkage, link: number): [centre: Pair, far: number] | 
   const places = Array.from({ length: rim.length / 2 }, (_, k): Pair => [rim[2 * k]!, rim[2 * k + 1]!]);
   const centre = middleOf(places);
   return [centre, apart(places[0]!, ...centre)];
+}
+
+/** Where the name of a wheel with spokes has room between them. */
+function wheelOf(linkage: Linkage, link: number, half: number): Label["wheel"] {
+  const shapes = linkage.model.shapes.filter((shape) => shape.link === link);
+  const circle = shapes.find((shape) => shape.circle)?.circle;
+  const lines = shapes.flatMap((shape) => (shape.style === "hatch" && shape.lines) || []);
+  if (!circle || !lines[0]) return undefined;
+  const [x, y, radius] = circle;
+  const ends = lines.flatMap(([a, b, c, d]): Pair[] => [
+    [a!, b!],
+    [c!, d!],
+  ]);
+  const angles = ends.map(([u, v]) => Math.atan2(v - y, u - x)).sort((one, other) => one - other);
+  const gaps = angles.map((one, k) => (one + (angles[k + 1] ?? angles[0]! + 2 * Math.PI)) / 2);
+  return (viewport) => {
+    const at = (u: number, v: number) => viewport.screen(...place(linkage.pose, 0, link, u, v));
+    const [cx, cy] = at(x, y);
+    const far = radius * viewport.scale - RIM;
+    const inside = ([u, v]: Pair) => Math.hypot(Math.abs(u - cx) + half, Math.abs(v - 4 - cy) + INK) < far;
+    const places = SHARES.flatMap((part) =>
+      gaps.map((phi): Pair => {
+        const [u, v] = at(x + part * radius * Math.cos(phi), y + part * radius * Math.sin(phi));
+        return [u, v + 4];
+      }),
+    );
+    return {
+      places: places.map((one) => (inside(one) ? one : [NaN, NaN])),
+      spokes: lines.map(([a, b, c, d]) => [at(a!, b!), at(c!, d!)]),
+    };
+  };
 }
 
 /** Whether a name keeps clear of an arrow. */

@@ -1,12 +1,12 @@
-/** Names that have no place beside their bodies: farther off, each with a line to its body. */
+/** Names that have no place beside their bodies: near them, each with a short line to its body. */
 
 import { away, middleOf, sidesOf, toHull } from "./hull";
 import { between } from "./names";
 import type { Pair } from "./rows";
 
-const NEAREST = 22; // pixels from the place on its body to a name
-const STEP = 12;
-const STEPS = 12;
+const NEAREST = 16; // pixels from the place on its body to a name
+const STEP = 8;
+const STEPS = 5;
 const WAYS = 16;
 const BAR = 15; // pixels from the middle of a bar to the middle of a name that stands beside it
 const RIM = 9; // pixels from an outline of its own

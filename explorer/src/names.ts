@@ -8,7 +8,6 @@ import type { Viewport } from "./viewport";
 const HALF_LETTER = 3.7; // pixels
 const BODY = 9; // pixels from the line between two joints to a name: half the width of a bar, and some room
 const ALONE = 24; // pixels from the only joint of a body, such as a block, to its name
-const GROUND = 22; // the height of a ground, but for where a name is near its bar
 const INK = 6; // half the height of a name, in pixels
 const OUTSIDE = 8; // pixels from a rim to a name
 const RIM_PLACES: readonly Pair[] = [135, 45, -135, -45].map((a) => [Math.cos(a * DEGREE), Math.sin(a * DEGREE)]);
@@ -82,11 +81,8 @@ export function nameSpots(viewport: Viewport, { at, away, along = [0, 0], bar }:
   const [u, v] = away;
   const far = BODY + halfOf(name) * Math.abs(u) + INK * Math.abs(v);
   const [dx, dy] = along.map((value) => value * viewport.scale) as Pair;
-  // of a short bar also beyond a ground beside it
-  return (bar ? [far, far + GROUND] : [far]).flatMap((gap) =>
-    [0, 0.4, -0.4, 0.7, -0.7].flatMap((part) =>
-      (bar ? [gap, -gap] : [gap]).map((off): Pair => [x + part * dx + off * u, y - part * dy - off * v + 4]),
-    ),
+  return [0, 0.4, -0.4, 0.7, -0.7].flatMap((part) =>
+    (bar ? [far, -far] : [far]).map((off): Pair => [x + part * dx + off * u, y - part * dy - off * v + 4]),
   );
 }
 

@@ -1,9 +1,13 @@
-/** Where the names of a picture stand: in or beside their bodies, else farther off with a line. */
+/** Where the names of a picture stand: in or beside their bodies, else near them with a line; where these have no room,
+ * numbers do. */
 
+import type { Cycle } from "./cycle";
 import { put, svg } from "./dom";
 import { convexHull, middleOf, pathThrough, sidesOf, spotsAbout, toHull } from "./hull";
-import { clearOf, type Label, labelsOf } from "./labels";
+import { clearOf, type Label, labelsOf, namedLinks } from "./labels";
+import { currentLanguage } from "./language";
 import { type Boxed, boxed, clearBy, type Leader, leaderOf } from "./leaders";
+import type { Legend } from "./legend";
 import type { Linkage } from "./linkage";
 import type { ShapeRecord } from "./model";
 import { clearSpot, nearerBy } from "./names";
@@ -13,8 +17,6 @@ import type { Viewport } from "./viewport";
 
 const LINE = 15; // pixels that names are apart
 const MOST_CLEAR = 40; // names that look for a place of their own in every picture
-const TOOLS = 218; // down to where names are clear of the buttons over the picture
-const BESIDE = 56; // from the right edge of the picture to the left one of these
 const TOP = 14; // pixels from the upper edge, in which a name would be cut
 const LOW = 4; // and from the lower one
 const NEAR = 16; // places of a letter of which others are twice as far
@@ -25,6 +27,7 @@ const INK = 8; // from a name to an arrow or a ground
 const BACK = 8; // more room, for a name that stood farther off
 const GAP = 5; // from the middle of a name to a ground beside which it still stands well
 const FOOT = 26; // below which are the numbers of the grid
+const SHORT = 3; // letters of a name that stands everywhere
 
 /** What is drawn beside bodies, in pixels, and whether curves are. */
 export interface Around {
@@ -37,20 +40,57 @@ export interface Around {
 }
 
 export class Naming {
+  readonly element = svg("g", {});
   /** From names to bodies beside which they have no place. */
-  readonly leaders = svg("path", { fill: "var(--faint)", stroke: "var(--faint)" });
+  readonly #leaders = svg("path", { fill: "var(--faint)", stroke: "var(--faint)" });
   #labels: Label[] = [];
+  /** Whether numbers stand for names, and in which cycles, widths and scales they do. */
+  #numbered = false;
+  readonly #known = new WeakMap<Cycle, Map<string, boolean>>();
+  /** Names that have no place at their links. */
+  #crowded = 0;
   /** Names that have their places. */
   #taken: { x: number; y: number; half: number }[] = [];
   /** What no other text is to cover. */
   #drawn: Pair[][] = [];
 
-  constructor(private readonly viewport: Viewport) {}
+  constructor(
+    private readonly viewport: Viewport,
+    readonly legend: Legend,
+  ) {}
 
-  /** The elements of the names of a linkage; none if they are not wanted. */
-  build(linkage: Linkage, wanted: boolean): SVGElement[] {
-    this.#labels = wanted ? labelsOf(linkage) : [];
-    return [this.leaders, ...this.#labels.map(({ element }) => element)];
+  /** The names of a linkage; none if they are not wanted. */
+  build(linkage: Linkage, wanted: boolean): void {
+    const numbered = this.#numbered;
+    this.#labels = wanted ? labelsOf(linkage, numbered) : [];
+    this.legend.build(linkage, numbered && wanted ? namedLinks(linkage) : []);
+    this.element.replaceChildren(this.#leaders, ...this.#labels.map(({ element }) => element), this.legend.element);
+  }
+
+  /** Choose between names and numbers, so that it holds for all of these poses; how high the list of names is then. */
+  choose(linkage: Linkage, poses: () => Iterable<Around>): number {
+    const { scale, width } = this.viewport;
+    const known = this.#known.get(linkage.cycle) ?? new Map<string, boolean>();
+    this.#known.set(linkage.cycle, known);
+    const key = [width, Math.round(8 * Math.log(scale)), currentLanguage()].join();
+    const long = namedLinks(linkage).some((link) => linkage.linkName(link).length > SHORT);
+    const take = (numbers: boolean) => {
+      this.#numbered = numbers;
+      this.build(linkage, true);
+      this.sized();
+    };
+    let numbered = known.get(key) ?? false;
+    if (!known.has(key) && long) {
+      take(false);
+      for (const around of poses()) {
+        this.place(linkage, around);
+        numbered ||= this.#crowded > 0;
+        if (numbered) break;
+      }
+    }
+    known.set(key, numbered);
+    if (numbered !== this.#numbered) take(numbered);
+    return this.legend.lay(this.viewport);
   }
 
   /** After sizes or the scale changed. */
@@ -70,6 +110,7 @@ export class Naming {
     const bodies = hulls.filter((hull) => hull.length);
     const still = [...arrows, ...grounds, this.#buttons];
     this.#taken = [];
+    this.#crowded = 0;
     this.#drawn = [...bodies, ...still];
     const order = [...this.#labels.entries()].sort(([, one], [, other]) => +!!one.many - +!!other.many);
     const pins = joints.map((at) => boxed([at]));
@@ -90,6 +131,27 @@ export class Naming {
         });
         const seen = (at: Pair) => this.#seen(half, at);
         const quiet = clear(grounds);
+        const wheel = label.wheel?.(viewport);
+        if (wheel) {
+          const rest = others.map(boxed);
+          const clean = [...rest, ...wheel.spokes.map(boxed)];
+          const good = (ink: readonly Boxed[]) => (spot?: Pair) => {
+            const middle = spot && ([spot[0], spot[1] - 4] as Pair);
+            const off = middle && clearBy(JOINT, pins, half, middle) && clearBy(BODY, ink, half, middle);
+            return off && seen(spot) && free(spot) && quiet(spot);
+          };
+          const { places: its } = wheel;
+          const before = its[label.taken];
+          if (!good(clean)(before)) {
+            const chosen = its.findIndex(good(clean));
+            // a long name interrupts a spoke
+            if (chosen >= 0 || !good(rest)(before)) label.taken = chosen < 0 ? its.findIndex(good(rest)) : chosen;
+          }
+          const at = its[label.taken];
+          if (at) this.#stands(label, at);
+          else far.push([k, label]);
+          continue;
+        }
         label.taken = clearSpot(places, name, [hulls[k]!, others], free, label.taken, (at) => seen(at) && quiet(at));
         const [x, y] = places[label.taken]!;
         const own = hulls[k]!.length > 2 && !toHull(hulls[k]!, x, y - 4); // on its plate
@@ -132,34 +194,38 @@ export class Naming {
       others.push(...more.flatMap(([its, box]) => (its === link ? [] : [box])));
       const wide = (outline: Pair[]) => Math.max(...outline.map(([x]) => x)) - Math.min(...outline.map(([x]) => x));
       const homes = outlines.flatMap(([its, outline]) => (its === link && outline.length > 2 ? [outline] : []));
+      const spokes = (label.wheel?.(this.viewport).spokes ?? []).map(boxed);
       const home = homes.sort((one, other) => wide(other) - wide(one))[0] ?? [];
       const free = ([u, v]: Pair) =>
         this.#seen(half, [u, v]) &&
         v > TOP &&
         v < height - FOOT &&
         !this.#touching(half, [u, v]) &&
-        clearBy(INK, ink, half, [u, v - 4]);
+        clearBy(INK, spokes.length ? [...ink, ...spokes] : ink, half, [u, v - 4]);
       const find = leaderOf(boxes[k]!, home, others, half, free, lines, this.#taken);
       if (!hangs(label, find(label.leader ?? -1)))
         anew.push(() => {
-          if (!hangs(label, find())) this.#stands(label, spots(this.viewport)[label.taken]!);
+          if (hangs(label, find())) return;
+          this.#crowded++;
+          this.#stands(label, spots(this.viewport)[Math.max(0, label.taken)]!);
         });
     }
     for (const find of anew) find();
-    put(this.leaders, { d: lines.map((line) => `${pathThrough(line)}${dotAt(line[0])}`).join("") });
+    put(this.#leaders, { d: lines.map((line) => `${pathThrough(line)}${dotAt(line[0])}`).join("") });
   }
 
   /** At its place beside its body, though something is there. */
   #stands(label: Label, [left, top]: Pair): void {
     const { half } = label;
-    const right = this.#right(top);
+    const right = this.viewport.right(top);
     const x = Math.max(half + 2, Math.min(right - half - 2, left)); // it is not cut
     let y = top;
     const way = y < (this.#touching(half, [x, y])?.y ?? 0) ? -1 : 1;
     for (let other = this.#touching(half, [x, y]); other; other = this.#touching(half, [x, y]))
       y = other.y + way * LINE;
     const { height, narrow } = this.viewport;
-    if (narrow && (x + half > this.#right(y) || y < TOP || y > height - LOW)) put(label.element, { display: "none" });
+    if (narrow && (x + half > this.viewport.right(y) || y < TOP || y > height - LOW))
+      put(label.element, { display: "none" });
     else this.#takes(label, [x, y]);
   }
 
@@ -174,23 +240,13 @@ export class Naming {
   }
 
   #seen(half: number, [x, y]: Pair): boolean {
-    return x > half + RULE && x + half < this.#right(y);
-  }
-
-  /** Where the buttons over the picture end; a low one has one only. */
-  get #low(): number {
-    return this.viewport.height < 2 * TOOLS ? 72 : TOOLS;
-  }
-
-  /** The right edge of the picture, or the left one of these. */
-  #right(y: number): number {
-    return this.viewport.width - (y < this.#low ? BESIDE : 0);
+    return x > half + RULE && x + half < this.viewport.right(y);
   }
 
   get #buttons(): Pair[] {
-    const { width } = this.viewport;
+    const { tools, width } = this.viewport;
     return convexHull(
-      [0, this.#low - 12].flatMap((y): Pair[] => [
+      [0, tools - 12].flatMap((y): Pair[] => [
         [width - 54, y],
         [width, y],
       ]),

@@ -36,6 +36,8 @@ export interface Board {
   /** Whether a click adds a point. */
   readonly adding: boolean;
   readonly chosen: number | null;
+  /** Whether names of links stand in a list. */
+  readonly listed: boolean;
   /** The joints that are drawn. */
   readonly joints: readonly number[];
   focus(joint: number): void;
@@ -86,7 +88,9 @@ export class Pointer {
       const at = pixelIn(root, event);
       if (this.#fingers.move(event.pointerId, at, viewport)) board.zoom(1, 0, 0);
       else if (board.adding && board.linkage) board.hover(board.chosen ?? this.#linkNear(...at, 2 * GRIP));
+      else if (board.listed && !this.#following) board.hover(this.#linkNear(...at, NEAR));
     });
+    root.addEventListener("pointerleave", () => board.hover(null));
     for (const name of ["pointerup", "pointercancel"] as const)
       root.addEventListener(name, (event) => this.#fingers.lift(event.pointerId));
   }

@@ -9,11 +9,12 @@ import { DRIVEN, DRIVING, placed, STANDING, SUPPORT } from "./ground";
 import { clearAbout, convexHull, pathThrough } from "./hull";
 import { clearOf, pastEdges } from "./labels";
 import { number as numberText } from "./language";
+import type { Legend } from "./legend";
 import type { Linkage } from "./linkage";
 import { pole } from "./measures";
 import { halfOf } from "./names";
-import { lettersAt, Naming } from "./naming";
-import { origin, type Pair, place, turn } from "./rows";
+import { type Around, lettersAt, Naming } from "./naming";
+import { oneRow, origin, type Pair, place, turn } from "./rows";
 import { readingsOf } from "./rulers";
 import { ownColour, type Shown } from "./shown";
 import { springLines } from "./springs";
@@ -23,6 +24,7 @@ import { rateUnit } from "./wording";
 const LONGEST_ARROW = 90; // pixels
 const RING = 6; // the radius of a target
 const RAIL = 6; // half the width of a rail with its hatching, and some room
+const POSES = 24; // of a cycle, in which names must have places
 
 export class Scene {
   #links: SVGGElement[] = [];
@@ -55,8 +57,14 @@ export class Scene {
     private readonly under: SVGSVGElement,
     private readonly viewport: Viewport,
     private readonly keys: Record<"joint" | "point", (event: KeyboardEvent, number: number) => void>,
+    legend: Legend,
   ) {
-    this.#names = new Naming(viewport);
+    this.#names = new Naming(viewport, legend);
+  }
+
+  /** Whether names of links stand in a list. */
+  get listed(): boolean {
+    return this.#names.legend.listed;
   }
 
   /** The joints that are drawn. */
@@ -74,10 +82,31 @@ export class Scene {
     this.#names.settle();
   }
 
+  /** Choose between names of links and numbers; how high the list of names is then. */
+  choose(linkage: Linkage, shown: Shown): number {
+    return shown.labels ? this.#names.choose(linkage, () => this.poses(linkage, shown)) : 0;
+  }
+
+  /** What is around the names all along the cycle. */
+  private *poses(linkage: Linkage, shown: Shown): Generator<Around> {
+    const { cycle, pose } = linkage;
+    const step = Math.ceil(cycle.values.length / POSES);
+    try {
+      for (let row = 0; row < cycle.values.length; row += step) {
+        linkage.pose = oneRow(cycle.rows, row);
+        yield this.#around(linkage, shown, [], []);
+      }
+    } finally {
+      linkage.pose = pose;
+    }
+  }
+
   /** Give one link a class, or none. */
   mark(marked: number | null, name: "chosen" | "hovered"): void {
     for (const [link, { classList }] of this.#links.entries())
       if (classList.contains(name) !== (link === marked)) classList.toggle(name);
+    const shown = [...this.#links.keys()].filter((link) => /chosen|hovered/.test(this.#links[link]!.classList.value));
+    this.#names.legend.mark(shown);
   }
 
   focus(joint: number): void {
@@ -121,7 +150,7 @@ export class Scene {
       return { element, point: number };
     });
     front.append(
-      ...this.#names.build(linkage, shown.labels),
+      this.#names.element,
       ...this.#arrows,
       this.#values,
       this.#springs,
@@ -129,6 +158,7 @@ export class Scene {
       this.#circle,
       this.#pole,
     );
+    this.#names.build(linkage, shown.labels);
     const { picture } = linkage.beside;
     this.#backdrop = picture ? backdropElement(picture) : null;
     renew(this.under, ...(this.#backdrop ? [this.#backdrop] : []), back, bodies);
@@ -200,7 +230,7 @@ export class Scene {
 
   /** Put everything where the pose has it. */
   draw(linkage: Linkage, shown: Shown): void {
-    const { model, pose, sizes } = linkage;
+    const { pose, sizes } = linkage;
     const { viewport } = this;
     this.#links.forEach((group, link) => {
       const [c, s] = turn(pose, 0, link);
@@ -223,13 +253,30 @@ export class Scene {
       this.#vectors(linkage, 1, shown.velocities),
       this.#vectors(linkage, 2, shown.accelerations),
     ].map((all) => all.map((one) => this.#scaled(...one)));
+    const springs = shown.springs(linkage).map((spring) => springLines(linkage, viewport, spring));
+    const covered = this.#names.place(linkage, this.#around(linkage, shown, kinds, springs));
+    kinds.forEach((all, k) => {
+      put(this.#arrows[k]!, { d: all.map((one) => arrow(...one)).join("") });
+    });
+    // a number may stand upon a plate, but not across its edges
+    this.#putValues(kinds, [...covered, ...pastEdges(viewport.width, viewport.height)]);
+    put(this.#springs, { d: springs.flat().map(pathThrough).join("") });
+    const rulers = readingsOf(linkage).map(({ ends }) => pathThrough(ends.map((at) => viewport.screen(...at))));
+    put(this.#rulers, { d: rulers.join("") });
+    this.#drawPole(linkage, shown);
+  }
+
+  /** What is drawn beside the bodies, of which names keep clear. */
+  #around(linkage: Linkage, { curves }: Shown, kinds: Arrow[][], springs: Pair[][][]): Around {
+    const { model, pose } = linkage;
+    const { viewport } = this;
+    const pixels = (joint: number) => viewport.screen(...linkage.jointAt(joint));
     const arrows = kinds.flatMap((all) =>
       all.map(([x, y, dx, dy]): Pair[] => [
         [x, y],
         [x + dx, y + dy],
       ]),
     );
-    const springs = shown.springs(linkage).map((spring) => springLines(linkage, viewport, spring));
     arrows.push(...springs.map((parts) => convexHull(parts.flat())).filter((hull) => hull.length));
     const grounds = this.#pins
       .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
@@ -247,22 +294,8 @@ export class Scene {
         convexHull(ends.flatMap(([x, y]) => [-RAIL, RAIL].flatMap((d) => [fixed(x + d, y + d), fixed(x + d, y - d)]))),
       );
     const joints = this.#pins.map(({ joint }) => pixels(joint));
-    const covered = this.#names.place(linkage, {
-      arrows,
-      grounds,
-      joints,
-      curves: shown.curves,
-      forces: forces.length > 0,
-    });
-    kinds.forEach((all, k) => {
-      put(this.#arrows[k]!, { d: all.map((one) => arrow(...one)).join("") });
-    });
-    // a number may stand upon a plate, but not across its edges
-    this.#putValues(kinds, [...covered, ...pastEdges(viewport.width, viewport.height)]);
-    put(this.#springs, { d: springs.flat().map(pathThrough).join("") });
-    const rulers = readingsOf(linkage).map(({ ends }) => pathThrough(ends.map((at) => viewport.screen(...at))));
-    put(this.#rulers, { d: rulers.join("") });
-    this.#drawPole(linkage, shown);
+    const forces = kinds.slice(0, 2).some((all) => all.length);
+    return { arrows, grounds, joints, curves, forces };
   }
 
   /** An arrow in pixels; of a moment its circle reaches so far to the right, if it is positive, or to the left. */

@@ -7,6 +7,7 @@ import type { Dragging } from "./dragging";
 import { gridOf } from "./grid";
 import { pathThrough } from "./hull";
 import { currentLanguage, number, t } from "./language";
+import { Legend } from "./legend";
 import type { Linkage } from "./linkage";
 import { OtherModes } from "./modes";
 import { type Board, Pointer, type StageEvents } from "./pointer";
@@ -15,12 +16,14 @@ import { Scene } from "./scene";
 import { linesOf } from "./shapes";
 import { stageButton, zoomButtons } from "./shell";
 import { ownColour, type Shown } from "./shown";
-import { type Box, Extent, Viewport } from "./viewport";
+import { Extent, Viewport } from "./viewport";
 
 /** What a style sheet says of an element, and a file on its own must. */
 const STYLES =
   "fill fill-rule stroke stroke-width stroke-linecap stroke-linejoin stroke-dasharray opacity font-size font-family " +
   "font-weight paint-order";
+
+const NUMBERS = 18; // pixels that numbers of links need at the edges
 
 export class Stage implements Board {
   readonly element: HTMLElement;
@@ -31,6 +34,8 @@ export class Stage implements Board {
   adding = false;
   readonly #hint = h("div.hint", {});
   readonly #grid = svg("svg.grid", { "aria-hidden": "true" });
+  /** In which names stand. */
+  #language = "";
   /** Of what the grid is: drawn anew each time, it took a third of a frame. */
   #ruled = "";
   readonly #under = svg("svg.grid", { "aria-hidden": "true" });
@@ -56,13 +61,16 @@ export class Stage implements Board {
   ) {
     this.element = h("div.stage", {}, this.#grid, this.#under, this.#canvas, this.root);
     this.#pointer = new Pointer(this, events);
-    this.#scene = new Scene(this.root, this.#under, this.viewport, {
-      joint: (event, joint) => {
+    const legend = new Legend((link) => this.hover(link), events.choose);
+    const keys = {
+      joint: (event: KeyboardEvent, joint: number) => {
         if (event.key === "Enter") events.holdJoint(joint);
         else this.#pointer.key(event, (dx, dy) => events.moveJointBy(joint, dx, dy));
       },
-      point: (event, point) => this.#pointer.key(event, (dx, dy) => events.movePointBy(point, dx, dy)),
-    });
+      point: (event: KeyboardEvent, point: number) =>
+        this.#pointer.key(event, (dx, dy) => events.movePointBy(point, dx, dy)),
+    };
+    this.#scene = new Scene(this.root, this.#under, this.viewport, keys, legend);
     this.#observer = new ResizeObserver(() => this.#resize());
     this.#observer.observe(this.element);
     this.#lowered = lowered(this.element);
@@ -87,6 +95,10 @@ export class Stage implements Board {
 
   get chosen(): number | null {
     return this.shown.chosen;
+  }
+
+  get listed(): boolean {
+    return this.#scene.listed;
   }
 
   focus(joint: number): void {
@@ -135,8 +147,13 @@ export class Stage implements Board {
 
   /** Show everything that the linkage reaches. */
   fit(): void {
-    if (!this.linkage || this.viewport.width < 2) return;
-    this.viewport.fit(reachOf(this.linkage), 0.2 * this.linkage.size);
+    const { linkage, viewport } = this;
+    if (!linkage || viewport.width < 2) return;
+    const reach = reachOf(linkage);
+    viewport.fit(reach, 0.2 * linkage.size, undefined, reach.places);
+    this.#scene.sized(linkage);
+    const listed = this.#scene.choose(linkage, this.shown);
+    if (listed) viewport.fit(reach, 0.2 * linkage.size, listed, reach.places, NUMBERS);
     this.sized();
   }
 
@@ -159,7 +176,11 @@ export class Stage implements Board {
     if (!linkage || !dragging) return;
     this.root.setAttribute("aria-label", linkage.title || linkage.model.source || t("The mechanism"));
     this.#scene.build(linkage, dragging, this.shown);
-    this.sized();
+    const language = currentLanguage();
+    const other = this.#language && this.#language !== language;
+    this.#language = language;
+    if (other && this.viewport.fitted) this.fit();
+    else this.sized();
   }
 
   /** Draw the bodies of the links after their sizes or the scale changed. */
@@ -265,7 +286,7 @@ export class Stage implements Board {
 }
 
 /** Where a linkage comes to in its cycle. */
-function reachOf(linkage: Linkage): Box {
+function reachOf(linkage: Linkage): Extent {
   const { model, sizes } = linkage;
   const { rows, values } = linkage.cycle;
   const box = new Extent();

@@ -12,6 +12,8 @@ export interface Box {
 
 /** The rectangle about places that are added one by one. */
 export class Extent implements Box {
+  /** The upper right corners of all of them. */
+  readonly places: Pair[] = [];
   left = Infinity;
   right = -Infinity;
   bottom = Infinity;
@@ -24,8 +26,12 @@ export class Extent implements Box {
     this.right = Math.max(this.right, x + room);
     this.bottom = Math.min(this.bottom, y - room);
     this.top = Math.max(this.top, y + room);
+    this.places.push([x + room, y + room]);
   }
 }
+
+const TOOLS = 218; // pixels down to where buttons over the picture end
+const BESIDE = 56; // from the right edge of the picture to the left one of these
 
 export class Viewport {
   /** In pixels. */
@@ -45,6 +51,21 @@ export class Viewport {
     return this.width < 500;
   }
 
+  /** Where the buttons over the picture end; a low one has one only. */
+  get tools(): number {
+    return this.height < 2 * TOOLS ? 72 : TOOLS;
+  }
+
+  /** The right edge of the picture, or the left one of these. */
+  right(y: number): number {
+    return this.width - (y < this.tools ? BESIDE : 0);
+  }
+
+  /** The height of what can be done, in up to two lines, and of the numbers of the grid. */
+  get foot(): number {
+    return this.narrow && this.height > 300 ? 66 : 50;
+  }
+
   /** The pixel of a place. */
   screen(x: number, y: number): Pair {
     return [this.#ox + this.scale * x, this.#oy - this.scale * y];
@@ -55,20 +76,28 @@ export class Viewport {
     return [(x - this.#ox) / this.scale, (this.#oy - y) / this.scale];
   }
 
-  /** Show a rectangle, or at least a square of that width; what lies below, so many pixels high, is left out. */
-  fit({ left, right, bottom, top }: Box, least: number, below?: number): void {
+  /** Show a rectangle, or at least a square of that width; what lies below, so many pixels high, is left out. On a
+   * phone it may reach below the buttons if none of the places there does. */
+  fit({ left, right, bottom, top }: Box, least: number, below?: number, places?: readonly Pair[], room = 34): void {
     const { narrow } = this;
-    const margin = narrow ? 34 : this.arrows || 60;
-    const keys = narrow ? 56 : 0; // the buttons on the right
+    const margin = narrow ? room : this.arrows || 60;
     const rule = narrow ? 22 : 0; // the numbers on the left
     const foot = below ?? (narrow && this.height > 300 ? margin : 0); // what can be done, in two lines
     const above = Math.max(margin, this.arrows);
     const wide = Math.max(right - left, least);
     const high = Math.max(top - bottom, least);
-    this.scale = Math.min((this.width - 2 * margin - keys - rule) / wide, (this.height - 2 * above - foot) / high);
-    this.#ox = (this.width - keys + rule) / 2 - (this.scale * (left + right)) / 2;
-    this.#oy = (this.height - foot) / 2 + (this.scale * (bottom + top)) / 2;
+    for (const keys of narrow ? [0, BESIDE] : [0]) {
+      this.scale = Math.min((this.width - 2 * margin - keys - rule) / wide, (this.height - 2 * above - foot) / high);
+      this.#ox = (this.width - keys + rule) / 2 - (this.scale * (left + right)) / 2;
+      this.#oy = (this.height - foot) / 2 + (this.scale * (bottom + top)) / 2;
+      if (places?.every(([x, y]) => !this.#under(...this.screen(x, y)))) break;
+    }
     this.fitted = true;
+  }
+
+  /** Whether it lies under a button, or near one. */
+  #under(x: number, y: number): boolean {
+    return x > this.right(y - 8) - 8;
   }
 
   /** Enlarge by a factor; the pixel stays where it is. */

@@ -1,0 +1,82 @@
+/** What the numbers at links stand for, where these have no room for their names: rows at the foot of the picture. */
+
+import { put, svg } from "./dom";
+import type { Linkage } from "./linkage";
+import { halfOf } from "./names";
+import type { Viewport } from "./viewport";
+
+const LINE = 18; // pixels from a row to the next
+const LEFT = 49; // beside the numbers of the grid
+const GAP = 12; // between columns
+
+/** The number of a link where it is not called by its name: its place, from 1, which is mostly that of the frame. */
+export function numberOf(link: number): string {
+  return `${link + 1}`;
+}
+
+export class Legend {
+  readonly element = svg("g", {});
+  #entries: SVGTextElement[] = [];
+  #marked: string | null = "";
+
+  constructor(
+    private readonly point: (link: number | null) => void,
+    private readonly choose: (link: number) => void,
+  ) {}
+
+  get listed(): boolean {
+    return this.#entries.length > 0;
+  }
+
+  /** The entries of these links. */
+  build(linkage: Linkage, links: readonly number[]): void {
+    this.#entries = links.map((link) => {
+      const number = svg("tspan", { "font-weight": 600 }, numberOf(link));
+      const text = svg("text", { "data-entry": link }, number, ` ${linkage.linkName(link)}`);
+      text.style.pointerEvents = "auto";
+      text.style.cursor = "pointer";
+      text.addEventListener("pointermove", (event) => {
+        event.stopPropagation(); // no link lies there
+        this.point(link);
+      });
+      text.addEventListener("pointerleave", () => this.point(null));
+      text.addEventListener("pointerdown", (event) => {
+        event.stopPropagation();
+        this.choose(link);
+      });
+      return text;
+    });
+    this.#marked = "";
+    this.element.replaceChildren(...this.#entries);
+  }
+
+  /** Lay the rows out in columns; how high all is from there to the lower edge of the picture, 0 without a row. */
+  lay({ foot, height, width }: Viewport): number {
+    const all = this.#entries;
+    const lengths = all.map((text) => text.getComputedTextLength() || 2 * halfOf(text.textContent!));
+    let count = all.length;
+    const columns = () => all.slice(0, count).map((_, k) => GAP + most(lengths, k, count));
+    while (count > 1 && columns().reduce((sum, wide) => sum + wide, LEFT) > width) count--;
+    const rows = Math.ceil(all.length / count) || 0;
+    columns().reduce((x, wide, column) => {
+      for (let k = column; k < all.length; k += count)
+        put(all[k]!, { x, y: height - foot - LINE * (rows - 1 - Math.floor(k / count)) });
+      return x + wide;
+    }, LEFT);
+    return rows && foot + LINE * rows;
+  }
+
+  /** Show which links are chosen or pointed at. */
+  mark(links: readonly number[]): void {
+    const marked = links.join();
+    if (marked === this.#marked) return;
+    this.#marked = marked;
+    for (const text of this.#entries)
+      put(text, { "text-decoration": links.includes(Number(text.dataset.entry)) ? "underline" : "none" });
+  }
+}
+
+/** The most of some lengths, each so many after another. */
+function most(lengths: readonly number[], first: number, step: number): number {
+  return Math.max(...lengths.filter((_, k) => k % step === first));
+}
