@@ -28,7 +28,7 @@ export interface Label {
   taken: number;
   /** The place that it takes at the end of a line; none if it stands beside its body. */
   leader?: number | undefined;
-  /** Of a wheel with spokes: places between them, which turn with it, and the spokes. */
+  /** Of a wheel with spokes: places between them and upon them, which turn with it, and the spokes. */
   wheel?: ((viewport: Viewport) => { places: Pair[]; spokes: Pair[][] }) | undefined;
   /** Its link, of which it is the name. */
   link?: number;
@@ -80,7 +80,9 @@ export function labelsOf(linkage: Linkage, numbered: boolean): Label[] {
         [
           ...(held
             ? joints().map((at) => place(linkage.pose, 0, link, ...at))
-            : sizes.elementsOn(link).map((k) => linkage.jointAt(sizes.element(k).joint))),
+            : sizes
+                .elementsOn(link)
+                .map((k) => (sizes.is(k, "round") ? linkage.elementAt(k) : linkage.jointAt(sizes.element(k).joint)))),
           ...points().map((at) => place(linkage.pose, 0, link, ...at)),
         ].map((at) => viewport.screen(...at)),
       );
@@ -175,7 +177,7 @@ function wheelOf(linkage: Linkage, link: number, half: number): Label["wheel"] {
     const far = radius * viewport.scale - RIM;
     const inside = ([u, v]: Pair) => Math.hypot(Math.abs(u - cx) + half, Math.abs(v - 4 - cy) + INK) < far;
     const places = SHARES.flatMap((part) =>
-      gaps.map((phi): Pair => {
+      [...gaps, ...angles].map((phi): Pair => {
         const [u, v] = at(x + part * radius * Math.cos(phi), y + part * radius * Math.sin(phi));
         return [u, v + 4];
       }),

@@ -1,7 +1,7 @@
 /** Names that have no place beside their bodies: near them, each with a short line to its body. */
 
 import { away, middleOf, sidesOf, toHull } from "./hull";
-import { between } from "./names";
+import { between, nearerBy } from "./names";
 import type { Pair } from "./rows";
 
 const NEAREST = 16; // pixels from the place on its body to a name
@@ -12,6 +12,7 @@ const BAR = 15; // pixels from the middle of a bar to the middle of a name that 
 const RIM = 9; // pixels from an outline of its own
 const SAMPLE = 14; // pixels between places of a name that are compared with bodies
 const CROSSED = 45; // pixels of a longer line that are better than one across another body
+const ASTRAY = 60; // pixels of a longer line that are better than a name nearer to another body
 const PARTS = [0.15, 0.3, 0.5, 0.7, 0.85];
 const SIXTHS = [0, 1, 2, 3, 4, 5, 6].map((k) => k / 6);
 const CLEAR = 10; // pixels from another body to where a line ends
@@ -59,6 +60,7 @@ export function leaderOf(
   const places = home[0] ? placesIn(home) : placesOn(own[0]);
   const rim = sidesOf(home).map(boxed);
   const bodies = [own, ...others];
+  const hulls = others.map(([body]) => body);
   const gaps: number[] = [];
   const gapOf = (spot: number) => {
     gaps[spot] ??= Math.min(CLEAR, ...others.map(([one]) => toHull(one, ...places[spot]!)));
@@ -92,6 +94,7 @@ export function leaderOf(
     if (names.some((one) => along.some(hides({ ...one, y: one.y - 4 })))) return;
     const mine = hides({ x, y, half });
     for (const line of lines) if (meet(line, [from, to]) || SIXTHS.some((part) => mine(between(...line, part)))) return;
+    if (nearerBy([x, y + 4], half, own[0], hulls) < 1) cost += ASTRAY;
     cost += CROSSED * others.filter(([body]) => along.slice(1).some((at) => toHull(body, ...at) < 5)).length;
     if (cost < least) [best, least] = [{ at: [x, y + 4], line: [from, to], chosen }, cost];
   };

@@ -10,7 +10,7 @@ import { type Boxed, boxed, clearBy, type Leader, leaderOf } from "./leaders";
 import type { Legend } from "./legend";
 import type { Linkage } from "./linkage";
 import type { ShapeRecord } from "./model";
-import { clearSpot, nearerBy } from "./names";
+import { nearerBy } from "./names";
 import { type Pair, place } from "./rows";
 import { linesOf } from "./shapes";
 import type { Viewport } from "./viewport";
@@ -117,7 +117,7 @@ export class Naming {
     const [stands, drawn] = [grounds.map(boxed), still.map(boxed)];
     const far: [number, Label][] = [];
     for (const [k, label] of order) {
-      const { half, name, spots } = label;
+      const { half, spots } = label;
       const places = spots(viewport);
       const clear = (of: Pair[][]) => (at: Pair) =>
         !this.#touching(half, at) && of.every((one) => clearOf(one, half, at));
@@ -129,42 +129,38 @@ export class Naming {
           if (other === k) return [];
           return toHull(one, ...mine) ? [one] : sidesOf(one);
         });
-        const seen = (at: Pair) => this.#seen(half, at);
-        const quiet = clear(grounds);
-        const wheel = label.wheel?.(viewport);
-        if (wheel) {
-          const rest = others.map(boxed);
-          const clean = [...rest, ...wheel.spokes.map(boxed)];
-          const good = (ink: readonly Boxed[]) => (spot?: Pair) => {
-            const middle = spot && ([spot[0], spot[1] - 4] as Pair);
-            const off = middle && clearBy(JOINT, pins, half, middle) && clearBy(BODY, ink, half, middle);
-            return off && seen(spot) && free(spot) && quiet(spot);
-          };
-          const { places: its } = wheel;
-          const before = its[label.taken];
-          if (!good(clean)(before)) {
-            const chosen = its.findIndex(good(clean));
-            // a long name interrupts a spoke
-            if (chosen >= 0 || !good(rest)(before)) label.taken = chosen < 0 ? its.findIndex(good(rest)) : chosen;
-          }
-          const at = its[label.taken];
-          if (at) this.#stands(label, at);
-          else far.push([k, label]);
-          continue;
-        }
-        label.taken = clearSpot(places, name, [hulls[k]!, others], free, label.taken, (at) => seen(at) && quiet(at));
-        const [x, y] = places[label.taken]!;
-        const own = hulls[k]!.length > 2 && !toHull(hulls[k]!, x, y - 4); // on its plate
         const wide = label.leader === undefined ? half : half + BACK; // back it comes where there is more room
-        const alone =
-          clearBy(JOINT, pins, wide, [x, y - 4]) && (own || clearBy(BODY, others.map(boxed), wide, [x, y - 4]));
-        const off = clearBy(GAP, stands, wide, [x, y - 4]) && seen([x, y]) && free([x, y]);
-        if (!alone || !off || !(nearerBy([x, y], wide, hulls[k]!, others) > wide - half)) {
+        const quiet = clear(grounds);
+        const boxes = others.map(boxed);
+        const near = (at: Pair, room: number, ink = boxes) => {
+          const middle: Pair = [at[0], at[1] - 4];
+          const own = hulls[k]!.length > 2 && !toHull(hulls[k]!, ...middle); // on its plate
+          return (
+            this.#seen(half, at) &&
+            clearBy(JOINT, pins, wide, middle) &&
+            (own || clearBy(BODY, ink, wide, middle)) &&
+            clearBy(GAP, stands, wide, middle) &&
+            free(at) &&
+            (room < 0 || nearerBy(at, wide, hulls[k]!, others) > room)
+          );
+        };
+        const wheel = label.wheel?.(viewport);
+        const spokes = wheel && [...boxes, ...wheel.spokes.map(boxed)];
+        // a long name interrupts a spoke
+        const good = (at: Pair) => (wheel ? near(at, -1, spokes) : near(at, INK - 2 + wide - half)) && quiet(at);
+        const fair = (at: Pair) => near(at, wheel ? -1 : wide - half);
+        const from = wheel?.places ?? places;
+        const chosen = pickedBy(from, label.taken, [good, fair]);
+        label.taken = Math.max(0, chosen);
+        if (chosen < 0) {
           far.push([k, label]);
           continue;
         }
         label.leader = undefined;
-      } else if (label.taken >= NEAR || !free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
+        this.#stands(label, from[chosen]!);
+        continue;
+      }
+      if (label.taken >= NEAR || !free(places[label.taken]!)) label.taken = Math.max(0, places.findIndex(free));
       this.#stands(label, places[label.taken]!);
     }
     const more = far.length && curves ? curvesOf(linkage, viewport) : [];
@@ -252,6 +248,17 @@ export class Naming {
       ]),
     );
   }
+}
+
+/** Which of some places is taken: the one before as long as no other is better, by tests of which the best is first; -1
+ * if none passes. */
+function pickedBy(places: readonly Pair[], before: number, tests: ((at: Pair) => boolean)[]): number {
+  for (const passes of tests) {
+    if (places[before] && passes(places[before])) return before;
+    const found = places.findIndex(passes);
+    if (found >= 0) return found;
+  }
+  return -1;
 }
 
 /** The corners of a text that stands upon a line. */

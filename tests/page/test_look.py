@@ -96,7 +96,7 @@ def test_a_ring_gear_has_its_name_at_its_rim_and_turns_visibly(tab, server, widt
     far, half, scale = page.page.evaluate("""() => {
         const { root, motion } = gruebler;
         const { viewport } = motion.stage;
-        const name = [...root.querySelectorAll("text.name")].find((one) => one.textContent === "ring gear");
+        const name = [...root.querySelectorAll("text.name")].find((one) => ["ring gear", "3"].includes(one.textContent));
         const [x, y] = name.getAttribute("transform").match(/[-\\d.]+/g).map(Number);
         const [u, v] = viewport.screen(0, 0);
         return [Math.hypot(x - u, y - v), name.getComputedTextLength() / 2, viewport.scale];
@@ -126,6 +126,19 @@ def test_a_ring_gear_has_its_name_at_its_rim_and_turns_visibly(tab, server, widt
         assert not [one for one in joints if left < one[0] < right and top < one[1] < bottom]
         others = names[:k]
         assert not [o for o in others if left < o[2] and o[0] < right and top < o[3] and o[1] < bottom]
+    if width > 500:
+        return
+    # there numbers stand at the links and the names below them, also in a saved picture
+    entries = page.page.locator(".stage [data-entry]")
+    assert entries.first.text_content() == "2 boom"
+    assert [one.split()[0] for one in entries.all_text_contents()] == [str(one) for one in range(2, 13)]
+    assert entries.first.bounding_box()["y"] > max(y for _, y in joints)
+    entries.first.hover()
+    assert page.page.locator(".stage .hovered").get_attribute("data-link") == "boom"
+    assert page.page.evaluate("gruebler.motion.picture()").count("</tspan> bucket cylinder") == 1
+    lines = page.page.locator(".stage text.name").first.locator("xpath=../*[1]").get_attribute("d")
+    ends = [[float(one) for one in line.split("M")[0].replace("L", " ").split()] for line in lines.split("M")[1::2]]
+    assert max(np.hypot(u - x, v - y) for x, y, u, v in ends) < 48
 
 
 def test_a_plot_says_the_value_at_the_pointer(tab, crank_rocker):
