@@ -275,7 +275,11 @@ export class ExercisesView implements View {
     return h(
       "div.answer",
       { "data-mark": mark?.mark },
-      h(choices.length ? "span" : "label", { for: !choices.length && id }, ...indexed(name)),
+      h(
+        choices.length ? "span" : "label",
+        { for: !choices.length && id },
+        ...indexed(`${name[0]!.toUpperCase()}${name.slice(1)}`),
+      ),
       field,
       mark ? h("b", {}, words[mark.mark]) : null,
       mark?.hint ? h("div", { id: hint }, ...indexed(mark.hint)) : null,

@@ -5,9 +5,8 @@ import re
 import pytest
 
 from gruebler.base.text import Readable
-from gruebler.page.tasks import marked_task, task_kinds, task_record, tried_task
+from gruebler.page.tasks import marked_task, signed, task_kinds, task_record, tried_task
 from gruebler.teaching.exercises import KINDS, ascii_key, exercise, solve
-from gruebler.teaching.worksheets.blocks import with_signs
 
 KIND = "gruebler.views.exercises"
 
@@ -60,6 +59,20 @@ def test_every_kind_has_a_figure_and_wrong_answers_a_hint(kind, level):
 )
 def test_a_wrong_mobility_is_helped_by_what_is_put_into_its_formula(id, key, hint):
     assert marked_task(id, {key: "123"}, "en")["marks"][0]["hint"] == hint
+
+
+def test_what_a_hint_and_a_figure_name_is_told():
+    """The quantities of a formula that are found on the way have their names, and e stands in the figure."""
+    hints = marked_task("dead-centre-2-7", {"H": "1", "phi_max": "1"}, "en")["marks"]
+    assert [one["hint"] for one in hints] == [
+        "The formula is H = l_a − l_i. l_a: outer dead centre, crank and coupler stretched; "
+        "l_i: inner dead centre, crank and coupler overlapping.",
+        "The formula is φ_max = 180° + Δφ. Δφ: deviation from half a turn.",
+    ]
+    assert "B_0" in marked_task("velocity-3-7", {"a_B": "1"}, "en")["marks"][0]["hint"]
+    for id, has in (("dead-centre-1-7", False), ("dead-centre-2-7", True), ("velocity-2-7", True)):
+        letters = re.findall(r">(\w)</t", task_record(id, "en")["figures"][0]["picture"])
+        assert ("e" in letters) is has, id
 
 
 def test_numbered_exercises_say_what_they_ask_for():
@@ -131,7 +144,7 @@ def test_every_exercise_of_the_text_has_figures_to_try_and_hints_by_the_likely_m
             if asked["choices"] and isinstance(mistake.value, bool):
                 said = "yes" if mistake.value else "no"
             (mark,) = marked_task(id, {asked["key"]: said}, "en")["marks"]
-            hints = [with_signs(one.hint.in_language("en")) for one in mistakes]
+            hints = [signed(one.hint.in_language("en")) for one in mistakes]
             assert mark["mark"] == "wrong", (asked["key"], said)
             assert mark["hint"] in hints, (asked["key"], said, mark["hint"])
 

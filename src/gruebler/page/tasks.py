@@ -64,14 +64,14 @@ def task_record(id: str, lang: str) -> dict[str, Any]:
     return {
         "id": task.id,
         "name": task.name.in_language(lang),
-        "task": with_signs(task.task.in_language(lang)),
-        "remark": with_signs(task.remark.in_language(lang)) if task.remark else "",
+        "task": signed(task.task.in_language(lang)),
+        "remark": signed(task.remark.in_language(lang)) if task.remark else "",
         "figures": _figures(task, lang),
         "tries": _tries(task, lang),
         "asked": [
             {
                 "key": ascii_key(result.key),
-                "name": with_signs(result.name.in_language(lang)),
+                "name": signed(result.name.in_language(lang)),
                 "symbol": with_signs(result.symbol)
                 if isinstance(result.value, int | float) and not _is_choice(result)
                 else "",
@@ -83,6 +83,15 @@ def task_record(id: str, lang: str) -> dict[str, Any]:
             if plain_name(result)
         ],
     }
+
+
+def signed(text: str) -> str:
+    """A text with its signs; pivots have their number as an index.
+
+    >>> signed("A-B0, |B0B|")
+    'A-B_0, |B_0B|'
+    """
+    return re.sub(r"\b([AB])0(?!\d|[.,]\d)", r"\1_0", with_signs(text))
 
 
 def _chain_of(task: Exercise) -> str:
@@ -156,8 +165,8 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
     """
 
     def part(text: str, formula: str = "", *, heading: bool = False, rows: Sequence[list[str]] = ()) -> dict[str, Any]:
-        said, line = with_signs(text.strip()), with_signs(formula.strip())
-        return {"text": said, "formula": line, "heading": heading, "rows": [[*map(with_signs, row)] for row in rows]}
+        said, line = signed(text.strip()), signed(formula.strip())
+        return {"text": said, "formula": line, "heading": heading, "rows": [[*map(signed, row)] for row in rows]}
 
     parts = []
     count = 0
@@ -182,9 +191,9 @@ def _mark(task: Exercise, solution: Solution, key: str, given: str, lang: str) -
         graded = grade(task, {key: given})[0]
     except GrueblerError as error:
         said = error_in_language(error, lang)
-        return {"key": key, "mark": str(Mark.WRONG), "hint": with_signs(said[:1].upper() + said[1:])}
+        return {"key": key, "mark": str(Mark.WRONG), "hint": signed(said[:1].upper() + said[1:])}
     hint = graded.hint or (way(task, solution, graded.result) if graded.mark is Mark.WRONG else None)
-    return {"key": key, "mark": str(graded.mark), "hint": with_signs(hint.in_language(lang)) if hint else ""}
+    return {"key": key, "mark": str(graded.mark), "hint": signed(hint.in_language(lang)) if hint else ""}
 
 
 def way(task: Exercise, solution: Solution, result: Result) -> Message:
@@ -205,8 +214,26 @@ def way(task: Exercise, solution: Solution, result: Result) -> Message:
         if counts:
             counted = joined_by_and(counts)
             return message("Check {counts} first, then put them into {formula}.", counts=counted, formula=indexed)
+        if named := _named_in(task, solution, result, formula):
+            return message("The formula is {formula}. {quantities}.", formula=indexed, quantities=joined(named, "; "))
         return message("The formula is {formula}.", formula=indexed)
     return _counted(task).get(result.key, _OTHERWISE)
+
+
+def _named_in(task: Exercise, solution: Solution, result: Result, formula: str) -> list[Message]:
+    """What quantities of a formula are that are found on the way and neither given nor asked for.
+
+    >>> task = exercise("dead-centre-2-7")
+    >>> print(*_named_in(task, solve(task), solve(task).results["H"], "H = l_a - l_i"), sep="; ")
+    l_a: outer dead centre, crank and coupler stretched; l_i: inner dead centre, crank and coupler overlapping
+    """
+    said = {result.key, *(question.key for question in task.asked)}
+    symbols = set(re.findall(r"[^\W\d][^\W²³]*[*']*", formula.partition(" = ")[2]))
+    return [
+        message("{symbol}: {name}", symbol=each.symbol, name=each.name)
+        for key, each in solution.results.items()
+        if each.symbol in symbols and key not in said
+    ]
 
 
 def _put_in(task: Exercise, solution: Solution, result: Result, formula: str) -> list[str]:

@@ -65,6 +65,17 @@ def dimension_lines(context: LayerContext) -> list[Shape]:
     return [*(_ground(shape) for shape in shapes if thin and isinstance(shape, TextShape)), *shapes]
 
 
+def offset_letters(context: LayerContext) -> list[Shape]:
+    """The axis of each slide that misses a pin of its guide, and e at the dimension of that offset."""
+    posed = context.posed
+    shapes: list[Shape] = [*_axes(posed)]
+    for link in posed.linkage.mechanism.chain.links:
+        for foot, pin in _beside(posed, link):
+            first, last = (posed.place(_named(link, z)) for z in (foot, pin))
+            shapes += _dimension(first, last, "e", [*context.drawn, *shapes], "name")
+    return shapes
+
+
 # --- dimensioned lengths ---------------------------------------------------------------------------
 
 
@@ -154,11 +165,11 @@ class _LinePlacement(NamedTuple):
     part: float
 
 
-def _dimension(a: Point, b: Point, text: str, drawn: Sequence[Shape]) -> list[Shape]:
+def _dimension(a: Point, b: Point, text: str, drawn: Sequence[Shape], style: str = "value") -> list[Shape]:
     """Two extension lines, the line between them with a head at both ends, and the number in it, or beside it."""
     along = b.minus(a)
     u, v = along.unit, along.unit.across
-    wide = text_width(text, STYLES["value"].size)
+    wide = text_width(text, STYLES[style].size)
     half = _gap(u, wide)
     number_fits = along.length > 2 * (half + _HEAD[0])
     shift = max(0.0, 0.5 - (half + _HEAD[0] + 2.0) / max(along.length, 1.0))
@@ -179,7 +190,7 @@ def _dimension(a: Point, b: Point, text: str, drawn: Sequence[Shape]) -> list[Sh
         lines.append((first.plus(u, -beyond), last.plus(u, beyond)))
         heads = heads if inside else [(at, Point(-direction.x, -direction.y)) for at, direction in heads]
     shapes: list[Shape] = [Polylines(tuple(lines), "dimension"), *(_head(at, direction) for at, direction in heads)]
-    number = TextShape(middle, text, "value") if number_fits else note_near(middle, text, "value", [*drawn, *shapes])
+    number = TextShape(middle, text, style) if number_fits else note_near(middle, text, style, [*drawn, *shapes])
     return [*shapes, number]
 
 

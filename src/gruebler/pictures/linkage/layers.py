@@ -30,7 +30,7 @@ from gruebler.pictures.canvas.simplification import FINE, simplified
 from gruebler.pictures.canvas.symbols import RADIUS, straight_drive, turning_drive, widest_gap
 from gruebler.pictures.linkage.arrows import acceleration_arrows, velocity_arrows
 from gruebler.pictures.linkage.bodies import BodyPart, bearing_sides, corners_of, in_link, shapes_at_pose
-from gruebler.pictures.linkage.dimensions import dimension_lines
+from gruebler.pictures.linkage.dimensions import dimension_lines, offset_letters
 from gruebler.pictures.linkage.instant_centres import pole_marks
 from gruebler.pictures.linkage.layer_context import Layer, LayerContext
 from gruebler.pictures.linkage.letters import angle_marks, joint_letters, joint_names, length_letters
@@ -294,6 +294,7 @@ LAYERS: Mapping[str, Layer] = {
     "joints": Layer(message("letters of the joints"), joint_names),
     "angles": Layer(message("angles of drive and output"), angle_marks),
     "lengths": Layer(message("letters of the lengths"), length_letters),
+    "offset": Layer(message("letter of the eccentricity"), offset_letters),
 }
 BELOW = ("dead-centres", "centrodes", "inflection")
 """Layers below the bodies, except their marks and texts."""

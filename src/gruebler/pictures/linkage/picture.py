@@ -54,7 +54,7 @@ _SQUARE = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 _WHEEL, _ROUND = 12.0, 24  # pixels of the radius of a wheel, at least; points around it
 _PLAIN = 95.0  # pixels: a smaller perimeter is that of a block between rails, with its name outside of these
 _MARKS = ("edge", "dot", "value")  # crosses, points and texts of layers below
-_LAST = ("dimensions", "joints")
+_LAST = ("dimensions", "offset", "joints")
 """Layers that give way to all others, and letters of joints to the lines of dimensions."""
 _CENTRODES = {"p": message("fixed centrode"), "q": message("moving centrode")}
 _POLES = {"P": message("pole P"), "W": message("inflection pole W")}

@@ -5,7 +5,10 @@ from __future__ import annotations
 from cmath import rect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import combinations, product
 from math import cos, pi, radians, sin
+
+import numpy as np
 
 from gruebler.base.text import Text, translate
 from gruebler.files import Exercise
@@ -21,11 +24,15 @@ from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.machines.bevel_views import bevel_shapes
 from gruebler.pictures.machines.train_layout import gear_stages
 from gruebler.pictures.space import draw_spatial
+from gruebler.pictures.space.scene import scene_of
+from gruebler.pictures.space.views import usual_view, view_named
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 from gruebler.teaching.exercises import solve
 from gruebler.teaching.exercises.coupler_points import read_points
 
+_PARTS = (0.3, 0.1, 0.2, 0.4, 0.6, 0.7, 0.8, 0.9)
+"""Of the range of a crank on the sphere: the positions of which the clearest is drawn."""
 _TWO_ROCKERS = "R(frame-first) R(first-coupler) R(coupler-second) R(frame-second); frame=frame; drive=R(frame-first)"
 
 
@@ -123,7 +130,7 @@ def _of_lengths(exercise: Exercise) -> DrawnLinkage | None:
     else:
         return None
     phi = radians(float(given["phi"])) if "phi" in given else None
-    show = () if phi is None else ("joints", "angles")  # of which the text speaks
+    show = (*["offset"] * bool(lengths.get("e")), *(() if phi is None else ("joints", "angles")))  # what the text names
     return DrawnLinkage(linkage=size.linkage(), letters=letters, drive=phi, show=show) if size.limits else None
 
 
@@ -246,8 +253,23 @@ def _universal_joint(exercise: Exercise, lang: str) -> Figure:
 def _spherical_four_bar(exercise: Exercise, lang: str) -> Figure:
     size = SphericalFourBar(*(radians(_numbers(exercise)[key]) for key in "abcd"))
     arc = size.limits[0]
+    drawn = [size.linkage(arc.start + part * (arc.end - arc.start)) for part in _PARTS]
     names = {link: letter for link, letter in _LETTERS.items() if letter.strip()}
-    return draw_spatial(size.linkage(arc.start + 0.3 * (arc.end - arc.start)), labels=True, names=names, lang=lang)
+    return draw_spatial(max(drawn, key=_room_between), labels=True, names=names, lang=lang)
+
+
+def _room_between(linkage: SpatialLinkage) -> float:
+    """How far opposite links of a four-bar on the sphere, and its joints, lie apart on paper where they are nearest."""
+    scene = scene_of(linkage, view_named(usual_view(linkage)))
+    middle = -scene.scale * scene.middle
+    pins = scene.joints - middle
+    size = np.linalg.norm(pins, axis=1).max()
+    shares = np.linspace(0.1, 0.9, 9)[:, None]
+    lines = [(1 - shares) * pin + shares * after for pin, after in zip(pins, np.roll(pins, -1, axis=0), strict=True)]
+    arcs = [size * line / np.linalg.norm(line, axis=1)[:, None] for line in lines]
+    first, second, third, fourth, joints = (scene.view.on_paper(z + middle)[:, :2] @ (1, 1j) for z in (*arcs, pins))
+    pairs = [*product(first, third), *product(second, fourth), *combinations(joints, 2)]
+    return float(min(abs(place - other) for place, other in pairs))
 
 
 def _differential(exercise: Exercise, lang: str) -> Figure:
