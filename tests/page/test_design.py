@@ -1046,6 +1046,16 @@ def test_targets_last_when_the_page_is_loaded_again_and_none_is_left_when_cleare
     assert view.locator("[data-point]").count() == 0
 
 
+def test_of_nearest_designs_that_are_too_long_none_is_said_to_meet_anything():
+    from gruebler.page.requests import answer
+
+    asked = {"kind": "positions", "rows": [[-40, 0, 12], [0, 25, 35], [35, 10, 70]], "crank": True, "transmission": 70}
+    found = answer("synthesise", asked | {"pivots": [[-30, -40], [30, -40]], "longest_link": 30}, "en", print)
+    assert not found["items"]
+    assert "these meet" not in found["note"]
+    assert "No linkage meets all demands" in found["note"]
+
+
 def test_where_no_design_has_the_angle_those_that_come_nearest_are_shown():
     """Of the four-bars for a swing of 60° and a time ratio of 1.2 none passes 40.3°, over all that there are."""
     from gruebler.page.requests import answer

@@ -154,7 +154,7 @@ def design_records(
         progress=counted if in_places else None,
     )
     left: list[Message] = []
-    nearest = None
+    first, nearest = result, None
     if not result.designs:
         report, finite = looked if in_places else None, bool(result.count.theorem)
         nearest = _nearest_designs(task, demands, progress=report, finite=finite)
@@ -175,7 +175,10 @@ def design_records(
         )
         fitting, too_long = _short_enough(designs, longest)
         if fitting or limited:  # giants where there is nothing else
-            designs, left = fitting, left + too_long
+            # where the nearest ones do not fit either it is told why none does what was asked for
+            designs, left, result = (
+                (fitting, left + too_long, result) if fitting or nearest is None else ([], [], first)
+            )
     relative = not gives_lengths(task)
     if relative:
         designs = [replace(each, linkage=each.linkage.scaled(_LONGEST / each.linkage.size)) for each in designs]

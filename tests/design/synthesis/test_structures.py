@@ -337,7 +337,7 @@ def test_the_tightest_demand_is_named_with_what_there_is_without_it():
     said = f"Designs that meet all but the demand of a transmission angle of 89.3814°: {without}."
     assert str(TriedType(mechanism=four, result=found).reason) == said
     none = synthesise(TASKS["positions"], structures=[four], demands=replace(steep, region=(50, 50, 51, 51)), starts=4)
-    both = "a transmission angle of 89.3814° and the region"
+    both = "a transmission angle of 89.3814° and the region of the fixed pivots"
     assert [*map(str, none.notes[-2:])] == [again, f"Designs that meet all but the demand of {both}: {without}."]
 
 

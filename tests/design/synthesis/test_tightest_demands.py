@@ -36,7 +36,7 @@ def said(task, **demands):
                 tolerances=(0, 1, 0.02, 1, 0),
             ),
             {**STEEP, "region": (-20, -20, 0, 0)},
-            "a transmission angle of 80° and the region",
+            "a transmission angle of 80° and the region of the fixed pivots",
         ),
     ],
 )

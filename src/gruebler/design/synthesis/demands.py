@@ -303,7 +303,7 @@ def demands_met(
         met.append((angle, transmission >= demands.transmission))
     met.append((message("a size ratio of {ratio:g}", ratio=demands.size_ratio), size_ratio <= demands.size_ratio))
     if demands.region is not None:
-        met.append((message("the region"), inside))
+        met.append((message("the region of the fixed pivots"), inside))
     return met
 
 
