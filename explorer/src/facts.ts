@@ -61,7 +61,9 @@ export function factsOf(
   if (Number.isFinite(mu)) {
     facts.push({ name: t("Transmission angle μ"), text: angle(mu), style: mu < GOOD ? "bad" : "good" });
     if (least) {
-      const place = driveText(linkage, placeOf(linkage, least.value));
+      const where = placeOf(linkage, least.value);
+      const tenth = DEGREE / 10;
+      const place = driveText(linkage, linkage.drive?.turning ? Math.round(where / tenth) * tenth : where);
       // of four links it is no question which one pushes
       const link = model.own > 4 && least.leg?.links.map((one) => linkage.linkName(one)).join(", ");
       let note = least.leg ? t("at {place}", { place }) : t("throughout");

@@ -96,7 +96,8 @@ def test_a_ring_gear_has_its_name_at_its_rim_and_turns_visibly(tab, server, widt
     far, half, scale = page.page.evaluate("""() => {
         const { root, motion } = gruebler;
         const { viewport } = motion.stage;
-        const name = [...root.querySelectorAll("text.name")].find((one) => ["ring gear", "3"].includes(one.textContent));
+        const names = [...root.querySelectorAll("text.name")];
+        const name = names.find((one) => ["ring gear", "3"].includes(one.textContent));
         const [x, y] = name.getAttribute("transform").match(/[-\\d.]+/g).map(Number);
         const [u, v] = viewport.screen(0, 0);
         return [Math.hypot(x - u, y - v), name.getComputedTextLength() / 2, viewport.scale];
