@@ -257,23 +257,31 @@ export class CatalogView implements View {
       idle && t("freely spinning parts: {idle}", { idle }),
       special !== counted && t("by the count {counted}", { counted }),
     ];
-    const kind = space ? t("in space") : !moves && t("structure only");
+    const kind = space ? t("in space").replace(" ", "\u00a0") : !moves && t("structure only");
     const joined = (parts: unknown[], by: string) => parts.filter(Boolean).join(by);
+    // a number stays with its word
+    const facts = joined(sizes, ", ").replace(/ (?==|−?\d+(,|$))|(?<==) /g, "\u00a0");
     const card = h(
       "button.card",
       { "data-id": id, onclick: () => void this.#choose(entry) },
       h("div", { "data-place": "" }),
       h("b", {}, softened(entry.name)),
-      h("span", {}, joined([joined(sizes, ", "), kind], " · ")),
+      h("span", {}, joined([facts, kind], " · ")),
     );
-    if (moves) movesOnHover(card, id, () => this.#page.ask("moving", { id }));
+    if (moves || space) movesOnHover(card, id, () => this.#picture("moving", id));
     return card;
+  }
+
+  /** A picture of a machine without the names of its points, which are not read in a small one. */
+  async #picture(kind: "picture" | "moving", id: string): Promise<{ picture: string }> {
+    const { picture } = await this.#page.ask<{ picture: string }>(kind, { id });
+    return { picture: picture.replace(/<text.*?<\/text>/gs, "") };
   }
 
   async #draw(card: HTMLElement): Promise<void> {
     const id = card.dataset.id!;
     try {
-      const { picture } = await this.#page.ask<{ picture: string }>("picture", { id });
+      const { picture } = await this.#picture("picture", id);
       card.querySelector("[data-place]")?.replaceWith(thumbnail(picture, id));
     } catch {
       // it keeps its name

@@ -256,10 +256,11 @@ export class ChainList {
     renew(this.#list, ...listOf("chains", cards, this.#all, more, rest ? total + cards.length - items.length : 0));
   }
 
-  /** A chain in space without the list, to which a key leads. */
+  /** A chain in space without the list, to whose beginning a key leads. */
   #showAlone(cards: Child[]): void {
     const turn = () => {
       this.#chosen = null;
+      this.#turn([4, 1]);
       this.arrange();
       void this.#ask(0, true);
     };

@@ -22,7 +22,7 @@ export function movesOnHover(card: HTMLElement, label: string, ask: () => Promis
     if (!wanted || !still?.isConnected) return;
     still.replaceWith(moving);
     // what comes into a page later does not begin by itself in every browser, nor before its first frame
-    const turns = moving.querySelectorAll<SVGAnimateTransformElement>("animateTransform");
+    const turns = moving.querySelectorAll<SVGAnimationElement>("animateTransform,animate");
     requestAnimationFrame(() => {
       for (const turn of turns) turn.beginElement();
     });

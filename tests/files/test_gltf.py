@@ -40,6 +40,21 @@ def test_every_body_of_a_machine_is_closed(id):
             assert body.volume > 0
 
 
+@pytest.mark.parametrize(("sun", "planet"), [("sun1", "planet1"), ("sun2", "planet1"), ("sun2", "planet2")])
+def test_teeth_of_bevel_gears_meet_gaps(sun, planet):
+    """Where two cones of 45 degrees touch, the top of a tooth of one is near; of the other it is half a pitch away."""
+    solids = link_solids(entry("diff_bevel2p").placed())
+    gears = [max(solids[link], key=lambda body: body.volume).vertices for link in (sun, planet)]
+    axes = [gear.mean(axis=0) / np.linalg.norm(gear.mean(axis=0)) for gear in gears]
+    across = np.cross(*axes)
+    aside = []
+    for gear, axis in zip(gears, axes, strict=True):
+        tops = gear[(np.linalg.norm(gear, axis=1) > 0.99) & (gear @ axis < np.cos(pi / 4) - 0.01)]
+        aside.append(min(abs(tops @ across)))
+    pitch = 2 * pi * np.sin(pi / 4) / 24
+    assert sorted(aside) == pytest.approx([0.14 * pitch, 0.36 * pitch], rel=0.1)
+
+
 def test_volumes_by_their_formulas():
     """A prism of 16 sides, a box, and a ball that is a little smaller than the round one."""
     share = 8 * np.sin(pi / 8) / pi  # of the regular polygon in its circle

@@ -158,6 +158,11 @@ def test_the_list_of_machines_says_which_move_in_space():
     assert not by_id["quad"]["space"]
     picture = answer("picture", {"id": "wiper_rssr"}, "de", print)["picture"]
     assert "Isometri" in picture
+    for id in ("wiper_rssr", "diff_bevel"):  # of two drives the first one moves
+        moving = answer("moving", {"id": id}, "de", print)["picture"]
+        assert moving.count("<animate ") == moving.count("<g visibility") == 18
+    with pytest.raises(GrueblerError, match="drive"):
+        answer("moving", {"id": "susp_5link"}, "en", print)
 
 
 def browsed(chromium, path, wanted="canvas"):
@@ -844,7 +849,8 @@ def test_a_body_that_is_taken_has_its_name_on_a_phone(server, chromium):
     page.set_viewport_size({"width": 390, "height": 844})
     page.get_by_role("button", name="Anhalten").click()
     box = page.locator(".stage > svg").bounding_box()
-    name = page.locator("text.mark")
+    assert page.locator("text.mark.body").count() == 4  # all bodies, of so few
+    name = page.locator("text.mark:not(.body)")
     for down in np.arange(0.3, 0.8, 0.02):  # the rod lies across the middle
         page.touchscreen.tap(box["x"] + box["width"] / 2, box["y"] + down * box["height"])
         if name.count():
@@ -853,6 +859,9 @@ def test_a_body_that_is_taken_has_its_name_on_a_phone(server, chromium):
     drawn = name.bounding_box()
     assert 0 < drawn["x"] < drawn["x"] + drawn["width"] < 390
     page.goto(server.address + "space/susp_5link.html#en")
+    assert page.locator("text.mark").count() == 0  # of seven the one that is pointed at
+    page.evaluate("gruebler.scene.mark(3)")
+    assert page.locator("text.mark").text_content() == "link 3"
     assert page.locator(".hint").first.text_content() == "Drag the background to turn the view."
     assert page.locator('[data-panel="measures"]').count() == 0
     assert errors == []

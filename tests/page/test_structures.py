@@ -1,6 +1,7 @@
 """The structure view tells higher pairs apart: gears, belts, cams, Geneva drives have pictures of their own."""
 
 import re
+from itertools import islice
 
 import pytest
 
@@ -10,7 +11,7 @@ from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.mobility_report import freedoms
 from gruebler.page.requests import answer
 from gruebler.page.site_structures import structure_pack
-from gruebler.page.structures import structure_record
+from gruebler.page.structures import listed_chains, structure_record
 from gruebler.teaching.catalog import entries
 
 MACHINES = ("geartrain", "belt", "cam", "geneva")
@@ -49,7 +50,17 @@ def test_the_frame_and_drive_that_are_chosen_are_those_of_the_list_that_are_like
     for rest in ("", "; frame=2", "; frame=3; drive=R(2-3)"):
         record = structure_record(chain + rest, "en")
         assert (record["chosen"], record["driver"]) == ("0", f"{chain}; frame=0; drive=R(0-1)")
+        assert record["drives"] == "Mobility 1 and one drive: the motion is determined."
     assert structure_record(f"{chain}; frame=0; drive=R(1-2)", "en")["driver"] == ""  # not at the frame
+
+
+def test_frames_with_numbers_are_in_their_order():
+    """Of the third chain of eight links the links are met in the order 1, 2, 4, 5, 8, 3 (a text as the list has it)."""
+    for chain in islice(listed_chains(8, 1), 7):
+        frames = [int(each["frame"]) for each in structure_record(chain.text(), "en")["inversions"]]
+        assert frames == sorted(frames)
+    named = "R(b-a) R(a-2) R(2-1) R(1-b)"
+    assert [each["frame"] for each in structure_record(named, "en")["inversions"]] == ["b"]  # all are alike
 
 
 @pytest.mark.parametrize(
@@ -465,6 +476,10 @@ def test_the_page_scrolls_and_not_its_lists(tab, server):
     assert chosen.count() == 1
     assert 6 <= cards.count() <= 7
     assert chosen.locator("span").inner_text() == "4\xa0binary, 4\xa0ternary"
+    box = view.locator(".chain-picture").bounding_box()  # of the chosen one: beside the list, in sight
+    assert box["y"] + box["height"] < view.locator(".go").bounding_box()["y"]
+    sizes = "all => all.map((one) => one.getBoundingClientRect().height)"
+    assert min(view.locator(".few text").evaluate_all(sizes)) > 9  # numbers on cards
     lists = view.locator(".few")
     assert lists.count() == 3
     assert lists.evaluate_all("all => all.every((one) => one.scrollHeight <= one.clientHeight)")

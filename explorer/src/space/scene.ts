@@ -19,13 +19,14 @@ import {
   type Vector,
 } from "./algebra";
 import { arrowsOf, headed } from "./arrows";
+import { apart, halfOf, middleOf, type Name } from "./bodynames";
 import type { Machine } from "./machine";
 import type { Spot } from "./model";
 import { type Drawn, Painter } from "./painter";
 
 const ARM = 26; // pixels of the axes in the corner
 const ROOM = 16; // pixels around the machine
-const BUTTONS = 56; // pixels
+const FEW = 6; // bodies have names that stand in the picture
 const MOST_ROOM = 0.3; // of the picture
 const DIRECTIONS = 160;
 const STEEP = 1.5; // radians: no farther up or down
@@ -64,6 +65,8 @@ export class Scene {
   #step = 1;
   /** Of each body its link and its farthest places. */
   #reach: { link: number; places: Vector[] }[] = [];
+  /** Of each body where its name stands. */
+  #middles: Vector[] = [];
   readonly #colours = new Map<string, Vector>();
   readonly #fingers = new Map<number, PointerEvent>();
   #pulling = false;
@@ -120,6 +123,10 @@ export class Scene {
       link,
       places: farthest(vertices),
     }));
+    // of the frame its last foot, since it has no middle that one sees
+    this.#middles = bodies.map(({ vertices }, link) =>
+      this.machine.moves(link) ? middleOf(this.#reach[link]!.places) : (vertices.slice(-3) as Vector),
+    );
     const corners = this.#corners();
     const ends = (least: typeof Math.min) =>
       [0, 1, 2].map((k) => corners.reduce((a, at) => least(a, at[k]!), corners[0]![k]!));
@@ -171,7 +178,7 @@ export class Scene {
     const told = this.#hint.offsetHeight + ROOM;
     const [left, top, bottom] = [across(ROOM), down(ROOM), down(told)];
     return [
-      { left, right: across(BUTTONS + ROOM), top, bottom },
+      { left, right: Math.min((this.#tools.offsetWidth + 2 * ROOM) / Math.max(clientWidth, 1), 0.5), top, bottom },
       // as high as fingers need them
       {
         left,
@@ -243,12 +250,17 @@ export class Scene {
       if (drive !== this.machine.active) arrow.classList.add("resting");
       return arrow;
     });
+    const named: Name[] = [];
     for (const { link, at, name = this.#links[link] } of this.machine.spots) {
       const [px, py] = pixel(moved(poses[link]!, at));
       parts.push(svg("circle.spot", { cx: px, cy: py, r: 4.5 }));
+      named.push({ text: "", at: [px, py + 5] });
       const [side, anchor] = px < clientWidth / 2 ? [9, "start"] : [-9, "end"];
-      if (this.shown.names) parts.push(svg("text.mark", { x: px + side, y: py - 7, "text-anchor": anchor }, name!));
+      if (!this.shown.names) continue;
+      parts.push(svg("text.mark", { x: px + side, y: py - 7, "text-anchor": anchor }, name!));
+      named.push({ text: name!, at: [px + side + Math.sign(side) * halfOf(name!), py - 7] });
     }
+    parts.push(...this.#names(poses, pixel, named));
     const [ox, oy] = [44, 46];
     ["x", "y", "z"].forEach((axis, k) => {
       const [dx, dy] = [ARM * right[k]!, -ARM * up[k]!];
@@ -256,6 +268,27 @@ export class Scene {
       parts.push(svg("text.axis", { x: ox + 1.45 * dx - 4, y: oy + 1.45 * dy + 4 }, axis));
     });
     this.root.replaceChildren(...parts);
+  }
+
+  /** The names of the bodies at their places: of few all, else of the one that stands out. */
+  #names(poses: ArrayLike<number>[], pixel: (at: Vector) => Pair, others: Name[]): SVGElement[] {
+    const { machine, marked, shown } = this;
+    const pulled = machine.traced?.link; // which has its name at its spot
+    const isNamed = (link: number) => link === marked || (this.few && shown.names && link !== pulled);
+    const links = this.#links.flatMap((_, link) => (isNamed(link) ? link : []));
+    const names = links.map((link) => ({
+      text: this.#links[link]!.replace(/ \(.*/, ""),
+      at: pixel(moved(poses[link]!, this.#middles[link]!)),
+    }));
+    const { clientHeight, clientWidth } = this.element;
+    return apart(names, others, [clientWidth, clientHeight]).map(({ text, at: [x, y] }, k) =>
+      svg(links[k] === marked ? "text.mark" : "text.mark.body", { x, y, "text-anchor": "middle" }, text),
+    );
+  }
+
+  /** Whether all names have room in the picture. */
+  get few(): boolean {
+    return this.machine.data.bodies.length <= FEW;
   }
 
   /** The lines of the floor. */
@@ -352,9 +385,9 @@ export class Scene {
       this.events.pointed(link);
       return;
     }
-    const was = apart(this.#fingers);
+    const was = between(this.#fingers);
     this.#fingers.set(event.pointerId, event);
-    if (this.#fingers.size > 1) return this.zoom(apart(this.#fingers) / Math.max(was, 1));
+    if (this.#fingers.size > 1) return this.zoom(between(this.#fingers) / Math.max(was, 1));
     if (this.#pulling) {
       this.machine.pull(this.#camera, this.#wide, ...this.#placed(event));
       return this.events.pulled();
@@ -394,7 +427,7 @@ function farthest(vertices: number[]): Vector[] {
 }
 
 /** How far apart two fingers are. */
-function apart(fingers: Map<number, PointerEvent>): number {
+function between(fingers: Map<number, PointerEvent>): number {
   const [one, two] = [...fingers.values()];
   return one && two ? Math.hypot(one.clientX - two.clientX, one.clientY - two.clientY) : 0;
 }

@@ -17,6 +17,7 @@ from gruebler.files.solids import (
     Solid,
     ball_solid,
     bent_solid,
+    bevel_solid,
     box_solid,
     cylinder_solid,
     hull_solid,
@@ -35,6 +36,7 @@ _LONG = 2.2  # of a sleeve to each side, in radii of a bar
 _DISC = 0.8
 _POST = 5.0  # radii of a bar from a bearing of the frame to its foot
 _CONE = 0.75  # of the radius of the sphere, where a bevel wheel begins
+_TEETH = 24  # of the first bevel wheel
 _BALL = 1.7
 _FORK, _SMALL_FORK = 5.0, 3.6  # radii of a bar from the middle of a cross to its forks, small without a body of its own
 _STOUT = 2.0  # a universal joint on the sphere against other linkages
@@ -91,6 +93,7 @@ def link_solids(
     wheeled = spherical and any(joint.pair.has_contours for joint in chain.joints)
     at_frame = [at for at, joint in zip(bearings, chain.joints, strict=True) if frame in joint.links]
     ground = _upright(np.mean(at_frame, axis=0) - middle, 1.5 * _POST * radius) if at_frame else np.zeros(3)
+    gears = _bevel_gears(linkage) if spherical else {}
     for number, joint in enumerate(chain.joints):
         at = bearings[number]
         ends = (travels or {}).get(number, (0.0, 0.0))
@@ -102,7 +105,8 @@ def link_solids(
                 away = _away(linkage, number, radius, () if spherical else (ground, at - middle))
                 solids[link] += _foot(at + (_reach(cross, radius) * away if cross else 0.0), away, radius)
             if joint.pair.has_contours:
-                wheel, hold = _wheel(linkage, number, joint.links.index(link), radius)
+                index = joint.links.index(link)
+                wheel, hold = _wheel(linkage, number, index, radius, gears.get((number, index)))
                 solids[link] += wheel
             elif cross is not None and link != cross.body:
                 heading = away if link == frame else _mean(linkage, link, number, bearings) - cross.at
@@ -326,17 +330,53 @@ def _foot(at: Reals, away: Reals, r: float) -> Iterator[Solid]:
     yield box_solid(foot, np.stack([away, u, np.cross(away, u)], axis=1), (0.35 * r, 3.2 * r, 3.2 * r))
 
 
-def _wheel(linkage: SpatialLinkage, number: int, index: int, r: float) -> tuple[list[Solid], Reals]:
-    """The disc or cone of one body of a contact with ribs that show how it turns, and its middle."""
+def _bevel_axis(linkage: SpatialLinkage, number: int, index: int) -> tuple[Reals, float]:
+    """The axis of a body of a contact on the sphere and the angle of its cone."""
+    place, frame = linkage.places[number], linkage.frames[number]
+    assert place.radii is not None  # checked with the linkage
+    cone, sign = place.radii[index], (-1.0, 1.0)[index]
+    return cos(cone) * frame[:3, 2] + sign * sin(cone) * frame[:3, 1], cone
+
+
+def _bevel_gears(linkage: SpatialLinkage) -> dict[tuple[int, int], Solid]:
+    """The toothed wheel of each body of a contact, by joint and body: teeth meet gaps, in even numbers.
+
+    A wheel that meshes twice is the same solid.
+    """
+    wheels: dict[tuple[str, tuple[float, ...]], tuple[Solid, int, Reals]] = {}
+    gears = {}
+    for number, joint in enumerate(linkage.mechanism.chain.joints):
+        if not joint.pair.has_contours:
+            continue
+        z = linkage.frames[number, :3, 2]
+        gap, pitch = True, 0.0
+        for index, link in enumerate(joint.links):
+            axis, cone = _bevel_axis(linkage, number, index)
+            outward = (z - cos(cone) * axis) / sin(cone)
+            key = (link, tuple(np.round(axis, 6) + 0.0))
+            if key not in wheels:
+                teeth = max(8, 2 * round(pi * sin(cone) / pitch)) if pitch else _TEETH
+                half = pi / teeth if gap and index else 0.0
+                tooth = cos(half) * outward + sin(half) * np.cross(axis, outward)
+                wheels[key] = bevel_solid(axis, tooth, cone, teeth, _CONE), teeth, tooth
+            solid, teeth, tooth = wheels[key]
+            pitch = 2 * pi * sin(cone) / teeth
+            part = acos(max(-1.0, min(1.0, float(tooth @ outward)))) * teeth / (2 * pi)
+            gap = abs(part - round(part)) < 0.25  # where this one has a tooth
+            gears[number, index] = solid
+    return gears
+
+
+def _wheel(linkage: SpatialLinkage, number: int, index: int, r: float, gear: Solid | None) -> tuple[list[Solid], Reals]:
+    """The disc of one body of a contact, or its bevel gear, with ribs that show how it turns, and its middle."""
     place, frame = linkage.places[number], linkage.frames[number]
     assert place.radii is not None  # checked with the linkage
     radius, sign = place.radii[index], (-1.0, 1.0)[index]
     y, z = frame[:3, 1], frame[:3, 2]
-    if linkage.mechanism.chain.space is Space.SPHERICAL:
-        axis = cos(radius) * z + sign * sin(radius) * y
-        end = cos(radius) * axis
-        cone = cylinder_solid(_CONE * end, end, _CONE * sin(radius), sin(radius), sides=SIDES_OF_WHEEL)
-        return [cone, *_ribs(end, axis, sin(radius), r)], end
+    if gear is not None:
+        axis, cone = _bevel_axis(linkage, number, index)
+        end = cos(cone) * axis
+        return [gear, *_ribs(end, axis, 0.9 * sin(cone), r)], end
     at = frame[:3, 3]
     if not isfinite(radius):
         return [box_solid(at + sign * _DISC * r * y, frame[:3, :3], (6 * r, _DISC * r, 2 * r))], at

@@ -97,6 +97,27 @@ def cylinder_solid(
     return turned_solid(start, end, profile, phase, sides)
 
 
+def bevel_solid(axis: Reals, tooth: Reals, cone: float, teeth: int, face: float) -> Solid:
+    """A bevel gear on the sphere of the radius 1: teeth about its pitch cone, one of them towards ``tooth``.
+
+    Its axis goes from the middle of the sphere, its teeth from the part ``face`` of the radius to the sphere.
+
+    >>> gear = bevel_solid(np.eye(3)[2], np.eye(3)[0], pi / 4, 20, 0.7)
+    >>> gear.volume / (pi / 6 * np.cos(pi / 4) * (1 - 0.7**3)) - 1 < 0.1  # of the piece of the pitch cone
+    True
+    """
+    module = 2 * np.sin(cone) / teeth
+    across = np.cross(axis, tooth)
+    quarters = np.arange(4 * teeth)
+    turn = 2 * pi / teeth * (quarters // 4 + np.array([-0.3, -0.14, 0.14, 0.3])[quarters % 4])
+    angle = cone + module * np.array([-1.1, 1.0, 1.0, -1.1])[quarters % 4]
+    outward = np.cos(turn)[:, None] * tooth + np.sin(turn)[:, None] * across
+    ring = np.cos(angle)[:, None] * axis + np.sin(angle)[:, None] * outward
+    end = np.cos(cone) * axis
+    disc = end + (np.sin(cone) - 2.5 * module) * outward  # flat within the teeth
+    return _tube(face * end, [face * disc, face * ring, ring, disc], end)
+
+
 def bent_solid(places: Reals, radius: float, phase: float = 0.0) -> Solid:
     """A round bar along places of an arc of a circle.
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import cache, partial
 from itertools import islice
+from math import tau
 from typing import Any
 
 import msgspec
@@ -135,8 +137,28 @@ def _moving(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
     from gruebler.teaching.catalog import entry
 
     record = entry(asked.id)
+    if record.in_space:
+        return {"picture": _moving_in_space(asked.id, lang)}
     shown = scene(record.linkage(), between=record.between, lang=lang, name=record.name.in_language(lang))
     return {"picture": svg_of(shown, styled=False)}
+
+
+@cache
+def _moving_in_space(id: str, lang: str) -> str:
+    """Few frames, since each one is drawn anew: of several drives the first one moves.
+
+    Raises `LinkageError` for a machine without a drive.
+    """
+    from gruebler.mechanics.screws import SpatialLinkage
+    from gruebler.pictures.space.animation import animate_spatial
+    from gruebler.teaching.catalog import entry
+
+    record = entry(id)
+    linkage = record.placed()
+    assert isinstance(linkage, SpatialLinkage)
+    between = record.between or ((0.0, tau) if len(linkage.mechanism.drives) > 1 else None)
+    picture = animate_spatial(linkage, between=between, seconds=1.2, lang=lang, name=record.name.in_language(lang))
+    return replace(picture, clock=replace(picture.clock, seconds=2.0)).svg(styled=False)
 
 
 def _in_space(asked: CatalogId, lang: str, _: Progress) -> str:

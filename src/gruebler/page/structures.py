@@ -159,10 +159,13 @@ def structure_record(
     special = None if sized is None else _special(sized, called, shown_report)
     orbit = next(orbit for orbit in symmetry(chain).link_orbits if mechanism.frame in orbit)
     driven = list(listed_drives(chain, [orbit[0]], at_frame)) if few else []
-    frames = {bare.frame: bare for bare in inversions(chain)} if few else {}
+    bare_ones = sorted(inversions(chain), key=_frame_number) if few else []
+    frames = {bare.frame: bare for bare in bare_ones}
     cards = {frame: drawn_frame(bare, driven, contacts, called, lang) for frame, bare in frames.items()}
     like = like_driven(mechanism, {each.code(): each for each in driven})
-    moved = mechanism if mechanism.drives or like is None or like.frame != mechanism.frame else like
+    moved = mechanism
+    if not mechanism.drives and like is not None:  # as the list drives it, at another link with the same role too
+        moved = like if like.frame == mechanism.frame else with_drives(mechanism)
     drawn = drawn_frame(Mechanism(chain, mechanism.frame), [moved], contacts, called, lang)
     return {
         "text": mechanism.text() if ";" in text else chain.text(),
@@ -186,6 +189,11 @@ def structure_record(
         "inversions": [_choice(bare, cards[frame], lang, called) for frame, bare in frames.items()],
         "driven": [_choice(each, cards[each.frame], lang, called) for each in driven],
     }
+
+
+def _frame_number(bare: Mechanism) -> tuple[bool, int]:
+    """By which frames with numbers are ordered; those with names stay in the order of the chain, behind them."""
+    return (False, int(bare.frame)) if bare.frame.isdecimal() else (True, 0)
 
 
 def _special(linkage: Linkage | SpatialLinkage, called: Mapping[str, str], report: MobilityReport) -> Freedoms | None:

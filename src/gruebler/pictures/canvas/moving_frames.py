@@ -26,10 +26,10 @@ class FramePicture:
         page = self.page
         return Figure(frame, width=page.width, height=page.height, title=page.title, description=page.description)
 
-    def svg(self) -> str:
-        """The frames as animated SVG (SMIL), repeated without end, without script."""
+    def svg(self, *, styled: bool = True) -> str:
+        """The frames as animated SVG (SMIL), repeated without end, without script; with the rules of its styles."""
         used = [shape.style for frame in self.frames for shape in frame]
-        return svg_document(self.page, used, self._groups())
+        return svg_document(self.page, used if styled else None, self._groups())
 
     def _groups(self) -> Iterator[str]:
         count = len(self.frames)
