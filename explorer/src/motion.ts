@@ -100,6 +100,16 @@ export class MotionView implements View, Editor, Driven {
     this.#renewed();
   }
 
+  /** Show the same machine with other sizes of its cams, at the same value of the drive; it can be undone. */
+  resized(model: Model): void {
+    const { active, drives } = this.linkage;
+    const linkage = new Linkage(model);
+    if (active) linkage.choose(active);
+    linkage.moveTo(drives[active]!);
+    this.#history.add(this.#state());
+    this.#goTo({ linkage, dragging: new Dragging(linkage), sizes: linkage.snapshot() });
+  }
+
   /** Another linkage, which is not shown yet. */
   take(model: Model): void {
     this.linkage = new Linkage(model);

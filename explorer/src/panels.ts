@@ -8,15 +8,14 @@ import { type Dragging, type Length, LONGEST } from "./dragging";
 import { middleOf } from "./hull";
 import { icon } from "./icons";
 import { number, parsed, t } from "./language";
-import type { Linkage } from "./linkage";
 import type { Kept } from "./locks";
 import type { LinkageDocument } from "./model";
+import type { Resizer } from "./roundfields";
 import { roundRows } from "./rounds";
 import { renameEnds } from "./rulers";
 import { cross } from "./shell";
 import { ownColour, type Shown } from "./shown";
 import { endsOf } from "./springs";
-import type { Page } from "./view";
 import { awaited } from "./waiting";
 
 /** An assembly mode that the library found. */
@@ -26,9 +25,7 @@ interface Mode {
 }
 
 /** What the panels show and change. */
-export interface Editor {
-  readonly page: Page;
-  readonly linkage: Linkage;
+export interface Editor extends Resizer {
   readonly dragging: Dragging;
   readonly shown: Shown;
   readonly stage: { fit(): void };
@@ -64,7 +61,7 @@ export class SizeRows {
     // the only length of a link needs no other name
     const alone = ({ link }: Length) => sizes.filter((one) => one.link === link).length === 1;
     const rows = sizes.map((size) => sizeRow(editor, size, alone(size)));
-    const fixed = roundRows(editor.linkage);
+    const fixed = roundRows(editor);
     const names = [...rows.map(([label]) => label!), ...fixed].map((one) => one.outerHTML).join("");
     const anew = names !== this.#names || !this.element.isConnected;
     this.element.closest("details")!.hidden = !names;

@@ -1,14 +1,16 @@
-/** The sizes of wheels, cams and slotted wheels, as the document has them: they are read, not changed, on the page. */
+/** The sizes of wheels, cams and slotted wheels, as the document has them; those of cams and rollers can be changed. */
 
 import { h } from "./dom";
 import { givenOf } from "./followers";
 import { away } from "./hull";
 import { number, t } from "./language";
-import type { Linkage } from "./linkage";
+import { lawFields } from "./lifts";
+import { type Resizer, roundField } from "./roundfields";
 import type { Pair } from "./rows";
 
 /** A row for each size of each of them, and for the distance of the axes of two that mesh. */
-export function roundRows(linkage: Linkage): HTMLElement[] {
+export function roundRows(editor: Resizer): HTMLElement[] {
+  const { linkage } = editor;
   const { model, sizes } = linkage;
   const { joints, unit } = model;
   const rows = new Map<string, HTMLElement[]>(); // a wheel that meets several has them once
@@ -30,9 +32,17 @@ export function roundRows(linkage: Linkage): HTMLElement[] {
       for (const [key, [what, its]] of Object.entries(wording)) {
         const value = own[key];
         if (key === "roller" && mine.some((m) => given(m).circle === value)) continue;
-        if (typeof value === "number" && (value || key === "pins")) add(name, what, number(Math.abs(value)), its);
+        if (typeof value !== "number" || (!value && key !== "pins")) continue;
+        if (value > 0 && editor.page.served && ["base", "circle"].includes(key) && cammed(mine, given))
+          rows.set(name + what, roundField(editor, k, name, { what, value, unit, set: (size) => ({ [key]: size }) }));
+        else add(name, what, number(Math.abs(value)), its);
       }
-      if (typeof own.cam === "string")
+      const law = typeof own.cam === "string" && editor.page.served ? lawFields(own.cam) : null;
+      for (const [n, field] of law?.entries() ?? []) {
+        const its = field.angle || own.distance ? "°" : unit;
+        rows.set(`${name} ${n}`, roundField(editor, k, name, { ...field, unit: its }));
+      }
+      if (!law && typeof own.cam === "string")
         rows.set(`${name} lift`, [
           h("p.note", {}, `${name}, ${t("lift")}: ${liftText(own.cam, own.distance ? "°" : ` ${unit}`)}`),
         ]);
@@ -49,6 +59,11 @@ export function roundRows(linkage: Linkage): HTMLElement[] {
       add([one, two].map((k) => linkage.linkName(sizes.element(k).link)).join(" – "), t("axis distance"), number(far));
   }
   return [...rows.values()].flat();
+}
+
+/** Whether a joint is one of a cam. */
+function cammed(mine: readonly number[], given: (k: number) => Record<string, unknown>): boolean {
+  return mine.some((k) => "cam" in given(k));
 }
 
 /** What the sizes are called that no other link has as a length, and their unit if it is not that of the linkage. */

@@ -29,7 +29,9 @@ function another(): Error {
 /** Whether a document is of the mechanism of a model, with whatever sizes. */
 export function isOf(model: Model, document: LinkageDocument): boolean {
   const same = (key: string) => JSON.stringify(model.document[key]) === JSON.stringify(document[key]);
-  return ["joints", "frame", "drives", "links"].every(same);
+  const rounds = ({ elements }: LinkageDocument) =>
+    JSON.stringify(elements, (key, value) => (/^\d+$|^at$/.test(key) ? 0 : value));
+  return ["joints", "frame", "drives", "links"].every(same) && rounds(model.document) === rounds(document);
 }
 
 export function sharedOf(motion: MotionView, withModel: boolean): Shared {

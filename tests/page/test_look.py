@@ -403,6 +403,20 @@ def test_the_stem_of_a_follower_stays_in_a_guide_that_touches_nothing(tab, serve
         assert stem[0] < rail[0] < rail[1] < plate[0] < stem[1], drive
         names.add(name)
     assert len(names) == 1  # that of the cam keeps still
+    if id_ == "cam":
+        return
+    base = "gruebler.motion.linkage.model.document.elements.cam['G(cam-roller)'].base"
+    page.page.get_by_label("cam, radius of the base circle").fill("55")
+    page.page.keyboard.press("Enter")
+    page.page.get_by_text("Cam with roller follower, changed").wait_for()
+    assert page.page.evaluate(base) == 55
+    assert np.sin(page.page.evaluate("gruebler.motion.linkage.drives[0]")) == pytest.approx(np.sin(np.radians(315)))
+    assert page.page.evaluate("gruebler.motion.linkage.jointAt(2)") == pytest.approx([0, 65])
+    page.page.get_by_label("cam, rise").fill("5")
+    page.page.keyboard.press("Enter")
+    page.page.get_by_text("the profile crosses itself").wait_for()
+    page.page.evaluate("gruebler.motion.undo()")
+    assert page.page.evaluate(base) == 40
 
 
 def test_names_of_a_six_bar_do_not_lie_on_each_other(tab, server):

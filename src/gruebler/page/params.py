@@ -64,13 +64,29 @@ class DrawnBefore(Params):
     source: Word = ""
 
 
+class RoundSizes(Params):
+    """Other sizes of a round element at values of the drives.
+
+    A cam has ``base`` and ``lift``, a roller ``circle``.
+    """
+
+    joint: Word
+    link: Word
+    sizes: dict[Word, float | ChainText]
+    drives: Annotated[list[float], msgspec.Meta(max_length=100)]
+
+
 class OpenDocument(Params):
-    """A linkage as plain data (`gruebler.files.linkage_to_json`), with the loads of one that it was before."""
+    """A linkage as plain data (`gruebler.files.linkage_to_json`), with the loads of one that it was before.
+
+    Or with other sizes of a cam or roller of it.
+    """
 
     document: dict[str, Any]
     name: Word = ""
     source: Word = ""
     before: DrawnBefore | None = None
+    resized: RoundSizes | None = None
 
 
 class MeasureLinkage(Params):

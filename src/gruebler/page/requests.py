@@ -211,6 +211,10 @@ def _open_document(asked: OpenDocument, _: str, __: Progress) -> dict[str, Any]:
     from gruebler.page.model import model_of, with_document
 
     linkage = linkage_from_json(asked.document)
+    if (other := asked.resized) is not None:
+        from gruebler.page.round_sizes import with_round_sizes
+
+        linkage = with_round_sizes(linkage, other.joint, other.link, other.sizes, other.drives)
     model = with_document(model_of(linkage, name=asked.name, source=asked.source), linkage, asked.document)
     if asked.before is None:
         return model

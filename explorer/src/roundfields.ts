@@ -1,0 +1,79 @@
+/** A field for a size of a cam or a roller: the library assembles the machine with another one. */
+
+import { digits } from "./digits";
+import { savedDocument } from "./document";
+import { h } from "./dom";
+import { number, parsed, t } from "./language";
+import type { RoundSize } from "./lifts";
+import type { Linkage } from "./linkage";
+import type { Model } from "./model";
+import type { Page } from "./view";
+
+/** What shows the sizes. */
+export interface Resizer {
+  readonly page: Page;
+  readonly linkage: Linkage;
+  /** Show the same machine with other sizes of its cams; it can be undone. */
+  resized(model: Model): void;
+}
+
+/** Its label, the field, and its unit; while it is pointed at or typed in, its circle is marked in the picture. */
+export function roundField(editor: Resizer, k: number, name: string, size: RoundSize): HTMLElement[] {
+  const { joint, link } = editor.linkage.sizes.element(k);
+  const { what, value, unit, set } = size;
+  const id = `round-${joint}-${link}-${what}-${value}`; // another value is another row
+  const input = h("input", {
+    id,
+    ...digits(value),
+    inputmode: "decimal",
+    readonly: !set,
+    onchange: () => {
+      const wanted = parsed(input.value);
+      const right = wanted > 0 && wanted < 1e9;
+      input.setAttribute("aria-invalid", String(!right));
+      if (right) void resize(editor, k, set!(wanted), input);
+      else editor.page.say(t("Expected a number, such as {value}.", { value: number(value) }));
+    },
+    onkeydown: (event: KeyboardEvent) => event.stopPropagation(),
+  });
+  const label = h("label", { for: id }, h("b", {}, name), `, ${what}`);
+  const circle = `[data-link="${editor.linkage.model.links[link]}"] circle.shape`;
+  for (const element of [label, input])
+    for (const [event, on] of Object.entries({ pointerenter: 2.5, pointerleave: 0, focus: 2.5, blur: 0 }))
+      element.addEventListener(event, () => {
+        const round = (input.getRootNode() as ParentNode).querySelector<SVGElement>(circle);
+        if (round && !/^[\d°]*$/.test(unit))
+          Object.assign(round.style, on ? { stroke: "var(--key)", strokeWidth: on } : { stroke: "", strokeWidth: "" });
+      });
+  return [label, input, h("span.unit", {}, unit), h("span", {})];
+}
+
+async function resize(editor: Resizer, k: number, sizes: Record<string, number | string>, input: HTMLInputElement) {
+  const { linkage, page } = editor;
+  const { drives, model } = linkage;
+  const { joint, link } = linkage.sizes.element(k);
+  const resized = {
+    joint: model.joints[joint]!.name,
+    link: model.links[link]!,
+    sizes,
+    drives: [...drives.slice(0, model.drives.length)],
+  };
+  const root = input.getRootNode() as ShadowRoot;
+  const { name, names, source, span } = model;
+  const open = [...root.querySelectorAll<HTMLInputElement>(".sizes input:not([readonly])")];
+  for (const field of open) field.readOnly = true;
+  page.say(t("One moment …"), "done");
+  try {
+    const document = savedDocument(linkage);
+    const made = await page.ask<Model>("open_document", { document, name, source, resized });
+    if (linkage !== editor.linkage) return; // another machine was opened
+    const fields = [...root.querySelectorAll<HTMLElement>(".sizes input")];
+    const focus = fields.indexOf(root.activeElement as HTMLElement);
+    editor.resized({ ...made, names, changed: true, span: { ...made.span, stops: span.stops ?? [] } });
+    root.querySelectorAll<HTMLElement>(".sizes input")[focus]?.focus();
+  } catch (error) {
+    page.say((error as Error).message);
+    for (const field of open) field.readOnly = false;
+    input.setAttribute("aria-invalid", "true");
+  }
+}
