@@ -55,12 +55,12 @@ export function armOf(linkage: Linkage, link: number): [number, number, number] 
   return [from, end, camAt(linkage, rollerAt(linkage, end))];
 }
 
-/** The element of a link that rolls on a cam, and its radius; null of another link. */
-export function rollerOf(linkage: Linkage, link: number): Pair | null {
+/** The element of a link that rolls on a cam, its radius, and the cam; null of another link. */
+export function rollerOf(linkage: Linkage, link: number): [number, number, number] | null {
   const { sizes } = linkage;
   const own = sizes.elementsOn(link).find((k) => sizes.is(k, "round") && camAt(linkage, k) >= 0);
   const radius = own === undefined ? 0 : Number(givenOf(linkage, own).circle);
-  return radius ? [own!, Math.abs(radius)] : null;
+  return radius ? [own!, Math.abs(radius), camAt(linkage, own!)] : null;
 }
 
 /** The stem of a link that a cam pushes along a slide of the frame; null of another one. */

@@ -13,6 +13,7 @@ const PAST = 15; // from the end of a follower to its name
 const BESIDE = 10; // from a roller to its name
 const BAR = 9; // from the middle of an arm
 const INK = 6; // half the height of a name
+const LEAN = 0.3; // of the way from a cam to a roller: then no stem stands above that
 const RISE = 0.3; // of a roller: above its middle
 
 type Spots = (viewport: Viewport) => Pair[];
@@ -66,6 +67,10 @@ export function quietSpots(linkage: Linkage, link: number, name: string): Spots 
   return (viewport) => {
     const [x, y] = viewport.screen(...linkage.elementAt(roller[0]));
     const radius = roller[1] * viewport.scale;
+    const [u, v] = viewport.screen(...linkage.elementAt(roller[2]));
+    const [c, s] = [(x - u) / away([x, y], u, v), (y - v) / away([x, y], u, v)];
+    const out = radius + BESIDE;
+    if (Math.abs(c) > LEAN) return [[x + c * (out + half * Math.abs(c)), y + 4 + s * out]];
     return [1, -1].flatMap((side) =>
       [RISE, 1].map((up): Pair => [x + side * (radius + BESIDE + half), y + 4 - up * radius]),
     );
