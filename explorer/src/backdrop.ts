@@ -18,15 +18,15 @@ export interface Backdrop {
 const WIDEST = 1000; // pixels
 const LONGEST = 120_000; // characters: it fits into a link
 
-/** A picture out of a file, in the middle of a plane so wide. */
-export async function backdropOf(file: File, wide: number, middle: readonly number[]): Promise<Backdrop> {
+/** A picture out of a file, at most so wide and so high, about a place. */
+export async function backdropOf(file: File, [wide, most]: Pair, middle: readonly number[]): Promise<Backdrop> {
   const image = await createImageBitmap(file);
   for (let width = Math.min(image.width, WIDEST); ; width *= 0.8) {
     const high = image.height / image.width;
     const canvas = h("canvas", { width: Math.ceil(width), height: Math.ceil(width * high) });
     canvas.getContext("2d")!.drawImage(image, 0, 0, canvas.width, canvas.height);
     const href = canvas.toDataURL("image/webp", 0.7);
-    if (href.length < LONGEST) return { href, high, at: [...middle, wide, 0] };
+    if (href.length < LONGEST) return { href, high, at: [...middle, Math.min(wide, most / high), 0] };
   }
 }
 

@@ -2,8 +2,21 @@
 
 import { enlarged, gripAt, gripped } from "./backdrop";
 import { choiceOf, field, isLow, removeChosen } from "./choice";
+import { DEGREE } from "./cycle";
 import { h, lowered, option, renew, svg } from "./dom";
-import { type Drawing, EMPTY, joined, joining, linksOf, moved, type Spot, same, unitOf } from "./drawing";
+import {
+  counted,
+  type Drawing,
+  EMPTY,
+  joined,
+  joining,
+  linksOf,
+  movedAlone,
+  type Spot,
+  same,
+  turned,
+  unitOf,
+} from "./drawing";
 import { Fingers, pixelIn, wheelZooms, whileDown } from "./fingers";
 import { stepOf } from "./grid";
 import { zoomedBy } from "./help";
@@ -11,11 +24,12 @@ import { History } from "./history";
 import { away } from "./hull";
 import { keepDrawing, keepDrawn, keptDrawing, keptDrawn, saveDrawing } from "./kept";
 import { spaced, t } from "./language";
+import { movedKept } from "./lengths";
 import type { Linkage } from "./linkage";
 import { type Drawn, MobilityPanel } from "./mobility";
 import { hintOf, KEYS, NEEDED, palette, type Tool, withTool } from "./palette";
 import { placesPanel } from "./places";
-import { type Aim, type Chosen, GRIP, isPicture, type Plane, planePicture, spotAt } from "./plane";
+import { type Aim, type Chosen, GRIP, isPicture, linkFor, type Plane, planePicture, spotAt } from "./plane";
 import { WAYS } from "./pointer";
 import type { Pair } from "./rows";
 import { zoomButtons } from "./shell";
@@ -24,7 +38,9 @@ import { isOf, openDrawn } from "./taken";
 import type { Page, View } from "./view";
 import { type Box, Viewport } from "./viewport";
 
-const FIRST: Box = { left: -60, right: 140, bottom: -50, top: 90 }; // an empty plane
+// an empty plane, and that of a phone
+const FIRST: Box = { left: -60, right: 140, bottom: -50, top: 90 };
+const SMALL: Box = { left: -10, right: 50, bottom: -20, top: 40 };
 
 export class BuildView implements View, Plane, Drawn {
   readonly element = h("div.view.motion", { "data-page": "build" });
@@ -57,7 +73,12 @@ export class BuildView implements View, Plane, Drawn {
       this.#fingers.lift(event.pointerId);
       this.#typeDistance();
     },
-    onclick: () => this.#typeDistance(), // of a finger what is pressed has the focus after it is lifted
+    // of a finger what is pressed has the focus after it is lifted
+    onclick: ({ target }: Event) => {
+      this.#typeDistance();
+      const { span } = (target as SVGElement).dataset;
+      if (span) this.#side.querySelector<HTMLElement>(`[data-span="${span}"]`)?.focus();
+    },
     onpointercancel: (event: PointerEvent) => this.#fingers.lift(event.pointerId),
   });
   readonly #tools = h("div.transport.palette", {});
@@ -106,7 +127,9 @@ export class BuildView implements View, Plane, Drawn {
     box.left -= room;
     box.right += room;
     const below = Math.max(this.#hint.offsetHeight, this.#choice.offsetHeight);
-    this.viewport.fit(seen ? box : FIRST, 1e-9, below + 12);
+    const { viewport } = this;
+    const first = viewport.narrow ? SMALL : FIRST;
+    viewport.fit(seen ? box : first, 1e-9, below + 12);
     this.#draw();
   }
 
@@ -117,7 +140,6 @@ export class BuildView implements View, Plane, Drawn {
 
   arrange(): void {
     renew(this.#tools, ...palette(this.#tool, (tool) => this.#take(tool)));
-    renew(this.#hint, ...hintOf(this.#tool));
     renew(this.#buttons, ...zoomButtons(this));
     const snap = option(t("Snap to joints, grid, angles and lengths"), this.#snapping, (on) => (this.#snapping = on));
     renew(
@@ -253,6 +275,7 @@ export class BuildView implements View, Plane, Drawn {
   /** A press puts a place; where the pointer is let go elsewhere the next one is put, too. */
   #pull(spot: Spot, event: PointerEvent): void {
     const at = pixelIn(this.root, event);
+    if (this.#tool === "slider" || this.#tool === "point") return this.#shape(spot, event);
     const again = this.spots.length === 1 && same(this.spots[0]!, spot);
     if (!again) this.#put(spot);
     if (this.spots.length !== 1 || (this.#goingOn && !again)) return;
@@ -273,6 +296,40 @@ export class BuildView implements View, Plane, Drawn {
     );
   }
 
+  /** A slide that is dragged on gets its direction, a point its place. */
+  #shape(spot: Spot, event: PointerEvent): void {
+    const start = pixelIn(this.root, event);
+    const point = this.#tool === "point";
+    const link = point ? linkFor(this, spot, start) : null;
+    if (point && link === null) return this.page.say(t("Draw a link first."));
+    if (point && spot.knot !== null && !this.drawing.knots[spot.knot]!.links[1]) return; // it is one
+    const before = this.drawing;
+    this.#put(point ? { ...spot, knot: null, link } : spot);
+    const made = this.drawing;
+    const last = made.knots.length - 1;
+    if (made === before) return;
+    this.root.setPointerCapture(event.pointerId);
+    const moves = (next: PointerEvent) => {
+      const now = pixelIn(this.root, next);
+      if (this.#fingers.count > 1 || away(start, ...now) < GRIP) return;
+      const [x, y] = made.knots[last]!.at;
+      const [u, v] = this.viewport.world(...now);
+      const degrees = Math.atan2(v - y, u - x) / DEGREE;
+      const step = this.#snapping ? 15 : 1;
+      if (point) this.cursor = this.#spot(now, next.shiftKey, last).at;
+      this.drawing = point
+        ? movedAlone(made, last, this.cursor)
+        : turned(made, last, step * Math.round(degrees / step));
+      this.#draw();
+    };
+    const stop = whileDown(this.root, moves, () => {
+      stop();
+      if (this.drawing === made || this.drawing === before) return;
+      this.#changed();
+      this.page.changed();
+    });
+  }
+
   // --- the pointer ---------------------------------------------------------------------------------------------------
 
   #spot(pixel: Pair, upright: boolean, but = -1): Spot {
@@ -284,7 +341,18 @@ export class BuildView implements View, Plane, Drawn {
     return stepOf(this.viewport);
   }
 
+  /** What the mobility is once the tool has its last place there. */
+  get ahead(): string {
+    const { cursor, drawing, spots } = this;
+    const tool = this.#tool;
+    if (this.aim !== "aiming" || !NEEDED[tool] || tool === "scale" || spots.length + 1 < NEEDED[tool]) return "";
+    const spot = this.#spot(this.viewport.screen(...cursor), false);
+    const next = withTool(tool, drawing, [...spots, spot]);
+    return next?.frame && linksOf(next)[2] ? `F = ${counted(next)}` : "";
+  }
+
   #draw(): void {
+    renew(this.#hint, ...hintOf(this.#tool, this.spots.length));
     renew(this.root, ...planePicture(this));
   }
 
@@ -295,7 +363,7 @@ export class BuildView implements View, Plane, Drawn {
   }
 
   #down(event: PointerEvent): void {
-    if (event.button > 0) return;
+    if (event.button > 0 || (event.target as SVGElement).dataset.span) return;
     this.#fingers.put(event.pointerId, pixelIn(this.root, event));
     if (this.#fingers.count > 1) return this.#takeBack();
     this.#begun = [this.drawing, [...this.spots]];
@@ -321,7 +389,7 @@ export class BuildView implements View, Plane, Drawn {
       else {
         this.cursor = this.#spot(now, false, spot.knot).at;
         this.aim = "aiming";
-        this.drawing = moved(before, spot.knot, this.cursor);
+        this.drawing = movedKept(before, spot.knot, this.cursor) ?? before;
       }
       last = now;
       this.#draw();

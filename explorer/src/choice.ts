@@ -3,20 +3,22 @@
 import { digits } from "./digits";
 import { action, h } from "./dom";
 import {
+  called,
   type Drawing,
   driven,
   isPin,
-  type Knot,
   knotName,
-  moved,
   renamed,
+  same,
   split,
+  turned,
   unitOf,
   without,
   withoutLink,
   withoutLoose,
 } from "./drawing";
 import { parsed, spaced, t } from "./language";
+import { lengthOf, movedKept, spansOf, withLength } from "./lengths";
 import { isPicture, type Plane } from "./plane";
 import type { Pair } from "./rows";
 
@@ -70,23 +72,29 @@ export function field(
   return h("label", {}, text, input);
 }
 
-/** The length of a link with two joints: the second one moves along it, unless it alone stands on the ground. */
+/** The length of a link with two joints. */
 function lengthField(view: Changing, link: string): HTMLElement[] {
   const { drawing } = view;
-  const [first, second, more] = [...drawing.knots.entries()].filter(
-    ([, one]) => one.links.includes(link) && isPin(one),
-  );
-  if (!first || !second || more) return [];
-  const grounded = ([, { links }]: [number, Knot]) => links.includes(drawing.frame!);
-  const swap = grounded(second) && !grounded(first);
-  const [[, { at }], [k, end]] = swap ? [second, first] : [first, second];
-  const [dx, dy] = [end.at[0] - at[0], end.at[1] - at[1]];
-  const long = Math.hypot(dx, dy);
-  const set = (value: number) => {
-    const part = value / long;
-    return part > 0 && part < Infinity ? moved(drawing, k, [at[0] + part * dx, at[1] + part * dy]) : null;
-  };
-  return [field(view, `${t("Length")} [${unitOf(drawing)}]`, "length", long, set)];
+  const [span, more] = spansOf(drawing).filter((one) => one.link === link);
+  if (!span || more) return [];
+  const set = (value: number) => withLength(drawing, span, value);
+  return [field(view, `${t("Length")} [${unitOf(drawing)}]`, "length", lengthOf(drawing, span.ends), set)];
+}
+
+/** What slides in a direction at the place of a joint: the direction is typed. */
+function slideFields(view: Changing, slide: number): HTMLElement[] {
+  const { drawing } = view;
+  if (slide < 0) return [];
+  const set = (value: number) => (Number.isFinite(value) ? turned(drawing, slide, value) : null);
+  return [field(view, "φ [°]", "slide", drawing.knots[slide]!.slide!, set)];
+}
+
+const NAMING = () => t("Expected a new name without spaces and brackets.");
+
+function nameField(value: string, key: string, set: (text: string) => void): HTMLElement {
+  const onchange = () => set(input.value.trim().replaceAll(" ", "_"));
+  const input: HTMLInputElement = h("input", { value, size: 7, "data-field": key, onchange });
+  return h("label", {}, t("Name"), input);
 }
 
 export function choiceOf(view: Changing): HTMLElement[] {
@@ -100,34 +108,35 @@ export function choiceOf(view: Changing): HTMLElement[] {
     return [note(how), removing];
   }
   if (link !== null) {
-    const name = h("input", {
-      value: spaced(link),
-      size: 7,
-      "data-field": "link-name",
-      onchange: () =>
-        view.change(
-          renamed(drawing, link, name.value.trim().replaceAll(" ", "_")),
-          t("Expected a new name without spaces and brackets."),
-        ),
-    });
+    const name = nameField(spaced(link), "link-name", (text) => view.change(renamed(drawing, link, text), NAMING()));
     const frame = action("frame", () => view.change({ ...drawing, frame: link, drives: [] }), t("Hold as frame"));
-    return [h("label", {}, t("Name"), name), ...lengthField(view, link), frame, removing];
+    return [name, ...lengthField(view, link), frame, removing];
   }
   const knot = chosen.knot!;
   const { at, between, links } = drawing.knots[knot]!;
   const parts: HTMLElement[] = [removing];
-  if (links.length > 1) {
-    const is = drawing.drives.includes(knot);
-    parts.unshift(action("drive", () => view.change(driven(drawing, knot)), is ? t("Not driven") : t("Drive")));
-    if (isPin(drawing.knots[knot]!))
-      parts.push(action("split", () => view.change(split(drawing, knot, view.step / 2)), t("Split")));
+  // a block and its slide lie at one place
+  const slide = drawing.knots.findIndex((one) => one.slide !== undefined && same(one, drawing.knots[knot]!));
+  const joints = [knot, slide].filter((k, m, all) => drawing.knots[k]?.links[1] && all.indexOf(k) === m);
+  for (const k of joints.reverse()) {
+    const text = drawing.drives.includes(k) ? t("Not driven") : t("Drive");
+    const letter = joints[1] === undefined ? "" : ` ${knotName(drawing, k)}`;
+    parts.unshift(action("drive", () => view.change(driven(drawing, k)), text + letter));
   }
+  if (links[1] && isPin(drawing.knots[knot]!))
+    parts.push(action("split", () => view.change(split(drawing, knot, view.step / 2)), t("Split")));
   const places = (["x", "y"] as const).map((key, axis) =>
     field(view, key, key, at[axis]!, (value) => {
       const place: Pair = axis ? [at[0], value] : [value, at[1]];
-      return Number.isFinite(value) ? moved(drawing, knot, place) : null;
+      return Number.isFinite(value) ? movedKept(drawing, knot, place, true) : null;
     }),
   );
-  const name = `${knotName(drawing, knot)}: ${links.map(spaced).join(" – ")}`;
-  return [note(name), ...(between ? [] : places), ...parts];
+  const own = knotName(drawing, knot);
+  const name = `${own}: ${links.map(spaced).join(" – ")}`;
+  // on a phone joints have their places in the table, and no room for a name
+  const naming =
+    view.viewport.narrow && links[1]
+      ? []
+      : [nameField(own, "knot-name", (text) => view.change(called(drawing, knot, text), NAMING()))];
+  return [note(name), ...naming, ...(between ? [] : places), ...slideFields(view, slide), ...parts];
 }

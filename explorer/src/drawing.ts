@@ -2,7 +2,7 @@
  * browser. The library makes a linkage of its document. */
 
 import type { Backdrop } from "./backdrop";
-import type { Beside } from "./beside";
+import type { Beside, Lock } from "./beside";
 import { DEGREE } from "./cycle";
 import { away, middleOf, onLine } from "./hull";
 import { t } from "./language";
@@ -26,11 +26,15 @@ export interface Knot {
   readonly letter?: string;
 }
 
+/** A length or a direction from knot to knot, or the place of one, that stays; knots by their names in order. */
+export type Keep = readonly ["length" | "direction" | "joint", ...string[]];
+
 export interface Drawing {
   readonly knots: readonly Knot[];
   readonly frame: string | null;
   /** Knots that are driven. */
   readonly drives: readonly number[];
+  readonly locks?: readonly Keep[];
   /** The picture behind it, and whether the document of the linkage keeps it. */
   readonly picture?: Backdrop | undefined;
   readonly keeps?: boolean;
@@ -163,6 +167,17 @@ export function withSlider(drawing: Drawing, spot: Spot, slide = 0): Drawing {
   return { ...made, knots: [...made.knots, { at, links: [frame, block], slide }] };
 }
 
+/** With another direction of a slide, in degrees from -180 to 180. */
+export function turned({ knots, ...rest }: Drawing, number: number, slide: number): Drawing {
+  const around = slide - 360 * Math.round(slide / 360);
+  return { ...rest, knots: replaced(knots, number, { ...knots[number]!, slide: around }) };
+}
+
+/** A point of a link that is not on the frame. */
+export function withPoint(drawing: Drawing, link: string, at: Pair): Drawing {
+  return { ...drawing, knots: [...drawing.knots, { at, links: [link] }] };
+}
+
 /** Two links of which one slides along the other, from one spot to another. */
 export function withCylinder(drawing: Drawing, from: Spot, to: Spot): Drawing {
   const one = nextName(drawing);
@@ -204,6 +219,11 @@ function partOf([[x, y], [u, v]]: readonly [Pair, Pair], [px, py]: Pair): number
   const part = ((px - x) * (u - x) + (py - y) * (v - y)) / ((u - x) ** 2 + (v - y) ** 2);
   if (part < 0) return Math.min(-0.05, part);
   return part > 1 ? Math.max(1.05, part) : Math.min(0.95, Math.max(0.05, part));
+}
+
+/** Move a knot, and nothing else. */
+export function movedAlone(drawing: Drawing, number: number, at: Pair): Drawing {
+  return { ...drawing, knots: replaced(drawing.knots, number, { ...drawing.knots[number]!, at }) };
 }
 
 /** Move a knot, and what lies at the same place, such as the slide of a block; gears get another ratio. */
@@ -286,6 +306,20 @@ export function renamed(drawing: Drawing, link: string, name: string): Drawing |
   };
 }
 
+/** With another name of a knot; null if it is none, or that of a link or of another knot. */
+export function called(drawing: Drawing, number: number, name: string): Drawing | null {
+  const taken = [...linksOf(drawing), ...drawing.knots.map((_, k) => (k === number ? "" : knotName(drawing, k)))];
+  if (!isName(name) || taken.includes(name)) return null;
+  const old = knotName(drawing, number);
+  const change = (one: string) => (one === old ? name : one);
+  // the others keep the letters that they have
+  const knots = drawing.knots.map((knot, k) =>
+    k === number ? { ...knot, name } : { ...knot, letter: knotName(drawing, k) },
+  );
+  const locks = drawing.locks?.map(([kind, ...ends]): Keep => [kind, ...ends.map(change).sort()]);
+  return { ...drawing, knots, ...(locks && { locks }) };
+}
+
 /** Let a joint be driven, or not. */
 export function driven(drawing: Drawing, number: number): Drawing {
   const { drives } = drawing;
@@ -343,6 +377,7 @@ export function documentOfDrawing(drawing: Drawing): LinkageDocument {
   );
   const beside = {
     ...drawing.beside,
+    ...locksOf(drawing),
     ...(drawing.picture && drawing.keeps && { picture: drawing.picture }),
     letters: joints.map((k) => knotName(drawing, k)).join(" "),
   };
@@ -362,6 +397,20 @@ export function documentOfDrawing(drawing: Drawing): LinkageDocument {
       ends.map(([k, { at, links }]) => [knotName(drawing, k), { link: links[0]!, at: [...at] }]),
     ),
   };
+}
+
+/** What stays, by the names of links and joints; what is kept of open ends stays in the drawing only. */
+function locksOf(drawing: Drawing): Beside {
+  const { knots, locks = [] } = drawing;
+  const numbers = new Map(jointsOf(drawing).map((k) => [knotName(drawing, k), k]));
+  const made = locks.flatMap(([kind, ...ends]): Lock[] => {
+    const [one, two] = ends.map((end) => numbers.get(end)) as [number?, number?];
+    if (one === undefined) return [];
+    if (kind === "joint") return [[kind, jointName(drawing, one)]];
+    const link = two === undefined ? undefined : knots[one]!.links.find((own) => knots[two]!.links.includes(own));
+    return link === undefined ? [] : [[kind, link, jointName(drawing, one), jointName(drawing, two!)]];
+  });
+  return made[0] ? { locks: made } : {};
 }
 
 /** Where a joint lies, as the document has it: a pin, a slide with its direction, two wheels with their radii. */

@@ -15,9 +15,9 @@ export function degreeStep(wanted: number): number {
   return [5, 15, 30, 45, 90, 180, 360, 720, 1440].find((one) => one >= wanted) ?? gridStep(wanted);
 }
 
-/** Between lines of the grid, some 70 pixels. */
-export function stepOf({ scale }: Viewport): number {
-  return gridStep(70 / scale);
+/** Between lines of the grid, at least some 55 pixels; on a phone 40. */
+export function stepOf({ narrow, scale }: Viewport): number {
+  return gridStep((narrow ? 40 : 55) / scale);
 }
 
 /** Lines, numbers along the left and the lower edge, and the unit in their corner. */

@@ -16,7 +16,7 @@ import {
   withoutLink,
 } from "./drawing";
 import { clearAbout, convexHull, middleOf } from "./hull";
-import { spaced, t } from "./language";
+import { number, spaced, t } from "./language";
 import type { Pair } from "./rows";
 import { extentOf } from "./starters";
 import type { Page } from "./view";
@@ -44,7 +44,8 @@ interface Told {
 export interface Drawn {
   readonly page: Page;
   readonly drawing: Drawing;
-  change(next: Drawing): void;
+  /** Nothing is a change that is not possible, for this reason. */
+  change(next: Drawing | null, text?: string): void;
   /** Open the drawing as a linkage. */
   move(): void;
   /** Show all of it. */
@@ -54,6 +55,9 @@ export interface Drawn {
 export class MobilityPanel {
   readonly element = h("div", { role: "status", "data-place": "mobility" });
   #asked = 0;
+  /** What the last step was that changed the count. */
+  #step = "";
+  #before: Drawing | null = null;
   /** The last drawing that was found to move. */
   moving: Drawing | null = null;
 
@@ -65,11 +69,14 @@ export class MobilityPanel {
     const { drawing, page } = this.view;
     const count = h("p.mobility", { "data-fact": "drawn" }, `F = ${counted(drawing)}`);
     const { frame } = drawing;
+    this.#step = stepFrom(this.#before, drawing) ?? this.#step;
+    this.#before = drawing;
     this.element.classList.remove("asking");
     const all = linksOf(drawing);
     const loose = all.find((link) => !jointsOf(drawing).some((k) => drawing.knots[k]!.links.includes(link)));
     let missing = loose && t("Link {link} has no joint yet.", { link: spaced(loose) });
-    if (all.length < 3) missing = t("Draw at least three links.");
+    if (all.length < 3)
+      missing = t("Draw at least three links, with the ground: {count} so far.", { count: all.length });
     if (frame === null)
       missing = all.length
         ? t("Place ground at a joint, or choose a link and hold it as frame.")
@@ -101,6 +108,7 @@ export class MobilityPanel {
         this.element,
         count,
         h("p", { class: quality, "data-fact": "freedoms" }, reason),
+        this.#step && h("p.note", { "data-fact": "step" }, this.#step),
         h("div.form", {}, ...offers, ...(good ? [move] : [])),
         h(
           "details",
@@ -130,6 +138,18 @@ export class MobilityPanel {
     };
     return h("button.plain", { "data-offer": kind, onclick: take }, ...indexed(text));
   }
+}
+
+/** How a step changed the count: three for each link, less what its joints take; nothing if it left all of that. */
+function stepFrom(before: Drawing | null, after: Drawing): string | null {
+  if (!before?.frame || !after.frame || !linksOf(before)[1]) return "";
+  const links = 3 * (linksOf(after).length - linksOf(before).length);
+  const [old, now] = [counted(before), counted(after)];
+  const joints = now - old - links;
+  if (!links && !joints) return null;
+  const signed = (value: number) => `${value > 0 ? "+" : ""}${number(value)}`;
+  const text = t("Last step: links {links}, joints {joints}.", { links: signed(links), joints: signed(joints) });
+  return links === 6 && joints === -6 ? `${text} ${t("A dyad with both ends joined leaves F as it is.")}` : text;
 }
 
 /** The first open end of a link, else -1. */

@@ -10,12 +10,13 @@ import {
   withGears,
   withGround,
   withLink,
+  withPoint,
   withSlider,
 } from "./drawing";
 import { icon } from "./icons";
 import { t } from "./language";
 
-export type Tool = "move" | "ground" | "link" | "slider" | "dyad" | "cylinder" | "gears" | "scale";
+export type Tool = "move" | "ground" | "link" | "slider" | "dyad" | "cylinder" | "gears" | "point" | "scale";
 
 /** How many places a tool needs. */
 export const NEEDED: Record<Tool, number> = {
@@ -26,6 +27,7 @@ export const NEEDED: Record<Tool, number> = {
   dyad: 3,
   cylinder: 2,
   gears: 3,
+  point: 1,
   scale: 2,
 };
 
@@ -33,6 +35,7 @@ export const NEEDED: Record<Tool, number> = {
 export function withTool(tool: Tool, drawing: Drawing, spots: readonly Spot[]): Drawing | null {
   const [one, two, three] = spots as [Spot, Spot, Spot];
   if (tool === "ground") return withGround(drawing, one);
+  if (tool === "point") return one.link === null ? null : withPoint(drawing, one.link, one.at);
   if (tool === "slider") return withSlider(drawing, one);
   if (same(one, two)) return null;
   if (tool === "gears") return withGears(drawing, one, two, three.at);
@@ -49,6 +52,7 @@ export const KEYS: Record<string, Exclude<Tool, "scale">> = {
   d: "dyad",
   c: "cylinder",
   w: "gears",
+  p: "point",
 };
 
 export function nameOf(tool: Tool): string {
@@ -60,6 +64,7 @@ export function nameOf(tool: Tool): string {
     dyad: t("Dyad"),
     cylinder: t("Cylinder"),
     gears: t("Gear pair"),
+    point: t("Point"),
     scale: t("Scale of the picture"),
   };
   return names[tool];
@@ -83,17 +88,22 @@ export function palette(chosen: Tool, take: (tool: Tool) => void): HTMLElement[]
   );
 }
 
-/** What is to be done with a tool. */
-export function hintOf(tool: Tool): (Node | string)[] {
-  const hints: Record<Tool, string> = {
-    move: t("Drag joints; choose a joint or link to edit it."),
-    ground: t("Place it on the plane or on a joint."),
-    slider: t("Place it on the plane or on a joint."),
-    link: t("Place joint after joint, or drag from end to end."),
-    cylinder: t("Place both ends, or drag from end to end."),
-    dyad: t("Place an end, the middle, the other end."),
-    scale: t("Place two points of the picture, then type their distance."),
-    gears: t("Place both centres, then the contact (outside: ring gear)."),
+/** What is to be done with a tool that has so many places already. */
+export function hintOf(tool: Tool, placed = 0): (Node | string)[] {
+  const hints: Record<Tool, string[]> = {
+    move: [t("Drag joints; press one, or a link, to edit it.")],
+    ground: [t("Place it on the plane or on a joint.")],
+    slider: [t("Place it; drag in its direction.")],
+    link: [t("Place joint after joint, or drag it."), t("Now its other end; Esc begins anew.")],
+    cylinder: [t("Place both ends, or drag it."), t("Now the end of its rod.")],
+    dyad: [t("Place an end, the middle, the other end."), t("Now its middle joint."), t("Now its other end.")],
+    scale: [t("Place two points of the picture, then type their distance."), t("Now the second point.")],
+    gears: [
+      t("Place both centres, then the contact."),
+      t("Now the other centre."),
+      t("Now the contact; outside: ring gear."),
+    ],
+    point: [t("Press on a link, drag the point anywhere.")],
   };
-  return [h("b", {}, nameOf(tool)), ": ", hints[tool]];
+  return [h("b", {}, nameOf(tool)), ": ", hints[tool][placed] ?? hints[tool][0]!];
 }

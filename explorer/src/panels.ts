@@ -6,14 +6,13 @@ import { applyDocument, documentOf } from "./document";
 import { action, h, option, renew } from "./dom";
 import { type Dragging, type Length, LONGEST } from "./dragging";
 import { middleOf } from "./hull";
-import { icon } from "./icons";
 import { number, parsed, t } from "./language";
 import type { Kept } from "./locks";
 import type { LinkageDocument } from "./model";
 import type { Resizer } from "./roundfields";
 import { roundRows } from "./rounds";
 import { renameEnds } from "./rulers";
-import { cross } from "./shell";
+import { cross, lockButton } from "./shell";
 import { ownColour, type Shown } from "./shown";
 import { endsOf } from "./springs";
 import { awaited } from "./waiting";
@@ -145,11 +144,7 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
 function locksOf(editor: Editor, first: number, second: number, name: string): HTMLElement[] {
   const lock = (kind: Kept, title: string) => {
     const onclick = () => editor.attempt(() => editor.dragging.locks.keep(kind, first, second));
-    const button = h(
-      "button.lock",
-      { title, "aria-label": `${title}: ${name}`, "data-lock": kind, onclick },
-      icon(kind === "length" ? "lock" : "angle"),
-    );
+    const button = lockButton(kind, title, name, onclick);
     showLock(editor, button, first, second);
     return button;
   };

@@ -72,6 +72,12 @@ export function cross(name: string, onclick: () => void): HTMLElement {
   return h("button.quiet", { "aria-label": t("Remove {name}", { name }), onclick }, "×");
 }
 
+/** A button that keeps something of what is called so; whether it does is shown by who has it. */
+export function lockButton(kind: string, title: string, name: string, onclick: () => void): HTMLElement {
+  const sign = icon(kind === "direction" ? "angle" : "lock");
+  return h("button.lock", { title, "aria-label": `${title}: ${name}`, "data-lock": kind, onclick }, sign);
+}
+
 /** A panel beside the picture, open or closed. */
 export function panelOf(key: string, title: string, open: boolean, ...content: Node[]): HTMLDetailsElement {
   return h("details", { open, "data-panel": key }, h("summary", {}, title), h("div", {}, ...content));

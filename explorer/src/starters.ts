@@ -59,7 +59,7 @@ function sketch(drawing: Drawing): SVGElement {
 
 /** Cards along the upper edge of an empty plane. */
 export function starters(view: Beginning, linkage: Linkage): HTMLElement[] {
-  const found = drawingOf(linkage).drawing;
+  const { drawing: found, other } = drawingOf(linkage);
   const { title } = linkage;
   const name = title.replace(/^(?=.{29})(.{1,26}) .*/, "$1 …");
   const cards: [string, string, Drawing | undefined][] = [
@@ -73,5 +73,6 @@ export function starters(view: Beginning, linkage: Linkage): HTMLElement[] {
     const begin = () => view.begin(drawing, key === "hand");
     return [h("button.plain", { "data-begin": key, onclick: begin }, sketch(drawing), text)];
   });
-  return [h("h2", {}, t("Begin with")), ...buttons];
+  const why = t("{name} is not edited here: {joints}", { name, joints: other.slice(0, 3).join(", ") });
+  return [h("h2", {}, t("Begin with")), ...buttons, ...(found ? [] : [h("p.note", {}, why)])];
 }

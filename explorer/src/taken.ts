@@ -1,13 +1,15 @@
 /** A linkage as a drawing: its joints where they are now, its links, drives and points; and a drawing as a linkage. */
 
-import type { Beside } from "./beside";
+import type { Beside, Ruler } from "./beside";
 import { DEGREE } from "./cycle";
 import { savedDocument } from "./document";
 import {
   type Drawing,
   documentOfDrawing,
+  EMPTY,
   isName,
   jointsOf,
+  type Keep,
   type Knot,
   knotName,
   linksOf,
@@ -28,8 +30,8 @@ export function drawingOf(linkage: Linkage): { drawing?: Drawing; other: string[
     const [knot, name] = [knotOf(linkage, joint, names), linkage.letterOf(joint)];
     return knot && name ? { ...knot, name } : knot;
   });
-  const other = model.joints.flatMap(({ name }, joint) => (joints[joint] ? [] : [linkage.jointName(name)]));
-  if (other.length) return { other };
+  const lacking = model.joints.flatMap(({ name }, joint) => (joints[joint] ? [] : [linkage.jointName(name)]));
+  if (lacking.length) return { other: lacking };
   const points = sizes.points.map(({ name, link, at }): Knot => {
     return { at: place(pose, 0, link, ...at), links: [names[link]!], name };
   });
@@ -39,26 +41,32 @@ export function drawingOf(linkage: Linkage): { drawing?: Drawing; other: string[
     model.joints.map(({ name, links }) => [name, name.replace(/\(.*\)/, `(${links.map((k) => names[k]).join("-")})`)]),
   );
   for (const [link, name] of model.links.entries()) called.set(name, names[link]!);
-  const renamed = (row: readonly string[]) => row.map((name) => called.get(name) ?? name);
-  const { locks, rulers } = rest;
+  const renamed = (name: string) => called.get(name) ?? name;
+  const { locks = [], rulers, ...other } = rest;
+  const knots = [...(joints as Knot[]), ...points].map((knot) => ({
+    ...knot,
+    at: knot.at.map((value) => sizes.clean(value)) as Pair,
+  }));
+  const keeps = locks.map(([kind, ...held]): Keep => {
+    const numbers = held.map((one) => model.joints.findIndex(({ name }) => name === one));
+    const found = numbers.filter((k) => k >= 0).map((k) => knotName({ ...EMPTY, knots }, k));
+    return [kind, ...found.sort()];
+  });
   return {
     drawing: {
-      knots: [...(joints as Knot[]), ...points].map((knot) => ({
-        ...knot,
-        at: knot.at.map((value) => sizes.clean(value)) as Pair,
-      })),
+      knots,
       frame: names[model.frame]!,
       drives: model.drives.map(({ joint }) => joint),
       unit: model.unit,
       title: linkage.title,
+      ...(keeps[0] && { locks: keeps }),
       beside: {
-        ...rest,
-        ...(locks && { locks: locks.map(renamed) }),
-        ...(rulers && { rulers: rulers.map(renamed) }),
+        ...other,
+        ...(rulers && { rulers: rulers.map(([one, two]): Ruler => [renamed(one), renamed(two)]) }),
       } as Beside,
       ...(picture && { picture, keeps: true }),
     },
-    other,
+    other: [],
   };
 }
 

@@ -24,7 +24,8 @@ export function rowsTable(
   rows: number[][],
   title: string,
   head: string[],
-  removable: boolean,
+  /** What stands at the end of a row; true is what removes it. */
+  last: boolean | ((k: number) => HTMLElement),
   changed: () => void,
   say: (text: string) => void,
   numbered = (k: number) => String(k + 1),
@@ -54,19 +55,17 @@ export function rowsTable(
     rows.splice(k, 1);
     changed();
   };
+  const end = (k: number) => {
+    if (typeof last === "function") return last(k);
+    return last ? cross(called(k), remove(k)) : null;
+  };
   const first = (tag: "td" | "th", text: string) => (numbered(0) ? [h(tag, {}, text)] : []);
   return h(
     "table",
     {},
     h("tr", {}, ...first("th", title), ...head.map((name) => h("th", {}, name)), h("th", {}, "")),
     ...rows.map((row, k) =>
-      h(
-        "tr",
-        {},
-        ...first("td", numbered(k)),
-        ...head.map((_, axis) => cell(row, k, axis)),
-        h("td", {}, removable ? cross(called(k), remove(k)) : null),
-      ),
+      h("tr", {}, ...first("td", numbered(k)), ...head.map((_, axis) => cell(row, k, axis)), h("td", {}, end(k))),
     ),
   );
 }

@@ -261,7 +261,7 @@ test("a place snaps to what is in line, to round angles and known lengths, else 
     from: [],
     lengths: [],
   };
-  const viewport = new Viewport();
+  const viewport = Object.assign(new Viewport(), { width: 900 });
   viewport.scale = 3.5; // lines of the grid every 20, a quarter of that to stop at; seven pixels are 2
   assert.deepEqual(snapped([29.5, 43], viewport, around), [31, 45]);
   assert.deepEqual(snapped([11.5, 43], viewport, around), [10, 45]);

@@ -1,0 +1,110 @@
+/** Dimension lines on the plane: the lengths of what is chosen, and those that are kept. */
+
+import { svg } from "./dom";
+import { type Drawing, knotName } from "./drawing";
+import { away, middleOf, pathThrough } from "./hull";
+import { number } from "./language";
+import { isKept, lengthOf, type Span, spansOf } from "./lengths";
+import { halfOf } from "./names";
+import type { Pair } from "./rows";
+import type { Viewport } from "./viewport";
+
+const OFF = 30; // pixels from a bar to its line
+const HEAD = 8; // the length of an arrow
+const LEAST = 24; // pixels: what is shorter has no room for a line
+const MOST = 6; // of what is chosen
+
+/** A length with its line, in pixels. */
+export interface Dimension {
+  readonly name: string;
+  readonly text: string;
+  readonly kept: boolean;
+  /** Its line, with its extension lines and arrows, and where its figure stands. */
+  readonly path: string;
+  readonly line: readonly [Pair, Pair];
+  readonly at: Pair;
+}
+
+interface Measured {
+  readonly drawing: Drawing;
+  readonly viewport: Viewport;
+  readonly chosen: { readonly knot: number | null; readonly link: string | null } | null;
+}
+
+export function dimensionsOf({ chosen, drawing, viewport }: Measured): Dimension[] {
+  const { frame, knots } = drawing;
+  const all = spansOf(drawing);
+  const held = ({ ends }: Span) => isKept(drawing, "length", ends);
+  const { knot = null, link = null } = chosen ?? {};
+  const alone = (span: Span) => all.every((one) => one === span || one.link !== span.link);
+  const jointed = (span: Span) => alone(span) || span.ends.every((k) => knots[k]!.links[1]);
+  const wanted = all.filter((span) => {
+    if (link !== null) return span.link === link && jointed(span); // those of points only with these
+    return span.link !== frame && span.ends.includes(knot ?? -1) && (jointed(span) || !knots[knot!]!.links[1]);
+  });
+  const shown = [...new Set([...wanted.slice(0, MOST), ...(viewport.narrow ? [] : all.filter(held))])];
+  const middle = middleOf(knots.map(({ at }) => viewport.screen(...at)));
+  return shown.flatMap((span) => {
+    const [p, q] = span.ends.map((k) => viewport.screen(...knots[k]!.at)) as [Pair, Pair];
+    const far = away(p, ...q);
+    if (far < LEAST) return [];
+    const [c, s] = [(q[0] - p[0]) / far, (q[1] - p[1]) / far];
+    const [mx, my] = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
+    // away from the middle of what is drawn
+    const side = -s * (mx - middle[0]) + c * (my - middle[1]) < 0 ? -1 : 1;
+    const off = (by: number): Pair => [-s * by * side, c * by * side];
+    const [dx, dy] = off(OFF);
+    const [a, b]: [Pair, Pair] = [
+      [p[0] + dx, p[1] + dy],
+      [q[0] + dx, q[1] + dy],
+    ];
+    const beyond = (at: Pair, [x, y]: Pair): [Pair, Pair] => [
+      [at[0] + x / 3, at[1] + y / 3],
+      [at[0] + 1.2 * x, at[1] + 1.2 * y],
+    ];
+    const head = ([x, y]: Pair, way: number): Pair[] => [
+      [x + way * HEAD * c - 3 * s, y + way * HEAD * s + 3 * c],
+      [x, y],
+      [x + way * HEAD * c + 3 * s, y + way * HEAD * s - 3 * c],
+    ];
+    const text = number(lengthOf(drawing, span.ends));
+    const half = halfOf(text) + 4;
+    // the line is open where its figure stands in it
+    const gap = Math.min(Math.abs(half / c), Math.abs(9 / s));
+    const open = far > 2 * gap + 4 * HEAD;
+    const [ax, ay] = open ? [0, 0] : off(9 + half * Math.abs(s));
+    const parts = open
+      ? [
+          [a, [mx + dx - gap * c, my + dy - gap * s] as Pair],
+          [[mx + dx + gap * c, my + dy + gap * s] as Pair, b],
+        ]
+      : [[a, b]];
+    const lines = [...parts, beyond(p, [dx, dy]), beyond(q, [dx, dy]), head(a, 1), head(b, -1)];
+    return [
+      {
+        name: span.ends.map((k) => knotName(drawing, k)).join("–"),
+        text,
+        kept: held(span),
+        path: lines.map((line) => pathThrough(line)).join(""),
+        line: [a, b],
+        at: [mx + dx + ax, my + dy + ay],
+      },
+    ];
+  });
+}
+
+/** The lines with their figures, which are pressed to type them. */
+export function dimensionElements(all: readonly Dimension[]): SVGElement[] {
+  return all.flatMap(({ at: [x, y], kept, name, path, text }) => [
+    svg("path.crosshair", { d: path }),
+    svg(kept ? "text.mark" : "text", { x, y: y + 4, "text-anchor": "middle" }, text),
+    svg("rect.halo", {
+      x: x - halfOf(text) - 10,
+      y: y - 16,
+      width: 2 * halfOf(text) + 20,
+      height: 32,
+      "data-span": name,
+      cursor: "text",
+    }),
+  ]);
+}

@@ -1,0 +1,70 @@
+/** Lengths of a drawing that are typed and kept, and directions and places that are. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { called, type Drawing, documentOfDrawing, turned, withPoint } from "../src/drawing";
+import { keeping, lengthOf, movedKept, type Span, spansOf, withLength } from "../src/lengths";
+import { close, near } from "./near";
+
+// a slider-crank: A on the ground, B the crank pin, C the block with its slide D
+const CRANK: Drawing = {
+  frame: "f",
+  drives: [0],
+  knots: [
+    { at: [0, 0], links: ["f", "1"] },
+    { at: [0, 20], links: ["1", "2"] },
+    { at: [80, 0], links: ["2", "3"] },
+    { at: [80, 0], links: ["f", "3"], slide: 0 },
+  ],
+};
+const ROD: Span = { link: "2", ends: [1, 2] };
+
+test("of each link so many lengths are told as fix it", () => {
+  const plate = withPoint(withPoint(CRANK, "2", [30, 40]), "2", [50, 40]);
+  const of = (drawing: Drawing) => spansOf(drawing).map(({ link, ends }) => `${link} ${ends.join("-")}`);
+  assert.deepEqual(of(CRANK), ["1 0-1", "2 1-2"]); // a slide is no pin
+  assert.deepEqual(of(plate), ["1 0-1", "2 1-2", "2 1-4", "2 2-4", "2 1-5", "2 2-5"]); // 2·4 - 3
+});
+
+test("a typed length leaves a block on its slide, and a crank that is kept as long as it is", () => {
+  const longer = withLength(CRANK, ROD, 101)!;
+  near(longer.knots[1]!.at, [0, 20]);
+  near(longer.knots[2]!.at, [Math.sqrt(101 * 101 - 400), 0]);
+  near(longer.knots[3]!.at, longer.knots[2]!.at); // its slide goes along
+  assert.equal(withLength(CRANK, ROD, 0), null);
+  assert.equal(withLength(CRANK, ROD, Number.NaN), null);
+  const fixed = keeping(keeping(CRANK, "joint", [2]), "joint", [1]);
+  assert.equal(withLength(fixed, ROD, 50), null);
+});
+
+test("what is kept stays while a joint is dragged", () => {
+  const rod = keeping(CRANK, "length", [2, 1]);
+  assert.deepEqual(rod.locks, [["length", "B", "C"]]);
+  const before = lengthOf(rod, ROD.ends);
+  const moved = movedKept(rod, 1, [0, 30])!;
+  near(moved.knots[1]!.at, [0, 30]);
+  near(moved.knots[2]!.at, [Math.sqrt(before * before - 900), 0]); // along its slide
+  const both = keeping(rod, "length", [0, 1]);
+  const turnedAway = movedKept(both, 1, [40, 40])!; // it cannot come there: near it
+  close(Math.hypot(...turnedAway.knots[1]!.at), 20, 1e-6);
+  assert.equal(movedKept(both, 1, [40, 40], true), null); // what is typed must hold
+  const upright = keeping(CRANK, "direction", [0, 1]);
+  near(movedKept(upright, 1, [9, 33])!.knots[1]!.at, [0, 33], 1e-4);
+  assert.equal(movedKept(keeping(CRANK, "joint", [1]), 1, [1, 1]), null);
+  assert.deepEqual(keeping(rod, "length", [1, 2]).locks, []); // not any more
+});
+
+test("a lock goes along where a joint is called otherwise, and into the document", () => {
+  const named = called(keeping(keeping(CRANK, "length", [1, 2]), "joint", [0]), 1, "pin")!;
+  assert.deepEqual(named.locks, [
+    ["length", "C", "pin"],
+    ["joint", "A"],
+  ]);
+  assert.equal(called(CRANK, 1, "A"), null);
+  const { page } = documentOfDrawing(named) as { page: { locks: unknown } };
+  assert.deepEqual(page.locks, [
+    ["length", "2", "R(2-3)", "R(1-2)"],
+    ["joint", "R(f-1)"],
+  ]);
+  close(turned(CRANK, 3, 405).knots[3]!.slide!, 45);
+});
