@@ -772,6 +772,39 @@ def test_links_are_drawn_in_a_row_or_by_dragging_and_the_drawing_is_saved(plane,
     view.evaluate("localStorage.clear()")
 
 
+def check_that_a_length_is_kept(plane, joint: str) -> None:
+    """The length of the chosen link stands at a dimension line, is typed in a list, stays while its end is dragged."""
+    view, screen = plane.page, "gruebler.views.build.viewport.screen"
+    box = view.locator(".drawing").bounding_box()
+    assert view.locator(".drawing [data-span]").get_attribute("data-span") == "A–B"
+    view.locator(".drawing [data-span]").click()
+    assert view.evaluate("gruebler.root.getRootNode().activeElement.id") == "length-A–B"
+    view.keyboard.type("40")
+    view.keyboard.press("Enter")
+    assert view.evaluate(joint) == pytest.approx([24, 32])
+    view.locator('[data-page="build"] [data-lock="length"]').first.click()
+    (x, y), (u, v) = view.evaluate(f"[{screen}(24, 32), {screen}(32, 24)]")
+    plane.drag((box["x"] + x, box["y"] + y), (u - x, v - y))
+    start = view.evaluate("gruebler.views.build.drawing.knots[0].at")  # it stands on no ground, and goes along
+    assert math.dist(view.evaluate(joint), start) == pytest.approx(40, abs=1e-9)
+    for _ in range(3):
+        view.keyboard.press("Control+z")
+
+
+def check_that_points_and_slides_are_pulled(plane) -> None:
+    view, screen = plane.page, "gruebler.views.build.viewport.screen"
+    box = view.locator(".drawing").bounding_box()
+    ends = view.evaluate("gruebler.views.build.drawing.knots.map((knot) => knot.at)")
+    middle = [sum(pair) / 2 for pair in zip(*ends, strict=True)]
+    for tool, start, end in (("p", middle, (40, 60)), ("s", (0, -20), (20, 0))):
+        view.keyboard.press(tool)
+        (x, y), (u, v) = view.evaluate(f"[{screen}(...{list(start)}), {screen}(...{list(end)})]")
+        plane.drag((box["x"] + x, box["y"] + y), (u - x, v - y))
+    (point,) = [knot for knot in view.evaluate("gruebler.views.build.drawing.knots") if knot["at"] == [40, 60]]
+    assert point["links"] == ["2"]
+    assert view.evaluate("gruebler.views.build.drawing.knots.at(-1).slide") == 45
+
+
 def test_joints_are_joined_split_named_and_removed(plane):
     view = plane.page
     view.click('[data-tool="link"]')
@@ -804,20 +837,7 @@ def test_joints_are_joined_split_named_and_removed(plane):
         joint = "gruebler.views.build.drawing.knots.find((knot) => knot.links.length === 2).at"
         assert view.evaluate(joint) == pytest.approx(place)
     click(plane, (15, 20))
-    # its length stands at a dimension line, is typed in the list, and stays while its end is dragged
-    assert view.locator(".drawing [data-span]").get_attribute("data-span") == "A–B"
-    view.locator(".drawing [data-span]").click()
-    assert view.evaluate("gruebler.root.getRootNode().activeElement.id") == "length-A–B"
-    view.keyboard.type("40")
-    view.keyboard.press("Enter")
-    assert view.evaluate(joint) == pytest.approx([24, 32])
-    view.locator('[data-page="build"] [data-lock="length"]').first.click()
-    (x, y), (u, v) = view.evaluate(f"[{screen}(24, 32), {screen}(32, 24)]")
-    plane.drag((box["x"] + x, box["y"] + y), (u - x, v - y))
-    start = view.evaluate("gruebler.views.build.drawing.knots[0].at")  # it stands on no ground, and goes along
-    assert math.dist(view.evaluate(joint), start) == pytest.approx(40, abs=1e-9)
-    for _ in range(3):
-        view.keyboard.press("Control+z")
+    check_that_a_length_is_kept(plane, joint)
     click(plane, (15, 20))
     view.locator('.choosing [data-field="length"]').fill("0")
     view.locator('.choosing [data-field="length"]').press("Enter")
@@ -828,16 +848,7 @@ def test_joints_are_joined_split_named_and_removed(plane):
     click(plane, (15, 20))
     view.click('[data-act="remove"]')
     assert view.evaluate(knots) == ["2", "2"]
-    # a point is pulled off its link, a slide into its direction
-    ends = view.evaluate("gruebler.views.build.drawing.knots.map((knot) => knot.at)")
-    middle = [sum(pair) / 2 for pair in zip(*ends, strict=True)]
-    for tool, (x, y), (u, v) in (("p", middle, (40, 60)), ("s", (0, -20), (20, 0))):
-        view.keyboard.press(tool)
-        (x, y), (u, v) = view.evaluate(f"[{screen}({x}, {y}), {screen}({u}, {v})]")
-        plane.drag((box["x"] + x, box["y"] + y), (u - x, v - y))
-    (point,) = [knot for knot in view.evaluate("gruebler.views.build.drawing.knots") if knot["at"] == [40, 60]]
-    assert point["links"] == ["2"]
-    assert view.evaluate("gruebler.views.build.drawing.knots.at(-1).slide") == 45
+    check_that_points_and_slides_are_pulled(plane)
 
 
 def test_a_joint_is_removed_with_the_links_that_only_it_held_and_letters_stay(plane):
