@@ -50,10 +50,10 @@ def with_round_sizes(
     steps = 4
     while True:
         try:
-            made = linkage
+            changed = linkage
             for step in range(1, steps + 1):
-                made = _placed(made, number, at(step / steps), drives)
-            return _counted_from_lowest(linkage, made, number)
+                changed = _placed(changed, number, at(step / steps), drives)
+            return _counted_from_lowest(linkage, changed, number)
         except LinkageError:
             if steps >= _MOST_STEPS:
                 raise
@@ -157,12 +157,12 @@ def _law_between(old: str, new: str, part: float) -> str:
     if part == 1 or len(old.split()) != len(new.split()):
         return new
     words = zip(old.split(), new.split(), strict=True)
-    return " ".join(_number_between(one, other, part) for one, other in words)
+    return " ".join(_number_between(first, other, part) for first, other in words)
 
 
-def _number_between(one: str, other: str, part: float) -> str:
+def _number_between(first: str, other: str, part: float) -> str:
     try:
-        first, second = (float(word.rstrip(";")) for word in (one, other))
+        old, new = (float(word.rstrip(";")) for word in (first, other))
     except ValueError:
         return other
-    return f"{first + part * (second - first)!r}{';' * other.endswith(';')}"
+    return f"{old + part * (new - old)!r}{';' * other.endswith(';')}"
