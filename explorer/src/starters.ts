@@ -16,6 +16,7 @@ const ROOM = 52; // pixels of the plane for signs around joints
 
 /** What takes a drawing to begin with. */
 interface Beginning {
+  readonly viewport: Viewport;
   /** Begin with a drawing, perhaps of what Motion shows. */
   begin(drawing: Drawing, known?: boolean): void;
 }
@@ -57,7 +58,7 @@ function sketch(drawing: Drawing): SVGElement {
   return svg("svg", { viewBox: `0 0 ${wide} ${high}`, width: WIDE, height: HIGH, "aria-hidden": "true" }, ...picture);
 }
 
-/** Cards along the upper edge of an empty plane. */
+/** Cards along the upper edge of an empty plane; where there is room, why what Motion shows is none of them. */
 export function starters(view: Beginning, linkage: Linkage): HTMLElement[] {
   const { drawing: found, other } = drawingOf(linkage);
   const { title } = linkage;
@@ -74,5 +75,5 @@ export function starters(view: Beginning, linkage: Linkage): HTMLElement[] {
     return [h("button.plain", { "data-begin": key, onclick: begin }, sketch(drawing), text)];
   });
   const why = t("{name} is not edited here: {joints}", { name, joints: other.slice(0, 3).join(", ") });
-  return [h("h2", {}, t("Begin with")), ...buttons, ...(found ? [] : [h("p.note", {}, why)])];
+  return [h("h2", {}, t("Begin with")), ...buttons, ...(found || view.viewport.narrow ? [] : [h("p.note", {}, why)])];
 }
