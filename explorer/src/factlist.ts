@@ -12,14 +12,17 @@ const ASKED_AFTER = 350; // milliseconds
 export class FactList {
   readonly element = h("dl.facts", {});
 
+  /** With what follows when a line with a hint is pointed at, or no more. */
+  constructor(private readonly point: (on: boolean) => void = () => {}) {}
+
   /** What each line is made of but for its value. */
   readonly #told: string[] = [];
 
   /** From pose to pose most stay as they are, or have another value. */
   show(facts: readonly Fact[]): void {
     const { children } = this.element;
-    facts.forEach(({ name, text, style = "", note }, k) => {
-      const told = [name, style, note].join();
+    facts.forEach(({ hint, name, text, style = "", note }, k) => {
+      const told = [name, style, note, hint].join();
       const old = children[k];
       if (old && told === this.#told[k]) {
         const value = old.lastChild!.firstChild as Text;
@@ -28,7 +31,8 @@ export class FactList {
       }
       this.#told[k] = told;
       const value = h("dd", { class: style }, new Text(text), ...(note ? [" ", h("small", {}, note)] : []));
-      const made = h("div", {}, h("dt", {}, name), value);
+      const on = { onpointerenter: () => this.point(true), onpointerleave: () => this.point(false) };
+      const made = h("div", hint ? { title: hint, ...on } : {}, h("dt", {}, name), value);
       if (old) old.replaceWith(made);
       else this.element.append(made);
     });

@@ -17,6 +17,8 @@ export interface Fact {
   style?: "good" | "bad" | "wide";
   /** Where it is so. */
   note?: string;
+  /** Of a way along a guide, which the picture draws: from where it is measured. */
+  hint?: string;
 }
 
 /** What was found over the cycle: dead centres, how far the output goes, the smallest transmission angle. */
@@ -41,7 +43,8 @@ export function factsOf(
   if (record) {
     const value = output(linkage, pose, 0);
     const text = size(turning ? inLap(value) : value);
-    facts.push({ name: t("Output {name}", { name: linkage.linkName(record.link) }), text });
+    const hint = t("Measured along the guide, from the dot that the picture shows meanwhile");
+    facts.push({ name: t("Output {name}", { name: linkage.linkName(record.link) }), text, ...(!turning && { hint }) });
     const rate = output(linkage, pose, 0, 1);
     facts.push({
       name: transferName(linkage, 1),

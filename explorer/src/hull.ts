@@ -43,9 +43,10 @@ export function toHull(hull: readonly Pair[], x: number, y: number): number {
     const v = y - p[1];
     if (dx * v < dy * u) within = false;
     const part = Math.max(0, Math.min(1, (u * dx + v * dy) / (dx * dx + dy * dy || 1)));
-    least = Math.min(least, Math.hypot(u - part * dx, v - part * dy));
+    const [far, aside] = [u - part * dx, v - part * dy];
+    least = Math.min(least, far * far + aside * aside);
   }
-  return within ? 0 : least;
+  return within ? 0 : Math.sqrt(least);
 }
 
 /** Of places so far from another, or twice as far, the one that is clearest of hulls, with some room at its sides. The

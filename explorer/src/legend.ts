@@ -8,6 +8,8 @@ import type { Viewport } from "./viewport";
 const LINE = 18; // pixels from a row to the next
 const LEFT = 49; // beside the numbers of the grid
 const GAP = 12; // between columns
+const ABOVE = 15; // from a row up to the edge of their ground
+const BESIDE = 5; // the same to the left
 
 /** The number of a link where it is not called by its name: its place, from 1, which is mostly that of the frame. */
 export function numberOf(link: number): string {
@@ -17,7 +19,12 @@ export function numberOf(link: number): string {
 export class Legend {
   readonly element = svg("g", {});
   #entries: SVGTextElement[] = [];
+  /** Upon which they are read where the picture is below them. */
+  readonly #ground = svg("rect", { fill: "var(--paper)", opacity: 0.85 });
   #marked: string | null = "";
+  /** The picture in which they are laid out, and how high they are. */
+  #laid = "";
+  #high = 0;
 
   constructor(
     private readonly point: (link: number | null) => void,
@@ -47,23 +54,34 @@ export class Legend {
       return text;
     });
     this.#marked = "";
-    this.element.replaceChildren(...this.#entries);
+    this.#laid = "";
+    this.element.replaceChildren(...(links.length ? [this.#ground, ...this.#entries] : []));
   }
 
   /** Lay the rows out in columns; how high all is from there to the lower edge of the picture, 0 without a row. */
   lay({ foot, height, width }: Viewport): number {
+    const laid = [foot, height, width].join();
+    if (laid === this.#laid) return this.#high;
+    this.#laid = laid;
     const all = this.#entries;
-    const lengths = all.map((text) => text.getComputedTextLength() || 2 * halfOf(text.textContent!));
+    const lengthOf = (text: SVGTextContentElement) => text.getComputedTextLength() || 2 * halfOf(text.textContent!);
+    const numbers = all.map((text) => lengthOf(text.firstChild as SVGTSpanElement));
+    // numbers of one and of two digits end below one another
+    const before = numbers.map((one) => Math.max(...numbers) - one);
+    const lengths = all.map((text, k) => before[k]! + lengthOf(text));
     let count = all.length;
     const columns = () => all.slice(0, count).map((_, k) => GAP + most(lengths, k, count));
     while (count > 1 && columns().reduce((sum, wide) => sum + wide, LEFT) > width) count--;
     const rows = Math.ceil(all.length / count) || 0;
-    columns().reduce((x, wide, column) => {
+    const top = height - foot - LINE * (rows - 1);
+    const right = columns().reduce((x, wide, column) => {
       for (let k = column; k < all.length; k += count)
-        put(all[k]!, { x, y: height - foot - LINE * (rows - 1 - Math.floor(k / count)) });
+        put(all[k]!, { x: x + before[k]!, y: top + LINE * Math.floor(k / count) });
       return x + wide;
     }, LEFT);
-    return rows && foot + LINE * rows;
+    put(this.#ground, { x: LEFT - BESIDE, y: top - ABOVE, width: right - LEFT, height: rows && LINE * rows + 2 });
+    this.#high = rows && foot + LINE * rows;
+    return this.#high;
   }
 
   /** Show which links are chosen or pointed at. */

@@ -5,6 +5,7 @@ import type { Rows } from "./kernel";
 import type { Linkage } from "./linkage";
 import type { Leg, Model, Place } from "./model";
 import { direction, leastRoot, origin, type Pair, place, rate, speed, turn } from "./rows";
+import type { Sizes } from "./sizes";
 
 const STILL = 1e-9; // of the natural speed: an output that is never faster does not move
 const NOISE = 1e-6; // radians, or sizes: what moves less does not move, as in the plots of Python
@@ -45,9 +46,7 @@ export function output({ model, sizes }: Linkage, rows: Rows, row: number, order
     const [c, s] = turn(rows, row, record.link);
     return Math.atan2(s, c);
   }
-  const mine = sizes.elementsOf(record.joint);
-  const line = mine.find((k) => sizes.element(k).link === model.frame) ?? mine[0]!;
-  const other = mine.find((k) => k !== line)!;
+  const [line, other] = slideOf(model, sizes, record.joint);
   const { link } = sizes.element(line);
   const [lx, ly] = direction(rows, row, link, sizes.line(line));
   const gap = (k: number): Pair => {
@@ -64,6 +63,28 @@ export function output({ model, sizes }: Linkage, rows: Rows, row: number, order
   if (order === 1) return along(first) + w * across(zeroth);
   const al = rate(rows, row, link, 2);
   return along(gap(2)) + 2 * w * across(first) + al * across(zeroth) - w * w * along(zeroth);
+}
+
+/** Of a slide the line along which its way is measured, and what goes along it. */
+export function slideOf({ frame }: Model, sizes: Sizes, joint: number): [line: number, other: number] {
+  const mine = sizes.elementsOf(joint);
+  const line = mine.find((k) => sizes.element(k).link === frame) ?? mine[0]!;
+  return [line, mine.find((k) => k !== line)!];
+}
+
+/** From where the way of the output is measured, and as far as it is; none of an angle. */
+export function wayEnds(linkage: Linkage): Pair[] {
+  const { model, pose, sizes } = linkage;
+  const joint = model.outputs[0]?.joint;
+  if (typeof joint !== "number") return [];
+  const [line] = slideOf(model, sizes, joint);
+  const [x, y] = linkage.elementAt(line);
+  const [c, s] = direction(pose, 0, sizes.element(line).link, sizes.line(line));
+  const way = output(linkage, pose, 0);
+  return [
+    [x, y],
+    [x + way * c, y + way * s],
+  ];
 }
 
 /** The rate below which the output does not move: what is less is rounding. */

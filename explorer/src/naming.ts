@@ -106,6 +106,7 @@ export class Naming {
   /** Put all names where they have room; what other texts are to keep clear of, names included. */
   place(linkage: Linkage, { arrows, curves, forces, grounds, joints }: Around): Pair[][] {
     const { viewport } = this;
+    this.legend.lay(viewport);
     const hulls = this.#labels.map(({ hull }) => (hull && this.#labels.length < MOST_CLEAR ? hull(viewport) : []));
     const bodies = hulls.filter((hull) => hull.length);
     const still = [...arrows, ...grounds, this.#buttons];
@@ -302,6 +303,7 @@ function outlinesOf({ model, pose, sizes }: Linkage, viewport: Viewport): [link:
 }
 
 /** The end of a line on a body. */
-function dotAt([x, y]: Pair): string {
-  return `M${(x - 1.5).toFixed(1)} ${y.toFixed(1)}a1.5 1.5 0 1 0 3 0a1.5 1.5 0 1 0 -3 0`;
+export function dotAt([x, y]: Pair, far = 1.5): string {
+  const half = `a${far} ${far} 0 1 0 `;
+  return `M${(x - far).toFixed(1)} ${y.toFixed(1)}${half}${2 * far} 0${half}${-2 * far} 0`;
 }

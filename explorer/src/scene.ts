@@ -11,9 +11,10 @@ import { clearOf, pastEdges } from "./labels";
 import { number as numberText } from "./language";
 import type { Legend } from "./legend";
 import type { Linkage } from "./linkage";
-import { pole } from "./measures";
+import { pole, wayEnds } from "./measures";
 import { halfOf } from "./names";
-import { type Around, lettersAt, Naming } from "./naming";
+import { type Around, dotAt, lettersAt, Naming } from "./naming";
+import { type Push, pushOf } from "./pushed";
 import { oneRow, origin, type Pair, place, turn } from "./rows";
 import { readingsOf } from "./rulers";
 import { ownColour, type Shown } from "./shown";
@@ -36,6 +37,9 @@ export class Scene {
   /** The ends of the rails of the frame, in pixels from its origin. */
   #rails: Pair[][] = [];
   #pins: { element: SVGGElement; joint: number }[] = [];
+  /** Arrows of slides that are driven. */
+  readonly #pushes = svg("g", {});
+  #pushed: [SVGElement, (viewport: Viewport) => Push][] = [];
   #marks: { element: SVGGElement; point: number }[] = [];
   readonly #names: Naming;
   #backdrop: SVGElement | null = null;
@@ -47,7 +51,7 @@ export class Scene {
   /** Beside arrows, how much they are. */
   readonly #values = svg("g", {});
   readonly #springs = svg("path.spring-path", {});
-  readonly #rulers = svg("path.ruler", {});
+  readonly #rulers = svg("path.ruler", { fill: "var(--accent)" });
   readonly #circle = svg("circle.inflection", { r: 0 });
   readonly #pole = svg("circle.pole", { r: 4 });
 
@@ -150,6 +154,7 @@ export class Scene {
       return { element, point: number };
     });
     front.append(
+      this.#pushes,
       this.#names.element,
       ...this.#arrows,
       this.#values,
@@ -183,7 +188,7 @@ export class Scene {
     const transform = `rotate(${model.bearings[number]})`;
     if (ground) element.append(svg("path.support", { d: SUPPORT, transform }));
     element.append(svg("circle.halo", { r: 13 }), svg("circle.joint", { r: ground ? 5.5 : 4.6 }));
-    if (model.drives.some((drive) => drive.joint === number))
+    if (model.drives.some((drive) => drive.turning && drive.joint === number))
       element.append(
         svg("path.driven", { d: DRIVEN, transform: transform + (linkage.beside.backward ? " scale(-1 1)" : "") }),
       );
@@ -212,6 +217,12 @@ export class Scene {
           this.#stretched.push([part, path]);
     }
     this.#rails = bodies.rails;
+    this.#pushed = linkage.model.drives.flatMap(({ joint, turning }): [SVGElement, (viewport: Viewport) => Push][] => {
+      if (turning) return [];
+      const [d, at] = pushOf(linkage, joint);
+      return [[svg("path.driven", { d }), at]];
+    });
+    this.#pushes.replaceChildren(...this.#pushed.map(([element]) => element));
     // plates first; a bar with a joint between others goes on over what ends there, a barrel over its rod
     const has = (link: number, what: string) => !!this.#links[link]!.querySelector(what);
     const rank = (link: number) =>
@@ -246,6 +257,7 @@ export class Scene {
       const record = sizes.points[point];
       if (record) move(element, viewport.screen(...place(pose, 0, record.link, ...record.at)));
     }
+    for (const [element, at] of this.#pushed) put(element, { transform: at(viewport).transform });
     const forces = shown.forces();
     const kinds = [
       forces.filter((one) => !one[6]),
@@ -261,7 +273,10 @@ export class Scene {
     // a number may stand upon a plate, but not across its edges
     this.#putValues(kinds, [...covered, ...pastEdges(viewport.width, viewport.height)]);
     put(this.#springs, { d: springs.flat().map(pathThrough).join("") });
-    const rulers = readingsOf(linkage).map(({ ends }) => pathThrough(ends.map((at) => viewport.screen(...at))));
+    const lines: Pair[][] = readingsOf(linkage).map(({ ends }) => ends);
+    const way = shown.way ? wayEnds(linkage) : [];
+    const rulers = [...lines, way].map((ends) => pathThrough(ends.map((at) => viewport.screen(...at))));
+    rulers.push(...way.slice(0, 1).map((at) => dotAt(viewport.screen(...at), 4)));
     put(this.#rulers, { d: rulers.join("") });
     this.#drawPole(linkage, shown);
   }
@@ -281,7 +296,9 @@ export class Scene {
     const grounds = this.#pins
       .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
       .map(({ joint }) => placed(STANDING, pixels(joint), model.bearings[joint]));
-    grounds.push(...model.drives.map(({ joint }) => placed(DRIVING, pixels(joint), model.bearings[joint])));
+    const turned = model.drives.filter(({ turning }) => turning);
+    grounds.push(...turned.map(({ joint }) => placed(DRIVING, pixels(joint), model.bearings[joint])));
+    for (const [, at] of this.#pushed) if (at(viewport).covers[0]) grounds.push(at(viewport).covers);
     for (const [x, y] of linkage.beside.targets ?? []) {
       const [u, v] = viewport.screen(x, y);
       grounds.push([-RING, RING].map((d): Pair => [u + d, v]));

@@ -17,6 +17,8 @@ export interface Shown {
   snap: boolean;
   /** The link whose poles are shown. */
   link: number;
+  /** Whether the way of the output is drawn, from where it is measured. */
+  way: boolean;
   /** The link that a click chose. */
   chosen: number | null;
   forces: () => Arrow[];
@@ -42,5 +44,6 @@ export const AT_FIRST: Omit<Shown, "forces" | "springs"> = {
   grid: true,
   snap: false,
   link: 0,
+  way: false,
   chosen: null,
 };

@@ -26,7 +26,10 @@ export class Side {
   /** What was found over the cycle. */
   found: Found = { dead: [], travel: null, least: null };
   readonly forces: Forces;
-  readonly #facts = new FactList();
+  readonly #facts = new FactList((on) => {
+    this.view.shown.way = on;
+    this.view.redraw();
+  });
   readonly #sizes: SizeRows;
   readonly #words: InWords;
   readonly #opened = new Set(["sizes", "measures", "plots"]);

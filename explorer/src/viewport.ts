@@ -63,7 +63,7 @@ export class Viewport {
 
   /** The height of what can be done, in up to two lines, and of the numbers of the grid. */
   get foot(): number {
-    return this.narrow && this.height > 300 ? 66 : 50;
+    return this.narrow && this.height > 300 ? 72 : 56;
   }
 
   /** The pixel of a place. */

@@ -134,12 +134,29 @@ def test_a_ring_gear_has_its_name_at_its_rim_and_turns_visibly(tab, server, widt
     assert entries.first.text_content() == "2 boom"
     assert [one.split()[0] for one in entries.all_text_contents()] == [str(one) for one in range(2, 13)]
     assert entries.first.bounding_box()["y"] > max(y for _, y in joints)
+    boxes = [one.bounding_box() for one in entries.all()]
+    below = page.page.locator(".stage .hint").bounding_box()["y"]
+    assert max(box["y"] + box["height"] for box in boxes) <= below
+    ends = page.page.locator(".stage [data-entry] tspan").evaluate_all(
+        "all => all.map((one) => Math.round(one.getBoundingClientRect().right))"
+    )
+    assert len(set(ends)) < len(ends) / 2  # numbers of one and of two digits end below one another
+    # two rows, in which the slider is below the choice; each driven cylinder has an arrow in its barrel
+    assert page.page.locator(".transport").bounding_box()["height"] < 125
+    assert page.page.locator(".stage path.driven").count() == 3
     entries.first.hover()
     assert page.page.locator(".stage .hovered").get_attribute("data-link") == "boom"
     assert page.page.evaluate("gruebler.motion.picture()").count("</tspan> bucket cylinder") == 1
     lines = page.page.locator(".stage text.name").first.locator("xpath=../*[1]").get_attribute("d")
     ends = [[float(one) for one in line.split("M")[0].replace("L", " ").split()] for line in lines.split("M")[1::2]]
     assert max(np.hypot(u - x, v - y) for x, y, u, v in ends) < 48
+    # the way of a block is drawn from where it is measured while the value is pointed at
+    page.machine("slidercrank")
+    way = page.page.locator(".stage .ruler")
+    assert not way.get_attribute("d")
+    page.page.locator(".facts > div").first.hover()
+    assert way.get_attribute("d").startswith("M")
+    assert "from the dot" in page.page.locator(".facts > div").first.get_attribute("title")
 
 
 def test_a_plot_says_the_value_at_the_pointer(tab, crank_rocker):
