@@ -4,8 +4,9 @@ import type { Pair } from "./rows";
 
 /** The corners of the convex hull, in order. */
 export function convexHull(points: readonly (readonly [number, number])[]): Pair[] {
-  const different = new Map(points.map(([x, y]) => [`${x},${y}`, [x, y] as Pair]));
-  const sorted = [...different.values()].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const all = points.map(([x, y]): Pair => [x, y]).sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const equal = (one: number, other: number) => one === other || (Number.isNaN(one) && Number.isNaN(other));
+  const sorted = all.filter(([x, y], k) => !k || !equal(x, all[k - 1]![0]) || !equal(y, all[k - 1]![1]));
   if (sorted.length < 3) return sorted;
   return [...half(sorted), ...half([...sorted].reverse())];
 }

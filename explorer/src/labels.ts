@@ -28,6 +28,8 @@ export interface Label {
   taken: number;
   /** The place that it takes at the end of a line; none if it stands beside its body. */
   leader?: number | undefined;
+  /** Where it has none: in how many pictures it is not sought. */
+  waits?: number;
   /** Of a wheel with spokes: places between them and upon them, which turn with it, and the spokes. */
   wheel?: ((viewport: Viewport) => { places: Pair[]; spokes: Pair[][] }) | undefined;
   /** Its link, of which it is the name. */

@@ -31,8 +31,14 @@ export interface Leader {
 export type Boxed = readonly [body: readonly Pair[], left: number, right: number, top: number, bottom: number];
 
 export function boxed(body: readonly Pair[]): Boxed {
-  const [x, y] = [0, 1].map((axis) => body.map((at) => at[axis]!)) as [number[], number[]];
-  return [body, Math.min(...x), Math.max(...x), Math.min(...y), Math.max(...y)];
+  let [left, right, top, bottom] = [Infinity, -Infinity, Infinity, -Infinity];
+  for (const [x, y] of body) {
+    left = Math.min(left, x);
+    right = Math.max(right, x);
+    top = Math.min(top, y);
+    bottom = Math.max(bottom, y);
+  }
+  return [body, left, right, top, bottom];
 }
 
 /** Whether a name, half its width and its middle given, keeps so clear of bodies; asked some thousand times. */

@@ -27,6 +27,7 @@ const INK = 8; // from a name to an arrow or a ground
 const BACK = 8; // more room, for a name that stood farther off
 const GAP = 5; // from the middle of a name to a ground beside which it still stands well
 const FOOT = 26; // below which are the numbers of the grid
+const WAITS = 5; // pictures in which no place is sought after none was found
 const SHORT = 3; // letters of a name that stands everywhere
 
 /** What is drawn beside bodies, in pixels, and whether curves are. */
@@ -100,7 +101,7 @@ export class Naming {
 
   /** Names look for their best places, wherever they stood while it moved. */
   settle(): void {
-    for (const label of this.#labels) Object.assign(label, { taken: 0, leader: undefined });
+    for (const label of this.#labels) Object.assign(label, { taken: 0, leader: undefined, waits: 0 });
   }
 
   /** Put all names where they have room; what other texts are to keep clear of, names included. */
@@ -202,7 +203,9 @@ export class Naming {
       const find = leaderOf(boxes[k]!, home, others, half, free, lines, this.#taken);
       if (!hangs(label, find(label.leader ?? -1)))
         anew.push(() => {
-          if (hangs(label, find())) return;
+          if (label.waits) label.waits--;
+          else if (hangs(label, find())) return;
+          else label.waits = WAITS;
           this.#crowded++;
           this.#stands(label, spots(this.viewport)[Math.max(0, label.taken)]!);
         });
