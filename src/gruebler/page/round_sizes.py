@@ -6,15 +6,14 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from math import copysign, cos, sin
-from typing import Any
+from typing import Any, cast
 
 from gruebler.base.errors import LinkageError
 from gruebler.mechanics.kinematics.contours import cam_of
 from gruebler.mechanics.kinematics.solve import move_quietly
-from gruebler.mechanics.linkages import CamDisc, Circle, Element, Linkage, Pose2D
+from gruebler.mechanics.linkages import CamDisc, Element, Linkage, Pose2D
 
 _MOST_STEPS = 64
-_OWNERS: Mapping[str, type[Element]] = {"base": CamDisc, "lift": CamDisc, "circle": Circle}
 
 
 def with_round_sizes(
@@ -34,16 +33,15 @@ def with_round_sizes(
     number = linkage.mechanism.chain.joint_number(joint, error=LinkageError)
     own = linkage.element(number, link)
     for key in sizes:
-        if not isinstance(own, _OWNERS.get(key, ())):
+        if key not in own.own_sizes:
             raise LinkageError("{link} has no such size", link=link)
     before = {owner: linkage.element(number, owner) for owner in linkage.mechanism.chain.joints[number].links}
 
     def at(part: float) -> dict[str, Element]:
         return {owner: _between(element, owner == link, sizes, part) for owner, element in before.items()}
 
-    for element in at(1.0).values():
-        if isinstance(element, CamDisc):
-            cam_of(element)  # one that cannot be is told as such
+    for cam in _cams(at(1.0)).values():
+        cam_of(cam)  # one that cannot be is told as such
     for guess in _guesses(linkage, number, at(1.0)):
         with suppress(LinkageError):
             return _counted_from_lowest(linkage, _placed(guess, number, at(1.0), drives), number)
@@ -67,7 +65,7 @@ def _guesses(linkage: Linkage, number: int, elements: Mapping[str, Element]) -> 
     if follower is None:
         return
     old, links, guide = follower
-    new = next(element for element in elements.values() if isinstance(element, CamDisc))
+    new = next(iter(_cams(elements).values()))
     further = cam_of(new).start - cam_of(old).start
     frame, pose = linkage.required_pose[linkage.mechanism.frame], linkage.required_pose
     for sign in (1, -1):
@@ -87,7 +85,7 @@ def _guesses(linkage: Linkage, number: int, elements: Mapping[str, Element]) -> 
 def _follower(linkage: Linkage, number: int) -> tuple[CamDisc, set[str], Element] | None:
     """The cam of a joint, the links that it moves, a roller included, and what guides them in the frame."""
     joints, frame = linkage.mechanism.chain.joints, linkage.mechanism.frame
-    cams = {link: e for link in joints[number].links if isinstance(e := linkage.elements[number, link], CamDisc)}
+    cams = _cams({link: linkage.elements[number, link] for link in joints[number].links})
     touching = {*joints[number].links} - {*cams}
     links = {link for joint in joints if touching & {*joint.links} for link in joint.links} - {frame, *cams}
     guides = [
@@ -96,6 +94,10 @@ def _follower(linkage: Linkage, number: int) -> tuple[CamDisc, set[str], Element
         if link == frame and not element.is_round and links & {*joints[joint].links}
     ]
     return (next(iter(cams.values())), links, guides[0]) if cams and len(guides) == 1 else None
+
+
+def _cams(elements: Mapping[str, Element]) -> dict[str, CamDisc]:
+    return {link: cast("CamDisc", element) for link, element in elements.items() if "lift" in element.own_sizes}
 
 
 def _placed(linkage: Linkage, number: int, elements: Mapping[str, Element], drives: list[float]) -> Linkage:
@@ -139,14 +141,15 @@ def _with_elements(linkage: Linkage, elements: Mapping[tuple[int, str], Element]
 
 def _between(element: Element, own: bool, sizes: Mapping[str, float | str], part: float) -> Element:
     """An element part of the way to the new sizes."""
-    if isinstance(element, CamDisc) and not own and "circle" in sizes and element.roller:
-        size = float(sizes["circle"]) / element.scale
-        return replace(element, roller=element.roller + part * (size - element.roller))
     if not own:
-        return element
+        cam = _cams({"": element}).get("")
+        if cam is None or not cam.roller or "circle" not in sizes:
+            return element
+        size = float(sizes["circle"]) / cam.scale
+        return replace(cam, roller=cam.roller + part * (size - cam.roller))
     changes: dict[str, Any] = {}
     for key, wanted in sizes.items():
-        name = {"circle": "radius"}.get(key, key)
+        name = element.own_sizes[key]
         old = getattr(element, name)
         changes[name] = _law_between(old, str(wanted), part) if key == "lift" else old + part * (float(wanted) - old)
     return replace(element, **changes)

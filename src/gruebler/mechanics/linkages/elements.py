@@ -8,6 +8,7 @@ Each kind of element is one class. What two of them do together stands in `grueb
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, replace
 from math import cos, hypot, isfinite, radians, sin
 from typing import ClassVar, Literal, NamedTuple, Self, TypeVar, final
@@ -43,6 +44,8 @@ class Element(ABC):
     """Whether it is the same when it turns about its centre."""
     leads: ClassVar[bool] = False
     """Whether it moves another element by a law."""
+    own_sizes: ClassVar[Mapping[str, str]] = {}
+    """Its sizes that can be changed by themselves, as files call them; a roller's is the cam's, too."""
 
     @property
     def is_pin(self) -> bool:
@@ -197,6 +200,7 @@ class Circle(Element):
     form = "round"
     lengths = ("x", "y", "radius")
     is_smooth = True
+    own_sizes = {"circle": "radius"}  # noqa: RUF012
 
     @property
     def rim(self) -> float:
@@ -240,6 +244,7 @@ class CamDisc(Element):
     lengths = ("x", "y", "scale")
     angles = ("angle",)
     leads = True
+    own_sizes = {"base": "base", "lift": "lift"}  # noqa: RUF012
 
     def check_mirrored(self) -> None:
         """See `Element.check_mirrored`."""
