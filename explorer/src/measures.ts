@@ -218,10 +218,14 @@ export function deadCentres(linkage: Linkage): DeadCentre[] {
   const still = 1e-9 * usual;
   const outputs = outputAlong(linkage, every);
   let last = -1;
-  for (let row = 0; row < values.length; row++) {
-    if (!(Math.abs(speeds[row]!) > still)) continue;
-    if (last >= 0 && speeds[last]! * speeds[row]! < 0 && row - last <= 2) {
-      const found = turningBack(linkage, values[last]!, values[row]!, last);
+  const end = values.length - 1;
+  // a full cycle ends as it begins, perhaps where it turns back: then its second row comes after the last one
+  if (linkage.cycle.full && !(Math.abs(speeds[end]!) > still)) every.push(end + 1);
+  for (const row of every) {
+    const at = row > end ? row - end : row;
+    if (!(Math.abs(speeds[at]!) > still)) continue;
+    if (last >= 0 && speeds[last]! * speeds[at]! < 0 && row - last <= 2) {
+      const found = turningBack(linkage, values[last]!, values[at]! + values[row - at]! - values[0]!, last);
       if (found !== null) {
         // in the lap of the row beside it, so that the difference of two angles is how far the output goes
         if (isAngle(linkage)) found.output = outputs[last]! + principal(found.output - outputs[last]!);

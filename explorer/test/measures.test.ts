@@ -161,6 +161,15 @@ test("a slider-crank: way, velocity, acceleration, transmission angle, dead cent
   close(leastTransmission(linkage)!.mu, Math.PI / 2 - Math.asin(crank / rod));
 });
 
+test("a cycle that begins where the output turns back has that dead centre once", () => {
+  for (const theta of [0, Math.PI, 1e-12, -0.02, 0.02]) {
+    const linkage = new Linkage(sliderCrank(25, 70, 0, theta));
+    const dead = deadCentres(linkage).map(({ value, output: way }) => [wrapped(linkage.cycle, value), way] as const);
+    dead.sort(([one], [other]) => one - other);
+    near(dead.flat(), [0, 95, Math.PI, 45], 1e-6);
+  }
+});
+
 test("an output that is 0 but for rounding is told as 0", () => {
   for (const theta of [1.7, 2, 2.5, 3, 4, 4.5]) {
     const linkage = new Linkage(sliderCrank(70, 70, 0, theta)); // folded: its slider is on the pivot of the crank
