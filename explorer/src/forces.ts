@@ -22,6 +22,9 @@ import { lengthUnit } from "./wording";
 const ASKED_AFTER = 350; // milliseconds
 const LASTS: Pair = [0.01, 20]; // seconds of a free motion
 
+/** A unit in which amounts are shown, and how much it is in N, or in N·m. */
+type Unit = [name: string, factor: number];
+
 /** Numbers of JSON, null where one is not known. */
 type Numbers = (number | null)[];
 
@@ -32,8 +35,9 @@ interface Answer extends Acting, Carried {
   /** Where the masses come from, or how they would be assumed. */
   origin: string;
   drives?: number[];
-  /** What the effort of the drive is called. */
+  /** What the effort of the drive is called, and its unit. */
   title: string;
+  unit: Unit;
   effort: Numbers;
   facts: Fact[];
   lines: string[];
@@ -45,6 +49,8 @@ interface Carried {
   forces: { joint: number; parts: Numbers[]; most: number; name: string; note: string }[];
   /** Where loads act, and both parts of a force, or the moment. */
   acting: { at: End; parts: Numbers[] }[];
+  /** Of forces, of moments. */
+  units: [Unit, Unit];
 }
 
 /** Loads as a document has them, and the links whose masses lie along their bars. */
@@ -59,7 +65,7 @@ export type Arrow = [x: number, y: number, dx: number, dy: number, amount: numbe
 
 interface Force extends Vectors {
   at: () => Pair;
-  unit: string;
+  unit: Unit;
 }
 
 /** The forces of joints, and loads. */
@@ -87,6 +93,9 @@ export class Forces {
   /** What acts, above its results. */
   readonly #acting = h("details.words", {}, this.#summary, this.#form.element);
   readonly #result = h("div", {});
+  /** What holds while the drive turns; what is known of the last free motion. */
+  readonly #ofDrive = h("div", {});
+  #ofFall = h("div", {});
   readonly #facts = new FactList();
   /** The force of each joint where the drive is, and its largest. */
   readonly #joints = new FactList();
@@ -160,8 +169,16 @@ export class Forces {
       drives: held,
       bars,
       speed: this.#speed,
+      called: this.#called,
       ...this.#form.change,
     };
+  }
+
+  /** What several drives are called. */
+  get #called(): string[] {
+    const { linkage } = this.#view;
+    const { drives } = linkage.model;
+    return drives[1] ? drives.map((_, k) => linkage.driveName(k)) : [];
   }
 
   /** What was typed and is not in the document yet. */
@@ -202,7 +219,7 @@ export class Forces {
   }
 
   #show(linkage: Linkage, answer: Answer): void {
-    const { drives, effort, facts, lines, masses, origin, speed, title } = answer;
+    const { drives, effort, facts, lines, masses, origin, speed, title, unit } = answer;
     const { drive, model } = linkage;
     const { transport } = this.#view;
     this.#form.show(linkage, answer);
@@ -223,12 +240,13 @@ export class Forces {
     } else {
       this.#form.element.append(offer);
       const places = Float64Array.from(drives);
-      const values = numbers(effort);
+      const exact = numbers(effort);
+      const values = exact.map((value) => value / unit[1]);
       this.#plot = new Plot(drive!.turning ? "°" : lengthUnit(model), (value) => transport.pick(value));
-      this.#plot.show(places, { title, colour: "--motion", values }, transport.range);
+      this.#plot.show(places, { title: `${title} [${unit[0]}]`, colour: "--motion", values }, transport.range);
       this.#driven = shownOf(linkage, answer, places);
       this.columns = [
-        [title, "", places, values],
+        [title, drive!.turning ? "N·m" : "N", places, exact],
         ...this.#driven.joints.flatMap(({ name, x, y }): Column[] => [
           [`${name} Fx`, "N", places, x],
           [`${name} Fy`, "N", places, y],
@@ -237,8 +255,8 @@ export class Forces {
       const { joints } = this.#driven;
       const chosen = this.#joint.selectedIndex;
       renew(this.#joint, ...joints.map(({ name }, value) => h("option", { value }, name)));
-      const fallen = h("div", {});
-      const onclick = () => void this.#fall(fallen);
+      this.#ofFall = h("div", {});
+      const onclick = () => void this.#fall();
       const last = (seconds: number) => {
         this.#until = seconds;
       };
@@ -252,11 +270,15 @@ export class Forces {
       this.#joint.selectedIndex = chosen < 0 ? sizes.indexOf(Math.max(...sizes)) : chosen;
       this.#facts.show(facts);
       renew(
-        this.#result,
+        this.#ofDrive,
         this.#form.rate,
         this.#facts.element,
         this.#plot.element,
         h("div.form", {}, action("play", play, t("Play at this speed"))),
+      );
+      renew(
+        this.#result,
+        this.#ofDrive,
         h("p.note", {}, signOf("force"), t("Joint forces in this pose"), " ", signOf("force.load"), t("Loads")),
         this.#joints.element,
         h("div.form", {}, h("label", {}, t("Force vector"), this.#joint)),
@@ -264,7 +286,7 @@ export class Forces {
         ...notes,
         h("div.rows", {}, ...until),
         h("div.form", {}, action("fall", onclick, release)),
-        fallen,
+        this.#ofFall,
       );
       if (this.#brings) this.element.closest("details")!.scrollIntoView();
       this.#brings = false;
@@ -276,7 +298,9 @@ export class Forces {
   #showJoint(): void {
     const force = this.#of.joints[this.#joint.selectedIndex];
     if (!force) return;
-    this.#polar.show(force, "N");
+    const [unit, factor] = force.unit;
+    const to = (value: number) => value / factor;
+    this.#polar.show({ ...force, x: force.x.map(to), y: force.y.map(to), most: to(force.most) }, unit);
     this.#polar.at(this.#place);
   }
 
@@ -297,12 +321,16 @@ export class Forces {
     if (of !== this.#of) {
       this.#of = of;
       this.#showJoint();
+      // of a free motion first
+      this.#ofDrive.hidden = !!falling;
+      if (falling) this.#result.prepend(this.#ofFall);
+      else this.#result.append(this.#ofFall);
     }
     this.#joints.show(
       of.joints.map((force) => ({
         name: force.name,
-        text: `${figure(force.most * Math.hypot(...vectorAt(force, where)))} N`,
-        note: `max. ${figure(force.most)} N ${force.note.replace(/ (\S+)$/, "\u00a0$1")}`,
+        text: amount(force.most * Math.hypot(...vectorAt(force, where)), force.unit),
+        note: !force.most ? "" : `max. ${amount(force.most, force.unit)} ${force.note.replace(/ (\S+)$/, "\u00a0$1")}`,
       })),
     );
     this.#polar.at(where);
@@ -328,12 +356,13 @@ export class Forces {
       const [x, y] = vectorAt(force, where);
       const here = Math.hypot(x, y) * force.most;
       const root = Math.sqrt(here * most) / force.most || 1; // small ones are seen, too
-      return [...at(), x / root, y / root, here, unit, k >= joints.length];
+      return [...at(), x / root, y / root, here / unit[1], unit[0], k >= joints.length];
     });
   }
 
-  async #fall(told: HTMLElement): Promise<void> {
+  async #fall(): Promise<void> {
     const { linkage, page } = this.#view;
+    const told = this.#ofFall;
     const found = await awaited(told, () =>
       page.ask<Fall & Carried>("fall", { ...this.#question, until: this.#until }),
     );
@@ -342,13 +371,13 @@ export class Forces {
     const { model } = linkage;
     const times = Float64Array.from(found.drives, (_, row) => row / found.rate);
     this.#fallen = shownOf(linkage, found, times);
-    this.#plots = model.drives.flatMap(({ name, turning }, k) => {
+    this.#plots = model.drives.flatMap(({ turning }, k) => {
       const [unit, scale] = turning ? ["°", DEGREE] : [lengthUnit(model), 1];
-      const its = model.drives[1] ? ` ${linkage.jointName(name)}` : "";
+      const its = this.#called.slice(k, k + 1);
       const plot = (called: string, rows: number[][], of: string, degrees = false) => {
         const made = new Plot("s", (seconds) => transport.seek(seconds, found));
         const values = Float64Array.from(rows, (row) => row[k]! / scale);
-        const title = `${called}${its} [${of}]`;
+        const title = `${[called, ...its].join(", ")} [${of}]`;
         made.show(times, { title, colour: "--motion", values, degrees }, [0, times[times.length - 1]!]);
         return made;
       };
@@ -359,23 +388,22 @@ export class Forces {
     });
     renew(told, ...this.#plots.map((plot) => plot.element), h("p.note", {}, found.lines.join(" ")));
     transport.play(found);
-    told.scrollIntoView({ block: "nearest" });
   }
 }
 
-function shownOf(linkage: Linkage, { acting, forces }: Carried, places: Float64Array): Shown {
-  const vectors = (parts: Numbers[], unit: string, at: () => Pair): Force => {
+function shownOf(linkage: Linkage, { acting, forces, units }: Carried, places: Float64Array): Shown {
+  const vectors = (parts: Numbers[], unit: Unit, at: () => Pair): Force => {
     const [x, y = x.map(() => 0)] = parts.map(numbers) as [Float64Array, Float64Array?];
     const most = Math.max(...x.map((one, k) => Math.hypot(one, y[k]!) || 0));
     return { drives: places, x, y, most, unit, at };
   };
   return {
     joints: forces.map(({ joint, parts, ...more }) => ({
-      ...vectors(parts, "N", () => linkage.jointAt(joint)),
+      ...vectors(parts, units[0], () => linkage.jointAt(joint)),
       ...more,
     })),
     loads: acting.map(({ at: [link, ...own], parts }) =>
-      vectors(parts, parts[1] ? "N" : "N·m", () => place(linkage.pose, 0, link, ...own)),
+      vectors(parts, units[parts[1] ? 0 : 1], () => place(linkage.pose, 0, link, ...own)),
     ),
   };
 }
@@ -393,6 +421,6 @@ function numbers(values: Numbers): Float64Array {
   return Float64Array.from(values, (value) => value ?? NaN);
 }
 
-function figure(value: number): string {
-  return number(value, 3);
+function amount(value: number, [unit, factor]: Unit): string {
+  return `${number(value / factor, 3)} ${unit}`;
 }

@@ -317,7 +317,7 @@ export class Scene {
 
   /** An arrow in pixels; of a moment its circle reaches so far to the right, if it is positive, or to the left. */
   #scaled(...[x, y, dx, dy, amount, unit]: Arrow): Arrow {
-    const long = unit === "N·m" ? this.longest / 3 : this.longest;
+    const long = unit.includes("N·m") ? this.longest / 3 : this.longest;
     return [...this.viewport.screen(x, y), long * dx, -long * dy, amount, unit];
   }
 
@@ -384,7 +384,7 @@ function move(element: SVGElement, [x, y]: Pair): void {
 function arrow(...[x, y, dx, dy, , unit]: Arrow): string {
   const length = Math.hypot(dx, dy);
   if (!(length > 3) || !Number.isFinite(length)) return "";
-  if (unit === "N·m")
+  if (unit.includes("N·m"))
     return `M${x + dx} ${y}A${length} ${length} 0 1 ${Number(dx < 0)} ${x} ${y + length}${arrow(x, y + length, 9 * Math.sign(dx), 0, 0, "")}`;
   const [ux, uy] = [dx / length, dy / length];
   const [ex, ey] = [x + dx, y + dy];

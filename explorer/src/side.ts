@@ -36,6 +36,9 @@ export class Side {
   /** What followed in the last step of a drag. */
   #turn = 0;
   #resting = 0;
+  /** Whether it moves freely, and how far the panels were scrolled before. */
+  #falls = false;
+  #scrolled = 0;
 
   constructor(private readonly view: Panelled) {
     this.plots = new Plots((value) => view.transport.pick(value));
@@ -59,6 +62,7 @@ export class Side {
       this.#panel("modes", t("Assembly modes")),
       this.#panel("show", t("Show"), optionsPanel(view)),
     );
+    if (this.#falls) this.#fall();
     element.scrollTop = scrollTop;
     this.plots.arrange(view.linkage);
   }
@@ -82,6 +86,18 @@ export class Side {
       this.view.redraw();
     });
     return element;
+  }
+
+  /** What is known of a free motion comes first, and what is known of the drive only is hidden; or all as before. */
+  #fall(): void {
+    const { element } = this;
+    const falls = this.#falls;
+    const panel = (key: string) => element.querySelector<HTMLElement>(`[data-panel=${key}]`)!;
+    const forces = panel("forces");
+    forces.firstElementChild!.textContent = falls ? t("Free motion") : t("Forces");
+    for (const key of ["measures", "plots"]) panel(key).hidden = falls;
+    if (falls) element.prepend(forces);
+    else panel("points").before(forces);
   }
 
   #refresh(key: string, content: Node): void {
@@ -165,6 +181,16 @@ export class Side {
 
   showPose(): void {
     const { linkage, transport } = this.view;
+    const { element } = this;
+    if (this.#falls !== !!transport.falling) {
+      this.#falls = !this.#falls;
+      if (this.#falls) this.#scrolled = element.scrollTop;
+      this.#fall();
+      element.scrollTop = this.#falls ? 0 : this.#scrolled;
+      // on a phone the picture is seen that moves
+      const view = element.parentElement;
+      if (this.#falls && view?.querySelector(".low")) view.scrollIntoView();
+    }
     if (linkage.drive) {
       const drive = transport.falling ? NaN : transport.drive; // what is plotted is not of a free motion
       this.plots.at(drive);

@@ -12,13 +12,14 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import Message, joined, message, number
+from gruebler.base.text import Message, joined, message, number, translate
 from gruebler.base.units import metres_of
 from gruebler.mechanics.dynamics import InverseDynamics, inverse_dynamics, simulate
 from gruebler.mechanics.forces.acting import ActingLoads, moving_links
 from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
+from gruebler.page.force_units import unit_for
 from gruebler.page.known_loads import all_springs, springs_of
 from gruebler.page.model import spaced
 from gruebler.page.params import LoadedLinkage
@@ -35,11 +36,15 @@ from gruebler.page.reader_loads import (
 )
 
 _FREE = message("Free motion: in {seconds:n} s the drive goes from {start} to {end}, between {least} and {most}.")
+_FREE_OF = message("{drive}: from {start} to {end}, between {least} and {most}.")
+_MOVED = message("Free motion: {seconds:n} s.")
 _BALANCE = message("The energy balance is off by {part:n} % at most.")
+_BALANCED = message("The energy balance is off by less than 0.001 %.")
 _NOTHING = message("Nothing acts yet: type masses or loads.")
 _APART = message("Two ways to compute them differ by {part:.1e} of the largest load: these forces are not certain.")
 _TORQUE = (message("Drive torque"), message("Largest drive torque"), message("Drive torque, RMS"))
 _FORCE = (message("Drive force"), message("Largest drive force"), message("Drive force, RMS"))
+_HELD = (message("Largest holding torque"), message("Largest holding force"))
 _TURNED, _SHIFTED = message("{value:n}°"), message("{value:n} {unit}")
 _TURNS, _SLIDES = message("Forces at drive speed"), message("Speed of the driven slide")
 _BRAKING = message("braking")
@@ -54,6 +59,8 @@ _A_SECOND = 240  # poses of a free motion, whose speeds would be plotted with co
 _NOISE = 1e-7  # of the largest power: what is left of a mean that is none
 _ENOUGH = 1e-6  # of each of its steps: for the eye
 _ENOUGH_BY_LAW = 1e-4  # where loads change by a law, which takes a hundred times as long
+_EXACT = 1e-5  # of an energy: what is less is not told in digits
+_SEEN = 0.01  # of the unit of the largest: smaller amounts have a unit of their own
 _NOTHING_OF = 1e-9  # of the largest joint force: what is left of one that is none
 
 
@@ -102,18 +109,32 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     if run.disagreement > _CERTAIN:
         lines.append(_APART.filled(part=run.disagreement).in_language(lang))
     lines += filter(None, [motion.message(lang), run.statics.message(lang)])
-    effort = _short((metres_of(linkage.unit) if turning else 1.0) * run.drive[:, active])
-    forces = _joint_forces(run, lambda row: _drive_text(motion, active, row), lang)
+    effort = _effort(run, active)
+    forces, acting = _joint_forces(run, lambda row: _drive_text(motion, active, row), lang), _acting(run)
     return record | {
         "speed": speed,
         "drives": motion.drives[:, active].tolist(),
-        "title": f"{(_TORQUE if turning else _FORCE)[0].in_language(lang)} [{'N·m' if turning else 'N'}]",
+        "title": _named(asked, active, (_TORQUE if turning else _FORCE)[0], lang),
         "effort": effort.tolist(),
-        "facts": _facts(run, active, effort, forces, lang),
+        "unit": unit_for(effort[_largest(effort)], "N·m" if turning else "N"),
+        "facts": _facts(run, asked, effort, forces, lang),
         "forces": forces,
-        "acting": _acting(run),
+        "acting": acting,
+        "units": _units(forces, acting),
         "lines": lines,
     }
+
+
+def _named(asked: LoadedLinkage, drive: int, text: Message, lang: str) -> str:
+    """What something of a drive is called, with the name of the drive if there are several."""
+    return ", ".join([text.in_language(lang), *asked.called[drive : drive + 1]])
+
+
+def _effort(run: InverseDynamics, drive: int) -> Reals:
+    """Of a drive that turns in newton metres, of one that slides in newtons."""
+    linkage = run.motion.linkage
+    turning = linkage.mechanism.drives[drive].turning
+    return _short((metres_of(linkage.unit) if turning else 1.0) * run.drive[:, drive])
 
 
 def _joint_forces(run: InverseDynamics, place: Callable[[int], Message], lang: str) -> list[dict[str, Any]]:
@@ -140,36 +161,64 @@ def _joint_forces(run: InverseDynamics, place: Callable[[int], Message], lang: s
 
 
 def _facts(
-    run: InverseDynamics, active: int, effort: Reals, forces: list[dict[str, Any]], lang: str
+    run: InverseDynamics, asked: LoadedLinkage, effort: Reals, forces: list[dict[str, Any]], lang: str
 ) -> list[dict[str, str]]:
     """The figures of the range, as the page shows them: what they are, their amount, and a note."""
-    turning, metre = run.motion.linkage.mechanism.drives[active].turning, metres_of(run.motion.linkage.unit)
+    active, drives = asked.active, run.motion.linkage.mechanism.drives
+    turning, metre = drives[active].turning, metres_of(run.motion.linkage.unit)
     _, largest, effective = _TORQUE if turning else _FORCE
     unit, row = "N·m" if turning else "N", _largest(effort)
     power, mean = _short(metre * run.power[:, active]), float(metre * run.mean_power[active])
     mean = 0.0 if abs(mean) < _NOISE * np.nanmax(np.abs(power), initial=0.0) else mean
     seconds = float(np.ptp(run.times))
     strongest = max(forces, key=lambda force: force["most"])
-    at = _AT.filled(place=_drive_text(run.motion, active, row)).in_language(lang)
     ends = " … ".join(_drive_text(run.motion, active, end).in_language(lang) for end in (0, -1))
     most = float(power[_largest(power)])
+
+    def at(row: int) -> str:
+        return _AT.filled(place=_drive_text(run.motion, active, row)).in_language(lang)
 
     def braking(value: float) -> str:
         """Of a drive that gives way to what pushes it."""
         return _BRAKING.in_language(lang) if value < 0 else ""
 
-    rows: list[tuple[Message, float, str, str]] = [
-        (largest, abs(effort[row]), unit, f"{at} {braking(power[row])}".strip()),
-        (effective, (metre if turning else 1.0) * run.root_mean_square[active], unit, ""),
-        (message("Largest drive power"), abs(most), "W", braking(most)),
-        (message("Mean drive power"), mean, "W", ""),
-        (message("Drive work"), mean * seconds, "J", ends),
-        (message("Largest joint force"), strongest["most"], "N", f"{strongest['note']}, {strongest['name']}"),
+    def held(drive: int) -> tuple[str, float, str, str]:
+        """Of a drive that stands still meanwhile."""
+        still, turns = _effort(run, drive), drives[drive].turning
+        row, text = _largest(still), _HELD[0 if turns else 1]
+        return _named(asked, drive, text, lang), abs(still[row]), "N·m" if turns else "N", at(row)
+
+    root_mean_square = (metre if turning else 1.0) * run.root_mean_square[active]
+    rows: list[tuple[str, float, str, str]] = [
+        (_named(asked, active, largest, lang), abs(effort[row]), unit, f"{at(row)} {braking(power[row])}".strip()),
+        (effective.in_language(lang), root_mean_square, unit, ""),
+        (translate("Largest drive power", lang), abs(most), "W", braking(most)),
+        (translate("Mean drive power", lang), mean, "W", ""),
+        (translate("Drive work", lang), mean * seconds, "J", ends),
+        (
+            translate("Largest joint force", lang),
+            strongest["most"],
+            "N",
+            f"{strongest['note']}, {strongest['name']}",
+        ),
+        *(held(drive) for drive in range(len(asked.called)) if drive != active),
     ]
     return [
-        {"name": name.in_language(lang), "text": f"{_figure(value, 3, lang)} {its}", "note": note}
+        {
+            "name": name,
+            "text": _amount(value, its, max((abs(v) for _, v, u, _ in rows if u == its)), lang),
+            "note": note,
+        }
         for name, value, its, note in rows
     ]
+
+
+def _amount(value: float, unit: str, largest: float, lang: str) -> str:
+    """So much in three digits, in the unit of the largest unless it is far smaller."""
+    called, factor = unit_for(largest, unit)
+    if abs(value) < _SEEN * factor:
+        called, factor = unit_for(value, unit)
+    return f"{_figure(value / factor, 3, lang)} {called}"
 
 
 def _largest(values: Reals) -> int:
@@ -208,6 +257,15 @@ def _acting(run: InverseDynamics) -> list[dict[str, Any]]:
     return records
 
 
+def _units(forces: list[dict[str, Any]], acting: list[dict[str, Any]]) -> tuple[tuple[str, float], tuple[str, float]]:
+    """The units in which all forces and all moments are shown, and how much they are in N and N·m."""
+    force = max((one["most"] for one in forces), default=0.0)
+    parts = [np.array(one["parts"], dtype=float) for one in acting]
+    force = max([force, *(float(np.nanmax(np.hypot(*each), initial=0.0)) for each in parts if len(each) > 1)])
+    moment = max([0.0, *(float(np.nanmax(np.abs(each), initial=0.0)) for each in parts if len(each) == 1)])
+    return unit_for(force, "N"), unit_for(moment, "N·m")
+
+
 def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     """Poses of all links, values and speeds of the drives, forces of the joints, 240 a second, under all that acts.
 
@@ -219,33 +277,41 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     law = any(by_law(amount) for amount in amounts(free))  # friction by a law is far faster than the motion
     tolerance = _ENOUGH_BY_LAW if law else _ENOUGH
     run = simulate(linkage, free, at=asked.drives, until=asked.until, times=times, tolerance=tolerance, stiff=law)
-    ends = (run.drives[0], run.drives[-1], run.drives.min(axis=0), run.drives.max(axis=0))
-    start, end, least, most = (_drive_texts(linkage, values) for values in ends)
-    said = [
-        _FREE.filled(seconds=float(run.times[-1]), start=start, end=end, least=least, most=most),
-        _BALANCE.filled(part=float(f"{100 * run.defect:.2g}")),
+    ends = np.stack([run.drives[0], run.drives[-1], run.drives.min(axis=0), run.drives.max(axis=0)], axis=-1)
+    went = [
+        dict(zip(("start", "end", "least", "most"), _drive_texts(linkage, drive, values), strict=True))
+        for drive, values in enumerate(ends.tolist())
     ]
+    seconds = float(run.times[-1])
+    said = [_MOVED.filled(seconds=seconds)] if went[1:] else [_FREE.filled(seconds=seconds, **went[0])]
+    if went[1:]:
+        joints = linkage.mechanism.chain.joint_names()
+        names = asked.called or [joints[drive.joint] for drive in linkage.mechanism.drives]
+        said += [_FREE_OF.filled(drive=name, **its) for name, its in zip(names, went, strict=False)]
+    part = float(f"{100 * run.defect:.2g}")
+    said.append(_BALANCED if run.defect < _EXACT else _BALANCE.filled(part=part))
     places = np.stack([run.places[0].real, run.places[0].imag], axis=-1)
     turns = np.stack([run.turns.real, run.turns.imag], axis=-1)
     carried = inverse_dynamics(run.motion, free, times=run.times)
+    forces = _joint_forces(carried, lambda row: _WHEN.filled(seconds=float(f"{run.times[row]:.3g}")), lang)
+    acting = _acting(carried)
     return {
         "rate": _A_SECOND,
         "places": _short(places).reshape(len(run), -1).tolist(),
         "turns": _short(turns).reshape(len(run), -1).tolist(),
         "drives": _short(run.drives).tolist(),
         "speeds": _short(run.speeds).tolist(),
-        "forces": _joint_forces(carried, lambda row: _WHEN.filled(seconds=float(f"{run.times[row]:.3g}")), lang),
-        "acting": _acting(carried),
+        "forces": forces,
+        "acting": acting,
+        "units": _units(forces, acting),
         "lines": [*(line.in_language(lang) for line in said), *filter(None, [run.message(lang)])],
     }
 
 
-def _drive_texts(linkage: Linkage, values: Reals) -> Message:
-    """Drive values without the names of their joints, turning ones in degrees."""
-    drives = zip(linkage.mechanism.drives, values.tolist(), strict=True)
-    return joined(
-        _value_text(degrees(value) if drive.turning else value, drive.turning, linkage.unit) for drive, value in drives
-    )
+def _drive_texts(linkage: Linkage, drive: int, values: list[float]) -> list[Message]:
+    """Values of a drive, in degrees if it turns."""
+    turning = linkage.mechanism.drives[drive].turning
+    return [_value_text(degrees(value) if turning else value, turning, linkage.unit) for value in values]
 
 
 def _short(values: Reals) -> Reals:

@@ -209,6 +209,8 @@ class LoadedLinkage(Params):
     springs: Annotated[list[OwnSpring], msgspec.Meta(max_length=20)] | None = None
     active: Number = 0
     """The drive that runs at constant speed."""
+    called: Annotated[list[str], msgspec.Meta(max_length=20)] = []
+    """What the drives are called, where there are several."""
     range: tuple[float, float] = (0.0, 2 * pi)
     full: bool = True
     """Whether its range is whole turns; else its ends are limits, next to which no drive keeps its speed."""
