@@ -71,7 +71,11 @@ export class Backend {
       this.#waiting.set(id, { resolve, reject, progress });
       this.model.send({ id, method, params, lang });
     }) as Promise<Result>;
-    return Object.assign(promise, { cancel: () => this.model.send({ id, cancel: true }) });
+    const cancel = () => {
+      this.model.send({ id, cancel: true });
+      this.#answered({ id, cancelled: true }); // whoever works may need a moment to end
+    };
+    return Object.assign(promise, { cancel });
   }
 }
 

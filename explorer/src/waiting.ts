@@ -25,7 +25,7 @@ export async function awaited<Result>(
   const bar = h("progress", {});
   const request = ask((text) => {
     said.textContent = text;
-    const [done, all, more] = text.match(/\d+/g) ?? [];
+    const [done, all = text.endsWith("%") && 100, more] = text.match(/\d+/g) ?? [];
     if (all && !more) Object.assign(bar, { max: all, value: done });
     else bar.removeAttribute("value");
   });

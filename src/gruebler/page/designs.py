@@ -13,7 +13,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import SynthesisError
-from gruebler.base.text import LANGUAGES, Message, joined_by_and, message, translate
+from gruebler.base.text import LANGUAGES, Message, joined_by_and, message
 from gruebler.design.synthesis import (
     DeadCentreTask,
     Demands,
@@ -26,7 +26,6 @@ from gruebler.design.synthesis import (
     synthesise,
 )
 from gruebler.design.synthesis.demands import FULL_TURN, LEAST_ANGLE
-from gruebler.design.synthesis.results import Progress
 from gruebler.design.synthesis.start_families import MOST_PAIRS
 from gruebler.design.synthesis.tasks import gives_lengths
 from gruebler.files import linkage_to_json
@@ -35,6 +34,7 @@ from gruebler.mechanics.kinematics import Motion
 from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.page.design_words import SLENDER, is_curve, notes, words
 from gruebler.page.model import bearing_turns, four_bar_type, link_names
+from gruebler.page.search_progress import SearchProgress
 from gruebler.pictures.linkage.bodies import CarriedLine, guide_corners
 from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.linkage.posed_linkage import PosedLinkage, drive_rows, posed_linkage
@@ -65,6 +65,11 @@ _LONG = message("Left out, as a link is longer than {length:g} mm: {count}.")
 _LESS = (0.9, 0.7, 0.4, 0.0)  # of a transmission angle that no design has
 _NEAREST = 12  # designs that are shown of these
 _NEARLY = message("No linkage was found that meets all demands; these meet all but {demands}.")
+_LOOKING = message("Looking for four-bars")
+_JUDGING = message("Judging the linkages found")
+_NEARING = message("Looking for what nearly meets the demands")
+_DRAWING = message("Drawing the designs")
+_LOOKED, _NEARED = 60, 90  # percent of a search after which these are over
 _FRAMES = 144  # of a motion, there and back if it does not turn fully
 
 
@@ -119,28 +124,23 @@ def design_records(
     all demands, those that meet all but the angle, or a drive that turns fully, or both, are given as the nearest.
 
     >>> found = design_records(task_of("dead-centres", [[60, 1.2]]), True, 30.0, "en", print)
-    Looking for four-bars
+    Looking for four-bars: 0 %
     ...
     >>> found["total"] > 0, len(found["items"][0]["members"]), len(found["items"][0]["frames"][0])
     (True, 3, 4)
     """
-    progress(translate("Looking for four-bars", lang))
+    told = SearchProgress(progress, lang)
+    told.stage(_LOOKING, _LOOKED)
     sort = ("range-transmission",) if crank and isinstance(task, PositionTask) else ()
     space = _region(task, reach)
 
     totals: list[int] = []
 
-    def looked(done: int, total: int) -> None:
-        progress(translate("Looking for four-bars: {number} of {total}", lang, number=done, total=total))
-
     def counted(done: int, total: int) -> None:
         totals.append(total)
-        if done == total:
-            progress(translate("Judging the linkages found", lang))
-        elif total == totals[0]:
-            looked(done, total)
-        else:  # what was found is counted anew
-            progress(translate("Judging the linkages found: {number} of {total}", lang, number=done, total=total))
+        # what was found is counted anew
+        told.called(_LOOKING if done < total == totals[0] else _JUDGING)
+        told.count(done, total)
 
     in_places = isinstance(task, PathTask | PositionTask)
     demands = Demands(crank=crank, transmission=radians(transmission))
@@ -156,8 +156,8 @@ def design_records(
     left: list[Message] = []
     first, nearest = result, None
     if not result.designs:
-        report, finite = looked if in_places else None, bool(result.count.theorem)
-        nearest = _nearest_designs(task, demands, progress=report, finite=finite)
+        counts = told if in_places else None
+        nearest = _nearest_designs(task, demands, told=counts, finite=bool(result.count.theorem))
     if nearest is not None:
         result, text = nearest
         left.append(text)
@@ -183,8 +183,9 @@ def design_records(
     if relative:
         designs = [replace(each, linkage=each.linkage.scaled(_LONGEST / each.linkage.size)) for each in designs]
     items = []
-    for number, design in enumerate(designs[:_MOST_DESIGNS], 1):
-        progress(translate("Drawing design {number} of {total}", lang, number=number, total=len(designs)))
+    shown = designs[:_MOST_DESIGNS]
+    for number, design in enumerate(shown):
+        told.stage(_DRAWING, 100, start=_NEARED + (100 - _NEARED) * number / len(shown))
         items.append(_record(design, task, lang))
     _mark_variants(items)
     texts = {
@@ -196,7 +197,7 @@ def design_records(
 
 
 def _nearest_designs(
-    task: Task, demands: Demands, *, progress: Progress | None = None, finite: bool = False
+    task: Task, demands: Demands, *, told: SearchProgress | None = None, finite: bool = False
 ) -> tuple[SynthesisResult, Message] | None:
     """The designs that come nearest to a transmission angle that none has, or whose drive does not turn fully, or both.
 
@@ -209,16 +210,23 @@ def _nearest_designs(
     if is_curve(task):
         return None
     angle = LEAST_ANGLE.filled(angle=round(degrees(demands.transmission), 9))
-    for turning, lower in ((False, True), (True, False), (True, True)):
-        if (turning and not demands.crank) or (lower and not demands.transmission):
-            continue
+    tries = [
+        (turning, lower, part)
+        for turning, lower in ((False, True), (True, False), (True, True))
+        if (demands.crank or not turning) and (demands.transmission or not lower)
+        for part in (((0.0,) if finite else _LESS) if lower else (1.0,))
+    ]
+    for k, (turning, lower, part) in enumerate(tries):
+        if told is not None:
+            start, end = (_LOOKED + (_NEARED - _LOOKED) * one / len(tries) for one in (k, k + 1))
+            told.stage(_NEARING, end, start=start)
         crank, missed = demands.crank and not turning, [*[FULL_TURN] * turning, *[angle] * lower]
-        for part in ((0.0,) if finite else _LESS) if lower else (1.0,):
-            less = replace(demands, crank=crank, transmission=part * demands.transmission)
-            result = synthesise(task, demands=less, sort=("transmission",), progress=progress)
-            if result.designs:
-                nearest = replace(result, designs=result.designs[:_NEAREST])
-                return nearest, _NEARLY.filled(demands=joined_by_and(missed))
+        less = replace(demands, crank=crank, transmission=part * demands.transmission)
+        progress = None if told is None else told.count
+        result = synthesise(task, demands=less, sort=("transmission",), progress=progress)
+        if result.designs:
+            nearest = replace(result, designs=result.designs[:_NEAREST])
+            return nearest, _NEARLY.filled(demands=joined_by_and(missed))
     return None
 
 
