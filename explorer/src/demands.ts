@@ -68,6 +68,7 @@ export class Demands {
         changed();
       },
     });
+    this.#length.style.width = "84px"; // four digits are seen beside its arrows
     const order = h("input", {
       value: this.order,
       "aria-label": t("Order of the targets"),
