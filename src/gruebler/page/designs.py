@@ -129,8 +129,8 @@ def design_records(
     >>> found["total"] > 0, len(found["items"][0]["members"]), len(found["items"][0]["frames"][0])
     (True, 3, 4)
     """
-    told = SearchProgress(progress, lang)
-    told.stage(_LOOKING, _LOOKED)
+    stages = SearchProgress(progress, lang)
+    stages.stage(_LOOKING, _LOOKED)
     sort = ("range-transmission",) if crank and isinstance(task, PositionTask) else ()
     space = _region(task, reach)
 
@@ -139,8 +139,8 @@ def design_records(
     def counted(done: int, total: int) -> None:
         totals.append(total)
         # what was found is counted anew
-        told.called(_LOOKING if done < total == totals[0] else _JUDGING)
-        told.count(done, total)
+        stages.called(_LOOKING if done < total == totals[0] else _JUDGING)
+        stages.count(done, total)
 
     in_places = isinstance(task, PathTask | PositionTask)
     demands = Demands(crank=crank, transmission=radians(transmission))
@@ -156,8 +156,8 @@ def design_records(
     left: list[Message] = []
     first, nearest = result, None
     if not result.designs:
-        counts = told if in_places else None
-        nearest = _nearest_designs(task, demands, told=counts, finite=bool(result.count.theorem))
+        counts = stages if in_places else None
+        nearest = _nearest_designs(task, demands, stages=counts, finite=bool(result.count.theorem))
     if nearest is not None:
         result, text = nearest
         left.append(text)
@@ -185,7 +185,7 @@ def design_records(
     items = []
     shown = designs[:_MOST_DESIGNS]
     for number, design in enumerate(shown):
-        told.stage(_DRAWING, 100, start=_NEARED + (100 - _NEARED) * number / len(shown))
+        stages.stage(_DRAWING, 100, start=_NEARED + (100 - _NEARED) * number / len(shown))
         items.append(_record(design, task, lang))
     _mark_variants(items)
     texts = {
@@ -197,7 +197,7 @@ def design_records(
 
 
 def _nearest_designs(
-    task: Task, demands: Demands, *, told: SearchProgress | None = None, finite: bool = False
+    task: Task, demands: Demands, *, stages: SearchProgress | None = None, finite: bool = False
 ) -> tuple[SynthesisResult, Message] | None:
     """The designs that come nearest to a transmission angle that none has, or whose drive does not turn fully, or both.
 
@@ -217,12 +217,12 @@ def _nearest_designs(
         for part in (((0.0,) if finite else _LESS) if lower else (1.0,))
     ]
     for k, (turning, lower, part) in enumerate(tries):
-        if told is not None:
-            start, end = (_LOOKED + (_NEARED - _LOOKED) * one / len(tries) for one in (k, k + 1))
-            told.stage(_NEARING, end, start=start)
+        if stages is not None:
+            start, end = (_LOOKED + (_NEARED - _LOOKED) * place / len(tries) for place in (k, k + 1))
+            stages.stage(_NEARING, end, start=start)
         crank, missed = demands.crank and not turning, [*[FULL_TURN] * turning, *[angle] * lower]
         less = replace(demands, crank=crank, transmission=part * demands.transmission)
-        progress = None if told is None else told.count
+        progress = None if stages is None else stages.count
         result = synthesise(task, demands=less, sort=("transmission",), progress=progress)
         if result.designs:
             nearest = replace(result, designs=result.designs[:_NEAREST])

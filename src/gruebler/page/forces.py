@@ -259,8 +259,8 @@ def _acting(run: InverseDynamics) -> list[dict[str, Any]]:
 
 def _units(forces: list[dict[str, Any]], acting: list[dict[str, Any]]) -> tuple[tuple[str, float], tuple[str, float]]:
     """The units in which all forces and all moments are shown, and how much they are in N and N·m."""
-    force = max((one["most"] for one in forces), default=0.0)
-    parts = [np.array(one["parts"], dtype=float) for one in acting]
+    force = max((record["most"] for record in forces), default=0.0)
+    parts = [np.array(record["parts"], dtype=float) for record in acting]
     force = max([force, *(float(np.nanmax(np.hypot(*each), initial=0.0)) for each in parts if len(each) > 1)])
     moment = max([0.0, *(float(np.nanmax(np.abs(each), initial=0.0)) for each in parts if len(each) == 1)])
     return unit_for(force, "N"), unit_for(moment, "N·m")
