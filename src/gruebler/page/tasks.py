@@ -180,7 +180,8 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
             count = 0
             parts.append(part(each.text.in_language(lang), heading=True))
     checks = [check_text(check, lang) for check in solution.checks]
-    for title, lines in (("Results:", answer_lines(task, solution, lang)), ("Check by a second method:", checks)):
+    answers = [re.sub(r"\bs([12]) = ", r"s_\1 = ", line) for line in answer_lines(task, solution, lang)]
+    for title, lines in (("Results:", answers), ("Check by a second method:", checks)):
         if lines:
             parts += [part(translate(title, lang), heading=True), *map(part, lines)]
     return parts

@@ -40,12 +40,12 @@ def test_the_frame_is_a_line_between_its_pivots_with_its_letter(id):
 
 @pytest.mark.parametrize("id", ["universal-joint-1-1", "universal-joint-2-2", "universal-joint-3-1"])
 @pytest.mark.parametrize("lang", ["en", "de"])
-def test_the_letters_of_a_universal_joint_stand_at_its_joints(id, lang):
-    """Two of the four floated where the axes of the cross leave the sphere, which is not drawn."""
+def test_a_universal_joint_has_its_angle_and_its_speeds(id, lang):
+    """Four letters R of its joints stood there, and not what the task gives and asks for."""
     shapes = exercise_figure(exercise(id), lang).shapes
     letters = [shape for shape in shapes if isinstance(shape, TextShape)]
     drawn = [point for shape in shapes if not isinstance(shape, TextShape) for point in points_of(shape)]
-    assert [shape.text for shape in letters] == ["D" if lang == "de" else "R"] * 4
+    assert [shape.text for shape in letters] == ["β", "n₁", "n₂"]
     assert all(min(point.minus(letter.at).length for point in drawn) < 25 for letter in letters)
 
 

@@ -305,8 +305,9 @@ def _dead_centre(random: Random, level: int) -> _Draft:
     given = _until(lambda: _any_four_bar(random), lambda g: _good_rocker(g) and not _four_bar(g).is_central)
     rpm = random.choice((60, 120, 150, 200, 240, 300, 400))
     task = message(
-        "A crank-rocker has {lengths}; the crank makes {rpm} revolutions per minute. Find the swing of the rocker, "
-        "the larger crank angle between the dead centres and the times of both strokes.",
+        "A crank-rocker has {lengths}; the crank makes {rpm} revolutions per minute. Find the "
+        "directions φ_i and φ_a of the coupler's line in the inner and the outer dead centre, the larger crank angle "
+        "between them, the swing of the rocker and the times of both strokes.",
         lengths=_given_lengths(given),
         rpm=rpm,
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import in_every_language, joined, message
+from gruebler.base.text import Message, in_every_language, joined, message
 from gruebler.mechanics.analysis import drive_range
 from gruebler.mechanics.fourbar import FourBar, Grashof, turning_ranges
 from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES
@@ -40,9 +40,7 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
     )
     if grashof.condition != "=":
         moved = drive_range(FourBar(a, b, c, d).linkage())
-        builder.check(
-            "The crank turns fully (1) or not (0), by following the motion", float(turns), float(moved.full), ""
-        )
+        builder.check("Whether the crank turns fully, by following the motion", turns, bool(moved.full), "")
     builder.mistake(
         "turns", not turns, message("Compare l_min + l_max with the two others, and see where the shortest link is.")
     )
@@ -86,15 +84,21 @@ def _add_sums(builder: SolutionBuilder, grashof: Grashof) -> None:
         )
     )
     builder.keep("sum_others", name, others, unit=unit, symbol="s2")
-    relation = {"<": "l_min + l_max < l' + l''", "=": "l_min + l_max = l' + l''", ">": "l_min + l_max > l' + l''"}
-    builder.parts.append(
-        SolutionStep(
-            text=message("Grashof's condition: {meaning}", meaning=_SAYS[grashof.condition]),
-            formula=relation[grashof.condition],
-            numbers=f"{formula_number(ends)} {grashof.condition} {formula_number(others)}",
-        )
-    )
+    text = message("Grashof's condition: {meaning}", meaning=_SAYS[grashof.condition])
+    builder.parts.append(comparison_step(text, grashof.condition, ends, others))
     builder.mistake("sum_ends", low + second, message("This is not the sum with the longest link."))
+
+
+def comparison_step(text: Message, sign: str, ends: float, others: float, unit: str = "") -> SolutionStep:
+    """How both sums of Grashof's condition compare, with their numbers.
+
+    >>> step = comparison_step(message("No link turns fully."), ">", 130.0, 115.0, "°")
+    >>> step.formula, step.numbers
+    ("l_min + l_max > l' + l''", '130° > 115°')
+    """
+    first, second = (f"{formula_number(value)}{unit}" for value in (ends, others))
+    numbers = first if sign == "=" else f"{first} {sign} {second}"
+    return SolutionStep(text=text, formula=f"l_min + l_max {sign} l' + l''", numbers=numbers)
 
 
 def length_range(
@@ -208,9 +212,9 @@ def _check_range(builder: SolutionBuilder, free: str, lengths: dict[str, float],
     for value, full in tried:
         moved = drive_range(FourBar(**lengths, **{free: value}).linkage()).full
         builder.check(
-            "{free} = {value}: the crank turns fully (1) or not (0), by following the motion",
-            float(full),
-            float(moved),
+            "{free} = {value}: whether the crank turns fully, by following the motion",
+            full,
+            bool(moved),
             "",
             free=free,
             value=figure(value),

@@ -11,7 +11,8 @@ from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES
 from gruebler.mechanics.linkages.quantities import as_positive
 from gruebler.mechanics.space import SphericalFourBar, UniversalJoint, move
 from gruebler.mechanics.space.drive_ranges import spatial_range
-from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle
+from gruebler.teaching.exercises.grashof import comparison_step
+from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, SolutionStep, angle, formula_number
 
 _SPEED = "1/min"
 _CLOSE = 1e-9  # degrees
@@ -123,7 +124,9 @@ def spherical_grashof(a: float, b: float, c: float, d: float) -> Solution:
         raise LinkageError("arcs of {a:g}, {b:g}, {c:g}, {d:g} degrees cannot be assembled", a=a, b=b, c=c, d=d)
     arcs = dict(zip("abcd", (float(a), float(b), float(c), float(d)), strict=True))
     builder = SolutionBuilder()
-    total = builder.find("total", message("sum of all arcs"), "a + b + c + d", a + b + c + d, unit="°", values=arcs)
+    total = builder.find(
+        "total", message("sum of all arcs"), "a + b + c + d", a + b + c + d, unit="°", symbol="Σ", values=arcs
+    )
     plain = sorted(arcs.values())
     if total > 360 + _CLOSE:
         builder.say(
@@ -132,6 +135,14 @@ def spherical_grashof(a: float, b: float, c: float, d: float) -> Solution:
             "a' = 180° - a",
         )
         arcs = {name: 180 - arc for name, arc in arcs.items()}
+    else:
+        builder.parts.append(
+            SolutionStep(
+                text=message("At most 360°: the arcs stay as they are."),
+                formula="Σ ≤ 360°",
+                numbers=f"{formula_number(total)}° ≤ 360°",
+            )
+        )
     low, first, second, high = sorted(arcs.values())
     ends = builder.find(
         "sum_ends",
@@ -147,20 +158,30 @@ def spherical_grashof(a: float, b: float, c: float, d: float) -> Solution:
     numbers = {"l'": second, "l''": first}
     others = builder.find("sum_others", name, "l' + l''", first + second, unit="°", symbol="s2", values=numbers)
     shortest = ", ".join(k for k, arc in arcs.items() if abs(arc - low) < _CLOSE)
-    meaning = _SPHERE_SAYS[(ends > others - _CLOSE) + (ends > others + _CLOSE)]
-    builder.say(
-        "Grashof's condition on the sphere, shortest arc {shortest}: {meaning}", shortest=shortest, meaning=meaning
+    place = (ends > others - _CLOSE) + (ends > others + _CLOSE)
+    text = message(
+        "Grashof's condition on the sphere, shortest arc {shortest}: {meaning}",
+        shortest=shortest,
+        meaning=_SPHERE_SAYS[place],
     )
+    builder.parts.append(comparison_step(text, "<=>"[place], ends, others, "°"))
     turns = "a" in size.turning
     builder.keep("turns", message("the crank a turns fully"), turns)
-    builder.keep("type", message("type"), in_every_language(size.type.name), symbol="")
+    kind = in_every_language(size.type.name)
+    builder.keep("type", message("type"), kind, symbol="")
+    builder.parts.append(
+        SolutionStep(
+            text=message("The place of the shortest arc ({shortest}; d is the frame) makes it a:", shortest=shortest),
+            value=kind,
+        )
+    )
     if size.turning == ("a",) and size.dead_centres is not None:
         _swing(builder, size, (float(a), float(b), float(c), float(d)))
     if abs(ends - others) > _CLOSE:
         full = spatial_range(
             size.linkage(size.limits[0].start + 0.5 * (size.limits[0].end - size.limits[0].start))
         ).full
-        builder.check("The crank turns fully (1) or not (0), by following the motion", float(turns), float(full), "")
+        builder.check("Whether the crank turns fully, by following the motion", turns, bool(full), "")
     builder.mistake("turns", not turns, message("Compare both sums, and see where the shortest arc is."))
     if total > 360 + _CLOSE:
         builder.mistake("sum_ends", plain[0] + plain[3], _TOO_LONG)

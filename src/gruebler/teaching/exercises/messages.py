@@ -178,6 +178,8 @@ def check_text(check: Check, lang: str) -> str:
     first, second = (value_text(value, check.unit, lang) for value in (check.first, check.second))
     if not check.holds:
         sentence = message("{what}: {first} and {second} DIFFER")
+    elif first == second and isinstance(check.first, bool):
+        sentence = message("{what}: both methods say {first}")
     elif first == second:
         sentence = message("{what}: both methods give {first}")
     else:

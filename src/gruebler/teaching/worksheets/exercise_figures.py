@@ -18,14 +18,18 @@ from gruebler.mechanics.linkages import Linkage
 from gruebler.mechanics.linkages.gear_trains import linkage_of_train
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.space import SphericalFourBar
-from gruebler.pictures.canvas.figure import Figure
+from gruebler.pictures.canvas.figure import MARGIN, Figure, figure_of
+from gruebler.pictures.canvas.labels import note_near
 from gruebler.pictures.canvas.moving_picture import Body, still_picture
+from gruebler.pictures.canvas.shapes import Point, Polylines
 from gruebler.pictures.linkage.picture import draw_linkage
 from gruebler.pictures.machines.bevel_views import bevel_shapes
 from gruebler.pictures.machines.train_layout import gear_stages
 from gruebler.pictures.space import draw_spatial
+from gruebler.pictures.space.parts import points_on_paper
 from gruebler.pictures.space.scene import scene_of
 from gruebler.pictures.space.views import usual_view, view_named
+from gruebler.pictures.structure.messages import describe, title
 from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entry
 from gruebler.teaching.exercises import solve
@@ -242,12 +246,28 @@ _OWN: Mapping[str, Callable[[Exercise], DrawnLinkage]] = {
 
 
 def _universal_joint(exercise: Exercise, lang: str) -> Figure:
-    """Both shafts and the cross, the output turned by the angle between the shafts."""
+    """Both shafts with their speeds and the cross, the output turned by the angle β between the shafts."""
     beta = radians(_numbers(exercise)["beta"])
     axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (cos(beta), sin(beta), 0.0))
     joint = entry("universal_joint").placed()
     assert joint is not None
-    return draw_spatial(SpatialLinkage(joint.mechanism, {k: {"z": z} for k, z in enumerate(axes)}), lang=lang)
+    linkage = SpatialLinkage(joint.mechanism, {k: {"z": z} for k, z in enumerate(axes)})
+    scene = scene_of(linkage, view_named(usual_view(linkage)))
+    meet = -scene.scale * scene.middle
+    ends = scene.joints[[0, 3]]
+    driving, driven = ((end - meet) / np.linalg.norm(end - meet) for end in ends)
+    reach = 0.8 * float(np.linalg.norm(ends[1] - meet))
+    turns = np.linspace(0, beta, 25)[:, None]
+    arc = meet + reach * (np.sin(beta - turns) * -driving + np.sin(turns) * driven) / sin(beta)
+    straight = np.array([meet, meet - 1.15 * reach * driving])
+
+    def points(places: np.ndarray) -> tuple[Point, ...]:
+        return tuple(points_on_paper(scene.view.on_paper(places)))
+
+    shapes = [*scene.shapes(), Polylines((points(straight),), "pitch"), Polylines((points(arc),), "measure")]
+    for place, name in ((arc[12], "β"), (ends[0], "n₁"), (ends[1], "n₂")):
+        shapes.append(note_near(points(place[None])[0], name, "letter", shapes))
+    return figure_of(shapes, title(joint.mechanism, lang, ""), describe(joint.mechanism, lang), margin=MARGIN)
 
 
 def _spherical_four_bar(exercise: Exercise, lang: str) -> Figure:
