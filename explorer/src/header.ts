@@ -9,10 +9,10 @@ const PARTS =
   "antrieb|differential|führung|gelenk|getriebe|greifer|haube|hebe|kette|kinematik|kompressor|lampe|lenk|maschine|" +
   "presse|räder|scheibe|schneider|schwinge|stange|verdichter|vorrichtung|wischer|zylinder";
 
-/** A name that can be broken within long words, also where the browser has no dictionary. */
+/** A name that can be broken within long words, also where the browser has no dictionary, but not before a dash. */
 export function softened(name: string): string {
   const between = new RegExp(`(?<=\\p{L}{4})(?<!ge)(?=${PARTS})`, "gu");
-  return name.replace(/\p{L}{15,}/gu, (word) => word.replace(between, "\u00ad"));
+  return name.replace(" –", "\u00a0–").replace(/\p{L}{15,}/gu, (word) => word.replace(between, "\u00ad"));
 }
 
 /** The names of the views in the language of the page. */

@@ -5,6 +5,7 @@ import { digits, showDigits } from "./digits";
 import { applyDocument, documentOf } from "./document";
 import { action, h, option, renew } from "./dom";
 import { type Dragging, type Length, LONGEST } from "./dragging";
+import { softened } from "./header";
 import { middleOf } from "./hull";
 import { number, parsed, t } from "./language";
 import type { Kept } from "./locks";
@@ -130,8 +131,13 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
   const name = called.filter(Boolean).join(", ");
   const lettered = linkage.letterOf(0);
   const ends = `${others(first)}${lettered ? "–" : " – "}${others(second)}`;
-  const bold = h("b", {}, lettered ? ends : name);
-  const label = h("label", { for: id, title: `${name}: ${ends}` }, bold, alone || lettered ? "" : `, ${ends}`);
+  const bold = h("b", {}, softened(lettered ? ends : name));
+  const label = h(
+    "label",
+    { for: id, title: `${name}: ${ends}` },
+    bold,
+    alone || lettered ? "" : `, ${softened(ends)}`,
+  );
   return [
     label,
     input,

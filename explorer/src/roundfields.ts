@@ -3,6 +3,7 @@
 import { digits } from "./digits";
 import { savedDocument } from "./document";
 import { h } from "./dom";
+import { softened } from "./header";
 import { number, parsed, t } from "./language";
 import type { RoundSize } from "./lifts";
 import type { Linkage } from "./linkage";
@@ -17,7 +18,7 @@ export interface Resizer {
   resized(model: Model): void;
 }
 
-/** Its label, the field, and its unit; while it is pointed at or typed in, its circle is marked in the picture. */
+/** Its label, the field, and its unit. */
 export function roundField(editor: Resizer, k: number, name: string, size: RoundSize): HTMLElement[] {
   const { joint, link } = editor.linkage.sizes.element(k);
   const { what, value, unit, set } = size;
@@ -29,22 +30,15 @@ export function roundField(editor: Resizer, k: number, name: string, size: Round
     readonly: !set,
     onchange: () => {
       const wanted = parsed(input.value);
-      const right = wanted > 0 && wanted < 1e9;
+      const [least, most] = [0.001, unit === "°" ? 360 : 1e6];
+      const right = wanted >= least && wanted <= most;
       input.setAttribute("aria-invalid", String(!right));
       if (right) void resize(editor, k, set!(wanted), input);
-      else editor.page.say(t("Expected a number, such as {value}.", { value: number(value) }));
+      else editor.page.say(t("Expected a number from {least} to {most}.", { least: number(least), most: `${most}` }));
     },
     onkeydown: (event: KeyboardEvent) => event.stopPropagation(),
   });
-  const label = h("label", { for: id }, h("b", {}, name), `, ${what}`);
-  const circle = `[data-link="${editor.linkage.model.links[link]}"] circle.shape`;
-  for (const element of [label, input])
-    for (const [event, on] of Object.entries({ pointerenter: 2.5, pointerleave: 0, focus: 2.5, blur: 0 }))
-      element.addEventListener(event, () => {
-        const round = (input.getRootNode() as ParentNode).querySelector<SVGElement>(circle);
-        if (round && !/^[\d°]*$/.test(unit))
-          Object.assign(round.style, on ? { stroke: "var(--key)", strokeWidth: on } : { stroke: "", strokeWidth: "" });
-      });
+  const label = h("label", { for: id }, h("b", {}, softened(name)), `, ${what}`);
   return [label, input, h("span.unit", {}, unit), h("span", {})];
 }
 

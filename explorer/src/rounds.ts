@@ -2,6 +2,7 @@
 
 import { h } from "./dom";
 import { givenOf } from "./followers";
+import { softened } from "./header";
 import { away } from "./hull";
 import { number, t } from "./language";
 import { lawFields } from "./lifts";
@@ -16,8 +17,9 @@ export function roundRows(editor: Resizer): HTMLElement[] {
   const rows = new Map<string, HTMLElement[]>(); // a wheel that meets several has them once
   const add = (name: string, what: string, value: string, its = unit) => {
     const shown = h("span", {}, value);
+    const label = h("label", {}, h("b", {}, softened(name)), `, ${what}`);
     Object.assign(shown.style, { textAlign: "right", padding: "3px 7px" });
-    const cells = [h("span", {}, h("b", {}, name), `, ${what}`), shown, h("span.unit", {}, its), h("span", {})];
+    const cells = [label, shown, h("span.unit", {}, its), h("span", {})];
     rows.set(name + what, cells);
   };
   const given = (k: number) => givenOf(linkage, k);

@@ -76,8 +76,8 @@ export class Viewport {
     return [(x - this.#ox) / this.scale, (this.#oy - y) / this.scale];
   }
 
-  /** Show a rectangle, or at least a square of that width; what lies below, so many pixels high, is left out. On a
-   * phone it may reach below the buttons if none of the places there does. */
+  /** Show a rectangle, or at least a square of that width; what lies below, so many pixels high, is left out. It
+   * may reach below the buttons if none of the places there does. */
   fit({ left, right, bottom, top }: Box, least: number, below?: number, places?: readonly Pair[], room = 34): void {
     const { narrow } = this;
     const margin = narrow ? room : this.arrows || 60;
@@ -86,7 +86,7 @@ export class Viewport {
     const above = Math.max(margin, this.arrows);
     const wide = Math.max(right - left, least);
     const high = Math.max(top - bottom, least);
-    for (const keys of narrow ? [0, BESIDE] : [0]) {
+    for (const keys of narrow || places ? [0, BESIDE] : [0]) {
       this.scale = Math.min((this.width - 2 * margin - keys - rule) / wide, (this.height - 2 * above - foot) / high);
       this.#ox = (this.width - keys + rule) / 2 - (this.scale * (left + right)) / 2;
       this.#oy = (this.height - foot) / 2 + (this.scale * (bottom + top)) / 2;

@@ -51,6 +51,9 @@ test("places and pixels", () => {
   viewport.fit({ left: -10, right: 10, bottom: -5, top: 5 }, 1);
   close(viewport.scale, 44); // (1000 - 120) / 20; upright it would be 50
   near(viewport.screen(0, 0), [500, 310]);
+  viewport.fit({ left: -10, right: 10, bottom: -5, top: 5 }, 1, undefined, [[10, 5]]);
+  close(viewport.scale, 41.2); // beside the buttons
+  viewport.fit({ left: -10, right: 10, bottom: -5, top: 5 }, 1);
   near(viewport.screen(10, 5), [940, 90]);
   near(viewport.world(...viewport.screen(3, -2)), [3, -2]);
   viewport.zoom(2, 940, 90);

@@ -112,7 +112,9 @@ def test_a_ring_gear_has_its_name_at_its_rim_and_turns_visibly(tab, server, widt
         assert np.angle((u + 1j * v) / (x + 1j * y)) == pytest.approx(0, abs=1e-3)
     sizes = page.page.locator(".rows.sizes > *").all_inner_texts()
     assert sizes[:4] == ["planet, teeth", "15", "", ""]
-    assert [one for one in sizes if "axis" in one] == ["planet – sun, axis distance"]  # the ring has the sun's axis
+    assert [one for one in sizes if "axis" in one] == [
+        "planet\u00a0– sun, axis distance"
+    ]  # the ring has the sun's axis
     assert page.page.locator(".stage .hint").inner_text() == "Drag an axis to shift it, a link to turn it."
     page.machine("excavator")  # eleven links, of which most have no room beside them on a phone
     names, joints = page.page.evaluate("""() => {
@@ -429,6 +431,9 @@ def test_the_stem_of_a_follower_stays_in_a_guide_that_touches_nothing(tab, serve
     assert page.page.evaluate(base) == 55
     assert np.sin(page.page.evaluate("gruebler.motion.linkage.drives[0]")) == pytest.approx(np.sin(np.radians(315)))
     assert page.page.evaluate("gruebler.motion.linkage.jointAt(2)") == pytest.approx([0, 65])
+    page.page.get_by_label("cam, rise").fill("400")
+    page.page.keyboard.press("Enter")
+    page.page.get_by_text("Expected a number from 0.001 to 360.").wait_for()
     page.page.get_by_label("cam, rise").fill("5")
     page.page.keyboard.press("Enter")
     page.page.get_by_text("the profile crosses itself").wait_for()

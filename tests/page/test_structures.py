@@ -337,6 +337,10 @@ def test_a_machine_beside_the_lists_has_its_size_and_its_card(tab, server):
     drawn = view.locator('[data-page="structure"] .chain-picture')
     drawn.get_by_text("8\xa0Schieberschubstange").wait_for()
     assert drawn.locator("svg text", has_text="Schieberschubstange").count() == 0
+    view.click('[data-view="motion"]')
+    label = view.locator(".rows.sizes label", has_text="Schwingen\xadstange").first
+    assert "Gestell\xa0– Schwingen\xadstange" in (label.text_content() or "")  # no line begins with a dash
+    view.click('[data-view="structure"]')
     view.locator("header select").select_option("en")
     # nor is its card in a list of other chains
     links.fill("6")

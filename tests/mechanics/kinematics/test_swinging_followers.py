@@ -120,6 +120,8 @@ def test_measures_of_the_catalog_machines():
         found = measures(linkage)
         assert found.travel == pytest.approx(radians(20 if id == "cam_rocker" else 12), abs=1e-9)
         assert "<svg" in draw_linkage(linkage).svg()
+        angle = linkage.required_pose["rocker"].angle  # told from the pivot to where it touches
+        assert radians(90) < angle < radians(180)
 
 
 @pytest.mark.parametrize(
