@@ -2,9 +2,9 @@
  * of a line; on a phone those that have no room are left out, but for what is chosen. */
 
 import type { Dimension } from "./dimensions";
-import { type Drawing, isPin, knotName, radiiOf, same } from "./drawing";
+import { type Drawing, isPin, knotName, radiiOf } from "./drawing";
 import { DRIVING, HATCH, PUSHING, placed, RAIL } from "./ground";
-import { convexHull, middleOf, sidesOf, spotsAbout, toHull } from "./hull";
+import { away, convexHull, middleOf, sidesOf, spotsAbout, toHull } from "./hull";
 import { number, spaced } from "./language";
 import { boxed, leaderOf } from "./leaders";
 import { halfOf, namePlace, nameSpots, rimSpots } from "./names";
@@ -64,7 +64,8 @@ function inkOf({ drawing, viewport }: Seen, dimensions: readonly Dimension[]): I
         [-x, high],
       ];
       shift(box(15, -9, 9), -knot.slide);
-      shift(box(46, RAIL - 1, RAIL + 2 * HATCH), -knot.slide);
+      if (knot.links.includes(frame!)) shift(box(46, RAIL - 1, RAIL + 2 * HATCH), -knot.slide);
+      else shift(box(26, -7, 7), -knot.slide);
     } else if (isPin(knot) && knot.links.includes(frame!))
       shift([
         [0, 0],
@@ -139,8 +140,9 @@ class Sheet {
 /** What the knots are called, beside them; of those at one place, such as a block and its slide, all of them. */
 function writeLetters(sheet: Sheet, { chosen, drawing, viewport }: Shown, plates: readonly Pair[][]): void {
   const { knots } = drawing;
+  const spots = knots.map(({ at }) => viewport.screen(...at));
   for (const [k, knot] of knots.entries()) {
-    const here = [...knots.keys()].filter((one) => same(knots[one]!, knot));
+    const here = [...knots.keys()].filter((one) => away(spots[one]!, ...spots[k]!) < 1);
     if (here[0]! < k) continue;
     const letters = here.map((one) => knotName(drawing, one)).join(", ");
     const radii = radiiOf(knot);
@@ -148,10 +150,14 @@ function writeLetters(sheet: Sheet, { chosen, drawing, viewport }: Shown, plates
     // in the larger wheel, if it has room
     const name = Math.max(0, ...radii) * viewport.scale > 2 * halfOf(told) + 40 ? told : letters;
     const half = halfOf(name);
-    const places = spotsAbout(viewport.screen(...knot.at), -LETTER, half - 2).map(([x, y]): Pair => [x, y + 4]);
+    const places = spotsAbout(spots[k]!, -LETTER, half - 2).map(([x, y]): Pair => [x, y + 4]);
+    const far = viewport.narrow ? 2 * WELL : WELL;
     const worth = places.map((at, place) => {
-      const upon = plates.some((plate) => !toHull(plate, at[0], at[1] - 4)) ? 3 : 0;
-      return sheet.gap(half, at) - upon - (place < 16 ? 0 : WELL);
+      const [x, y] = [at[0], at[1] - 4];
+      const upon = plates.some((plate) => !toHull(plate, x, y)) ? 3 : 0;
+      // at another joint
+      const astray = spots.some((one) => away(one, x, y) < away(spots[k]!, x, y) - 1) ? 2 * WELL : 0;
+      return sheet.gap(half, at) - upon - astray - (place < 16 ? 0 : far);
     });
     const best = Math.max(...worth);
     const seen = best > -WELL || !viewport.narrow || here.includes(chosen?.knot ?? -1);
@@ -226,7 +232,7 @@ function writtenOn(plane: Shown, dimensions: readonly Dimension[]): Written[] {
     });
     const near = ([x, y]: Pair) =>
       [-half, 0, half].every((d) => others.every((one) => toHull(one, x + d, y - 4) >= toHull(own, x + d, y - 4)));
-    const at = placesOf(plane, bodies[k]!, name).find((one) => sheet.gap(half, one) > 1 && near(one));
+    const at = placesOf(plane, bodies[k]!, name).find((one) => sheet.gap(half, one) > 0.5 && near(one));
     if (at) sheet.write(name, at);
     else far.push(k);
   }
@@ -236,7 +242,7 @@ function writtenOn(plane: Shown, dimensions: readonly Dimension[]): Written[] {
     const own = hulls[k]!;
     const others = hulls.filter((one) => one !== own && one[0]).map(boxed);
     const names = sheet.written.map(({ at: [x, y], name: other }) => ({ x, y, half: halfOf(other) }));
-    const free = (at: Pair) => sheet.gap(half, at) > 1;
+    const free = (at: Pair) => sheet.gap(half, at) > 0.5;
     const meant = !viewport.narrow || chosen?.link === bodies[k];
     if (!meant) continue; // it is told once it is chosen
     const found = own[0] ? leaderOf(boxed(own), own[2] ? own : [], others, half, free, lines, names)() : null;

@@ -39,11 +39,12 @@ export interface Around {
   /** Whether arrows of forces are, which have numbers. */
   forces: boolean;
 }
+export const LEADERS = { fill: "var(--faint)", stroke: "var(--faint)" };
 
 export class Naming {
   readonly element = svg("g", {});
   /** From names to bodies beside which they have no place. */
-  readonly #leaders = svg("path", { fill: "var(--faint)", stroke: "var(--faint)" });
+  readonly #leaders = svg("path", LEADERS);
   #labels: Label[] = [];
   /** Whether numbers stand for names, and in which cycles, widths and scales they do. */
   #numbered = false;
@@ -211,7 +212,7 @@ export class Naming {
         });
     }
     for (const find of anew) find();
-    put(this.#leaders, { d: lines.map((line) => `${pathThrough(line)}${dotAt(line[0])}`).join("") });
+    put(this.#leaders, { d: leadersThrough(lines) });
   }
 
   /** At its place beside its body, though something is there. */
@@ -303,6 +304,10 @@ function outlinesOf({ model, pose, sizes }: Linkage, viewport: Viewport): [link:
       return shape.closed ? [convexHull(places)] : sidesOf(places).slice(0, -1);
     });
   }
+}
+
+export function leadersThrough(lines: readonly [Pair, Pair][]): string {
+  return lines.map((line) => `${pathThrough(line)}${dotAt(line[0])}`).join("");
 }
 
 /** The end of a line on a body. */

@@ -11,12 +11,14 @@ import { away, nearest, onLine, pathThrough, toHull } from "./hull";
 import { angle, number } from "./language";
 import { isKept } from "./lengths";
 import { lettering } from "./lettering";
-import { bodiesOf, isCylinder, outlineOf, RING, ringOf, wayOf } from "./outlines";
+import { LEADERS, leadersThrough } from "./naming";
+import { bodiesOf, outlineOf, RING, ringOf, wayOf } from "./outlines";
 import type { Pair } from "./rows";
 import { guidelines, snapped } from "./snapping";
 import type { Viewport } from "./viewport";
 
 export const GRIP = 16; // pixels
+const ROD = "M-26 0H26";
 
 /** A knot, else a link, else the picture behind them. */
 export interface Chosen {
@@ -96,8 +98,15 @@ export function mechanismPicture(plane: Drawn): SVGElement[] {
   });
   const knots = drawing.knots.map((knot, k) => knotElement(plane, k, knot.at));
   const those = (wanted: (knot: Knot) => boolean) => knots.filter((_, k) => wanted(drawing.knots[k]!));
-  // as in Motion a cylinder lies upon the plates that it moves
-  return [...those((knot) => !isPin(knot) && !isCylinder(knot)), ...links, ...those(isCylinder), ...those(isPin)];
+  const isGear = ({ part }: Knot) => part !== undefined;
+  // as in Motion a cylinder or a block lies upon the plates that it moves
+  return [
+    ...those(isGear),
+    ...drawing.knots.flatMap((knot) => guideOf(plane, knot)),
+    ...links,
+    ...those((knot) => !isPin(knot) && !isGear(knot)),
+    ...those(isPin),
+  ];
 }
 
 /** The picture of all of it, with the spots that are put already and the place of the cursor. */
@@ -123,7 +132,7 @@ export function planePicture(plane: Plane): SVGElement[] {
     ...gridOf(viewport, unitOf(drawing)),
     svg("path.guide", { d: guides.map((ends) => pathThrough(ends.map((at) => viewport.screen(...at)))).join("") }),
     ...mechanismPicture(plane),
-    svg("path.crosshair", { d: texts.map(({ line }) => (line ? pathThrough(line) : "")).join(""), opacity: 0.6 }),
+    svg("path", { ...LEADERS, d: leadersThrough(texts.flatMap(({ line }) => (line ? [line] : []))) }),
     ...texts.map(({ at: [x, y], name }) => svg("text.name", { x, y, "text-anchor": "middle" }, name)),
     ...dimensionElements(dimensions),
     ...(waiting.length > 1 ? [svg("path.pending", { d: pathThrough(waiting) })] : []),
@@ -169,6 +178,18 @@ function circle(x: number, radius: number): string {
   return `M${x - radius} 0a${radius} ${radius} 0 1 0 ${2 * radius} 0a${radius} ${radius} 0 1 0 ${-2 * radius} 0Z`;
 }
 
+/** What a block slides on: a rail on the frame, else a rod. */
+function guideOf({ drawing, viewport }: Drawn, { at, links, slide }: Knot): SVGElement[] {
+  if (slide === undefined) return [];
+  const [x, y] = viewport.screen(...at);
+  const lines = links.includes(drawing.frame!)
+    ? { rail: `M-46 ${RAIL}H46`, "rail-hatch": `M-46 ${RAIL + HATCH}H46` }
+    : { outline: ROD, bar: ROD };
+  return Object.entries(lines).map(([name, d]) =>
+    svg(`path.${name}`, { d, transform: `translate(${x} ${y}) rotate(${-slide})` }),
+  );
+}
+
 function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair): SVGElement {
   const { between, links, slide } = drawing.knots[k]!;
   const [x, y] = viewport.screen(...at);
@@ -183,12 +204,8 @@ function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair):
   const ground = drawing.frame !== null && links.includes(drawing.frame);
   const way = wayOf(drawing.knots[k]!);
   if (between) element.append(alongEnds(drawing.knots[k]!, viewport.scale));
-  else if (slide !== undefined) {
-    const turned = svg("g", { transform: `rotate(${-slide})` });
-    turned.append(svg("path.rail", { d: `M-46 ${RAIL}H46` }), svg("path.rail-hatch", { d: `M-46 ${RAIL + HATCH}H46` }));
-    turned.append(svg("path.block", { d: BOX }));
-    element.append(turned);
-  } else if (ground) element.append(svg("path.support", { d: SUPPORT }));
+  else if (slide !== undefined) element.append(svg("path.block", { d: BOX, transform: `rotate(${-slide})` }));
+  else if (ground) element.append(svg("path.support", { d: SUPPORT }));
   if (slide === undefined && !between) element.append(svg("circle.joint", { r: links.length > 1 || ground ? 5 : 3.2 }));
   if (drawing.drives.includes(k))
     element.append(svg("path.driven", way === null ? { d: DRIVEN } : { d: PUSHED, transform: `rotate(${-way})` }));
