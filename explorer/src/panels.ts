@@ -131,13 +131,9 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
   const name = called.filter(Boolean).join(", ");
   const lettered = linkage.letterOf(0);
   const ends = `${others(first)}${lettered ? "–" : " – "}${others(second)}`;
-  const bold = h("b", {}, softened(lettered ? ends : name));
-  const label = h(
-    "label",
-    { for: id, title: `${name}: ${ends}` },
-    bold,
-    alone || lettered ? "" : `, ${softened(ends)}`,
-  );
+  const short = lettered && pins;
+  const bold = h("b", {}, softened(short ? ends : name));
+  const label = h("label", { for: id, title: `${name}: ${ends}` }, bold, alone || short ? "" : `, ${softened(ends)}`);
   return [
     label,
     input,
