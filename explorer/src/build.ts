@@ -51,6 +51,8 @@ export class BuildView implements View, Plane, Drawn {
   #made: Linkage | null = null;
   /** The linkage whose loads are those of the drawing. */
   #before: Linkage | null = null;
+  /** What Motion showed at the last change. */
+  #seen: Linkage | null = null;
   #tool: Tool = this.drawing.knots.length ? "link" : "ground";
   spots: Spot[] = [];
   chosen: Chosen | null = null;
@@ -159,9 +161,12 @@ export class BuildView implements View, Plane, Drawn {
     this.#offer();
   }
 
-  /** What can be begun with, while the plane is empty. */
+  /** What can be begun with, while the plane is empty; else what was opened after the last change. */
   #offer(): void {
-    renew(this.#starters, ...(this.drawing.knots.length ? [] : starters(this, this.page.linkage)));
+    const { drawing, page } = this;
+    const empty = !drawing.knots.length;
+    const none = !empty && (page.linkage === this.#seen || isOf(page.linkage, drawing));
+    renew(this.#starters, ...(none ? [] : starters(this, page.linkage, empty)));
   }
 
   begin(drawing: Drawing, known = false, tool: Tool = "move"): void {
@@ -201,6 +206,7 @@ export class BuildView implements View, Plane, Drawn {
     const stays = chosen?.link ? linksOf(next).includes(chosen.link) : all && !isPicture(chosen);
     if (!stays) this.chosen = null;
     this.#history.add(drawing);
+    this.#seen = this.page.linkage;
     this.drawing = next;
     this.spots = []; // what they lay on may be gone
     this.page.say("");

@@ -58,8 +58,8 @@ function sketch(drawing: Drawing): SVGElement {
   return svg("svg", { viewBox: `0 0 ${wide} ${high}`, width: WIDE, height: HIGH, "aria-hidden": "true" }, ...picture);
 }
 
-/** Cards along the upper edge of an empty plane; where there is room, why what Motion shows is none of them. */
-export function starters(view: Beginning, linkage: Linkage): HTMLElement[] {
+/** Along the upper edge of the plane: what Motion shows, or why it cannot be edited; on an empty one other cards, too. */
+export function starters(view: Beginning, linkage: Linkage, empty: boolean): HTMLElement[] {
   const { drawing: found, other } = drawingOf(linkage);
   const { title } = linkage;
   const name = title.replace(/^(?=.{29})(.{1,26}) .*/, "$1 …");
@@ -69,11 +69,12 @@ export function starters(view: Beginning, linkage: Linkage): HTMLElement[] {
     ["slider-crank", t("Slider-crank"), drawn(SLIDER_CRANK)],
     ["six-bar", t("Six-bar (Watt II)"), drawn(SIX_BAR)],
   ];
-  const buttons = cards.flatMap(([key, text, drawing]) => {
+  const buttons = cards.slice(0, empty ? 4 : 1).flatMap(([key, text, drawing]) => {
     if (!drawing) return [];
     const begin = () => view.begin(drawing, key === "hand");
-    return [h("button.plain", { "data-begin": key, onclick: begin }, sketch(drawing), text)];
+    return [h("button.plain", { "data-begin": key, onclick: begin }, empty ? sketch(drawing) : "", text)];
   });
-  const why = t("{name} is not edited here: {joints}", { name, joints: other.slice(0, 3).join(", ") });
-  return [h("h2", {}, t("Begin with")), ...buttons, ...(found || view.viewport.narrow ? [] : [h("p.note", {}, why)])];
+  const why = t("{name} cannot be edited here yet: {joints}", { name, joints: other.slice(0, 3).join(", ") });
+  const head = empty ? [h("h2", {}, t("Begin with"))] : [];
+  return [...head, ...buttons, ...(found ? [] : [h("p.note", {}, why)])];
 }

@@ -353,6 +353,7 @@ def test_a_way_is_counted_from_the_pivot_of_the_crank(plane):
     assert [view.locator(f".drawing .{name}").count() for name in ("block", "rail", "support")] == signs
     view.locator('[data-act="move"]').click()
     plane.until("gruebler.motion.linkage.model.outputs[0]?.joint === 3")
+    assert view.locator("label", has_text="eccentricity").all_inner_texts() == ["eccentricity"]
     linkage = linkage_from_json(json.loads(view.evaluate("JSON.stringify(gruebler.motion.document())")))
     # at 90 degrees the block is where it was drawn, 80 to the right; at 0 degrees 20 + 82.46
     ways = move(linkage, np.radians([90, 0])).displacement(3)
@@ -369,6 +370,8 @@ def test_on_a_phone_what_is_chosen_stands_beside_the_table(tab, server):
     assert picture["height"] >= 44
     view.click('[data-begin="four-bar"]')
     view.locator("table input").first.wait_for()
+    # beside an upright bar, too
+    assert {"1", "2", "3"} <= set(view.locator(".drawing text.name").all_text_contents())
     view.evaluate("scrollTo(0, 400)")
     page.until("gruebler.root.querySelector('.view.shown .stage').classList.contains('low')")
     assert view.locator(".drawing + .hint").is_visible()
@@ -1007,6 +1010,26 @@ def test_the_name_of_the_machine_at_hand_is_cut_between_words(plane):
     plane.page.click('[data-view="build"]')
     card = plane.page.locator("[data-begin=hand]", has_text="Kurbelschwinge")
     assert card.inner_text().strip() == "Edit Kurbelschwinge als …"
+
+
+def test_what_is_opened_beside_a_drawing_is_offered_and_guides_are_as_in_motion(plane):
+    """A block that slides on a link is on a rod, over it; only guides of the frame are hatched."""
+    view = plane.page
+    opened = "async (id) => { gruebler.open(await gruebler.ask('open', { id })); gruebler.show('build'); }"
+    view.click('[data-begin="four-bar"]')
+    assert not view.locator(".starters > *").count()
+    view.evaluate(opened, "walschaerts_gear")
+    assert view.locator(".starters > *").all_inner_texts() == ["Edit Walschaerts valve gear"]
+    view.click('[data-begin="hand"]')
+    assert not view.locator(".starters > *").count()
+    marks = ("rail", "rail-hatch", "block")
+    assert [view.locator(f".drawing path.{one}").count() for one in marks] == [2, 2, 3]
+    after = "(one) => !(one.compareDocumentPosition(gruebler.root.querySelector('.drawing path.block')) & 2)"
+    assert all(view.locator(".drawing path.bar").evaluate_all(f"all => all.map({after})"))
+    assert "P, Q" in view.locator(".drawing text.name").all_text_contents()
+    view.evaluate(opened, "cam_roller")
+    assert "cannot be edited here yet: cam – roller" in view.locator(".starters").inner_text()
+    view.evaluate("localStorage.clear()")
 
 
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (390, 844)])
