@@ -101,6 +101,7 @@ const packed = {
  * library, calls them. */
 const own = `
   measuring showRange showPose showValue adding addPoint appeared arrange atFrame cancelDrag changeSlowly dragCancel
+  endFall driveName jointSymbol outputStandsStill refining
   dragEnd dragPoint dragStart editor element elementAt elementsOf elementsOn falling forget holdJoint knot
   jointName leftOf lineFirst linkList linkName moveJointBy movePointBy openDocument openFile
   pan paused picked pickWithin playAt plottedAngle pointed pointName poleAside possible present recoloured runAlong

@@ -65,7 +65,6 @@ function inkOf({ drawing, viewport }: Seen, dimensions: readonly Dimension[]): I
       ];
       shift(box(15, -9, 9), -knot.slide);
       if (knot.links.includes(frame!)) shift(box(46, RAIL - 1, RAIL + 2 * HATCH), -knot.slide);
-      else shift(box(26, -7, 7), -knot.slide);
     } else if (isPin(knot) && knot.links.includes(frame!))
       shift([
         [0, 0],
@@ -151,13 +150,9 @@ function writeLetters(sheet: Sheet, { chosen, drawing, viewport }: Shown, plates
     const name = Math.max(0, ...radii) * viewport.scale > 2 * halfOf(told) + 40 ? told : letters;
     const half = halfOf(name);
     const places = spotsAbout(spots[k]!, -LETTER, half - 2).map(([x, y]): Pair => [x, y + 4]);
-    const far = viewport.narrow ? 2 * WELL : WELL;
     const worth = places.map((at, place) => {
-      const [x, y] = [at[0], at[1] - 4];
-      const upon = plates.some((plate) => !toHull(plate, x, y)) ? 3 : 0;
-      // at another joint
-      const astray = spots.some((one) => away(one, x, y) < away(spots[k]!, x, y) - 1) ? 2 * WELL : 0;
-      return sheet.gap(half, at) - upon - astray - (place < 16 ? 0 : far);
+      const upon = plates.some((plate) => !toHull(plate, at[0], at[1] - 4)) ? 3 : 0;
+      return sheet.gap(half, at) - upon - (place < 16 ? 0 : WELL);
     });
     const best = Math.max(...worth);
     const seen = best > -WELL || !viewport.narrow || here.includes(chosen?.knot ?? -1);

@@ -18,7 +18,6 @@ import { guidelines, snapped } from "./snapping";
 import type { Viewport } from "./viewport";
 
 export const GRIP = 16; // pixels
-const ROD = "M-26 0H26";
 
 /** A knot, else a link, else the picture behind them. */
 export interface Chosen {
@@ -100,13 +99,7 @@ export function mechanismPicture(plane: Drawn): SVGElement[] {
   const those = (wanted: (knot: Knot) => boolean) => knots.filter((_, k) => wanted(drawing.knots[k]!));
   const isGear = ({ part }: Knot) => part !== undefined;
   // as in Motion a cylinder or a block lies upon the plates that it moves
-  return [
-    ...those(isGear),
-    ...drawing.knots.flatMap((knot) => guideOf(plane, knot)),
-    ...links,
-    ...those((knot) => !isPin(knot) && !isGear(knot)),
-    ...those(isPin),
-  ];
+  return [...those(isGear), ...links, ...those((knot) => !isPin(knot) && !isGear(knot)), ...those(isPin)];
 }
 
 /** The picture of all of it, with the spots that are put already and the place of the cursor. */
@@ -178,18 +171,6 @@ function circle(x: number, radius: number): string {
   return `M${x - radius} 0a${radius} ${radius} 0 1 0 ${2 * radius} 0a${radius} ${radius} 0 1 0 ${-2 * radius} 0Z`;
 }
 
-/** What a block slides on: a rail on the frame, else a rod. */
-function guideOf({ drawing, viewport }: Drawn, { at, links, slide }: Knot): SVGElement[] {
-  if (slide === undefined) return [];
-  const [x, y] = viewport.screen(...at);
-  const lines = links.includes(drawing.frame!)
-    ? { rail: `M-46 ${RAIL}H46`, "rail-hatch": `M-46 ${RAIL + HATCH}H46` }
-    : { outline: ROD, bar: ROD };
-  return Object.entries(lines).map(([name, d]) =>
-    svg(`path.${name}`, { d, transform: `translate(${x} ${y}) rotate(${-slide})` }),
-  );
-}
-
 function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair): SVGElement {
   const { between, links, slide } = drawing.knots[k]!;
   const [x, y] = viewport.screen(...at);
@@ -204,8 +185,17 @@ function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair):
   const ground = drawing.frame !== null && links.includes(drawing.frame);
   const way = wayOf(drawing.knots[k]!);
   if (between) element.append(alongEnds(drawing.knots[k]!, viewport.scale));
-  else if (slide !== undefined) element.append(svg("path.block", { d: BOX, transform: `rotate(${-slide})` }));
-  else if (ground) element.append(svg("path.support", { d: SUPPORT }));
+  else if (slide !== undefined) {
+    const turned = svg("g", { transform: `rotate(${-slide})` });
+    // on a link that moves there is none
+    if (ground)
+      turned.append(
+        svg("path.rail", { d: `M-46 ${RAIL}H46` }),
+        svg("path.rail-hatch", { d: `M-46 ${RAIL + HATCH}H46` }),
+      );
+    turned.append(svg("path.block", { d: BOX }));
+    element.append(turned);
+  } else if (ground) element.append(svg("path.support", { d: SUPPORT }));
   if (slide === undefined && !between) element.append(svg("circle.joint", { r: links.length > 1 || ground ? 5 : 3.2 }));
   if (drawing.drives.includes(k))
     element.append(svg("path.driven", way === null ? { d: DRIVEN } : { d: PUSHED, transform: `rotate(${-way})` }));
