@@ -58,7 +58,7 @@ function sketch(drawing: Drawing): SVGElement {
   return svg("svg", { viewBox: `0 0 ${wide} ${high}`, width: WIDE, height: HIGH, "aria-hidden": "true" }, ...picture);
 }
 
-/** Along the upper edge of the plane: what Motion shows, or why it cannot be edited; on an empty one other cards, too. */
+/** Along the upper edge: what Motion shows, or why it cannot be edited; on an empty plane other cards, too. */
 export function starters(view: Beginning, linkage: Linkage, empty: boolean): HTMLElement[] {
   const { drawing: found, other } = drawingOf(linkage);
   const { title } = linkage;
