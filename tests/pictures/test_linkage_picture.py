@@ -137,8 +137,10 @@ def test_a_rod_with_its_round_end_stays_on_its_side_of_the_face(name):
     (start, end) = rod.parts[0]
     half = STYLES["outline-rod"].width / 2
     before = start.plus(start.minus(end).unit, half)
-    faces = [shape for shape in shapes if isinstance(shape, Polylines) and shape.style == "rail"]
-    assert any(before.minus(place).length < 1e-6 for face in faces for place in face.parts[0])
+    faces = [shape.parts[0] for shape in shapes if isinstance(shape, Polylines) and shape.style in ("rail", "block")]
+    sides = [side for face in faces for side in itertools.pairwise(face)]
+    ways = [(before.minus(one).length + before.minus(two).length, two.minus(one).length) for one, two in sides]
+    assert any(through == pytest.approx(direct, abs=1e-6) for through, direct in ways)
 
 
 def test_a_block_stands_on_one_rail_which_its_rod_does_not_cross():
