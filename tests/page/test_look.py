@@ -537,7 +537,7 @@ def test_tools_of_a_phone_stand_in_one_row(tab, server):
     assert all(0 <= box["left"] < box["right"] <= 390 for box in boxes)
     page.page.locator('[data-tool="gears"]').click()
     hint = page.page.locator("[data-page] .hint, .drawing + .hint").first
-    assert hint.inner_text().startswith("Radpaar: Beide Mitten")
+    assert hint.inner_text().startswith("Räder: Beide Mitten")
 
 
 def test_tools_stand_in_one_row_on_a_small_desk(tab, server):
@@ -554,7 +554,7 @@ def test_a_machine_that_moves_by_its_dimensions_says_so_beside_the_count(tab, se
     page.page.click('[data-view="catalog"]')
     card = page.page.locator('.card[data-id="sarrus"]')
     card.wait_for(timeout=60_000)
-    assert "6 links, F = 1, by the count 0" in card.inner_text()
+    assert "6 links, F = 1, by the count 0" in card.inner_text().replace("\xa0", " ")
     assert page.page.locator('.card[data-id="crankrocker"]').inner_text().endswith("4 links, F = 1")
     # 6(11 - 1) - 3·5 - 12·3 = 9, of which each of the six rods has its spin: a platform that shifts in space
     assert "11 links, F = 3, freely spinning parts: 6" in page.page.locator('.card[data-id="delta"]').inner_text()
