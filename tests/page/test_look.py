@@ -552,12 +552,15 @@ def test_a_machine_that_moves_by_its_dimensions_says_so_beside_the_count(tab, se
     """Sarrus 1853: the count gives 6(6 - 1) - 6·5 = 0, the platform moves with one freedom."""
     page = tab().open(server.address)
     page.page.click('[data-view="catalog"]')
-    card = page.page.locator('.card[data-id="sarrus"]')
-    card.wait_for(timeout=60_000)
-    assert "6 links, F = 1, by the count 0" in card.inner_text().replace("\xa0", " ")
-    assert page.page.locator('.card[data-id="crankrocker"]').inner_text().endswith("4 links, F = 1")
+    page.page.locator('.card[data-id="sarrus"]').wait_for(timeout=60_000)
+    sarrus, rocker, delta = (
+        page.page.locator(f'.card[data-id="{name}"]').inner_text().replace("\xa0", " ")
+        for name in ("sarrus", "crankrocker", "delta")
+    )
+    assert "6 links, F = 1, by the count 0" in sarrus
+    assert rocker.endswith("4 links, F = 1")
     # 6(11 - 1) - 3·5 - 12·3 = 9, of which each of the six rods has its spin: a platform that shifts in space
-    assert "11 links, F = 3, freely spinning parts: 6" in page.page.locator('.card[data-id="delta"]').inner_text()
+    assert "11 links, F = 3, freely spinning parts: 6" in delta
 
 
 def test_tabs_of_a_phone_show_that_they_scroll_and_cards_have_one_height(tab, server):
