@@ -591,7 +591,7 @@ def test_a_view_that_is_turned_by_hand_has_no_name(tmp_path, chromium):
     pressed = "all => all.map((one) => one.ariaPressed)"
     assert views.evaluate_all(pressed) == ["true", "false", "false", "false"]
     assert page.locator(".stage path.driven").count() == 1
-    assert page.get_by_label("Names").count() == 0  # no point has one
+    assert page.get_by_label("Names").count() == 1  # of the bodies: no point has one
     page.locator(".stage > svg").focus()
     page.keyboard.press("ArrowLeft")
     assert views.evaluate_all(pressed) == ["false"] * 4
