@@ -1,5 +1,5 @@
-// Builds the page into the folder given, else into the package: an ES module and its style sheet, one more module
-// for static sites, one for their synthesis, one for linkages in space and what adds to the style sheet.
+// Builds the page into the folder given, else into the package: an ES module and its style sheet, the kernel as text,
+// one more module for static sites, one for their synthesis, one for linkages in space and what adds to the sheet.
 
 import { readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
@@ -108,6 +108,7 @@ const own = `
   degrees fitted measured nudge recall spots
   longest margin inSpace advance destroy elsewhere emit follow heads letterOf posed showKeys taken undoing
   keepInside served setAdding setLength setTheme shiftLine shownDesign showPose showRange showValue
+  narrow leader waits covers spokes distances grounds
   arrows columns keepLoads sized snapping switchMode toLocal turnTo upright writeSizes
 `.match(/\w+/g);
 
@@ -228,6 +229,11 @@ for (const { path: file, text } of outputFiles) {
     code.replace(/\bpacked_(\d+)/g, (_, number) => `"${kept[number]}"`),
   );
 }
+
+await writeFile(
+  path.join(target, "motion.txt"),
+  written(await readFile(path.join(here, "../core/page/motion.wasm.gz"))),
+);
 
 /** Declarations in the order of their names, in which they pack smaller. */
 function ordered(sheet) {

@@ -2,9 +2,9 @@
 
     python core/page/build.py      # needs `ziglang`, `zopfli` and npx; some minutes the first time, then a minute
 
-`motion.wasm.gz`, which every page carries, moves linkages; `solutions.wasm.gz` finds four-bars through points, and is
-loaded when they are asked for. A module tells which sources it was made of, so that a test can say whether it belongs
-to those that are here.
+`motion.wasm.gz`, which every page carries as text, moves linkages; `solutions.wasm.gz` finds four-bars through points,
+and is loaded when they are asked for. A module tells which sources it was made of, so that a test can say whether it
+belongs to those that are here.
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ from typing import NamedTuple
 
 HERE = Path(__file__).parent
 CORE = HERE.parent
-PAGE = CORE.parent / "src/gruebler/page/static"
 SECTION = b"gruebler sources"
 """A custom section of a module: engines pass over it."""
 
@@ -37,7 +36,7 @@ class Module(NamedTuple):
 MOTION = ("bars", "closure", "closure_rates", "dyads", "newton", "placing", "plan", "sweep", "swept", "walk")
 MODULES = (
     Module(
-        target=PAGE / "motion.wasm.gz",
+        target=HERE / "motion.wasm.gz",
         units=(
             "page/door.cpp",
             *(f"src/motion/{name}.cpp" for name in MOTION),

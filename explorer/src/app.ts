@@ -18,7 +18,7 @@ import type { Change } from "./loads";
 import type { Model } from "./model";
 import { MotionView } from "./motion";
 import { contentOf, takeDropped } from "./opening";
-import { fromBase64 } from "./packed";
+import { bytesOf } from "./packed";
 import { openShared, type Shared, sharedOf, shareLink, unshared } from "./sharing";
 import { firstTheme, setTheme, shell, themeTool, tool } from "./shell";
 import { IN_SPACE, type InSpace, store, stored } from "./storing";
@@ -92,7 +92,7 @@ export class App implements Page {
 
   async start(): Promise<void> {
     try {
-      await loadKernel(fromBase64(String(this.model.get("kernel"))));
+      await loadKernel(bytesOf(String(this.model.get("kernel"))));
     } catch (why) {
       this.#shadow.append(this.root);
       this.#appear();

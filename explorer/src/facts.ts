@@ -43,7 +43,7 @@ export function factsOf(
   if (record) {
     const value = output(linkage, pose, 0);
     const text = size(turning ? inLap(value) : value);
-    const hint = t("Measured along the guide, from the dot that the picture shows meanwhile");
+    const hint = t("Measured along the guide, from the dot in the picture");
     facts.push({ name: t("Output {name}", { name: linkage.linkName(record.link) }), text, ...(!turning && { hint }) });
     const rate = output(linkage, pose, 0, 1);
     facts.push({

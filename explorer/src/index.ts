@@ -26,7 +26,8 @@ function render({ model, el }: { model: HostModel; el: HTMLElement }): () => voi
 export default { render };
 
 function begin(at: HTMLElement): void {
-  const values = JSON.parse(document.getElementById("gruebler-model")!.textContent ?? "{}") as Record<string, unknown>;
+  const given = (name: string) => document.getElementById(`gruebler-${name}`)!.textContent!;
+  const values = { ...(JSON.parse(given("model")) as object), kernel: given("kernel") };
   const host = at.dataset.gruebler ?? "file";
   const address = new URL("ws", location.href);
   address.protocol = address.protocol === "https:" ? "wss:" : "ws:";

@@ -5,7 +5,7 @@ import type { Dimension } from "./dimensions";
 import { type Drawing, isPin, knotName, radiiOf } from "./drawing";
 import { DRIVING, HATCH, PUSHING, placed, RAIL } from "./ground";
 import { away, convexHull, middleOf, sidesOf, spotsAbout, toHull } from "./hull";
-import { number, spaced } from "./language";
+import { currentLanguage, number, spaced } from "./language";
 import { boxed, leaderOf } from "./leaders";
 import { halfOf, namePlace, nameSpots, rimSpots } from "./names";
 import { bodiesOf, isCylinder, outlineOf, RING, rimsOf, ringOf, type Seen, wayOf } from "./outlines";
@@ -190,7 +190,8 @@ let last: { drawing: Drawing; key: string; written: Written[] } | null = null;
 export function lettering(plane: Shown, dimensions: readonly Dimension[]): Written[] {
   const { chosen, drawing, viewport } = plane;
   const { height, scale, width } = viewport;
-  const key = `${[...viewport.screen(0, 0), scale, width, height]} ${chosen?.knot} ${chosen?.link}`;
+  const shown = [...viewport.screen(0, 0), scale, width, height, currentLanguage()];
+  const key = `${shown} ${chosen?.knot} ${chosen?.link}`;
   if (last?.drawing === drawing && last.key === key) return last.written;
   last = { drawing, key, written: writtenOn(plane, dimensions) };
   return last.written;

@@ -149,7 +149,7 @@ function stepFrom(before: Drawing | null, after: Drawing): string | null {
   if (!links && !joints) return null;
   const signed = (value: number) => `${value > 0 ? "+" : ""}${number(value)}`;
   const text = t("Last step: links {links}, joints {joints}.", { links: signed(links), joints: signed(joints) });
-  return links === 6 && joints === -6 ? `${text} ${t("A dyad with both ends joined leaves F as it is.")}` : text;
+  return links === 6 && joints === -6 ? `${text} ${t("A dyad joined at both ends leaves F unchanged.")}` : text;
 }
 
 /** The first open end of a link, else -1. */

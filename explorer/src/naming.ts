@@ -71,10 +71,10 @@ export class Naming {
 
   /** Choose between names and numbers, so that it holds for all of these poses; how high the list of names is then. */
   choose(linkage: Linkage, poses: () => Iterable<Around>): number {
-    const { scale, width } = this.viewport;
+    const { height, scale, width } = this.viewport;
     const known = this.#known.get(linkage.cycle) ?? new Map<string, boolean>();
     this.#known.set(linkage.cycle, known);
-    const key = [width, Math.round(8 * Math.log(scale)), currentLanguage()].join();
+    const key = [width, height, Math.round(8 * Math.log(scale)), currentLanguage()].join();
     const long = namedLinks(linkage).some((link) => linkage.linkName(link).length > SHORT);
     const take = (numbers: boolean) => {
       this.#numbered = numbers;

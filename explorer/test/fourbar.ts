@@ -1,6 +1,6 @@
 /** A four-bar as Python describes it, and what is known of it without solving: triangles and the law of cosines. */
 
-import packed from "../../src/gruebler/page/static/motion.wasm.gz";
+import packed from "../../core/page/motion.wasm.gz";
 import { loadKernel } from "../src/kernel";
 import type { Model } from "../src/model";
 

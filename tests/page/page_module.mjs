@@ -5,6 +5,6 @@ import { pathToFileURL } from "node:url";
 export async function pageModule(built) {
   const address = pathToFileURL(built);
   const module = await import(address.href);
-  await module.loadKernel(readFileSync(new URL("motion.wasm.gz", address)));
+  await module.loadKernel(readFileSync(new URL("../../core/page/motion.wasm.gz", import.meta.url)));
   return module;
 }

@@ -165,6 +165,7 @@ def test_the_frame_is_not_traced_and_a_click_leaves_no_ring(server, chromium):
     """What is pressed there turns the view, as beside the machine."""
     browser, page, errors = browsed_at(chromium, server.address + "space/bennett.html#en")
     page.get_by_role("button", name="Pause").click()
+    drive_to(page, "60")  # every link is seen there
     moves = page.evaluate("gruebler.linkage.data.names.map((name, link) => [name, gruebler.linkage.moves(link)])")
     fixed = [name for name, moving in moves if not moving]
     assert fixed == [entry("bennett").placed().mechanism.frame]
@@ -256,6 +257,7 @@ def test_plots_of_several_drives_grow_while_they_are_made(server, chromium):
         page.wait_for_timeout(50)
     total, curve = page.locator(".plot > svg > path.curve:first-child").all()[:2]
     assert total.get_attribute("d") == ""  # its sign is that of its farthest way
+    assert page.locator('[data-panel="measures"]').get_by_text("±").count() > 0
     wide = "d => { const x = d.match(/[ML][^ ]+/g).map((at) => +at.slice(1)); return x.at(-1) - x[0]; }"
     part = page.evaluate(wide, curve.get_attribute("d"))
     assert 10 < part < 200

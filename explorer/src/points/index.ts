@@ -1,7 +1,7 @@
 /** Four-bars through nine points, found without Python: the script of a worker that a static site starts when they are
  * asked for. It answers one question, and tells how far it is. */
 
-import packed from "../../../src/gruebler/page/static/motion.wasm.gz";
+import packed from "../../../core/page/motion.wasm.gz";
 import type { Found } from "../designs";
 import { loadKernel } from "../kernel";
 import type { Model } from "../model";

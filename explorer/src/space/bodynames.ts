@@ -1,21 +1,16 @@
 /** Where the names of bodies stand in the picture: at their middles, below each other where they would overlap. */
 
+import { halfOf } from "../names";
 import type { Pair } from "../rows";
 import type { Vector } from "./algebra";
 
 const LINE = 17; // pixels from name to name
-const LETTER = 7.5; // pixels
 const TRIED = [0, 1, -1, 2, -2, 3, -3]; // lines
 
 /** A name that is centred at a place of the picture. */
 export interface Name {
   text: string;
   at: Pair;
-}
-
-/** How far a name reaches to each side. */
-export function halfOf(text: string): number {
-  return (LETTER * text.length) / 2;
 }
 
 /** The names within a picture of a size, moved up or down until they overlap neither each other nor others. */

@@ -201,12 +201,15 @@ export class OutputPlots {
     const { data } = this.machine;
     const read = this.#readings.map((reading, k) => {
       const { fact: name, turns } = reading;
+      const values = this.#values[k];
+      const side = isTotal(reading) && !values ? "±" : ""; // not known yet
       const text = (value: number) =>
         turns
           ? angle(value / DEGREES, DIGITS)
           : `${number(Math.abs(value) < 1e-6 * data.size ? 0 : value, DIGITS)} ${data.unit}`;
-      const facts: Fact[] = [{ name, text: text(this.#value(k)), ...(isTotal(reading) ? { style: "wide" } : {}) }];
-      const values = this.#values[k];
+      const facts: Fact[] = [
+        { name, text: side + text(this.#value(k)), ...(isTotal(reading) ? { style: "wide" } : {}) },
+      ];
       if (!values || !isRated(reading)) return facts;
       const far = highest(values) + highest(values.map((value) => -value));
       if (!(turns && far > 359.9))

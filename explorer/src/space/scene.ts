@@ -3,6 +3,7 @@
 import { h, lowered, svg } from "../dom";
 import { gridStep } from "../grid";
 import { number } from "../language";
+import { halfOf } from "../names";
 import type { Pair } from "../rows";
 import { zoomButtons } from "../shell";
 import {
@@ -19,7 +20,7 @@ import {
   type Vector,
 } from "./algebra";
 import { arrowsOf, headed } from "./arrows";
-import { apart, halfOf, middleOf, type Name } from "./bodynames";
+import { apart, middleOf, type Name } from "./bodynames";
 import type { Machine } from "./machine";
 import type { Spot } from "./model";
 import { type Drawn, Painter } from "./painter";

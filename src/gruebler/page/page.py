@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import html
 import json
 from collections.abc import Iterable, Mapping
@@ -34,8 +33,8 @@ def module_text(name: str = "explorer") -> str:
 
 @cache
 def kernel_text() -> str:
-    """The kernel that moves linkages, a packed module of WebAssembly in base 64, as the front end is given it."""
-    return base64.b64encode((_STATIC / "motion.wasm.gz").read_bytes()).decode("ascii")
+    """The kernel that moves linkages, a packed module of WebAssembly in the signs of the script's packed texts."""
+    return (_STATIC / "motion.txt").read_text(encoding="ascii")
 
 
 def picture_styles() -> str:
@@ -87,7 +86,7 @@ def single_file(model: Mapping[str, Any], lang: str = "") -> str:
     >>> from gruebler.mechanics.fourbar import FourBar
     >>> page = single_file(model_of(FourBar(25, 70, 40, 70).linkage()))
     >>> page.count("<script"), "fetch(" in page, " src=" in page
-    (2, False, False)
+    (3, False, False)
     """
     script = module_text()
     values = {"lang": lang, "machine": model}
@@ -128,8 +127,8 @@ def _page(lang: str, host: str, values: Mapping[str, Any], script: str, policy: 
     name = str(model["names"].get(lang or "en") or model["name"] or model["source"])
     title = f"{name} – gruebler" if name else "gruebler"
     tree = shadow_tree(page_styles(), _outline(name, lang, alone=host == "file"))
-    values = {"kernel": kernel_text(), **values}
-    return data_page(title, lang, values, script, policy, f'<div data-gruebler="{host}">{tree}</div>')
+    kernel = f'<script type="text/plain" id="gruebler-kernel">{kernel_text()}</script>'
+    return data_page(title, lang, values, kernel + script, policy, f'<div data-gruebler="{host}">{tree}</div>')
 
 
 def shadow_tree(sheet: str, outline: str = "") -> str:

@@ -104,7 +104,7 @@ def _placed(linkage: Linkage, number: int, elements: Mapping[str, Element], driv
     changed = _with_elements(linkage, {(number, link): element for link, element in elements.items()})
     motion = move_quietly(changed, [drives])
     if not motion.complete:
-        raise LinkageError("with these sizes it cannot be assembled here; try another position of the drive")
+        raise LinkageError("with these sizes the linkage cannot be assembled here; try another position of the drive")
     return changed.with_reference_pose(motion.pose())
 
 
