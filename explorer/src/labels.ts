@@ -6,7 +6,7 @@ import { away as apart, convexHull, middleOf, spotsAbout, toHull } from "./hull"
 import { numberOf } from "./legend";
 import type { Linkage } from "./linkage";
 import { halfOf, type NamePlace, namePlace, nameSpots, rimSpots } from "./names";
-import { quietSpots } from "./quiet";
+import { cornersOf, quietSpots } from "./quiet";
 import { direction, type Pair, place } from "./rows";
 import type { Viewport } from "./viewport";
 
@@ -138,11 +138,11 @@ function frameOf(linkage: Linkage): Label[] {
   const spots = (viewport: Viewport) => {
     const [x, y] = viewport.screen(...linkage.jointAt(joint));
     return [
-      [0, 36],
-      [28, 18],
-      [-28, 18],
-      [0, -20],
-    ].map(([right, down]): Pair => [x + right!, y + down!]);
+      [x, y + 36],
+      [x + 28, y + 18],
+      [x - 28, y + 18],
+      [x, y - 20],
+    ] as Pair[];
   };
   const element = svg("text.name", { "text-anchor": "middle" }, name);
   return [{ element, name, spots, taken: 0, half: halfOf(name), many: true }];
@@ -154,8 +154,7 @@ function rimOf({ model }: Linkage, link: number): [centre: Pair, far: number] | 
     ({ between, closed, lines, link: own }) => own === link && closed && !between && lines?.[1],
   );
   if (!ring) return null;
-  const rim = ring.lines![0]!;
-  const places = Array.from({ length: rim.length / 2 }, (_, k): Pair => [rim[2 * k]!, rim[2 * k + 1]!]);
+  const places = cornersOf(ring.lines!.slice(0, 1));
   const centre = middleOf(places);
   return [centre, apart(places[0]!, ...centre)];
 }
@@ -167,11 +166,9 @@ function wheelOf(linkage: Linkage, link: number, half: number): Label["wheel"] {
   const lines = shapes.flatMap((shape) => (shape.style === "hatch" && shape.lines) || []);
   if (!circle || !lines[0]) return undefined;
   const [x, y, radius] = circle;
-  const ends = lines.flatMap(([a, b, c, d]): Pair[] => [
-    [a!, b!],
-    [c!, d!],
-  ]);
-  const angles = ends.map(([u, v]) => Math.atan2(v - y, u - x)).sort((one, other) => one - other);
+  const angles = cornersOf(lines)
+    .map(([u, v]) => Math.atan2(v - y, u - x))
+    .sort((one, other) => one - other);
   const gaps = angles.map((one, k) => (one + (angles[k + 1] ?? angles[0]! + 2 * Math.PI)) / 2);
   return (viewport) => {
     const at = (u: number, v: number) => viewport.screen(...place(linkage.pose, 0, link, u, v));

@@ -6,15 +6,15 @@ import type { Pair } from "./rows";
 
 const NEAREST = 16; // pixels from the place on its body to a name
 const STEP = 8;
-const STEPS = 5;
+const NUMBER = 5; // the same of a number, whose line is short
+const STEPS = 7;
 const WAYS = 16;
 const BAR = 15; // pixels from the middle of a bar to the middle of a name that stands beside it
 const RIM = 9; // pixels from an outline of its own
 const SAMPLE = 14; // pixels between places of a name that are compared with bodies
 const CROSSED = 45; // pixels of a longer line that are better than one across another body
-const ASTRAY = 60; // pixels of a longer line that are better than a name nearer to another body
+const ASTRAY = 60; // and than a name nearer to another body, or right below or above another one
 const PARTS = [0.15, 0.3, 0.5, 0.7, 0.85];
-const SIXTHS = [0, 1, 2, 3, 4, 5, 6].map((k) => k / 6);
 const CLEAR = 10; // pixels from another body to where a line ends
 const SEEN = 4; // pixels of a longer line that are better than an end one pixel nearer to another body
 const ENDS = 4; // places of a body from which lines are tried
@@ -79,7 +79,7 @@ export function leaderOf(
     const from = places[spot];
     if (!from) return;
     const phi = ((chosen % WAYS) * 2 * Math.PI) / WAYS;
-    const far = NEAREST + STEP * (Math.floor(chosen / WAYS) % STEPS);
+    const far = NEAREST + (half < STEP ? NUMBER : STEP) * (Math.floor(chosen / WAYS) % STEPS);
     const [c, s] = [Math.cos(phi), Math.sin(phi)];
     const [x, y] = [from[0] + (far + half) * c, from[1] - far * s];
     const end = (at: number, middle: number, room: number) => middle + Math.max(-room, Math.min(room, at - middle));
@@ -92,17 +92,15 @@ export function leaderOf(
       [best, least] = [{ at: [x, y + 4], line: null, chosen }, cost];
       return;
     }
-    const along = PARTS.map((part) => between(from, to, part));
-    const hides =
-      ({ x: u, y: v, half: wide }: { x: number; y: number; half: number }) =>
-      (at: Pair) =>
-        Math.abs(at[0] - u) < wide + 2 && Math.abs(at[1] - v) < 9;
-    if (names.some((one) => along.some(hides({ ...one, y: one.y - 4 })))) return;
-    const mine = hides({ x, y, half });
-    for (const line of lines) if (meet(line, [from, to]) || SIXTHS.some((part) => mine(between(...line, part)))) return;
-    if (nearerBy([x, y + 4], half, own[0], hulls) < 1) cost += ASTRAY;
-    cost += CROSSED * others.filter(([body]) => along.slice(1).some((at) => toHull(body, ...at) < 5)).length;
-    if (cost < least) [best, least] = [{ at: [x, y + 4], line: [from, to], chosen }, cost];
+    const way: [Pair, Pair] = [from, to];
+    if (names.some((one) => hides(one.half, [one.x, one.y - 4], way))) return;
+    if (lines.some((line) => meet(line, way) || hides(half, [x, y], line))) return;
+    const stacked = names.some((one) => Math.abs(one.x - x) < half + one.half && Math.abs(one.y - 4 - y) < 2 * BAR);
+    if (stacked || nearerBy([x, y + 4], half, own[0], hulls) < 1) cost += ASTRAY;
+    cost +=
+      CROSSED *
+      others.filter(([body]) => PARTS.slice(1).some((part) => toHull(body, ...between(from, to, part)) < 5)).length;
+    if (cost < least) [best, least] = [{ at: [x, y + 4], line: way, chosen }, cost];
   };
   return (before) => {
     [best, least] = [null, Infinity];
@@ -137,6 +135,14 @@ function placesIn(home: readonly Pair[]): Pair[] {
 /** Places of a body at which a line may end: its middle and places of its sides. */
 function placesOn(own: readonly Pair[]): Pair[] {
   return [middleOf(own), ...sidesOf(own).flatMap((side) => PARTS.map((part) => between(...side, part)))];
+}
+
+/** Whether a name, half its width and its middle given, lies upon a line. */
+function hides(half: number, [x, y]: Pair, line: [Pair, Pair]): boolean {
+  return PARTS.some((part) => {
+    const [u, v] = between(...line, part);
+    return Math.abs(u - x) < half + 2 && Math.abs(v - y) < 9;
+  });
 }
 
 /** Whether two lines meet. */

@@ -11,6 +11,7 @@ import type { Legend } from "./legend";
 import type { Linkage } from "./linkage";
 import type { ShapeRecord } from "./model";
 import { nearerBy } from "./names";
+import { cornersOf } from "./quiet";
 import { type Pair, place } from "./rows";
 import { linesOf } from "./shapes";
 import type { Viewport } from "./viewport";
@@ -22,7 +23,9 @@ const LOW = 4; // and from the lower one
 const NEAR = 16; // places of a letter of which others are twice as far
 const RULE = 34; // from the left edge to where the numbers of the grid end
 const JOINT = 11; // from the middle of a joint to that of a name
+const BLOCK = 12; // from the middle of a joint to what may be its block
 const BODY = 9; // from the middle of a bar to that of a name beside it
+const AWAY = 30; // the same on a wheel, where it is not to be read as that of a bar
 const INK = 8; // from a name to an arrow or a ground
 const BACK = 8; // more room, for a name that stood farther off
 const GAP = 5; // from the middle of a name to a ground beside which it still stands well
@@ -86,7 +89,7 @@ export class Naming {
       take(false);
       for (const around of poses()) {
         this.place(linkage, around);
-        numbered ||= this.#crowded > 0;
+        numbered = this.#crowded > 0;
         if (numbered) break;
       }
     }
@@ -150,7 +153,9 @@ export class Naming {
         const wheel = label.wheel?.(viewport);
         const spokes = wheel && [...boxes, ...wheel.spokes.map(boxed)];
         // a long name interrupts a spoke
-        const good = (at: Pair) => (wheel ? near(at, -1, spokes) : near(at, INK - 2 + wide - half)) && quiet(at);
+        const good = (at: Pair) =>
+          (wheel ? near(at, -1, spokes) && clearBy(AWAY, boxes, wide, at) : near(at, INK - 2 + wide - half)) &&
+          quiet(at);
         const fair = (at: Pair) => near(at, wheel ? -1 : wide - half);
         const from = wheel?.places ?? places;
         const chosen = pickedBy(from, label.taken, [good, fair]);
@@ -169,6 +174,7 @@ export class Naming {
     const more = far.length && curves ? curvesOf(linkage, viewport) : [];
     // in a low picture they give way to numbers
     if (forces && viewport.narrow) for (const [, { element }] of far.splice(0)) put(element, { display: "none" });
+    more.push(...joints.map((at) => ringAbout(at, BLOCK)));
     this.#putFar(linkage, hulls, far, [...drawn, ...more.map(boxed)]);
     // upon a plate they may stand, but not across its edges
     return [...bodies.flatMap(sidesOf), ...this.#drawn.slice(bodies.length)];
@@ -177,8 +183,8 @@ export class Naming {
   /** Those that have no place beside their bodies: first the ones that may stay where they were. */
   #putFar(linkage: Linkage, hulls: Pair[][], far: [number, Label][], ink: readonly Boxed[]): void {
     const { height } = this.viewport;
-    const outlines = far.length ? outlinesOf(linkage, this.viewport) : [];
-    const [boxes, more] = [hulls.map(boxed), outlines.map(([its, outline]) => [its, boxed(outline)] as const)];
+    const boxes = hulls.map(boxed);
+    const more = far.length ? outlinesOf(linkage, this.viewport) : [];
     const lines: [Pair, Pair][] = [];
     const hangs = (label: Label, found: Leader | null) => {
       label.leader = found?.chosen ?? -1;
@@ -191,10 +197,10 @@ export class Naming {
       const { half, link, spots } = label;
       const others = boxes.filter(([hull], other) => other !== k && hull.length);
       others.push(...more.flatMap(([its, box]) => (its === link ? [] : [box])));
-      const wide = (outline: Pair[]) => Math.max(...outline.map(([x]) => x)) - Math.min(...outline.map(([x]) => x));
-      const homes = outlines.flatMap(([its, outline]) => (its === link && outline.length > 2 ? [outline] : []));
+      const wide = ([, left, right]: Boxed) => right - left;
+      const homes = more.flatMap(([its, box]) => (its === link && box[0].length > 2 ? [box] : []));
       const spokes = (label.wheel?.(this.viewport).spokes ?? []).map(boxed);
-      const home = homes.sort((one, other) => wide(other) - wide(one))[0] ?? [];
+      const home = homes.sort((one, other) => wide(other) - wide(one))[0]?.[0] ?? [];
       const free = ([u, v]: Pair) =>
         this.#seen(half, [u, v]) &&
         v > TOP &&
@@ -221,9 +227,9 @@ export class Naming {
     const right = this.viewport.right(top);
     const x = Math.max(half + 2, Math.min(right - half - 2, left)); // it is not cut
     let y = top;
-    const way = y < (this.#touching(half, [x, y])?.y ?? 0) ? -1 : 1;
-    for (let other = this.#touching(half, [x, y]); other; other = this.#touching(half, [x, y]))
-      y = other.y + way * LINE;
+    let other = this.#touching(half, [x, y]);
+    const way = y < (other?.y ?? 0) ? -LINE : LINE;
+    for (; other; other = this.#touching(half, [x, y])) y = other.y + way;
     const { height, narrow } = this.viewport;
     if (narrow && (x + half > this.viewport.right(y) || y < TOP || y > height - LOW))
       put(label.element, { display: "none" });
@@ -273,37 +279,35 @@ export function lettersAt(x: number, y: number, half: number): Pair[] {
 
 /** Places on the coupler curves, in pixels. */
 function curvesOf({ cycle, sizes }: Linkage, viewport: Viewport): Pair[][] {
-  const step = Math.ceil(cycle.values.length / 60);
-  return sizes.points.flatMap(({ at, link }) => {
-    const places: Pair[][] = [];
-    for (let row = 0; row < cycle.values.length; row += step)
-      places.push([viewport.screen(...place(cycle.rows, row, link, ...at))]);
-    return places;
-  });
+  const row = (k: number) => Math.floor((k * cycle.values.length) / 60);
+  return sizes.points.flatMap(({ at, link }) =>
+    Array.from({ length: 60 }, (_, k): Pair[] => [viewport.screen(...place(cycle.rows, row(k), link, ...at))]),
+  );
 }
 
 /** What wheels, blocks and the like cover, in pixels: hulls, of what is open the pieces. */
-function outlinesOf({ model, pose, sizes }: Linkage, viewport: Viewport): [link: number, hull: Pair[]][] {
+function outlinesOf({ model, pose, sizes }: Linkage, viewport: Viewport): [link: number, hull: Boxed][] {
   const solid = model.shapes.filter(({ style }) => style !== "hatch" && style !== "dead");
-  return solid.flatMap((shape) => outlineOf(shape).map((hull): [number, Pair[]] => [shape.link, hull]));
+  return solid.flatMap((shape) => outlineOf(shape).map((hull): [number, Boxed] => [shape.link, boxed(hull)]));
 
   function outlineOf(shape: ShapeRecord): Pair[][] {
     const at = (x: number, y: number) => viewport.screen(...place(pose, 0, shape.link, x, y));
     if (shape.circle) {
       const [x, y, radius] = shape.circle;
-      return [
-        spotsAbout([x, y], radius)
-          .slice(0, 16)
-          .map((one) => at(...one)),
-      ];
+      return [ringAbout([x, y], radius).map((one) => at(...one))];
     }
     return linesOf(sizes, shape).flatMap((line) => {
-      const step = 2 * Math.ceil(line.length / 96);
-      const places: Pair[] = [];
-      for (let k = 0; k + 1 < line.length; k += step) places.push(at(line[k]!, line[k + 1]!));
+      const step = Math.ceil(line.length / 96);
+      const few = cornersOf([line]).filter((_, k) => !(k % step));
+      const places = few.map((one) => at(...one));
       return shape.closed ? [convexHull(places)] : sidesOf(places).slice(0, -1);
     });
   }
+}
+
+/** Places of a circle. */
+function ringAbout(at: Pair, radius: number): Pair[] {
+  return spotsAbout(at, radius).slice(0, 16);
 }
 
 export function leadersThrough(lines: readonly [Pair, Pair][]): string {

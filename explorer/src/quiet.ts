@@ -27,7 +27,9 @@ export function quietSpots(linkage: Linkage, link: number, name: string): Spots 
   const face = sizes.elementsOn(link).find((k) => isFace(linkage, k));
   const pin = sizes.elementsOn(link).find((k) => sizes.is(k, "pin"));
   if (face !== undefined && pin !== undefined) {
-    const corners = model.shapes.filter((shape) => shape.link === link && shape.closed).flatMap(cornersOf);
+    const corners = model.shapes
+      .filter((shape) => shape.link === link && shape.closed)
+      .flatMap(({ lines = [] }) => cornersOf(lines));
     const from = sizes.xy(pin);
     const [one, other] = corners.sort((a, b) => away(b, ...from) - away(a, ...from)) as [Pair, Pair];
     return past(linkage, link, from, between(one, other, 0.5), half);
@@ -54,12 +56,13 @@ export function quietSpots(linkage: Linkage, link: number, name: string): Spots 
       const [x, y] = viewport.screen(...place(linkage.pose, 0, link, u, v));
       const deep = Math.max(AXIS, DEEP * radius * viewport.scale);
       const wide = Math.max(deep, AXIS + half);
+      const low = y + 4;
       return [
-        [0, deep],
-        [0, -deep],
-        [wide, 0],
-        [-wide, 0],
-      ].map(([right, down]): Pair => [x + right!, y + 4 + down!]);
+        [x, low + deep],
+        [x, low - deep],
+        [x + wide, low],
+        [x - wide, low],
+      ];
     };
   }
   const roller = rollerOf(linkage, link);
@@ -77,7 +80,8 @@ export function quietSpots(linkage: Linkage, link: number, name: string): Spots 
   };
 }
 
-function cornersOf({ lines = [] }: { lines?: number[][] }): Pair[] {
+/** The places of lines. */
+export function cornersOf(lines: number[][]): Pair[] {
   return lines.flatMap((line) => line.flatMap((_, k): Pair[] => (k % 2 ? [] : [[line[k]!, line[k + 1]!]])));
 }
 
