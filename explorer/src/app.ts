@@ -5,7 +5,7 @@ import { CatalogView } from "./catalog";
 import { h, renew } from "./dom";
 import { ExercisesView } from "./exercises";
 import { saveDocument, showExport } from "./export";
-import { languageMenu, saving, sayIn, sayWhetherOn, softened, tabs, viewNames } from "./header";
+import { languageMenu, partsOf, saving, sayIn, sayWhetherOn, tabs, viewNames } from "./header";
 import { showKeys } from "./help";
 import { Backend, type HostModel } from "./host";
 import { keptLink } from "./kept";
@@ -275,7 +275,7 @@ export class App implements Page {
     }
     renew(
       this.#header,
-      h("h1", { title: this.#name }, "gruebler ", h("small", {}, softened(this.#name))),
+      h("h1", { title: this.#name }, "gruebler ", h("small", {}, ...partsOf(this.#name))),
       ...(keys.length > 1 ? [tabs(keys, this.view, (key) => this.#turnTo(key))] : []),
       h("span.spring", {}),
       tool("undo", t("Undo"), () => this.#undoing.undo?.(), !back),

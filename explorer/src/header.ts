@@ -15,6 +15,12 @@ export function softened(name: string): string {
   return name.replace(" –", "\u00a0–").replace(/\p{L}{15,}/gu, (word) => word.replace(between, "\u00ad"));
 }
 
+/** A name in parts: what stands in brackets is left out where the header is narrow. */
+export function partsOf(name: string): (Node | string)[] {
+  const parts = softened(name).split(/(?= \()|(?<=\))/);
+  return parts.map((part) => (part[1] === "(" ? h("span.letter", {}, part) : part));
+}
+
 /** The names of the views in the language of the page. */
 export function viewNames(): Record<string, string> {
   return {
