@@ -15,6 +15,8 @@ export interface Length {
   link: number;
   first: number;
   second: number;
+  /** Whether one of them is the line of a slide, of which the other is so far off. */
+  off: number;
   value: number;
 }
 
@@ -271,7 +273,7 @@ export class Dragging {
 
   // --- lengths -------------------------------------------------------------------------------------------------------
 
-  /** The sizes that a panel shows: for each link the distances of its joints, for slides of the frame their angle. */
+  /** The sizes that a panel shows: for each link the distances of its joints, then how far joints are off slides. */
   lengths(): Length[] {
     const { model, sizes } = this.#linkage;
     const out: Length[] = [];
@@ -284,7 +286,7 @@ export class Dragging {
           if (length) out.push(length);
         }
     }
-    return out;
+    return out.sort((one, other) => one.off - other.off);
   }
 
   /** The distance of two elements of a link, null where it is no size. */
@@ -299,7 +301,7 @@ export class Dragging {
       if (value < 1e3 * sizes.near && link !== model.frame) return null;
     } else value = sizes.gap(first, second);
     if (this.#locked[sizes.element(first).joint] && this.#locked[sizes.element(second).joint]) return null;
-    return { link, first, second, value: value < 1e3 * sizes.near ? 0 : value };
+    return { link, first, second, off: lines.length, value: value < 1e3 * sizes.near ? 0 : value };
   }
 
   #lineFirst(first: number, second: number): Pair {

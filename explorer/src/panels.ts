@@ -5,12 +5,13 @@ import { digits, showDigits } from "./digits";
 import { applyDocument, documentOf } from "./document";
 import { action, h, option, renew } from "./dom";
 import { type Dragging, type Length, LONGEST } from "./dragging";
+import { isFace } from "./followers";
 import { softened } from "./header";
 import { middleOf } from "./hull";
 import { number, parsed, t } from "./language";
 import type { Kept } from "./locks";
 import type { LinkageDocument } from "./model";
-import type { Resizer } from "./roundfields";
+import { type Resizer, resize } from "./roundfields";
 import { roundRows } from "./rounds";
 import { renameEnds } from "./rulers";
 import { cross, lockButton } from "./shell";
@@ -97,7 +98,7 @@ export class SizeRows {
   }
 }
 
-function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: boolean): HTMLElement[] {
+function sizeRow(editor: Editor, { link, first, off, second, value }: Length, alone: boolean): HTMLElement[] {
   const { linkage } = editor;
   const { joints, unit } = linkage.model;
   const others = (k: number) => {
@@ -120,25 +121,28 @@ function sizeRow(editor: Editor, { link, first, second, value }: Length, alone: 
       const told = (part: number) => `${name} ${number(at(part))} ${unit}`;
       if (right) editor.attempt((part = 1) => editor.dragging.setLength(first, second, at(part)), told);
       input.setAttribute("aria-invalid", String(!right));
-      if (right) return;
-      editor.page.say(t("Expected a length of at least 0 and below 10⁹, such as {value}.", { value: number(value) }));
+      // a body with a face on a cam is drawn anew
+      const face = [first, second].find((k) => isFace(linkage, k));
+      if (!right)
+        editor.page.say(t("Expected a length of at least 0 and below 10⁹, such as {value}.", { value: number(value) }));
+      else if (face !== undefined && editor.page.served) void resize(editor, face, {}, input);
     },
     onkeydown: (event: KeyboardEvent) => event.stopPropagation(),
   });
-  const pins = [first, second].every((k) => linkage.sizes.is(k, "pin"));
-  const ofFrame = link === linkage.model.frame;
-  const called = [pins || !ofFrame ? linkage.linkName(link) : "", pins ? "" : t("eccentricity")];
+  const apart = t("eccentricity");
+  const called = [(!off || link !== linkage.model.frame) && linkage.linkName(link), off && apart];
   const name = called.filter(Boolean).join(", ");
   const lettered = linkage.letterOf(0);
   const ends = `${others(first)}${lettered ? "–" : " – "}${others(second)}`;
-  const short = lettered && pins;
-  const bold = h("b", {}, softened(short ? ends : name));
+  const short = lettered && !off;
+  const told = alone ? name : name.replace(apart, "e");
+  const bold = h("b", {}, softened(short ? ends : told));
   const label = h("label", { for: id, title: `${name}: ${ends}` }, bold, alone || short ? "" : `, ${softened(ends)}`);
   return [
     label,
     input,
     h("span.unit", {}, unit),
-    h("span.locks", {}, ...(pins ? locksOf(editor, first, second, name) : [])),
+    h("span.locks", {}, ...(off ? [] : locksOf(editor, first, second, name))),
   ];
 }
 

@@ -42,7 +42,8 @@ export function roundField(editor: Resizer, k: number, name: string, size: Round
   return [label, input, h("span.unit", {}, unit), h("span", {})];
 }
 
-async function resize(editor: Resizer, k: number, sizes: Record<string, number | string>, input: HTMLInputElement) {
+/** Let the library assemble the machine anew, with other sizes of an element. */
+export async function resize(editor: Resizer, k: number, sizes: Record<string, unknown>, input: HTMLInputElement) {
   const { linkage, page } = editor;
   const { drives, model } = linkage;
   const { joint, link } = linkage.sizes.element(k);
@@ -52,19 +53,19 @@ async function resize(editor: Resizer, k: number, sizes: Record<string, number |
     sizes,
     drives: [...drives.slice(0, model.drives.length)],
   };
-  const root = input.getRootNode() as ShadowRoot;
+  const rows = input.closest(".sizes")!;
   const { name, names, source, span } = model;
-  const open = [...root.querySelectorAll<HTMLInputElement>(".sizes input:not([readonly])")];
+  const fields = () => [...rows.querySelectorAll("input")];
+  const open = fields().filter((field) => !field.readOnly);
   for (const field of open) field.readOnly = true;
   page.say(t("One moment …"), "done");
   try {
     const document = savedDocument(linkage);
     const made = await page.ask<Model>("open_document", { document, name, source, resized });
     if (linkage !== editor.linkage) return; // another machine was opened
-    const fields = [...root.querySelectorAll<HTMLElement>(".sizes input")];
-    const focus = fields.indexOf(root.activeElement as HTMLElement);
+    const focus = fields().findIndex((field) => field.matches(":focus"));
     editor.resized({ ...made, names, changed: true, span: { ...made.span, stops: span.stops ?? [] } });
-    root.querySelectorAll<HTMLElement>(".sizes input")[focus]?.focus();
+    fields()[focus]?.focus();
   } catch (error) {
     page.say((error as Error).message);
     for (const field of open) field.readOnly = false;

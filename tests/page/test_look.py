@@ -390,6 +390,11 @@ def test_the_header_of_a_phone_is_not_cut(tab, server):
         cut = "(e) => e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1"
         assert page.page.locator(f"header {part}").evaluate(cut) is False
     assert page.page.locator("header h1").inner_text().split() == ["gruebler", "Kurbelschwinge"]
+    page.page.tap('[data-view="catalog"]')
+    page.page.tap('[data-id="walschaerts_gear"]')  # a name with another one in brackets
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'walschaerts_gear'")
+    assert page.page.locator("header small").evaluate(cut) is False
+    assert page.page.locator("header small").inner_text() == "Heusinger-Steuerung"
     assert page.page.locator("header").bounding_box()["height"] < 110
 
 
@@ -893,6 +898,36 @@ def test_a_rod_that_slides_stays_in_the_picture(tab, tmp_path):
         assert stage["y"] <= rod[0] <= rod[1] <= stage["y"] + stage["height"], drive
         heights.append(rod[1] - rod[0])
     assert max(heights) > 0.3 * stage["height"]  # it swings
+
+
+def test_the_plate_of_a_follower_is_drawn_where_its_face_is(tab, server):
+    page = tab().open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-id="cam_rocker_flat"]').click()
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'cam_rocker_flat'")
+    page.page.get_by_label("rocker, eccentricity").fill("15")
+    page.page.keyboard.press("Enter")
+    page.until("""(() => {
+        const { elements } = gruebler.motion.document();
+        const [x, y, angle] = elements.rocker["G(cam-rocker)"];
+        const [c, s] = [Math.cos(angle * Math.PI / 180), Math.sin(angle * Math.PI / 180)];
+        const { links, shapes } = gruebler.motion.linkage.model;
+        const plate = shapes.find((one) => links[one.link] === "rocker" && one.closed).lines[0];
+        const off = plate.flatMap((u, k) => (k % 2 ? [] : [Math.abs(c * (plate[k + 1] - y) - s * (u - x))]));
+        return Math.hypot(x, y) > 14 && off.filter((one) => one < 1e-6).length > 1;
+    })()""")
+
+
+def test_several_offsets_stand_at_the_end_by_their_letter(tab, server):
+    page = tab(width=1024, height=768).open(server.address)
+    page.page.click('[data-view="catalog"]')
+    page.page.locator('[data-id="vcomp"]').click()
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'vcomp'")
+    labels = page.page.locator('.motion [data-panel="sizes"] label').all_inner_texts()
+    assert [one.replace("\xa0", " ") for one in labels[-2:]] == ["e, crank – piston 1", "e, crank – piston 2"]
+    # there its links have room for their names
+    names = page.page.locator(".stage text.name").all_text_contents()
+    assert sorted(names) == ["conrod 1", "conrod 2", "crank", "piston 1", "piston 2"]
 
 
 def test_offsets_of_slides_are_called_so_and_none_is_no_size(tab, tmp_path):
