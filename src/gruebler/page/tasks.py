@@ -26,7 +26,7 @@ from gruebler.teaching.exercises import (
 )
 from gruebler.teaching.exercises.dyads import CHANGES
 from gruebler.teaching.exercises.messages import answer_lines, cells_of_table, check_text, step_lines
-from gruebler.teaching.exercises.solution import TeachingTable
+from gruebler.teaching.exercises.solution import Part, TeachingTable
 from gruebler.teaching.worksheets.blocks import with_signs
 from gruebler.teaching.worksheets.exercise_figures import exercise_linkages
 from gruebler.teaching.worksheets.tasks import exercise_figure
@@ -86,12 +86,12 @@ def task_record(id: str, lang: str) -> dict[str, Any]:
 
 
 def signed(text: str) -> str:
-    """A text with its signs; pivots have their number as an index.
+    """A text with its signs; pivots and sums have their number as an index.
 
-    >>> signed("A-B0, |B0B|")
-    'A-B_0, |B_0B|'
+    >>> signed("A-B0, |B0B|, s1 = 5")
+    'A-B_0, |B_0B|, s_1 = 5'
     """
-    return re.sub(r"\b([AB])0(?!\d|[.,]\d)", r"\1_0", with_signs(text))
+    return re.sub(r"\b([AB](?=0)|s(?=[12]\b))(\d)(?!\d|[.,]\d)", r"\1_\2", with_signs(text))
 
 
 def _chain_of(task: Exercise) -> str:
@@ -118,10 +118,13 @@ def _figures(task: Exercise, lang: str) -> list[dict[str, str]]:
     if not linkages:
         figure = exercise_figure(task, lang, named=True)
         return [] if figure is None else [{"name": "", "picture": figure.svg(styled=False)}]
-    return [
-        {"name": drawn.name.in_language(lang) if drawn.name else "", "picture": drawn.figure(lang).svg(styled=False)}
-        for drawn in linkages
-    ]
+    figures = []
+    for drawn in linkages:
+        picture = drawn.figure(lang).svg(styled=False)
+        if drawn.source:  # small, and no task speaks of the points of a machine
+            picture = re.sub(r"<text.*?</text>", "", picture, flags=re.DOTALL)
+        figures.append({"name": drawn.name.in_language(lang) if drawn.name else "", "picture": picture})
+    return figures
 
 
 def _is_choice(result: Result) -> bool:
@@ -165,12 +168,13 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
     """
 
     def part(text: str, formula: str = "", *, heading: bool = False, rows: Sequence[list[str]] = ()) -> dict[str, Any]:
-        said, line = signed(text.strip()), signed(formula.strip())
+        said, line = signed(text.strip()), re.sub(r"\b(sin|cos|tan) \(", r"\1(", signed(formula.strip()))
         return {"text": said, "formula": line, "heading": heading, "rows": [[*map(signed, row)] for row in rows]}
 
     parts = []
     count = 0
-    for each in solution.parts:
+    shown, beyond = _asked_parts(task, solution)
+    for each in shown:
         if isinstance(each, TeachingTable):
             parts.append(part(each.title.in_language(lang), rows=cells_of_table(each, lang)))
         elif isinstance(each, SolutionStep):
@@ -179,12 +183,30 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
         else:
             count = 0
             parts.append(part(each.text.in_language(lang), heading=True))
-    checks = [check_text(check, lang) for check in solution.checks]
-    answers = [re.sub(r"\bs([12]) = ", r"s_\1 = ", line) for line in answer_lines(task, solution, lang)]
+    checks = [check_text(check, lang) for check in solution.checks if check.first not in beyond]
+    answers = answer_lines(task, solution, lang)
     for title, lines in (("Results:", answers), ("Check by a second method:", checks)):
         if lines:
             parts += [part(translate(title, lang), heading=True), *map(part, lines)]
     return parts
+
+
+def _asked_parts(task: Exercise, solution: Solution) -> tuple[list[Part], set[object]]:
+    """The parts of a solution without steps behind the last one that is asked for, and the values of those steps.
+
+    Exercises of the text keep them: they stand there.
+
+    >>> task = exercise("velocity-1-5")  # without accelerations
+    >>> [step.formula.partition(" = ")[0] for step in _asked_parts(task, solve(task))[0]]
+    ['β', 'v_A', 'ω_b', 'v_B']
+    """
+    asked = [solution.results[question.key].value for question in task.asked]
+    steps = {k: part for k, part in enumerate(solution.parts) if isinstance(part, SolutionStep)}
+    last = max((k for k, step in steps.items() if step.value in asked), default=len(solution.parts))
+    if task.id.startswith(_OF_THE_TEXT):
+        last = len(solution.parts)
+    beyond = {k: step.value for k, step in steps.items() if k > last and step.numbers}
+    return [part for k, part in enumerate(solution.parts) if k not in beyond], {*beyond.values()}
 
 
 def _mark(task: Exercise, solution: Solution, key: str, given: str, lang: str) -> dict[str, str]:

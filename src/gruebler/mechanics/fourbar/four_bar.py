@@ -151,7 +151,7 @@ class FourBar(Lengths):
 
     @property
     def ratio(self) -> float:
-        """The crank-conrod ratio lambda = a/b."""
+        """The ratio of crank to connecting rod, lambda = a/b."""
         return self.a / self.b
 
     def turning_ranges(self, free: str, *, turns: str = "a") -> tuple[LengthRange, ...]:

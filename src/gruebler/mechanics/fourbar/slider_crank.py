@@ -98,7 +98,7 @@ class SliderCrank(Lengths):
 
     @classmethod
     def from_ratio(cls, *, a: float, ratio: float, e: float = 0.0) -> SliderCrank:
-        """The slider-crank with the crank-conrod ratio lambda = a/b.
+        """The slider-crank with a ratio of crank to connecting rod lambda = a/b.
 
         >>> SliderCrank.from_ratio(a=35, ratio=0.35, e=-20).b
         100.0
@@ -126,7 +126,7 @@ class SliderCrank(Lengths):
     @classmethod
     @door_that_raises(LinkageError)
     def from_stroke(cls, stroke: float, ratio: float, *, e: float = 0.0) -> SliderCrank:
-        """The slider-crank with a stroke H, a crank-conrod ratio lambda = a/b below 1 and an eccentricity.
+        """The slider-crank with a stroke H, a ratio of crank to rod lambda = a/b below 1 and an eccentricity.
 
         With a large eccentricity there may be two; this is the one with the longer crank, where e weighs less.
 
@@ -190,7 +190,7 @@ class SliderCrank(Lengths):
 
     @property
     def ratio(self) -> float:
-        """The crank-conrod ratio lambda = a/b."""
+        """The ratio of crank to connecting rod, lambda = a/b."""
         return self.a / self.b
 
     @property

@@ -20,7 +20,7 @@ _INNER = message("inner dead centre, crank and coupler overlapping")
 _STROKE = message("stroke, the distance of the dead centres")
 _NOT_ONCE = message("The stroke is twice the crank, not once.")
 _ONE_CENTRE = message("That is the distance in one dead centre; the stroke is the difference of both.")
-_RATIO = message("crank-conrod ratio")
+_RATIO = message("ratio of crank to connecting rod")
 _LONGER = message("larger crank angle between the dead centres")
 _SHORTER = message("smaller crank angle between the dead centres")
 _TIMES = message("ratio of the times at constant speed")
@@ -175,7 +175,7 @@ def _rod(builder: SolutionBuilder, a: float, b: float | None, ratio: float | Non
         raise LinkageError("either the coupler b is given or the ratio lambda = a/b")
     as_positive("lambda" if b is None else "b", ratio if b is None else b)
     if ratio is not None:
-        name = message("coupler from the crank-conrod ratio")
+        name = message("coupler from the ratio of crank to connecting rod")
         return builder.find("b", name, "a/λ", a / ratio, a=a, λ=ratio)
     assert b is not None
     builder.find("λ", _RATIO, "a/b", a / b, unit="", a=a, b=b)

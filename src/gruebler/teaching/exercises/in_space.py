@@ -211,9 +211,9 @@ def _swing(builder: SolutionBuilder, size: SphericalFourBar, arcs: tuple[float, 
         name = message("angle of the rocker at B0 in the dead centre with {reach}", reach=formula)
         text = f"arccos((cos({formula}) - cos c cos d)/(sin c sin d))"
         builder.find(key, name, text, ends[-1], unit="°", values=values)
-    swing = builder.find(
-        "ψ_H", message("swing of the rocker"), "ψ_a - ψ_i", ends[1] - ends[0], unit="°", ψ_a=ends[1], ψ_i=ends[0]
-    )
+    values = {"ψ_a": angle(ends[1]), "ψ_i": angle(ends[0])}
+    name = message("swing of the rocker")
+    swing = builder.find("ψ_H", name, "ψ_a - ψ_i", ends[1] - ends[0], unit="°", values=values)
     builder.check("Swing by the closed form of the motion", swing, math.degrees(size.swing or 0.0), "°")
     linkage = size.linkage(0.3)
     turn = move(linkage, [k * math.tau / 360 for k in range(361)], order=0).joint("R(frame-rocker)")

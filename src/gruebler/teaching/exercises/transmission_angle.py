@@ -5,17 +5,24 @@ from __future__ import annotations
 from math import acos, asin, degrees, isclose, pi
 
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import message
+from gruebler.base.text import joined, message
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.fourbar import SliderCrank
 from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
-from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, angle, formula_number, with_turning_crank
+from gruebler.teaching.exercises.solution import (
+    Solution,
+    SolutionBuilder,
+    angle,
+    figure,
+    formula_number,
+    with_turning_crank,
+)
 
 _SMALLEST = message("smallest transmission angle")
 _LARGEST = message("largest transmission angle")
 _DEVIATION = message("largest deviation angle")
-_RATIO = message("crank-conrod ratio")
+_RATIO = message("ratio of crank to connecting rod")
 _FOLD = message("A transmission angle is at most 90°: what lies above is taken from 180°.")
 _IS_DEVIATION = message("That is the deviation angle α; μ = 90° - α.")
 
@@ -129,8 +136,10 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
     worst = builder.find(
         f"α_max{mark}", _DEVIATION, f"arcsin({rise.replace('b', 'b' + mark)})", alpha, unit="°", values=values
     )
+    rod = message("b = {b} {unit}", b=figure(b), unit=builder.unit)
+    name = joined([rod, _SMALLEST], ": ") if mark else _SMALLEST
     mu = builder.find(
-        f"μ_min{mark}", _SMALLEST, f"90° - α_max{mark}", 90 - worst, unit="°", values={f"α_max{mark}": angle(worst)}
+        f"μ_min{mark}", name, f"90° - α_max{mark}", 90 - worst, unit="°", values={f"α_max{mark}": angle(worst)}
     )
     _check_smallest(builder, size.linkage(), mu)
     builder.mistake(f"μ_min{mark}", worst, _IS_DEVIATION)

@@ -84,14 +84,19 @@ def exercise_linkages(exercise: Exercise) -> list[DrawnLinkage]:
 
     >>> from gruebler.teaching.exercises import exercise
     >>> [drawn.name.in_language("en") for drawn in exercise_linkages(exercise("13"))]
-    ['b = 37.5', 'b = 75']
+    ['b = 37.5 mm', 'b = 75 mm']
     """
     if exercise.method == "mobility.machines":
-        several = len(exercise.cases) > 1
-        machines = [(case.name if several else None, entry(case.machine)) for case in exercise.cases]
+        machines = [entry(case.machine) for case in exercise.cases]
         return [
-            DrawnLinkage(linkage=machine.linkage(), letters={}, between=machine.between, name=name, source=machine.id)
-            for name, machine in machines
+            DrawnLinkage(
+                linkage=machine.linkage(),
+                letters={},
+                between=machine.between,
+                name=machine.name if machines[1:] else None,
+                source=machine.id,
+            )
+            for machine in machines
             if machine.dimensions is not None
         ]
     if exercise.method == "transmission_angle.compare_rods":
@@ -100,7 +105,7 @@ def exercise_linkages(exercise: Exercise) -> list[DrawnLinkage]:
             DrawnLinkage(
                 linkage=SliderCrank(number["a"], number[b]).linkage(),
                 letters=_LETTERS | {"frame": " "},
-                name=Text(f"b = {number[b]:g}", f"b = {number[b]:g}".replace(".", ",")),
+                name=Text(f"b = {number[b]:g} mm", f"b = {number[b]:g} mm".replace(".", ",")),
             )
             for b in ("b1", "b2")
         ]
