@@ -55,7 +55,7 @@ export class ChainList {
   #assortment = "";
   readonly #assortments = h("span", {});
   readonly #list = h("div.chains", {});
-  readonly #count = h("span.note", {}, "\u00a0");
+  readonly #count = h("span.note", { role: "status" }, "\u00a0");
   readonly #status = h("div.form", {});
   #asked = 0;
 
@@ -120,22 +120,24 @@ export class ChainList {
     return fields.length ? fields.map(({ value }) => Number(value || NaN)) : [this.#links, this.mobility];
   }
 
-  /** The sizes of which there are lists, if this is none of them. */
-  #unlisted(): Record<"links" | "mobility", string> | null {
+  /** Of which sizes there are lists, if this is none of them. */
+  #unlisted([size, freedom]: number[] = [this.#links, this.mobility]): string {
     const none = { min: 1, max: 0 };
     const { links = none, mobility = none } = this.page.limits;
     const within = (value: number, { min, max }: typeof none) => !(value % 1) && min <= value && value <= max;
     const all = ({ min, max }: typeof none) => `${min} … ${max}`;
-    if (within(this.#links, links) && within(this.mobility, mobility)) return null;
-    return { links: all(links), mobility: all(mobility) };
+    if (within(size!, links) && within(freedom!, mobility)) return "";
+    const listed = { links: all(links), mobility: all(mobility) };
+    return t("Chains are listed with {links} links and mobility {mobility}.", listed);
   }
 
   #whyNone(): string {
-    const unlisted = this.#unlisted();
-    if (unlisted) return t("Chains are listed with {links} links and mobility {mobility}.", unlisted);
-    return (this.#links + this.mobility) % 2
-      ? t("There is none with so few links.")
-      : t("There is none: by F = 3(n − 1) − 2g one of n and F is even, the other odd.");
+    return (
+      this.#unlisted() ||
+      ((this.#links + this.mobility) % 2
+        ? t("There is none with so few links.")
+        : t("There is none: by F = 3(n − 1) − 2g one of n and F is even, the other odd."))
+    );
   }
 
   arrange(): void {
@@ -162,15 +164,12 @@ export class ChainList {
 
   /** Take what is typed; of sizes that are not listed it is said, and the list stays. */
   #typed(): void {
-    const before = [this.#links, this.mobility] as const;
     const size = this.#given();
-    [this.#links, this.mobility] = size as [number, number];
-    const unlisted = !!this.#unlisted();
+    const unlisted = this.#unlisted(size);
     for (const field of this.element.querySelectorAll("input"))
       field.setAttribute("aria-invalid", String(!field.value || !field.checkValidity()));
-    this.page.say(unlisted ? this.#whyNone() : "");
     if (unlisted) {
-      [this.#links, this.mobility] = before;
+      this.#count.textContent = unlisted;
       return;
     }
     this.#turn(size);
@@ -192,7 +191,6 @@ export class ChainList {
     this.#list.classList.toggle("asking", others); // those of the size before
     if (others) {
       this.#count.textContent = t("counting …");
-      this.#count.hidden = false; // it is where there were none
       this.waits(!stays);
     }
     const place = this.#found || others ? this.#status : this.#list;
@@ -228,8 +226,7 @@ export class ChainList {
     if (this.#inSpace) return this.#showAlone(mine);
     if (!found) return renew(this.#list, moment());
     const { assortments, items, total } = found;
-    this.#count.textContent = total === 1 ? t("one chain") : t("{total} chains", { total });
-    this.#count.hidden = !total;
+    this.#count.textContent = ["", t("one chain")][total] ?? t("{total} chains", { total });
     const language = currentLanguage();
     const all = assortments.reduce((sum, one) => sum + one.chains, 0);
     const options = assortments.map((one): [string, string] => [

@@ -36,11 +36,17 @@ export function withMinus(text: string): string {
   return text.replace(/(^|[\s(=])-(?=[\s\d(])/g, "$1−");
 }
 
-/** A text in which what follows an underscore is an index, l_a, and the class of a joint, g1; it does not break
- * beside an equals sign. */
+const GAPS = / (?=[=≤<] )|(?<=[=≤<+−-]) |(?<=\([^() ]+) (?=[+−-] )|(?<=\d) (?=\w{1,3}\b)/g;
+
+/** A text that does not break at some gaps, else neither beside an equals sign nor behind another one, between a number
+ * and its unit or its factor, nor in brackets such as (n − 1). */
+export function unbroken(text: string, gaps = GAPS): string {
+  return text.replace(gaps, "\u00a0");
+}
+
+/** A text in which what follows an underscore is an index, l_a, and the class of a joint, g1. */
 export function indexed(text: string): (string | Node)[] {
-  const whole = text.replaceAll(" = ", "\u00a0=\u00a0");
-  return whole
+  return unbroken(text)
     .split(/(?:(?<=[\p{L}\d])_|(?<=\bg)(?=\d))([\p{L}\d]+)/u)
     .map((part, k) => (k % 2 ? h("sub", {}, part) : part));
 }

@@ -1,6 +1,6 @@
 /** Exercises: a fresh task with its figure, answers marked with hints, its linkage to try, the solution, the score. */
 
-import { choice, h, indexed, menu, picture, renew } from "./dom";
+import { choice, h, indexed, menu, picture, renew, unbroken } from "./dom";
 import { t } from "./language";
 import type { Model } from "./model";
 import type { Page, View } from "./view";
@@ -52,10 +52,11 @@ interface Marked {
   solution: Part[];
 }
 
-/** A formula whose quantities are slanted, with their indices: s1 and l_a; units behind numbers are upright. */
+/** A formula whose quantities are slanted, with their indices: s1 and l_a; units behind numbers are upright. It breaks
+ * before operators. */
 function formula(text: string): (string | Node)[] {
-  return text
-    .split(/(?<![\p{L}\d]|\d (?:\w+\/)?(?=[ms]²?(?:[\s;,.)/]|$)))(\p{L}(?:_[\p{L}\d]+|\d+)?)(?![\p{L}(])/u)
+  return unbroken(text, / (?![=+−<≤±] )(?<!\p{L}{4} )|(?<=\([^() ]+) (?=[+−])/gu)
+    .split(/(?<![\p{L}\d]|\d\s(?:\w+\/)?(?=[ms]²?(?:[\s;,.)/]|$)))(\p{L}(?:_[\p{L}\d]+|\d+)?)(?![\p{L}(])/u)
     .map((part, k) => (k % 2 ? h("i", {}, part[0], h("sub", {}, part.slice(1).replace("_", ""))) : part));
 }
 
@@ -203,7 +204,7 @@ export class ExercisesView implements View {
           {},
           h("h2", {}, task.name),
           h("p", {}, ...indexed(task.task)),
-          task.remark ? h("p.note", {}, task.remark) : null,
+          task.remark ? h("p.note", {}, ...indexed(task.remark)) : null,
         ),
         h(
           "div",
@@ -213,7 +214,7 @@ export class ExercisesView implements View {
               "figure.chain-picture",
               {},
               picture(figure, name || t("The figure of the task")),
-              name ? h("figcaption", {}, name) : null,
+              name ? h("figcaption", {}, unbroken(name)) : null,
             ),
           ),
         ),
@@ -271,7 +272,7 @@ export class ExercisesView implements View {
           set,
           { "data-answer": key },
         )
-      : h("span", {}, symbol ? h("span.symbol", {}, ...formula(symbol), " =") : null, input, ` ${unit}`);
+      : h("span", {}, symbol ? h("span.symbol", {}, ...formula(symbol), " =") : null, input, `\u00a0${unit}`);
     return h(
       "div.answer",
       { "data-mark": mark?.mark },

@@ -87,7 +87,8 @@ export class StructureView implements View {
 
   /** What is said of the chain before, while another one is asked for. */
   #fade(on: boolean): void {
-    for (const part of [this.#detail, this.#shown, ...this.#go.children]) part.classList.toggle("asking", on);
+    for (const part of [...this.#detail.children, this.#shown, ...this.#go.children])
+      part.classList.toggle("asking", on);
   }
 
   /** Show the structure of a text, which may come from another view. */
@@ -96,7 +97,8 @@ export class StructureView implements View {
     if (this.#field.value !== text) this.#field.value = text;
     if (!text) {
       this.text = text;
-      for (const part of [this.#shown, this.#detail, this.#go]) renew(part);
+      this.#words.hidden = !elsewhere;
+      for (const part of [this.#shown, this.#detail, this.#go, this.#error]) renew(part);
       return this.#fade(false);
     }
     this.#fade(true); // a click would choose among frames of the chain before
@@ -120,13 +122,9 @@ export class StructureView implements View {
       this.chains.follow(null, false);
       const said = (error as Error).message;
       this.#words.open = true;
-      const place = /(?:character|Stelle) (\d+)/.exec(said);
-      renew(this.#error, said);
-      if (place) {
-        const at = Number(place[1]);
-        const before = text.slice(Math.max(0, at - 24), at - 1);
-        this.#error.append(h("span.place", {}, `\n${before}▸${text.slice(at - 1, at + 16)}`));
-      }
+      const [, place] = /(?:character|Stelle) (\d+)/.exec(said) ?? [];
+      const at = Number(place) - 1;
+      renew(this.#error, said, at >= 0 && h("code.place", {}, `\n${text.slice(0, at)}▸${text.slice(at)}`));
     }
     this.#field.setAttribute("aria-invalid", String(!!this.#error.textContent));
     this.#words.hidden = false;

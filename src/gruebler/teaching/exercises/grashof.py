@@ -50,10 +50,7 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
     return builder.done()
 
 
-_WRONG_SUMS = message(
-    "Compare s1 = l_min + l_max with s2, the sum of the two others: if s1 is smaller, the shortest link turns fully; "
-    "if it is larger, no link does; if both are equal, all links can lie on one line."
-)
+_WRONG_SUMS = message("s1 < s2: the shortest link turns fully; s1 > s2: none does; s1 = s2: all can lie on one line.")
 _NOT_ENOUGH = message("Being shorter than the crank is not enough: the sums decide.")
 _WRONG_PLACE = message("The sums allow that; but which link is the shortest, and where is it?")
 

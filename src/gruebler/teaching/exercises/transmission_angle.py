@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import acos, asin, degrees, isclose, pi
 
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import joined, message
+from gruebler.base.text import message
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.fourbar import SliderCrank
 from gruebler.mechanics.kinematics.solve import move_quietly
@@ -136,8 +136,7 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
     worst = builder.find(
         f"α_max{mark}", _DEVIATION, f"arcsin({rise.replace('b', 'b' + mark)})", alpha, unit="°", values=values
     )
-    rod = message("b = {b} {unit}", b=figure(b), unit=builder.unit)
-    name = joined([rod, _SMALLEST], ": ") if mark else _SMALLEST
+    name = message("{name} with b = {b} {unit}", name=_SMALLEST, b=figure(b), unit=builder.unit) if mark else _SMALLEST
     mu = builder.find(
         f"μ_min{mark}", name, f"90° - α_max{mark}", 90 - worst, unit="°", values={f"α_max{mark}": angle(worst)}
     )
