@@ -31,8 +31,9 @@ const SOME = "some";
 
 const LEFT = "gruebler-catalog";
 
-/** What was looked for, and how far the page was scrolled, when a machine was opened on a page of its own. */
+/** What is looked for; how far to scroll once it is filled, where a machine was opened on a page of its own. */
 interface Left {
+  /** As it was typed. */
   query: Record<string, string>;
   kind: string;
   refining: boolean;
@@ -49,13 +50,7 @@ function emptyCard(): HTMLElement {
 
 export class CatalogView implements View {
   readonly element = h("div.view", { "data-page": "catalog" });
-  /** What is looked for, as it was typed. */
-  #query: Record<string, string> = {};
-  #kind = "";
-  #refining = false;
-  #byLinks = false;
-  /** How far to scroll once it is filled. */
-  #top = 0;
+  #at: Left = { query: {}, kind: "", refining: false, byLinks: false, top: 0 };
   readonly #cards = h("div.cards", { "data-list": "catalog" });
   readonly #note = h("span.note", { role: "status" });
   #typing = 0;
@@ -76,10 +71,7 @@ export class CatalogView implements View {
 
   constructor(page: Page) {
     this.#page = page;
-    const left = stored<Left>(LEFT);
-    if (!left) return;
-    [this.#query, this.#kind, this.#byLinks] = [left.query, left.kind, left.byLinks];
-    [this.#refining, this.#top] = [left.refining, left.top];
+    Object.assign(this.#at, stored<Left>(LEFT));
     store(LEFT, null);
   }
 
@@ -89,19 +81,19 @@ export class CatalogView implements View {
 
   arrange(): void {
     const words = h("input", {
-      value: this.#query.words ?? "",
+      value: this.#at.query.words ?? "",
       "aria-label": t("Words"),
       placeholder: t("Search: crank, six-bar, …"),
       "data-field": "words",
       oninput: () => {
-        this.#query.words = words.value;
+        this.#at.query.words = words.value;
         clearTimeout(this.#typing);
         this.#typing = setTimeout(() => void this.#search(), 250);
       },
     });
     const summary = h("summary", {});
     const count = () => {
-      const { words: _, ...set } = this.#query;
+      const { words: _, ...set } = this.#at.query;
       const filters = Object.values(set).filter(Boolean).length;
       summary.textContent = t("More filters") + (filters ? ` (${filters})` : "");
     };
@@ -111,16 +103,16 @@ export class CatalogView implements View {
       const options = [["", t("any")], ...numbers.map((one) => [String(one), written(one)])] as [string, string][];
       if (JOINTS.has(key)) options.splice(1, 0, [SOME, t("at least 1")]);
       const choose = (value: string) => {
-        this.#query[key] = value;
+        this.#at.query[key] = value;
         count();
         void this.#search();
       };
-      return h("label", {}, label, menu(label, options, this.#query[key] ?? "", choose, { "data-field": key }));
+      return h("label", {}, label, menu(label, options, this.#at.query[key] ?? "", choose, { "data-field": key }));
     };
     const group = (title: string, ...fields: HTMLElement[]) => h("div", {}, h("h3", {}, title), ...fields);
     const more = h(
       "details.words",
-      { open: this.#refining, "data-panel": "features", ontoggle: () => (this.#refining = more.open) },
+      { open: this.#at.refining, "data-panel": "features", ontoggle: () => (this.#at.refining = more.open) },
       summary,
       h(
         "div.form.numbers",
@@ -156,10 +148,10 @@ export class CatalogView implements View {
       ["links", t("by number of links")],
     ];
     const sort = (value: string) => {
-      this.#byLinks = !!value;
+      this.#at.byLinks = !!value;
       void this.#search();
     };
-    const order = menu(t("Order"), orders, this.#byLinks ? "links" : "", sort, { "data-field": "order" });
+    const order = menu(t("Order"), orders, this.#at.byLinks ? "links" : "", sort, { "data-field": "order" });
     const kinds: [string, string][] = [
       ["", t("All")],
       ["crank", t("Cranks")],
@@ -172,7 +164,7 @@ export class CatalogView implements View {
       ["space", t("In space")],
     ];
     const choose = (kind: string) => {
-      this.#kind = kind;
+      this.#at.kind = kind;
       void this.#search();
     };
     renew(
@@ -181,7 +173,7 @@ export class CatalogView implements View {
         "div.page",
         {},
         h("div.form", {}, h("h2", {}, t("Catalog")), this.#note),
-        choice(t("Kinds of machines"), kinds, this.#kind, choose, { class: "choice palette" }),
+        choice(t("Kinds of machines"), kinds, this.#at.kind, choose, { class: "choice palette" }),
         h("div.form.search", {}, h("label", {}, words), order),
         h("div.said", {}, more),
         this.#cards,
@@ -192,7 +184,7 @@ export class CatalogView implements View {
 
   /** What is looked for, as `gruebler.page.params.ListCatalog` has it. */
   #wanted(): Record<string, unknown> {
-    const { words, ...numbers } = this.#query;
+    const { words, ...numbers } = this.#at.query;
     const [some, joints]: [string[], string[]] = [[], []];
     const wanted: Record<string, unknown> = words ? { words } : {};
     for (const [key, text] of Object.entries(numbers)) {
@@ -227,25 +219,25 @@ export class CatalogView implements View {
       if (!this.#filled) renew(cards);
       return;
     }
-    found = found.filter(({ kinds }) => !this.#kind || kinds.includes(this.#kind));
+    found = found.filter(({ kinds }) => !this.#at.kind || kinds.includes(this.#at.kind));
     this.#filled = true;
     cards.removeAttribute("data-waiting");
     const few = [t("No machine has all of this."), t("One machine")];
     this.#note.textContent = few[found.length] ?? t("{count} machines", { count: found.length });
     const byName = (a: Entry, b: Entry) => a.name.localeCompare(b.name, currentLanguage());
     // those whose name has what is looked for, not their description alone
-    const named = ({ name }: Entry) => +name.toLowerCase().includes((this.#query.words ?? "").toLowerCase());
-    found.sort((a, b) => (this.#byLinks && a.links - b.links) || named(b) - named(a) || byName(a, b));
+    const named = ({ name }: Entry) => +name.toLowerCase().includes((this.#at.query.words ?? "").toLowerCase());
+    found.sort((a, b) => (this.#at.byLinks && a.links - b.links) || named(b) - named(a) || byName(a, b));
     renew(cards, ...found.map((entry) => this.#card(entry)));
     for (const card of cards.children) this.#watcher.observe(card);
     if (!found.length) renew(cards, h("button.plain", { onclick: () => this.#showAll() }, t("Show all")));
-    if (this.#top) for (const scrolled of [this.element, window]) scrolled.scrollTo(0, this.#top);
-    this.#top = 0;
+    if (this.#at.top) for (const scrolled of [this.element, window]) scrolled.scrollTo(0, this.#at.top);
+    this.#at.top = 0;
   }
 
   #showAll(): void {
-    this.#query = {};
-    this.#kind = "";
+    this.#at.query = {};
+    this.#at.kind = "";
     this.arrange();
   }
 
@@ -290,8 +282,7 @@ export class CatalogView implements View {
 
   async #choose(entry: Entry): Promise<void> {
     if (entry.space && ownPage()) {
-      const [query, kind, refining, byLinks] = [this.#query, this.#kind, this.#refining, this.#byLinks];
-      store(LEFT, { query, kind, refining, byLinks, top: scrollY || this.element.scrollTop } satisfies Left);
+      store(LEFT, { ...this.#at, top: scrollY || this.element.scrollTop });
       location.href = `space/${entry.id}.html#${currentLanguage()}`;
       return;
     }

@@ -6,68 +6,50 @@ import type { Pair } from "./rows";
 
 /** So many times the extent of the targets a link is long at most where nothing is typed. */
 const FAR = 10;
+const LONGEST = "longest";
 
 export class Demands {
   #crank = true;
-  #least = 20; // degrees
   /** Places of the targets in the order, as they are typed. */
   order = "";
-  /** How far fixed pivots may lie outside the places, as it is typed. */
-  #reach = "";
-  /** How long a link may be, as it is typed. */
-  #longest = "";
-  /** Its field. */
+  /** As they are typed: degrees, how far fixed pivots may lie outside the places, how long a link may be. */
+  readonly #typed: Record<string, string> = { least: "20" };
+  /** The field of the longest link. */
   #length: HTMLInputElement | undefined;
 
   /** The corners of the region of fixed pivots, if one is typed; the field of the longest link shows what holds where
    * nothing is typed, as the library takes it. */
   region(points: readonly number[][], curve: number): Pair[] {
-    const reach = +this.#reach || curve;
+    const reach = +this.#typed.reach! || curve;
     const [low, high] = [Math.min, Math.max].map((far, k) =>
       [0, 1].map((axis) => far(...points.map((row) => row[axis]!)) + (k ? 1 : -1) * reach),
     ) as [Pair, Pair];
-    const across = (this.#reach || curve ? 1 : FAR) * Math.hypot(high[0] - low[0], high[1] - low[1]);
+    const across = (this.#typed.reach || curve ? 1 : FAR) * Math.hypot(high[0] - low[0], high[1] - low[1]);
     this.#length?.setAttribute("placeholder", points[1] ? String(+across.toPrecision(3)) : "∞");
-    return this.#reach && points.length ? [low, [high[0], low[1]], high, [low[0], high[1]]] : [];
+    return this.#typed.reach && points.length ? [low, [high[0], low[1]], high, [low[0], high[1]]] : [];
   }
 
   /** The fields, in the language of the page; those of places if there are such; the angle is that on the way
    * from target to target, or that of all positions of a crank that turns fully in any case. A curve so large has its
    * own order, and pivots no farther off as long as nothing else is typed. */
   form(closed: HTMLElement | false, way: boolean, places: boolean, curve: number, changed: () => void): HTMLElement {
-    const least = h("input", {
-      type: "number",
-      min: 0,
-      max: 90,
-      value: this.#least,
-      "data-field": "least",
-      onchange: () => {
-        this.#least = +limited(least, 90);
-        changed();
-      },
-    });
-    const reach = h("input", {
-      type: "number",
-      min: 0,
-      value: this.#reach,
-      placeholder: String(curve || "∞"),
-      "data-field": "reach",
-      onchange: () => {
-        this.#reach = reach.value && limited(reach, 1e9);
-        changed();
-      },
-    });
-    this.#length = h("input", {
-      type: "number",
-      min: 0,
-      value: this.#longest,
-      "data-field": "longest",
-      onchange: ({ target }: Event) => {
-        const field = target as HTMLInputElement;
-        this.#longest = field.value && limited(field, 1e9);
-        changed();
-      },
-    });
+    /** A number between zero and a limit. */
+    const field = (key: string, max: number, placeholder = "") => {
+      const input: HTMLInputElement = h("input", {
+        type: "number",
+        min: 0,
+        max,
+        value: this.#typed[key],
+        placeholder,
+        "data-field": key,
+        onchange: () => {
+          this.#typed[key] = input.value &&= `${Math.min(max, Math.max(0, +input.value))}`;
+          changed();
+        },
+      });
+      return input;
+    };
+    this.#length = field(LONGEST, 1e9);
     this.#length.style.width = "84px"; // four digits are seen beside its arrows
     const order = h("input", {
       value: this.order,
@@ -92,10 +74,11 @@ export class Demands {
         "label",
         {},
         way ? t("least transmission angle between targets") : t("transmission angle at least"),
-        least,
+        field("least", 90),
         "°",
       ),
-      places && h("label", {}, t("fixed pivots outside targets at most"), reach, "mm"),
+      places &&
+        h("label", {}, t("fixed pivots outside targets at most"), field("reach", 1e9, String(curve || "∞")), "mm"),
       places && h("label", {}, t("longest link at most"), this.#length, "mm"),
       places &&
         (!curve || !!this.order) &&
@@ -115,20 +98,15 @@ export class Demands {
 
   /** What the library is told of them; what is of places only of these. */
   asked(places: boolean, curve: number) {
-    const reach = this.#reach || curve; // "0" is a reach, 0 is none
+    const { least, reach: typed, [LONGEST]: longest } = this.#typed;
+    const reach = typed || curve; // "0" is a reach, 0 is none
     const ranks = places ? (this.order.match(/[^\s,;]+/g) ?? []) : [];
     return {
       reach: places && reach !== 0 ? +reach : null,
-      longest_link: places && this.#longest ? +this.#longest : null,
+      longest_link: places && longest ? +longest : null,
       order: ranks.map((rank) => (/\d/.test(rank) ? +rank : null)),
       crank: this.#crank,
-      transmission: this.#least,
+      transmission: +least!,
     };
   }
-}
-
-/** What stands in a field, put between zero and a limit. */
-function limited(field: HTMLInputElement, most: number): string {
-  field.value = `${Math.min(most, Math.max(0, +field.value))}`;
-  return field.value;
 }

@@ -76,9 +76,9 @@ function worth({ error, range, shift, size, transmission }: Design, by: Value): 
 
 export class DesignCards {
   readonly element = h("div.designs", {});
-  /** By how much the design that plays misses its pairs. */
   /** That they answer another question than the one that is put now. */
   readonly #outdated = h("p.error", {});
+  /** By how much the design that plays misses its pairs. */
   readonly #missed = new Plot("°", () => {});
   #found: Found | null = null;
   #order: Order = "error";
@@ -118,7 +118,7 @@ export class DesignCards {
 
   /** Say that they are of other demands; or nothing. */
   outdate(text: string): void {
-    renew(this.#outdated, text);
+    renew(this.#outdated, !!this.#found?.items.length && text);
   }
 
   #plot(): void {
@@ -311,7 +311,7 @@ export class DesignCards {
             "span",
             {},
             spaced(names[currentLanguage()]![k] ?? t("eccentricity")),
-            h("i", {}, this.#length(design, one) + (lengths[k + 1] ? "" : "\u00a0mm")),
+            h("i", {}, `${this.#length(design, one)}\u00a0mm`),
           ),
         ),
       ),
