@@ -109,6 +109,7 @@ const own = `
   longest margin inSpace advance destroy elsewhere emit follow heads letterOf posed showKeys taken undoing
   keepInside served setAdding setLength setTheme shiftLine shownDesign showPose showRange showValue
   narrow leader waits covers spokes distances grounds
+  ahead legend lowest seconds settled stretched tools written
   arrows columns keepLoads sized snapping switchMode toLocal turnTo upright writeSizes
 `.match(/\w+/g);
 

@@ -40,7 +40,7 @@ import { type Box, Viewport } from "./viewport";
 
 // an empty plane, and that of a phone
 const FIRST: Box = { left: -60, right: 140, bottom: -50, top: 90 };
-const SMALL: Box = { left: -10, right: 50, bottom: -20, top: 40 };
+const SMALL: Box = { left: -10, right: 64, bottom: -20, top: 40 };
 
 export class BuildView implements View, Plane, Drawn {
   readonly element = h("div.view.motion", { "data-page": "build" });
@@ -93,7 +93,7 @@ export class BuildView implements View, Plane, Drawn {
   readonly #places = h("section.panel.options", {});
 
   constructor(readonly page: Page) {
-    this.viewport.scale = 4;
+    Object.assign(this.viewport, { lowest: 152, scale: 4 });
     const { past, tool } = keptDrawn(this.drawing);
     if (tool) this.#tool = tool;
     for (const one of past) this.#history.add(one);
@@ -124,14 +124,19 @@ export class BuildView implements View, Plane, Drawn {
   /** Show all that is drawn. */
   fit(): void {
     const box = extentOf(this.drawing);
-    const seen = box.right > box.left || box.top > box.bottom;
-    const room = 0.1 * (box.right - box.left); // for letters
+    const wide = box.right - box.left;
+    const seen = wide + box.top - box.bottom > 0;
+    const { viewport } = this;
+    const { narrow } = viewport;
+    const room = narrow ? 0 : 0.1 * wide; // for letters
     box.left -= room;
     box.right += room;
     const below = Math.max(this.#hint.offsetHeight, this.#choice.offsetHeight);
-    const { viewport } = this;
-    const first = viewport.narrow ? SMALL : FIRST;
-    viewport.fit(seen ? box : first, 1e-9, below + 12);
+    const { knots } = this.drawing;
+    const rails = knots.some(({ slide }) => slide !== undefined);
+    const first = narrow ? SMALL : FIRST;
+    const places = knots.map(({ at }) => at);
+    viewport.fit(seen ? box : first, 1e-9, below + 12, places, rails ? 48 : 34);
     this.#draw();
   }
 
@@ -157,8 +162,8 @@ export class BuildView implements View, Plane, Drawn {
   appeared(): void {
     const { linkage } = this.page;
     if (isOf(linkage, this.drawing)) this.#before = linkage;
-    this.#resize();
     this.#offer();
+    this.#resize();
   }
 
   /** What can be begun with, while the plane is empty; else what was opened after the last change. */
@@ -207,11 +212,8 @@ export class BuildView implements View, Plane, Drawn {
     if (!stays) this.chosen = null;
     this.#history.add(drawing);
     this.#seen = this.page.linkage;
-    this.drawing = next;
-    this.spots = []; // what they lay on may be gone
     this.page.say("");
-    this.#changed();
-    this.page.changed();
+    this.#goTo(next);
   }
 
   get undoable(): [boolean, boolean] {
@@ -219,18 +221,22 @@ export class BuildView implements View, Plane, Drawn {
   }
 
   undo(): void {
-    this.#goTo(this.#history.undo(this.drawing));
+    this.#goBack(this.#history.undo(this.drawing));
   }
 
   redo(): void {
-    this.#goTo(this.#history.redo(this.drawing));
+    this.#goBack(this.#history.redo(this.drawing));
   }
 
-  #goTo(old: Drawing | undefined): void {
+  #goBack(old: Drawing | undefined): void {
     if (!old) return;
-    this.drawing = old;
-    this.spots = [];
     this.chosen = null;
+    this.#goTo(old);
+  }
+
+  #goTo(drawing: Drawing): void {
+    this.drawing = drawing;
+    this.spots = []; // what they lay on may be gone
     this.#changed();
     this.page.changed();
   }
@@ -238,8 +244,8 @@ export class BuildView implements View, Plane, Drawn {
   #changed(): void {
     keepDrawing(this.drawing);
     keepDrawn(this.drawing, this.#history.all, this.#tool);
-    this.#draw();
     this.#offer();
+    this.#draw();
     this.#showChoice();
     renew(this.#places, ...placesPanel(this));
     void this.mobility.tell();
@@ -331,8 +337,7 @@ export class BuildView implements View, Plane, Drawn {
     const stop = whileDown(this.root, moves, () => {
       stop();
       if (this.drawing === made || this.drawing === before) return;
-      this.#changed();
-      this.page.changed();
+      this.#goTo(this.drawing);
     });
   }
 
@@ -359,7 +364,7 @@ export class BuildView implements View, Plane, Drawn {
 
   #draw(): void {
     renew(this.#hint, ...hintOf(this.#tool, this.spots.length));
-    renew(this.root, ...planePicture(this));
+    renew(this.root, ...planePicture(this, this.#starters.offsetHeight));
   }
 
   #hover(event: PointerEvent): void {

@@ -81,12 +81,10 @@ function lengthField(view: Changing, link: string): HTMLElement[] {
   return [field(view, `${t("Length")} [${unitOf(drawing)}]`, "length", lengthOf(drawing, span.ends), set)];
 }
 
-/** What slides in a direction at the place of a joint: the direction is typed. */
-function slideFields(view: Changing, slide: number): HTMLElement[] {
-  const { drawing } = view;
-  if (slide < 0) return [];
-  const set = (value: number) => (Number.isFinite(value) ? turned(drawing, slide, value) : null);
-  return [field(view, "φ [°]", "slide", drawing.knots[slide]!.slide!, set)];
+/** The direction of a slide is typed. */
+function slideField(view: Changing, slide: number): HTMLElement {
+  const set = (value: number) => (Number.isFinite(value) ? turned(view.drawing, slide, value) : null);
+  return field(view, "φ [°]", "slide", view.drawing.knots[slide]!.slide!, set);
 }
 
 const NAMING = () => t("Expected a new name without spaces and brackets.");
@@ -138,5 +136,5 @@ export function choiceOf(view: Changing): HTMLElement[] {
     view.viewport.narrow && links[1]
       ? []
       : [nameField(own, "knot-name", (text) => view.change(called(drawing, knot, text), NAMING()))];
-  return [note(name), ...naming, ...(between ? [] : places), ...slideFields(view, slide), ...parts];
+  return [note(name), ...naming, ...(between ? [] : places), ...(slide < 0 ? [] : [slideField(view, slide)]), ...parts];
 }

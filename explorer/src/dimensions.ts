@@ -1,10 +1,10 @@
 /** Dimension lines on the plane: the lengths of what is chosen, and those that are kept. */
 
 import { svg } from "./dom";
-import { type Drawing, knotName } from "./drawing";
+import type { Drawing } from "./drawing";
 import { away, middleOf, pathThrough } from "./hull";
 import { number } from "./language";
-import { isKept, lengthOf, type Span, spansOf } from "./lengths";
+import { isKept, lengthOf, type Span, spanName, spansOf } from "./lengths";
 import { halfOf } from "./names";
 import type { Pair } from "./rows";
 import type { Viewport } from "./viewport";
@@ -54,14 +54,9 @@ export function dimensionsOf({ chosen, drawing, viewport }: Measured): Dimension
     const side = -s * (mx - middle[0]) + c * (my - middle[1]) < 0 ? -1 : 1;
     const off = (by: number): Pair => [-s * by * side, c * by * side];
     const [dx, dy] = off(OFF);
-    const [a, b]: [Pair, Pair] = [
-      [p[0] + dx, p[1] + dy],
-      [q[0] + dx, q[1] + dy],
-    ];
-    const beyond = (at: Pair, [x, y]: Pair): [Pair, Pair] => [
-      [at[0] + x / 3, at[1] + y / 3],
-      [at[0] + 1.2 * x, at[1] + 1.2 * y],
-    ];
+    const beyond = (part: number) => [p, q].map(([x, y]): Pair => [x + part * dx, y + part * dy]) as [Pair, Pair];
+    const [a, b] = beyond(1);
+    const [from, to] = [beyond(1 / 3), beyond(1.2)];
     const head = ([x, y]: Pair, way: number): Pair[] => [
       [x + way * HEAD * c - 3 * s, y + way * HEAD * s + 3 * c],
       [x, y],
@@ -79,10 +74,10 @@ export function dimensionsOf({ chosen, drawing, viewport }: Measured): Dimension
           [[mx + dx + gap * c, my + dy + gap * s] as Pair, b],
         ]
       : [[a, b]];
-    const lines = [...parts, beyond(p, [dx, dy]), beyond(q, [dx, dy]), head(a, 1), head(b, -1)];
+    const lines = [...parts, [from[0], to[0]], [from[1], to[1]], head(a, 1), head(b, -1)];
     return [
       {
-        name: span.ends.map((k) => knotName(drawing, k)).join("–"),
+        name: spanName(drawing, span.ends),
         text,
         kept: held(span),
         path: lines.map((line) => pathThrough(line)).join(""),

@@ -10,6 +10,7 @@ export const DRIVEN = "M9.5-9.5A13.4 13.4 0 0 0-12.5-5m0 0l6-1.5m-6 1.5l-.6-6";
 export const PUSHED = "M-16-15H16m-6-5l6 5-6 5";
 /** A block, in pixels about its middle. */
 export const BOX = "M-15-9h30v18h-30z";
+export const GUIDE = 46; // pixels from the middle of a block to the end of its guide
 export const RAIL = 11; // pixels from there to its rail
 export const HATCH = 5; // pixels from a rail to the middle of its hatching
 
@@ -21,6 +22,11 @@ export function railOf([[x, y], [u, v]]: [Pair, Pair], off: number): [Pair, Pair
     [x + part * dy, y - part * dx],
     [u + part * dy, v - part * dx],
   ];
+}
+
+/** The direction of a slide, in degrees, in which its rail is on this side. */
+export function lying(way: number): number {
+  return way - 180 * Math.ceil((way - 90.001) / 180);
 }
 
 /** From the arrow of a drive to the hatching of a ground, in pixels about its joint. */

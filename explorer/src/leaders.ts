@@ -51,6 +51,12 @@ export function clearBy(room: number, bodies: readonly Boxed[], half: number, [x
   return true;
 }
 
+/** Where the line from a place to a name ends, half the width of the name and its middle given. */
+export function endAt([u, v]: Pair, [x, y]: Pair, half: number): Pair {
+  const end = (at: number, middle: number, room: number) => Math.max(middle - room, Math.min(middle + room, at));
+  return [end(u, x, half + 3), end(v, y, 8)];
+}
+
 /** Finds the nearest free place about a body from which a line to it crosses as little as possible; of the one before,
  * whether it is still free. */
 export function leaderOf(
@@ -82,8 +88,7 @@ export function leaderOf(
     const far = NEAREST + (half < STEP ? NUMBER : STEP) * (Math.floor(chosen / WAYS) % STEPS);
     const [c, s] = [Math.cos(phi), Math.sin(phi)];
     const [x, y] = [from[0] + (far + half) * c, from[1] - far * s];
-    const end = (at: number, middle: number, room: number) => middle + Math.max(-room, Math.min(room, at - middle));
-    const to: Pair = [end(from[0], x, half + 3), end(from[1], y, 8)];
+    const to = endAt(from, [x, y], half);
     const inside = home[0] && !toHull(home, x, y);
     let cost = (inside ? 0 : away(from, ...to)) - SEEN * gapOf(spot);
     if (cost >= least || !free([x, y + 4]) || !clearBy(BAR, bodies, half, [x, y]) || !clearBy(RIM, rim, half, [x, y]))

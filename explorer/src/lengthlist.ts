@@ -2,9 +2,9 @@
 
 import { digits } from "./digits";
 import { h } from "./dom";
-import { type Drawing, type Keep, knotName, unitOf } from "./drawing";
+import { type Drawing, type Keep, knotName, turned, unitOf } from "./drawing";
 import { parsed, spaced, t } from "./language";
-import { isKept, keeping, lengthOf, type Span, spansOf, withLength } from "./lengths";
+import { isKept, keeping, lengthOf, spanName, spansOf, withLength } from "./lengths";
 import { lockButton } from "./shell";
 
 /** The view of a drawing, as far as its lengths are changed. */
@@ -12,8 +12,6 @@ interface Measured {
   readonly drawing: Drawing;
   change(next: Drawing | null, text?: string): void;
 }
-
-const keptText = () => t("What is kept does not allow it.");
 
 /** A button that keeps a length, a direction or a place. */
 export function keeper(view: Measured, kind: Keep[0], knots: readonly number[], name: string): HTMLElement {
@@ -28,37 +26,49 @@ export function keeper(view: Measured, kind: Keep[0], knots: readonly number[], 
   return button;
 }
 
-/** Give a length as it was typed, or say why not. */
-export function setLength(view: Measured, span: Span, value: number): boolean {
-  const next = withLength(view.drawing, span, value);
-  if (next || value > 0) view.change(next, keptText());
-  return !!next;
-}
-
-export function spanName(drawing: Drawing, { ends }: Span): string {
-  return ends.map((k) => knotName(drawing, k)).join("–");
-}
-
+/** Lengths and directions of slides. */
 export function lengthList(view: Measured): HTMLElement[] {
   const { drawing } = view;
-  const spans = spansOf(drawing);
-  const row = (span: Span) => {
-    const name = spanName(drawing, span);
+  const row = (
+    name: string,
+    link: string,
+    [value, unit]: [number, string],
+    set: (value: number) => Drawing | null,
+    locks: HTMLElement[],
+  ) => {
     const id = `length-${name}`;
     const input: HTMLInputElement = h("input", {
       id,
-      ...digits(lengthOf(drawing, span.ends)),
+      ...digits(value),
       inputmode: "decimal",
       "data-span": name,
-      onchange: () => input.setAttribute("aria-invalid", String(!setLength(view, span, parsed(input.value)))),
+      onchange: () => {
+        const typed = parsed(input.value);
+        const next = set(typed);
+        if (next || typed > 0) view.change(next, t("What is kept does not allow it."));
+        input.setAttribute("aria-invalid", String(!next));
+      },
     });
-    const locks = (["length", "direction"] as const).map((kind) => keeper(view, kind, span.ends, name));
     return [
-      h("label", { for: id, title: spaced(span.link) }, h("b", {}, name), h("span.unit", {}, ` ${spaced(span.link)}`)),
+      h("label", { for: id, title: link }, h("b", {}, name), h("span.unit", {}, ` ${link}`)),
       input,
-      h("span.unit", {}, unitOf(drawing)),
+      h("span.unit", {}, unit),
       h("span.locks", {}, ...locks),
     ];
   };
-  return spans.length ? [h("h2", {}, t("Lengths")), h("div.rows.sizes", {}, ...spans.flatMap(row))] : [];
+  const lengths = spansOf(drawing).flatMap((span) => {
+    const name = spanName(drawing, span.ends);
+    const locks = (["length", "direction"] as const).map((kind) => keeper(view, kind, span.ends, name));
+    const set = (typed: number) => withLength(drawing, span, typed);
+    const value = lengthOf(drawing, span.ends);
+    return row(name, spaced(span.link), [value, unitOf(drawing)], set, locks);
+  });
+  const directions = drawing.knots.flatMap(({ links, slide }, k) => {
+    if (slide === undefined) return [];
+    const set = (typed: number) => (Number.isFinite(typed) ? turned(drawing, k, typed) : null);
+    const name = `φ\u00a0${knotName(drawing, k)}`;
+    return row(name, spaced(links.find((link) => link !== drawing.frame)!), [slide, "°"], set, []);
+  });
+  const rows = [...lengths, ...directions];
+  return rows[0] ? [h("h2", {}, t("Sizes")), h("div.rows.sizes", {}, ...rows)] : [];
 }

@@ -29,6 +29,10 @@ export function lengthOf({ knots }: Drawing, [one, two]: Span["ends"]): number {
   return away(knots[one]!.at, ...knots[two]!.at);
 }
 
+export function spanName(drawing: Drawing, ends: Span["ends"]): string {
+  return ends.map((k) => knotName(drawing, k)).join("–");
+}
+
 function keepOf(drawing: Drawing, kind: Keep[0], knots: readonly number[]): Keep {
   return [kind, ...knots.map((k) => knotName(drawing, k)).sort()] as const;
 }

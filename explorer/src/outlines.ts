@@ -1,11 +1,13 @@
 /** Where what is drawn lies on the plane, in pixels: outlines of links, rims of wheels, directions of slides. */
 
 import { DEGREE } from "./cycle";
-import { type Drawing, isPin, type Knot, linksOf } from "./drawing";
-import { convexHull } from "./hull";
+import { type Drawing, isPin, type Knot, linksOf, radiiOf } from "./drawing";
+import { GUIDE, placed } from "./ground";
+import { convexHull, sidesOf, toHull } from "./hull";
 import type { Pair } from "./rows";
 import type { Viewport } from "./viewport";
 
+export const BARREL = 0.6; // of a cylinder from end to end
 export const RING = 8; // pixels from the teeth of a ring gear to its rim
 
 /** A drawing as a viewport shows it. */
@@ -14,10 +16,17 @@ export interface Seen {
   readonly viewport: Viewport;
 }
 
-/** The hull of the knots of a link, in pixels. */
+/** The hull of the joints of a link; slides beside them it reaches, too, as their guide. */
 export function outlineOf({ drawing, viewport }: Seen, link: string): Pair[] {
-  const mine = drawing.knots.filter((knot) => knot.links.includes(link) && isPin(knot));
-  return convexHull(mine.map(({ at }) => viewport.screen(...at)));
+  const mine = drawing.knots.filter(({ links }) => links.includes(link));
+  const hull = convexHull(mine.filter(isPin).map(({ at }) => viewport.screen(...at)));
+  const guides = mine.flatMap(({ at, links, slide }) => {
+    const [x, y] = viewport.screen(...at);
+    if (slide === undefined || toHull(hull, x, y) < 9) return [];
+    const half = links.includes(drawing.frame!) ? 0 : GUIDE;
+    return [-half, half].map((along) => placed([[along, 0]], [x, y], -slide)[0]!);
+  });
+  return guides[0] ? convexHull([...hull, ...guides]) : hull;
 }
 
 /** The links that move, in the order in which they lie upon each other. */
@@ -31,15 +40,14 @@ export function bodiesOf(plane: Seen): string[] {
 }
 
 /** Strokes around the wheels of a knot that has some. */
-export function rimsOf({ at, between, part }: Knot, viewport: Viewport): Pair[][] {
-  const [x, y] = viewport.screen(...at);
-  return (part === undefined ? [] : between!).flatMap((centre) => {
-    const [u, v] = viewport.screen(...centre);
-    const on = (k: number): Pair => {
-      const [c, s] = [Math.cos((k * Math.PI) / 18), Math.sin((k * Math.PI) / 18)];
-      return [u + c * (x - u) - s * (y - v), v + s * (x - u) + c * (y - v)];
+export function rimsOf(knot: Knot, viewport: Viewport): Pair[][] {
+  return radiiOf(knot).flatMap((radius, k) => {
+    const [x, y] = viewport.screen(...knot.between![k]!);
+    const on = (_: unknown, step: number): Pair => {
+      const phi = (step * Math.PI) / 18;
+      return [x + radius * viewport.scale * Math.cos(phi), y + radius * viewport.scale * Math.sin(phi)];
     };
-    return Array.from({ length: 36 }, (_, k) => [on(k), on(k + 1)]);
+    return sidesOf(Array.from({ length: 36 }, on));
   });
 }
 

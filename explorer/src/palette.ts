@@ -94,7 +94,7 @@ export function hintOf(tool: Tool, placed = 0): (Node | string)[] {
     move: [t("Drag joints; press one, or a link, to edit it.")],
     ground: [t("Place it on the plane or on a joint.")],
     slider: [t("Place it; drag in its direction.")],
-    link: [t("Place joint after joint, or drag a bar."), t("Now its other end; Esc begins anew.")],
+    link: [t("Place joint after joint, also on links, or drag a bar."), t("Now its other end; Esc begins anew.")],
     cylinder: [t("Place both ends, or drag from end to end."), t("Now the end of its rod.")],
     dyad: [t("Place an end, the middle, the other end."), t("Now its middle joint."), t("Now its other end.")],
     scale: [t("Place two points of the picture, then type their distance."), t("Now the second point.")],

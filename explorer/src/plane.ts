@@ -6,13 +6,13 @@ import { dimensionElements, dimensionsOf } from "./dimensions";
 import { svg } from "./dom";
 import { type Drawing, isPin, type Knot, lengthsOf, linksOf, type Spot, unitOf } from "./drawing";
 import { gridOf } from "./grid";
-import { BOX, DRIVEN, HATCH, PUSHED, RAIL, SUPPORT } from "./ground";
+import { BOX, DRIVEN, GUIDE, HATCH, lying, PUSHED, RAIL, SUPPORT } from "./ground";
 import { away, nearest, onLine, pathThrough, toHull } from "./hull";
-import { angle, number } from "./language";
+import { angle, number, spaced } from "./language";
 import { isKept } from "./lengths";
-import { lettering } from "./lettering";
+import { lettering, linesOf } from "./lettering";
 import { LEADERS, leadersThrough } from "./naming";
-import { bodiesOf, outlineOf, RING, ringOf, wayOf } from "./outlines";
+import { BARREL, bodiesOf, outlineOf, RING, ringOf, wayOf } from "./outlines";
 import type { Pair } from "./rows";
 import { guidelines, snapped } from "./snapping";
 import type { Viewport } from "./viewport";
@@ -89,11 +89,12 @@ type Drawn = Pick<Plane, "drawing" | "viewport" | "chosen">;
 /** Links and joints, with the signs of the frame. */
 export function mechanismPicture(plane: Drawn): SVGElement[] {
   const { chosen, drawing } = plane;
-  const links = bodiesOf(plane).flatMap((link) => {
+  const links = bodiesOf(plane).map((link) => {
     const hull = outlineOf(plane, link);
     const mark = chosen?.link === link ? " chosen" : "";
     const d = pathThrough(hull) + (hull.length > 2 ? "Z" : "");
-    return [svg("path", { class: `outline${mark}`, d, "data-link": link }), svg("path.bar", { d })];
+    const outline = svg("path", { class: `outline${mark}`, d, "data-link": link });
+    return svg("g", {}, svg("title", {}, spaced(link)), outline, svg("path.bar", { d }));
   });
   const knots = drawing.knots.map((knot, k) => knotElement(plane, k, knot.at));
   const those = (wanted: (knot: Knot) => boolean) => knots.filter((_, k) => wanted(drawing.knots[k]!));
@@ -102,8 +103,9 @@ export function mechanismPicture(plane: Drawn): SVGElement[] {
   return [...those(isGear), ...links, ...those((knot) => !isPin(knot) && !isGear(knot)), ...those(isPin)];
 }
 
-/** The picture of all of it, with the spots that are put already and the place of the cursor. */
-export function planePicture(plane: Plane): SVGElement[] {
+/** The picture of all of it, with the spots that are put already and the place of the cursor; what covers its upper edge
+ * is so high. */
+export function planePicture(plane: Plane, above: number): SVGElement[] {
   const { aim, chosen, cursor, drawing, spots, viewport } = plane;
   const dimensions = dimensionsOf(plane);
   const texts = lettering(plane, dimensions);
@@ -111,8 +113,8 @@ export function planePicture(plane: Plane): SVGElement[] {
     viewport.screen(...at),
   );
   const [cx, cy] = viewport.screen(...cursor);
-  const inLine = drawing.knots.filter(isPin).map(({ at }) => at);
-  const guides = aim !== "aiming" ? [] : guidelines(cursor, [...inLine, ...spots.map(({ at }) => at)]);
+  const others = [...drawing.knots.filter(isPin), ...spots].map(({ at }) => at);
+  const guides = aim === "aiming" ? guidelines(cursor, others) : [];
   const last = spots.at(-1);
   const [dx, dy] = last && aim === "aiming" ? [cursor[0] - last.at[0], cursor[1] - last.at[1]] : [0, 0];
   const read = dx || dy ? `${number(Math.hypot(dx, dy))} ${unitOf(drawing)}, ${angle(Math.atan2(dy, dx), 3)}` : "";
@@ -122,11 +124,11 @@ export function planePicture(plane: Plane): SVGElement[] {
   for (const element of behind) putBackdrop(element, picture!, viewport);
   return [
     ...behind,
-    ...gridOf(viewport, unitOf(drawing)),
+    ...gridOf(viewport, unitOf(drawing), above),
     svg("path.guide", { d: guides.map((ends) => pathThrough(ends.map((at) => viewport.screen(...at)))).join("") }),
     ...mechanismPicture(plane),
-    svg("path", { ...LEADERS, d: leadersThrough(texts.flatMap(({ line }) => (line ? [line] : []))) }),
-    ...texts.map(({ at: [x, y], name }) => svg("text.name", { x, y, "text-anchor": "middle" }, name)),
+    svg("path", { ...LEADERS, d: leadersThrough(linesOf(texts)) }),
+    ...texts.map(({ x, y, name }) => svg("text.name", { x, y, "text-anchor": "middle" }, name)),
     ...dimensionElements(dimensions),
     ...(waiting.length > 1 ? [svg("path.pending", { d: pathThrough(waiting) })] : []),
     svg("text.tick", { x: cx + 12, y: cy + 18 }, told),
@@ -153,51 +155,52 @@ function alongEnds(knot: Knot, scale: number): SVGElement {
   const [[x, y], [u, v]] = between!;
   const [dx, dy] = [u - x, v - y];
   const long = Math.hypot(dx, dy) * scale;
-  const turned = svg("g", { transform: `rotate(${-Math.atan2(dy, dx) / DEGREE})` });
-  if (part === undefined)
-    turned.append(
-      ...["outline", "bar"].map((kind) => svg(`path.${kind}`, { d: `M0 0H${long / 2}` })),
-      svg("rect.block", { x: -long / 2, y: -7, width: 0.6 * long, height: 14, rx: 3 }),
-    );
-  else
-    for (const [k, cx] of [-part * long, (1 - part) * long].entries()) {
-      const circles = [0, RING].slice(0, k === ringOf(knot) ? 2 : 1).map((more) => circle(cx, Math.abs(cx) + more));
-      turned.append(svg("path.shape", { d: circles.join("") }));
-    }
-  return turned;
+  const cylinder = () => [
+    ...["outline", "bar"].map((kind) => svg(`path.${kind}`, { d: `M0 0H${long / 2}` })),
+    svg("rect.block", { x: -long / 2, y: -7, width: BARREL * long, height: 14, rx: 3 }),
+  ];
+  const wheel = (cx: number, k: number) => {
+    const circles = [0, RING].slice(0, k === ringOf(knot) ? 2 : 1).map((more) => circle(cx, Math.abs(cx) + more));
+    return svg("path.shape", { d: circles.join("") });
+  };
+  const parts = part === undefined ? cylinder() : [-part * long, (1 - part) * long].map(wheel);
+  return svg("g", { transform: `rotate(${-Math.atan2(dy, dx) / DEGREE})` }, ...parts);
 }
 
 function circle(x: number, radius: number): string {
   return `M${x - radius} 0a${radius} ${radius} 0 1 0 ${2 * radius} 0a${radius} ${radius} 0 1 0 ${-2 * radius} 0Z`;
 }
 
+/** Beside a slide, away from its rail. */
+function alongWay(way: number): string {
+  const lies = lying(way);
+  return `rotate(${-lies})scale(${lies === way ? 1 : -1} 1)`;
+}
+
 function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair): SVGElement {
-  const { between, links, slide } = drawing.knots[k]!;
+  const knot = drawing.knots[k]!;
+  const { between, links, slide } = knot;
   const [x, y] = viewport.screen(...at);
-  const classes = ["pin", "free"];
-  if (chosen?.knot === k) classes.push("chosen");
-  if (isKept(drawing, "joint", [k])) classes.push("held");
+  const marks = [chosen?.knot === k && "chosen", isKept(drawing, "joint", [k]) && "held"];
   const element = svg("g", {
-    class: classes.join(" "),
-    "data-knot": String(k),
+    class: ["pin free", ...marks].filter(Boolean).join(" "),
+    "data-knot": k,
     transform: `translate(${x.toFixed(1)} ${y.toFixed(1)})`,
   });
-  const ground = drawing.frame !== null && links.includes(drawing.frame);
-  const way = wayOf(drawing.knots[k]!);
-  if (between) element.append(alongEnds(drawing.knots[k]!, viewport.scale));
+  const ground = links.includes(drawing.frame!);
+  const way = wayOf(knot);
+  if (between) element.append(alongEnds(knot, viewport.scale));
   else if (slide !== undefined) {
-    const turned = svg("g", { transform: `rotate(${-slide})` });
     // on a link that moves there is none
-    if (ground)
-      turned.append(
-        svg("path.rail", { d: `M-46 ${RAIL}H46` }),
-        svg("path.rail-hatch", { d: `M-46 ${RAIL + HATCH}H46` }),
-      );
-    turned.append(svg("path.block", { d: BOX }));
-    element.append(turned);
-  } else if (ground) element.append(svg("path.support", { d: SUPPORT }));
-  if (slide === undefined && !between) element.append(svg("circle.joint", { r: links.length > 1 || ground ? 5 : 3.2 }));
+    const rails = ground ? ["rail", "rail-hatch"] : [];
+    const d = (low: number) => `M${-GUIDE} ${RAIL + low * HATCH}h${2 * GUIDE}`;
+    const lines = rails.map((kind, low) => svg(`path.${kind}`, { d: d(low) }));
+    element.append(svg("g", { transform: alongWay(slide) }, ...lines, svg("path.block", { d: BOX })));
+  } else {
+    if (ground) element.append(svg("path.support", { d: SUPPORT }));
+    element.append(svg("circle.joint", { r: links[1] || ground ? 5 : 3.2 }));
+  }
   if (drawing.drives.includes(k))
-    element.append(svg("path.driven", way === null ? { d: DRIVEN } : { d: PUSHED, transform: `rotate(${-way})` }));
+    element.append(svg("path.driven", way === null ? { d: DRIVEN } : { d: PUSHED, transform: alongWay(way) }));
   return element;
 }

@@ -74,7 +74,8 @@ export function starters(view: Beginning, linkage: Linkage, empty: boolean): HTM
     const begin = () => view.begin(drawing, key === "hand");
     return [h("button.plain", { "data-begin": key, onclick: begin }, empty ? sketch(drawing) : "", text)];
   });
-  const why = t("{name} cannot be edited here yet: {joints}", { name, joints: other.slice(0, 3).join(", ") });
   const head = empty ? [h("h2", {}, t("Begin with"))] : [];
-  return [...head, ...buttons, ...(found ? [] : [h("p.note", {}, why)])];
+  const [joint] = other;
+  const why = joint && t("{name} cannot be edited here: no tool for joints like {joint} yet.", { name, joint });
+  return [...head, ...buttons, ...(why ? [h("p.note", {}, why)] : [])];
 }

@@ -30,7 +30,6 @@ export class Extent implements Box {
   }
 }
 
-const TOOLS = 218; // pixels down to where buttons over the picture end
 const BESIDE = 56; // from the right edge of the picture to the left one of these
 
 export class Viewport {
@@ -43,6 +42,8 @@ export class Viewport {
   fitted = true;
   /** Pixels that arrows reach beyond all of it. */
   arrows = 0;
+  /** Pixels down to where the buttons over it end. */
+  lowest = 218;
   #ox = 0;
   #oy = 0;
 
@@ -53,7 +54,7 @@ export class Viewport {
 
   /** Where the buttons over the picture end; a low one has one only. */
   get tools(): number {
-    return this.height < 2 * TOOLS ? 72 : TOOLS;
+    return this.height < 2 * this.lowest ? 72 : this.lowest;
   }
 
   /** The right edge of the picture, or the left one of these. */

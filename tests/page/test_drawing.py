@@ -1027,9 +1027,33 @@ def test_what_is_opened_beside_a_drawing_is_offered_and_guides_are_as_in_motion(
     after = "(one) => !(one.compareDocumentPosition(gruebler.root.querySelector('.drawing path.block')) & 2)"
     assert all(view.locator(".drawing path.bar").evaluate_all(f"all => all.map({after})"))
     assert "P, Q" in view.locator(".drawing text.name").all_text_contents()
+    # the direction of a slide is typed beside the lengths
+    assert view.locator('[data-span^="φ"]').evaluate_all("all => all.map((one) => one.value)")[0] == "0"
+    view.locator('[data-span^="φ"]').first.fill("10")
+    view.keyboard.press("Enter")
+    assert view.evaluate("gruebler.views.build.drawing.knots.find((knot) => 'slide' in knot).slide") == 10
     view.evaluate(opened, "cam_roller")
-    assert "cannot be edited here yet: cam – roller" in view.locator(".starters").inner_text()
+    assert "cannot be edited here: no tool for joints like cam – roller yet" in view.locator(".starters").inner_text()
     view.evaluate("localStorage.clear()")
+
+
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (390, 844)])
+def test_a_letter_stands_nearest_to_its_own_joint(tab, server, width, height):
+    view = tab(width=width, height=height).open(server.address).page
+    view.evaluate("async () => gruebler.open(await gruebler.ask('open', { id: 'excavator' }))")
+    view.click('[data-view="build"]')
+    view.click('[data-begin="hand"]')
+    found = view.evaluate("""() => {
+        const { drawing, viewport } = gruebler.views.build;
+        const texts = [...gruebler.root.querySelectorAll('.drawing text.name')];
+        return texts.filter((one) => /^[A-Z]$/.test(one.textContent)).map((one) => [
+            one.textContent,
+            drawing.knots.map(({ at }) => viewport.screen(...at)).map(([x, y]) =>
+                Math.hypot(x - one.getAttribute('x'), y + 4 - one.getAttribute('y'))),
+        ]);
+    }""")
+    assert len(found) > 8
+    assert [letter for letter, far in found if far.index(min(far)) != ord(letter) - ord("A")] == []
 
 
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (390, 844)])
