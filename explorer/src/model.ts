@@ -94,7 +94,8 @@ export type Target = [number, number, number?];
 /** A link and a place there. */
 export type End = [link: number, x: number, y: number];
 
-/** A spring or damper as the library knows it: angles in radians; of a torsion spring the places of its ends say nothing. */
+/** A spring or damper as the library knows it: angles in radians; of a torsion spring the places of its ends say
+ * nothing. */
 export interface Spring {
   turning: boolean;
   ends: [End, End];

@@ -103,8 +103,8 @@ export function mechanismPicture(plane: Drawn): SVGElement[] {
   return [...those(isGear), ...links, ...those((knot) => !isPin(knot) && !isGear(knot)), ...those(isPin)];
 }
 
-/** The picture of all of it, with the spots that are put already and the place of the cursor; what covers its upper edge
- * is so high. */
+/** The picture of all of it, with the spots that are put already and the place of the cursor; what covers its upper
+ * edge is so high. */
 export function planePicture(plane: Plane, above: number): SVGElement[] {
   const { aim, chosen, cursor, drawing, spots, viewport } = plane;
   const dimensions = dimensionsOf(plane);

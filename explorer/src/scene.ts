@@ -384,8 +384,10 @@ function move(element: SVGElement, [x, y]: Pair): void {
 function arrow(...[x, y, dx, dy, , unit]: Arrow): string {
   const length = Math.hypot(dx, dy);
   if (!(length > 3) || !Number.isFinite(length)) return "";
-  if (unit.includes("N·m"))
-    return `M${x + dx} ${y}A${length} ${length} 0 1 ${Number(dx < 0)} ${x} ${y + length}${arrow(x, y + length, 9 * Math.sign(dx), 0, 0, "")}`;
+  if (unit.includes("N·m")) {
+    const head = arrow(x, y + length, 9 * Math.sign(dx), 0, 0, "");
+    return `M${x + dx} ${y}A${length} ${length} 0 1 ${Number(dx < 0)} ${x} ${y + length}${head}`;
+  }
   const [ux, uy] = [dx / length, dy / length];
   const [ex, ey] = [x + dx, y + dy];
   const at = (u: number, v: number) => `${u.toFixed(1)} ${v.toFixed(1)}`;
