@@ -10,6 +10,7 @@ const LEFT = 49; // beside the numbers of the grid
 const GAP = 12; // between columns
 const ABOVE = 15; // from a row up to the edge of their ground
 const BESIDE = 5; // the same to the left
+const LOW = 300; // pixels of a picture that has no room for them
 
 /** The number of a link where it is not called by its name: its place, from 1, which is mostly that of the frame. */
 export function numberOf(link: number): string {
@@ -55,7 +56,6 @@ export class Legend {
     });
     this.#marked = "";
     this.#laid = "";
-    this.element.replaceChildren(...(links.length ? [this.#ground, ...this.#entries] : []));
   }
 
   /** Lay the rows out in columns; how high all is from there to the lower edge of the picture, 0 without a row. */
@@ -63,7 +63,8 @@ export class Legend {
     const laid = [foot, height, width].join();
     if (laid === this.#laid) return this.#high;
     this.#laid = laid;
-    const all = this.#entries;
+    const all = height > LOW ? this.#entries : []; // beside what is read and typed the machine alone
+    this.element.replaceChildren(this.#ground, ...all);
     const lengthOf = (text: SVGTextContentElement) => text.getComputedTextLength() || 2 * halfOf(text.textContent!);
     const numbers = all.map((text) => lengthOf(text.firstChild as SVGTSpanElement));
     // numbers of one and of two digits end below one another

@@ -152,6 +152,10 @@ def test_a_ring_gear_has_its_name_at_its_rim_and_turns_visibly(tab, server, widt
     lines = page.page.locator(".stage text.name").first.locator("xpath=../*[1]").get_attribute("d")
     ends = [[float(one) for one in line.split("M")[0].replace("L", " ").split()] for line in lines.split("M")[1::2]]
     assert max(np.hypot(u - x, v - y) for x, y, u, v in ends) < 48
+    page.page.locator('[data-panel="show"]').scroll_into_view_if_needed()  # the low picture is left to the machine
+    page.until("gruebler.root.querySelector('.motion .bodies').getBoundingClientRect().height > 60")
+    assert page.page.locator(".motion .stage").bounding_box()["height"] < 250
+    assert entries.count() == 0
     # the way of a block is drawn from where it is measured while the value is pointed at
     page.machine("slidercrank")
     way = page.page.locator(".stage .ruler")
