@@ -291,7 +291,7 @@ def test_what_has_no_size_is_not_offered_and_glass_is_a_body_too(server, chromiu
     assert labels == ["shaft, angle", "rod 1", "rod 2", "rod 3"]  # not how far axes that meet are apart
     page.goto(server.address + "space/cardan_shaft.html#en")
     labels = page.locator('[data-panel="sizes"] label').all_inner_texts()
-    assert labels == ["frame", "Angle", "shaft"]  # the axes of the two ends go through the crosses
+    assert labels == ["frame", "Twist angle", "shaft"]  # the axes of the two ends go through the crosses
     page.goto(server.address + "space/winch_screw.html#en")
     assert page.locator('[data-panel="sizes"]').count() == 0
     page.set_viewport_size({"width": 1024, "height": 768})

@@ -25,6 +25,7 @@ _BALANCED = message("Balanced: {criteria} count alike.")
 _ANGLE, _SIZE, _SENSITIVITY = message("transmission angle"), message("longest link"), message("sensitivity")
 BALANCED = _BALANCED.filled(criteria=joined_by_and([_ANGLE, _SIZE, _SENSITIVITY]))
 BEST = message("The best of {count}.")
+_BEST_OF_OTHERS = message("Of the {count} others the best {shown}.")
 EXACT = message("All meet the targets exactly.")
 NONE = message("No linkage meets all demands: ask for less, or try other targets.")
 _FEW_DYADS = message("Of the {theorem} dyads of these positions {real:n} are real; a linkage needs two.")
@@ -57,8 +58,10 @@ def is_curve(task: Task) -> bool:
     return isinstance(task, PathTask) and GuidedCurve.of(task) is not GuidedCurve.NONE
 
 
-def notes(result: SynthesisResult, items: Sequence[dict[str, Any]], total: int) -> Iterator[Message]:
-    """How complete and how exact the designs are that are shown, of so many; why there is none.
+def notes(
+    result: SynthesisResult, items: Sequence[dict[str, Any]], total: int, *, others: bool = False
+) -> Iterator[Message]:
+    """How complete and how exact the designs are that are shown, of so many (others are left out); why there is none.
 
     >>> from gruebler.design.synthesis import Demands, synthesise
     >>> five = ((-40, 0, 0.2), (-15, 18, 0.4), (5, 24, 0.6), (22, 20, 0.8), (35, 10, 1.1))
@@ -73,7 +76,7 @@ def notes(result: SynthesisResult, items: Sequence[dict[str, Any]], total: int) 
     if isinstance(task, PositionTask) and len({angle for *_, angle in task.positions}) == 1:
         yield message("All at one angle: the link is shifted and does not turn.")
     if len(items) < total:
-        yield BEST.filled(count=total)
+        yield (_BEST_OF_OTHERS if others else BEST).filled(count=total, shown=len(items))
     if not total:
         yield NONE
     elif not any(item["error"] for item in items):

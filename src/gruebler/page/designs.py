@@ -188,8 +188,9 @@ def design_records(
         stages.stage(_DRAWING, 100, start=_NEARED + (100 - _NEARED) * number / len(shown))
         items.append(_record(design, task, lang))
     _mark_variants(items)
+    others = any(each.text in (_LOW.text, _LONG.text) for each in left)
     texts = {
-        "note": [*left, *notes(result, items, len(designs))],
+        "note": [*left, *notes(result, items, len(designs), others=others)],
         "words": words(result, items, relative, longest if space else None),
     }
     said = {key: "\n".join(text.in_language(lang) for text in some) for key, some in texts.items()}
