@@ -44,11 +44,11 @@ export function unbroken(text: string, gaps = GAPS): string {
   return text.replace(gaps, "\u00a0");
 }
 
-/** A text in which what follows an underscore is an index, l_a, and the class of a joint, g1. */
+/** A text in which what follows an underscore is an index, l_a, and the class of a joint, g1; a joint R(1-2) is one. */
 export function indexed(text: string): (string | Node)[] {
   return unbroken(text)
-    .split(/(?:(?<=[\p{L}\d])_|(?<=\bg)(?=\d))([\p{L}\d]+)/u)
-    .map((part, k) => (k % 2 ? h("sub", {}, part) : part));
+    .split(/(?:(?<=[\p{L}\d])_|(?<=\bg)(?=\d))([\p{L}\d]+)|(\w\(\d[\d-]*\))/u)
+    .map((part, k) => (part ? [part, h("sub", {}, part), h("nobr" as "b", {}, part)][k % 3]! : ""));
 }
 
 export function h<K extends keyof HTMLElementTagNameMap>(

@@ -123,7 +123,7 @@ export class StructureView implements View {
       const said = (error as Error).message;
       this.#words.open = true;
       const [, place] = /(?:character|Stelle) (\d+)/.exec(said) ?? [];
-      const at = Number(place) - 1;
+      const at = +place! - 1;
       renew(this.#error, said, at >= 0 && h("code.place", {}, `\n${text.slice(0, at)}▸${text.slice(at)}`));
     }
     this.#field.setAttribute("aria-invalid", String(!!this.#error.textContent));

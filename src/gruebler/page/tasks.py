@@ -176,7 +176,9 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
     shown, beyond = _asked_parts(task, solution)
     for each in shown:
         if isinstance(each, TeachingTable):
-            parts.append(part(each.title.in_language(lang), rows=cells_of_table(each, lang)))
+            head, *rows = cells_of_table(each, lang)
+            columns = [k for k in range(len(head)) if any(row[k] for row in rows)]  # chains may all have no name
+            parts.append(part(each.title.in_language(lang), rows=[[row[k] for k in columns] for row in (head, *rows)]))
         elif isinstance(each, SolutionStep):
             count += 1
             parts.append(part(*step_lines(each, count, lang)))
