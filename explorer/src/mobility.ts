@@ -143,6 +143,7 @@ export class MobilityPanel {
 /** How a step changed the count: three for each link, less what its joints take; nothing if it left all of that. */
 function stepFrom(before: Drawing | null, after: Drawing): string | null {
   if (!before?.frame || !after.frame || !linksOf(before)[1]) return "";
+  if (!after.knots.some(({ at }) => before.knots.some((one) => one.at === at))) return ""; // another one was opened
   const links = 3 * (linksOf(after).length - linksOf(before).length);
   const [old, now] = [counted(before), counted(after)];
   const joints = now - old - links;

@@ -1022,6 +1022,7 @@ def test_what_is_opened_beside_a_drawing_is_offered_and_guides_are_as_in_motion(
     assert view.locator(".starters > *").all_inner_texts() == ["Edit Walschaerts valve gear"]
     view.click('[data-begin="hand"]')
     assert not view.locator(".starters > *").count()
+    assert not view.get_by_text("Last step").count()  # to another machine leads no step
     marks = ("rail", "rail-hatch", "block")
     assert [view.locator(f".drawing path.{one}").count() for one in marks] == [2, 2, 3]
     after = "(one) => !(one.compareDocumentPosition(gruebler.root.querySelector('.drawing path.block')) & 2)"
