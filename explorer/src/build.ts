@@ -245,8 +245,8 @@ export class BuildView implements View, Plane, Drawn {
     keepDrawing(this.drawing);
     keepDrawn(this.drawing, this.#history.all, this.#tool);
     this.#offer();
-    this.#draw();
     this.#showChoice();
+    this.#draw();
     renew(this.#places, ...placesPanel(this));
     void this.mobility.tell();
   }
@@ -364,7 +364,7 @@ export class BuildView implements View, Plane, Drawn {
 
   #draw(): void {
     renew(this.#hint, ...hintOf(this.#tool, this.spots.length));
-    renew(this.root, ...planePicture(this, this.#starters.offsetHeight));
+    renew(this.root, ...planePicture(this, this.#starters.offsetHeight, this.#choice.offsetHeight + 30));
   }
 
   #hover(event: PointerEvent): void {
@@ -431,8 +431,8 @@ export class BuildView implements View, Plane, Drawn {
     const { picture } = this.drawing;
     const picked = picture && gripAt(picture, place, GRIP / this.viewport.scale);
     this.chosen = picked || !isPicture(spot) ? spot : null;
-    this.#draw();
     this.#showChoice();
+    this.#draw();
   }
 
   press(event: KeyboardEvent, target: Element): boolean {

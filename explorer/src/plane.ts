@@ -104,8 +104,8 @@ export function mechanismPicture(plane: Drawn): SVGElement[] {
 }
 
 /** The picture of all of it, with the spots that are put already and the place of the cursor; what covers its upper
- * edge is so high. */
-export function planePicture(plane: Plane, above: number): SVGElement[] {
+ * and its lower edge is so high. */
+export function planePicture(plane: Plane, ...covered: [above: number, below: number]): SVGElement[] {
   const { aim, chosen, cursor, drawing, spots, viewport } = plane;
   const dimensions = dimensionsOf(plane);
   const texts = lettering(plane, dimensions);
@@ -124,7 +124,7 @@ export function planePicture(plane: Plane, above: number): SVGElement[] {
   for (const element of behind) putBackdrop(element, picture!, viewport);
   return [
     ...behind,
-    ...gridOf(viewport, unitOf(drawing), above),
+    ...gridOf(viewport, unitOf(drawing), ...covered),
     svg("path.guide", { d: guides.map((ends) => pathThrough(ends.map((at) => viewport.screen(...at)))).join("") }),
     ...mechanismPicture(plane),
     svg("path", { ...LEADERS, d: leadersThrough(linesOf(texts)) }),
