@@ -14,6 +14,7 @@ const EDGE = 4; // pixels of a picture in which texts would be cut
 const PAST = 999;
 const INK = 8; // pixels from a name to an arrow
 const LETTER = 20; // from a joint to its letter
+const BLOCK = 29; // from the middle of a block to a letter
 const RIM = 3; // from a name on a wheel to its rim
 const SHARES = [0.6, 0.45, 0.7]; // of the radius of a wheel, at which its name may stand
 
@@ -121,8 +122,10 @@ export function labelsOf(linkage: Linkage, numbered: boolean): Label[] {
       const ends = sizes.cylinder(joint)?.slice(2);
       return ends ? middleOf(ends.map((k) => linkage.elementAt(k))) : linkage.jointAt(joint);
     };
+    const here = linkage.jointAt(joint);
+    const slides = model.joints.some(({ pair }, k) => pair.sliding && apart(linkage.jointAt(k), ...here) < 1e-6);
     const spots = (viewport: Viewport) =>
-      spotsAbout(viewport.screen(...at()), -LETTER).map(([x, y]): Pair => [x, y + 4]);
+      spotsAbout(viewport.screen(...at()), slides ? -BLOCK : -LETTER).map(([x, y]): Pair => [x, y + 4]);
     const element = svg("text.name", { "text-anchor": "middle" }, name);
     return [{ element, name, spots, taken: 0, half: halfOf(name) }];
   });
