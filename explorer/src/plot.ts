@@ -159,7 +159,8 @@ export class Plot {
     this.domain = this.span.of(range);
     const [first, last] = this.domain;
     const within = (_: number, k: number) => this.span.whole || (drives[k]! >= first && drives[k]! <= last);
-    const { low, high } = plotRange(series.values.filter(within), series.same, drives.filter(within));
+    const part = this.unit === "s" ? 0 : PART; // over time nothing is without bound
+    const { low, high } = plotRange(series.values.filter(within), series.same, drives.filter(within), part);
     const room = 0.06 * (high - low);
     [this.#low, this.#high] = [low - room, high + room];
     const upward = (series.degrees ? degreeValues : roundValues)(this.#low, this.#high, 3);
@@ -313,6 +314,7 @@ export function plotRange(
   values: Float64Array,
   same = 0,
   places = values.map((_, k) => k),
+  part = PART,
 ): { low: number; high: number } {
   const finite = values.filter(Number.isFinite);
   let low = finite.length ? Math.min(...finite) : 0;
@@ -322,10 +324,12 @@ export function plotRange(
     valueAt(places, values, first + ((k + 0.5) / EVEN) * (last - first)),
   );
   const sorted = even.filter(Number.isFinite).sort();
-  const [least, most] = [PART, 1 - PART].map((part) => sorted[Math.round(part * (sorted.length - 1))]!) as Pair;
+  const [least, most] = [part, 1 - part].map((one) => sorted[Math.round(one * (sorted.length - 1))]!) as Pair;
   const wide = most - least;
-  if (wide > same && high > most + 2 * wide) high = most + wide / 2;
-  if (wide > same && low < least - 2 * wide) low = least - wide / 2;
+  if (part && wide > same) {
+    if (high > most + 2 * wide) high = most + wide / 2;
+    if (low < least - 2 * wide) low = least - wide / 2;
+  }
   if (high - low <= Math.max(same, ONE * Math.max(high, -low))) [low, high] = [low - 1, high + 1];
   return { low, high };
 }

@@ -30,7 +30,7 @@ export async function awaited<Result>(
     else bar.removeAttribute("value");
   });
   const cancel = action("cancel", () => request.cancel(), t("Cancel"));
-  renew(place, bar, said, cancel);
+  renew(place, bar, said, " ", cancel);
   try {
     const found = await request;
     renew(place);

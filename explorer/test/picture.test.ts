@@ -112,6 +112,13 @@ test("a plot shows all values, but not how rates grow without bound", () => {
     places,
   ); // the same downwards
   near([deep.low, deep.high], [-pole.high, -1]);
+  const whole = plotRange(
+    places.map((x) => 1 / x),
+    0,
+    places,
+    0,
+  ); // over time
+  near([whole.low, whole.high], [1, 1000]);
   // a pulse that lasts longer is shown whole
   assert.deepEqual(plotRange(Float64Array.from({ length: 100 }, (_, k) => Number(k > 90))), { low: 0, high: 1 });
   const rounding = plotRange(Float64Array.of(4e-12, -3e-12, 0), 1e-9);

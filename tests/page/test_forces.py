@@ -144,7 +144,7 @@ def test_a_pendulum_swings_in_its_own_time():
     # -90 + 1.1459 cos(15.66) degrees after 1 s
     assert told["lines"][0].startswith("Free motion: in 1 s the drive goes from ")
     # and nothing of rows or coordinates, which nobody sees here
-    assert told["lines"][1:] == ["The energy balance is off by less than 0.001 %."]
+    assert told["lines"][1:] == ["The energy balance is off by less than 0.001\u00a0%."]
     start, end, least, most = (float(one) for one in re.findall(r"(\S+)°", told["lines"][0]))
     assert (start, end) == pytest.approx((-88.854, -91.144), abs=6e-3)
     assert (least, most) == pytest.approx((-91.146, -88.854), abs=6e-3)
