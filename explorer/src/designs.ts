@@ -311,7 +311,7 @@ export class DesignCards {
             "span",
             {},
             spaced(names[currentLanguage()]![k] ?? t("eccentricity")),
-            h("i", {}, `${this.#length(design, one)}\u00a0mm`),
+            h("i", {}, this.#length(design, one) + (k + 1 in lengths ? "" : "\u00a0mm")), // in all no room for it
           ),
         ),
       ),
