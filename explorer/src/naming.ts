@@ -197,10 +197,10 @@ export class Naming {
       const { half, link, spots } = label;
       const others = boxes.filter(([hull], other) => other !== k && hull.length);
       others.push(...more.flatMap(([its, box]) => (its === link ? [] : [box])));
-      const wide = ([, left, right]: Boxed) => right - left;
       const homes = more.flatMap(([its, box]) => (its === link && box[0].length > 2 ? [box] : []));
       const spokes = (label.wheel?.(this.viewport).spokes ?? []).map(boxed);
-      const home = homes.sort((one, other) => wide(other) - wide(one))[0]?.[0] ?? [];
+      // the widest one
+      const home = homes.sort((one, other) => other[2] - other[1] - one[2] + one[1])[0]?.[0] ?? [];
       const free = ([u, v]: Pair) =>
         this.#seen(half, [u, v]) &&
         v > TOP &&
