@@ -68,8 +68,8 @@ function partOf({ text, formula: line, heading, rows }: Part): HTMLElement {
     "div",
     {},
     h("p", {}, ...indexed(text)),
-    line ? h("p.formula", {}, ...formula(line)) : null,
-    rows.length ? h("table", {}, cells("th", head), ...body.map((row) => cells("td", row))) : null,
+    line && h("p.formula", {}, ...formula(line)),
+    rows[0] && h("table", {}, cells("th", head), ...body.map((row) => cells("td", row))),
   );
 }
 
@@ -204,7 +204,7 @@ export class ExercisesView implements View {
           {},
           h("h2", {}, task.name),
           h("p", {}, ...indexed(task.task)),
-          task.remark ? h("p.note", {}, ...indexed(task.remark)) : null,
+          task.remark && h("p.note", {}, ...indexed(task.remark)),
         ),
         h(
           "div",
@@ -214,7 +214,7 @@ export class ExercisesView implements View {
               "figure.chain-picture",
               {},
               picture(figure, name || t("The figure of the task")),
-              name ? h("figcaption", {}, unbroken(name)) : null,
+              name && h("figcaption", {}, unbroken(name)),
             ),
           ),
         ),
@@ -272,7 +272,7 @@ export class ExercisesView implements View {
           set,
           { "data-answer": key },
         )
-      : h("span", {}, symbol ? h("span.symbol", {}, ...formula(symbol), " =") : null, input, `\u00a0${unit}`);
+      : h("span", {}, symbol && h("span.symbol", {}, ...formula(symbol), " ="), input, `\u00a0${unit}`);
     return h(
       "div.answer",
       { "data-mark": mark?.mark },
@@ -282,8 +282,8 @@ export class ExercisesView implements View {
         ...indexed(`${name[0]!.toUpperCase()}${name.slice(1)}`),
       ),
       field,
-      mark ? h("b", {}, words[mark.mark]) : null,
-      mark?.hint ? h("div", { id: hint }, ...indexed(mark.hint)) : null,
+      mark && h("b", {}, words[mark.mark]),
+      mark?.hint && h("div", { id: hint }, ...indexed(mark.hint)),
     );
   }
 
