@@ -205,6 +205,22 @@ def test_gases_act_in_a_free_motion_and_rounding_is_no_force():
     assert all(size == 0 or size > 1e-6 * max(sizes) for size in sizes)
 
 
+def test_cylinders_stop_at_their_ends_and_forces_are_told_up_to_these():
+    """An excavator whose valves are opened falls until the first cylinder is at its stop, which the catalog gives."""
+    called = ["boom cylinder", "stick cylinder", "bucket cylinder"]
+    question = asked(entries()["excavator"].linkage(), source="excavator", bars="steel", called=called, until=2.0)
+    question["drives"] = [282.0, 220.0, 220.0]
+    told = answer("fall", question, "en", print)
+    boom, stick, bucket = np.array(told["drives"]).T
+    assert 240 <= boom[-1] == boom.min() < 240.5
+    assert stick.min() > 160
+    assert bucket.max() < 255
+    assert told["lines"][-2] == "The motion ends where boom cylinder is at an end of its range, 240 cm."
+    forces = answer("forces", {**question, "active": 0, "full": False, "range": [240.0, 330.0]}, "en", print)
+    assert [forces["drives"][0], forces["drives"][-1]] == pytest.approx([240, 330])
+    assert "boom cylinder on boom piston" not in {one["name"] for one in forces["forces"]}  # nothing across the rod
+
+
 def test_a_spring_pulls_by_its_law_and_a_torsion_spring_turns_by_its_own():
     """A spring of 2 N/mm from the frame to B, and one of 50 N mm about A: the torque by the way of B."""
     linkage = FourBar(25, 70, 40, 70).linkage()

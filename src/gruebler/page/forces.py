@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import degrees, pi
+from math import degrees, inf, pi
 from typing import Any
 
 import msgspec
@@ -38,6 +38,7 @@ from gruebler.page.reader_loads import (
 _FREE = message("Free motion: in {seconds:n} s the drive goes from {start} to {end}, between {least} and {most}.")
 _FREE_OF = message("{drive}: from {start} to {end}, between {least} and {most}.")
 _MOVED = message("Free motion: {seconds:n} s.")
+_AT_STOP = message("The motion ends where {drive} is at an end of its range, {value}.")
 _BALANCE = message("The energy balance is off by {part:n}\u00a0% at most.")
 _BALANCED = message("The energy balance is off by less than 0.001\u00a0%.")
 _NOTHING = message("Nothing acts yet: type masses or loads.")
@@ -53,7 +54,7 @@ _ON = message("{others} on {link}")
 _CERTAIN = 1e-6  # of the largest load: how far two ways to compute forces may differ
 _ROWS = 720  # of a turn, so that what is read between two has four digits
 _MOST_ROWS = 2160
-_NO_ENDS = 0.02  # of a range, at either end: no drive keeps its speed up to where it turns back
+_NO_ENDS = 0.02  # of a range that the joints limit, at either end: no drive keeps its speed up to where it turns back
 _USUAL = 2 * pi  # of a drive, rad/s: one turn; of one with limits about its range
 _A_SECOND = 240  # poses of a free motion, whose speeds would be plotted with corners by those of a screen
 _NOISE = 1e-7  # of the largest power: what is left of a mean that is none
@@ -96,7 +97,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         return record | {"lines": [_NOTHING.in_language(lang)]}
     active, (low, high) = asked.active, asked.range
     speed = record["speed"] or (_USUAL if asked.full else float(f"{(high - low) / factor:.1g}") * factor)
-    if not asked.full:
+    if not asked.full and not _are_given(asked, low, high):
         low, high = low + _NO_ENDS * (high - low), high - _NO_ENDS * (high - low)
     turns = abs(high - low) / (2 * pi) if turning else 1.0
     values = np.linspace(low, high, 1 + min(_MOST_ROWS, max(_ROWS // 2, round(_ROWS * turns))))
@@ -150,6 +151,8 @@ def _joint_forces(run: InverseDynamics, place: Callable[[int], Message], lang: s
     for k, joint, link, exact in each:
         force = _short(np.where(np.abs(exact) < least, 0.0, exact))
         others = joined(message(spaced(other)) for other in joint.links if other != link)
+        if joint.pair.name == "prismatic" and not force.any():
+            continue  # of a cylinder, whose rods carry nothing across; what pushes them is the effort of the drive
         row = _largest(np.hypot(*force.T))
         said = {
             "name": _ON.filled(others=others, link=spaced(link)),
@@ -269,25 +272,39 @@ def _units(forces: list[dict[str, Any]], acting: list[dict[str, Any]]) -> tuple[
 def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     """Poses of all links, values and speeds of the drives, forces of the joints, 240 a second, under all that acts.
 
-    And why they end if they do too soon.
+    And why they end if they do too soon: a cylinder of the catalog goes no further than its stops.
     """
     linkage, loads, *_ = with_loads(asked, lang)
     free = replace(loads, motors={})
+    names = linkage.mechanism.chain.joint_names()
+    ends = {
+        names[drive.joint]: (low, high)
+        for drive, value, (low, high) in zip(linkage.mechanism.drives, asked.drives, _stops(asked), strict=False)
+        if low <= value <= high
+    }
     times = np.arange(round(asked.until * _A_SECOND) + 1) / _A_SECOND
     law = any(by_law(amount) for amount in amounts(free))  # friction by a law is far faster than the motion
     tolerance = _ENOUGH_BY_LAW if law else _ENOUGH
-    run = simulate(linkage, free, at=asked.drives, until=asked.until, times=times, tolerance=tolerance, stiff=law)
-    ends = np.stack([run.drives[0], run.drives[-1], run.drives.min(axis=0), run.drives.max(axis=0)], axis=-1)
+    run = simulate(
+        linkage, free, at=asked.drives, until=asked.until, times=times, ends=ends, tolerance=tolerance, stiff=law
+    )
+    spans = np.stack([run.drives[0], run.drives[-1], run.drives.min(axis=0), run.drives.max(axis=0)], axis=-1)
     went = [
         dict(zip(("start", "end", "least", "most"), _drive_texts(linkage, drive, values), strict=True))
-        for drive, values in enumerate(ends.tolist())
+        for drive, values in enumerate(spans.tolist())
     ]
     seconds = float(run.times[-1])
     said = [_MOVED.filled(seconds=seconds)] if went[1:] else [_FREE.filled(seconds=seconds, **went[0])]
+    called = asked.called or [names[drive.joint] for drive in linkage.mechanism.drives]
     if went[1:]:
-        joints = linkage.mechanism.chain.joint_names()
-        names = asked.called or [joints[drive.joint] for drive in linkage.mechanism.drives]
-        said += [_FREE_OF.filled(drive=name, **its) for name, its in zip(names, went, strict=False)]
+        said += [_FREE_OF.filled(drive=name, **its) for name, its in zip(called, went, strict=False)]
+    why = run.message(lang)
+    for drive, name in enumerate(called):
+        joint = names[linkage.mechanism.drives[drive].joint]
+        if run.reason and joint in ends and run.reason.values.get("joint") == joint:
+            near = min(ends[joint], key=lambda end: abs(end - run.drives[-1, drive]))
+            said.append(_AT_STOP.filled(drive=name, value=_drive_texts(linkage, drive, [near])[0]))
+            why = ""
     part = float(f"{100 * run.defect:.2g}")
     said.append(_BALANCED if run.defect < _EXACT else _BALANCE.filled(part=part))
     places = np.stack([run.places[0].real, run.places[0].imag], axis=-1)
@@ -304,8 +321,25 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         "forces": forces,
         "acting": acting,
         "units": _units(forces, acting),
-        "lines": [*(line.in_language(lang) for line in said), *filter(None, [run.message(lang)])],
+        "lines": [*(line.in_language(lang) for line in said), *filter(None, [why])],
     }
+
+
+def _are_given(asked: LoadedLinkage, low: float, high: float) -> bool:
+    """Whether the catalog gives a range of the drive, so that it may go on beyond both ends."""
+    from gruebler.teaching.catalog import entries
+
+    record = entries().get(asked.source)
+    given = [record.between, *_stops(asked)[asked.active :][:1]] if record else []
+    return any(len(ends) == 2 and np.allclose(ends, (low, high), rtol=1e-6, atol=0.0) for ends in given if ends)
+
+
+def _stops(asked: LoadedLinkage) -> list[tuple[float, float]]:
+    """The least and the largest value of each drive that an entry of the catalog has."""
+    from gruebler.teaching.catalog import entries
+
+    record = entries().get(asked.source)
+    return [ends or (-inf, inf) for ends in record.stops] if record else []
 
 
 def _drive_texts(linkage: Linkage, drive: int, values: list[float]) -> list[Message]:
