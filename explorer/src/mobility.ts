@@ -149,7 +149,10 @@ function stepFrom(before: Drawing | null, after: Drawing): string | null {
   const joints = now - old - links;
   if (!links && !joints) return null;
   const signed = (value: number) => `${value > 0 ? "+" : ""}${number(value)}`;
-  const text = t("Last step: links {links}, joints {joints}.", { links: signed(links), joints: signed(joints) });
+  const text = t("Last step, freedoms: {links} by links, {joints} by joints.", {
+    links: signed(links),
+    joints: signed(joints),
+  });
   return links === 6 && joints === -6 ? `${text} ${t("A dyad joined at both ends leaves F unchanged.")}` : text;
 }
 
