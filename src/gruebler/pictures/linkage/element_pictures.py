@@ -38,7 +38,6 @@ from gruebler.pictures.machines.geneva_shape import GenevaShape
 _ROD_END = ROD / 2 + LINE  # pixels: the round end of a rod
 _RIM = 9.0  # pixels: the thickness of the rim of an internal wheel
 _RIM_LINES = 8  # across it, as many as show that it turns
-_ARM = 0.8  # of the radius: the cross that shows the rotation of a wheel
 _STEPS = 361  # points of the contour of a cam
 _PAST_CONTACT = 1.25  # how far a flat follower reaches, of the way to the last place of contact
 _NARROWEST = 0.3  # of the base circle: half a flat follower
@@ -182,9 +181,7 @@ def _disc(posed: PosedLinkage, link: str, element: Wheel | Circle, *, crossed: b
         return RoundPart(link, (Polylines(rings, style, closed=True), Polylines(across, "hatch")))
     shapes: list[Shape] = [CircleShape(at, radius, style)]
     if crossed:
-        arm = (
-            _ARM * radius * math.sqrt(0.5)
-        )  # the cross lies beside bearings and bars, which are mostly level or upright
+        arm = radius * math.sqrt(0.5)  # the cross lies beside bearings and bars, which are mostly level or upright
         cross = ((at.x - s * arm, at.y - arm, at.x + s * arm, at.y + arm) for s in (1, -1))
         shapes.append(Polylines(tuple((Point(a, b), Point(c, d)) for a, b, c, d in cross), "hatch"))
     return RoundPart(link, tuple(shapes))
