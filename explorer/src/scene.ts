@@ -266,13 +266,15 @@ export class Scene {
       this.#vectors(linkage, 2, shown.accelerations),
     ].map((all) => all.map((one) => this.#scaled(...one)));
     const springs = shown.springs(linkage).map((spring) => springLines(linkage, viewport, spring));
-    const covered = this.#names.place(linkage, this.#around(linkage, shown, kinds, springs));
+    const hung = springs.map((parts) => parts.flat()).filter((all) => all[0]);
+    const covered = this.#names.place(linkage, this.#around(linkage, shown, kinds, hung));
     kinds.forEach((all, k) => {
       put(this.#arrows[k]!, { d: all.map((one) => arrow(...one)).join("") });
     });
     // a number may stand upon a plate, but not across its edges
     this.#putValues(kinds, [...covered, ...pastEdges(viewport.width, viewport.height)]);
-    put(this.#springs, { d: springs.flat().map(pathThrough).join("") });
+    const pins = hung.flatMap((all) => [all[0]!, all.at(-1)!]).map((at) => dotAt(at, 3));
+    put(this.#springs, { d: [...springs.flat().map(pathThrough), ...pins].join("") });
     const lines: Pair[][] = readingsOf(linkage).map(({ ends }) => ends);
     const way = shown.way ? wayEnds(linkage) : [];
     const rulers = [...lines, way].map((ends) => pathThrough(ends.map((at) => viewport.screen(...at))));
@@ -282,7 +284,7 @@ export class Scene {
   }
 
   /** What is drawn beside the bodies, of which names keep clear. */
-  #around(linkage: Linkage, { curves }: Shown, kinds: Arrow[][], springs: Pair[][][]): Around {
+  #around(linkage: Linkage, { curves }: Shown, kinds: Arrow[][], springs: Pair[][]): Around {
     const { model, pose } = linkage;
     const { viewport } = this;
     const pixels = (joint: number) => viewport.screen(...linkage.jointAt(joint));
@@ -292,7 +294,7 @@ export class Scene {
         [x + dx, y + dy],
       ]),
     );
-    arrows.push(...springs.map((parts) => convexHull(parts.flat())).filter((hull) => hull.length));
+    arrows.push(...springs.map(convexHull));
     const grounds = this.#pins
       .filter(({ joint }) => model.joints[joint]!.links.includes(model.frame))
       .map(({ joint }) => placed(STANDING, pixels(joint), model.bearings[joint]));

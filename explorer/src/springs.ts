@@ -33,11 +33,12 @@ export function springLines(linkage: Linkage, viewport: Viewport, spring: Spring
     const arm = (k: number) => 8 + k / 4;
     return [Array.from({ length: 49 }, (_, k) => [cx + arm(k) * Math.cos(k / 4), cy - arm(k) * Math.sin(k / 4)])];
   }
-  const along = (part: number, across: number): Pair => {
-    const far = Math.hypot(u - x, v - y) || 1;
-    return [x + (u - x) * part - ((v - y) / far) * across, y + (v - y) * part + ((u - x) / far) * across];
-  };
-  const line = (...places: Pair[]) => places.map((one) => along(...one));
+  const far = Math.hypot(u - x, v - y) || 1;
+  const line = (...places: Pair[]) =>
+    places.map(([part, across]): Pair => {
+      const off = across / far;
+      return [x + (u - x) * part - (v - y) * off, y + (v - y) * part + (u - x) * off];
+    });
   if (damping && !stiffness && known === null)
     return [
       line([0, 0], [0.5, 0]),
@@ -45,7 +46,7 @@ export function springLines(linkage: Linkage, viewport: Viewport, spring: Spring
       line([0.35, 8], [0.7, 8], [0.7, -8], [0.35, -8]),
       line([0.7, 0], [1, 0]),
     ];
-  const count = 2 * Math.max(3, Math.min(20, Math.round(Math.hypot(u - x, v - y) / 16)));
+  const count = 2 * Math.max(3, Math.min(20, Math.round(far / 16)));
   const coils = Array.from({ length: count }, (_, k): Pair => [0.16 + (0.68 * k) / (count - 1), k % 2 ? 7 : -7]);
   return [line([0, 0], [0.13, 0], ...coils, [0.87, 0], [1, 0])];
 }
