@@ -70,17 +70,15 @@ export class Legend {
     // numbers of one and of two digits end below one another
     const before = numbers.map((one) => Math.max(...numbers) - one);
     const lengths = all.map((text, k) => before[k]! + lengthOf(text));
-    let count = all.length;
-    const columns = () => all.slice(0, count).map((_, k) => GAP + most(lengths, k, count));
-    while (count > 1 && columns().reduce((sum, wide) => sum + wide, LEFT) > width) count--;
-    const rows = Math.ceil(all.length / count) || 0;
+    // one column below the other, so that a long name takes room in one of them alone
+    let rows = Math.min(1, all.length);
+    const after = (columns = Math.ceil(all.length / rows)) =>
+      all.slice(0, columns).reduce((x, _, k) => x + GAP + Math.max(...lengths.slice(rows * k, rows * (k + 1))), LEFT);
+    while (rows < all.length && after() > width) rows++;
     const top = height - foot - LINE * (rows - 1);
-    const right = columns().reduce((x, wide, column) => {
-      for (let k = column; k < all.length; k += count)
-        put(all[k]!, { x: x + before[k]!, y: top + LINE * Math.floor(k / count) });
-      return x + wide;
-    }, LEFT);
-    put(this.#ground, { x: LEFT - BESIDE, y: top - ABOVE, width: right - LEFT, height: rows && LINE * rows + 2 });
+    for (const [k, text] of all.entries())
+      put(text, { x: after(Math.floor(k / rows)) + before[k]!, y: top + LINE * (k % rows) });
+    put(this.#ground, { x: LEFT - BESIDE, y: top - ABOVE, width: after() - LEFT, height: rows && LINE * rows + 2 });
     this.#high = rows && foot + LINE * rows;
     return this.#high;
   }
@@ -93,9 +91,4 @@ export class Legend {
     for (const text of this.#entries)
       put(text, { "text-decoration": links.includes(Number(text.dataset.entry)) ? "underline" : "none" });
   }
-}
-
-/** The most of some lengths, each so many after another. */
-function most(lengths: readonly number[], first: number, step: number): number {
-  return Math.max(...lengths.filter((_, k) => k % step === first));
 }
