@@ -39,7 +39,7 @@ export const STANDING: Pair[] = [
 /** The arrow of a drive but for its head, beside which a letter has room. */
 export const DRIVING: Pair[] = [
   [-8, -6],
-  [-7, -13],
+  [0, -15],
   [9, -11],
 ];
 
