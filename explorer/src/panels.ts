@@ -129,15 +129,16 @@ function sizeRow(editor: Editor, { link, first, off, second, value }: Length, al
     },
     onkeydown: (event: KeyboardEvent) => event.stopPropagation(),
   });
-  const apart = t("eccentricity");
-  const called = [(!off || link !== linkage.model.frame) && linkage.linkName(link), off && apart];
-  const name = called.filter(Boolean).join(", ");
+  const frame = off && link === linkage.model.frame;
+  const called = [...(frame ? [] : [linkage.linkName(link)]), ...(off ? [t("eccentricity")] : [])];
+  const name = called.join(", ");
   const lettered = linkage.letterOf(0);
   const ends = `${others(first)}${lettered ? "–" : " – "}${others(second)}`;
   const short = lettered && !off;
-  const told = alone ? name : name.replace(apart, "e");
-  const bold = h("b", {}, softened(short ? ends : told));
-  const label = h("label", { for: id, title: `${name}: ${ends}` }, bold, alone || short ? "" : `, ${softened(ends)}`);
+  const told = alone ? called : [...called, ends];
+  const [own, ...more] = short ? [ends] : told;
+  const bold = h("b", {}, softened(own!));
+  const label = h("label", { for: id, title: `${name}: ${ends}` }, bold, softened(["", ...more].join(", ")));
   return [
     label,
     input,
