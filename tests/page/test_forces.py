@@ -411,7 +411,7 @@ def test_springs_are_chosen_drawn_and_turn_the_drive(tab, server):
     page.page.locator("#force-stiffness-0").fill("2")
     page.page.locator("#force-stiffness-0").press("Tab")
     drawn = page.until(path)
-    assert drawn.count("M") == 1
+    assert drawn.count("M") == 3  # a coil with a ring at each end
     assert 6 <= drawn.count("L") - 3 <= 40  # turns of one coil, and what leads to them
     page.until(f"![undefined, '0'].includes({READ})", 60)
     read = float(page.page.evaluate(READ).replace("\N{MINUS SIGN}", "-"))
@@ -424,9 +424,9 @@ def test_springs_are_chosen_drawn_and_turn_the_drive(tab, server):
     page.page.locator("#spring-1").select_option(label="torsion")
     page.page.locator("#force-stiffness-1").fill("1")
     page.page.locator("#force-stiffness-1").press("Tab")
-    page.until(f"{path}.split('M').length === 3")
+    page.until(f"{path}.split('M').length === 7")
     page.page.locator("#spring-0").select_option(label="none")
-    page.until(f"{path}.split('M').length === 2")
+    page.until(f"{path}.split('M').length === 4")
 
 
 def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_fields(tab, server):

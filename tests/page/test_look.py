@@ -70,7 +70,7 @@ def test_machines_with_two_drives_show_what_both_of_them_move(tab, server):
     assert float(shown["Travel of its points"].removesuffix(" mm")) == pytest.approx(250 * np.sqrt(2), abs=0.1)
     assert page.page.locator("[data-note=still]").inner_text() == "Output head does not turn."
     path = page.page.locator(".stage path.spring-path").get_attribute("d")  # before its forces were asked for
-    assert path.count("M") == 2
+    assert path.count("M") == 6  # two coils with a ring at each end
 
 
 def test_a_drive_is_called_as_what_it_moves(tab, server):
