@@ -153,8 +153,8 @@ def test_a_ring_gear_has_its_name_at_its_rim_and_turns_visibly(tab, server, widt
     ends = [[float(one) for one in line.split("M")[0].replace("L", " ").split()] for line in lines.split("M")[1::2]]
     assert max(np.hypot(u - x, v - y) for x, y, u, v in ends) < 48
     page.page.locator('[data-panel="show"]').scroll_into_view_if_needed()  # the low picture is left to the machine
+    page.until("gruebler.root.querySelector('.motion .stage').getBoundingClientRect().height < 250")
     page.until("gruebler.root.querySelector('.motion .bodies').getBoundingClientRect().height > 60")
-    assert page.page.locator(".motion .stage").bounding_box()["height"] < 250
     assert entries.count() == 0
     # the way of a block is drawn from where it is measured while the value is pointed at
     page.machine("slidercrank")
@@ -690,12 +690,13 @@ def test_what_is_chosen_among_drives_stays_where_it_is(tab, server):
     card = page.page.locator('[data-list="driven"] .card').first
     card.scroll_into_view_if_needed()
     said = page.page.locator(".said").count()
-    before = card.bounding_box()
+    top = "gruebler.root.querySelector('[data-list=driven] .card')?.getBoundingClientRect().top"  # cards are made anew
+    before = page.until(top)
     card.tap()
     page.until("gruebler.views.structure.structure.drives")
     page.page.locator('[data-list="driven"] .card[aria-pressed="true"]').wait_for()
     assert page.page.locator(".said").count() == said  # it had the sentence of the drive that the picture marks
-    assert abs(card.bounding_box()["y"] - before["y"]) < 1
+    assert abs(page.until(top) - before) < 1
 
 
 @pytest.mark.parametrize("locale", ["en-US", "de-DE"])

@@ -151,7 +151,7 @@ def _joint_forces(run: InverseDynamics, place: Callable[[int], Message], lang: s
     for k, joint, link, exact in each:
         force = _short(np.where(np.abs(exact) < least, 0.0, exact))
         others = joined(message(spaced(other)) for other in joint.links if other != link)
-        if joint.pair.name == "prismatic" and not force.any():
+        if joint.pair.is_sliding and not force.any():
             continue  # of a cylinder, whose rods carry nothing across; what pushes them is the effort of the drive
         row = _largest(np.hypot(*force.T))
         said = {

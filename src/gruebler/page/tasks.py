@@ -186,7 +186,7 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
             count = 0
             parts.append(part(each.text.in_language(lang), heading=True))
     checks = [check_text(check, lang) for check in solution.checks if check.first not in beyond]
-    answers = answer_lines(task, solution, lang)
+    answers = answer_lines(task, solution, lang, printed=False)
     for title, lines in (("Results:", answers), ("Check by a second method:", checks)):
         if lines:
             parts += [part(translate(title, lang), heading=True), *map(part, lines)]

@@ -104,14 +104,14 @@ def _capital(text: str) -> str:
     return text[:1].upper() + text[1:] if first is not None and first[0].islower() else text
 
 
-def answer_lines(exercise: Exercise, solution: Solution, lang: str) -> list[str]:
-    """What is asked with its result, a line each, and what the source prints."""
+def answer_lines(exercise: Exercise, solution: Solution, lang: str, *, printed: bool = True) -> list[str]:
+    """What is asked with its result, a line each, and what the source prints, if that is wanted."""
     lines = []
     for comparison in compare(exercise, solution):
         result = comparison.result
         symbol = f"{result.symbol} = " if result.symbol and _is_number(result.value) else ""
         line = f"{_capital(result.name.in_language(lang))}: {symbol}{result_text(result, lang)}"
-        note = printed_note(comparison, lang)
+        note = printed_note(comparison, lang) if printed else ""
         lines.append(f"{line}   [{note}]" if note else line)
     return lines
 
