@@ -15,7 +15,7 @@ export interface Length {
   link: number;
   first: number;
   second: number;
-  /** Whether one of them is the line of a slide, of which the other is so far off. */
+  /** 1 if one of them is the line of a slide, from which the other is so far off; else 0. */
   off: number;
   value: number;
 }

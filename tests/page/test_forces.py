@@ -215,9 +215,19 @@ def test_cylinders_stop_at_their_ends_and_forces_are_told_up_to_these():
     assert 240 <= boom[-1] == boom.min() < 240.5
     assert stick.min() > 160
     assert bucket.max() < 255
-    assert told["lines"][-2] == "The motion ends where boom cylinder is at an end of its range, 240 cm."
+    assert told["lines"][-2] == "The motion ends: boom cylinder has reached the end of its range, 240 cm."
+    # beside a stop by rounding it stands at it; a drive that the catalog does not limit is not stopped
+    above = answer("fall", {**question, "drives": [330.0 + 1e-8, 220.0, 220.0], "until": 0.05}, "en", print)
+    assert above["drives"][0][0] == 330
+    other = answer("fall", {**question, "source": ""}, "en", print)
+    assert min(other["drives"])[0] < 240
     forces = answer("forces", {**question, "active": 0, "full": False, "range": [240.0, 330.0]}, "en", print)
     assert [forces["drives"][0], forces["drives"][-1]] == pytest.approx([240, 330])
+    # a bonnet is shown up to where its hinges all but stretch; at that end the forces are four hundred times as large
+    hood = {**asked(entries()["hood"].linkage(), source="hood", bars="steel"), "active": 0, "full": False}
+    low, high = entries()["hood"].between
+    inside = answer("forces", {**hood, "drives": [(low + high) / 2], "range": [low, high]}, "en", print)["drives"]
+    assert [inside[0], inside[-1]] == pytest.approx([low + 0.02 * (high - low), high - 0.02 * (high - low)])
     assert "boom cylinder on boom piston" not in {one["name"] for one in forces["forces"]}  # nothing across the rod
 
 

@@ -38,7 +38,7 @@ from gruebler.page.reader_loads import (
 _FREE = message("Free motion: in {seconds:n} s the drive goes from {start} to {end}, between {least} and {most}.")
 _FREE_OF = message("{drive}: from {start} to {end}, between {least} and {most}.")
 _MOVED = message("Free motion: {seconds:n} s.")
-_AT_STOP = message("The motion ends where {drive} is at an end of its range, {value}.")
+_AT_STOP = message("The motion ends: {drive} has reached the end of its range, {value}.")
 _BALANCE = message("The energy balance is off by {part:n}\u00a0% at most.")
 _BALANCED = message("The energy balance is off by less than 0.001\u00a0%.")
 _NOTHING = message("Nothing acts yet: type masses or loads.")
@@ -55,6 +55,7 @@ _CERTAIN = 1e-6  # of the largest load: how far two ways to compute forces may d
 _ROWS = 720  # of a turn, so that what is read between two has four digits
 _MOST_ROWS = 2160
 _NO_ENDS = 0.02  # of a range that the joints limit, at either end: no drive keeps its speed up to where it turns back
+_AT_END = 1e-9  # of a range: a drive so near to a stop is at it
 _USUAL = 2 * pi  # of a drive, rad/s: one turn; of one with limits about its range
 _A_SECOND = 240  # poses of a free motion, whose speeds would be plotted with corners by those of a screen
 _NOISE = 1e-7  # of the largest power: what is left of a mean that is none
@@ -97,7 +98,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         return record | {"lines": [_NOTHING.in_language(lang)]}
     active, (low, high) = asked.active, asked.range
     speed = record["speed"] or (_USUAL if asked.full else float(f"{(high - low) / factor:.1g}") * factor)
-    if not asked.full and not _are_given(asked, low, high):
+    if not asked.full and not _are_stops(linkage, asked, low, high):
         low, high = low + _NO_ENDS * (high - low), high - _NO_ENDS * (high - low)
     turns = abs(high - low) / (2 * pi) if turning else 1.0
     values = np.linspace(low, high, 1 + min(_MOST_ROWS, max(_ROWS // 2, round(_ROWS * turns))))
@@ -141,6 +142,7 @@ def _effort(run: InverseDynamics, drive: int) -> Reals:
 def _joint_forces(run: InverseDynamics, place: Callable[[int], Message], lang: str) -> list[dict[str, Any]]:
     """By joint and link: both parts in each row, what it is called, how large it is at most, and where."""
     chain = run.motion.linkage.mechanism.chain
+    driven = {drive.joint for drive in run.motion.linkage.mechanism.drives}
     each = [
         (k, joint, link, run.statics.force(k, link=link))
         for k, joint in enumerate(chain.joints)
@@ -151,8 +153,8 @@ def _joint_forces(run: InverseDynamics, place: Callable[[int], Message], lang: s
     for k, joint, link, exact in each:
         force = _short(np.where(np.abs(exact) < least, 0.0, exact))
         others = joined(message(spaced(other)) for other in joint.links if other != link)
-        if joint.pair.is_sliding and not force.any():
-            continue  # of a cylinder, whose rods carry nothing across; what pushes them is the effort of the drive
+        if k in driven and joint.pair.is_sliding and not force.any():
+            continue  # of a cylinder, which carries nothing across; what pushes it is the effort of the drive
         row = _largest(np.hypot(*force.T))
         said = {
             "name": _ON.filled(others=others, link=spaced(link)),
@@ -276,18 +278,12 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     """
     linkage, loads, *_ = with_loads(asked, lang)
     free = replace(loads, motors={})
-    names = linkage.mechanism.chain.joint_names()
-    ends = {
-        names[drive.joint]: (low, high)
-        for drive, value, (low, high) in zip(linkage.mechanism.drives, asked.drives, _stops(asked), strict=False)
-        if low <= value <= high
-    }
+    names = [linkage.mechanism.chain.joint_names()[drive.joint] for drive in linkage.mechanism.drives]
+    start, ends = _between_stops(linkage, asked)
     times = np.arange(round(asked.until * _A_SECOND) + 1) / _A_SECOND
     law = any(by_law(amount) for amount in amounts(free))  # friction by a law is far faster than the motion
     tolerance = _ENOUGH_BY_LAW if law else _ENOUGH
-    run = simulate(
-        linkage, free, at=asked.drives, until=asked.until, times=times, ends=ends, tolerance=tolerance, stiff=law
-    )
+    run = simulate(linkage, free, at=start, until=asked.until, times=times, ends=ends, tolerance=tolerance, stiff=law)
     spans = np.stack([run.drives[0], run.drives[-1], run.drives.min(axis=0), run.drives.max(axis=0)], axis=-1)
     went = [
         dict(zip(("start", "end", "least", "most"), _drive_texts(linkage, drive, values), strict=True))
@@ -295,16 +291,16 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     ]
     seconds = float(run.times[-1])
     said = [_MOVED.filled(seconds=seconds)] if went[1:] else [_FREE.filled(seconds=seconds, **went[0])]
-    called = asked.called or [names[drive.joint] for drive in linkage.mechanism.drives]
+    called = asked.called or names
     if went[1:]:
         said += [_FREE_OF.filled(drive=name, **its) for name, its in zip(called, went, strict=False)]
     why = run.message(lang)
-    for drive, name in enumerate(called):
-        joint = names[linkage.mechanism.drives[drive].joint]
-        if run.reason and joint in ends and run.reason.values.get("joint") == joint:
-            near = min(ends[joint], key=lambda end: abs(end - run.drives[-1, drive]))
-            said.append(_AT_STOP.filled(drive=name, value=_drive_texts(linkage, drive, [near])[0]))
-            why = ""
+    joint = run.reason.values.get("joint") if run.reason else None
+    if joint in ends:
+        k = names.index(joint)
+        near = min(ends[joint], key=lambda end: abs(end - run.drives[-1, k]))
+        said.append(_AT_STOP.filled(drive=called[k], value=_drive_texts(linkage, k, [near])[0]))
+        why = ""
     part = float(f"{100 * run.defect:.2g}")
     said.append(_BALANCED if run.defect < _EXACT else _BALANCE.filled(part=part))
     places = np.stack([run.places[0].real, run.places[0].imag], axis=-1)
@@ -325,21 +321,42 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     }
 
 
-def _are_given(asked: LoadedLinkage, low: float, high: float) -> bool:
-    """Whether the catalog gives a range of the drive, so that it may go on beyond both ends."""
+def _are_stops(linkage: Linkage, asked: LoadedLinkage, low: float, high: float) -> bool:
+    """Whether this range of the drive ends at its stops: its joints might go on beyond both ends.
+
+    A range in which the catalog shows a machine may end next to where the joints limit it: forces grow without bound.
+    """
+    joint = linkage.mechanism.chain.joint_names()[linkage.mechanism.drives[asked.active].joint]
+    least, most = _stops(asked.source).get(joint, (-inf, inf))
+    return max(abs(least - low), abs(most - high)) < 1e-6 * (high - low)
+
+
+def _between_stops(linkage: Linkage, asked: LoadedLinkage) -> tuple[list[float], dict[str, tuple[float, float]]]:
+    """Where the drives start, and by joint between which stops: of those that stand there, in whatever lap."""
+    joints, stops = linkage.mechanism.chain.joint_names(), _stops(asked.source)
+    start, ends = list(asked.drives), {}
+    for k, drive in enumerate(linkage.mechanism.drives):
+        if joints[drive.joint] not in stops:
+            continue
+        low, high = stops[joints[drive.joint]]
+        room = _AT_END * (high - low)
+        value = low - room + (start[k] - low + room) % (2 * pi) if drive.turning else start[k]
+        if low - room <= value <= high + room:
+            start[k] = min(max(value, low), high)
+            ends[joints[drive.joint]] = (low, high)
+    return start, ends
+
+
+def _stops(source: str) -> dict[str, tuple[float, float]]:
+    """By driven joint the least and the largest value that an entry of the catalog gives."""
     from gruebler.teaching.catalog import entries
 
-    record = entries().get(asked.source)
-    given = [record.between, *_stops(asked)[asked.active :][:1]] if record else []
-    return any(len(ends) == 2 and np.allclose(ends, (low, high), rtol=1e-6, atol=0.0) for ends in given if ends)
-
-
-def _stops(asked: LoadedLinkage) -> list[tuple[float, float]]:
-    """The least and the largest value of each drive that an entry of the catalog has."""
-    from gruebler.teaching.catalog import entries
-
-    record = entries().get(asked.source)
-    return [ends or (-inf, inf) for ends in record.stops] if record else []
+    record = entries().get(source)
+    if record is None or not record.stops:
+        return {}
+    mechanism = record.linkage().mechanism
+    names = mechanism.chain.joint_names()
+    return {names[drive.joint]: ends for drive, ends in zip(mechanism.drives, record.stops, strict=True) if ends}
 
 
 def _drive_texts(linkage: Linkage, drive: int, values: list[float]) -> list[Message]:
