@@ -219,6 +219,8 @@ def test_cylinders_stop_at_their_ends_and_forces_are_told_up_to_these():
     # beside a stop by rounding it stands at it; a drive that the catalog does not limit is not stopped
     above = answer("fall", {**question, "drives": [330.0 + 1e-8, 220.0, 220.0], "until": 0.05}, "en", print)
     assert above["drives"][0][0] == 330
+    with pytest.raises(GrueblerError, match="boom cylinder is at the end of its range, 240 cm, and is pushed farther"):
+        answer("fall", {**question, "drives": [240.0, 220.0, 220.0]}, "en", print)
     other = answer("fall", {**question, "source": ""}, "en", print)
     assert min(other["drives"])[0] < 240
     forces = answer("forces", {**question, "active": 0, "full": False, "range": [240.0, 330.0]}, "en", print)

@@ -299,7 +299,12 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     if joint in ends:
         k = names.index(joint)
         near = min(ends[joint], key=lambda end: abs(end - run.drives[-1, k]))
-        said.append(_AT_STOP.filled(drive=called[k], value=_drive_texts(linkage, k, [near])[0]))
+        there = {"drive": called[k], "value": _drive_texts(linkage, k, [near])[0]}
+        if len(run) < 2:
+            raise GrueblerError(
+                "{drive} is at the end of its range, {value}, and is pushed farther: move it first", **there
+            )
+        said.append(_AT_STOP.filled(**there))
         why = ""
     part = float(f"{100 * run.defect:.2g}")
     said.append(_BALANCED if run.defect < _EXACT else _BALANCE.filled(part=part))
