@@ -274,7 +274,7 @@ export class DesignCards {
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
     const extra: [string, string][] = [];
     if (point)
-      extra.push([t("point: along | left"), point.map((one) => this.#length(design, one)).join("\u00a0|\u00a0")]);
+      extra.push([t("coupler point x | y"), point.map((one) => this.#length(design, one)).join("\u00a0|\u00a0")]);
     if (pairs) extra.push([t("first pair at"), pairs[0]!.map((one) => angle(one * DEGREE)).join("\u00a0|\u00a0")]);
     let touched = false; // by a finger, which only chooses it
     const play = () => {
@@ -300,7 +300,7 @@ export class DesignCards {
         onfocus: play,
         "aria-current": design === this.#playing,
       },
-      h("small", {}, thumbnail(design.picture, form), t("Open in Motion")),
+      h("small", {}, thumbnail(design.picture, form)),
       h("b", {}, title),
       kind && h("span", {}, kind),
       h(
@@ -324,6 +324,7 @@ export class DesignCards {
         const poor = (by === "range" || by === "transmission") && design[by]! * DEGREE < GOOD;
         return h("span", {}, this.#names[by], h(best ? "strong" : "i", { class: poor ? "bad" : "" }, text));
       }),
+      h("u", {}, t("Open in Motion")),
     );
     return card;
   }

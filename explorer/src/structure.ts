@@ -85,10 +85,10 @@ export class StructureView implements View {
     if (this.text) void this.describe(this.text);
   }
 
-  /** What is said of the chain before, while another one is asked for. */
+  /** What is said of the chain before, while another one is asked for or what is typed is none. */
   #fade(on: boolean): void {
     for (const part of [...this.#detail.children, this.#shown, ...this.#go.children])
-      part.classList.toggle("asking", on);
+      part.classList.toggle("asking", on || !!this.#error.textContent);
   }
 
   /** Show the structure of a text, which may come from another view. */

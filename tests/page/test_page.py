@@ -246,10 +246,13 @@ def test_errors_of_a_text_stand_at_their_place(tab, server):
     field.fill("R(0-1) R(1-2")
     page.page.locator(".error .place").wait_for()
     assert field.get_attribute("aria-invalid") == "true"
+    before = page.page.locator('.described, [data-act="realise"]')  # of the text before, not of what is typed
+    assert all("asking" in names for names in before.evaluate_all("all => all.map((e) => e.className)"))
     field.fill("R(0-1) R(1-2) R(2-3) R(3-0) R(0-2) R(3-4) R(4-5) R(5-6) R(6-7) R(7-3)")
     page.page.locator("[data-strained]").first.wait_for()
     strained = page.page.locator("[data-strained]").evaluate_all("all => all.map((e) => e.dataset.strained)")
     assert set(strained) >= {"0", "1", "2", "3"}
+    assert not page.page.locator(".described.asking").count()
     numbers = page.page.locator('[data-page="structure"] input[type="number"]')
     field.fill("R(0-1) R(0-2) R(0-3) R(1-4) R(2-4) R(3-4)")  # three links between two: n = 5, F = 3·4 - 2·6 = 0
     page.page.locator('.facts [data-fact="counted"]', has_text="F = 0").wait_for()

@@ -154,8 +154,8 @@ def words(
         yield message("The longest link counts its points, too, and how far a rod slides.")
     if any(item["point"] for item in items):
         yield message(
-            "Point: its place on its link from the joint nearer to the drive, along the line of both joints and "
-            "to its left."
+            "Coupler point: its place on its link from the joint nearer to the drive, x along the line of both "
+            "joints, y to its left."
         )
     if sensitive:
         yield message("Sensitivity: how far a target is off at most if lengths are 0.1 % wrong.")
