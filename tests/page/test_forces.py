@@ -206,7 +206,10 @@ def test_gases_act_in_a_free_motion_and_rounding_is_no_force():
 
 
 def test_cylinders_stop_at_their_ends_and_forces_are_told_up_to_these():
-    """An excavator whose valves are opened falls until the first cylinder is at its stop, which the catalog gives."""
+    """An excavator whose valves are opened falls until the first cylinder is at its stop, which the catalog gives.
+
+    Its bars are a 25th of its boom wide. A cylinder has one joint beside that of its rod, and so is a block there, of
+    15.7 kg: the weight of the one on the carriage, which stands still, is the same all the time."""
     called = ["boom cylinder", "stick cylinder", "bucket cylinder"]
     question = asked(entries()["excavator"].linkage(), source="excavator", bars="steel", called=called, until=2.0)
     question["drives"] = [282.0, 220.0, 220.0]
@@ -216,6 +219,11 @@ def test_cylinders_stop_at_their_ends_and_forces_are_told_up_to_these():
     assert stick.min() > 160
     assert bucket.max() < 255
     assert told["lines"][-2] == "The motion ends: boom cylinder has reached the end of its range, 240 cm."
+    assert told["lines"][1].startswith("Boom cylinder: from 282 cm to 240")
+    assert told["forces"][3]["most"] == pytest.approx(15.7 * 9.80665)
+    assert told["forces"][3]["note"] == "at 0 s"
+    german = answer("fall", question, "de", print)
+    assert len(german["drives"]) == len(told["drives"])
     # beside a stop by rounding it stands at it; a drive that the catalog does not limit is not stopped
     above = answer("fall", {**question, "drives": [330.0 + 1e-8, 220.0, 220.0], "until": 0.05}, "en", print)
     assert above["drives"][0][0] == 330
@@ -224,6 +232,7 @@ def test_cylinders_stop_at_their_ends_and_forces_are_told_up_to_these():
     other = answer("fall", {**question, "source": ""}, "en", print)
     assert min(other["drives"])[0] < 240
     forces = answer("forces", {**question, "active": 0, "full": False, "range": [240.0, 330.0]}, "en", print)
+    assert forces["origin"].startswith("Assumed masses: steel, bars 200 mm × 50 mm")
     assert [forces["drives"][0], forces["drives"][-1]] == pytest.approx([240, 330])
     # a bonnet is shown up to where its hinges all but stretch; at that end the forces are four hundred times as large
     hood = {**asked(entries()["hood"].linkage(), source="hood", bars="steel"), "active": 0, "full": False}

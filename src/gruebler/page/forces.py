@@ -21,7 +21,7 @@ from gruebler.mechanics.kinematics.solve import move_quietly
 from gruebler.mechanics.linkages import Linkage
 from gruebler.page.force_units import unit_for
 from gruebler.page.known_loads import all_springs, springs_of
-from gruebler.page.model import spaced
+from gruebler.page.model import link_names, spaced
 from gruebler.page.params import LoadedLinkage
 from gruebler.page.reader_loads import (
     amounts,
@@ -63,7 +63,8 @@ _ENOUGH = 1e-6  # of each of its steps: for the eye
 _ENOUGH_BY_LAW = 1e-4  # where loads change by a law, which takes a hundred times as long
 _EXACT = 1e-5  # of an energy: what is less is not told in digits
 _SEEN = 0.01  # of the unit of the largest: smaller amounts have a unit of their own
-_NOTHING_OF = 1e-9  # of the largest joint force: what is left of one that is none
+_NOTHING_OF = 1e-6  # of the largest joint force: what is left of one that is none
+_ALIKE = 1e-6  # of the largest of some values: those which differ by less are as large
 
 
 def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
@@ -89,7 +90,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     turning = linkage.mechanism.drives[asked.active].turning
     called, unit, factor = (_TURNS, "1/min", pi / 30) if turning else (_SLIDES, f"{linkage.unit}/s", 1)
     record["rate"] = (called.in_language(lang), unit, factor)
-    record["origin"] = origin_of_masses(asked, record["masses"]).in_language(lang)
+    record["origin"] = origin_of_masses(linkage, asked, record["masses"]).in_language(lang)
     if asked.masses or asked.bars or asked.speed or (asked.gravity, asked.loads, asked.springs) != (None, None, None):
         record["kept"] = kept
     lines = [point_masses(linkage, loads, lang)] if loads.masses else []
@@ -98,7 +99,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         return record | {"lines": [_NOTHING.in_language(lang)]}
     active, (low, high) = asked.active, asked.range
     speed = record["speed"] or (_USUAL if asked.full else float(f"{(high - low) / factor:.1g}") * factor)
-    if not asked.full and not _are_stops(linkage, asked, low, high):
+    if not asked.full and not _are_stops(linkage, asked, low, high, lang):
         low, high = low + _NO_ENDS * (high - low), high - _NO_ENDS * (high - low)
     turns = abs(high - low) / (2 * pi) if turning else 1.0
     values = np.linspace(low, high, 1 + min(_MOST_ROWS, max(_ROWS // 2, round(_ROWS * turns))))
@@ -227,7 +228,9 @@ def _amount(value: float, unit: str, largest: float, lang: str) -> str:
 
 
 def _largest(values: Reals) -> int:
-    return int(np.argmax(np.nan_to_num(np.abs(values))))
+    """The first row in which a value is the largest, but for rounding."""
+    sizes = np.nan_to_num(np.abs(values))
+    return int(np.argmax(sizes >= (1 - _ALIKE) * sizes.max()))
 
 
 def _figure(value: float, digits: int, lang: str) -> str:
@@ -279,7 +282,7 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     linkage, loads, *_ = with_loads(asked, lang)
     free = replace(loads, motors={})
     names = [linkage.mechanism.chain.joint_names()[drive.joint] for drive in linkage.mechanism.drives]
-    start, ends = _between_stops(linkage, asked)
+    start, ends = _between_stops(linkage, asked, lang)
     times = np.arange(round(asked.until * _A_SECOND) + 1) / _A_SECOND
     law = any(by_law(amount) for amount in amounts(free))  # friction by a law is far faster than the motion
     tolerance = _ENOUGH_BY_LAW if law else _ENOUGH
@@ -293,7 +296,9 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     said = [_MOVED.filled(seconds=seconds)] if went[1:] else [_FREE.filled(seconds=seconds, **went[0])]
     called = asked.called or names
     if went[1:]:
-        said += [_FREE_OF.filled(drive=name, **its) for name, its in zip(called, went, strict=False)]
+        said += [
+            _FREE_OF.filled(drive=name[:1].upper() + name[1:], **its) for name, its in zip(called, went, strict=False)
+        ]
     why = run.message(lang)
     joint = run.reason.values.get("joint") if run.reason else None
     if joint in ends:
@@ -302,7 +307,8 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         there = {"drive": called[k], "value": _drive_texts(linkage, k, [near])[0]}
         if len(run) < 2:
             raise GrueblerError(
-                "{drive} is at the end of its range, {value}, and is pushed farther: move it first", **there
+                "Nothing moves: {drive} is at the end of its range, {value}, and is pushed farther. Move it first.",
+                **there,
             )
         said.append(_AT_STOP.filled(**there))
         why = ""
@@ -326,19 +332,21 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     }
 
 
-def _are_stops(linkage: Linkage, asked: LoadedLinkage, low: float, high: float) -> bool:
+def _are_stops(linkage: Linkage, asked: LoadedLinkage, low: float, high: float, lang: str) -> bool:
     """Whether this range of the drive ends at its stops: its joints might go on beyond both ends.
 
     A range in which the catalog shows a machine may end next to where the joints limit it: forces grow without bound.
     """
     joint = linkage.mechanism.chain.joint_names()[linkage.mechanism.drives[asked.active].joint]
-    least, most = _stops(asked.source).get(joint, (-inf, inf))
+    least, most = _stops(asked.source, lang).get(joint, (-inf, inf))
     return max(abs(least - low), abs(most - high)) < 1e-6 * (high - low)
 
 
-def _between_stops(linkage: Linkage, asked: LoadedLinkage) -> tuple[list[float], dict[str, tuple[float, float]]]:
+def _between_stops(
+    linkage: Linkage, asked: LoadedLinkage, lang: str
+) -> tuple[list[float], dict[str, tuple[float, float]]]:
     """Where the drives start, and by joint between which stops: of those that stand there, in whatever lap."""
-    joints, stops = linkage.mechanism.chain.joint_names(), _stops(asked.source)
+    joints, stops = linkage.mechanism.chain.joint_names(), _stops(asked.source, lang)
     start, ends = list(asked.drives), {}
     for k, drive in enumerate(linkage.mechanism.drives):
         if joints[drive.joint] not in stops:
@@ -352,14 +360,15 @@ def _between_stops(linkage: Linkage, asked: LoadedLinkage) -> tuple[list[float],
     return start, ends
 
 
-def _stops(source: str) -> dict[str, tuple[float, float]]:
-    """By driven joint the least and the largest value that an entry of the catalog gives."""
+def _stops(source: str, lang: str) -> dict[str, tuple[float, float]]:
+    """By driven joint, named in the reader's language, the least and the largest value of an entry of the catalog."""
     from gruebler.teaching.catalog import entries
 
     record = entries().get(source)
     if record is None or not record.stops:
         return {}
-    mechanism = record.linkage().mechanism
+    linkage = record.linkage()
+    mechanism = linkage.renamed(link_names(linkage, source, lang)).mechanism
     names = mechanism.chain.joint_names()
     return {names[drive.joint]: ends for drive, ends in zip(mechanism.drives, record.stops, strict=True) if ends}
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from math import log
 from typing import Any, NamedTuple
 
 from gruebler.base.errors import GrueblerError
@@ -23,8 +24,14 @@ from gruebler.structure.chain.pairs import Alphabet
 
 _POINT_MASSES = message("There are further masses at {places}.")
 _FROM_CATALOG = message("Masses as in the catalog.")
-_STEEL = message("Steel, bars 20 mm × 5 mm to each joint, sliders 20 mm long")
-_ASSUMED = message("Assumed masses: steel, bars 20 mm × 5 mm to each joint, sliders 20 mm long")
+_STEEL = message(
+    "Steel, bars {wide:n} mm × {thick:n} mm to each joint, sliders {wide:n} mm long: "
+    "sizes that go with the longest link."
+)
+_ASSUMED = message(
+    "Assumed masses: steel, bars {wide:n} mm × {thick:n} mm to each joint, sliders {wide:n} mm long: "
+    "sizes that go with the longest link."
+)
 _BY_FORMULA = message("changes by a formula of {names}")
 _BY_CURVE = message("changes by a curve over {names}")
 _QUANTITIES = {
@@ -36,8 +43,10 @@ _QUANTITIES = {
     "angle": message("angle"),
     "omega": message("angular velocity"),
 }
-_STEEL_BAR = 7850 * 0.020 * 0.005  # kg/m: a cross-section of 20 mm by 5 mm
-_BLOCK = 0.020  # m: what a slider and other short links are long
+_STEEL_DENSITY = 7850  # kg/m3
+_WIDTHS = [k * power for power in (10, 100, 1000, 10000) for k in (1, 2, 5)][1:]  # of assumed bars, mm
+_SLENDER = 25  # how much longer than its bar is wide the longest link is
+_FLAT = 4  # how much wider than thick a bar is
 
 
 class WithLoads(NamedTuple):
@@ -203,12 +212,12 @@ def _own_springs(linkage: Linkage, loads: Loads, own: list[OwnSpring]) -> Loads:
     return replace(loads, springs=tuple(springs), torsion_springs=tuple(torsion_springs))
 
 
-def origin_of_masses(asked: LoadedLinkage, masses: list[float]) -> Message:
+def origin_of_masses(linkage: Linkage, asked: LoadedLinkage, masses: list[float]) -> Message:
     """Where the masses come from, or without any how they would be assumed."""
-    if not any(masses):
-        return _STEEL
-    if asked.bars == "steel" and not asked.masses:
-        return _ASSUMED
+    assumed = asked.bars == "steel" and not asked.masses
+    if assumed or not any(masses):
+        wide = _assumed_width(linkage)
+        return (_ASSUMED if any(masses) else _STEEL).filled(wide=wide, thick=wide / _FLAT)
     return message("") if asked.masses or asked.document.get("loads") else _FROM_CATALOG
 
 
@@ -240,6 +249,24 @@ def _places(linkage: Linkage, link: str) -> list[complex]:
     return [places[0] + along * end for end in (min(on_it), max(on_it))]
 
 
+def _lengths(linkage: Linkage) -> dict[str, float]:
+    """How long the bars of each moving link are together, in metres."""
+    metre, mechanism = metres_of(linkage.unit), linkage.mechanism
+    moving = [link for link in mechanism.chain.links if link != mechanism.frame]
+    return {link: metre * sum(abs(arm) for _, arm in _arms(linkage, link)) for link in moving}
+
+
+def _assumed_width(linkage: Linkage) -> float:
+    """How wide assumed bars are, in millimetres.
+
+    >>> from gruebler.mechanics.fourbar import FourBar
+    >>> [_assumed_width(FourBar(25 * k, 70 * k, 40 * k, 70 * k).linkage()) for k in (0.1, 1, 70)]
+    [20, 20, 200]
+    """
+    wanted = 1000 * max(_lengths(linkage).values(), default=0.0) / _SLENDER
+    return min(_WIDTHS, key=lambda width: abs(log(width / max(wanted, _WIDTHS[0]))))
+
+
 def _assumed(linkage: Linkage) -> list[float]:
     """The masses of links that are bars of steel from the middle of their joints to each of them; short ones blocks.
 
@@ -247,11 +274,10 @@ def _assumed(linkage: Linkage) -> list[float]:
     >>> _assumed(SliderCrank(40, 100).linkage())  # the slider: 7850 kg/m3, 20 mm by 20 mm by 5 mm
     [0.0, 0.0314, 0.0785, 0.0157]
     """
-    metre = metres_of(linkage.unit)
-    moving = [link for link in linkage.mechanism.chain.links if link != linkage.mechanism.frame]
-    lengths = {link: metre * sum(abs(arm) for _, arm in _arms(linkage, link)) for link in moving}
+    width, lengths = _assumed_width(linkage) / 1000, _lengths(linkage)
+    bar = _STEEL_DENSITY * width * width / _FLAT  # kg/m
     return [
-        float(f"{_STEEL_BAR * max(lengths[link], _BLOCK):.3g}") if link in lengths else 0.0
+        float(f"{bar * max(lengths[link], width):.3g}") if link in lengths else 0.0
         for link in linkage.mechanism.chain.links
     ]
 
