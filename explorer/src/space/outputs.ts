@@ -19,7 +19,7 @@ const SAME = 1e-4; // of the longest: directions that differ by less are one
 const QUIET = 200; // milliseconds after the last change of another drive
 const BENT = 0.05; // of differences of rows: those next to limits change faster
 const GAP = 6; // below a plot
-const SLICE = 8; // milliseconds of solving between frames
+const SLICE = 100; // milliseconds of solving between frames: most machines are done in one slice
 const PART = 200; // milliseconds after which what is solved by then is plotted, where nothing is yet
 
 /** What is read of a machine: an output or a joint. */
@@ -69,12 +69,13 @@ export class OutputPlots {
     this.#words = words;
     const { data, reached, turning } = machine;
     const outputs = data.outputs.map(({ joint, link }) => {
+      const called = links[link]!.replace(/ \(.*/, "");
       const turns = joint ? joint.turns : turning.has(link);
       const along = joint ? null : directionOf(reached.map((row) => wayOf(row[link]!, turns)));
-      const reading = { name: links[link]!, fact: "", link, joint, turns, along };
+      const reading = { name: called, fact: "", link, joint, turns, along };
       const told = isTotal(reading) ? "total" : "turned";
-      reading.fact = words[turns ? told : "shifted"]!.replace("{link}", links[link]!);
-      if (turns && isTotal(reading)) reading.name = words.all!.replace("{link}", links[link]!);
+      reading.fact = words[turns ? told : "shifted"]!.replace("{link}", called);
+      if (turns && isTotal(reading)) reading.name = words.all!.replace("{link}", called);
       return reading;
     });
     const between = data.joints.map((joint, k) => {
@@ -105,7 +106,7 @@ export class OutputPlots {
     clearTimeout(this.#timer);
     this.#fade(true);
     const course = this.machine.course();
-    if (data.live) this.#timer = setTimeout(() => this.#solve(course), this.#whole ? QUIET : 0);
+    if (this.#whole && data.live) this.#timer = setTimeout(() => this.#solve(course), QUIET);
     else this.#solve(course);
   }
 
@@ -189,7 +190,11 @@ export class OutputPlots {
     const { turns } = reading;
     const unit = turns ? DEGREES : 1;
     const value = valueIn(reading, this.machine.state);
-    const about = this.#values[k]?.[Math.round((this.#drive - this.#first) / this.#step)] ?? NaN;
+    const at = (this.#drive - this.#first) / this.#step;
+    const known = this.#values[k];
+    if (!known) return isTotal(reading) ? NaN : value * unit;
+    const between = cubicAt(known, at, this.machine.cycle.full);
+    const about = Number.isNaN(between) ? (known[Math.round(at)] ?? NaN) : between;
     if (Number.isNaN(about)) return value * unit;
     return [value, isTotal(reading) ? -value : value]
       .map((told) => (turns ? nearest(told, about / unit) : told) * unit)
@@ -202,13 +207,13 @@ export class OutputPlots {
     const read = this.#readings.map((reading, k) => {
       const { fact: name, turns } = reading;
       const values = this.#values[k];
-      const side = isTotal(reading) && !values ? "±" : ""; // not known yet
+      const now = this.#value(k);
       const text = (value: number) =>
         turns
           ? angle(value / DEGREES, DIGITS)
           : `${number(Math.abs(value) < 1e-6 * data.size ? 0 : value, DIGITS)} ${data.unit}`;
       const facts: Fact[] = [
-        { name, text: side + text(this.#value(k)), ...(isTotal(reading) ? { style: "wide" } : {}) },
+        { name, text: Number.isNaN(now) ? "…" : text(now), ...(isTotal(reading) ? { style: "wide" } : {}) },
       ];
       if (!values || !isRated(reading)) return facts;
       const far = highest(values) + highest(values.map((value) => -value));

@@ -1,6 +1,6 @@
 /** The page of a machine in space: header, picture, drive, and beside them measures, drives, links, options. */
 
-import { wrapped } from "../cycle";
+import { TURN, wrapped } from "../cycle";
 import { choice, h, renew, wantsStill } from "../dom";
 import { download, group } from "../export";
 import { FactList } from "../factlist";
@@ -343,8 +343,8 @@ export class SpaceView implements Driven {
       id: `drive-${drive}`,
       title: linkage.driveName(drive),
       type: "range",
-      min: full ? -Math.PI : low,
-      max: full ? Math.PI : high,
+      min: full ? 0 : low,
+      max: full ? TURN : high,
       step: "any",
       oninput: () => {
         const value = Number(input.value); // before it is written anew
@@ -394,9 +394,8 @@ export class SpaceView implements Driven {
     this.#facts.show(this.#measures());
     this.#plots?.follow();
     this.#sliders.forEach(({ input, output }, k) => {
-      const { full } = linkage.cycleOf(k);
       const value = wrapped(linkage.cycleOf(k), linkage.drives[k]!);
-      input.value = String(full && value > Math.PI ? value - 2 * Math.PI : value);
+      input.value = String(value);
       output.textContent = this.#valueOf(k, value);
     });
   }
