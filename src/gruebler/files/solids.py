@@ -13,7 +13,7 @@ from gruebler.base.arrays import Reals
 from gruebler.base.convex_hull import convex_hull
 
 _SIDES = 16
-SIDES_OF_WHEEL = 48
+SIDES_OF_WHEEL = 72
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -114,8 +114,9 @@ def bevel_solid(axis: Reals, tooth: Reals, cone: float, teeth: int, face: float)
     outward = np.cos(turn)[:, None] * tooth + np.sin(turn)[:, None] * across
     ring = np.cos(angle)[:, None] * axis + np.sin(angle)[:, None] * outward
     end = np.cos(cone) * axis
-    disc = end + (np.sin(cone) - 2.5 * module) * outward  # flat within the teeth
-    return _tube(face * end, [face * disc, face * ring, ring, disc], end)
+    # flat within the teeth; a second ring beside its rim keeps the light of the teeth off the flat
+    disc, flat = (end + (np.sin(cone) - part * module) * outward for part in (2.5, 2.6))
+    return _tube(face * end, [face * flat, face * disc, face * ring, ring, disc, flat], end)
 
 
 def bent_solid(places: Reals, radius: float, phase: float = 0.0) -> Solid:
