@@ -827,6 +827,7 @@ def test_a_link_that_turns_about_no_axis_has_a_total_turn_without_a_kink(server,
     drive_to(page, "-60")
     assert number_in(read_off(page)[name]) < 0
     assert read_off(page)["Range of the drive"] == "−60 … 60\xa0mm"
+    assert "T, tyre contact point" in read_off(page)
     plot = page.locator(".plot").first
     assert plot.locator(".title").text_content() == "knuckle: total turn [°]"
     heights = heights_of(plot)

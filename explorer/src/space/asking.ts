@@ -7,10 +7,10 @@ import type { Model } from "./model";
 export async function asked<Result>(method: string, data: Model, params: object): Promise<Result> {
   const { document: linkage, texts } = data;
   const lang = currentLanguage();
-  const said = (key: "drives" | "links" | "title") =>
+  const said = (key: "drives" | "letters" | "links" | "title") =>
     Object.fromEntries(Object.entries(texts).map(([language, one]) => [language, one[key]]));
-  const named = { document: linkage, titles: said("title"), drives: said("drives"), links: said("links") };
-  const body = JSON.stringify({ id: 0, lang, params: { ...named, ...params } });
+  const named = { titles: said("title"), drives: said("drives"), links: said("links"), letters: said("letters") };
+  const body = JSON.stringify({ id: 0, lang, params: { document: linkage, ...named, ...params } });
   let answer: { error?: string; result?: Result };
   try {
     answer = await (await fetch(method, { method: "POST", body })).json();

@@ -48,6 +48,8 @@ interface Texts {
   title: string;
   drives: string[];
   links: string[];
+  /** What points are whose name is a letter; pages that were kept have none. */
+  letters?: Record<string, string>;
   joints: string[];
   /** What only this page says, by short keys. */
   words: Record<string, string>;

@@ -273,8 +273,9 @@ export class SpaceView implements Driven {
       }));
       this.#sizes.show(sizes);
       const shown = data.resizable ? this.#resizing.element : this.#sizes.element;
-      const said = data.unit ? [h("p.note", {}, words.axes)] : []; // on a sphere there are angles alone
-      panels.push(panelOf("sizes", t("Sizes"), true, shown, ...said));
+      const only = (key: "angle" | "distance") => data.sizes.every((each) => each[key] === null);
+      const said = (only("distance") && words.tilted) || (only("angle") && words.apart) || words.axes;
+      panels.push(panelOf("sizes", t("Sizes"), true, shown, h("p.note", {}, said)));
     }
     this.#resizing.arrange();
     const pick = (value: number) => this.transport.pick(value);
@@ -411,9 +412,10 @@ export class SpaceView implements Driven {
     const { poses } = linkage;
     const facts = this.#plots?.facts ?? [];
     for (const { name, link, at } of linkage.spots) {
+      const called = name ?? words.traced!.replace("{link}", texts.links[link]!);
       const text = moved(poses[link]!, at).map((v) => number(Math.abs(v) < 1e-9 * data.size ? 0 : v, DIGITS));
       facts.push({
-        name: name ?? words.traced!.replace("{link}", texts.links[link]!),
+        name: [called, texts.letters?.[called]].filter(Boolean).join(", "),
         text: text.join(" | "),
         style: "wide",
         note: data.unit,

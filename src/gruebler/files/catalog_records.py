@@ -196,6 +196,8 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     """Every link, the frame first, with its German name."""
     points: dict[str, str] = {}
     """Named points whose name is a word, with the German one; a letter is the same in both languages."""
+    letters: dict[str, dict[str, str]] = {}
+    """By language what the named points are whose name is a letter."""
     space: Literal["planar", "spherical", "spatial"] = "planar"
     figure_lost: bool = False
     """Whether the seeds' figure is lost, so that the structure is an assumption."""

@@ -98,7 +98,7 @@ class MeasureLinkage(Params):
 
 
 class ResizeLinks(Params):
-    """A linkage in space that is to have other sizes, and how its page calls it, its drives and links by language."""
+    """A linkage in space that is to have other sizes, and how its page calls it and its parts by language."""
 
     document: dict[str, Any]
     sizes: dict[Word, tuple[float | None, float | None]]
@@ -106,10 +106,11 @@ class ResizeLinks(Params):
     titles: dict[str, Word] = {}
     drives: dict[str, list[Word]] = {}
     links: dict[str, list[Word]] = {}
+    letters: dict[str, dict[Word, Word]] = {}
 
 
 class ExportInSpace(Params):
-    """A linkage in space of which a file is wanted, and how its page calls it, its drives and links by language."""
+    """A linkage in space of which a file is wanted, and how its page calls it and its parts by language."""
 
     document: dict[str, Any]
     kind: Word
@@ -117,6 +118,7 @@ class ExportInSpace(Params):
     titles: dict[str, Word] = {}
     drives: dict[str, list[Word]] = {}
     links: dict[str, list[Word]] = {}
+    letters: dict[str, dict[Word, Word]] = {}
 
 
 class DescribeStructure(Params):

@@ -64,6 +64,8 @@ _WORDS = {
     "crossed": message("angle"),
     "lost": message("The connection to gruebler is lost."),
     "axes": message("Between two axes their distance and twist angle; to a ball the distance alone."),
+    "apart": message("Distance between the two joints of a link."),
+    "tilted": message("Angle between the two axes of a link."),
     "joints": message("Joints"),
     "placed": message("In the reference pose; coordinates x | y | z."),
     "place": message("place"),
@@ -112,6 +114,7 @@ def space_model(
     titles: Mapping[str, str] | None = None,
     drives: Mapping[str, Sequence[str]] | None = None,
     links: Mapping[str, Sequence[str]] | None = None,
+    letters: Mapping[str, Mapping[str, str]] | None = None,
     between: tuple[float, float] | None = None,
     driven: dict[str, Any] | None = None,
     home: bool = False,
@@ -124,7 +127,8 @@ def space_model(
 
     ``driven`` is the machine of the catalog that has a drive, by id and titles, where this one has none.
 
-    ``titles`` and names of ``drives`` and ``links`` by language are those of the linkage unless they are given; with
+    ``titles`` and names of ``drives`` and ``links`` by language are those of the linkage unless they are given;
+    ``letters`` tell by language what points are. With
     ``home`` the page with the other views lies above this one, in a server or a site. A page that ``asks``
     has other sizes and files from the server.
     """
@@ -155,6 +159,7 @@ def space_model(
                     spaced(name) for name in (drives or {}).get(lang, mechanism.drive_names(Alphabet.of_language(lang)))
                 ],
                 "links": [*names],
+                "letters": dict((letters or {}).get(lang, {})),
                 "joints": [_titled(linkage, names, joint, lang) for joint, _ in read],
                 "words": {key: text.in_language(lang) for key, text in words.items()},
             }
@@ -359,6 +364,7 @@ def machine_model(id: str, *, home: bool = False, asks: bool = False) -> dict[st
             if each is not None
         },
         links={lang: list(record.link_names(lang).values()) for lang in LANGUAGES},
+        letters=record.letters,
         between=record.between,
         driven=None if linkage.mechanism.drives else _driven(id),
         home=home,
