@@ -1,6 +1,6 @@
 /** A linkage as a drawing: its joints where they are now, its links, drives and points; and a drawing as a linkage. */
 
-import type { Beside, Ruler } from "./beside";
+import type { Beside } from "./beside";
 import { DEGREE } from "./cycle";
 import { savedDocument } from "./document";
 import {
@@ -32,17 +32,17 @@ export function drawingOf(linkage: Linkage): { drawing?: Drawing; other: string[
   });
   const lacking = model.joints.flatMap(({ name }, joint) => (joints[joint] ? [] : [linkage.jointName(name)]));
   if (lacking.length) return { other: lacking };
-  const points = sizes.points.map(({ name, link, at }): Knot => {
-    return { at: place(pose, 0, link, ...at), links: [names[link]!], name };
-  });
-  const { bars, picture, ...rest } = beside; // numbers of links, which a drawing may have otherwise
   // names as the drawing has them
   const called = new Map<string, string>(
     model.joints.map(({ name, links }) => [name, name.replace(/\(.*\)/, `(${links.map((k) => names[k]).join("-")})`)]),
   );
   for (const [link, name] of model.links.entries()) called.set(name, names[link]!);
-  const renamed = (name: string) => called.get(name) ?? name;
-  const { locks = [], rulers, ...other } = rest;
+  const points = sizes.points.map(({ name: own, link, at }): Knot => {
+    const name = linkage.pointName(own);
+    called.set(own, name);
+    return { at: place(pose, 0, link, ...at), links: [names[link]!], name };
+  });
+  const { bars, locks = [], picture, rulers, ...other } = beside; // numbers of links, which drawings may have otherwise
   const knots = [...(joints as Knot[]), ...points].map((knot) => ({
     ...knot,
     at: knot.at.map((value) => sizes.clean(value)) as Pair,
@@ -62,7 +62,7 @@ export function drawingOf(linkage: Linkage): { drawing?: Drawing; other: string[
       ...(keeps[0] && { locks: keeps }),
       beside: {
         ...other,
-        ...(rulers && { rulers: rulers.map(([one, two]): Ruler => [renamed(one), renamed(two)]) }),
+        ...(rulers && { rulers: rulers.map((both) => both.map((one) => called.get(one) ?? one) as [string, string]) }),
       } as Beside,
       ...(picture && { picture, keeps: true }),
     },

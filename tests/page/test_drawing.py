@@ -870,6 +870,24 @@ def test_a_joint_is_removed_with_the_links_that_only_it_held_and_letters_stay(pl
     view.evaluate("localStorage.clear()")
 
 
+def test_points_are_drawn_as_their_reader_calls_them_with_what_acts_on_them(tab, server):
+    """The tip of a film claw, on which the film acts with a force."""
+    page = tab(locale="de-DE").open(server.address)
+    view = page.page
+    view.evaluate("""async () => {
+        gruebler.open(await gruebler.ask("open", { id: "filmclaw" }));
+        gruebler.show("build");
+    }""")
+    view.click('[data-begin="hand"]')
+    view.locator(".drawing text.name", has_text="Spitze").wait_for()
+    view.locator('[data-act="move"]').click()
+    page.until("gruebler.view === 'motion' && gruebler.motion.linkage.sizes.points[0]?.name === 'Spitze'")
+    document = json.loads(view.evaluate("JSON.stringify(gruebler.motion.document())"))
+    forces = loads_of_document(document, linkage_from_json(document))[0].forces
+    assert list(forces) == ["Spitze"]
+    assert "tanh" in str(forces["Spitze"])
+
+
 @pytest.mark.parametrize("machine", ["crane_cyl", "geartrain", "toggle_press"])
 def test_the_machine_at_hand_is_taken_over(plane, machine):
     """Cylinder, gears, slide and double joint: where a drawing of the machine moves to is where the machine does."""

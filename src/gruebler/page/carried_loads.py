@@ -9,6 +9,7 @@ from functools import cached_property
 from typing import Any
 
 from gruebler.base.errors import LinkageError
+from gruebler.base.text import LANGUAGES
 from gruebler.files import linkage_from_json
 from gruebler.files.load_writing import loads_to_json
 from gruebler.mechanics.forces import Loads, RigidBody, Spring
@@ -17,6 +18,7 @@ from gruebler.mechanics.linkages import Linkage, LinkPoint
 from gruebler.mechanics.linkages.elements import Pose2D
 from gruebler.mechanics.linkages.points import PointLike, points_of
 from gruebler.page.known_loads import loads_at_hand
+from gruebler.page.model import names_of_points
 from gruebler.page.params import DrawnBefore
 
 
@@ -33,6 +35,7 @@ def with_loads_before(model: dict[str, Any], linkage: Linkage, before: DrawnBefo
     page = model["document"].get("page") or {}
     change = _Change(
         old=old,
+        source=before.source,
         new=linkage,
         drawn=before.links,
         letters_before=before.letters,
@@ -53,6 +56,8 @@ class _Change:
     """From a linkage to one that was drawn out of it."""
 
     old: Linkage
+    source: str
+    """Of which machine of the catalog the old one is, if it is one."""
     new: Linkage
     drawn: Sequence[str]
     """What the drawing called the links of the old one."""
@@ -64,7 +69,8 @@ class _Change:
     def links(self) -> dict[str, str]:
         """Those that are still there, by their names before."""
         called = dict(zip(self.drawn, self.old.mechanism.chain.links, strict=True))
-        before, now = _ends(self.old, self.letters_before), _ends(self.new, self.letters)
+        before = _ends(self.old, self.letters_before, self.points)
+        now = _ends(self.new, self.letters, {name: name for name in self.new.points})
         was = {name: before[called[name]] for name in called}
         same = {name: name for name in now if now[name] & was.get(name, set())}
         for name in now.keys() - called.keys():
@@ -72,6 +78,13 @@ class _Change:
             if other is not None and len(was[other] & now[name]) > 1:
                 same[other] = name
         return {called[name]: now_called for name, now_called in same.items()}
+
+    @cached_property
+    def points(self) -> dict[str, str]:
+        """Points by their names before; the drawing calls those of the catalog in the language of its reader."""
+        words = [{name: name for name in self.old.points}]
+        words += [names_of_points(self.old, self.source, lang) for lang in LANGUAGES]
+        return {name: called for names in words for name, called in names.items() if called in self.new.points}
 
     @cached_property
     def joints(self) -> dict[int, int]:
@@ -119,8 +132,9 @@ class _Change:
                 names = self.new.mechanism.chain.joint_names()
                 return names[self.joints[number]] if number in self.joints else None
             if point in self.old.points:
-                now = self.new.points.get(point)
-                return point if now and self.links.get(self.old.points[point].link) == now.link else None
+                called = self.points.get(point, point)
+                now = self.new.points.get(called)
+                return called if now and self.links.get(self.old.points[point].link) == now.link else None
         place = points_of(self.old, point)[0]
         return self.spot(place.link, place.x, place.y)[0] if place.link in self.links else None
 
@@ -162,13 +176,13 @@ class _Change:
                 yield spring
 
 
-def _ends(linkage: Linkage, letters: Sequence[str]) -> dict[str, set[str]]:
-    """The letters of the joints of each link, and the names of its points."""
+def _ends(linkage: Linkage, letters: Sequence[str], points: Mapping[str, str]) -> dict[str, set[str]]:
+    """The letters of the joints of each link, and what its points are called."""
     chain = linkage.mechanism.chain
     joints = list(zip(letters, chain.joints, strict=False))
     return {
         link: {letter for letter, joint in joints if link in joint.links}
-        | {name for name, point in linkage.points.items() if point.link == link}
+        | {points[name] for name, point in linkage.points.items() if point.link == link and name in points}
         for link in chain.links
     }
 
