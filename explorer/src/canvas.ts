@@ -6,7 +6,7 @@ import type { Linkage } from "./linkage";
 import { pole } from "./measures";
 import type { PointRecord, Target } from "./model";
 import type { OtherModes } from "./modes";
-import { origin, type Pair, place, placesOf, turn } from "./rows";
+import { origin, type Pair, place, turn } from "./rows";
 import { ownColour, type Shown } from "./shown";
 import { armOf, markSize, numberOf } from "./targets";
 import type { Viewport } from "./viewport";
@@ -31,14 +31,13 @@ export class Painter {
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, viewport.width, viewport.height);
     const { points } = linkage.sizes;
-    const { rows, values } = linkage.cycle;
+    const { rows } = linkage.cycle;
     if (shown.curves)
       for (const shape of [...modes.beside(linkage), rows]) {
         pen.globalAlpha = shape === rows ? 1 : GHOST / (linkage.quick ? 2 : 1);
         points.forEach((point, k) => {
-          const all = placesOf(shape, point.link, ...point.at);
-          const at = (row: number) => viewport.screen(all[2 * row]!, all[2 * row + 1]!);
-          this.#trace(shape === rows ? values.length : shape.reached, ownColour(k), 2, at);
+          const at = (row: number) => viewport.screen(...place(shape, row, point.link, ...point.at));
+          this.#trace(shape.reached, ownColour(k), 2, at);
         });
       }
     this.#paintTargets(linkage.beside.targets ?? []);

@@ -3,6 +3,7 @@
 import type { Rows } from "./kernel";
 import { number } from "./language";
 import type { Linkage } from "./linkage";
+import { together } from "./rows";
 
 /** Poses of all links, x and y, cosine and sine in turn, values and speeds of the drives, so many a second. */
 export interface Fall {
@@ -15,8 +16,9 @@ export interface Fall {
 }
 
 export class Falling {
-  /** The pose before. */
-  readonly start: Rows;
+  /** What the linkage had before. */
+  readonly before: Pick<Linkage, "cycle" | "pose">;
+  readonly #poses: Rows[];
   /** Poses since it was let go. */
   #at = 0;
 
@@ -24,7 +26,15 @@ export class Falling {
     readonly fall: Fall,
     linkage: Linkage,
   ) {
-    this.start = linkage.pose;
+    const { cycle, pose } = linkage;
+    this.before = { cycle, pose };
+    const rates = new Float64Array();
+    this.#poses = fall.places.map((one, row) => {
+      const [places, turns] = [Float64Array.from(one), Float64Array.from(fall.turns[row]!)];
+      return { ...pose, order: 0, places, turns, rates };
+    });
+    const values = Float64Array.from(this.#poses, (_, row) => row / fall.rate);
+    linkage.cycle = { ...cycle, values, rows: together(this.#poses) };
   }
 
   /** Since it was let go. */
@@ -55,12 +65,6 @@ export class Falling {
   }
 
   #pose(): Rows {
-    const { places, turns } = this.fall;
-    const row = Math.floor(this.#at);
-    const { start } = this;
-    const still = new Float64Array(start.places.length).fill(NaN);
-    still.set(places[row]!);
-    const rates = new Float64Array(start.rates.length).fill(NaN);
-    return { ...start, places: still, turns: Float64Array.from(turns[row]!), rates };
+    return this.#poses[Math.floor(this.#at)]!;
   }
 }

@@ -131,6 +131,7 @@ export class Forces {
     const { page, linkage } = this.#view;
     clearTimeout(this.#timer);
     this.#view.transport.endFall();
+    this.columns = [];
     if (!page.served || !linkage.drive) {
       const word = linkage.model.source || "LINK";
       renew(this.element, h("p.note", {}, t("Forces need the library: gruebler explore {word}", { word })));
@@ -139,7 +140,6 @@ export class Forces {
     if (this.#model !== linkage.model) {
       this.#model = linkage.model;
       this.#driven = this.#fallen = NOTHING;
-      this.columns = [];
       this.#speed = null;
       this.#form.change = {};
       this.#acting.open = false;
@@ -149,10 +149,7 @@ export class Forces {
     this.#summary.textContent = t("Masses, loads");
     if (!this.#acting.isConnected) renew(this.element, this.#acting, this.#result);
     this.#result.classList.add("waiting");
-    if (!this.#opened()) {
-      this.columns = [];
-      return;
-    }
+    if (!this.#opened()) return;
     if (!this.#result.firstChild) renew(this.#result, moment());
     this.#timer = setTimeout(() => void this.#ask(), ASKED_AFTER);
   }
@@ -227,7 +224,6 @@ export class Forces {
     this.#plot = null;
     this.#plots = [];
     this.#driven = this.#fallen = NOTHING;
-    this.columns = [];
     const assume = () => {
       this.#brings = true;
       this.#form.put({ bars: "steel" });
@@ -261,10 +257,7 @@ export class Forces {
         this.#until = seconds;
       };
       const until = this.#form.row("until", t("Duration"), "s", this.#until, last, LASTS);
-      const play = () => {
-        transport.endFall();
-        transport.playAt(speed!);
-      };
+      const play = () => transport.playAt(speed!);
       const release = t("Release the drive: free motion");
       const sizes = joints.map((force) => force.most);
       this.#joint.selectedIndex = chosen < 0 ? sizes.indexOf(Math.max(...sizes)) : chosen;
@@ -298,9 +291,7 @@ export class Forces {
   #showJoint(): void {
     const force = this.#of.joints[this.#joint.selectedIndex];
     if (!force) return;
-    const [unit, factor] = force.unit;
-    const to = (value: number) => value / factor;
-    this.#polar.show({ ...force, x: force.x.map(to), y: force.y.map(to), most: to(force.most) }, unit);
+    this.#polar.show(force, force.unit);
     this.#polar.at(this.#place);
   }
 
@@ -323,8 +314,7 @@ export class Forces {
       this.#showJoint();
       // of a free motion first
       this.#ofDrive.hidden = !!falling;
-      if (falling) this.#result.prepend(this.#ofFall);
-      else this.#result.append(this.#ofFall);
+      this.#result[falling ? "prepend" : "append"](this.#ofFall);
     }
     this.#joints.show(
       of.joints.map((force) => ({
@@ -336,20 +326,16 @@ export class Forces {
     this.#polar.at(where);
   }
 
-  get #shown(): boolean {
-    return this.#opened() && this.#model === this.#view.linkage.model;
-  }
-
   /** The springs of a linkage: as they were typed, else as it was opened. */
   springsOf(model: Model): readonly Spring[] {
     return (this.#model === model && this.#form.springs) || (model.springs ?? []);
   }
 
   /** The forces on the stage where the drive is, against the largest of the range; of a free motion likewise. */
-  arrows(): Arrow[] {
-    const { joints, loads } = this.#view.transport.falling ? this.#fallen : this.#driven;
-    const all = this.#shown ? [...joints, ...loads] : [];
-    const where = this.#place;
+  arrows(where = this.#place): Arrow[] {
+    const { linkage, transport } = this.#view;
+    const { joints, loads } = transport.falling ? this.#fallen : this.#driven;
+    const all = this.#opened() && this.#model === linkage.model ? [...joints, ...loads] : [];
     return all.map((force, k) => {
       const { at, unit } = force;
       const most = Math.max(...all.map((other) => (other.unit === unit ? other.most : 0)));
@@ -386,8 +372,9 @@ export class Forces {
         plot(t("Drive speed"), found.speeds, `${unit}/s`),
       ];
     });
-    renew(told, ...this.#plots.map((plot) => plot.element), h("p.note", {}, found.lines.join(" ")));
-    transport.play(found);
+    renew(told, ...this.#plots.map((plot) => plot.element), ...found.lines.map((line) => h("p.note", {}, line)));
+    transport.seek(0, found);
+    transport.toggle();
   }
 }
 

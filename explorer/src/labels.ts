@@ -12,6 +12,7 @@ import type { Viewport } from "./viewport";
 
 const EDGE = 4; // pixels of a picture in which texts would be cut
 const PAST = 999;
+const RULE = 22; // the numbers of the grid at the left
 const INK = 8; // pixels from a name to an arrow
 const LETTER = 20; // from a joint to its letter
 const BLOCK = 29; // from the middle of a block to a letter
@@ -202,7 +203,7 @@ export function pastEdges(width: number, height: number): Pair[][] {
   const sides = [
     [-PAST, -PAST, right, EDGE],
     [-PAST, height - EDGE, right, low],
-    [-PAST, -PAST, 0, low],
+    [-PAST, -PAST, RULE, low],
     [width, -PAST, right, low],
   ] as const;
   return sides.map(([x, y, u, v]) => convexHull([x, u].flatMap((p) => [y, v].map((q): Pair => [p, q]))));

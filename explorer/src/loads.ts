@@ -1,6 +1,7 @@
 /** What acts on a linkage, typed by the reader: the speed of its drive, masses, forces and moments, springs, weight. */
 
 import { h, option, renew } from "./dom";
+import { namedLinks } from "./labels";
 import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
 import type { End, Spring } from "./model";
@@ -67,7 +68,7 @@ export class LoadForm {
     this.#acting = acting;
     const { model, sizes } = linkage;
     const { gravity, laws, loads, masses, places, rate, speed } = acting;
-    const links = [...Array(model.own).keys()].filter((link) => link !== model.frame);
+    const links = namedLinks(linkage);
     const [called, its, factor] = rate;
     renew(
       this.rate,

@@ -5,7 +5,7 @@ import { applyDocument, savedDocument } from "./document";
 import { action, h, wantsStill } from "./dom";
 import { Dragging } from "./dragging";
 import type { Found } from "./facts";
-import type { Arrow, Kept } from "./forces";
+import type { Kept } from "./forces";
 import { drivenBy } from "./help";
 import { History } from "./history";
 import { keepSizes, keptSizes } from "./kept";
@@ -42,7 +42,7 @@ export class MotionView implements View, Editor, Driven {
   readonly element = h("div.view.motion", {});
   readonly shown: Shown = {
     ...AT_FIRST,
-    forces: () => this.#arrows(),
+    forces: (drive) => this.side.forces.arrows(drive),
     springs: (linkage) => this.side.forces.springsOf(linkage.model),
   };
   linkage!: Linkage;
@@ -178,11 +178,12 @@ export class MotionView implements View, Editor, Driven {
   }
 
   redraw(): void {
-    this.stage.draw();
+    this.stage.sized();
   }
 
   /** Lay the view out anew, in the language of the page. */
   arrange(): void {
+    this.transport.endFall();
     this.#arrangeStage();
     this.side.arrange();
   }
@@ -385,10 +386,6 @@ export class MotionView implements View, Editor, Driven {
   posed(): void {
     this.stage.draw();
     this.side.showPose();
-  }
-
-  #arrows(): Arrow[] {
-    return this.side.forces.arrows();
   }
 
   // --- what is read off ----------------------------------------------------------------------------------------------

@@ -3,7 +3,7 @@
 import { wayOf } from "./beside";
 import { wrapped } from "./cycle";
 import { action } from "./dom";
-import { type Fall, Falling } from "./falling";
+import { Falling } from "./falling";
 import type { Rows } from "./kernel";
 import { t } from "./language";
 import type { Linkage } from "./linkage";
@@ -16,6 +16,7 @@ import { FRAMES } from "./video";
 interface DrivenInPlane extends Driven {
   readonly linkage: Linkage;
   readonly found: Marked;
+  readonly stage: { refit(): void };
 }
 
 export class PlaneTransport extends Transport<DrivenInPlane> {
@@ -84,12 +85,6 @@ export class PlaneTransport extends Transport<DrivenInPlane> {
     this.view.posed();
   }
 
-  /** Play poses of a free motion in real time, again and again until it is paused. */
-  play(fall: Fall): void {
-    this.seek(0, fall);
-    this.toggle();
-  }
-
   /** Stand still so many seconds after the start of a free motion. */
   seek(seconds: number, fall = this.falling?.fall): void {
     this.pause();
@@ -109,20 +104,22 @@ export class PlaneTransport extends Transport<DrivenInPlane> {
     if (!falling) return;
     this.pause();
     this.falling = null;
-    this.view.linkage.pose = falling.start;
+    Object.assign(this.view.linkage, falling.before);
     this.turned();
     this.view.posed();
   }
 
   /** The pose at the drive, also while another one is shown. */
   get pose(): Rows {
-    return this.falling?.start ?? this.view.linkage.pose;
+    return (this.falling?.before ?? this.view.linkage).pose;
   }
 
   /** From the drive to time, or back. */
   private turned(): void {
+    const { found, stage } = this.view;
     this.arrange();
-    this.showRange(this.view.found);
+    this.showRange(found);
+    stage.refit();
   }
 
   protected override paused(): void {

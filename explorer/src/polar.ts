@@ -21,20 +21,21 @@ export class Polar {
   readonly #here = svg("path.cursor", {});
   #vectors: Vectors | null = null;
 
-  show(vectors: Vectors, unit: string): void {
+  /** In a unit, and how much that is. */
+  show(vectors: Vectors, [unit, factor]: [string, number]): void {
     this.#vectors = vectors;
     const { x, y } = vectors;
-    const most = vectors.most || 1;
+    const most = vectors.most / factor || 1;
     const scale = RADIUS / most;
     const rings = roundValues(0, most, 6).slice(1); // three to seven
     // the numbers stand where the curve is not
     const below = y.reduce((sum, one) => sum + (one || 0), 0) < 0 ? -1 : 1;
-    const to = (factor: number) => (value: number) => factor * value;
+    const to = (radius: number) => (value: number) => (radius / (vectors.most || 1)) * value;
     this.element.setAttribute("aria-label", t("Largest {value}", { value: `${number(most)} ${unit}` }));
     this.element.replaceChildren(
       svg("path.mesh", { d: "M-140 0H140M0 -96V96" }),
       ...rings.map((value) => svg("circle.mesh", { fill: "none", r: scale * value })),
-      svg("path.curve.force", { d: lineThrough(x.map(to(scale)), y.map(to(-scale))) }),
+      svg("path.curve.force", { d: lineThrough(x.map(to(RADIUS)), y.map(to(-RADIUS))) }),
       ...rings.map((value, k) =>
         svg(
           "text",

@@ -47,20 +47,6 @@ export function speed(rows: Rows, row: number, link: number): number {
   return Math.hypot(rows.places[at]!, rows.places[at + 1]!);
 }
 
-/** The places of a point of a link in all rows, x and y in turn. */
-export function placesOf(rows: Rows, link: number, x: number, y: number): Float64Array {
-  const { places, turns } = rows;
-  const count = 2 * countOf(rows);
-  const from = link * count;
-  const out = new Float64Array(count);
-  for (let k = 0; k < count; k += 2) {
-    const [c, s] = [turns[from + k]!, turns[from + k + 1]!];
-    out[k] = places[from + k]! + (c * x - s * y);
-    out[k + 1] = places[from + k + 1]! + (c * y + s * x);
-  }
-  return out;
-}
-
 /** A direction on a link, as it lies in the plane in a row. */
 export function direction(rows: Rows, row: number, link: number, [x, y]: Pair): Pair {
   const [c, s] = turn(rows, row, link);
@@ -137,6 +123,11 @@ function selected(wanted: readonly (readonly [Rows, number])[]): Columns {
 /** One row of others, as a pose of its own. */
 export function oneRow(rows: Rows, row: number): Rows {
   return { ...rows, status: Status.DONE, reached: 1, at: 0, ...selected([[rows, row]]) };
+}
+
+/** Poses as rows. */
+export function together(poses: readonly Rows[]): Rows {
+  return { ...poses[0]!, reached: poses.length, ...selected(poses.map((pose) => [pose, 0])) };
 }
 
 /** Some rows of others; `at` is a place between the rows asked for. */

@@ -23,6 +23,8 @@ import type { Viewport } from "./viewport";
 import { rateUnit } from "./wording";
 
 const LONGEST_ARROW = 90; // pixels
+const LEAST_ARROW = 24; // pixels
+const EDGE = 6; // from the end of an arrow to that of the picture
 const RING = 6; // the radius of a target
 const RAIL = 6; // half the width of a rail with its hatching, and some room
 const POSES = 24; // of a cycle, in which names must have places
@@ -36,6 +38,8 @@ export class Scene {
   #stretched: [SVGElement, () => string][] = [];
   /** The ends of the rails of the frame, in pixels from its origin. */
   #rails: Pair[][] = [];
+  /** The length of the longest arrow; 0 until it is found. */
+  #longest = 0;
   #pins: { element: SVGGElement; joint: number }[] = [];
   /** Arrows of slides that are driven. */
   readonly #pushes = svg("g", {});
@@ -76,11 +80,6 @@ export class Scene {
     return this.#pins.map(({ joint }) => joint);
   }
 
-  /** The length of the longest arrow: in a low picture others would be covered by it. */
-  get longest(): number {
-    return Math.min(LONGEST_ARROW, (this.viewport.narrow ? 0.2 : 0.3) * this.viewport.height);
-  }
-
   /** Names look for their best places, wherever they stood while it moved. */
   settle(): void {
     this.#names.settle();
@@ -88,27 +87,44 @@ export class Scene {
 
   /** Choose between names of links and numbers; how high the list of names is then. */
   choose(linkage: Linkage, shown: Shown): number {
-    return shown.labels ? this.#names.choose(linkage, () => this.poses(linkage, shown)) : 0;
+    return shown.labels
+      ? this.#names.choose(linkage, () => this.poses(linkage, () => this.#around(linkage, shown, [], [])))
+      : 0;
   }
 
-  /** What is around the names all along the cycle. */
-  private *poses(linkage: Linkage, shown: Shown): Generator<Around> {
+  /** What is found in poses all along the cycle, of values of the drive. */
+  private *poses<Found>(linkage: Linkage, found: (value: number) => Found): Generator<Found> {
     const { cycle, pose } = linkage;
     const step = Math.ceil(cycle.values.length / POSES);
     try {
       for (let row = 0; row < cycle.values.length; row += step) {
         linkage.pose = oneRow(cycle.rows, row);
-        yield this.#around(linkage, shown, [], []);
+        yield found(cycle.values[row]!);
       }
     } finally {
       linkage.pose = pose;
     }
   }
 
+  /** Find how long the longest arrow may be, so that in all poses they stay in a picture that shows everything. */
+  #measure(linkage: Linkage, shown: Shown): void {
+    const { fitted, height } = this.viewport;
+    this.#longest = Math.min(LONGEST_ARROW, height / 4);
+    if (!fitted) return;
+    for (const arrows of this.poses(linkage, (value) => this.#vectors(linkage, shown, value).flat()))
+      for (const one of arrows) {
+        const out = () => {
+          const [x, y, dx, dy] = this.#scaled(...one);
+          const [u, v] = [x + dx, y + dy];
+          return Math.min(u, v, height - v, this.viewport.right(v - EDGE) - u) < EDGE;
+        };
+        while (this.#longest > LEAST_ARROW && out()) this.#longest--;
+      }
+  }
+
   /** Give one link a class, or none. */
   mark(marked: number | null, name: "chosen" | "hovered"): void {
-    for (const [link, { classList }] of this.#links.entries())
-      if (classList.contains(name) !== (link === marked)) classList.toggle(name);
+    for (const [link, { classList }] of this.#links.entries()) classList.toggle(name, link === marked);
     const shown = [...this.#links.keys()].filter((link) => /chosen|hovered/.test(this.#links[link]!.classList.value));
     this.#names.legend.mark(shown);
   }
@@ -198,6 +214,7 @@ export class Scene {
   /** Draw the bodies of the links and find where their names stand on them, after their sizes or the scale changed. */
   sized(linkage: Linkage): void {
     this.#names.sized();
+    this.#longest = 0;
     const { frame } = linkage.model;
     const bodies = new Bodies(linkage, this.viewport.scale);
     this.#stretched = [];
@@ -258,23 +275,19 @@ export class Scene {
       if (record) move(element, viewport.screen(...place(pose, 0, record.link, ...record.at)));
     }
     for (const [element, at] of this.#pushed) put(element, { transform: at(viewport).transform });
-    const forces = shown.forces();
-    const kinds = [
-      forces.filter((one) => !one[6]),
-      forces.filter((one) => one[6]),
-      this.#vectors(linkage, 1, shown.velocities),
-      this.#vectors(linkage, 2, shown.accelerations),
-    ].map((all) => all.map((one) => this.#scaled(...one)));
+    if (!this.#longest) this.#measure(linkage, shown);
+    const kinds = this.#vectors(linkage, shown).map((all) => all.map((one) => this.#scaled(...one)));
     const springs = shown.springs(linkage).map((spring) => springLines(linkage, viewport, spring));
     const hung = springs.map((parts) => parts.flat()).filter((all) => all[0]);
     const covered = this.#names.place(linkage, this.#around(linkage, shown, kinds, hung));
     kinds.forEach((all, k) => {
       put(this.#arrows[k]!, { d: all.map((one) => arrow(...one)).join("") });
     });
-    // a number may stand upon a plate, but not across its edges
-    this.#putValues(kinds, [...covered, ...pastEdges(viewport.width, viewport.height)]);
-    const pins = hung.flatMap((all) => [all[0]!, all.at(-1)!]).map((at) => dotAt(at, 3));
-    put(this.#springs, { d: [...springs.flat().map(pathThrough), ...pins].join("") });
+    // a number may stand upon a plate, but not across its edges or on a pin
+    const pins = this.#pins.map(({ joint }) => [pixels(joint)]);
+    this.#putValues(kinds, [...covered, ...pins, ...pastEdges(viewport.width, viewport.height)]);
+    const rings = hung.flatMap((all) => [all[0]!, all.at(-1)!]).map((at) => dotAt(at, 3));
+    put(this.#springs, { d: [...springs.flat().map(pathThrough), ...rings].join("") });
     const lines: Pair[][] = readingsOf(linkage).map(({ ends }) => ends);
     const way = shown.way ? wayEnds(linkage) : [];
     const rulers = [...lines, way].map((ends) => pathThrough(ends.map((at) => viewport.screen(...at))));
@@ -313,18 +326,26 @@ export class Scene {
         convexHull(ends.flatMap(([x, y]) => [-RAIL, RAIL].flatMap((d) => [fixed(x + d, y + d), fixed(x + d, y - d)]))),
       );
     const joints = this.#pins.map(({ joint }) => pixels(joint));
-    const forces = kinds.slice(0, 2).some((all) => all.length);
+    const forces = viewport.height < 300 && kinds.slice(0, 2).some((all) => all.length);
     return { arrows, grounds, joints, curves, forces };
   }
 
   /** An arrow in pixels; of a moment its circle reaches so far to the right, if it is positive, or to the left. */
   #scaled(...[x, y, dx, dy, amount, unit]: Arrow): Arrow {
-    const long = unit.includes("N·m") ? this.longest / 3 : this.longest;
+    const long = unit.includes("N·m") ? this.#longest / 3 : this.#longest;
     return [...this.viewport.screen(x, y), long * dx, -long * dy, amount, unit];
   }
 
+  /** Forces of joints, loads, velocities, accelerations; forces where the drive is, or at another value of it. */
+  #vectors(linkage: Linkage, { accelerations, forces, velocities }: Shown, drive?: number): Arrow[][] {
+    const all = forces(drive);
+    const [joints, loads] = [all.filter((one) => !one[6]), all.filter((one) => one[6])];
+    return [joints, loads, this.#rates(linkage, 1, velocities), this.#rates(linkage, 2, accelerations)];
+  }
+
   /** Velocities (1) or accelerations (2) of all joints and points that move. */
-  #vectors(linkage: Linkage, k: 1 | 2, wanted: boolean): Arrow[] {
+  #rates(linkage: Linkage, k: 1 | 2, wanted: boolean): Arrow[] {
+    if (!wanted) return [];
     const { model, pose, sizes } = linkage;
     const places: Arrow[] = [];
     const add = (link: number, u: number, v: number) => {
@@ -332,12 +353,12 @@ export class Scene {
       places.push([...place(pose, 0, link, u, v), dx, dy, Math.hypot(dx, dy), rateUnit(linkage, k, false)]);
     };
     model.joints.forEach((joint, number) => {
-      if (!wanted || (joint.links.includes(model.frame) && joint.pair.turning)) return;
+      if (joint.links.includes(model.frame) && joint.pair.turning) return;
       const moves = (e: number) => sizes.element(e).link !== model.frame && !sizes.is(e, "round");
       const element = sizes.elementsOf(number).find(moves);
       if (element !== undefined) add(sizes.element(element).link, ...sizes.xy(element));
     });
-    if (wanted) for (const point of sizes.points) add(point.link, ...point.at);
+    for (const point of sizes.points) add(point.link, ...point.at);
     const most = Math.max(...places.map((one) => one[4]).filter(Number.isFinite), 1e-12);
     return places.map(([x, y, dx, dy, ...more]): Arrow => [x, y, dx / most, dy / most, ...more]);
   }
@@ -353,7 +374,8 @@ export class Scene {
         const half = halfOf(said);
         const less = n > 0 || k === 1; // only where it is near and clear
         const [left, top] = clearAbout([x + dx, y + dy], 18, drawn, half, less ? 16 : 32);
-        if (less && !drawn.every((one) => clearOf(one, half, [left, top + 4]))) continue;
+        const clear = (one: readonly Pair[]) => [1, 2].every((part) => clearOf(one, half / part, [left, top + 4]));
+        if (less && !drawn.every(clear)) continue;
         texts.push(svg("text", { "data-arrow": "", "text-anchor": "middle", x: left, y: top + 4 }, said));
         drawn.push(lettersAt(left, top + 4, half));
       }
@@ -369,7 +391,7 @@ export class Scene {
     put(this.#circle, { r: 0 });
     if (!found) return;
     const [x, y] = viewport.screen(found.x, found.y);
-    this.poleAside = !(x >= 0 && y >= 0 && x <= viewport.width && y <= viewport.height);
+    this.poleAside = !(Math.min(x, y, viewport.width - x, viewport.height - y) >= 0);
     put(this.#pole, { cx: x.toFixed(1), cy: y.toFixed(1) });
     const radius = (Math.hypot(found.dx, found.dy) / 2) * viewport.scale;
     if (!shown.inflection || !(radius < 1e5)) return;

@@ -21,7 +21,8 @@ export interface Shown {
   way: boolean;
   /** The link that a click chose. */
   chosen: number | null;
-  forces: () => Arrow[];
+  /** Where the drive is, or at another value of it. */
+  forces: (drive?: number) => Arrow[];
   springs: (linkage: Linkage) => readonly Spring[];
 }
 

@@ -2,7 +2,7 @@
 
 import { Bodies } from "./bodies";
 import { Painter } from "./canvas";
-import { h, lowered, renew, svg } from "./dom";
+import { h, lowered, put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import { gridOf } from "./grid";
 import { pathThrough } from "./hull";
@@ -134,8 +134,7 @@ export class Stage implements Board {
     this.#canvas.width = Math.round(clientWidth * ratio);
     this.#canvas.height = Math.round(clientHeight * ratio);
     this.root.setAttribute("viewBox", `0 0 ${clientWidth} ${clientHeight}`);
-    if (this.viewport.fitted) this.fit();
-    else this.draw();
+    this.refit();
   }
 
   show(linkage: Linkage, dragging: Dragging, shown: Shown): void {
@@ -145,15 +144,22 @@ export class Stage implements Board {
     this.build();
   }
 
+  /** Show everything, unless something else was chosen. */
+  refit(): void {
+    if (this.viewport.fitted) this.fit();
+    else this.sized();
+  }
+
   /** Show everything that the linkage reaches. */
   fit(): void {
     const { linkage, viewport } = this;
     if (!linkage || viewport.width < 2) return;
     const reach = reachOf(linkage);
-    viewport.fit(reach, 0.2 * linkage.size, undefined, reach.places);
+    const fit = (below?: number, room?: number) => viewport.fit(reach, 0.2 * linkage.size, below, reach.places, room);
+    fit();
     this.#scene.sized(linkage);
     const listed = this.#scene.choose(linkage, this.shown);
-    if (listed) viewport.fit(reach, 0.2 * linkage.size, listed, reach.places, NUMBERS);
+    if (listed) fit(listed, NUMBERS);
     this.sized();
   }
 
@@ -162,7 +168,7 @@ export class Stage implements Board {
     const { fitted, height, width } = this.viewport;
     const { left, right, bottom, top } = reachOf(this.linkage!);
     const [[x, y], [u, v]] = [this.viewport.screen(left, top), this.viewport.screen(right, bottom)];
-    if (fitted && (x < 0 || y < 0 || u > width || v > height)) this.fit();
+    if (fitted && Math.min(x, y, width - u, height - v) < 0) this.fit();
   }
 
   zoom(factor: number, x?: number, y?: number): void {
@@ -179,7 +185,7 @@ export class Stage implements Board {
     const language = currentLanguage();
     const other = this.#language && this.#language !== language;
     this.#language = language;
-    if (other && this.viewport.fitted) this.fit();
+    if (other) this.refit();
     else this.sized();
   }
 
@@ -194,10 +200,6 @@ export class Stage implements Board {
   draw(): void {
     if (!this.linkage) return;
     const { viewport } = this;
-    const { arrows } = viewport;
-    const { accelerations, forces, velocities } = this.shown;
-    viewport.arrows = velocities || accelerations || forces()[0] ? this.#scene.longest + 8 : 0;
-    if (viewport.arrows !== arrows && viewport.fitted) this.fit();
     this.#rule(this.linkage.model.unit);
     this.#scene.draw(this.linkage, this.shown);
     this.#scene.mark(this.chosen, "chosen");
@@ -261,9 +263,7 @@ export class Stage implements Board {
     });
     const paper = svg("rect", { width: viewport.width, height: viewport.height, fill: this.#colour("--paper") });
     copy.prepend(paper, ...below.children, ...curves);
-    copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
-    copy.setAttribute("width", String(viewport.width));
-    copy.setAttribute("height", String(viewport.height));
+    put(copy, { xmlns: "http://www.w3.org/2000/svg", width: viewport.width, height: viewport.height });
     copy.removeAttribute("tabindex");
     return new XMLSerializer().serializeToString(copy);
   }

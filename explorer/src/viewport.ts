@@ -40,8 +40,6 @@ export class Viewport {
   scale = 1;
   /** Whether it shows everything, and goes on doing so in another size. */
   fitted = true;
-  /** Pixels that arrows reach beyond all of it. */
-  arrows = 0;
   /** Pixels down to where the buttons over it end. */
   lowest = 218;
   #ox = 0;
@@ -81,14 +79,13 @@ export class Viewport {
    * may reach below the buttons if none of the places there does. */
   fit({ left, right, bottom, top }: Box, least: number, below?: number, places?: readonly Pair[], room = 34): void {
     const { narrow } = this;
-    const margin = narrow ? room : this.arrows || 60;
+    const margin = narrow ? room : 60;
     const rule = narrow ? 22 : 0; // the numbers on the left
     const foot = below ?? (narrow && this.height > 300 ? margin : 0); // what can be done, in two lines
-    const above = Math.max(margin, this.arrows);
     const wide = Math.max(right - left, least);
     const high = Math.max(top - bottom, least);
     for (const keys of narrow || places ? [0, BESIDE] : [0]) {
-      this.scale = Math.min((this.width - 2 * margin - keys - rule) / wide, (this.height - 2 * above - foot) / high);
+      this.scale = Math.min((this.width - 2 * margin - keys - rule) / wide, (this.height - 2 * margin - foot) / high);
       this.#ox = (this.width - keys + rule) / 2 - (this.scale * (left + right)) / 2;
       this.#oy = (this.height - foot) / 2 + (this.scale * (bottom + top)) / 2;
       if (places?.every(([x, y]) => !this.#under(...this.screen(x, y)))) break;

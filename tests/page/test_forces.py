@@ -637,7 +637,7 @@ def test_numbers_of_a_low_picture_keep_clear_of_names_and_arrows_of_its_edges(ta
 
 
 def test_arrows_of_forces_stay_in_the_picture(tab, server):
-    """They go out from fixed pivots, which lie at its edges; without them the linkage is as large as before."""
+    """They go out from fixed pivots, which lie at its edges; the linkage is as large as without them."""
     page = tab(width=1440, height=900).open(server.address)
     before = page.page.evaluate("gruebler.motion.stage.viewport.scale")
     panel = page.page.locator(PANEL)
@@ -650,9 +650,33 @@ def test_arrows_of_forces_stay_in_the_picture(tab, server):
         places = [float(one) for one in re.findall(r"[-\d.]+", page.page.evaluate(ARROWS))]
         assert 0 < min(places[::2]) <= max(places[::2]) < stage["width"]
         assert 0 < min(places[1::2]) <= max(places[1::2]) < stage["height"]
-    assert page.page.evaluate("gruebler.motion.stage.viewport.scale") < before
+    assert page.page.evaluate("gruebler.motion.stage.viewport.scale") == before
+
+
+@pytest.mark.parametrize("width", [1440, 390])
+def test_the_picture_shows_the_whole_of_a_free_motion(tab, server, width):
+    """The bucket of the excavator left it, as the stick went where its cylinders do not drive it."""
+    page = tab(width=width, height=900, touch=width < 500).open(server.address).machine("excavator")
+    scale = "gruebler.motion.stage.viewport.scale"
+    panel = page.page.locator(PANEL)
     panel.locator("summary").first.click()
-    page.until(f"gruebler.motion.stage.viewport.scale === {before}")
+    panel.locator('[data-act="assume"]').click()
+    page.page.evaluate("gruebler.motion.transport.pick(300)")
+    panel.locator('[data-act="fall"]').click()
+    page.page.locator('[data-act="end"]').wait_for()
+    page.page.locator("button.play").click()
+    for key in ("Home", "End"):
+        page.page.locator(".track").press(key)
+        stage = page.page.locator(".stage").bounding_box()
+        for pin in page.page.locator(".stage .pin .joint, .stage .coupler-point .dot").all():
+            box = pin.bounding_box()
+            assert stage["x"] < box["x"] < box["x"] + box["width"] < stage["x"] + stage["width"]
+            assert stage["y"] < box["y"] < box["y"] + box["height"] < stage["y"] + stage["height"]
+    assert page.page.evaluate("gruebler.motion.linkage.cycle.rows.order") == 0  # curves are those of the fall
+    during = page.page.evaluate(scale)
+    page.page.locator('[data-act="end"]').click()
+    page.until(f"{scale} !== {during}")
+    assert page.page.evaluate("gruebler.motion.linkage.cycle.rows.order") > 0
 
 
 def test_without_the_library_it_says_so(tab, tmp_path):

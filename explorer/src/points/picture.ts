@@ -1,7 +1,7 @@
 /** A design as its card shows it: the four-bar in its first position, with the curve of its point. */
 
 import type { Cycle } from "../cycle";
-import { placesOf } from "../rows";
+import { place } from "../rows";
 import type { Complex } from "./complex";
 
 const WIDE = 300; // pixels
@@ -20,9 +20,9 @@ export interface Drawn {
 }
 
 export function pictureOf({ places, members, fixed, bearings, cycle, point, targets }: Drawn): string {
-  const curve = placesOf(cycle.rows, point.link, ...point.at);
-  const xs = [...places.map(([x]) => x), ...curve.filter((_, k) => k % 2 === 0)];
-  const ys = [...places.map(([, y]) => y), ...curve.filter((_, k) => k % 2 === 1)];
+  const curve = Array.from(cycle.values, (_, row): Complex => place(cycle.rows, row, point.link, ...point.at));
+  const xs = [...places, ...curve].map(([x]) => x);
+  const ys = [...places, ...curve].map(([, y]) => y);
   const [left, top] = [Math.min(...xs), Math.max(...ys)];
   const [wide, high] = [Math.max(...xs) - left, top - Math.min(...ys)];
   const scale = (WIDE - 2 * ROOM) / Math.max(wide, high);
@@ -30,7 +30,6 @@ export function pictureOf({ places, members, fixed, bearings, cycle, point, targ
   const spot = ([x, y]: Complex) => `${short(ROOM + scale * (x - left))} ${short(ROOM + scale * (top - y))}`;
   const path = (name: string, line: readonly Complex[], end = "") =>
     `<path class="gr-${name}" d="M${line.map(spot).join("L")}${end}"/>`;
-  const curvePlaces = Array.from({ length: curve.length / 2 }, (_, k): Complex => [curve[2 * k]!, curve[2 * k + 1]!]);
   const size = [wide, high].map((value) => short(2 * ROOM + scale * value));
   const stand = fixed.map((k) => {
     const [x, y] = spot(places[k]!).split(" ").map(Number) as [number, number];
@@ -53,6 +52,6 @@ export function pictureOf({ places, members, fixed, bearings, cycle, point, targ
   return (
     `<svg xmlns="http://www.w3.org/2000/svg" class="gr" width="${size[0]}" height="${size[1]}" ` +
     `viewBox="0 0 ${size.join(" ")}">${stand.join("")}${bodies.join("")}${marks.join("")}` +
-    `${path("curve", curvePlaces, cycle.full ? "Z" : "")}${pins.join("")}</svg>`
+    `${path("curve", curve, cycle.full ? "Z" : "")}${pins.join("")}</svg>`
   );
 }
