@@ -10,6 +10,7 @@ const LEFT = 49; // beside the numbers of the grid
 const GAP = 12; // between columns
 const ABOVE = 15; // from a row up to the edge of their ground
 const BESIDE = 5; // the same to the left
+const FOOT = 56; // below which is what can be done, and the numbers of the grid
 const LOW = 300; // pixels of a picture that has no room for them
 
 /** The number of a link where it is not called by its name: its place, from 1, which is mostly that of the frame. */
@@ -59,8 +60,8 @@ export class Legend {
   }
 
   /** Lay the rows out in columns; how high all is from there to the lower edge of the picture, 0 without a row. */
-  lay({ foot, height, width }: Viewport): number {
-    const laid = [foot, height, width].join();
+  lay({ height, width }: Viewport): number {
+    const laid = [height, width].join();
     if (laid === this.#laid) return this.#high;
     this.#laid = laid;
     const all = height > LOW ? this.#entries : []; // beside what is read and typed the machine alone
@@ -75,11 +76,11 @@ export class Legend {
     const after = (columns = Math.ceil(all.length / rows)) =>
       all.slice(0, columns).reduce((x, _, k) => x + GAP + Math.max(...lengths.slice(rows * k, rows * (k + 1))), LEFT);
     while (rows < all.length && after() > width) rows++;
-    const top = height - foot - LINE * (rows - 1);
+    const top = height - FOOT - LINE * (rows - 1);
     for (const [k, text] of all.entries())
       put(text, { x: after(Math.floor(k / rows)) + before[k]!, y: top + LINE * (k % rows) });
     put(this.#ground, { x: LEFT - BESIDE, y: top - ABOVE, width: after() - LEFT, height: rows && LINE * rows + 2 });
-    this.#high = rows && foot + LINE * rows;
+    this.#high = rows && FOOT + LINE * rows;
     return this.#high;
   }
 

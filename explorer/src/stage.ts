@@ -224,7 +224,7 @@ export class Stage implements Board {
       const can = this.joints.some((joint) => dragging!.draggable(joint));
       let text = t("Drag a link to move it.");
       if (can) text = t("Drag an axis to shift it, a link to turn it.");
-      if (can && lengths[0]) text = t("Drag a joint to change sizes, a link to move it.");
+      if (can && lengths[0]) text = t("Drag a joint to resize, a link to move it.");
       return text + aside;
     }
     const mine = lengths.filter(({ link }) => link === chosen);

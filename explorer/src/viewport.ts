@@ -60,11 +60,6 @@ export class Viewport {
     return this.width - (y < this.tools ? BESIDE : 0);
   }
 
-  /** The height of what can be done, in up to two lines, and of the numbers of the grid. */
-  get foot(): number {
-    return this.narrow && this.height > 300 ? 72 : 56;
-  }
-
   /** The pixel of a place. */
   screen(x: number, y: number): Pair {
     return [this.#ox + this.scale * x, this.#oy - this.scale * y];
@@ -81,7 +76,7 @@ export class Viewport {
     const { narrow } = this;
     const margin = narrow ? room : 60;
     const rule = narrow ? 22 : 0; // the numbers on the left
-    const foot = below ?? (narrow && this.height > 300 ? margin : 0); // what can be done, in two lines
+    const foot = below ?? (narrow && this.height > 300 ? margin : 0); // what can be done
     const wide = Math.max(right - left, least);
     const high = Math.max(top - bottom, least);
     for (const keys of narrow || places ? [0, BESIDE] : [0]) {
