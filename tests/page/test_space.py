@@ -880,6 +880,24 @@ def test_a_body_that_is_taken_has_its_name_on_a_phone(server, chromium):
     browser.close()
 
 
+def test_names_of_bodies_do_not_stand_on_others_that_hide_them(server, chromium):
+    """The strap of a car door and its pillar are behind the door for the most part."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/car_door.html#en")
+    page.get_by_role("button", name="Pause").click()
+    drive_to(page, "14")
+    page.wait_for_timeout(400)
+    box = page.locator(".stage > svg").bounding_box()
+    under = {}
+    placed = "all => all.map((n) => [n.textContent, +n.getAttribute('x'), +n.getAttribute('y')])"
+    for name, x, y in page.locator("text.mark.body").evaluate_all(placed):
+        page.mouse.move(box["x"] + x, box["y"] + y)
+        under[name] = page.locator(".stage").get_attribute("title")
+    assert set(under) == {"pillar", "door", "strap", "pocket"}
+    assert all(found in (name, "") for name, found in under.items()), under
+    assert errors == []
+    browser.close()
+
+
 def test_a_transfer_function_of_one_is_a_flat_line_and_angles_have_ticks_of_quarter_turns(server, chromium):
     """Two universal joints in series turn their shafts alike, in any textbook: poses with six digits do not show."""
     browser, page, errors = browsed_at(chromium, server.address + "space/cardan_shaft.html#en")

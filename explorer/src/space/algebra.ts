@@ -25,16 +25,17 @@ export function before(pose: ArrayLike<number>, p: Vector): Vector {
 
 /** How far along a ray it meets a triangle; Infinity beside it (Möller and Trumbore, 1997). */
 export function meeting(from: Vector, along: Vector, a: Vector, b: Vector, c: Vector): number {
-  const [u, v] = [minus(b, a), minus(c, a)];
+  const v = minus(c, a);
   const p = cross(along, v);
-  const determinant = dot(u, p);
-  if (determinant === 0) return Infinity;
   const s = minus(from, a);
+  const u = minus(b, a);
+  const determinant = dot(u, p);
   const x = dot(s, p) / determinant;
+  if (!(x >= 0 && x <= 1)) return Infinity; // most are beside it
   const q = cross(s, u);
   const y = dot(along, q) / determinant;
   const t = dot(v, q) / determinant;
-  return x >= 0 && y >= 0 && x + y <= 1 && t > 0 ? t : Infinity;
+  return y >= 0 && x + y <= 1 && t > 0 ? t : Infinity;
 }
 
 /** A camera that goes round a middle: angles in radians, distance in lengths. */

@@ -2,7 +2,7 @@
 
 import { halfOf } from "../names";
 import type { Pair } from "../rows";
-import type { Vector } from "./algebra";
+import { minus, type Vector } from "./algebra";
 
 const LINE = 17; // pixels from name to name
 const TRIED = [0, 1, -1, 2, -2, 3, -3]; // lines
@@ -13,10 +13,15 @@ export interface Name {
   at: Pair;
 }
 
-/** The names within a picture of a size, moved up or down until they overlap neither each other nor others. */
-export function apart(names: Name[], others: Name[], [width, height]: Pair): Name[] {
+/** The names within a picture of a size, moved up or down until they overlap neither each other nor others; one that
+ * has no room is left out. */
+export function apart<Each extends Name>(names: Each[], others: Name[], [width, height]: Pair): Each[] {
   const taken = [...others];
-  return names.map(({ text, at: [px, py] }) => {
+  return names.flatMap((name) => {
+    const {
+      text,
+      at: [px, py],
+    } = name;
     const half = halfOf(text);
     const x = Math.min(Math.max(px, half + 4), width - half - 4);
     const isFree = (y: number) =>
@@ -24,7 +29,9 @@ export function apart(names: Name[], others: Name[], [width, height]: Pair): Nam
         ({ at: [u, v], text: other }) => Math.abs(y - v) >= LINE || Math.abs(x - u) > half + halfOf(other) + 4,
       );
     const tried = TRIED.map((lines) => Math.min(Math.max(py + lines * LINE, LINE), height - 4));
-    const placed: Name = { text, at: [x, tried.find(isFree) ?? py] };
+    const free = tried.find(isFree);
+    if (free === undefined) return [];
+    const placed: Each = { ...name, at: [x, free] };
     taken.push(placed);
     return placed;
   });
@@ -36,4 +43,16 @@ export function middleOf(places: Vector[]): Vector {
     const all = places.map((place) => place[k]!);
     return (Math.min(...all) + Math.max(...all)) / 2;
   }) as Vector;
+}
+
+/** Where a body of triangles has its name: in its middle, or where it comes next to that if it keeps away from it. */
+export function nameOf(corners: Vector[], middle: Vector, away: number): Vector {
+  let [best, least] = [middle, Infinity];
+  for (const [k, corner] of corners.entries()) {
+    const other = corners[k % 3 < 2 ? k + 1 : k - 2]!;
+    const at = corner.map((part, n) => (part + other[n]!) / 2) as Vector;
+    const far = Math.hypot(...minus(at, middle));
+    if (far < least) [best, least] = [at, far];
+  }
+  return least < away ? middle : best;
 }

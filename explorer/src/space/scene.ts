@@ -10,9 +10,11 @@ import {
   axes,
   before,
   type Camera,
+  cross,
   fitted,
   type Margins,
   meeting,
+  minus,
   moved,
   projection,
   ray,
@@ -20,7 +22,7 @@ import {
   type Vector,
 } from "./algebra";
 import { arrowsOf, headed } from "./arrows";
-import { apart, middleOf, type Name } from "./bodynames";
+import { apart, middleOf, type Name, nameOf } from "./bodynames";
 import type { Machine } from "./machine";
 import type { Spot } from "./model";
 import { type Drawn, Painter } from "./painter";
@@ -28,6 +30,8 @@ import { type Drawn, Painter } from "./painter";
 const ARM = 26; // pixels of the axes in the corner
 const ROOM = 16; // pixels around the machine
 const FEW = 6; // bodies have names that stand in the picture
+const ELSEWHERE = 8; // places of a body at which its name may stand instead
+const SEEN = 150; // milliseconds for which these are taken to be hidden or not
 const MOST_ROOM = 0.3; // of the picture
 const DIRECTIONS = 160;
 const STEEP = 1.5; // radians: no farther up or down
@@ -64,10 +68,14 @@ export class Scene {
     [0, 0, 0],
   ];
   #step = 1;
-  /** Of each body its link and its farthest places. */
-  #reach: { link: number; places: Vector[] }[] = [];
-  /** Of each body where its name stands. */
-  #middles: Vector[] = [];
+  /** Of each body, what is seen through last, its link, its farthest places and the corners of its triangles. */
+  #reach: { link: number; places: Vector[]; corners: Vector[]; middle: Vector; radius: number; glass: boolean }[] = [];
+  /** Of each body where its name stands, and where else it may if that is hidden. */
+  #spots: Vector[][] = [];
+  /** That place, if there is one. */
+  #open: (Vector | undefined)[] = [];
+  #due = 0;
+  #later = 0;
   readonly #colours = new Map<string, Vector>();
   readonly #fingers = new Map<number, PointerEvent>();
   #pulling = false;
@@ -112,6 +120,7 @@ export class Scene {
     this.machine = machine;
     this.#painter?.load(machine.data.bodies, machine.data.glass);
     this.marked = null;
+    this.#due = 0;
     this.#measure();
     if (this.#whole) this.fit();
   }
@@ -120,14 +129,20 @@ export class Scene {
   #measure(): void {
     const { bodies, glass, size } = this.machine.data;
     this.#step = gridStep(size / 6);
-    this.#reach = [...bodies.map((body, link) => ({ ...body, link })), ...glass].map(({ link, vertices }) => ({
-      link,
-      places: farthest(vertices),
-    }));
+    this.#reach = [...bodies.map((body, link) => ({ ...body, link })), ...glass].map((body, k) => {
+      const { link, triangles, vertices } = body;
+      const places = farthest(vertices);
+      const middle = middleOf(places);
+      const radius = 1.05 * Math.max(0, ...places.map((place) => Math.hypot(...minus(place, middle))));
+      const corners = triangles.map((corner) => vertices.slice(3 * corner, 3 * corner + 3) as Vector);
+      return { link, places, corners, middle, radius, glass: k >= bodies.length };
+    });
     // of the frame its last foot, since it has no middle that one sees
-    this.#middles = bodies.map(({ vertices }, link) =>
-      this.machine.moves(link) ? middleOf(this.#reach[link]!.places) : (vertices.slice(-3) as Vector),
-    );
+    this.#spots = bodies.map(({ vertices }, link) => {
+      const { corners, middle, places } = this.#reach[link]!;
+      const first = this.machine.moves(link) ? nameOf(corners, middle, size / 35) : (vertices.slice(-3) as Vector);
+      return [first, ...places.filter((_, k) => k % Math.ceil(places.length / ELSEWHERE) === 0)];
+    });
     const corners = this.#corners();
     const ends = (least: typeof Math.min) =>
       [0, 1, 2].map((k) => corners.reduce((a, at) => least(a, at[k]!), corners[0]![k]!));
@@ -276,15 +291,30 @@ export class Scene {
     const { machine, marked, shown } = this;
     const pulled = machine.traced?.link; // which has its name at its spot
     const isNamed = (link: number) => link === marked || (this.few && shown.names && link !== pulled);
-    const links = this.#links.flatMap((_, link) => (isNamed(link) ? link : []));
-    const names = links.map((link) => ({
-      text: this.#links[link]!.replace(/ \(.*/, ""),
-      at: pixel(moved(poses[link]!, this.#middles[link]!)),
-    }));
+    if (this.few && shown.names) this.#uncover(poses);
+    const names = this.#links.flatMap((name, link) => {
+      const spot = this.#open[link] ?? (link === marked ? this.#spots[link]![0] : null);
+      if (!isNamed(link) || !spot) return [];
+      return { link, text: name.replace(/ \(.*/, ""), at: pixel(moved(poses[link]!, spot)) };
+    });
     const { clientHeight, clientWidth } = this.element;
-    return apart(names, others, [clientWidth, clientHeight]).map(({ text, at: [x, y] }, k) =>
-      svg(links[k] === marked ? "text.mark" : "text.mark.body", { x, y, "text-anchor": "middle" }, text),
+    return apart(names, others, [clientWidth, clientHeight]).map(({ link, text, at: [x, y] }) =>
+      svg(link === marked ? "text.mark" : "text.mark.body", { x, y, "text-anchor": "middle" }, text),
     );
+  }
+
+  /** Which places of names are not hidden now: it takes a while, so that not every picture asks anew. */
+  #uncover(poses: ArrayLike<number>[]): void {
+    clearTimeout(this.#later);
+    if (performance.now() < this.#due) {
+      this.#later = setTimeout(() => this.draw(), SEEN);
+      return;
+    }
+    const { eye } = axes(this.#camera);
+    this.#open = this.#spots.map((spots, link) =>
+      spots.find((spot) => !this.#isBehind(link, eye, moved(poses[link]!, spot))),
+    );
+    this.#due = performance.now() + SEEN;
   }
 
   /** Whether all names have room in the picture. */
@@ -339,19 +369,30 @@ export class Scene {
   /** The link under a place, and where on it. */
   #hit(x: number, y: number): Spot | null {
     const { from, along } = ray(this.#camera, this.#wide, x, y);
-    let best: Spot | null = null;
+    return this.#met(from, along);
+  }
+
+  /** Whether a place of a link is behind the body of another one. */
+  #isBehind(link: number, eye: Vector, at: Vector): boolean {
+    const met = this.#met(eye, minus(at, eye), true);
+    return met !== null && met.link !== link && met.far < 1;
+  }
+
+  /** What a ray meets first, of glass or not, and how far along it. */
+  #met(from: Vector, along: Vector, through = false): (Spot & { far: number }) | null {
+    let best: (Spot & { far: number }) | null = null;
     let nearest = Infinity;
-    const { data, poses } = this.machine;
-    const solid = data.bodies.map((body, k) => ({ ...body, link: k }));
-    for (const { link, vertices, triangles } of [...solid, ...data.glass]) {
+    const { poses } = this.machine;
+    for (const { corners, glass, link, middle, radius } of this.#reach) {
       const pose = poses[link]!;
       const start = before(pose, from);
       const end = before(pose, from.map((v, k) => v + along[k]!) as Vector);
       const way = end.map((v, k) => v - start[k]!) as Vector;
-      const corner = (k: number): Vector => vertices.slice(3 * k, 3 * k + 3) as Vector;
-      for (let k = 0; k < triangles.length; k += 3) {
-        const far = meeting(start, way, corner(triangles[k]!), corner(triangles[k + 1]!), corner(triangles[k + 2]!));
-        if (far < nearest) [nearest, best] = [far, { link, at: start.map((v, n) => v + far * way[n]!) as Vector }];
+      const off = Math.hypot(...cross(minus(middle, start), way));
+      if ((through && glass) || off > radius * Math.hypot(...way)) continue;
+      for (let k = 0; k < corners.length; k += 3) {
+        const far = meeting(start, way, corners[k]!, corners[k + 1]!, corners[k + 2]!);
+        if (far < nearest) [nearest, best] = [far, { far, link, at: start.map((v, n) => v + far * way[n]!) as Vector }];
       }
     }
     return best;
