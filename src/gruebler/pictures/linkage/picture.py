@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
-from math import cos, degrees, pi, sin
+from math import cos, degrees, inf, pi, sin
 from typing import TYPE_CHECKING
 
 from gruebler.base.doors import door_that_raises
@@ -50,6 +50,7 @@ if TYPE_CHECKING:
 
 _MOST_GHOSTS = 60
 _AROUND = 17.0  # pixels from the middle of a block to its name
+_ALONG, _BESIDE = 0.75, 12.0  # where the letter of a length on a plate stands: off its middle, where a point may be
 _SQUARE = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 _WHEEL, _ROUND = 12.0, 24  # pixels of the radius of a wheel, at least; points around it
 _PLAIN = 95.0  # pixels: a smaller perimeter is that of a block between rails, with its name outside of these
@@ -85,10 +86,12 @@ def draw_linkage(
     names: Mapping[str, str] | None = None,
     letters: Sequence[str] = (),
     outlines: Sequence[CarriedLine] = (),
+    largest: float = inf,
 ) -> Figure:
     """The picture of a linkage in one pose.
 
-    Options as for `gruebler.draw`; ``outlines`` are lines that links carry, in coordinates of the links.
+    Options as for `gruebler.draw`; ``outlines`` are lines that links carry, in coordinates of the links; ``largest``
+    is the most pixels to a unit.
 
     Raises `gruebler.LinkageError` for unreachable poses, unknown names, and layers that need a single drive.
 
@@ -99,6 +102,7 @@ def draw_linkage(
     """
     linkage = as_linkage(linkage, unit="")
     posed = room_for(posed_linkage(linkage, at, branch=branch, between=between), outlines)
+    posed = replace(posed, scale=min(posed.scale, largest))
     layers = {key: layer(key) for key in dict.fromkeys(show)}
     if "joints" in layers:
         layers["joints"] = layers["joints"]._replace(shapes=partial(joint_names, letters=tuple(letters)))
@@ -110,13 +114,14 @@ def draw_linkage(
     context = LayerContext(posed, output, [*frame, *bodies, *pins], lang)
     layer_shapes = {key: layers[key].shapes(context) for key in layers if key in BELOW}
     below = [shape for shapes in layer_shapes.values() for shape in shapes]
-    ends = _ends_of_frame(posed, names) if labels else ()
+    frame_line = _ends(posed, posed.lower.mechanism.frame, names) if labels else ()
     shapes = [
-        *((Polylines((ends,), "measure"),) if ends else ()),
+        *((Polylines((frame_line,), "measure"),) if frame_line else ()),
         *frame,
         *(ghosts(posed, _count(ghost)) if ghost is not None else []),
         *(shape for shape in below if shape.style not in _MARKS),
         *bodies,
+        *(line for _, line in (_sides(posed, pieces, names) if labels else ())),
         *curve,
         *pins,
         *drive_arrows(posed, measured=driven_angle(posed) if "angles" in layers else None),
@@ -171,18 +176,38 @@ def _named(
     """Names beside the bodies, and the entries of the list."""
     joint_slides = slides(posed)
     outlines = {link: _outline(posed, link, pieces, joint_slides) for link in posed.linkage.mechanism.chain.links}
-    if ends := _ends_of_frame(posed, names):
-        outlines[posed.lower.mechanism.frame] = ends
-    return labels_with_names(outlines, {link: len(outlines[link]) > 2 for link in outlines}, shapes, names)
+    outlines |= {link: ends for link in outlines if (ends := _ends(posed, link, names))}
+    plates = {link: line.parts[0] for link, line in _sides(posed, pieces, names)}
+    texts, rows = labels_with_names(
+        {link: outline for link, outline in outlines.items() if link not in plates},
+        {link: len(outlines[link]) > 2 for link in outlines},
+        shapes,
+        names,
+    )
+    for link, (p, q) in plates.items():
+        along = q.minus(p)
+        beside = Point(along.y, -along.x)
+        place = p.plus(along, _ALONG).plus(beside, _BESIDE / beside.length)
+        texts.append(TextShape(place, (names or {})[link], "name"))
+    return texts, rows
 
 
-def _ends_of_frame(posed: PosedLinkage, names: Mapping[str, str] | None) -> tuple[Point, ...]:
-    """The two pivots between which the frame is a length with a letter, as a line that has it beside it; else none."""
-    frame = posed.lower.mechanism.frame
-    pins = dict.fromkeys(pins_of(posed.lower, frame))
-    if len((names or {}).get(frame, "").strip()) != 1 or len(pins) != 2:
+def _ends(posed: PosedLinkage, link: str, names: Mapping[str, str] | None) -> tuple[Point, ...]:
+    """The two pins between which a link is a length with a letter, which stands beside their line; else none."""
+    pins = dict.fromkeys(pins_of(posed.lower, link))
+    if len((names or {}).get(link, "").strip()) != 1 or len(pins) != 2:
         return ()
-    return _placed(posed, frame, [posed.local(pin) for pin in pins])
+    return _placed(posed, link, [posed.local(pin) for pin in pins])
+
+
+def _sides(
+    posed: PosedLinkage, pieces: Sequence[BodyPart], names: Mapping[str, str] | None
+) -> Iterator[tuple[str, Polylines]]:
+    """The links that are plates with a letter for a length, and this as a line on the plate."""
+    for link in posed.lower.mechanism.chain.links:
+        ends = _ends(posed, link, names)
+        if ends and link != posed.lower.mechanism.frame and len(_outline(posed, link, pieces, slides(posed))) > 2:
+            yield link, Polylines((ends,), "measure")
 
 
 def _outline(

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from cmath import rect
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations, product
-from math import cos, pi, radians, sin
+from math import cos, inf, pi, radians, sin
 
 import numpy as np
 
@@ -21,8 +22,9 @@ from gruebler.mechanics.space import SphericalFourBar
 from gruebler.pictures.canvas.figure import MARGIN, Figure, figure_of
 from gruebler.pictures.canvas.labels import note_near
 from gruebler.pictures.canvas.moving_picture import Body, still_picture
-from gruebler.pictures.canvas.shapes import Point, Polylines
+from gruebler.pictures.canvas.shapes import Point, Polylines, TextShape
 from gruebler.pictures.linkage.picture import draw_linkage
+from gruebler.pictures.linkage.posed_linkage import posed_linkage
 from gruebler.pictures.machines.bevel_views import bevel_shapes
 from gruebler.pictures.machines.train_layout import gear_stages
 from gruebler.pictures.space import draw_spatial
@@ -55,10 +57,12 @@ class DrawnLinkage:
     """What distinguishes it from the other linkages of the exercise."""
     source: str = ""
     """The machine of the catalog that it is."""
+    largest: float = inf
+    """The most pixels to a unit."""
 
     def figure(self, lang: str) -> Figure:
-        """Its picture, to scale."""
-        return draw_linkage(
+        """Its picture, to scale; points with a number have it as an index."""
+        figure = draw_linkage(
             self.linkage,
             at=self.drive,
             between=self.between,
@@ -67,7 +71,13 @@ class DrawnLinkage:
             labels=bool(self.letters),
             lang=lang,
             names=self.letters,
+            largest=self.largest,
         )
+        indexed = (
+            replace(shape, text=re.sub(r"^K(?=\d)", "K_", shape.text)) if isinstance(shape, TextShape) else shape
+            for shape in figure.shapes
+        )
+        return replace(figure, shapes=tuple(indexed))
 
 
 def linkage_figure(exercise: Exercise, lang: str) -> Figure | None:
@@ -101,13 +111,15 @@ def exercise_linkages(exercise: Exercise) -> list[DrawnLinkage]:
         ]
     if exercise.method == "transmission_angle.compare_rods":
         number = _numbers(exercise)
+        compared = {number[b]: SliderCrank(number["a"], number[b]).linkage() for b in ("b1", "b2")}
         return [
             DrawnLinkage(
-                linkage=SliderCrank(number["a"], number[b]).linkage(),
+                linkage=linkage,
                 letters=_LETTERS | {"frame": " "},
-                name=Text(f"b = {number[b]:g} mm", f"b = {number[b]:g} mm".replace(".", ",")),
+                name=Text(f"b = {b:g} mm", f"b = {b:g} mm".replace(".", ",")),
+                largest=min(posed_linkage(each, None).scale for each in compared.values()),
             )
-            for b in ("b1", "b2")
+            for b, linkage in compared.items()
         ]
     drawn = exercise_linkage(exercise)
     return [drawn] if drawn else []
