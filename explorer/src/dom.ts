@@ -47,7 +47,7 @@ export function unbroken(text: string, gaps = GAPS): string {
 /** A text in which what follows an underscore is an index, l_a, and the class of a joint, g1; a joint R(1-2) is one. */
 export function indexed(text: string): (string | Node)[] {
   return unbroken(text)
-    .split(/(?:(?<=[\p{L}\p{N}])_|(?<=\bg)(?=\d))(\d+(?=\p{Lu})|[\p{L}\d]+)|(\w\(\d[\d-]*\))/u)
+    .split(/(?:(?<=[\p{L}\p{N}])_|(?<=\bg)(?=\d))([\p{L}\d]+)|(\w\(\d[\d-]*\))/u)
     .map((part, k) => (part ? [part, h("sub", {}, part), h("nobr" as "b", {}, part)][k % 3]! : ""));
 }
 

@@ -21,7 +21,8 @@ interface Task {
   remark: string;
   /** Pictures of what can be tried, each with a name where there are several. */
   figures: { name: string; picture: string }[];
-  /** What the buttons say that open what can be tried; tasks in space have none. */
+  /** What the buttons say that open what can be tried, and what stands before several; tasks in space have none. */
+  trial: string;
   tries: string[];
   asked: Asked[];
 }
@@ -55,21 +56,29 @@ interface Marked {
 /** A formula whose quantities are slanted, with their indices: s1 and l_a; units behind numbers are upright. It breaks
  * before operators. */
 function formula(text: string): (string | Node)[] {
-  return unbroken(text, / (?![=+−<≤±] )(?<!\p{L}{4} )|(?<=\([^() ]+) (?=[+−])/gu)
-    .split(/(?<![\p{L}\d]|\d\s(?:\w+\/)?(?=[ms]²?(?:[\s;,.)/]|$)))(\p{L}(?:_[\p{L}\d]+|\d+)?)(?![\p{L}(])/u)
+  return unbroken(text, / (?![=+−<≤±] )(?<!\p{L}{4} )|(?<=\([^()\s]+) (?=[+−])/gu)
+    .split(/(?<!(?!Δ)\p{L}|\d\s(?:\w+\/)?(?=[ms]²?(?:[\s;,.)/]|$)))(\p{L}(?:_[\p{L}\d]+|\d+|(?!\()))(?!\p{L})/u)
     .map((part, k) => (k % 2 ? h("i", {}, part[0], h("sub", {}, part.slice(1).replace("_", ""))) : part));
 }
 
 function partOf({ text, formula: line, heading, rows }: Part): HTMLElement {
   if (heading) return h("h3", {}, text);
-  const cells = (tag: "th" | "td", row: string[]) => h("tr", {}, ...row.map((cell) => h(tag, {}, ...indexed(cell))));
-  const [head = [], ...body] = rows;
+  const [head, ...body] = rows;
+  // columns of numbers are flush right
+  const cells = (tag: "th" | "td", row: string[]) =>
+    h(
+      "tr",
+      {},
+      ...row.map((cell, k) =>
+        h(tag, { class: /^−?\d/.test(body[0]![k]!) && "value" }, ...(k && / = /.test(cell) ? formula : indexed)(cell)),
+      ),
+    );
   return h(
     "div",
     {},
     h("p", {}, ...indexed(text)),
     line && h("p.formula", {}, ...formula(line)),
-    rows[0] && h("table", {}, cells("th", head), ...body.map((row) => cells("td", row))),
+    head && h("table", {}, cells("th", head), ...body.map((row) => cells("td", row))),
   );
 }
 
@@ -184,18 +193,22 @@ export class ExercisesView implements View {
   }
 
   #show(): void {
-    const [marked, place] = [this.#marked, this.#place];
+    const marked = this.#marked;
     const task = this.task!;
     const submit = (event: Event) => {
       event.preventDefault();
       void this.#mark();
     };
-    const solved = this.record.get(task.id) === true;
+    const solved = !!this.record.get(task.id);
     this.#verdict.textContent = "";
-    const act = (name: string, text: string, key: boolean, onclick: () => void, type = "button") =>
-      h("button", { class: key ? "key" : "plain", "data-act": name, type, onclick }, text);
+    const act = (name: string, text: string, key: boolean, onclick?: () => void) =>
+      h(
+        "button",
+        { class: key ? "key" : "plain", "data-act": name, type: onclick ? "button" : "submit", onclick },
+        text,
+      );
     renew(
-      place,
+      this.#place,
       h(
         "div.task",
         {},
@@ -225,15 +238,17 @@ export class ExercisesView implements View {
           h(
             "div.form.go",
             {},
-            act("mark", t("Mark my answers"), !solved, () => undefined, "submit"),
+            act("mark", t("Mark my answers"), !solved),
             act("next", t("Next task"), solved, () => this.#next()),
             this.#verdict,
           ),
-          h(
-            "div.form",
-            {},
-            ...(marked ? task.tries : []).map((text, k) => act("try", text, false, () => void this.#tryIt(k))),
-          ),
+          marked &&
+            h(
+              "div.form",
+              {},
+              task.trial,
+              ...task.tries.map((text, k) => act("try", text, false, () => void this.#tryIt(k))),
+            ),
           marked &&
             h("details.words.solution", {}, h("summary", {}, t("The solution")), ...marked.solution.map(partOf)),
         ),
@@ -243,8 +258,8 @@ export class ExercisesView implements View {
 
   /** What is asked, with a field or a choice, and its mark. */
   #row({ key, name, symbol, unit, choices }: Asked): HTMLElement {
-    const missing: Mark = { key, mark: "missing", hint: "" };
-    const mark = this.#marked && (this.#marked.marks.find((one) => one.key === key) ?? missing);
+    const mark: Mark | null | undefined =
+      this.#marked && (this.#marked.marks.find((one) => one.key === key) ?? { key, mark: "missing", hint: "" });
     const given = this.#answers[key] ?? "";
     const set = (value: string) => (this.#answers[key] = value);
     const [id, hint] = [`answer-${key}`, `hint-${key}`];
@@ -276,11 +291,7 @@ export class ExercisesView implements View {
     return h(
       "div.answer",
       { "data-mark": mark?.mark },
-      h(
-        choices.length ? "span" : "label",
-        { for: !choices.length && id },
-        ...indexed(`${name[0]!.toUpperCase()}${name.slice(1)}`),
-      ),
+      h(choices.length ? "span" : "label", { for: !choices.length && id }, ...indexed(name)),
       field,
       mark && h("b", {}, words[mark.mark]),
       mark?.hint && h("div", { id: hint }, ...indexed(mark.hint)),

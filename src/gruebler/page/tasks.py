@@ -10,6 +10,7 @@ from gruebler.base.errors import GrueblerError
 from gruebler.base.text import Message, Readable, error_in_language, joined, joined_by_and, message, translate
 from gruebler.files import Exercise
 from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES
+from gruebler.pictures.canvas.figure import Figure
 from gruebler.structure.chain import Chain
 from gruebler.teaching.exercises import (
     KINDS,
@@ -25,14 +26,26 @@ from gruebler.teaching.exercises import (
     solve,
 )
 from gruebler.teaching.exercises.dyads import CHANGES
-from gruebler.teaching.exercises.messages import answer_lines, cells_of_table, check_text, step_lines
+from gruebler.teaching.exercises.messages import cells_of_table, check_text, named_answer, step_lines, with_capital
 from gruebler.teaching.exercises.solution import Part, TeachingTable
 from gruebler.teaching.worksheets.blocks import with_signs
 from gruebler.teaching.worksheets.exercise_figures import exercise_linkages
 from gruebler.teaching.worksheets.tasks import exercise_figure
 
 _OF_THE_TEXT = "exercise"
+_SIZE = 1.25  # pixels of the page to one of a figure, where there is room
 _OTHERWISE = message("See the steps of the solution.")
+_FIRST_STEPS = {
+    "coupler_points.four_bar": message(
+        "First A from the crank angle, then B where the circles about A and B0 meet; from A go u along A-B and v to "
+        "its left."
+    ),
+    "straight_guides.double_rocker": message(
+        "D follows from φ, A from the circles about D and the other pivot, C from both; the strip runs along the path "
+        "of C."
+    ),
+}
+"""What helps with methods whose answers have no formula of their own."""
 _IN_STRUCTURE = message("Try it in Structure")
 _IN_MOTION = message("Try it in Motion")
 
@@ -67,12 +80,13 @@ def task_record(id: str, lang: str) -> dict[str, Any]:
         "task": signed(task.task.in_language(lang)),
         "remark": signed(task.remark.in_language(lang)) if task.remark else "",
         "figures": _figures(task, lang),
-        "tries": _tries(task, lang),
+        "trial": "" if len(tries := _tries(task, lang)) == 1 else f"{_IN_MOTION.in_language(lang)}:",
+        "tries": tries,
         "asked": [
             {
                 "key": ascii_key(result.key),
-                "name": signed(result.name.in_language(lang)),
-                "symbol": with_signs(result.symbol)
+                "name": signed(with_capital(result.name.in_language(lang))),
+                "symbol": signed(result.symbol)
                 if isinstance(result.value, int | float) and not _is_choice(result)
                 else "",
                 "unit": result.unit,
@@ -86,12 +100,15 @@ def task_record(id: str, lang: str) -> dict[str, Any]:
 
 
 def signed(text: str) -> str:
-    """A text with its signs; pivots and sums have their number as an index.
+    """A text with its signs; pivots, points and sums have their number as an index, which ends before the next point.
 
-    >>> signed("A-B0, |B0B|, s1 = 5")
-    'A-B_0, |B_0B|, s_1 = 5'
+    >>> signed("A-B0, s1 = 5, K1_x of ring_gear"), [*signed("|AB0|")]
+    ('A-B_0, s_1 = 5, K_1x of ring gear', ['|', 'A', '\u2060', 'B', '_', '0', '|'])
     """
-    return re.sub(r"\b([AB](?=0)|s(?=[12]\b))(\d)(?!\d|[.,]\d)", r"\1_\2", with_signs(text))
+    text = re.sub(r"(?<=[a-z]{3})_(?=[a-z]{3})", " ", with_signs(text).replace("₀", "0"))
+    text = re.sub(r"(?<=\b[A-D])(?=[A-D]0?\b)|(?<=\b[A-D]0)(?=[A-D]\b)", "\u2060", text)
+    text = re.sub(r"\b([AB](?=0)|s(?=[12]\b)|K(?=\d))(\d)_?(?!\d|[.,]\d)", r"\1_\2", text)
+    return re.sub(r"\b(sin|cos|tan) (?=\w)", "\\1\u00a0", text)
 
 
 def _chain_of(task: Exercise) -> str:
@@ -104,12 +121,11 @@ def _tries(task: Exercise, lang: str) -> list[str]:
     """What is written on the buttons that open what can be tried; tasks in space have none.
 
     >>> _tries(exercise("mobility-1-3"), "en"), _tries(exercise("exercise-5"), "en")[0]
-    (['Try it in Structure'], 'Try it in Motion: Garage door without rail')
+    (['Try it in Structure'], 'Garage door without rail')
     """
     if _chain_of(task):
         return [_IN_STRUCTURE.in_language(lang)]
-    names = [drawn.name.in_language(lang) if drawn.name else "" for drawn in exercise_linkages(task)]
-    return [": ".join(filter(None, (_IN_MOTION.in_language(lang), name))) for name in names]
+    return [(drawn.name or _IN_MOTION).in_language(lang) for drawn in exercise_linkages(task)]
 
 
 def _figures(task: Exercise, lang: str) -> list[dict[str, str]]:
@@ -117,14 +133,23 @@ def _figures(task: Exercise, lang: str) -> list[dict[str, str]]:
     linkages = exercise_linkages(task)
     if not linkages:
         figure = exercise_figure(task, lang, named=True)
-        return [] if figure is None else [{"name": "", "picture": figure.svg(styled=False)}]
+        return [] if figure is None else [{"name": "", "picture": _picture(figure, figure.width)}]
+    drawings = [drawn.figure(lang) for drawn in linkages]
+    widest = max(figure.width for figure in drawings)
     figures = []
-    for drawn in linkages:
-        picture = drawn.figure(lang).svg(styled=False)
+    for drawn, figure in zip(linkages, drawings, strict=True):
+        picture = _picture(figure, widest)
         if drawn.source:  # small, and no task speaks of the points of a machine
             picture = re.sub(r"<text.*?</text>", "", picture, flags=re.DOTALL)
         figures.append({"name": drawn.name.in_language(lang) if drawn.name else "", "picture": picture})
     return figures
+
+
+def _picture(figure: Figure, width: float) -> str:
+    """The SVG of a figure in the middle of this width, in the size in which all tasks have the same strokes."""
+    size = f'width="{_SIZE * width:g}" height="{_SIZE * figure.height:g}"'
+    box = f'viewBox="{(figure.width - width) / 2:g} 0 {width:g} {figure.height:g}"'
+    return re.sub(r'width="\S+" height="\S+" viewBox=".*?"', f"{size} {box}", figure.svg(styled=False), count=1)
 
 
 def _is_choice(result: Result) -> bool:
@@ -185,11 +210,12 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
         else:
             count = 0
             parts.append(part(each.text.in_language(lang), heading=True))
-    checks = [check_text(check, lang) for check in solution.checks if check.first not in beyond]
-    answers = answer_lines(task, solution, lang, printed=False)
-    for title, lines in (("Results:", answers), ("Check by a second method:", checks)):
-        if lines:
-            parts += [part(translate(title, lang), heading=True), *map(part, lines)]
+    if task.asked:
+        answers = [named_answer(solution.results[question.key], lang) for question in task.asked]
+        parts += [part(translate("Results:", lang), heading=True), part("", rows=[[], *map(list, answers)])]
+    checks = dict.fromkeys(check_text(check, lang) for check in solution.checks if check.first not in beyond)
+    if checks:
+        parts += [part(translate("Check by a second method:", lang), heading=True), *map(part, checks)]
     return parts
 
 
@@ -242,7 +268,7 @@ def way(task: Exercise, solution: Solution, result: Result) -> Message:
         if named := _named_in(task, solution, result, formula):
             return message("The formula is {formula}. {quantities}.", formula=indexed, quantities=joined(named, "; "))
         return message("The formula is {formula}.", formula=indexed)
-    return _counted(task).get(result.key, _OTHERWISE)
+    return _counted(task).get(result.key) or _FIRST_STEPS.get(task.method or "", _OTHERWISE)
 
 
 def _named_in(task: Exercise, solution: Solution, result: Result, formula: str) -> list[Message]:

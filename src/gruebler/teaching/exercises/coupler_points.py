@@ -9,7 +9,7 @@ import numpy as np
 
 from gruebler.base.arrays import Reals
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import Message, message
+from gruebler.base.text import Message, joined, message
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.fourbar import InvertedSliderCrank
 from gruebler.mechanics.fourbar.crank_motion import CrankMotion
@@ -71,8 +71,11 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
     motion = size.motion(drives)
     paths = [motion.point(u, v).value for u, v in chosen]
     names = [f"K{k}" if len(chosen) > 1 else "K" for k in range(1, len(chosen) + 1)]
-    for name, (u, v) in zip(names, chosen, strict=True):
-        builder.say("{name}: u = {u}, v = {v} {unit}", name=name, u=figure(u), v=figure(v), unit=unit)
+    places = [
+        message("{name}: u = {u}, v = {v} {unit}", name=name, u=figure(u), v=figure(v), unit=unit)
+        for name, (u, v) in zip(names, chosen, strict=True)
+    ]
+    builder.say(joined(places, "; "))
     columns = ["φ [°]", *(f"{name}_{axis}" for name in names for axis in "xy")]
     rows = [(round(degrees(phi), 9), *(float(x) for path in paths for x in path[k])) for k, phi in enumerate(drives)]
     builder.table(PATH, columns, rows)

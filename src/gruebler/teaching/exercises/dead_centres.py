@@ -76,9 +76,7 @@ def _add_division(builder: SolutionBuilder, a: float, b: float, e: float, measur
     phi_i = builder.find("φ_i", name, "arcsin(e/(b - a))", degrees(asin(e / (b - a))), unit="°", a=a, b=b, e=e)
     longer = _add_times(builder, phi_i - phi_a, {"φ_i": angle(phi_i), "φ_a": angle(phi_a)}, "φ_i - φ_a")
     name = message("difference between forward and return travel")
-    builder.find(
-        "difference", name, "2·Δφ", 2 * (phi_i - phi_a), unit="°", symbol="φ_max - φ_min", Δφ=angle(phi_i - phi_a)
-    )
+    builder.find("difference", name, "2·Δφ", 2 * (phi_i - phi_a), unit="°", symbol="δ", Δφ=angle(phi_i - phi_a))
     builder.check(
         "Longer crank angle, between the dead centres of the solved motion",
         longer,
@@ -92,7 +90,7 @@ def _add_division(builder: SolutionBuilder, a: float, b: float, e: float, measur
     builder.mistake(
         "difference",
         phi_i - phi_a,
-        message("The task asks for φ_max - φ_min = 2·Δφ: one stroke is longer by Δφ, the other shorter by it."),
+        message("The task asks for δ = φ_max - φ_min = 2·Δφ: one stroke is longer by Δφ, the other shorter by it."),
     )
 
 

@@ -94,24 +94,28 @@ def step_lines(step: SolutionStep, count: int, lang: str) -> list[str]:
     if sides[1:] and sides[-1] == sides[-2]:
         sides.pop()
     is_relation = step.value is None and " = " not in step.formula
-    lines = [f"{count:3}. {_capital(step.text.in_language(lang))}"]
+    lines = [f"{count:3}. {with_capital(step.text.in_language(lang))}"]
     return [*lines, _INDENT + (": " if is_relation else " = ").join(sides)] if sides else lines
 
 
-def _capital(text: str) -> str:
+def with_capital(text: str) -> str:
     """The text with a capital first letter, unless it begins with a symbol such as d or v_B."""
     first = re.match(r"[^\W\d_]{2,}(?!_)\b", text)
     return text[:1].upper() + text[1:] if first is not None and first[0].islower() else text
 
 
-def answer_lines(exercise: Exercise, solution: Solution, lang: str, *, printed: bool = True) -> list[str]:
-    """What is asked with its result, a line each, and what the source prints, if that is wanted."""
+def named_answer(result: Result, lang: str) -> tuple[str, str]:
+    """The name of a result, and its symbol with its value."""
+    symbol = f"{result.symbol} = " if result.symbol and _is_number(result.value) else ""
+    return with_capital(result.name.in_language(lang)), f"{symbol}{result_text(result, lang)}"
+
+
+def answer_lines(exercise: Exercise, solution: Solution, lang: str) -> list[str]:
+    """What is asked with its result, a line each, and what the source prints."""
     lines = []
     for comparison in compare(exercise, solution):
-        result = comparison.result
-        symbol = f"{result.symbol} = " if result.symbol and _is_number(result.value) else ""
-        line = f"{_capital(result.name.in_language(lang))}: {symbol}{result_text(result, lang)}"
-        note = printed_note(comparison, lang) if printed else ""
+        line = ": ".join(named_answer(comparison.result, lang))
+        note = printed_note(comparison, lang)
         lines.append(f"{line}   [{note}]" if note else line)
     return lines
 
@@ -180,6 +184,8 @@ def check_text(check: Check, lang: str) -> str:
         sentence = message("{what}: {first} and {second} DIFFER")
     elif first == second and isinstance(check.first, bool):
         sentence = message("{what}: both methods say {first}")
+    elif first == second and not check.first:  # of a difference
+        sentence = message("{what}: {first}")
     elif first == second:
         sentence = message("{what}: both methods give {first}")
     else:

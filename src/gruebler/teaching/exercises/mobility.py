@@ -49,8 +49,6 @@ def machines(machines: str) -> Solution:
         record = entry(id)
         if len(ids) > 1:
             builder.parts.append(PartHeading(record.name))
-        if record.figure_lost:
-            builder.say("The original figure is lost; the structure is an assumption.")
         mark = _Mark(f".{id}", record.name) if len(ids) > 1 else _Mark("", None)
         _add_count(builder, record.chain(), mark, record.link_names("de"))
     return builder.done()

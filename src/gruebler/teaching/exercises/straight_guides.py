@@ -101,8 +101,8 @@ def watt_linkage(
     left_pivot = complex(-rocker, height / 2)
     builder = SolutionBuilder(unit=unit)
     builder.say(
-        "Mid position (assumed, the figure is lost): both rockers level, pivots A0 = (-a, c/2) and B0 = (a, "
-        "-c/2), the coupler upright with its middle F in the origin."
+        "Mid position: both rockers level, pivots A0 = (-a, c/2) and B0 = (a, -c/2), the coupler upright with its "
+        "middle F in the origin."
     )
     builder.say(
         "For each angle t of the left rocker: A by t, B on both circles, F in the middle.",
@@ -201,8 +201,7 @@ def double_rocker(
     builder = SolutionBuilder(unit=unit)
     builder.say(
         "Pivot of the rocker d in the origin, of the rocker b at ({x}, {y}): the frame c lies at {angle}° to the "
-        "horizontal. D is the joint of d, A that of b; C lies beyond D on the line A-D (assumed, the figure is "
-        "lost).",
+        "horizontal. D is the joint of d, A that of b; C lies beyond D on the line A-D.",
         x=figure(c * cos(radians(frame))),
         y=figure(c * sin(radians(frame))),
         angle=figure(frame),
@@ -275,9 +274,9 @@ def _check_limits(builder: SolutionBuilder, size: FourBar) -> None:
             move_quietly(linkage, [radians(limit + off)], branch="+").complete for off in (-side * 1e-6, side * 1e-6)
         )
         builder.check(
-            "{limit}° is the limit (1) or not (0), by the general solver",
-            1.0,
-            float(inside and not beyond),
+            "Whether {limit}° is the limit, by the general solver",
+            True,
+            inside and not beyond,
             "",
             limit=figure(limit),
         )

@@ -6,7 +6,14 @@ from gruebler.base.errors import LinkageError
 from gruebler.base.text import message
 from gruebler.machines.gears import read_train, speeds
 from gruebler.mechanics.linkages.quantities import as_positive
-from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, as_step, figure, formula_number
+from gruebler.teaching.exercises.solution import (
+    Solution,
+    SolutionBuilder,
+    SolutionStep,
+    as_step,
+    figure,
+    formula_number,
+)
 
 _MOST = 10_000  # rows
 
@@ -26,11 +33,13 @@ def gear_pair(i: float, step: float = 90) -> Solution:
         )
     builder = SolutionBuilder()
     name = message("slope of the transfer function, magnitude")
-    builder.find("slope", name, "1/i", 1 / i, symbol="|ψ'|", i=i)
+    numbers = f"1/{formula_number(i)}"
+    builder.parts.append(SolutionStep(text=name, formula="|ψ'| = 1/|i|", numbers=numbers, value=1 / i))
+    builder.keep("slope", name, 1 / i, symbol="|ψ'|")
     builder.say(
         "ψ grows evenly with φ: the graph is a straight line through the origin. An external pair turns in "
         "opposite senses; with signs i is negative and the line falls, ψ = −φ/|i|.",
-        "ψ = φ/i",
+        "|ψ| = |φ|/|i|",
     )
     rows = [(k * step, k * step / i) for k in range(int(360 * i / step + 1e-9) + 1)]
     title = message("Transfer function, magnitudes")
@@ -53,7 +62,7 @@ def gear_pair(i: float, step: float = 90) -> Solution:
             wheel=figure(teeth * i),
         )
     builder.mistake(
-        "slope", float(i), message("i is input divided by output; the slope is output divided by input, 1/i.")
+        "slope", float(i), message("i is input divided by output; the slope is output divided by input, 1/|i|.")
     )
     builder.mistake("slope", -1 / i, message("The magnitude is asked for; with signs an external pair has −1/|i|."))
     return builder.done()

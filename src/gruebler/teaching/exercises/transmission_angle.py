@@ -90,6 +90,7 @@ def _add_folded(builder: SolutionBuilder, key: str, value: float) -> float:
 
 def _add_rule(builder: SolutionBuilder, mu: float) -> None:
     builder.keep("good", message("good transmission (μ_min at least 40°)"), mu >= 40)
+    builder.mistake("good", mu < 40, message("Compare μ_min with 40°."))
     builder.say(
         message("μ_min is at least the 40° of the rule of thumb.")
         if mu >= 40
@@ -176,16 +177,16 @@ def _add_other_extreme(builder: SolutionBuilder, a: float, b: float, e: float) -
     name = message("transmission angle there")
     mu = builder.find("μ_II", name, "90° - |α_II|", 90 - abs(deviation), unit="°", α_II=angle(deviation))
     if a >= e:
-        touches = isclose(a, e)
-        text = message(
+        touches = message(
             "largest transmission angle: with a = e the joint A just touches the slider's line on that side, and "
-            "the rod lies along it"
+            "the rod lies along it: α = 0°"
         )
         crosses = message(
             "largest transmission angle: in between the joint A crosses the slider's line, as a is larger than "
-            "e, and the rod lies along it there"
+            "e, and the rod lies along it there: α = 0°"
         )
-        builder.find("μ_max", _LARGEST, "90° - arcsin(0/b)", 90.0, unit="°", text=text if touches else crosses, b=b)
+        text = touches if isclose(a, e) else crosses
+        builder.find("μ_max", _LARGEST, "90° - α", 90.0, unit="°", text=text, α=angle(0.0))
     else:
         builder.find("μ_max", _LARGEST, "μ_II", mu, unit="°", μ_II=angle(mu))
 
