@@ -541,6 +541,10 @@ def test_the_drive_stands_where_it_can_with_other_sizes(server, chromium):
     low, high = page.evaluate("[gruebler.linkage.cycle.low, gruebler.linkage.cycle.high]")
     assert high < np.pi
     assert low <= page.evaluate("gruebler.linkage.drives[0]") <= high
+    delta = machine_model("delta")  # its arms reach farther than the catalog moves them
+    asked = {key: delta[key] for key in ("document", "between")} | {"sizes": {"rod1": [230, None]}}
+    for motion in answer("resize", asked, "en", print)["motions"]:
+        assert [motion["values"][0], motion["values"][-1]] == [-20, 40]
     assert errors == []
     browser.close()
 

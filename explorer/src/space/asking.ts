@@ -5,12 +5,12 @@ import type { Model } from "./model";
 
 /** Ask for it with what the machine is called; an `Error` says why there is none. */
 export async function asked<Result>(method: string, data: Model, params: object): Promise<Result> {
-  const { document: linkage, texts } = data;
+  const { between, document: linkage, texts } = data;
   const lang = currentLanguage();
   const said = (key: "drives" | "letters" | "links" | "title") =>
     Object.fromEntries(Object.entries(texts).map(([language, one]) => [language, one[key]]));
   const named = { titles: said("title"), drives: said("drives"), links: said("links"), letters: said("letters") };
-  const body = JSON.stringify({ id: 0, lang, params: { document: linkage, ...named, ...params } });
+  const body = JSON.stringify({ id: 0, lang, params: { document: linkage, between, ...named, ...params } });
   let answer: { error?: string; result?: Result };
   try {
     answer = await (await fetch(method, { method: "POST", body })).json();

@@ -76,6 +76,8 @@ export interface Model {
   points: Spot[];
   /** The linkage as the library reads it. */
   document: { screws: { joints: Record<string, Placed> } };
+  /** Values of the drives in place of all that they can reach: radians or lengths. */
+  between?: [number, number] | null;
   /** The links of each joint. */
   ends: number[][];
   /** The machine of the catalog that has a drive, where this one has none. */

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -71,7 +72,7 @@ def moving_solids(
 ) -> MovingSolids:
     """Bodies and motions: of each drive over its whole range while the others rest in the reference pose.
 
-    ``between`` are other values of the drives, of all that turn or slide as the first one does.
+    ``between`` are other values of the drives, of all that turn or slide as the first one does and come so far.
 
     Cost: a second.
     """
@@ -79,16 +80,17 @@ def moving_solids(
     drives = linkage.mechanism.drives
     for number, drive in enumerate(drives):
         values = np.zeros((frames, len(drives)))
-        try:
-            if between is not None and drive.turning == drives[0].turning:
-                values[:, number], turns = np.linspace(*between, frames), False
-            else:
-                span = spatial_range(linkage, number)
-                values[:, number], turns = span.inside(frames), span.full
+        if between is not None and drive.turning == drives[0].turning:
+            values[:, number] = np.linspace(*between, frames)
+            with suppress(LinkageError):
+                motions.append(followed(linkage, values))
+                full.append(False)
+                continue
+        with suppress(LinkageError):
+            span = spatial_range(linkage, number)
+            values[:, number] = span.inside(frames)
             motions.append(followed(linkage, values))
-            full.append(turns)
-        except LinkageError:
-            continue
+            full.append(span.full)
     still = np.tile(np.eye(4), (1, linkage.mechanism.chain.n, 1, 1))
     poses = np.concatenate([still, *(motion.poses[0] for motion in motions)])
     return MovingSolids(

@@ -107,6 +107,8 @@ class ResizeLinks(Params):
     drives: dict[str, list[Word]] = {}
     links: dict[str, list[Word]] = {}
     letters: dict[str, dict[Word, Word]] = {}
+    between: tuple[float, float] | None = None
+    """Values of the drives over which the page moves it, in place of all that they can reach."""
 
 
 class ExportInSpace(Params):
@@ -119,6 +121,8 @@ class ExportInSpace(Params):
     drives: dict[str, list[Word]] = {}
     links: dict[str, list[Word]] = {}
     letters: dict[str, dict[Word, Word]] = {}
+    between: tuple[float, float] | None = None
+    """Values of the drives over which the page moves it, in place of all that they can reach."""
 
 
 class DescribeStructure(Params):

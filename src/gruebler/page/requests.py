@@ -179,14 +179,15 @@ def _resized(asked: ResizeLinks, lang: str, _: Progress) -> dict[str, Any]:
     except LinkageError as error:
         link = error.values.get("link")
         raise LinkageError(error, **({} if link is None else {"link": called.get(link, link)})) from None
-    model = space_model(changed, **_called_in_space(asked), home=True, asks=True)
+    model = space_model(changed, **_shown_in_space(asked), home=True, asks=True)
     if not model["motions"]:
         raise LinkageError("with these sizes the joints can be closed, but no drive moves it; change others as well")
     return model
 
 
-def _called_in_space(asked: ResizeLinks | ExportInSpace) -> dict[str, Any]:
-    return {"titles": asked.titles, "drives": asked.drives, "links": asked.links, "letters": asked.letters}
+def _shown_in_space(asked: ResizeLinks | ExportInSpace) -> dict[str, Any]:
+    called = {"titles": asked.titles, "drives": asked.drives, "links": asked.links, "letters": asked.letters}
+    return called | {"between": asked.between}
 
 
 def _export_in_space(asked: ExportInSpace, lang: str, _: Progress) -> dict[str, str]:
@@ -197,7 +198,7 @@ def _export_in_space(asked: ExportInSpace, lang: str, _: Progress) -> dict[str, 
     linkage = spatial_from_json(asked.document)
     if asked.kind != "html":
         return saved_file(linkage, asked.kind, lang, {})
-    model = space_model(linkage, **_called_in_space(asked))
+    model = space_model(linkage, **_shown_in_space(asked))
     return _file(space_file(model, lang).encode("utf-8"), "text/html")
 
 

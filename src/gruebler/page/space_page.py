@@ -175,6 +175,7 @@ def space_model(
         "unit": "" if spherical else linkage.unit,
         "document": screws_to_json(linkage),
         "driven": driven,
+        "between": between,
         "sizes": [
             {
                 "link": chain.index(size.link),
