@@ -134,7 +134,7 @@ export class Forces {
     this.columns = [];
     if (!page.served || !linkage.drive) {
       const word = linkage.model.source || "LINK";
-      renew(this.element, h("p.note", {}, t("Forces need the library: gruebler explore {word}", { word })));
+      renew(this.element, noted(t("Forces need the library: gruebler explore {word}", { word })));
       return;
     }
     if (this.#model !== linkage.model) {
@@ -229,8 +229,8 @@ export class Forces {
       this.#form.put({ bars: "steel" });
     };
     const button = masses.some(Boolean) ? null : action("assume", assume, t("Assume masses"));
-    const offer = h("div.form", {}, button, h("p.note", {}, origin));
-    const notes = lines.map((line) => h("p.note", {}, line));
+    const offer = h("div.form", {}, button, h("p", {}, origin));
+    const notes = lines.map(noted);
     if (!drives) {
       renew(this.#result, ...notes, offer);
     } else {
@@ -241,14 +241,14 @@ export class Forces {
       this.#plot = new Plot(drive!.turning ? "°" : lengthUnit(model), (value) => transport.pick(value));
       this.#plot.show(places, { title: `${title} [${unit[0]}]`, colour: "--motion", values }, transport.range);
       this.#driven = shownOf(linkage, answer, places);
+      const { joints } = this.#driven;
       this.columns = [
         [title, drive!.turning ? "N·m" : "N", places, exact],
-        ...this.#driven.joints.flatMap(({ name, x, y }): Column[] => [
+        ...joints.flatMap(({ name, x, y }): Column[] => [
           [`${name} Fx`, "N", places, x],
           [`${name} Fy`, "N", places, y],
         ]),
       ];
-      const { joints } = this.#driven;
       const chosen = this.#joint.selectedIndex;
       renew(this.#joint, ...joints.map(({ name }, value) => h("option", { value }, name)));
       this.#ofFall = h("div", {});
@@ -259,7 +259,7 @@ export class Forces {
       const until = this.#form.row("until", t("Duration"), "s", this.#until, last, LASTS);
       const play = () => transport.playAt(speed!);
       const release = t("Release the drive: free motion");
-      const sizes = joints.map((force) => force.most);
+      const sizes = joints.map(({ most }) => most);
       this.#joint.selectedIndex = chosen < 0 ? sizes.indexOf(Math.max(...sizes)) : chosen;
       this.#facts.show(facts);
       renew(
@@ -372,7 +372,7 @@ export class Forces {
         plot(t("Drive speed"), found.speeds, `${unit}/s`),
       ];
     });
-    renew(told, ...this.#plots.map((plot) => plot.element), ...found.lines.map((line) => h("p.note", {}, line)));
+    renew(told, ...this.#plots.map((plot) => plot.element), ...found.lines.map(noted));
     transport.seek(0, found);
     transport.toggle();
   }
@@ -393,6 +393,10 @@ function shownOf(linkage: Linkage, { acting, forces, units }: Carried, places: F
       vectors(parts, units[parts[1] ? 0 : 1], () => place(linkage.pose, 0, link, ...own)),
     ),
   };
+}
+
+function noted(line: string): HTMLElement {
+  return h("p.note", {}, line);
 }
 
 /** What arrows of a class look like. */

@@ -116,7 +116,7 @@ export class Scene {
         const out = () => {
           const [x, y, dx, dy] = this.#scaled(...one);
           const [u, v] = [x + dx, y + dy];
-          return Math.min(u, v, height - v, this.viewport.right(v - EDGE) - u) < EDGE;
+          return Math.min(u, v, height - v, this.viewport.right(v) - u) < EDGE;
         };
         while (this.#longest > LEAST_ARROW && out()) this.#longest--;
       }
@@ -284,7 +284,10 @@ export class Scene {
       put(this.#arrows[k]!, { d: all.map((one) => arrow(...one)).join("") });
     });
     // a number may stand upon a plate, but not across its edges or on a pin
-    const pins = this.#pins.map(({ joint }) => [pixels(joint)]);
+    const pins = this.#pins.map(({ joint }) => {
+      const [x, y] = pixels(joint);
+      return lettersAt(x, y + 4, RING);
+    });
     this.#putValues(kinds, [...covered, ...pins, ...pastEdges(viewport.width, viewport.height)]);
     const rings = hung.flatMap((all) => [all[0]!, all.at(-1)!]).map((at) => dotAt(at, 3));
     put(this.#springs, { d: [...springs.flat().map(pathThrough), ...rings].join("") });

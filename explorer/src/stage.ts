@@ -23,6 +23,7 @@ const STYLES =
   "fill fill-rule stroke stroke-width stroke-linecap stroke-linejoin stroke-dasharray opacity font-size font-family " +
   "font-weight paint-order";
 
+const SAID = 16; // pixels more that a bearing needs over what can be done
 const NUMBERS = 18; // pixels that numbers of links need at the edges
 
 export class Stage implements Board {
@@ -156,7 +157,7 @@ export class Stage implements Board {
     if (!linkage || viewport.width < 2) return;
     const reach = reachOf(linkage);
     const fit = (below?: number, room?: number) => viewport.fit(reach, 0.2 * linkage.size, below, reach.places, room);
-    fit();
+    fit(viewport.narrow ? undefined : SAID);
     this.#scene.sized(linkage);
     const listed = this.#scene.choose(linkage, this.shown);
     if (listed) fit(listed, NUMBERS);
@@ -199,7 +200,6 @@ export class Stage implements Board {
   /** Put everything where the pose has it. */
   draw(): void {
     if (!this.linkage) return;
-    const { viewport } = this;
     this.#rule(this.linkage.model.unit);
     this.#scene.draw(this.linkage, this.shown);
     this.#scene.mark(this.chosen, "chosen");
@@ -207,7 +207,7 @@ export class Stage implements Board {
     if (this.#hint.textContent !== said) this.#hint.textContent = said;
     const pen = this.#canvas.getContext("2d");
     if (!pen) return;
-    new Painter(pen, viewport, this.#colour).paint(this.linkage, this.shown, this.#modes);
+    new Painter(pen, this.viewport, this.#colour).paint(this.linkage, this.shown, this.#modes);
   }
 
   /** What can be done next; of a link that is chosen its lengths. */

@@ -37,6 +37,7 @@ from gruebler.page.reader_loads import (
 
 _FREE = message("Free motion: in {seconds:n} s the drive goes from {start} to {end}, between {least} and {most}.")
 _FREE_OF = message("{drive}: from {start} to {end}, between {least} and {most}.")
+_STRAIGHT_OF = message("{drive}: from {start} to {end}.")
 _MOVED = message("Free motion: {seconds:n} s.")
 _AT_STOP = message("The motion ends: {drive} has reached the end of its range, {value}.")
 _BALANCE = message("The energy balance is off by {part:n}\u00a0% at most.")
@@ -296,9 +297,10 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     said = [_MOVED.filled(seconds=seconds)] if went[1:] else [_FREE.filled(seconds=seconds, **went[0])]
     called = asked.called or names
     if went[1:]:
-        said += [
-            _FREE_OF.filled(drive=name[:1].upper() + name[1:], **its) for name, its in zip(called, went, strict=False)
-        ]
+        for name, its in zip(called, went, strict=False):
+            straight = [its["least"], its["most"]] in ([its["start"], its["end"]], [its["end"], its["start"]])
+            text = _STRAIGHT_OF if straight else _FREE_OF
+            said.append(text.filled(drive=name[:1].upper() + name[1:], **its))
     why = run.message(lang)
     joint = run.reason.values.get("joint") if run.reason else None
     if joint in ends:
