@@ -28,6 +28,7 @@ GROUPS = [
     FileGroup("chains", (7, 2)),
     FileGroup("structures", (4, 1, 0)),
     FileGroup("machine", ("crankrocker",)),
+    FileGroup("machine", ("universal_joint",)),
     FileGroup("catalog", ("bennett", "crankrocker", "lambda")),
     FileGroup("tasks", ("grashof", 1, 1)),
     FileGroup("tasks", ("mobility", 1, 1)),
@@ -89,6 +90,7 @@ def test_a_folder_with_other_things_is_refused(tmp_path):
 
 def test_the_site_answers_as_the_library_does(tab, folder, address):
     page = tab().open(address)
+    assert "<animate" in asked(page, "moving", {"id": "universal_joint"})["picture"]  # of a card in space
     for lang in ("en", "de"):
         chains = asked(page, "chains", {"links": 4, "mobility": 1, "start": 0}, lang)
         assert [item["text"] for item in chains["items"]] == ["R(1-2) R(2-3) R(3-4) R(4-1)"]

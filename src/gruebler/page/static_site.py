@@ -164,6 +164,7 @@ def _machine_packs(id: str) -> _Packs:
         content["model"] = answer("open", {"id": id}, LANGUAGES[0], _nothing)
         contacts = contact_shapes(record.linkage())
         mechanism = record.linkage().mechanism
+    if "model" in content or record.in_space:
         with suppress(GrueblerError):  # what has no single drive stands still
             content["moving"] = _bare(answer("moving", {"id": id}, LANGUAGES[0], _nothing)["picture"])
     for lang in LANGUAGES:
