@@ -258,7 +258,7 @@ export class CatalogView implements View {
       { "data-id": id, onclick: () => void this.#choose(entry) },
       h("div", { "data-place": "" }),
       h("b", {}, softened(entry.name)),
-      h("span", {}, joined([facts, kind], " · ")),
+      h("span", {}, joined([facts, kind], " ·\u00a0")),
     );
     if (moves || space) movesOnHover(card, id, () => this.#picture("moving", id));
     return card;

@@ -33,9 +33,10 @@ export class Demands {
    * from target to target, or that of all positions of a crank that turns fully in any case. A curve so large has its
    * own order, and pivots no farther off as long as nothing else is typed. */
   form(closed: HTMLElement | false, way: boolean, places: boolean, curve: number, changed: () => void): HTMLElement {
-    /** A number between zero and a limit. */
-    const field = (key: string, max: number, placeholder = "") => {
+    /** A number between zero and a limit, with what it is and its unit. */
+    const field = (key: string, text: string, unit: string, max: number, placeholder = "") => {
       const input: HTMLInputElement = h("input", {
+        id: key,
         type: "number",
         min: 0,
         max,
@@ -47,10 +48,11 @@ export class Demands {
           changed();
         },
       });
-      return input;
+      return [h("label", { for: key }, text), input, unit] as const;
     };
-    this.#length = field(LONGEST, 1e9);
-    this.#length.style.width = "84px"; // four digits are seen beside its arrows
+    const longest = field(LONGEST, t("longest link at most"), "mm", 1e9);
+    this.#length = longest[1];
+    const least = way ? t("least transmission angle between targets") : t("transmission angle at least");
     const order = h("input", {
       value: this.order,
       "aria-label": t("Order of the targets"),
@@ -66,25 +68,22 @@ export class Demands {
       changed();
     };
     return h(
-      "div.form",
+      "div",
       {},
-      closed,
-      way && option(t("the crank turns fully"), this.#crank, turns, "crank"),
+      h("div.form", {}, closed, way && option(t("the crank turns fully"), this.#crank, turns, "crank")),
       h(
-        "label",
+        "div.rows",
         {},
-        way ? t("least transmission angle between targets") : t("transmission angle at least"),
-        field("least", 90),
-        "°",
+        ...field("least", least, "°", 90),
+        ...(places
+          ? [...field("reach", t("fixed pivots outside targets at most"), "mm", 1e9, String(curve || "∞")), ...longest]
+          : []),
       ),
       places &&
-        h("label", {}, t("fixed pivots outside targets at most"), field("reach", 1e9, String(curve || "∞")), "mm"),
-      places && h("label", {}, t("longest link at most"), this.#length, "mm"),
-      places &&
-        (!curve || !!this.order) &&
+        (!curve || this.order) &&
         h(
           "details.words",
-          { open: this.order !== "" },
+          { open: !!this.order },
           h("summary", {}, t("Order of the targets")),
           order,
           h(

@@ -245,8 +245,9 @@ export class DesignCards {
     );
   }
 
-  /** A length of a design with the places that four digits of its longest have, so that all fit together. */
-  #length({ lengths, size }: Design, length: number): string {
+  /** A length with the places that four digits of the longest of the first design have, so that all fit together. */
+  #length(length: number): string {
+    const { lengths, size } = this.#found!.items[0]!;
     const places = Math.max(0, 3 - Math.floor(Math.log10(1.000001 * Math.max(...lengths, size))));
     return fixed(length, places);
   }
@@ -254,9 +255,9 @@ export class DesignCards {
   /** What a design is worth, as it is read. */
   #told(design: Design, by: Value): string {
     const value = design[by];
-    if (typeof value !== "number") return "–";
-    if (by === "transmission" || by === "range") return (value < 89.95 ? "≥ " : "") + angle(value * DEGREE, 3);
-    if (by === "size") return `${this.#length(design, value)} mm`;
+    if (value == null) return "–";
+    if (by === "transmission" || by === "range") return `≥ ${fixed(value, 1)}°`;
+    if (by === "size") return `${this.#length(value)} mm`;
     return this.#found!.relative ? angle(value, 2) : `${number(value, 2)} mm`;
   }
 
@@ -273,8 +274,7 @@ export class DesignCards {
     const { items } = this.#found!;
     const title = `${form} ${this.#of(form).indexOf(design) + 1}`;
     const extra: [string, string][] = [];
-    if (point)
-      extra.push([t("coupler point x | y"), point.map((one) => this.#length(design, one)).join("\u00a0|\u00a0")]);
+    if (point) extra.push([t("coupler point x | y"), point.map((one) => this.#length(one)).join("\u00a0|\u00a0")]);
     if (pairs) extra.push([t("first pair at"), pairs[0]!.map((one) => angle(one * DEGREE)).join("\u00a0|\u00a0")]);
     let touched = false; // by a finger, which only chooses it
     const play = () => {
@@ -311,7 +311,7 @@ export class DesignCards {
             "span",
             {},
             spaced(names[currentLanguage()]![k] ?? t("eccentricity")),
-            h("i", {}, this.#length(design, one) + (k + 1 in lengths ? "" : "\u00a0mm")), // in all no room for it
+            h("i", {}, this.#length(one) + (k + 1 in lengths ? "" : "\u00a0mm")), // in all no room for it
           ),
         ),
       ),

@@ -151,10 +151,7 @@ export class SynthesisView implements View {
     const hints: Record<Puts, string> = {
       "": wordsOf(this.kind).hint,
       pivot: t("Put one or two pivots that the linkage shall have on the frame."),
-      curve: t(
-        "Draw the curve in one stroke; if it ends near its start, it is closed. " +
-          "The nearest coupler curves are looked for.",
-      ),
+      curve: t("Draw the curve in one stroke, a closed one to its start; the nearest coupler curves are found."),
     };
     this.#picture.plane.setAttribute("aria-label", t("What is to be met"));
     this.element.classList.toggle("typed", !this.#planar);
@@ -182,6 +179,13 @@ export class SynthesisView implements View {
       ),
     );
     this.#picture.element.prepend(this.#told);
+    const demands = this.#demands.form(
+      this.kind === "points" && option(t("closed curve"), this.#closed, close, "closed"),
+      this.kind !== "dead-centres",
+      this.#planar && this.#page.served,
+      this.#curve,
+      () => this.#draw(),
+    );
     renew(
       this.element,
       h(
@@ -202,19 +206,7 @@ export class SynthesisView implements View {
             this.#planar && choice(t("What is to be met"), clicks, this.#puts, put),
             this.#doing,
           ),
-          h(
-            "div",
-            {},
-            this.#demands.form(
-              this.kind === "points" && option(t("closed curve"), this.#closed, close, "closed"),
-              this.kind !== "dead-centres",
-              this.#planar && this.#page.served,
-              this.#curve,
-              () => this.#draw(),
-            ),
-            this.#list,
-            this.designs.element,
-          ),
+          h("div", {}, ...(this.#planar ? [demands, this.#list] : [this.#list, demands]), this.designs.element),
         ),
       ),
     );
@@ -365,8 +357,8 @@ export class SynthesisView implements View {
     const wanted = this.#page.served || this.kind !== "points" ? FEWEST[this.kind] : NINE;
     const lacks = count < wanted ? t("{count} set, at least {wanted} needed", { count, wanted }) : "";
     this.#key.disabled = !!lacks;
-    this.#clearing.disabled = !count && !this.#pivots.length;
     this.#key.title = lacks;
+    this.#clearing.disabled = !count && !this.#pivots.length;
     const former =
       this.designs.element.firstChild && this.#asked !== this.#question && t("Designs for the former requirements");
     this.#told.textContent = (this.#puts !== "curve" && lacks) || former || "";

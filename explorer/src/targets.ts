@@ -8,6 +8,7 @@ import { h, svg } from "./dom";
 import { bodiesOf, pathOf, putBodies } from "./ghost";
 import { away, clearAbout, convexHull, spotsAbout } from "./hull";
 import { angle, number, parsed, t } from "./language";
+import { between } from "./names";
 import { valueAt } from "./plot";
 import type { Pair } from "./rows";
 import { cross } from "./shell";
@@ -180,7 +181,8 @@ function endNames(
   // the coupler stays between the circle of the crank and the arc of the rocker
   const crank = links.find((own) => own.length === 2 && own.includes(ends[0]![design.drive!]!));
   const circle = crank ? spotsAbout(ends[0]![design.drive!]!, away(crank[0]!, ...crank[1]!)).slice(0, 16) : [];
-  const passed = convexHull([pivot!, one, top, two, ...circle]);
+  // and the arc bulges beyond its chords, a bar beyond its joint
+  const passed = convexHull([pivot!, ...[one, top, two].map((end) => between(pivot!, end, 1.07)), ...circle]);
   const beyond = [-1, 1].map((side): Pair[] => {
     const edge = side < 0 ? west : east;
     return convexHull(

@@ -368,7 +368,7 @@ def test_pairs_of_angles_are_ringed_in_the_plot_of_the_output(design):
 def test_the_transmission_angle_asked_for_says_where_it_holds(design):
     """Between the targets, as designs are judged; of dead centres over the whole turn."""
     view = design.page
-    least = view.locator('label:has([data-field="least"])')
+    least = view.locator('label[for="least"]')
     for kind in ("points", "positions", "function"):
         view.click(f'[data-value="{kind}"]')
         assert least.inner_text().startswith("least transmission angle between targets")
