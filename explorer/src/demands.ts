@@ -86,11 +86,7 @@ export class Demands {
           { open: !!this.order },
           h("summary", {}, t("Order of the targets")),
           order,
-          h(
-            "p.note",
-            {},
-            t("When each target is passed: 1 first, then 2 …; equal numbers in any order, – at any time"),
-          ),
+          h("p.note", {}, t("When each target is passed: 1 first, then 2 …; equal numbers in any order, – anytime")),
         ),
     );
   }

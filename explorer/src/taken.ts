@@ -36,7 +36,9 @@ export function drawingOf(linkage: Linkage): { drawing?: Drawing; other: string[
   const called = new Map<string, string>(
     model.joints.map(({ name, links }) => [name, name.replace(/\(.*\)/, `(${links.map((k) => names[k]).join("-")})`)]),
   );
-  for (const [link, name] of model.links.entries()) called.set(name, names[link]!);
+  model.links.forEach((name, link) => {
+    called.set(name, names[link]!);
+  });
   const points = sizes.points.map(({ name: own, link, at }): Knot => {
     const name = linkage.pointName(own);
     called.set(own, name);
