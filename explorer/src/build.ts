@@ -27,7 +27,7 @@ import { spaced, t } from "./language";
 import { movedKept } from "./lengths";
 import type { Linkage } from "./linkage";
 import { type Drawn, MobilityPanel } from "./mobility";
-import { hintOf, KEYS, NEEDED, palette, type Tool, withTool } from "./palette";
+import { asksOf, hintOf, KEYS, palette, type Tool, withTool } from "./palette";
 import { placesPanel } from "./places";
 import { type Aim, type Chosen, GRIP, isPicture, linkFor, type Plane, planePicture, spotAt } from "./plane";
 import { WAYS } from "./pointer";
@@ -45,7 +45,9 @@ const SMALL: Box = { left: -10, right: 64, bottom: -20, top: 40 };
 export class BuildView implements View, Plane, Drawn {
   readonly element = h("div.view.motion", { "data-page": "build" });
   drawing: Drawing = keptDrawing();
-  readonly viewport = new Viewport();
+  viewport = new Viewport();
+  /** That of the whole picture of a phone, which is there again after a low one. */
+  #whole = this.viewport;
   /** The drawing as it was found, which Motion need not show, or what Motion was last given, and made of it. */
   #known = this.drawing;
   #made: Linkage | null = null;
@@ -89,15 +91,14 @@ export class BuildView implements View, Plane, Drawn {
   readonly #starters = h("div.starters", {});
   readonly #side = h("div.side", {});
   private readonly mobility = new MobilityPanel(this);
-  readonly #choice = h("div.form.hint.choosing", {});
+  readonly #choice = h("div.form.choosing", {});
   readonly #places = h("section.panel.options", {});
 
   constructor(readonly page: Page) {
-    Object.assign(this.viewport, { lowest: 152, scale: 4 });
     const { past, tool } = keptDrawn(this.drawing);
     if (tool) this.#tool = tool;
     for (const one of past) this.#history.add(one);
-    const stage = h("div.stage", {}, this.root, this.#hint, this.#choice, this.#starters, this.#buttons);
+    const stage = h("div.stage.adding", {}, this.root, this.#hint, this.#choice, this.#starters, this.#buttons);
     this.element.append(stage, this.#tools, this.#side);
     wheelZooms(this.root, (...about) => this.zoom(...about));
     new ResizeObserver(() => this.#resize()).observe(stage);
@@ -107,10 +108,13 @@ export class BuildView implements View, Plane, Drawn {
   #resize(): void {
     const { width, height } = this.root.getBoundingClientRect();
     if (!width) return;
-    const { viewport } = this;
+    const before = this.viewport;
+    const changed = width < 500 && before.fitted && height !== before.height;
     // a phone's low picture shows all of it, too
-    const fits = viewport.width < 2 || (width < 500 && viewport.fitted && height !== viewport.height);
-    Object.assign(viewport, { width, height });
+    if (changed) this.viewport = height < this.#whole.height ? new Viewport() : this.#whole;
+    const { viewport } = this;
+    const fits = viewport.width < 2 || (changed && viewport === before);
+    Object.assign(viewport, { width, height, lowest: 152 });
     this.root.setAttribute("viewBox", `0 0 ${width} ${height}`);
     if (fits) this.fit();
     else this.#draw();
@@ -131,12 +135,13 @@ export class BuildView implements View, Plane, Drawn {
     const room = narrow ? 0 : 0.1 * wide; // for letters
     box.left -= room;
     box.right += room;
-    const below = Math.max(this.#hint.offsetHeight, this.#choice.offsetHeight);
+    // what can be done with what is chosen
+    const below = narrow ? Math.min(64, viewport.height / 4) : 29;
     const { knots } = this.drawing;
     const rails = knots.some(({ slide }) => slide !== undefined);
     const first = narrow ? SMALL : FIRST;
     const places = knots.map(({ at }) => at);
-    viewport.fit(seen ? box : first, 1e-9, below + 12, places, rails ? 48 : 34);
+    viewport.fit(seen ? box : first, 1e-9, below, places, rails ? 48 : 34);
     this.#draw();
   }
 
@@ -179,7 +184,9 @@ export class BuildView implements View, Plane, Drawn {
     if (known) this.#known = drawing;
     this.#before = known ? this.page.linkage : null;
     this.#take(tool);
+    this.viewport = this.#whole;
     this.fit();
+    this.#resize();
   }
 
   empty(): void {
@@ -266,7 +273,7 @@ export class BuildView implements View, Plane, Drawn {
       this.#draw();
       return this.#showChoice();
     }
-    if (spots.length < NEEDED[tool]) return this.#draw();
+    if (spots.length < asksOf(tool).length) return this.#draw();
     this.spots = [];
     const [from] = spots as [Spot];
     const link = tool === "link" && !same(from, spot) && joining(drawing, from, spot);
@@ -356,15 +363,17 @@ export class BuildView implements View, Plane, Drawn {
   get ahead(): string {
     const { cursor, drawing, spots } = this;
     const tool = this.#tool;
-    if (this.aim !== "aiming" || !NEEDED[tool] || tool === "scale" || spots.length + 1 < NEEDED[tool]) return "";
+    const more = asksOf(tool).length - spots.length;
+    if (this.aim !== "aiming" || tool === "move" || tool === "scale" || more > 1) return "";
     const spot = this.#spot(this.viewport.screen(...cursor), false);
     const next = withTool(tool, drawing, [...spots, spot]);
     return next?.frame && linksOf(next)[2] ? `F = ${counted(next)}` : "";
   }
 
   #draw(): void {
+    this.#choice.classList.toggle("above", isLow(this));
     renew(this.#hint, ...hintOf(this.#tool, this.spots.length));
-    renew(this.root, ...planePicture(this, this.#starters.offsetHeight, this.#choice.offsetHeight + 30));
+    renew(this.root, ...planePicture(this, this.#starters.offsetHeight));
   }
 
   #hover(event: PointerEvent): void {
@@ -476,7 +485,6 @@ export class BuildView implements View, Plane, Drawn {
   #showChoice(): void {
     const [from, to] = this.#tool === "scale" ? this.spots : [];
     renew(this.#choice, ...(from && to ? [this.#distance(from.at, to.at)] : choiceOf(this)));
-    this.#choice.classList.toggle("above", isLow(this));
     this.#hint.hidden = !!(this.chosen || to);
   }
 

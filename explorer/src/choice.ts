@@ -22,7 +22,7 @@ import { lengthOf, movedKept, spansOf, withLength } from "./lengths";
 import { isPicture, type Plane } from "./plane";
 import type { Pair } from "./rows";
 
-const SHEET = 90; // pixels at an edge of the plane, with what can be done with what is chosen
+const SHEET = 98; // pixels at an edge of the plane, with what can be done with what is chosen
 
 /** The view of a drawing, as far as it is changed here. */
 interface Changing extends Plane {
@@ -43,11 +43,15 @@ export function removeChosen(view: Changing): void {
   view.change(withoutLoose(drawing, next));
 }
 
-/** Whether what is chosen is at the lower edge of the plane, where else stands what can be done with it. */
+/** Whether more is at the lower edge of the plane, where else stands what can be done with what is chosen, than at the
+ * upper one. */
 export function isLow({ chosen, drawing, viewport }: Plane): boolean {
-  const places = drawing.knots.filter(({ links }, k) => k === chosen?.knot || links.includes(chosen?.link ?? ""));
-  const rows = places.map(({ at }) => viewport.screen(...at)[1]);
-  return Math.max(...rows) > viewport.height - SHEET && Math.min(...rows) > SHEET;
+  const more = drawing.knots.reduce((sum, { at, links }, k) => {
+    const [, y] = viewport.screen(...at);
+    const own = k === chosen?.knot || links.includes(chosen?.link ?? "");
+    return sum + (own ? 99 : 1) * (Number(y > viewport.height - SHEET) - Number(y < SHEET));
+  }, 0);
+  return more > 0;
 }
 
 /** A number in a field that changes the drawing. */
@@ -98,13 +102,9 @@ function nameField(value: string, key: string, set: (text: string) => void): HTM
 export function choiceOf(view: Changing): HTMLElement[] {
   const { chosen, drawing } = view;
   const removing = action("remove", () => removeChosen(view), t("Remove"));
-  const note = (text: string) => h("b", {}, text);
   if (!chosen) return [];
   const { link } = chosen;
-  if (isPicture(chosen)) {
-    const how = t("Drag it; its corner sizes it, the grip turns it.");
-    return [note(how), removing];
-  }
+  if (isPicture(chosen)) return [h("b", {}, t("Drag it; its corner sizes it, the grip turns it.")), removing];
   if (link !== null) {
     const name = nameField(spaced(link), "link-name", (text) => view.change(renamed(drawing, link, text), NAMING()));
     const frame = action("frame", () => view.change({ ...drawing, frame: link, drives: [] }), t("Hold as frame"));
@@ -112,15 +112,15 @@ export function choiceOf(view: Changing): HTMLElement[] {
   }
   const knot = chosen.knot!;
   const { at, between, links } = drawing.knots[knot]!;
-  const parts: HTMLElement[] = [removing];
   // a block and its slide lie at one place
   const slide = drawing.knots.findIndex((one) => one.slide !== undefined && same(one, drawing.knots[knot]!));
   const joints = [knot, slide].filter((k, m, all) => drawing.knots[k]?.links[1] && all.indexOf(k) === m);
-  for (const k of joints.reverse()) {
+  const parts = joints.map((k) => {
     const text = drawing.drives.includes(k) ? t("Not driven") : t("Drive");
     const letter = joints[1] === undefined ? "" : ` ${knotName(drawing, k)}`;
-    parts.unshift(action("drive", () => view.change(driven(drawing, k)), text + letter));
-  }
+    return action("drive", () => view.change(driven(drawing, k)), text + letter);
+  });
+  parts.push(removing);
   if (links[1] && isPin(drawing.knots[knot]!))
     parts.push(action("split", () => view.change(split(drawing, knot, view.step / 2)), t("Split")));
   const places = (["x", "y"] as const).map((key, axis) =>
@@ -136,5 +136,11 @@ export function choiceOf(view: Changing): HTMLElement[] {
     view.viewport.narrow && links[1]
       ? []
       : [nameField(own, "knot-name", (text) => view.change(called(drawing, knot, text), NAMING()))];
-  return [note(name), ...naming, ...(between ? [] : places), ...(slide < 0 ? [] : [slideField(view, slide)]), ...parts];
+  return [
+    h("b", {}, name),
+    ...naming,
+    ...(between ? [] : places),
+    ...(slide < 0 ? [] : [slideField(view, slide)]),
+    ...parts,
+  ];
 }

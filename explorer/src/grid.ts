@@ -20,9 +20,9 @@ export function stepOf({ narrow, scale }: Viewport): number {
   return gridStep((narrow ? 40 : 55) / scale);
 }
 
-/** Lines, numbers along the left and the lower edge, and the unit in their corner; what covers its upper and
- * its lower edge is so high. */
-export function gridOf(viewport: Viewport, unit: string, above = 20, below = 50): SVGElement[] {
+/** Lines, numbers along the left and the lower edge, and the unit in their corner; what covers its upper
+ * edge is so high. */
+export function gridOf(viewport: Viewport, unit: string, above = 20): SVGElement[] {
   const { width, height } = viewport;
   const foot = height - 8;
   const step = stepOf(viewport);
@@ -40,7 +40,7 @@ export function gridOf(viewport: Viewport, unit: string, above = 20, below = 50)
   for (let k = Math.ceil(bottom / step); k * step <= top; k++) {
     const y = Math.round(viewport.screen(0, k * step)[1]) + 0.5;
     d += `M0 ${y}H${width}`;
-    if (y > above + 20 && y < height - below) tick(6, y - 3, number(k * step));
+    if (y > above + 20 && y < height - 50) tick(6, y - 3, number(k * step));
   }
   return [svg("path.mesh", { d }), ...numbers];
 }

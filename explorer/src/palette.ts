@@ -18,19 +18,6 @@ import { t } from "./language";
 
 export type Tool = "move" | "ground" | "link" | "slider" | "dyad" | "cylinder" | "gears" | "point" | "scale";
 
-/** How many places a tool needs. */
-export const NEEDED: Record<Tool, number> = {
-  move: 0,
-  ground: 1,
-  link: 2,
-  slider: 1,
-  dyad: 3,
-  cylinder: 2,
-  gears: 3,
-  point: 1,
-  scale: 2,
-};
-
 /** The drawing with what a tool makes at its places; null where two of them are one. */
 export function withTool(tool: Tool, drawing: Drawing, spots: readonly Spot[]): Drawing | null {
   const [one, two, three] = spots as [Spot, Spot, Spot];
@@ -88,10 +75,10 @@ export function palette(chosen: Tool, take: (tool: Tool) => void): HTMLElement[]
   );
 }
 
-/** What is to be done with a tool that has so many places already. */
-export function hintOf(tool: Tool, placed = 0): (Node | string)[] {
-  const hints: Record<Tool, string[]> = {
-    move: [t("Drag joints; press one, or a link, to edit it.")],
+/** What is to be done for each place that a tool needs. */
+export function asksOf(tool: Tool): string[] {
+  const asks: Record<Tool, string[]> = {
+    move: [],
     ground: [t("Place it on the plane or on a joint.")],
     slider: [t("Place it; drag in its direction.")],
     link: [t("Place joint after joint, also on links, or drag a bar."), t("Now its other end; Esc begins anew.")],
@@ -105,5 +92,12 @@ export function hintOf(tool: Tool, placed = 0): (Node | string)[] {
     ],
     point: [t("Press on a link, drag the point anywhere.")],
   };
-  return [h("b", {}, nameOf(tool)), ": ", hints[tool][placed] ?? hints[tool][0]!];
+  return asks[tool];
+}
+
+/** What is to be done with a tool that has so many places already. */
+export function hintOf(tool: Tool, placed: number): (Node | string)[] {
+  const asks = asksOf(tool);
+  const hint = asks[placed] ?? asks[0] ?? t("Drag joints; press one, or a link, to edit it.");
+  return [h("b", {}, nameOf(tool)), ": ", hint];
 }

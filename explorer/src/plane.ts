@@ -104,8 +104,8 @@ export function mechanismPicture(plane: Drawn): SVGElement[] {
 }
 
 /** The picture of all of it, with the spots that are put already and the place of the cursor; what covers its upper
- * and its lower edge is so high. */
-export function planePicture(plane: Plane, ...covered: [above: number, below: number]): SVGElement[] {
+ * edge is so high. */
+export function planePicture(plane: Plane, covered: number): SVGElement[] {
   const { aim, chosen, cursor, drawing, spots, viewport } = plane;
   const dimensions = dimensionsOf(plane);
   const texts = lettering(plane, dimensions);
@@ -124,7 +124,7 @@ export function planePicture(plane: Plane, ...covered: [above: number, below: nu
   for (const element of behind) putBackdrop(element, picture!, viewport);
   return [
     ...behind,
-    ...gridOf(viewport, unitOf(drawing), ...covered),
+    ...gridOf(viewport, unitOf(drawing), covered),
     svg("path.guide", { d: guides.map((ends) => pathThrough(ends.map((at) => viewport.screen(...at)))).join("") }),
     ...mechanismPicture(plane),
     svg("path", { ...LEADERS, d: leadersThrough(linesOf(texts)) }),
@@ -141,7 +141,7 @@ export function planePicture(plane: Plane, ...covered: [above: number, below: nu
 function grips({ viewport }: Plane, picture: Backdrop): SVGElement[] {
   const edge = cornersOf(picture).map((at) => viewport.screen(...at));
   return [
-    svg("path.edge", { d: `${pathThrough(edge)}Z` }),
+    svg("path.pending", { d: `${pathThrough(edge)}Z` }),
     ...Object.entries(gripsOf(picture)).map(([grip, at]) => {
       const [cx, cy] = viewport.screen(...at);
       return svg("circle.grip", { cx, cy, r: 8, "data-grip": grip });

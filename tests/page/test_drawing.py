@@ -372,6 +372,9 @@ def test_on_a_phone_what_is_chosen_stands_beside_the_table(tab, server):
     view.locator("table input").first.wait_for()
     # beside an upright bar, too
     assert {"1", "2", "3"} <= set(view.locator(".drawing text.name").all_text_contents())
+    plane = "gruebler.views.build.viewport"
+    view.evaluate(f"{plane}.fit({{left: -60, right: 160, bottom: -80, top: 90}}, 1e-9)")
+    shown = view.evaluate(f"[{plane}.scale, ...{plane}.screen(0, 0)]")
     view.evaluate("scrollTo(0, 400)")
     page.until("gruebler.root.querySelector('.view.shown .stage').classList.contains('low')")
     assert view.locator(".drawing + .hint").is_visible()
@@ -384,6 +387,11 @@ def test_on_a_phone_what_is_chosen_stands_beside_the_table(tab, server):
     for k in range(5):  # all of the drawing is in the low picture
         box = view.locator(f'.drawing [data-knot="{k}"]').bounding_box()
         assert 0 <= box["y"] <= height - box["height"]
+        assert box["y"] + box["height"] <= choice.bounding_box()["y"]
+    view.evaluate("scrollTo(0, 0)")
+    page.until("!gruebler.root.querySelector('.view.shown .stage').classList.contains('low')")
+    page.until(f"{plane}.scale === {shown[0]}")  # what was seen before is seen again
+    assert view.evaluate(f"{plane}.screen(0, 0)") == shown[1:]
     view.evaluate("localStorage.clear()")
 
 
@@ -490,6 +498,12 @@ def test_what_is_done_with_the_chosen_takes_one_row_of_a_phone_and_leaves_it_in_
         joint = view.locator(".drawing .chosen .joint").bounding_box()
         assert joint["y"] > shown["y"] + shown["height"] or joint["y"] + joint["height"] < shown["y"]
     assert view.locator(".drawing + .hint").is_hidden()
+    view.evaluate("gruebler.views.build.viewport.fit({left: -10, right: 90, bottom: -60, top: 30}, 1e-9)")
+    box = view.locator(".drawing").bounding_box()
+    x, y = view.evaluate("gruebler.views.build.viewport.screen(0, 10)")
+    view.mouse.click(box["x"] + x, box["y"] + y)  # a link
+    sheet.locator('[data-act="frame"]').wait_for()
+    assert sheet.bounding_box()["height"] < 0.16 * stage["height"]
     sheet.locator('[data-act="remove"]').click()  # the last one is reached
     assert sheet.is_hidden()
 
