@@ -1,9 +1,10 @@
 /** The bodies of links in SVG: bars and plates, rails and blocks, cylinders. */
 
-import { DEGREE } from "./cycle";
+import { type Cycle, DEGREE } from "./cycle";
 import { isFace, type Stem, stemOf } from "./followers";
 import { BOX, HATCH, RAIL, railOf } from "./ground";
 import { away, convexHull, middleOf, pathThrough } from "./hull";
+import type { Rows } from "./kernel";
 import type { Linkage } from "./linkage";
 import { direction, type Pair } from "./rows";
 import { linesOf } from "./shapes";
@@ -274,9 +275,8 @@ export function mouthOf(linkage: Linkage, { ends, near }: { ends: number[]; near
 export function cylinderOf(linkage: Linkage, joint: number): { ends: number[]; near: number; far: number } | null {
   const ends = linkage.sizes.cylinder(joint)?.slice(2);
   if (!ends) return null;
-  const { rows, values } = linkage.cycle;
   let [near, far] = [Infinity, 0];
-  for (const row of fewRows(values.length)) {
+  for (const [rows, row] of fewRows(linkage.cycle)) {
     const [one, other] = ends.map((k) => linkage.elementAt(k, rows, row)) as [Pair, Pair];
     const gap = away(one, ...other);
     if (!Number.isFinite(gap)) continue;
@@ -288,15 +288,16 @@ export function cylinderOf(linkage: Linkage, joint: number): { ends: number[]; n
   return far > STROKE * near && !meant ? null : { ends, near: Math.max(near, far / STROKE), far };
 }
 
-function* fewRows(count: number): Generator<number> {
-  const step = Math.max(1, Math.floor(count / FEW_ROWS));
-  for (let row = 0; row < count; row += step) yield row;
+/** Of a free motion those of the cycle, too, on whose guides it goes. */
+function* fewRows({ rows, values, whole }: Cycle): Generator<[Rows, number]> {
+  const step = Math.max(1, Math.floor(values.length / FEW_ROWS));
+  for (let row = 0; row < values.length; row += step) yield [rows, row];
+  if (whole) yield* fewRows(whole);
 }
 
 /** How far the partners of each line travel along it. */
 function bandsOf(linkage: Linkage): Map<number, Band> {
   const { sizes } = linkage;
-  const { rows, values } = linkage.cycle;
   const bands = new Map<number, Band>();
   linkage.model.elements.forEach((e, k) => {
     if (e.kind !== "line") return;
@@ -304,7 +305,7 @@ function bandsOf(linkage: Linkage): Map<number, Band> {
     const [x, y] = sizes.xy(k);
     let [low, high] = [Infinity, -Infinity];
     const partners = sizes.elementsOf(e.joint).filter((m) => m !== k);
-    for (const row of fewRows(values.length))
+    for (const [rows, row] of fewRows(linkage.cycle))
       for (const m of partners) {
         const [ax, ay] = linkage.elementAt(k, rows, row);
         const [px, py] = linkage.elementAt(m, rows, row);

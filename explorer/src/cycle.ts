@@ -39,6 +39,8 @@ export interface Cycle extends Reach {
   rows: Rows;
   /** The row of the pose from which it was found. */
   home: number;
+  /** Of a free motion the cycle before it. */
+  whole?: Cycle;
 }
 
 /** What is moved: a linkage in a pose, with one of its drives. */

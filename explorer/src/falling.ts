@@ -34,7 +34,7 @@ export class Falling {
       return { ...pose, order: 0, places, turns, rates };
     });
     const values = Float64Array.from(this.#poses, (_, row) => row / fall.rate);
-    linkage.cycle = { ...cycle, values, rows: together(this.#poses) };
+    linkage.cycle = { ...cycle, values, rows: together(this.#poses), whole: cycle };
   }
 
   /** Since it was let go. */

@@ -679,6 +679,21 @@ def test_the_picture_shows_the_whole_of_a_free_motion(tab, server, width):
     assert page.page.evaluate("gruebler.motion.linkage.cycle.rows.order") > 0
 
 
+def test_guides_stay_as_long_in_a_free_motion(tab, server):
+    """Pistons of a compressor that is let go swing about their lowest place; their cylinders are no shorter for it."""
+    page = tab().open(server.address).machine("vcomp")
+    longest = """() => {
+        const rails = [...gruebler.root.querySelectorAll(".ground .rail")];
+        return Math.max(...rails.map((rail) => rail.getTotalLength())) / gruebler.motion.stage.viewport.scale;
+    }"""
+    before = page.page.evaluate(longest)
+    panel = page.page.locator(PANEL)
+    panel.locator("summary").first.click()
+    panel.locator('[data-act="fall"]').click()
+    page.page.locator('[data-act="end"]').wait_for()
+    assert page.page.evaluate(longest) == pytest.approx(before, rel=1e-3)
+
+
 def test_without_the_library_it_says_so(tab, tmp_path):
     from gruebler.cli import main
 
