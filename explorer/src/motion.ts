@@ -70,7 +70,11 @@ export class MotionView implements View, Editor, Driven {
         dragPoint: (point, at, snap) => this.#putPoint(point, ...this.#meant(null, at, snap)),
         movePointBy: (point, dx, dy) => this.#movePointBy(point, dx, dy),
         pull: (link, u, v, x, y) => this.transport.pull(link, u, v, x, y),
-        addPoint: (link, x, y) => this.addPoint(link ?? this.shown.link, x, y),
+        addPoint: (link, x, y) => {
+          this.addPoint(link ?? this.shown.link, x, y);
+          this.stage.setAdding(false);
+          this.side.open("points");
+        },
         choose: (link) => (this.stage.adding ? this.#carry(link) : this.#choose(link)),
         holdJoint: (joint) => {
           this.attempt(() => this.dragging.locks.hold(joint));
