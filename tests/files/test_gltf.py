@@ -200,6 +200,23 @@ def test_a_sleeve_stays_on_its_rod(id, joint):
         assert along.max() <= high
 
 
+def test_a_piston_rod_is_thin_and_stays_in_its_barrel():
+    """Over the stroke of a Gough platform, -40 to 60 mm, it begins within the barrel and its ball stays outside."""
+    record = entry("gough")
+    linkage = record.placed()
+    solids = moving_solids(linkage, between=record.between).solids
+    axis, at = linkage.frames[1, :3, 0], linkage.frames[1, :3, 3]
+    along, radii = {}, {}
+    for link in ("cylinder1", "piston1"):
+        body = max(solids[link], key=lambda each: np.ptp(each.vertices @ axis)).vertices - at
+        along[link] = body @ axis
+        radii[link] = np.linalg.norm(body - np.outer(along[link], axis), axis=1).max()
+    barrel, rod = along["cylinder1"], along["piston1"]
+    assert radii["piston1"] < radii["cylinder1"] / 2
+    assert barrel.min() < rod.min() - 40
+    assert rod.min() + 60 < barrel.max() < rod.max() - 40
+
+
 def test_a_range_is_of_a_format_with_motion(tmp_path):
     with pytest.raises(GrueblerError, match="only glTF has a motion between values of the drive"):
         files.write(FourBar(25, 70, 40, 70), tmp_path / "a.toml", between=(0, 1))

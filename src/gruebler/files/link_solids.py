@@ -32,6 +32,7 @@ from gruebler.structure.chain.spaces import Space
 
 _SLENDER = 45  # the size of a linkage over the radius of its bars
 _THIN = 0.45  # pins and rods against bars
+_BARREL, _ROD = 1.25, 0.6  # of a cylinder and its piston rod, in radii of a bar
 _LONG = 2.2  # of a sleeve to each side, in radii of a bar
 _DISC = 0.8
 _POST = 5.0  # radii of a bar from a bearing of the frame to its foot
@@ -94,11 +95,12 @@ def link_solids(
     at_frame = [at for at, joint in zip(bearings, chain.joints, strict=True) if frame in joint.links]
     ground = _upright(np.mean(at_frame, axis=0) - middle, 1.5 * _POST * radius) if at_frame else np.zeros(3)
     gears = _bevel_gears(linkage) if spherical else {}
+    struts = _struts(linkage, radius, travels or {})
     for number, joint in enumerate(chain.joints):
         at = bearings[number]
         ends = (travels or {}).get(number, (0.0, 0.0))
         outer = frame if frame in joint.links else joint.links[-1]
-        for link in joint.links:
+        for link in joint.links if number not in struts else ():
             hold = at
             cross = next((each for each in crosses if each.holds(number, link)), None)
             if link == frame and not joint.pair.has_contours and not wheeled:
@@ -118,6 +120,18 @@ def link_solids(
             holds[link].append(hold)
     for cross in crosses:
         solids[cross.body or list(cross.arms)[-1]] += _spider(cross, radius)
+    for number, (rod, gland, end, fits) in struts.items():
+        barrel, piston = chain.joints[number].links
+        if not fits:  # it slides on a rod
+            ends = (travels or {}).get(number, (0.0, 0.0))
+            solids[barrel] += _symbol(linkage, number, bearings[number], radius, ends, np.zeros((2, 3)), outer=False)
+        axis = (end - gland) / np.linalg.norm(end - gland)
+        bottom = gland + (holds[barrel][0] - gland) @ axis * axis
+        solids[barrel] += [
+            cylinder_solid(bottom, gland, _BARREL * radius),
+            cylinder_solid(gland - 1.5 * radius * axis, gland + 0.2 * radius * axis, 1.2 * _BARREL * radius),
+        ]
+        solids[piston].append(cylinder_solid(rod, end, _ROD * radius))
     points = {link: [np.array(at) for of, at in linkage.points.values() if of == link] for link in chain.links}
     for link, held in holds.items():
         if link != frame and all(link != cross.body for cross in crosses):
@@ -129,6 +143,39 @@ def link_solids(
     for body in linkage.round_bodies.values():
         solids[body.link].append(round_solid(body))
     return {link: _distinct(each) for link, each in solids.items()}
+
+
+def _struts(
+    linkage: SpatialLinkage, r: float, travels: Mapping[int, tuple[float, float]]
+) -> dict[int, tuple[Reals, Reals, Reals, bool]]:
+    """Sliding joints of a cylinder, their first link, and a piston rod, with one more joint each on both sides of it.
+
+    Given are where the rod begins, where it comes out of the barrel, its end, and whether it stays within the barrel.
+    """
+    chain = linkage.mechanism.chain
+    struts = {}
+    for number, joint in enumerate(chain.joints):
+        free = joint.pair.freedoms[chain.space]
+        slides = [f.axis for f in free if f.travels and not f.has_pitch]
+        ends = [
+            [frame[:3, 3] for k, frame in enumerate(linkage.frames) if k != number and link in chain.joints[k].links]
+            for link in joint.links
+        ]
+        if len(slides) != 1 or len(free) > 2 or linkage.mechanism.frame in joint.links or [*map(len, ends)] != [1, 1]:
+            continue
+        at = linkage.frames[number, :3, 3]
+        axis = linkage.frames[number, :3, "xyz".index(slides[0])]
+        (bottom, end), low_high = (float((each - at) @ axis) for (each,) in ends), travels.get(number, (0.0, 0.0))
+        side = 1.0 if end > bottom else -1.0
+        low, high = sorted(side * each for each in low_high)
+        gland = side * end + low - 3 * r
+        rod = gland - high - r
+        on_axis = all(np.linalg.norm(np.cross(each - at, axis)) < r for (each,) in ends)
+        if on_axis and bottom * end < 0:
+            fits = rod + low > side * bottom + 2 * r
+            rod, gland = (rod, gland) if fits else (-3 * r, 0.0)
+            struts[number] = (at + side * rod * axis, at + side * gland * axis, at + end * axis, fits)
+    return struts
 
 
 def _bars(joints: Sequence[Reals], points: Sequence[Reals], r: float, spherical: bool) -> list[Solid]:
