@@ -435,3 +435,4 @@ def test_what_is_tried_says_where_it_opens(lang, words):
     assert words[1] in tries[1][0]
     assert words[1] in tasks[2]["trial"]  # once, before several
     assert tries[2] == [figure["name"] for figure in tasks[2]["figures"]]  # each says which one
+    assert task_record("universal-joint-1-3", lang)["trial"] == ""  # nothing can be tried

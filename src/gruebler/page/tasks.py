@@ -80,7 +80,7 @@ def task_record(id: str, lang: str) -> dict[str, Any]:
         "task": signed(task.task.in_language(lang)),
         "remark": signed(task.remark.in_language(lang)) if task.remark else "",
         "figures": _figures(task, lang),
-        "trial": "" if len(tries := _tries(task, lang)) == 1 else f"{_IN_MOTION.in_language(lang)}:",
+        "trial": f"{_IN_MOTION.in_language(lang)}:" if len(tries := _tries(task, lang)) > 1 else "",
         "tries": tries,
         "asked": [
             {

@@ -107,6 +107,7 @@ def test_fresh_chains_grow_with_the_level():
         ("exercise-15", "difference", "18.4", "the printed answer. Read off a drawing"),
         ("exercise-13", "mu_min2", "78.2", "the printed answer. Misprint"),
         ("exercise-21", "v_B", "248.66", "towards the crank"),
+        ("velocity-2-4", "a_B", "-1583.85", "away from the crank: positive"),
         ("exercise-21", "v_B", "-246.74", "small λ"),
         ("exercise-21", "v_B", "-160.92", "negative where the rod falls"),  # -250 sin 37.99°/cos 17.01°
         ("exercise-21", "v_B", "-204.79", "endless rod"),  # -250 sin 55°
@@ -136,6 +137,11 @@ def test_hints(id, key, answer, words):
 )
 def test_digits_of_an_answer(answer, worth):
     assert grade(exercise("exercise-11"), {"φ_H2": answer})[0].mark is worth
+
+
+def test_a_whole_result_is_not_met_nearly():
+    """40° + 85° = 125°: no digits are lost on the way to 123."""
+    assert grade(exercise("spherical-grashof-1-5"), {"sum_ends": "123"})[0].mark is Mark.WRONG
 
 
 def test_words_as_answers():

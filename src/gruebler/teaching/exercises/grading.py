@@ -16,7 +16,7 @@ from gruebler.teaching.exercises.solution import Mistake, Result, Value
 from gruebler.teaching.exercises.solving import scale_of, solve
 
 FINE = 1e-3  # relative difference of an answer that is right whatever its digits
-NEARLY = 0.02  # of one that is nearly right: intermediate results rounded
+NEARLY = 0.02  # of one that is nearly right: intermediate results rounded, of which whole results have none
 _WORDS = {"yes": True, "ja": True, "true": True, "no": False, "nein": False, "false": False}
 
 
@@ -225,7 +225,7 @@ def _mark_of(value: Value, reading: GivenAnswer) -> Mark:
         return Mark.RIGHT if off == 0 else Mark.WRONG
     if off <= FINE * size or (off <= 0.5 * reading.place * (1 + 1e-9) and off <= NEARLY * size) or off < 1e-9:
         return Mark.RIGHT
-    return Mark.NEAR if off <= NEARLY * size else Mark.WRONG
+    return Mark.NEAR if off <= NEARLY * size and value % 1 else Mark.WRONG
 
 
 def _mark_of_words(value: Value, answer: str) -> Mark:

@@ -299,8 +299,16 @@ def _check_slider(
     crank, lam = radians(phi), a / b
     rough_v = -a * omega * (sin(crank) + lam / 2 * sin(2 * crank))
     rough_a = -a * omega**2 * (cos(crank) + lam * cos(2 * crank))
-    builder.mistake("v_B", -v, message("The slider moves towards the crank: negative."))
-    builder.mistake("a_B", -acceleration, message("The acceleration points towards the crank: negative."))
+    moves = message(
+        "The slider moves away from the crank: positive." if v > 0 else "The slider moves towards the crank: negative."
+    )
+    points = message(
+        "The acceleration points away from the crank: positive."
+        if acceleration > 0
+        else "The acceleration points towards the crank: negative."
+    )
+    builder.mistake("v_B", -v, moves)
+    builder.mistake("a_B", -acceleration, points)
     if not size.e:
         near = message("That is the approximation for small λ: sin φ + λ/2·sin 2φ.")
         builder.mistake("v_B", rough_v, near)

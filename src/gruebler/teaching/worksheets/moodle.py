@@ -164,7 +164,7 @@ def _answers(solution: Solution, result: Result, lang: str) -> tuple[str, list[_
         if mistake.key == result.key and isinstance(mistake.value, int | float):
             hint = mistake.hint.in_language(lang)
             answers.append(_Answer(repr(mistake.value), 0, hint, _allowed(mistake.value, FINE)))
-    if isinstance(value, float):
+    if value % 1:
         answers.append(_Answer(repr(value), 50, _NEAR.in_language(lang), _allowed(value, NEARLY)))
     return "numerical", answers
 

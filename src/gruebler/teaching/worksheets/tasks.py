@@ -347,7 +347,8 @@ def _marking_key(exercises: Sequence[Exercise], lang: str) -> Iterator[Block]:
     rows.append(("", translate("sum", lang), "", str(total)))
     yield Heading(translate("Marking key", lang), 1)
     rule = message(
-        "A number is right within half a unit of its last digit or a thousandth, nearly right within two in a hundred. "
+        "A number is right within half a unit of its last digit or a thousandth, nearly right within two in a hundred "
+        "unless the result is whole. "
         "gruebler exercise check ID KEY=ANSWER marks by the same rule."
     )
     yield Paragraph(rule.in_language(lang))
