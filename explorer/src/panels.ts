@@ -303,7 +303,7 @@ export function modesPanel(editor: Editor): HTMLElement {
   if (!groups.length) return h("p.note", {}, t("There is one assembly mode only."));
   const chips = groups.map(({ dyad, links, number: mode }) => {
     const text = linkage.linkList(links);
-    if (!dyad) return h("div.chip", {}, text);
+    if (!dyad) return h("span.note", {}, text);
     const onclick = () => editor.attempt(() => linkage.switchMode(mode));
     return h("button.plain", { "data-mode": mode, onclick }, t("{links}: other side", { links: text }));
   });

@@ -7,11 +7,13 @@ import { type Found, factsOf } from "./facts";
 import { Forces, type Loaded } from "./forces";
 import { t } from "./language";
 import { deadCentres, isAngle, leastTransmission, shiftOf, travelOf } from "./measures";
+import type { Model } from "./model";
 import { type Editor, modesPanel, optionsPanel, pointsPanel, rulersPanel, SizeRows } from "./panels";
 import { Plots } from "./plots";
 import { panelOf } from "./shell";
 import { whole } from "./waiting";
 
+const MANY = 9; // links of which the sizes are folded at first
 const RESTING = 100; // milliseconds without a step of a drag
 
 /** The view that they stand beside. */
@@ -32,7 +34,8 @@ export class Side {
   });
   readonly #sizes: SizeRows;
   readonly #words: InWords;
-  readonly #opened = new Set(["sizes", "measures", "plots"]);
+  readonly #opened = new Set(["measures", "plots"]);
+  #model: Model | null = null;
   /** What followed in the last step of a drag. */
   #turn = 0;
   #resting = 0;
@@ -50,6 +53,9 @@ export class Side {
   /** Lay them out; what is measured is put into them afterwards. */
   arrange(): void {
     const { element, view } = this;
+    const { model } = view.linkage;
+    if (model !== this.#model) this.#opened[model.own > MANY ? "delete" : "add"]("sizes"); // plots would be far below
+    this.#model = model;
     this.#words.arrange(view.linkage);
     const { scrollTop } = element; // before its parts leave it for new panels
     renew(
