@@ -111,7 +111,7 @@ export class Naming {
   /** Put all names where they have room; what other texts are to keep clear of, names included. */
   place(linkage: Linkage, { arrows, curves, forces, grounds, joints }: Around): Pair[][] {
     const { viewport } = this;
-    this.legend.lay(viewport);
+    const untold = !this.legend.lay(viewport) && this.#numbered;
     const hulls = this.#labels.map(({ hull }) => (hull && this.#labels.length < MOST_CLEAR ? hull(viewport) : []));
     const bodies = hulls.filter((hull) => hull.length);
     const still = [...arrows, ...grounds, this.#buttons];
@@ -123,7 +123,12 @@ export class Naming {
     const [stands, drawn] = [grounds.map(boxed), still.map(boxed)];
     const far: [number, Label][] = [];
     for (const [k, label] of order) {
-      const { half, spots } = label;
+      const { element, half, sized, spots } = label;
+      // a number says nothing without the list
+      if (untold && sized) {
+        put(element, { display: "none" });
+        continue;
+      }
       const places = spots(viewport);
       const clear = (of: Pair[][]) => (at: Pair) =>
         !this.#touching(half, at) && of.every((one) => clearOf(one, half, at));

@@ -156,6 +156,7 @@ def test_a_ring_gear_has_its_name_at_its_rim_and_turns_visibly(tab, server, widt
     page.until("gruebler.root.querySelector('.motion .stage').getBoundingClientRect().height < 250")
     page.until("gruebler.root.querySelector('.motion .bodies').getBoundingClientRect().height > 60")
     assert entries.count() == 0
+    assert page.page.locator('.stage text.name:not([display="none"])').count() == 0  # no number without the list
     # the way of a block is drawn from where it is measured while the value is pointed at
     page.machine("slidercrank")
     way = page.page.locator(".stage .ruler")
