@@ -27,7 +27,7 @@ import { spaced, t } from "./language";
 import { movedKept } from "./lengths";
 import type { Linkage } from "./linkage";
 import { type Drawn, MobilityPanel } from "./mobility";
-import { asksOf, hintOf, KEYS, palette, type Tool, withTool } from "./palette";
+import { hintOf, KEYS, palette, type Tool, withTool, wordsOf } from "./palette";
 import { placesPanel } from "./places";
 import { type Aim, type Chosen, GRIP, isPicture, linkFor, type Plane, planePicture, spotAt } from "./plane";
 import { WAYS } from "./pointer";
@@ -273,7 +273,7 @@ export class BuildView implements View, Plane, Drawn {
       this.#draw();
       return this.#showChoice();
     }
-    if (spots.length < asksOf(tool).length) return this.#draw();
+    if (spots.length < wordsOf(tool).length - 1) return this.#draw();
     this.spots = [];
     const [from] = spots as [Spot];
     const link = tool === "link" && !same(from, spot) && joining(drawing, from, spot);
@@ -292,9 +292,8 @@ export class BuildView implements View, Plane, Drawn {
   }
 
   /** A press puts a place; where the pointer is let go elsewhere the next one is put, too. */
-  #pull(spot: Spot, event: PointerEvent): void {
-    const at = pixelIn(this.root, event);
-    if (this.#tool === "slider" || this.#tool === "point") return this.#shape(spot, event);
+  #pull(spot: Spot, event: PointerEvent, at: Pair): void {
+    if (this.#tool === "slider" || this.#tool === "point") return this.#shape(spot, event, at);
     const again = this.spots.length === 1 && same(this.spots[0]!, spot);
     if (!again) this.#put(spot);
     if (this.spots.length !== 1 || (this.#goingOn && !again)) return;
@@ -316,8 +315,7 @@ export class BuildView implements View, Plane, Drawn {
   }
 
   /** A slide that is dragged on gets its direction, a point its place. */
-  #shape(spot: Spot, event: PointerEvent): void {
-    const start = pixelIn(this.root, event);
+  #shape(spot: Spot, event: PointerEvent, start: Pair): void {
     const point = this.#tool === "point";
     const link = point ? linkFor(this, spot, start) : null;
     if (point && link === null) return this.page.say(t("Draw a link first."));
@@ -363,8 +361,8 @@ export class BuildView implements View, Plane, Drawn {
   get ahead(): string {
     const { cursor, drawing, spots } = this;
     const tool = this.#tool;
-    const more = asksOf(tool).length - spots.length;
-    if (this.aim !== "aiming" || tool === "move" || tool === "scale" || more > 1) return "";
+    const more = wordsOf(tool).length - spots.length; // and its name
+    if (this.aim !== "aiming" || tool === "move" || tool === "scale" || more > 2) return "";
     const spot = this.#spot(this.viewport.screen(...cursor), false);
     const next = withTool(tool, drawing, [...spots, spot]);
     return next?.frame && linksOf(next)[2] ? `F = ${counted(next)}` : "";
@@ -377,21 +375,21 @@ export class BuildView implements View, Plane, Drawn {
   }
 
   #hover(event: PointerEvent): void {
-    if (this.#fingers.move(event.pointerId, pixelIn(this.root, event), this.viewport)) return this.#draw();
-    if (this.#tool === "move") return;
-    this.#aimAt("aiming", this.#spot(pixelIn(this.root, event), event.shiftKey).at);
+    const now = pixelIn(this.root, event);
+    if (this.#fingers.move(event.pointerId, now, this.viewport)) return this.#draw();
+    if (this.#tool !== "move") this.#aimAt("aiming", this.#spot(now, event.shiftKey).at);
   }
 
   #down(event: PointerEvent): void {
     if (event.button > 0 || (event.target as SVGElement).dataset.span) return;
-    this.#fingers.put(event.pointerId, pixelIn(this.root, event));
+    let last = pixelIn(this.root, event);
+    this.#fingers.put(event.pointerId, last);
     if (this.#fingers.count > 1) return this.#takeBack();
     this.#begun = [this.drawing, [...this.spots]];
-    const spot = this.#spot(pixelIn(this.root, event), event.shiftKey);
-    if (this.#tool !== "move") return this.#pull(spot, event);
+    const spot = this.#spot(last, event.shiftKey);
+    if (this.#tool !== "move") return this.#pull(spot, event, last);
     const before = this.drawing;
     const { picture } = before;
-    let last = pixelIn(this.root, event);
     const start = this.viewport.world(...last);
     const grip =
       picture && isPicture(this.chosen) && spot.knot === null

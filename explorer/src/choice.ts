@@ -48,8 +48,9 @@ export function removeChosen(view: Changing): void {
 export function isLow({ chosen, drawing, viewport }: Plane): boolean {
   const more = drawing.knots.reduce((sum, { at, links }, k) => {
     const [, y] = viewport.screen(...at);
-    const own = k === chosen?.knot || links.includes(chosen?.link ?? "");
-    return sum + (own ? 99 : 1) * (Number(y > viewport.height - SHEET) - Number(y < SHEET));
+    const worth = k === chosen?.knot || links.includes(chosen?.link ?? "") ? 99 : 1;
+    if (y > viewport.height - SHEET) return sum + worth;
+    return y < SHEET ? sum - worth : sum;
   }, 0);
   return more > 0;
 }
@@ -114,7 +115,7 @@ export function choiceOf(view: Changing): HTMLElement[] {
   const { at, between, links } = drawing.knots[knot]!;
   // a block and its slide lie at one place
   const slide = drawing.knots.findIndex((one) => one.slide !== undefined && same(one, drawing.knots[knot]!));
-  const joints = [knot, slide].filter((k, m, all) => drawing.knots[k]?.links[1] && all.indexOf(k) === m);
+  const joints = [...new Set([knot, slide])].filter((k) => drawing.knots[k]?.links[1]);
   const parts = joints.map((k) => {
     const text = drawing.drives.includes(k) ? t("Not driven") : t("Drive");
     const letter = joints[1] === undefined ? "" : ` ${knotName(drawing, k)}`;

@@ -2,7 +2,7 @@
 
 import { type Child, h } from "./dom";
 import { t } from "./language";
-import { KEYS, nameOf } from "./palette";
+import { KEYS, wordsOf } from "./palette";
 import type { Transport } from "./transport";
 
 interface Picture {
@@ -25,7 +25,9 @@ export function showKeys(root: HTMLElement, draws: boolean): void {
     ["+ − 0", t("zoom, show everything")],
     ["?", t("this list")],
   ];
-  const tools = `${t("Draw")}: ${Object.values(KEYS).map(nameOf).join(", ")}`;
+  const tools = `${t("Draw")}: ${Object.values(KEYS)
+    .map((tool) => wordsOf(tool)[0])
+    .join(", ")}`;
   if (draws) rows.push([Object.keys(KEYS).join(" ").toUpperCase(), tools]);
   showRows(root, rows);
 }

@@ -7,7 +7,6 @@ import {
   driven,
   jointName,
   jointsOf,
-  type Knot,
   knotName,
   linksOf,
   type Spot,
@@ -17,6 +16,7 @@ import {
 } from "./drawing";
 import { clearAbout, convexHull, middleOf } from "./hull";
 import { number, spaced, t } from "./language";
+import { isCylinder } from "./outlines";
 import type { Pair } from "./rows";
 import { extentOf } from "./starters";
 import type { Page } from "./view";
@@ -89,8 +89,7 @@ export class MobilityPanel {
     const joints = numbers.map((k) => jointName(drawing, k)).join(" ");
     const names = numbers.map((k) => knotName(drawing, k));
     const drives = drawing.drives.map((k) => numbers.indexOf(k));
-    const drawnAs = ({ between, part }: Knot) => between && part === undefined;
-    const cylinders = [...numbers.keys()].filter((k) => drawnAs(drawing.knots[numbers[k]!]!));
+    const cylinders = [...numbers.keys()].filter((k) => isCylinder(drawing.knots[numbers[k]!]!));
     const ends: Record<string, string> = {};
     for (const [k, { links }] of drawing.knots.entries()) if (!links[1]) ends[links[0]!] ??= knotName(drawing, k);
     try {
@@ -149,7 +148,7 @@ function stepFrom(before: Drawing | null, after: Drawing): string | null {
   const joints = now - old - links;
   if (!links && !joints) return null;
   const signed = (value: number) => `${value > 0 ? "+" : ""}${number(value)}`;
-  const text = t("Last step, freedoms: {links} by links, {joints} by joints.", {
+  const text = t("Last step: links change F by {links}, joints by {joints}.", {
     links: signed(links),
     joints: signed(joints),
   });

@@ -42,19 +42,38 @@ export const KEYS: Record<string, Exclude<Tool, "scale">> = {
   p: "point",
 };
 
-export function nameOf(tool: Tool): string {
-  const names: Record<Tool, string> = {
-    move: t("Move"),
-    ground: t("Ground"),
-    link: t("Link"),
-    slider: t("Slider"),
-    dyad: t("Dyad"),
-    cylinder: t("Cylinder"),
-    gears: t("Gear pair"),
-    point: t("Point"),
-    scale: t("Scale of the picture"),
+/** What a tool is called, and what is to be done for each place that it needs. */
+export function wordsOf(tool: Tool): string[] {
+  const words: Record<Tool, string[]> = {
+    move: [t("Move")],
+    ground: [t("Ground"), t("Place it on the plane or on a joint.")],
+    slider: [t("Slider"), t("Place it; drag in its direction.")],
+    link: [
+      t("Link"),
+      t("Place joint after joint, also on links, or drag a bar."),
+      t("Now its other end; press Link to restart."),
+    ],
+    cylinder: [t("Cylinder"), t("Place both ends, or drag from end to end."), t("Now the end of its rod.")],
+    dyad: [
+      t("Dyad"),
+      t("Place an end, the middle, the other end."),
+      t("Now its middle joint."),
+      t("Now its other end."),
+    ],
+    scale: [
+      t("Scale of the picture"),
+      t("Place two points of the picture, then type their distance."),
+      t("Now the second point."),
+    ],
+    gears: [
+      t("Gear pair"),
+      t("Place both centres, then the contact."),
+      t("Now the other centre."),
+      t("Now the contact; outside: ring gear."),
+    ],
+    point: [t("Point"), t("Press on a link, drag the point anywhere.")],
   };
-  return names[tool];
+  return words[tool];
 }
 
 /** A button for each tool. */
@@ -69,35 +88,15 @@ export function palette(chosen: Tool, take: (tool: Tool) => void): HTMLElement[]
         onclick: () => take(key),
       },
       icon(key === "link" ? "bar" : key),
-      nameOf(key),
+      wordsOf(key)[0],
       h("span.letter.keys", {}, ` (${letter.toUpperCase()})`),
     ),
   );
 }
 
-/** What is to be done for each place that a tool needs. */
-export function asksOf(tool: Tool): string[] {
-  const asks: Record<Tool, string[]> = {
-    move: [],
-    ground: [t("Place it on the plane or on a joint.")],
-    slider: [t("Place it; drag in its direction.")],
-    link: [t("Place joint after joint, also on links, or drag a bar."), t("Now its other end; Esc begins anew.")],
-    cylinder: [t("Place both ends, or drag from end to end."), t("Now the end of its rod.")],
-    dyad: [t("Place an end, the middle, the other end."), t("Now its middle joint."), t("Now its other end.")],
-    scale: [t("Place two points of the picture, then type their distance."), t("Now the second point.")],
-    gears: [
-      t("Place both centres, then the contact."),
-      t("Now the other centre."),
-      t("Now the contact; outside: ring gear."),
-    ],
-    point: [t("Press on a link, drag the point anywhere.")],
-  };
-  return asks[tool];
-}
-
 /** What is to be done with a tool that has so many places already. */
 export function hintOf(tool: Tool, placed: number): (Node | string)[] {
-  const asks = asksOf(tool);
+  const [name, ...asks] = wordsOf(tool);
   const hint = asks[placed] ?? asks[0] ?? t("Drag joints; press one, or a link, to edit it.");
-  return [h("b", {}, nameOf(tool)), ": ", hint];
+  return [h("b", {}, name), ": ", hint];
 }

@@ -121,7 +121,7 @@ export function planePicture(plane: Plane, covered: number): SVGElement[] {
   const told = [read, plane.ahead].filter(Boolean).join(" → ");
   const { picture } = drawing;
   const behind = picture ? [backdropElement(picture)] : [];
-  for (const element of behind) putBackdrop(element, picture!, viewport);
+  if (picture) putBackdrop(behind[0]!, picture, viewport);
   return [
     ...behind,
     ...gridOf(viewport, unitOf(drawing), covered),
