@@ -64,7 +64,10 @@ export function field(
   set: (value: number) => Drawing | null,
 ) {
   const input: HTMLInputElement = h("input", {
-    ...digits(value),
+    ...digits(
+      value,
+      view.drawing.knots.flatMap(({ at }) => at),
+    ),
     size: 7,
     inputmode: "decimal",
     "data-field": key,

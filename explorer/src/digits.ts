@@ -2,17 +2,23 @@
 
 import { number, parsed } from "./language";
 
-/** What a field has of its value. */
-export function digits(value: number): Record<string, unknown> {
+/** What a field has of its value; with the focus alone what rounding leaves of 0 beside larger ones. */
+export function digits(value: number, others: readonly number[] = []): Record<string, unknown> {
+  const least = 1e-4 * Math.max(...others.map(Math.abs));
+  const shown = (own: number) => {
+    const text = number(own);
+    // what was typed has few digits
+    return Math.abs(own) < least && text !== number(own, 7) ? "0" : text;
+  };
   return {
-    value: number(value),
+    value: shown(value),
     title: number(value, 7),
     onfocus: ({ target }: { target: HTMLInputElement }) => {
       target.value = target.title;
       target.select();
     },
     onblur: ({ target }: { target: HTMLInputElement }) => {
-      if (target.value === target.title) target.value = number(parsed(target.value));
+      if (target.value === target.title) target.value = shown(parsed(target.value));
     },
   };
 }

@@ -34,7 +34,7 @@ export function rowsTable(
   const called = (k: number) => t("{title} {number}", { title, number: numbered(k) }).trim();
   const cell = (row: number[], k: number, axis: number) => {
     const input = h("input", {
-      ...digits(row[axis]!),
+      ...digits(row[axis]!, rows.flat()),
       inputmode: "decimal",
       "aria-label": `${called(k)} ${head[axis]}`,
       onchange: () => {

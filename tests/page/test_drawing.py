@@ -822,6 +822,17 @@ def check_that_points_and_slides_are_pulled(plane) -> None:
     assert view.evaluate("gruebler.views.build.drawing.knots.at(-1).slide") == 45
 
 
+def check_that_little_is_read_as_zero(plane, joint: str) -> None:
+    """As 0.0036 of a pose beside 100 mm; what is typed so stays, and no place is changed."""
+    field = plane.page.locator('.choosing [data-field="x"]')
+    for typed, read in (("0.0036127", "0"), ("0.005", "0.005"), ("30", "30")):
+        field.fill(typed)
+        field.press("Enter")
+        field.blur()  # else all digits are shown
+        assert field.input_value() == read
+        assert plane.page.evaluate(joint)[0] == float(typed)
+
+
 def test_joints_are_joined_split_named_and_removed(plane):
     view = plane.page
     view.click('[data-tool="link"]')
@@ -853,6 +864,7 @@ def test_joints_are_joined_split_named_and_removed(plane):
         view.locator(f'.choosing [data-field="{field}"]').press("Enter")
         joint = "gruebler.views.build.drawing.knots.find((knot) => knot.links.length === 2).at"
         assert view.evaluate(joint) == pytest.approx(place)
+    check_that_little_is_read_as_zero(plane, joint)
     click(plane, (15, 20))
     check_that_a_length_is_kept(plane, joint)
     click(plane, (15, 20))
