@@ -208,7 +208,7 @@ export function lettering(plane: Shown, dimensions: readonly Dimension[]): Writt
     else if (own[0] && (!viewport.narrow || chosen?.link === link))
       far.push(() => {
         const home = own[2] ? own : [];
-        const found = leaderOf(boxed(own), home, rest.map(boxed), half, free, linesOf(written), written)();
+        const found = leaderOf(boxed(own), home, others.map(boxed), half, free, linesOf(written), written)();
         if (found) write(name, found.at, found.line);
       });
   }

@@ -1099,6 +1099,8 @@ def test_a_letter_stands_nearest_to_its_own_joint(tab, server, width, height):
     }""")
     assert len(found) > 8
     assert [letter for letter, far in found if far.index(min(far)) != ord(letter) - ord("A")] == []
+    # a piston that lies upon a plate has its name there, on a phone once it is chosen
+    assert view.locator(".drawing text.name", has_text="boom piston").count() == (width > 390)
 
 
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (390, 844)])
