@@ -22,7 +22,7 @@ import { lengthOf, movedKept, spansOf, withLength } from "./lengths";
 import { isPicture, type Plane } from "./plane";
 import type { Pair } from "./rows";
 
-const SHEET = 98; // pixels at an edge of the plane, with what can be done with what is chosen
+const SHEET = 88; // pixels at an edge of the plane, with what can be done with what is chosen
 
 /** The view of a drawing, as far as it is changed here. */
 interface Changing extends Plane {
