@@ -199,8 +199,8 @@ def test_several_drives_move_together(tmp_path, chromium, id):
     drives = linkage.mechanism.drives
     assert len(sliders) == len(drives)
     values = [(0.2 if drive.turning else 12.0) * (-1) ** k for k, drive in enumerate(drives)]
-    for slider, value in zip(sliders, values, strict=True):
-        slider.fill(str(value))
+    for slider, value, drive in zip(sliders, values, drives, strict=True):
+        slider.fill(str(value % (2 * np.pi) if drive.turning else value))
     reached = page.evaluate("gruebler.linkage.drives")  # a drive that has turned since the start keeps its whole turns
     turns = np.round((np.array(reached) - values) / (2 * np.pi)) * [drive.turning for drive in drives]
     assert reached == pytest.approx(values + 2 * np.pi * turns)
@@ -554,6 +554,14 @@ def test_sizes_that_go_together_are_taken_together(server, chromium):
     browser, page, errors = browsed_at(chromium, server.address + "space/bennett.html#en")
     page.get_by_role("button", name="Pause").click()
     alert = page.locator('[data-panel="sizes"] [role="alert"]')
+    for field, size, reason in (
+        ("0-0", "50", "unless other"),
+        ("1-1", "−5", "not −5° The marked sizes are tried together"),
+    ):
+        page.locator(f"#size-{field}").fill(size)
+        page.locator(f"#size-{field}").press("Enter")
+        page.locator('[data-panel="sizes"] [role="alert"]', has_text=reason).wait_for()
+    page.locator('[data-icon="undo"]').click()
     wanted = {
         0: ("100", "unless other sizes change"),
         2: ("100", "no drive moves it"),
@@ -917,5 +925,7 @@ def test_a_transfer_function_of_one_is_a_flat_line_and_angles_have_ticks_of_quar
     assert ticks[0][:3] == ["0", "90", "180"]
     one, two = (page.locator('[data-panel="measures"] dt').nth(k).bounding_box() for k in range(2))
     assert one["y"] == two["y"]  # in two columns
+    drive_to(page, "6.048")
+    assert page.locator('[data-panel="measures"] dd').first.inner_text() == "6.048°"
     assert errors == []
     browser.close()

@@ -267,25 +267,17 @@ function rowOf(motion: Motion, value: number): number {
   return (motion.values.length - 1) * (motion.round ? part - Math.floor(part) : Math.min(Math.max(part, 0), 1));
 }
 
-/** The poses of a row; one beyond the last comes again after a full turn, else goes on in a parabola. */
-function posesAt({ poses, round }: Motion, row: number): number[][] {
+/** Poses between rows: on the polynomial through six of them. */
+function between({ poses, round }: Motion, at: number): number[][] {
   const last = poses.length - 1;
-  const known = poses[round ? (row + last) % last : row];
-  if (known) return known;
-  const [a, b, c] = [0, 1, 2].map((k) => poses[row < 0 ? k : last - k]!) as [number[][], number[][], number[][]];
-  return a.map((pose, link) => pose.map((v, k) => 3 * (v - b[link]![k]!) + c[link]![k]!));
-}
-
-/** Poses between two rows: on the cubic through these and their neighbours. */
-function between(motion: Motion, at: number): number[][] {
-  const low = Math.min(Math.floor(at), motion.poses.length - 2);
-  const x = at - low;
-  const [a, b, c, d] = [-1, 0, 1, 2].map((k) => posesAt(motion, low + k)) as [number[][], ...number[][][]];
-  return a.map((pose, link) =>
-    pose.map((first, k) => {
-      const [second, third, fourth] = [b, c, d].map((one) => one![link]![k]!) as [number, number, number];
-      const [start, end, way] = [(third - first) / 2, (fourth - second) / 2, third - second];
-      return second + x * (start + x * (3 * way - 2 * start - end + x * (start + end - 2 * way)));
-    }),
+  const first = Math.floor(at) - 2;
+  const low = round ? first : Math.max(0, Math.min(first, last - 5));
+  const rows = [0, 1, 2, 3, 4, 5].map((k) => low + k);
+  const parts = rows.map((row) => ({
+    row: poses[round ? (row + last) % last : row]!,
+    weight: rows.reduce((part, other) => (other === row ? part : (part * (at - other)) / (row - other)), 1),
+  }));
+  return poses[0]!.map((pose, link) =>
+    pose.map((_, k) => parts.reduce((sum, { row, weight }) => sum + weight * row[link]![k]!, 0)),
   );
 }

@@ -1,6 +1,6 @@
 /** Sizes and joints of a machine in space, typed: the server makes the machine with them, which can be undone. */
 
-import { h, renew } from "../dom";
+import { h, renew, withMinus } from "../dom";
 import { currentLanguage, number, parsed, t } from "../language";
 import { store, stored } from "../storing";
 import { moment } from "../waiting";
@@ -131,8 +131,7 @@ export class Resizing {
         const wanted = parsed(field.value);
         field.setAttribute("aria-invalid", String(Number.isNaN(wanted)));
         if (Number.isNaN(wanted)) {
-          this.#said.textContent = t("Expected a number, such as {value}.", { value: number(value, DIGITS) });
-          return;
+          return this.#say(t("Expected a number, such as {value}.", { value: number(value, DIGITS) }));
         }
         const size: Size = [...(this.#typed.get(link) ?? [null, null])];
         size[which] = wanted;
@@ -160,9 +159,18 @@ export class Resizing {
       this.#take(made);
     } catch (error) {
       if (question !== this.#asked) return;
-      said.textContent = (error as Error).message;
-      if (said === this.#said) this.#refused();
+      said.textContent = withMinus((error as Error).message);
+      if (said !== this.#said) return;
+      this.#refused();
+      this.#say(said.textContent);
     }
+  }
+
+  /** What is wrong; of several fields that are marked that they go together. */
+  #say(text: string): void {
+    const { words } = this.owner.shown().texts[currentLanguage()];
+    const several = this.element.querySelectorAll("[aria-invalid=true]").length > 1;
+    this.#said.textContent = several ? `${text} ${words.together}` : text;
   }
 
   /** What was typed is kept, since other sizes may go with it. */

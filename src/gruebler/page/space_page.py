@@ -21,6 +21,7 @@ from gruebler.files.screws import screws_to_json
 from gruebler.files.solids import Solid
 from gruebler.mechanics.screws import SpatialLinkage
 from gruebler.mechanics.screws.link_sizes import link_sizes
+from gruebler.mechanics.screws.mobility_report import freedoms
 from gruebler.mechanics.screws.resizing import can_be_resized
 from gruebler.mechanics.screws.wheels import gear_rows
 from gruebler.mechanics.space.outputs import against_frame, valued_freedoms
@@ -60,6 +61,7 @@ _WORDS = {
     "none": message("No drive moves this linkage."),
     "driven": message("With a drive:"),
     "end": message("{drive} goes no farther while the other drives stand here."),
+    "together": message("The marked sizes are tried together and not used yet."),
     "angle": message("Twist angle"),
     "crossed": message("angle"),
     "lost": message("The connection to gruebler is lost."),
@@ -83,6 +85,7 @@ _WORDS = {
     "without": message("It leads to the machine without the sizes that were changed here."),
     "flat": message("This browser cannot draw in space: it has no WebGL 2."),
 }
+_UNDRIVEN = message("It can move, but has no drive here.")
 _AGAINST = message("{moved} relative to {still}")
 _ALONE = message("The drives move one at a time here, since the page does not solve {joint}.")
 
@@ -138,6 +141,8 @@ def space_model(
     words, unsolved = dict(_WORDS), _unsolved(linkage)
     if len(moving.motions) > 1 and unsolved is not None:
         words["alone"] = _ALONE.filled(joint=chain.joint_title(unsolved))
+    if not mechanism.drives and freedoms(linkage).useful:
+        words["none"] = _UNDRIVEN
     bodies = []
     for link in chain.links:
         round_ones = sum(body.link == link for body in linkage.round_bodies.values())  # they are its last
