@@ -1,7 +1,7 @@
 /** Small plots over the drive, linked with it by a cursor; the value at the drive or pointer stands above the curve. */
 
 import { DEGREE } from "./cycle";
-import { put, svg } from "./dom";
+import { put, renew, svg } from "./dom";
 import { degreeStep, gridStep } from "./grid";
 import { number, t } from "./language";
 import { halfOf } from "./names";
@@ -33,7 +33,8 @@ const TOP = 20;
 const BOTTOM = 30;
 const TICK = 6.6; // pixels of a digit at an axis
 const LONG = 39; // letters of a title beside which a value has no room
-const FULL = 45; // letters of a title that fill its line
+const LINES = /^(.{0,45})(?: (.+))?$/; // of a title
+const ROW = 14; // pixels of one more row above
 const EVEN = 200; // places of the drive at which values are compared
 const PART = 0.05; // of the drive: where values may be without bound
 const ONE = 1e-5; // of values: those that differ by less are read as one
@@ -41,15 +42,13 @@ const FLAT = 0.1; // pixels: the second difference below which a line is nearly 
 
 export class Plot {
   readonly element = svg("svg.plot", {
-    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
     role: "img",
   });
   readonly #curve = svg("path.curve", {});
   readonly #band = svg("rect.band", { height: 0 });
-  readonly #zero = svg("path.axis", {});
   readonly #cursor = svg("path.cursor", {});
   readonly #here = svg("circle.here", { r: 3, cy: -9 });
-  readonly #title = svg("text.title", { x: 2, y: 13 });
+  readonly #title = svg("text.title", { x: 2 });
   readonly #value = svg("text.read", { x: WIDTH - RIGHT, y: 13, "text-anchor": "end" });
   readonly #beyond = svg("path.here", {});
   readonly #mesh = svg("path.mesh", {});
@@ -60,7 +59,6 @@ export class Plot {
   readonly #along = svg("text", { x: WIDTH - RIGHT, y: HEIGHT - 3, "text-anchor": "end" });
   readonly #upward = svg("g");
   readonly #across = svg("g");
-  #ticked = "";
   #pointed = NaN;
   private drive = NaN;
   private drives: Float64Array = new Float64Array(0);
@@ -85,7 +83,6 @@ export class Plot {
       this.#across,
       this.#along,
       this.#frame,
-      this.#zero,
       this.#inner,
       this.#cursor,
       this.#here,
@@ -116,7 +113,7 @@ export class Plot {
       element.setPointerCapture(event.pointerId);
       at(event);
     });
-    for (const name of ["pointerup", "pointercancel", "pointerleave"] as const)
+    for (const name of ["pointerup", "pointerleave"] as const)
       element.addEventListener(name, (event) => void fingers.delete(event.pointerId));
     element.addEventListener("pointermove", (event) => {
       const before = fingers.get(event.pointerId);
@@ -168,7 +165,7 @@ export class Plot {
     if (this.span.widen(TICK * letters + 6)) return; // all of them anew
     const { left } = this.span;
     const across = drives.map((drive) => this.#x(drive));
-    const sides = series.values.map((value) => Number(value > this.#high) - Number(value < this.#low));
+    const sides = series.values.map((value) => +(value > this.#high) - +(value < this.#low));
     const places = series.values.map((value, k) => {
       const out = sides[k] && sides[k - 1] === sides[k] && sides[k + 1] === sides[k];
       return out ? NaN : Math.max(TOP - 2, Math.min(HEIGHT - BOTTOM + 2, this.#y(value)));
@@ -178,39 +175,28 @@ export class Plot {
     const ring = ([x, y]: Pair) => `M${this.#x(x)} ${this.#y(y) - 4}a4 4 0 1 0 .1 0`;
     put(this.#marks, { d: (series.marks ?? []).map(ring).join("") });
     const crossed = this.#low < 0 && this.#high > 0;
-    put(this.#zero, { d: crossed ? `M${left} ${this.#y(0).toFixed(1)}H${WIDTH - RIGHT}` : "" });
+    const zero = crossed ? `M${left} ${this.#y(0).toFixed(1)}H${WIDTH - RIGHT}` : "";
     const foot = HEIGHT - BOTTOM;
     const top = Math.max(TOP, Math.min(foot, this.#y(series.floor ?? -Infinity)));
     const wide = this.#wide;
-    put(this.#frame, { d: `M${left} ${TOP}V${foot}H${WIDTH - RIGHT}` });
+    put(this.#frame, { d: `M${left} ${TOP}V${foot}H${WIDTH - RIGHT}${zero}` });
     put(this.#inner, { x: left, width: wide, height: HEIGHT, viewBox: `${left} 0 ${wide} ${HEIGHT}` });
     put(this.#band, { x: left, width: wide, height: (foot - top).toFixed(1), y: top.toFixed(1) });
     if (this.element.getAttribute("aria-label") !== series.title) {
-      this.#title.textContent = series.title;
       this.#along.textContent = `${this.unit === "s" ? t("Time") : t("Drive")} [${this.unit}]`;
-      const long = series.title.length;
-      put(this.#value, { y: long > LONG ? TOP + 10 : 13 });
-      this.#title.style.fontSize = long > FULL ? `${(12 * FULL) / long}px` : "";
+      const { title } = series;
+      const [, one = title, other = ""] = LINES.exec(title) ?? [];
+      const row = title.length > LONG ? ROW : 0;
+      renew(this.#title, one, svg("tspan", { x: 2, dy: ROW }, other));
+      put(this.#title, { y: 13 - row });
       this.#curve.style.stroke = `var(${series.colour})`;
-      put(this.element, { "aria-label": series.title });
+      put(this.element, { "aria-label": title, viewBox: `0 ${-row} ${WIDTH} ${HEIGHT + row}` });
     }
-    this.#showTicks(this.domain, upward);
-    this.at(this.drive);
-  }
-
-  /** Round values at both axes; they are made anew where they are others. */
-  #showTicks(domain: Pair, upward: number[]): void {
     const unit = this.#scale;
-    const [first, last] = [domain[0] / unit, domain[1] / unit];
-    const [low, high] = [this.#low, this.#high];
-    const across = (unit === 1 ? roundValues : degreeValues)(first, last, 4);
-    const { left } = this.span;
-    const told = [first, last, low, high, left].join();
-    if (told === this.#ticked) return;
-    this.#ticked = told;
+    const ticks = (unit === 1 ? roundValues : degreeValues)(first / unit, last / unit, 4);
     const lines = [
       ...upward.map((value) => `M${left} ${this.#y(value).toFixed(1)}H${WIDTH - RIGHT}`),
-      ...across.map((value) => `M${this.#x(value * unit).toFixed(1)} ${TOP}V${HEIGHT - BOTTOM}`),
+      ...ticks.map((value) => `M${this.#x(value * unit).toFixed(1)} ${TOP}V${foot}`),
     ];
     put(this.#mesh, { d: lines.join("") });
     relabel(
@@ -220,9 +206,10 @@ export class Plot {
     );
     relabel(
       this.#across,
-      across.map((value) => [this.#x(value * unit), HEIGHT - BOTTOM + 14, value]),
+      ticks.map((value) => [this.#x(value * unit), foot + 14, value]),
       "middle",
     );
+    this.at(this.drive);
   }
 
   at(drive: number): void {
@@ -268,7 +255,7 @@ function relabel(group: SVGGElement, labels: [number, number, number][], anchor:
   for (const [k, [x, y, value]] of labels.entries()) {
     const text = number(value, 7);
     const old = group.children[k] ?? group.appendChild(svg("text", { "text-anchor": anchor }));
-    const right = anchor === "middle" ? Math.min(x, WIDTH - halfOf(text)) : x; // the last one is not cut
+    const right = Math.min(x, WIDTH - halfOf(text)); // the last one is not cut
     put(old, { transform: `translate(${right.toFixed(1)} ${y.toFixed(1)})` });
     if (old.textContent !== text) old.textContent = text;
   }
@@ -355,8 +342,8 @@ export function roundValues(low: number, high: number, count: number): number[] 
 }
 
 function multiples(step: number, low: number, high: number): number[] {
-  const first = Math.ceil(low / step - 1e-9);
-  const count = Math.floor(high / step + 1e-9) - first + 1;
+  const first = Math.ceil(low / step - 1e-6);
+  const count = Math.floor(high / step + 1e-6) - first + 1;
   return Array.from({ length: Math.max(0, count) }, (_, k) => (first + k) * step);
 }
 

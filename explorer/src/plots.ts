@@ -73,7 +73,6 @@ export class Plots {
         "button.quiet",
         {
           title: text,
-          "aria-label": text,
           "data-plots": sign,
           onclick: () => this.#zoom(linkage, factor),
         },
@@ -152,7 +151,7 @@ export class Plots {
 export function lapOf(cycle: Cycle): Lap {
   const { full, turns, values } = cycle;
   const count = values.length;
-  if (!full) return { drives: values, rows: Array.from({ length: count }, (_, row) => row) };
+  if (!full) return { drives: values, rows: [...values.keys()] };
   const at = values.map((value) => wrapped(cycle, value));
   let first = 0;
   for (let row = 1; row < count - 1; row++) if (at[row]! < at[first]!) first = row;

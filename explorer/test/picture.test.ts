@@ -177,6 +177,7 @@ test("round values at an axis, and the value between two rows", () => {
   near(roundValues(-0.9, 0.65, 3), [-0.5, 0, 0.5]);
   near(roundValues(63.2, 143, 3), [80, 100, 120, 140]);
   near(roundValues(0, 1, 3), [0, 0.5, 1]);
+  near(roundValues(240.00001, 329.99999, 4), [240, 260, 280, 300, 320]); // a range ends just before its stops
   near(degreeValues(-20, 380, 3), [0, 90, 180, 270, 360]);
   near(degreeValues(63, 92, 3), [70, 80, 90]); // quarters of a turn would be too few
   const [places, values] = [Float64Array.of(0, 1, 3), Float64Array.of(4, 6, 0)];
