@@ -1,7 +1,7 @@
 /** A linkage that moves by itself: poses that the library found, played in real time. */
 
 import type { Rows } from "./kernel";
-import { number } from "./language";
+import { fixed } from "./language";
 import type { Linkage } from "./linkage";
 import { together } from "./rows";
 
@@ -48,7 +48,7 @@ export class Falling {
   }
 
   get text(): string {
-    return `${number(Number(this.seconds.toFixed(2)))} s`;
+    return `${fixed(this.seconds, 2)} s`;
   }
 
   /** The pose so many seconds later, without rates; the first one follows the last. */

@@ -6,7 +6,7 @@ import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import type { Arrow } from "./forces";
 import { DRIVEN, DRIVING, placed, STANDING, SUPPORT } from "./ground";
-import { clearAbout, convexHull, pathThrough } from "./hull";
+import { away, clearAbout, convexHull, pathThrough } from "./hull";
 import { clearOf, pastEdges } from "./labels";
 import { number as numberText } from "./language";
 import type { Legend } from "./legend";
@@ -370,15 +370,18 @@ export class Scene {
   #putValues(kinds: Arrow[][], drawn: (readonly Pair[])[]): void {
     const texts: Element[] = [];
     for (const [k, all] of kinds.entries()) {
-      const largest = all.filter((one) => one[4] > 0).sort((a, b) => b[4] - a[4]);
-      for (const [n, [x, y, dx, dy, amount, unit]] of largest.entries()) {
+      const largest = all.filter((one) => arrow(...one)).sort((a, b) => b[4] - a[4]);
+      for (const [n, one] of largest.entries()) {
+        const [x, y, dx, dy, amount, unit] = one;
         if (n && k > 1) break;
         const said = `${numberText(amount, 3)} ${unit}`.trim();
         const half = halfOf(said);
         const less = n > 0 || k === 1; // only where it is near and clear
-        const [left, top] = clearAbout([x + dx, y + dy], 18, drawn, half, less ? 16 : 32);
-        const clear = (one: readonly Pair[]) => [1, 2].every((part) => clearOf(one, half / part, [left, top + 4]));
-        if (less && !drawn.every(clear)) continue;
+        const [left, top] = clearAbout([x + dx, y + dy], 18, drawn, half);
+        const clear = (hull: readonly Pair[]) => [1, 2].every((part) => clearOf(hull, half / part, [left, top + 4]));
+        const far = ([u, v, du, dv]: Arrow) => away([left, top], u + du, v + dv);
+        const nearer = (other: Arrow) => far(other) < far(one) - 8; // it would seem to be of that one
+        if (less && (!drawn.every(clear) || kinds.flat().some(nearer))) continue;
         texts.push(svg("text", { "data-arrow": "", "text-anchor": "middle", x: left, y: top + 4 }, said));
         drawn.push(lettersAt(left, top + 4, half));
       }

@@ -221,6 +221,7 @@ export class Stage implements Board {
     const { dragging } = this;
     const lengths = dragging!.lengths();
     if (!name) {
+      if (linkage.cycle.whole) return aside; // it moves freely
       const can = this.joints.some((joint) => dragging!.draggable(joint));
       let text = t("Drag a link to move it.");
       if (can) text = t("Drag an axis to shift it, a link to turn it.");
