@@ -1,6 +1,6 @@
 /** The measures beside the stage, and what the library says of them in words. */
 
-import { h, renew, withMinus } from "./dom";
+import { h, renew, unbroken, withMinus } from "./dom";
 import type { Fact } from "./facts";
 import { t } from "./language";
 import type { Linkage } from "./linkage";
@@ -8,6 +8,11 @@ import type { LinkageDocument } from "./model";
 import type { Page } from "./view";
 
 const ASKED_AFTER = 350; // milliseconds
+
+/** With numbers beside what they belong to: a unit, or the word before them. */
+export function bound(text: string): string {
+  return unbroken(unbroken(text), / (?=\d)/g);
+}
 
 export class FactList {
   readonly element = h("dl.facts", {});
@@ -30,9 +35,9 @@ export class FactList {
         return;
       }
       this.#told[k] = told;
-      const value = h("dd", { class: style }, new Text(text), ...(note ? [" ", h("small", {}, note)] : []));
+      const value = h("dd", { class: style }, new Text(text), note && " ", note && h("small", {}, bound(note)));
       const on = { onpointerenter: () => this.point(true), onpointerleave: () => this.point(false) };
-      const made = h("div", hint ? { title: hint, ...on } : {}, h("dt", {}, name), value);
+      const made = h("div", hint ? { title: hint, ...on } : {}, h("dt", {}, bound(name)), value);
       if (old) old.replaceWith(made);
       else this.element.append(made);
     });

@@ -16,9 +16,9 @@ export interface Fact {
   text: string;
   style?: "good" | "bad" | "wide";
   /** Where it is so. */
-  note?: string;
+  note?: string | undefined;
   /** Of a way along a guide, which the picture draws: from where it is measured. */
-  hint?: string;
+  hint?: string | undefined;
 }
 
 /** What was found over the cycle: dead centres, how far the output goes, the smallest transmission angle. */
@@ -43,8 +43,8 @@ export function factsOf(
   if (record) {
     const value = output(linkage, pose, 0);
     const text = size(turning ? inLap(value) : value);
-    const hint = t("Measured along the guide, from the dot in the picture");
-    facts.push({ name: t("Output {name}", { name: linkage.linkName(record.link) }), text, ...(!turning && { hint }) });
+    const hint = turning ? undefined : t("Measured along the guide, from the dot in the picture");
+    facts.push({ name: t("Output {name}", { name: linkage.linkName(record.link) }), text, hint });
     const rate = output(linkage, pose, 0, 1);
     facts.push({
       name: transferName(linkage, 1),
@@ -54,7 +54,7 @@ export function factsOf(
     const [one, two] = dead;
     if (shift) facts.push({ name: t("Travel of its points"), text: `${number(shift)} ${model.unit}` });
     else if (travel !== null) facts.push({ name: turning ? t("Swing") : t("Stroke"), text: size(travel) });
-    if (one && two && dead.length === 2 && cycle.full) {
+    if (one && two && !dead[2] && cycle.full) {
       const part = Math.abs(wrapped(cycle, one.value) - wrapped(cycle, two.value));
       const rest = cycle.turns * TURN - part;
       facts.push({ name: t("Time ratio"), text: number(Math.max(part, rest) / Math.min(part, rest)) });
@@ -90,7 +90,7 @@ export function factsOf(
     const from = drive.turning ? angle(low) : number(linkage.sizes.clean(low));
     const part = `${from} … ${driveText({ drive, model }, high!).replace(" ", "\u00a0")}`;
     const name = t("Range of the drive") + (model.drives[1] ? `: ${linkage.driveName(k)}` : "");
-    facts.push({ name, text: whole ? t("full turns") : part, ...(note && { note }) });
+    facts.push({ name, text: whole ? t("full turns") : part, note });
   }
   return [...facts, ...readingsOf(linkage)];
 }

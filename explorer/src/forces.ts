@@ -2,7 +2,7 @@
 
 import { DEGREE, wrapped } from "./cycle";
 import { documentOf } from "./document";
-import { action, h, renew, svg } from "./dom";
+import { action, h, renew, svg, unbroken } from "./dom";
 import { FactList } from "./factlist";
 import type { Fact } from "./facts";
 import type { Fall } from "./falling";
@@ -216,7 +216,7 @@ export class Forces {
   }
 
   #show(linkage: Linkage, answer: Answer): void {
-    const { drives, effort, facts, lines, masses, origin, speed, title, unit } = answer;
+    const { acting, drives, effort, facts, lines, masses, origin, speed, title, unit } = answer;
     const { drive, model } = linkage;
     const { transport } = this.#view;
     this.#form.show(linkage, answer);
@@ -261,6 +261,7 @@ export class Forces {
       const release = t("Release the drive: free motion");
       const sizes = joints.map(({ most }) => most);
       this.#joint.selectedIndex = chosen < 0 ? sizes.indexOf(Math.max(...sizes)) : chosen;
+      const loads = acting[0] ? signed("force.load", t("Loads")) : [];
       this.#facts.show(facts);
       renew(
         this.#ofDrive,
@@ -272,9 +273,9 @@ export class Forces {
       renew(
         this.#result,
         this.#ofDrive,
-        h("p.note", {}, signOf("force"), t("Joint forces in this pose"), " ", signOf("force.load"), t("Loads")),
+        h("p.note", {}, ...signed("force", t("Joint forces in this pose")), " ", ...loads),
         this.#joints.element,
-        h("div.form", {}, h("label", {}, t("Force vector"), this.#joint)),
+        h("label.options", {}, t("Force vector"), this.#joint),
         this.#polar.element,
         ...notes,
         h("div.rows", {}, ...until),
@@ -307,7 +308,7 @@ export class Forces {
     const { falling } = this.#view.transport;
     const where = this.#place;
     this.#plot?.at(drive);
-    for (const plot of this.#plots) plot.at(falling?.seconds ?? NaN);
+    for (const plot of this.#plots) plot.at(falling ? where : NaN);
     const of = falling ? this.#fallen : this.#driven;
     if (of !== this.#of) {
       this.#of = of;
@@ -319,8 +320,8 @@ export class Forces {
     this.#joints.show(
       of.joints.map((force) => ({
         name: force.name,
-        text: amount(force.most * Math.hypot(...vectorAt(force, where)), force.unit),
-        note: !force.most ? "" : `max. ${amount(force.most, force.unit)} ${force.note.replace(/ (\S+)$/, "\u00a0$1")}`,
+        text: amount(Math.hypot(...vectorAt(force, where)), force.unit),
+        note: !force.most ? "" : `max. ${amount(force.most, force.unit)} ${force.note}`,
       })),
     );
     this.#polar.at(where);
@@ -340,8 +341,8 @@ export class Forces {
       const { at, unit } = force;
       const most = Math.max(...all.map((other) => (other.unit === unit ? other.most : 0)));
       const [x, y] = vectorAt(force, where);
-      const here = Math.hypot(x, y) * force.most;
-      const root = Math.sqrt(here * most) / force.most || 1; // small ones are seen, too
+      const here = Math.hypot(x, y);
+      const root = Math.sqrt(here * most) || 1; // small ones are seen, too
       return [...at(), x / root, y / root, here / unit[1], unit[0], k >= joints.length];
     });
   }
@@ -349,6 +350,7 @@ export class Forces {
   async #fall(): Promise<void> {
     const { linkage, page } = this.#view;
     const told = this.#ofFall;
+    this.#view.transport.pause();
     const found = await awaited(told, () =>
       page.ask<Fall & Carried>("fall", { ...this.#question, until: this.#until }),
     );
@@ -396,16 +398,13 @@ function shownOf(linkage: Linkage, { acting, forces, units }: Carried, places: F
 }
 
 function noted(line: string): HTMLElement {
-  return h("p.note", {}, line);
+  return h("p.note", {}, unbroken(line));
 }
 
-/** What arrows of a class look like. */
-function signOf(name: "force" | "force.load"): SVGElement {
-  return svg(
-    "svg",
-    { viewBox: "0 0 32 9", width: 32, height: 9 },
-    svg(`path.${name}`, { d: "M5 5H27M20 1L27 5L20 9" }),
-  );
+/** What arrows of a class look like, and what they are. */
+function signed(name: "force" | "force.load", text: string): (Node | string)[] {
+  const sign = svg(`path.${name}`, { d: "M5 5H27M20 1L27 5L20 9" });
+  return [svg("svg", { viewBox: "4 0 28 9", width: 28, height: 9 }, sign), `\u00a0${text}`];
 }
 
 function numbers(values: Numbers): Float64Array {

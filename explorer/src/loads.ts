@@ -1,6 +1,7 @@
 /** What acts on a linkage, typed by the reader: the speed of its drive, masses, forces and moments, springs, weight. */
 
 import { h, option, renew } from "./dom";
+import { bound } from "./factlist";
 import { namedLinks } from "./labels";
 import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
@@ -106,7 +107,7 @@ export class LoadForm {
       rows.push(
         ...chooser(`force-load-${k}`, t("Load on"), free, chosen, (place) => {
           const [on, which] = free[place]![0].split(" ");
-          put(on ? { on, number: Number(which) } : null);
+          put(on ? { on, number: +which! } : null);
           this.show(linkage, this.#acting);
         }),
       );
@@ -134,7 +135,7 @@ export class LoadForm {
     const select = (...asked: Parameters<typeof chooser>) => rows.push(...chooser(...asked));
     /** With the end that is chosen, if it is neither joint nor point. */
     const ended = (options: [End, string, string?][], [link, x, y]: End) =>
-      options.some(([end]) => String(end) === String([link, x, y]))
+      options.some(([end]) => `${end}` === `${[link, x, y]}`)
         ? options
         : [...options, [[link, x, y], `${linkage.linkName(link)}: ${number(x)}; ${number(y)}`] as [End, string]];
     for (const [k, spring] of [...this.#acting.springs, null].entries()) {
@@ -160,7 +161,7 @@ export class LoadForm {
         const ends: Spring["ends"] = turning
           ? [
               [model.frame, 0, 0],
-              [Number(!model.frame), 0, 0],
+              [+!model.frame, 0, 0],
             ]
           : [places[0]![0], away[0]];
         again(kind ? { turning, ends } : null); // the library adds what it has not
@@ -204,7 +205,7 @@ export class LoadForm {
     const onchange = () => {
       const typed = parsed(field.value || "0");
       const right = typed >= least && typed <= most;
-      field.setAttribute("aria-invalid", String(!right));
+      field.setAttribute("aria-invalid", `${!right}`);
       const ends = { least: endText(least), most: endText(most) };
       if (unitText.nextElementSibling?.matches(".error")) unitText.nextElementSibling.remove();
       if (right) take(typed);
@@ -216,7 +217,7 @@ export class LoadForm {
     const old = this.element.querySelector<HTMLInputElement>(":focus");
     const field = old?.id === id ? old : made;
     const unitText = h("span.unit", {}, unit);
-    return [h("label", { for: id }, label), field, unitText];
+    return [h("label", { for: id }, bound(label)), field, unitText];
   }
 }
 
@@ -241,7 +242,7 @@ function chooser(
     "select",
     { id, onchange: () => take(field.selectedIndex) },
     ...options.map(([value, text]) =>
-      h("option", { value: value as string, selected: String(value) === String(chosen) }, text),
+      h("option", { value: value as string, selected: `${value}` === `${chosen}` }, text),
     ),
   );
   return [h("label", { for: id }, label), field];
