@@ -185,7 +185,7 @@ export class Plot {
     if (this.element.getAttribute("aria-label") !== series.title) {
       this.#along.textContent = `${this.unit === "s" ? t("Time") : t("Drive")} [${this.unit}]`;
       const { title } = series;
-      const [, one = title, other = ""] = LINES.exec(title) ?? [];
+      const [, one = title, other] = LINES.exec(title) ?? [];
       const row = title.length > LONG ? ROW : 0;
       renew(this.#title, one, svg("tspan", { x: 2, dy: ROW }, other));
       put(this.#title, { y: 13 - row });

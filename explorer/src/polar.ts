@@ -33,7 +33,7 @@ export class Polar {
     const count = Math.ceil(most / step - 1e-9); // rings: three to five
     const apart = RADIUS / count;
     this.#scale = apart / step / factor;
-    const rings = Array.from({ length: count }, (_, k) => k + 1);
+    const rings = [1, 2, 3, 4, 5].slice(0, count);
     // the numbers stand where the curve is not
     const below = y.reduce((sum, one) => sum + (one || 0), 0) < 0 ? -1 : 1;
     put(this.element, { "aria-label": t("Largest {value}", { value: `${number(most)} ${unit}` }) });

@@ -87,7 +87,7 @@ export class Track {
       );
       parts.push(group);
     };
-    this.#textOf = (value) => driveText({ drive: { turning }, model: { unit } }, value, unit === "s" ? 3 : 5);
+    this.#textOf = (value) => driveText({ drive: { turning }, model: { unit } }, value, timed ? 3 : 5);
     const shown = (value: number) => this.#textOf(wrap(value));
     for (const value of dead)
       mark(value, "dead", "M0 8 L-5 0 H5 Z", t("Turns back at {value}", { value: shown(value) }));

@@ -35,11 +35,13 @@ from gruebler.page.reader_loads import (
     with_loads,
 )
 
-_FREE = message("Free motion: in {seconds:n} s the drive goes from {start} to {end}, between {least} and {most}.")
+_FREE = message(
+    "Free motion: in {seconds:n} s the drive goes from {start} to {end} and stays between {least} and {most}."
+)
 _FREE_OF = message("{drive}: from {start} to {end}, between {least} and {most}.")
 _STRAIGHT_OF = message("{drive}: from {start} to {end}.")
 _MOVED = message("Free motion: {seconds:n} s.")
-_AT_STOP = message("The motion ends: {drive} has reached the end of its range, {value}.")
+_AT_STOP = message("The motion ends at the stop: {drive}, {value}.")
 _BALANCE = message("The energy balance is off by {part:n}\u00a0% at most.")
 _BALANCED = message("The energy balance is off by less than 0.001\u00a0%.")
 _NOTHING = message("Nothing acts yet: type masses or loads.")
@@ -293,7 +295,7 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         dict(zip(("start", "end", "least", "most"), _drive_texts(linkage, drive, values), strict=True))
         for drive, values in enumerate(spans.tolist())
     ]
-    seconds = float(run.times[-1])
+    seconds = float(f"{run.times[-1]:.3g}")
     said = [_MOVED.filled(seconds=seconds)] if went[1:] else [_FREE.filled(seconds=seconds, **went[0])]
     called = asked.called or names
     if went[1:]:
@@ -376,9 +378,10 @@ def _stops(source: str, lang: str) -> dict[str, tuple[float, float]]:
 
 
 def _drive_texts(linkage: Linkage, drive: int, values: list[float]) -> list[Message]:
-    """Values of a drive, in degrees if it turns."""
+    """Values of a drive with four digits, in degrees if it turns."""
     turning = linkage.mechanism.drives[drive].turning
-    return [_value_text(degrees(value) if turning else value, turning, linkage.unit) for value in values]
+    shown = [float(f"{degrees(value) if turning else value:.4g}") for value in values]
+    return [_value_text(value, turning, linkage.unit) for value in shown]
 
 
 def _short(values: Reals) -> Reals:

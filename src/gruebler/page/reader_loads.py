@@ -8,7 +8,7 @@ from math import log
 from typing import Any, NamedTuple
 
 from gruebler.base.errors import GrueblerError
-from gruebler.base.text import Message, joined, message
+from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.base.units import metres_of
 from gruebler.files import linkage_from_json
 from gruebler.files.catalog_records import renamed_loads
@@ -35,7 +35,7 @@ _ASSUMED = message(
 _BY_FORMULA = message("changes by a formula of {names}")
 _BY_CURVE = message("changes by a curve over {names}")
 _QUANTITIES = {
-    **dict.fromkeys(("x", "y"), message("place")),
+    **dict.fromkeys(("x", "y"), message("position")),
     **dict.fromkeys(("vx", "vy"), message("velocity")),
     "time": message("time"),
     "drive": message("drive"),
@@ -129,7 +129,7 @@ def law_text(amount: Any) -> Message:
     names = [name for law in formulas for name in law.names] or [law.of for law in laws if isinstance(law, Curve)]
     said = [_QUANTITIES[name] for name in names if name in _QUANTITIES]
     different = [each for k, each in enumerate(said) if each not in said[:k]]
-    return (_BY_FORMULA if formulas else _BY_CURVE).filled(names=joined(different))
+    return (_BY_FORMULA if formulas else _BY_CURVE).filled(names=joined_by_and(different))
 
 
 def outer_loads(linkage: Linkage, loads: Loads) -> list[OuterLoad]:
