@@ -399,7 +399,7 @@ def test_words_and_measures_name_one_link_where_several_are_as_bad(tab, server, 
     words = page.page.locator('[data-panel="measures"] .words .note')
     words.filter(has_text="ransmission").wait_for()
     measured = page.page.locator('.facts > div:has(dt:text-is("Smallest μ"))').inner_text()
-    (link,) = re.findall(r"bar ?\d", measured)
+    (link,) = re.findall(r"bar ?\d", measured.replace("\xa0", " "))
     assert f"(link {link}" in words.first.inner_text()
 
 
