@@ -1,11 +1,10 @@
-/** Where the names of bodies stand in the picture: at their middles, below each other where they would overlap. */
+/** Where the names of bodies stand in the picture: at places of theirs where they overlap no other name. */
 
 import { halfOf } from "../names";
 import type { Pair } from "../rows";
 import { minus, type Vector } from "./algebra";
 
 const LINE = 17; // pixels from name to name
-const TRIED = [0, 1, -1, 2, -2, 3, -3]; // lines
 
 /** A name that is centred at a place of the picture. */
 export interface Name {
@@ -13,27 +12,23 @@ export interface Name {
   at: Pair;
 }
 
-/** The names within a picture of a size, moved up or down until they overlap neither each other nor others; one that
- * has no room is left out. */
-export function apart<Each extends Name>(names: Each[], others: Name[], [width, height]: Pair): Each[] {
+/** Whether a name there, within a picture of a size, keeps clear of others. */
+function isFree({ at: [x, y], text }: Name, others: Name[], [width, height]: Pair): boolean {
+  const half = halfOf(text);
+  return (
+    Math.abs(x - width / 2) < width / 2 - half &&
+    Math.abs(y - height / 2) < height / 2 - 4 &&
+    others.every(({ at: [u, v], text: other }) => Math.abs(y - v) >= LINE || Math.abs(x - u) > half + halfOf(other) + 4)
+  );
+}
+
+/** The names at the first of their places that is free; one that has none is left out. */
+export function apart<Each extends Name>(names: Each[][], others: Name[], size: Pair): Each[] {
   const taken = [...others];
-  return names.flatMap((name) => {
-    const {
-      text,
-      at: [px, py],
-    } = name;
-    const half = halfOf(text);
-    const x = Math.min(Math.max(px, half + 4), width - half - 4);
-    const isFree = (y: number) =>
-      taken.every(
-        ({ at: [u, v], text: other }) => Math.abs(y - v) >= LINE || Math.abs(x - u) > half + halfOf(other) + 4,
-      );
-    const tried = TRIED.map((lines) => Math.min(Math.max(py + lines * LINE, LINE), height - 4));
-    const free = tried.find(isFree);
-    if (free === undefined) return [];
-    const placed: Each = { ...name, at: [x, free] };
-    taken.push(placed);
-    return placed;
+  return names.flatMap((places) => {
+    const free = places.find((name) => isFree(name, taken, size));
+    if (free) taken.push(free);
+    return free ?? [];
   });
 }
 

@@ -31,6 +31,7 @@ const ARM = 26; // pixels of the axes in the corner
 const ROOM = 16; // pixels around the machine
 const FEW = 6; // bodies have names that stand in the picture
 const ELSEWHERE = 8; // places of a body at which its name may stand instead
+const AROUND: readonly Pair[] = [18, -18, 9, -9].map((far, k) => (k < 2 ? [far, 0] : [0, far])); // pixels
 const SEEN = 150; // milliseconds for which these are taken to be hidden or not
 const MOST_ROOM = 0.3; // of the picture
 const DIRECTIONS = 160;
@@ -72,8 +73,8 @@ export class Scene {
   #reach: { link: number; places: Vector[]; corners: Vector[]; middle: Vector; radius: number; glass: boolean }[] = [];
   /** Of each body where its name stands, and where else it may if that is hidden. */
   #spots: Vector[][] = [];
-  /** That place, if there is one. */
-  #open: (Vector | undefined)[] = [];
+  /** Those of them where it is on or next to that body alone. */
+  #open: Vector[][] = [];
   #due = 0;
   #later = 0;
   readonly #colours = new Map<string, Vector>();
@@ -141,7 +142,11 @@ export class Scene {
     this.#spots = bodies.map(({ vertices }, link) => {
       const { corners, middle, places } = this.#reach[link]!;
       const first = this.machine.moves(link) ? nameOf(corners, middle, size / 35) : (vertices.slice(-3) as Vector);
-      return [first, ...places.filter((_, k) => k % Math.ceil(places.length / ELSEWHERE) === 0)];
+      const others = places.filter((_, k) => k % Math.ceil(places.length / ELSEWHERE) === 0);
+      const halves = this.machine.moves(link)
+        ? others.map((at) => at.map((v, n) => (v + middle[n]!) / 2) as Vector)
+        : [];
+      return [first, ...halves, ...others];
     });
     const corners = this.#corners();
     const ends = (least: typeof Math.min) =>
@@ -256,6 +261,7 @@ export class Scene {
   /** Arrows of the drives, names of points, and the axes in the corner. */
   #over(view: Float32Array, poses: ArrayLike<number>[], [right, up]: [Vector, Vector]): void {
     const { clientWidth, clientHeight } = this.element;
+    const size: Pair = [clientWidth, clientHeight];
     this.root.setAttribute("viewBox", `0 0 ${clientWidth} ${clientHeight}`);
     const pixel = (at: Vector): Pair => {
       const [x, y] = seen(view, at);
@@ -271,10 +277,17 @@ export class Scene {
       const [px, py] = pixel(moved(poses[link]!, at));
       parts.push(svg("circle.spot", { cx: px, cy: py, r: 4.5 }));
       named.push({ text: "", at: [px, py + 5] });
-      const [side, anchor] = px < clientWidth / 2 ? [9, "start"] : [-9, "end"];
+      const side = Math.sign(clientWidth / 2 - px) * (9 + halfOf(name!));
       if (!this.shown.names) continue;
-      parts.push(svg("text.mark", { x: px + side, y: py - 7, "text-anchor": anchor }, name!));
-      named.push({ text: name!, at: [px + side + Math.sign(side) * halfOf(name!), py - 7] });
+      for (const placed of apart(
+        [[-7, 19].map((down) => ({ text: name!, at: [px + side, py + down] }))],
+        named,
+        size,
+      )) {
+        const [x, y] = placed.at;
+        parts.push(svg("text.mark", { x, y, "text-anchor": "middle" }, name!));
+        named.push(placed);
+      }
     }
     parts.push(...this.#names(poses, pixel, named));
     const [ox, oy] = [44, 46];
@@ -291,11 +304,11 @@ export class Scene {
     const { machine, marked, shown } = this;
     const pulled = machine.traced?.link; // which has its name at its spot
     const isNamed = (link: number) => link === marked || (this.few && shown.names && link !== pulled);
-    if (this.few && shown.names) this.#uncover(poses);
-    const names = this.#links.flatMap((name, link) => {
-      const spot = this.#open[link] ?? (link === marked ? this.#spots[link]![0] : null);
-      if (!isNamed(link) || !spot) return [];
-      return { link, text: name.replace(/ \(.*/, ""), at: pixel(moved(poses[link]!, spot)) };
+    if (this.few && shown.names) this.#uncover(poses, pixel);
+    const names = this.#links.map((name, link) => {
+      const spots = [...(this.#open[link] ?? []), ...(link === marked ? this.#spots[link]! : [])];
+      const text = name.replace(/ \(.*/, "");
+      return (isNamed(link) ? spots : []).map((spot) => ({ link, text, at: pixel(moved(poses[link]!, spot)) }));
     });
     const { clientHeight, clientWidth } = this.element;
     return apart(names, others, [clientWidth, clientHeight]).map(({ link, text, at: [x, y] }) =>
@@ -304,15 +317,25 @@ export class Scene {
   }
 
   /** Which places of names are not hidden now: it takes a while, so that not every picture asks anew. */
-  #uncover(poses: ArrayLike<number>[]): void {
+  #uncover(poses: ArrayLike<number>[], pixel: (at: Vector) => Pair): void {
     clearTimeout(this.#later);
     if (performance.now() < this.#due) {
       this.#later = setTimeout(() => this.draw(), SEEN);
       return;
     }
     const { eye } = axes(this.#camera);
+    const { clientHeight, clientWidth } = this.element;
     this.#open = this.#spots.map((spots, link) =>
-      spots.find((spot) => !this.#isBehind(link, eye, moved(poses[link]!, spot))),
+      spots.filter((spot) => {
+        const at = moved(poses[link]!, spot);
+        if (this.#isBehind(link, eye, at)) return false;
+        const [x, y] = pixel(at);
+        const around = AROUND.map(([right, down]) =>
+          this.#hit((2 * (x + right)) / clientWidth - 1, 1 - (2 * (y - 4 + down)) / clientHeight),
+        );
+        const own = around.filter((hit) => hit?.link === link).length;
+        return around.filter((hit) => hit && hit.link !== link).length <= own;
+      }),
     );
     this.#due = performance.now() + SEEN;
   }
