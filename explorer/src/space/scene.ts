@@ -35,6 +35,9 @@ const AROUND: readonly Pair[] = [18, -18, 9, -9].map((far, k) => (k < 2 ? [far, 
 const SEEN = 150; // milliseconds for which these are taken to be hidden or not
 const MOST_ROOM = 0.3; // of the picture
 const DIRECTIONS = 160;
+const POSES = 6; // in which it is tried from where its links are seen best
+const OBLIQUE = 0.9; // radians
+const BETTER = 1.2; // so many times
 const STEEP = 1.5; // radians: no farther up or down
 
 export interface SceneEvents {
@@ -63,6 +66,9 @@ export class Scene {
   /** What is kept in the picture, and whether below the buttons rather than beside them. */
   #places: Vector[] = [];
   #below = 0;
+  /** From where it is seen obliquely; in a wide picture from where it is seen best, once that is known. */
+  oblique = OBLIQUE;
+  #best: number | null = null;
   /** The lowest and the highest coordinates of what stands on the floor. */
   #extent: [Vector, Vector] = [
     [0, 0, 0],
@@ -87,7 +93,7 @@ export class Scene {
     private readonly events: SceneEvents,
   ) {
     const { bodies, glass, middle, size } = machine.data;
-    this.#camera = { turn: 0.9, lift: 0.5, middle, distance: 5 * size };
+    this.#camera = { turn: this.oblique, lift: 0.5, middle, distance: 5 * size };
     try {
       this.#painter = new Painter(this.canvas, bodies, glass);
     } catch {
@@ -180,10 +186,44 @@ export class Scene {
     if (!this.#wide) return; // it is not laid out yet
     const reached = this.machine.reached;
     this.#places = [...this.#corners(reached), ...reached.flatMap((poses) => arrowsOf(this.machine, poses).flat())];
+    if (this.few && this.#camera.turn === this.oblique) {
+      const isWide = this.#wide > 1;
+      if (isWide) this.#best ??= this.#sought;
+      this.oblique = isWide ? this.#best! : OBLIQUE;
+      this.#camera.turn = this.oblique;
+    }
     const cameras = this.#margins.map((room) => this.#fitted(room));
     this.#below = Number(cameras[0]!.distance >= cameras[1]!.distance);
     this.#camera = cameras[this.#below]!;
     this.draw();
+  }
+
+  /** From where its links are large, long and not hidden, on the whole and at worst: as at first, unless that is much better elsewhere. */
+  get #sought(): number {
+    const { reached } = this.machine;
+    const some = reached.filter((_, k) => k % Math.ceil(reached.length / POSES) === 0);
+    const moving = this.#spots.flatMap(([spot], link) => (this.machine.moves(link) ? { link, spot: spot! } : []));
+    const isSeen = (turn: number) => {
+      const camera = { ...this.#camera, turn };
+      const { distance, middle } = fitted(camera, this.#wide, this.#places, this.#margins[0]!);
+      const { eye, near } = axes({ ...camera, distance, middle });
+      const parts = moving.map(({ link, spot }) => {
+        const { middle: from, places } = this.#reach[link]!;
+        const far = (at: Vector) => Math.hypot(...minus(at, from));
+        const end = places.reduce((a, b) => (far(b) > far(a) ? b : a));
+        const lengths = some.map((poses) => {
+          const pose = poses[link]!;
+          if (this.#isBehind(link, eye, moved(pose, spot), poses)) return 0;
+          return Math.hypot(...cross(minus(moved(pose, end), moved(pose, from)), near)) / far(end);
+        });
+        return lengths.reduce((a, b) => a + b) / POSES + Math.min(...lengths);
+      });
+      return parts.reduce((sum, part) => sum + part, 0) / distance;
+    };
+    const turns = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => OBLIQUE + (k * Math.PI) / 4);
+    const values = turns.map(isSeen);
+    const most = Math.max(...values);
+    return most > BETTER * values[0]! ? turns[values.indexOf(most)]! : turns[0]!;
   }
 
   #fitted(room: Margins): Camera {
@@ -396,16 +436,15 @@ export class Scene {
   }
 
   /** Whether a place of a link is behind the body of another one. */
-  #isBehind(link: number, eye: Vector, at: Vector): boolean {
-    const met = this.#met(eye, minus(at, eye), true);
+  #isBehind(link: number, eye: Vector, at: Vector, poses = this.machine.poses): boolean {
+    const met = this.#met(eye, minus(at, eye), true, poses);
     return met !== null && met.link !== link && met.far < 1;
   }
 
   /** What a ray meets first, of glass or not, and how far along it. */
-  #met(from: Vector, along: Vector, through = false): (Spot & { far: number }) | null {
+  #met(from: Vector, along: Vector, through = false, poses = this.machine.poses): (Spot & { far: number }) | null {
     let best: (Spot & { far: number }) | null = null;
     let nearest = Infinity;
-    const { poses } = this.machine;
     for (const { corners, glass, link, middle, radius } of this.#reach) {
       const pose = poses[link]!;
       const start = before(pose, from);

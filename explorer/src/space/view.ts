@@ -5,7 +5,7 @@ import { choice, h, renew, wantsStill } from "../dom";
 import { download, group } from "../export";
 import { FactList } from "../factlist";
 import type { Fact } from "../facts";
-import { centred, languageMenu, saving, sayIn, softened, viewNames } from "../header";
+import { centred, languageMenu, partsOf, saving, sayIn, viewNames } from "../header";
 import { drivenBy, showOver, showRows } from "../help";
 import { angle, currentLanguage, type Language, number, t } from "../language";
 import { fromBase64 } from "../packed";
@@ -24,12 +24,13 @@ import { stlOf } from "./solids";
 
 /** Angles of the views that have names, in radians: from where, from how high. */
 const VIEWS: Record<string, [number, number]> = {
-  oblique: [0.9, 0.5],
+  oblique: [0, 0.5], // from where it is seen best
   front: [-Math.PI / 2, 0],
   side: [0, 0],
   top: [-Math.PI / 2, 1.5],
 };
 const DIGITS = 4;
+const CUT = 26; // letters of a name for which a narrow header has room
 
 export class SpaceView implements Driven {
   linkage: Machine;
@@ -120,7 +121,7 @@ export class SpaceView implements Driven {
     this.#keep();
     renew(
       this.#header,
-      h("h1", {}, "gruebler ", h("small", { title }, softened(title))),
+      h("h1", { title }, "gruebler ", h("small", {}, ...partsOf(title))),
       ...(this.data.home ? [this.#ways()] : []),
       h("span.spring", {}),
       ...this.#tools(),
@@ -254,7 +255,8 @@ export class SpaceView implements Driven {
     const { data, linkage } = this;
     const [texts, words] = [this.#texts, this.#words];
     const measured = linkage.drive || linkage.spots.length;
-    const panels = measured ? [panelOf("measures", t("Measures"), true, this.#facts.element)] : [];
+    const panels: HTMLElement[] = texts.title.length > CUT ? [h("h2.whole", {}, texts.title)] : [];
+    if (measured) panels.push(panelOf("measures", t("Measures"), true, this.#facts.element));
     const alone = words.alone ? [h("p.note", {}, words.alone)] : [];
     if (!linkage.drive) alone.push(h("p.note", {}, words.none), ...this.#driven());
     this.#sliders = data.motions.length > 1 ? data.motions.map((_, k) => this.#slider(k)) : [];
@@ -295,7 +297,8 @@ export class SpaceView implements Driven {
     const { scene } = this;
     const look = (name: string) => {
       this.#view = name;
-      scene.look(...VIEWS[name]!);
+      const [turn, lift] = VIEWS[name]!;
+      scene.look(name === "oblique" ? scene.oblique : turn, lift);
     };
     this.#views = choice(
       words.view!,

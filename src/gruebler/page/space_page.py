@@ -270,7 +270,7 @@ def _titled(linkage: SpatialLinkage, names: Sequence[str], number: int, lang: st
     first, second = linkage.mechanism.chain.joints[number].links[:2]
     if against_frame(linkage, number) < 0:
         first, second = second, first
-    still, moved = (re.sub(r" \(.*\)", "", names[linkage.mechanism.chain.index(link)]) for link in (first, second))
+    still, moved = (_bare(names[linkage.mechanism.chain.index(link)]) for link in (first, second))
     return _AGAINST.filled(still=still, moved=moved).in_language(lang)
 
 
@@ -350,7 +350,14 @@ def _short(mechanism: Mechanism, names: Sequence[str]) -> list[str]:
     """Several drives by the links that they move, where these tell them apart; otherwise nothing."""
     moved = [next(link for link in reversed(each.between) if link != mechanism.frame) for each in mechanism.drives]
     apart = 1 < len(moved) == len(set(moved))
-    return [names[mechanism.chain.index(link)] for link in moved] if apart else []
+    whole = [names[mechanism.chain.index(link)] for link in moved] if apart else []
+    short = [_bare(name) for name in whole]
+    return short if len(set(short)) == len(whole) else whole
+
+
+def _bare(name: str) -> str:
+    """A name without what it has in brackets."""
+    return re.sub(r" \(.*\)", "", name)
 
 
 def machine_model(id: str, *, home: bool = False, asks: bool = False) -> dict[str, Any]:
