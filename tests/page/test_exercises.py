@@ -73,6 +73,9 @@ def test_what_a_hint_and_a_figure_name_is_told():
     for id, has in (("dead-centre-1-7", False), ("dead-centre-2-7", True), ("velocity-2-7", True)):
         letters = re.findall(r">(\w)</t", task_record(id, "en")["figures"][0]["picture"])
         assert ("e" in letters) is has, id
+    for id in ("transmission-angle-3-5", "dead-centre-3-5", "spherical-grashof-3-5", "exercise-12", "exercise-16"):
+        letters = re.findall(r"<text.*?</text>", task_record(id, "en")["figures"][0]["picture"])
+        assert {"A", "B", "A0", "B0"} <= {re.sub("<.*?>", "", letter) for letter in letters}, id
 
 
 def test_numbered_exercises_say_what_they_ask_for():

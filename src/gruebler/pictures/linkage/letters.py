@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from string import ascii_lowercase, ascii_uppercase
 
@@ -20,6 +21,7 @@ from gruebler.structure.chain.pairs import Alphabet
 
 _ARCS = (30.0, 38.0)  # pixels of the radius of an angle of the drive and of the output
 _BEYOND = 14.0  # pixels by which the line from which an angle is measured extends beyond its arc
+_FAR = 50.0  # pixels from a joint to its letter, at most, where the letter can stand on a plate
 _SHORT = 0.15  # radians: a smaller angle has no arrow head
 
 
@@ -52,9 +54,13 @@ def joint_letters(posed: PosedLinkage) -> dict[int, str]:
 def joint_names(context: LayerContext, letters: Sequence[str] = ()) -> list[Shape]:
     """The letters beside their joints, or the names that are given for them."""
     posed, shapes = context.posed, list(context.drawn)
+    outlines = [replace(shape, closed=False) if isinstance(shape, Polylines) else shape for shape in shapes]
     texts: list[Shape] = []
     for number, letter in (_given(context, letters) or joint_letters(posed)).items():
-        texts.append(note_near(_pin(posed, number), letter, "name", [*shapes, *texts]))
+        at = _pin(posed, number)
+        text = note_near(at, letter, "name", [*shapes, *texts])
+        beyond = text.at.minus(at).length > _FAR  # a large plate, on which it then stands
+        texts.append(note_near(at, letter, "name", [*outlines, *texts]) if beyond else text)
     return texts
 
 

@@ -51,8 +51,8 @@ class DrawnLinkage:
     drive: float | None = None
     between: tuple[float, float] | None = None
     curves: tuple[str, ...] = ()
-    show: tuple[str, ...] = ()
-    """Layers of the picture."""
+    show: tuple[str, ...] = ("joints",)
+    """Layers of the picture, of one with letters."""
     name: Text | None = None
     """What distinguishes it from the other linkages of the exercise."""
     source: str = ""
@@ -67,7 +67,7 @@ class DrawnLinkage:
             at=self.drive,
             between=self.between,
             curves=self.curves,
-            show=self.show,
+            show=self.show if self.letters else (),
             labels=bool(self.letters),
             lang=lang,
             names=self.letters,
@@ -151,7 +151,7 @@ def _of_lengths(exercise: Exercise) -> DrawnLinkage | None:
     else:
         return None
     phi = radians(float(given["phi"])) if "phi" in given else None
-    show = (*["offset"] * bool(lengths.get("e")), *(() if phi is None else ("joints", "angles")))  # what the text names
+    show = ("joints", *["offset"] * bool(lengths.get("e")), *["angles"] * (phi is not None))  # what the text names
     return DrawnLinkage(linkage=size.linkage(), letters=letters, drive=phi, show=show) if size.limits else None
 
 
@@ -189,17 +189,17 @@ def _double_rocker(exercise: Exercise) -> DrawnLinkage:
     between = radians(rows[0][0]), radians(rows[-1][0])
     letters = {"first": "d", "coupler": "a", "second": "b", "frame": "c"}
     return DrawnLinkage(
-        linkage=_drawn(places, points), letters=letters, drive=radians(phi), between=between, curves=("C",)
+        linkage=_drawn(places, points), letters=letters, drive=radians(phi), between=between, curves=("C",), show=()
     )
 
 
 def _watt(exercise: Exercise) -> DrawnLinkage:
-    """The middle position of the solution: both rockers level, the coupler upright."""
+    """The middle position of the solution: both rockers level, the coupler upright; F as far as it runs straight."""
     number = _numbers(exercise)
     a, up = number["rocker"], number["coupler"] / 2 * 1j
     places = {"R(frame-first)": -a + up, "R(first-coupler)": up, "R(coupler-second)": -up, "R(frame-second)": a - up}
-    rows = _rows(exercise)
-    between = radians(rows[0][0]), radians(rows[-1][0])
+    solution = solve(exercise)
+    between = radians(solution.number("t_low")), radians(solution.number("t_high"))
     letters = {"first": "a", "coupler": "c", "second": "b", "frame": " "}
     return DrawnLinkage(
         linkage=_drawn(places, {"F": ("coupler", 0j)}), letters=letters, drive=0.0, between=between, curves=("F",)
@@ -292,7 +292,10 @@ def _spherical_four_bar(exercise: Exercise, lang: str) -> Figure:
     arc = size.limits[0]
     drawn = [size.linkage(arc.start + part * (arc.end - arc.start)) for part in _PARTS]
     names = {link: letter for link, letter in _LETTERS.items() if letter.strip()}
-    return draw_spatial(max(drawn, key=_room_between), labels=True, names=names, lang=lang)
+    figure = draw_spatial(max(drawn, key=_room_between), labels=True, names=names, lang=lang)
+    pins = zip(figure.shapes[-4:], ("A_0", "A", "B", "B_0"), strict=True)  # which have the letter of their pair
+    letters = [replace(shape, text=pin) for shape, pin in pins if isinstance(shape, TextShape)]
+    return replace(figure, shapes=(*figure.shapes[:-4], *letters))
 
 
 def _room_between(linkage: SpatialLinkage) -> float:
