@@ -100,13 +100,14 @@ def task_record(id: str, lang: str) -> dict[str, Any]:
 
 
 def signed(text: str) -> str:
-    """A text with its signs; pivots, points and sums have their number as an index, which ends before the next point.
+    r"""A text with its signs; pivots, points and sums have their number as an index, which ends before the next point.
 
-    >>> signed("A-B0, s1 = 5, K1_x of ring_gear"), [*signed("|AB0|")]
-    ('A-B_0, s_1 = 5, K_1x of ring gear', ['|', 'A', '\u2060', 'B', '_', '0', '|'])
+    >>> signed("s1 = 5, K1_x of ring_gear"), signed("n_1 + n_2 = 2"), [*signed("A-B0")]
+    ('s_1 = 5, K_1x of ring gear', 'n_1\xa0+ n_2 = 2', ['A', '-', '\u2060', 'B', '_', '0'])
     """
     text = re.sub(r"(?<=[a-z]{3})_(?=[a-z]{3})", " ", with_signs(text).replace("₀", "0"))
-    text = re.sub(r"(?<=\b[A-D])(?=[A-D]0?\b)|(?<=\b[A-D]0)(?=[A-D]\b)", "\u2060", text)
+    text = re.sub(r"(?:(?<=\b[A-D])|(?<=\b[A-D]0))(-?)(?=[A-D]0?\b)", "\\1\u2060", text)
+    text = re.sub(r"(?<=\b\w_\w) (?=[+−] \w_\w =)", "\u00a0", text)
     text = re.sub(r"\b([AB](?=0)|s(?=[12]\b)|K(?=\d))(\d)_?(?!\d|[.,]\d)", r"\1_\2", text)
     return re.sub(r"\b(sin|cos|tan) (?=\w)", "\\1\u00a0", text)
 
@@ -165,7 +166,12 @@ def _choices(result: Result, lang: str) -> list[str]:
     if result.key == "change":
         return [change.in_language(lang) for change in CHANGES.values()]
     places = (place for place in FOUR_BAR_TYPES if place[0] in "<=>" and len(place[1]) <= 1)
-    return [FOUR_BAR_TYPES[place].name(lang).partition(" (")[0] for place in places]
+    return [_short(FOUR_BAR_TYPES[place].name(lang)) for place in places]
+
+
+def _short(name: str) -> str:
+    """The name of a type without what explains it."""
+    return name.partition(" (")[0]
 
 
 def marked_task(id: str, answers: dict[str, str], lang: str) -> dict[str, Any]:
@@ -193,9 +199,15 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
     """
 
     def part(text: str, formula: str = "", *, heading: bool = False, rows: Sequence[list[str]] = ()) -> dict[str, Any]:
-        said, line = signed(text.strip()), re.sub(r"\b(sin|cos|tan) \(", r"\1(", signed(formula.strip()))
-        return {"text": said, "formula": line, "heading": heading, "rows": [[*map(signed, row)] for row in rows]}
+        line = re.sub(r"\b(sin|cos|tan) \(", r"\1(", signed(chosen(formula.strip()))).replace(")/(", ")\u200b/(")
+        cells = [[signed(chosen(cell)).replace(" = ", "\u00a0=\u00a0") for cell in row] for row in rows]
+        return {"text": signed(text.strip()), "formula": line, "heading": heading, "rows": cells}
 
+    def chosen(text: str) -> str:
+        """A type as among the choices."""
+        return _short(text) if text in names else text
+
+    names = [each.value.in_language(lang) for each in solution.results.values() if isinstance(each.value, Readable)]
     parts = []
     count = 0
     shown, beyond = _asked_parts(task, solution)

@@ -342,11 +342,11 @@ def _velocity(random: Random, level: int) -> _Draft:
     if level < 3:
         given = _slider(random, level == 2) | {"phi": phi, "omega": omega, "unit": "mm"}
         task = message(
-            "A central slider-crank has {lengths}. The crank turns counter-clockwise at ω = {omega} rad/s and "
+            "A central slider-crank has {lengths}. The crank turns counter-clockwise at ω = {omega} 1/s and "
             "stands at φ = {phi}° to the slider's path. Find the velocity of the slider."
             if level == 1
             else "An eccentric slider-crank has {lengths} (e above the crank's pivot). The crank turns "
-            "counter-clockwise at ω = {omega} rad/s and stands at φ = {phi}° to the slider's path. Find the "
+            "counter-clockwise at ω = {omega} 1/s and stands at φ = {phi}° to the slider's path. Find the "
             "velocity and acceleration of the slider.",
             lengths=_given_lengths(given, "abe"),
             omega=omega,
@@ -355,7 +355,7 @@ def _velocity(random: Random, level: int) -> _Draft:
         return _Draft("velocities.slider_crank", given, ("v_B",) if level == 1 else ("v_B", "a_B"), task)
     given = _until(lambda: _any_four_bar(random), _good_rocker)
     task = message(
-        "A crank-rocker has {lengths}, B above the line A-B0. The crank turns counter-clockwise at ω = {omega} rad/s "
+        "A crank-rocker has {lengths}, B above the line A-B0. The crank turns counter-clockwise at ω = {omega} 1/s "
         "and stands at φ = {phi}° to the frame. Find the velocity of B, the transmission ratio and the "
         "acceleration of B.",
         lengths=_given_lengths(given),
@@ -372,8 +372,8 @@ def _universal_joint(random: Random, level: int) -> _Draft:
     beta, n = random.choice((15, 18, 20, 24, 25, 28, 30, 32, 35, 40)), 50 * random.randint(6, 40)
     given: Given = {"beta": beta, "n": n}
     task = message(
-        "Two shafts at an angle of β = {beta}° are joined by a universal joint; the input turns evenly at n_1 = {n} "
-        "1/min. Between which speeds does the output turn?",
+        "Two shafts with the bend angle β = {beta}° between them are joined by a universal joint; the input turns "
+        "evenly at n_1 = {n} 1/min. Between which speeds does the output turn?",
         beta=beta,
         n=n,
     )

@@ -56,7 +56,7 @@ def universal_joint(beta: float, n: float, phi: float | None = None) -> Solution
     builder.mistake("n_min", high, _SWAPPED)
     builder.mistake("n_max", low, _SWAPPED)
     builder.mistake("U", 1 / _cos(beta) - 1, message("U compares largest and smallest speed: (n_max - n_min)/n_1."))
-    builder.mistake("ε_max", beta / 2, message("The lead is much smaller than the bend: sin ε = tan²(β/2)."))
+    builder.mistake("ε_max", beta / 2, message("The lead is much smaller than the bend angle β: sin ε = tan²(β/2)."))
     if phi is not None:
         _at_angle(builder, beta, n, phi)
     return builder.done()

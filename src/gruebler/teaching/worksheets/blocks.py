@@ -118,7 +118,9 @@ class Document:
 _NUMBERED = re.compile(r"(?<![\w=])([^\W\d_])([0-9])(?:_(\w)(?!\w))?(?![\w])")
 _PIVOTS = re.compile(r"(?<!\w)(?=[A-Z0]*[A-Z]0)(?:[A-Z]0?){2,}(?!\w)")
 _PRIMES = re.compile(r"(?<=(?<!\w)[^\W\d_])'{1,2}(?!\w)")
-_MINUS = re.compile(r"(?<=\s)-(?=\s)|(?<![\w)\]…-])-(?=[\d(√∞])|(?:(?<=\()|(?<==\s)|(?<=;\s))-(?=[^\W\d_])")
+_MINUS = re.compile(
+    r"(?<=\s)-(?=\s)|(?<![\w)\]…-])-(?=[\d(√∞])|(?:(?<=\()|(?<==\s)|(?<=;\s)|(?<=,\s)(?=-\w\b))-(?=[^\W\d_])"
+)
 
 
 def typeset(text: str) -> str:
