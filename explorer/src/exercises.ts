@@ -57,8 +57,8 @@ interface Marked {
  * before operators. */
 function formula(text: string): (string | Node)[] {
   return unbroken(text, / (?![=+−<≤±] )(?<!\p{L}{4} )|(?<=\([^()\s]+) (?=[+−])/gu)
-    .split(/(?<!(?!Δ)\p{L}|\d\s(?:\w+\/)?(?=[ms]²?(?:[\s;,.)/]|$)))(\p{L}(?:_[\p{L}\d]+|\d+|(?!\()))(?!\p{L})/u)
-    .map((part, k) => (k % 2 ? h("i", {}, part[0], h("sub", {}, part.slice(1).replace("_", ""))) : part));
+    .split(/(?<!(?!Δ)\p{L}|\d\s(?:\w+\/)?(?=[msh]²?(?![\w·])))(\p{L}(?:_[\p{L}\d]+|\d+|(?!\()))(?!\p{L})/u)
+    .map((part, k) => (k % 2 ? h("i", {}, part[0], h("sub", {}, part.replace(/._?/, ""))) : part));
 }
 
 function partOf({ text, formula: line, heading, rows }: Part): HTMLElement {
@@ -70,7 +70,7 @@ function partOf({ text, formula: line, heading, rows }: Part): HTMLElement {
       "tr",
       {},
       ...row.map((cell, k) =>
-        h(tag, { class: /^−?\d/.test(body[0]![k]!) && "value" }, ...(k && / = /.test(cell) ? formula : indexed)(cell)),
+        h(tag, { class: /^−?\d/.test(body[0]![k]!) && "value" }, ...(k && /=/.test(cell) ? formula : indexed)(cell)),
       ),
     );
   return h(
@@ -134,12 +134,12 @@ export class ExercisesView implements View {
   async #fillKinds(): Promise<void> {
     if (!this.task) renew(this.#kinds, moment());
     this.#listed = await this.#page.ask<Kind[]>("exercise_kinds", {});
-    const options = this.#listed.map(({ kind, name }): [string, string] => [kind, name]);
+    const named = ({ kind, name }: Kind): [string, string] => [kind, name];
     const choose = (kind: string) => {
       this.kind = kind;
       void this.fresh();
     };
-    const kinds = choice(t("Topic"), options, this.kind, choose, { class: "choice palette" });
+    const kinds = choice(t("Topic"), this.#listed.map(named), this.kind, choose, { class: "choice palette" });
     kinds.prepend(h("span", {}, t("Topic")));
     renew(this.#kinds, kinds);
     return this.fresh();
@@ -161,15 +161,15 @@ export class ExercisesView implements View {
   #showTasks(): void {
     const tasks = this.#numbered();
     if (tasks.length) {
-      const options = tasks.map(({ id, name }): [string, string] => [id, name]);
-      const choose = (id: string) => {
+      const named = ({ id, name }: { id: string; name: string }): [string, string] => [id, name];
+      const list = menu(t("Exercises"), tasks.map(named), this.#chosen, (id) => {
         this.#chosen = id;
         void this.fresh();
-      };
-      return renew(this.#tasks, menu(t("Exercises"), options, this.#chosen, choose));
+      });
+      return renew(this.#tasks, list);
     }
-    const levels = ["1", "2", "3"].map((k): [string, string] => [k, k]);
-    const level = choice(t("Level"), levels, String(this.level), (value) => {
+    const levels: [string, string][] = [..."123"].map((k) => [k, k]);
+    const level = choice(t("Level"), levels, `${this.level}`, (value) => {
       this.level = Number(value);
       void this.fresh();
     });
@@ -177,7 +177,7 @@ export class ExercisesView implements View {
     renew(this.#tasks, level);
   }
 
-  /** The task that is chosen; of the one that is shown the answers stay. */
+  /** The task that is chosen, from what stands above its heading on; of the one that is shown the answers stay. */
   private async fresh(): Promise<void> {
     this.#showTasks();
     const id = this.#numbered().length ? this.#chosen : `${this.kind}-${this.level}-${this.seed}`;
@@ -187,6 +187,7 @@ export class ExercisesView implements View {
       this.task = task;
       this.#marked = null;
       this.#show();
+      this.#tasks.scrollIntoView({ block: "nearest" });
     } catch (error) {
       renew(this.#place, h("p.error", {}, (error as Error).message));
     }
@@ -195,18 +196,10 @@ export class ExercisesView implements View {
   #show(): void {
     const marked = this.#marked;
     const task = this.task!;
-    const submit = (event: Event) => {
-      event.preventDefault();
-      void this.#mark();
-    };
-    const solved = !!this.record.get(task.id);
+    const solved = this.record.get(task.id);
     this.#verdict.textContent = "";
-    const act = (name: string, text: string, key: boolean, onclick?: () => void) =>
-      h(
-        "button",
-        { class: key ? "key" : "plain", "data-act": name, type: onclick ? "button" : "submit", onclick },
-        text,
-      );
+    const act = (name: string, text: string, key?: boolean, onclick?: () => void) =>
+      h("button", { class: key ? "key" : "plain", "data-act": name, type: onclick && "button", onclick }, text);
     renew(
       this.#place,
       h(
@@ -233,7 +226,12 @@ export class ExercisesView implements View {
         ),
         h(
           "form",
-          { onsubmit: submit },
+          {
+            onsubmit: (event: Event) => {
+              event.preventDefault();
+              void this.#mark();
+            },
+          },
           ...task.asked.map((one) => this.#row(one)),
           h(
             "div.form.go",
@@ -258,8 +256,8 @@ export class ExercisesView implements View {
 
   /** What is asked, with a field or a choice, and its mark. */
   #row({ key, name, symbol, unit, choices }: Asked): HTMLElement {
-    const mark: Mark | null | undefined =
-      this.#marked && (this.#marked.marks.find((one) => one.key === key) ?? { key, mark: "missing", hint: "" });
+    const mark: Omit<Mark, "key"> | null =
+      this.#marked && (this.#marked.marks.find((one) => one.key === key) ?? { mark: "missing", hint: "" });
     const given = this.#answers[key] ?? "";
     const set = (value: string) => (this.#answers[key] = value);
     const [id, hint] = [`answer-${key}`, `hint-${key}`];
@@ -300,7 +298,7 @@ export class ExercisesView implements View {
 
   async #mark(): Promise<void> {
     const task = this.task!;
-    if (!Object.values(this.#answers).some((answer) => answer.trim())) {
+    if (!Object.values(this.#answers).join("").trim()) {
       this.#verdict.textContent = t("Give at least one answer.");
       return;
     }
@@ -325,9 +323,9 @@ export class ExercisesView implements View {
   }
 
   #showScore(): void {
-    const tasks = [...this.record.values()];
-    const solved = tasks.filter(Boolean).length;
-    if (tasks.length) this.#score.textContent = t("{solved} of {tasks} solved", { solved, tasks: tasks.length });
+    const tasks = this.record.size;
+    const solved = [...this.record.values()].filter(Boolean).length;
+    if (tasks) this.#score.textContent = t("{solved} of {tasks} solved", { solved, tasks });
   }
 
   async #tryIt(part: number): Promise<void> {

@@ -394,6 +394,21 @@ def test_the_hint_is_in_sight(exercises):
     assert hint["y"] + hint["height"] <= bar["y"]
 
 
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (390, 844)])
+def test_beside_a_long_solution_the_figure_stays_and_the_next_task_begins_at_its_heading(exercises, width, height):
+    page = exercises(width=width, height=height, touch=width < 500)
+    view = page.page
+    begin(page, "velocity", 3, 3)
+    view.locator('[data-answer="v_B"]').fill("1")
+    view.click('[data-act="mark"]')
+    view.click(".solution summary")
+    view.locator(".solution > div").last.scroll_into_view_if_needed()
+    assert (view.locator(".task figure").bounding_box()["y"] > 0) is (width > 500)
+    view.click('[data-act="next"]')
+    page.until(f"{KIND}.task.id === 'velocity-3-4'")
+    assert 0 <= view.locator(".task h2").bounding_box()["y"] < height / 2
+
+
 def test_the_velocity_is_asked_where_the_linkage_then_stands(exercises):
     page = exercises()
     begin(page, "velocity", 3)
