@@ -198,7 +198,8 @@ export class Scene {
     this.draw();
   }
 
-  /** From where its links are large, long and not hidden, on the whole and at worst: as at first, unless that is much better elsewhere. */
+  /** From where its links are large, long and not hidden, on the whole and at worst: as at first, unless that is much
+   * better elsewhere. */
   get #sought(): number {
     const { reached } = this.machine;
     const some = reached.filter((_, k) => k % Math.ceil(reached.length / POSES) === 0);
