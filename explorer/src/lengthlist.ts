@@ -3,6 +3,7 @@
 import { digits } from "./digits";
 import { h } from "./dom";
 import { type Drawing, type Keep, knotName, turned, unitOf } from "./drawing";
+import { softened } from "./header";
 import { parsed, spaced, t } from "./language";
 import { isKept, keeping, lengthOf, spanName, spansOf, withLength } from "./lengths";
 import { lockButton } from "./shell";
@@ -50,7 +51,12 @@ export function lengthList(view: Measured): HTMLElement[] {
       },
     });
     return [
-      h("label", { for: id, title: link }, h("b", {}, name), h("span.unit", {}, ` ${link}`)),
+      h(
+        "label",
+        { for: id, title: link },
+        h("b", {}, name.replace("–", "\u2060–\u2060")),
+        h("span.unit", {}, softened(` ${link}`)),
+      ),
       input,
       h("span.unit", {}, unit),
       h("span.locks", {}, ...locks),
