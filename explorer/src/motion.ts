@@ -24,7 +24,7 @@ import { snappedOn } from "./snapping";
 import { alike, type Snapshot, sameSizes } from "./snapshot";
 import { Stage } from "./stage";
 import { tableOf } from "./table";
-import type { Driven } from "./transport";
+import { type Driven, SPEED } from "./transport";
 import type { Page, View } from "./view";
 import { whole } from "./waiting";
 import { refusedText, stopText } from "./wording";
@@ -70,11 +70,7 @@ export class MotionView implements View, Editor, Driven {
         dragPoint: (point, at, snap) => this.#putPoint(point, ...this.#meant(null, at, snap)),
         movePointBy: (point, dx, dy) => this.#movePointBy(point, dx, dy),
         pull: (link, u, v, x, y) => this.transport.pull(link, u, v, x, y),
-        addPoint: (link, x, y) => {
-          this.addPoint(link ?? this.shown.link, x, y);
-          this.stage.setAdding(false);
-          this.side.open("points");
-        },
+        addPoint: (link, x, y) => this.addPoint(link ?? this.shown.link, x, y),
         choose: (link) => (this.stage.adding ? this.#carry(link) : this.#choose(link)),
         holdJoint: (joint) => {
           this.attempt(() => this.dragging.locks.hold(joint));
@@ -99,6 +95,7 @@ export class MotionView implements View, Editor, Driven {
     this.transport.pause();
     if (this.linkage) this.#history.add(this.#state());
     this.take(model);
+    this.transport.speed = SPEED; // not that of the loads of the one before
     this.side.element.scrollTop = 0;
     if (view) this.#drawnIn.set(this.linkage, view);
     this.#renewed();
@@ -324,6 +321,8 @@ export class MotionView implements View, Editor, Driven {
 
   addPoint(link: number, x: number, y: number): void {
     this.edit(() => this.linkage.addPoint(link, x, y));
+    this.stage.setAdding(false);
+    this.side.open("points");
   }
 
   /** Mark a link: its sizes, and new points and poles are its own. */

@@ -44,13 +44,16 @@ export interface Marked {
   least: { value: number; leg: unknown } | null;
 }
 
+/** At which a machine is played at first. */
+export const SPEED = 12;
+
 export class Transport<View extends Driven = Driven> {
   readonly element = h("div.transport", {});
   readonly player = new Player(
     (seconds) => this.advance(seconds),
     () => this.paused(),
   );
-  protected speed = 12; // turns a minute; of a slide, strokes
+  speed = SPEED; // turns a minute; of a slide, strokes
   #way = 1;
   protected readonly track = new Track((value, beyond) => this.slid(value, beyond));
   readonly #value = h("input.value", { size: 8, onchange: () => this.#typed() });
@@ -83,7 +86,7 @@ export class Transport<View extends Driven = Driven> {
     const called = t("Drive");
     const drives = choices.length > 1 && h("select", { "aria-label": called, title: called, onchange }, ...choices);
     const speedLabel = h("label.speed", {}, t("Speed"), speed, rate);
-    this.#value.setAttribute("aria-label", this.ending ? t("Time") : t("Drive"));
+    this.#value.setAttribute("aria-label", this.ending ? t("Time") : called);
     const { button } = this.player;
     const track = this.track.element;
     const row = this.ending

@@ -67,6 +67,8 @@ def test_a_point_without_a_mouse(tab, crank_rocker):
     page.page.locator('[data-panel="points"] summary').press("Enter")
     page.page.locator('[data-act="add-point"]').press("Enter")
     assert page.page.evaluate(f"{POINTS}.length") == 1
+    field = page.page.locator('[data-field="point-name-0"]').bounding_box()
+    assert 0 < field["y"] < 600  # in sight, though a plot more pushes its panel down
     before = page.middle('[data-mark="K1"] .dot')
     page.page.locator('[data-mark="K1"]').press("ArrowUp")
     after = page.middle('[data-mark="K1"] .dot')

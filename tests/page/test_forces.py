@@ -422,6 +422,17 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     assert page.page.evaluate("gruebler.motion.transport.player.playing")
 
 
+def test_a_speed_of_loads_is_none_of_another_machine(tab, server):
+    """A compressor at its 1450 turns a minute."""
+    page = tab().open(server.address).machine("vcomp")
+    page.page.locator(f"{PANEL} summary").first.click()
+    page.page.locator('[data-act="play"]').click()
+    speed = page.page.locator(".transport .speed")
+    assert "1450/min" in speed.inner_text()
+    page.machine("slidercrank")
+    assert "12/min" in speed.inner_text()
+
+
 def test_springs_are_chosen_drawn_and_turn_the_drive(tab, server):
     """A coil from the left bearing to C and a spiral about A: energies that the drive stores in them."""
     page = tab().open(server.address)
