@@ -100,7 +100,9 @@ export class Resizing {
     const { document, resizable, unit } = data;
     const { joints } = document.screws;
     const old = joints[key]![what]!;
-    const shown = old.map((part) => number(part, what === "at" ? DIGITS - 1 : DIGITS - 2));
+    const all = Object.values(joints).flatMap((each) => [...(each[what] ?? [])]);
+    const least = 1e-9 * Math.max(...all.map(Math.abs)); // below it is rounding
+    const shown = old.map((part) => number(Math.abs(part) < least ? 0 : part, what === "at" ? DIGITS - 1 : DIGITS - 2));
     const id = `joint-${joint}-${what}`;
     const field = h("input", {
       id,

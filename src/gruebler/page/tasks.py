@@ -265,10 +265,15 @@ def way(task: Exercise, solution: Solution, result: Result) -> Message:
     >>> task = exercise("mobility-1-3")  # a four-bar: R(2-3) R(3-4) R(4-1) R(1-2)
     >>> way(task, solve(task), solve(task).results["g1"]).in_language("en")
     'Each joint that joins two links counts once.'
+    >>> task = exercise("transmission-angle-3-1")  # in frame position II the angle is obtuse
+    >>> said = way(task, solve(task), solve(task).results["μ_II*"]).in_language("en")
+    >>> said[said.index("),") :]
+    '), μ_II* = 180° - μ_II. μ_II: angle between coupler and rocker, frame position II.'
     """
-    beginning = f"{result.symbol.rstrip('*')} = "
-    steps = (part for part in solution.parts if isinstance(part, SolutionStep))
-    formula = next((step.formula for step in steps if step.formula.startswith(beginning) and step.numbers), "")
+    steps = [part.formula for part in solution.parts if isinstance(part, SolutionStep) and part.numbers]
+    symbols = dict.fromkeys([result.symbol.rstrip("*"), result.symbol])  # μ_I, of which μ_I* is the acute angle
+    found = (next((step for step in steps if step.startswith(f"{symbol} = ")), "") for symbol in symbols)
+    formula = ", ".join(filter(None, found))
     if formula:
         indexed = re.sub(r"\b([^\W\d_])(\d+)\b", r"\1_\2", formula)
         counts = _put_in(task, solution, result, formula)
