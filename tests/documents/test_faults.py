@@ -58,5 +58,5 @@ def test_the_written_solution_says_what_is_printed():
     assert "| 78.463° | printed 78.2°: differs. Misprint: arccos 0.2 is 78.46°" in page
     assert "Check by a second method:" in page
     german = document_bytes(solution_document([exercise("16")], lang="de"), "md").decode("utf-8")
-    assert "Bemerkung: Das Bild mit K fehlt" in german
+    assert "Bemerkung: Auf der Koppel liegen die Punkte bei (u; v)" in german
     assert "± 78.463°" in document_bytes(solution_document([exercise("11")]), "md").decode("utf-8")

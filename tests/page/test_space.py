@@ -804,7 +804,7 @@ def test_outputs_are_told_with_sign_and_full_turns(server, chromium):
     page.goto(server.address + "space/diff_bevel.html#en")
     page.get_by_role("button", name="Pause").click()
     carrier, sun = page.locator('[data-panel="drives"] input').all()
-    name = "sun 2: turned from the reference pose"
+    name = "sun\xa02: turned from the reference pose"
     links = page.locator('[data-panel="links"]')
     before = links.bounding_box()["y"]
     assert "Transfer function ψ′" in read_off(page)  # its row is there while the plots are made
