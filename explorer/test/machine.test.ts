@@ -20,19 +20,33 @@ test("small, large and half turns about each axis are told", () => {
 });
 
 test("what is fitted into a picture in space fills its free room, from edge to edge one way", () => {
-  const places: Vector[] = [
+  const broad: Vector[] = [
     [300, 0, 0],
     [-40, 10, 0],
     [0, 200, 30],
     [20, -20, 150],
+  ];
+  // along it the eye keeps away from what is nearest
+  const slender: Vector[] = [
+    [400, 30, 0],
+    [400, -30, 20],
+    [-400, 60, -20],
+    [-400, -30, 0],
   ];
   const free = { left: 0.05, right: 0.2, top: 0.1, bottom: 0.15 }; // parts of the picture
   const room = [
     [-1 + 2 * free.left, 1 - 2 * free.right],
     [-1 + 2 * free.bottom, 1 - 2 * free.top],
   ];
-  for (const wide of [0.8, 1.5]) {
-    const camera = { turn: 0.9, lift: 0.5, middle: [0, 0, 0] as Vector, distance: 1 };
+  const looks = [
+    [broad, 0.9, 0.5],
+    [slender, 0.9, 0.5],
+    [slender, 0, 0],
+    [slender, Math.PI, 0],
+    [slender, Math.PI / 2, 0],
+  ] as const;
+  for (const [wide, [places, turn, lift]] of [0.8, 1.5].flatMap((one) => looks.map((look) => [one, look] as const))) {
+    const camera = { turn, lift, middle: [0, 0, 0] as Vector, distance: 1 };
     const view = projection(fitted(camera, wide, places, free), wide);
     const all = places.map((place) => seen(view, place));
     const ends = [0, 1].map((axis) => all.map((at) => at[axis]!)).map((at) => [Math.min(...at), Math.max(...at)]);
@@ -41,7 +55,7 @@ test("what is fitted into a picture in space fills its free room, from edge to e
       assert.ok(Math.abs(before! - after!) < 0.01, `in the middle: ${before} ${after}`);
       assert.ok(before! > -0.01);
     }
-    assert.ok(Math.min(...left.flat()) < 0.01, `it fills it: ${left}`);
+    if (places === broad) assert.ok(Math.min(...left.flat()) < 0.01, `it fills it: ${left}`);
   }
 });
 

@@ -95,20 +95,21 @@ export function fitted(camera: Camera, wide: number, places: Vector[], margins: 
   const ends = (value: (place: Vector) => number): [number, number] =>
     all.map(value).reduce(([least, most], one) => [Math.min(least, one), Math.max(most, one)], [Infinity, -Infinity]);
   let [h, v, n] = [0, 1, 2].map((k) => sum(ends((at) => at[k]!)) / 2) as Vector;
-  const nearest = ends(([, , z]) => z)[1] - n; // stays before the eye
+  const nearest = ends(([, , z]) => z)[1] - n; // the eye is twice as far: it is not seen much larger
   const scales = [OPENING / Math.max(wide, 1), OPENING * Math.min(wide, 1)];
   const room = [2 - 2 * (margins.left + margins.right), 2 - 2 * (margins.top + margins.bottom)];
   const wanted = [margins.left - margins.right, margins.bottom - margins.top];
   let distance = Math.max(20 * ends(([x, y, z]) => Math.hypot(x - h, y - v, z - n))[1], 1e-9);
   for (let k = 0; k < STEPS; k++) {
+    const gap = distance - nearest; // by it what is nearest goes; by more it would swing to and fro
     // what is near is seen larger: the middle of the picture is not that of the places
     const spans = [0, 1].map((axis) =>
       ends((at) => (scales[axis]! * (at[axis]! - [h, v][axis]!)) / (distance - at[2] + n)),
     );
-    const [x, y] = spans.map((both, axis) => ((sum(both) / 2 - wanted[axis]!) * distance) / scales[axis]!);
+    const [x, y] = spans.map((both, axis) => ((sum(both) / 2 - wanted[axis]!) * gap) / scales[axis]!);
     [h, v] = [h + x!, v + y!];
     const part = Math.max(...spans.map(([from, to], axis) => (to - from) / room[axis]!));
-    distance = Math.max(distance * part, 1.2 * nearest, 1e-9);
+    distance = Math.max(nearest + gap * part, 2 * nearest, 1e-9);
   }
   const middle = right.map((r, k) => h * r + v * up[k]! + n * near[k]!) as Vector;
   return { ...camera, middle, distance };
