@@ -51,8 +51,8 @@ export function indexed(text: string): (string | Node)[] {
     .map((part, k) => (part ? [part, h("sub", {}, part), h("nobr" as "b", {}, part)][k % 3]! : ""));
 }
 
-/** The same of a count, which breaks before an equals sign alone, but not before the first one. */
-export function formula(text: string): (string | Node)[] {
+/** The same of the count of freedoms: its formula breaks before an equals sign alone, but not behind F. */
+export function countOf(text: string): (string | Node)[] {
   return indexed(/ [−-] /.test(text) ? unbroken(text, / (?=[+−-] )/g).replace(/(?<!F) = /g, " \u200b= ") : text);
 }
 

@@ -1,6 +1,6 @@
 /** The panel that tells the mobility of what is drawn, and offers what would mend it. */
 
-import { formula, h, indexed, renew } from "./dom";
+import { countOf, h, indexed, renew } from "./dom";
 import {
   counted,
   type Drawing,
@@ -113,7 +113,7 @@ export class MobilityPanel {
           "details",
           { open },
           h("summary", {}, t("Why")),
-          ...told.lines.map((line) => h("p.note", {}, ...formula(line))),
+          ...told.lines.map((line) => h("p.note", {}, ...countOf(line))),
         ),
       );
     } catch (error) {

@@ -3,7 +3,7 @@
 import { type Choice, chainPicture, inPlane, type Structure, typesOf } from "./chain";
 import { ChainList, listOf } from "./chains";
 import { savedDocument } from "./document";
-import { type Child, formula, h, option, renew, thumbnail } from "./dom";
+import { type Child, countOf, h, option, renew, thumbnail } from "./dom";
 import { currentLanguage, t } from "./language";
 import { chainText, type Model } from "./model";
 import type { Page, View } from "./view";
@@ -181,7 +181,7 @@ export class StructureView implements View {
           ),
           ...lines.map((line) => {
             const [, label, text] = /^([^.:]*:)?(.*)/s.exec(line)!;
-            return h("p.said", {}, label && h("span.note", {}, label), ...formula(text!));
+            return h("p.said", {}, label && h("span.note", {}, label), ...countOf(text!));
           }),
           links.some(({ overconstrained }) => overconstrained) && h("p.note", {}, t("Orange: overconstrained links.")),
           links.some(({ overconstrained, rigid }) => rigid && !overconstrained) &&

@@ -529,6 +529,22 @@ def test_sizes_are_typed_undone_and_refused_with_the_reason(server, chromium):
     browser.close()
 
 
+def test_what_rounding_leaves_in_a_place_is_read_as_0(server, chromium):
+    """With a twist angle of 80 degrees the crank's bearing lies at -7e-15 mm."""
+    browser, page, errors = browsed_at(chromium, server.address + "space/wiper_rssr.html#en")
+    page.locator('[data-panel="joints"] summary').click()
+    ball = "gruebler.linkage.data.document.screws.joints['S(rod-rocker)'].at"
+    before = page.evaluate(ball)
+    twist = page.locator("#size-0-1")
+    twist.fill("80")
+    twist.press("Enter")
+    while page.evaluate(ball) == before:
+        page.wait_for_timeout(50)
+    assert page.locator("#joint-0-at").input_value() == "0 | 0 | 0"
+    assert errors == []
+    browser.close()
+
+
 def test_the_drive_stands_where_it_can_with_other_sizes(server, chromium):
     """With a crank of 80 mm the wiper's turns fully no more."""
     browser, page, errors = browsed_at(chromium, server.address + "space/wiper_rssr.html#en")

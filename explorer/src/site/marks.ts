@@ -57,7 +57,8 @@ export function marked(asked: Asked, answer: string, lang: Language, { fine, nea
     if (asked.whole) return off === 0 ? "right" : "wrong";
     const rounded = off <= 0.5 * place * (1 + 1e-9) && off <= nearly * size;
     if (off <= fine * size || rounded || off < 1e-9) return "right";
-    return off <= nearly * size && value % 1 ? "near" : "wrong";
+    const whole = Math.abs(value - Math.round(value)) <= 1e-9 * size; // but for rounding
+    return off <= nearly * size && !whole ? "near" : "wrong";
   };
   const exactly = ([value]: [number, Said]) =>
     Math.abs(number - value) <= 1e-5 * Math.abs(value) && Math.abs(number - asked.value) > fine * Math.abs(asked.value);

@@ -272,8 +272,8 @@ def way(task: Exercise, solution: Solution, result: Result) -> Message:
     """
     steps = [part.formula for part in solution.parts if isinstance(part, SolutionStep) and part.numbers]
     symbols = dict.fromkeys([result.symbol.rstrip("*"), result.symbol])  # μ_I, of which μ_I* is the acute angle
-    found = (next((step for step in steps if step.startswith(f"{symbol} = ")), "") for symbol in symbols)
-    formula = ", ".join(filter(None, found))
+    formulas = (next((step for step in steps if step.startswith(f"{symbol} = ")), "") for symbol in symbols)
+    formula = ", ".join(filter(None, formulas))
     if formula:
         indexed = re.sub(r"\b([^\W\d_])(\d+)\b", r"\1_\2", formula)
         counts = _put_in(task, solution, result, formula)

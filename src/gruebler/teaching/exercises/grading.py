@@ -218,6 +218,11 @@ def _is_mistake(mistake: Value, correct: float, reading: GivenAnswer) -> bool:
 
 
 def _mark_of(value: Value, reading: GivenAnswer) -> Mark:
+    """What an answer is worth, whatever the last bit of the result is.
+
+    >>> [str(_mark_of(wanted, GivenAnswer(123.0, 1.0, False))) for wanted in (125.0, math.nextafter(125.0, 126.0))]
+    ['wrong', 'wrong']
+    """
     if isinstance(value, str | Readable | bool):
         return Mark.WRONG
     off, size = abs(reading.number - value), abs(value)
@@ -225,7 +230,8 @@ def _mark_of(value: Value, reading: GivenAnswer) -> Mark:
         return Mark.RIGHT if off == 0 else Mark.WRONG
     if off <= FINE * size or (off <= 0.5 * reading.place * (1 + 1e-9) and off <= NEARLY * size) or off < 1e-9:
         return Mark.RIGHT
-    return Mark.NEAR if off <= NEARLY * size and value % 1 else Mark.WRONG
+    is_whole = abs(value - round(value)) <= 1e-9 * size  # but for rounding
+    return Mark.NEAR if off <= NEARLY * size and not is_whole else Mark.WRONG
 
 
 def _mark_of_words(value: Value, answer: str) -> Mark:
