@@ -1,4 +1,4 @@
-// Builds the page into the folder given, else into the package: an ES module and its style sheet, the kernel as text,
+// Builds the page into the folder given, else into the package: an ES module and its style sheet, kernel and texts,
 // one more module for static sites, one for their synthesis, one for linkages in space and what adds to the sheet.
 
 import { readFile, writeFile } from "node:fs/promises";
@@ -65,7 +65,7 @@ function besideTheirLike([first, ...others]) {
   return chosen;
 }
 
-/** `t("Play")` with the number of its text in the table, where both languages stand packed. */
+/** `t("Play")` with the number of its text in the table, which stands packed beside the module. */
 function numbered(source) {
   return source.replace(/\bt\(\s*("(?:[^"\\]|\\.)*"(?:\s*\+\s*"(?:[^"\\]|\\.)*")*)\s*(?=[,)])/g, (call, text) => {
     const number = texts.indexOf(text.match(literal).map(JSON.parse).join(""));
@@ -93,7 +93,7 @@ function unveiled(source) {
   return source.replace(hidden, (_, name) => `hidden${names.indexOf(name)}`);
 }
 
-/** The kernel and tables of texts stand packed in the module; the packer does the same everywhere. */
+/** Texts are numbers; the kernel of synthesis stands packed in its module. */
 const packed = {
   name: "packed",
   setup: ({ onLoad }) => {
@@ -102,16 +102,6 @@ const packed = {
     });
     onLoad({ filter: /\.gz$/ }, async ({ path: file }) => {
       const contents = `import { bytesOf } from "./packed";\nexport default bytesOf(${standIn(await readFile(file))});`;
-      return { contents, loader: "js", resolveDir: path.join(here, "src") };
-    });
-    // all of one language, then all of the other: what is alike stands nearer
-    onLoad({ filter: /\bde\.json$/ }, async () => {
-      const lines = [...texts, ...texts.map((one) => german[one])].join("\n");
-      const text = `await textOf(${standIn(await zopfli.gzipAsync(Buffer.from(lines), { numiterations: 60 }))})`;
-      const table = `all.splice(0, ${texts.length}).map((text, k) => [text, all[k]])`;
-      const contents = `import { textOf } from "./packed";
-        const all = (${text}).split("\\n");
-        export default Object.fromEntries(${table});`;
       return { contents, loader: "js", resolveDir: path.join(here, "src") };
     });
   },
@@ -251,10 +241,13 @@ for (const { path: file, text } of outputFiles) {
   );
 }
 
-await writeFile(
-  path.join(target, "motion.txt"),
-  written(await readFile(path.join(here, "../core/page/motion.wasm.gz"))),
-);
+// All of one language, then all of the other: what is alike stands nearer.
+const lines = [...texts, ...texts.map((one) => german[one])].join("\n");
+const beside = {
+  motion: await readFile(path.join(here, "../core/page/motion.wasm.gz")),
+  texts: await zopfli.gzipAsync(Buffer.from(lines), { numiterations: 60 }),
+};
+for (const [name, bytes] of Object.entries(beside)) await writeFile(path.join(target, `${name}.txt`), written(bytes));
 
 /** Declarations in the order of their names, in which they pack smaller. */
 function ordered(sheet) {

@@ -22,7 +22,7 @@ try {
     format: "esm",
     target: "es2022",
     sourcemap: "inline",
-    loader: { ".gz": "binary" },
+    loader: { ".gz": "binary", ".txt": "text" },
   });
   const files = names.map((name) => path.join(target, name.replace(/\.ts$/, ".mjs")));
   const done = spawnSync(process.execPath, ["--enable-source-maps", "--test", ...files], { stdio: "inherit" });

@@ -92,7 +92,7 @@ export class App implements Page {
 
   async start(): Promise<void> {
     try {
-      await loadKernel(bytesOf(String(this.model.get("kernel"))));
+      await loadKernel(bytesOf(String(this.model.get("motion"))));
     } catch (why) {
       this.#shadow.append(this.root);
       this.#appear();

@@ -5,11 +5,12 @@
 
 import { App } from "./app";
 import { type HostModel, SocketModel, StillModel } from "./host";
-import { t } from "./language";
+import { loadTexts, t } from "./language";
 
 export { documentOf } from "./document";
 export { Dragging } from "./dragging";
 export { Kernel, loadKernel } from "./kernel";
+export { loadTexts } from "./language";
 export { packed, unpacked } from "./link";
 export { Linkage } from "./linkage";
 export * as measures from "./measures";
@@ -17,7 +18,8 @@ export { programOf } from "./program";
 export { turn } from "./rows";
 export { linesOf } from "./shapes";
 
-function render({ model, el }: { model: HostModel; el: HTMLElement }): () => void {
+async function render({ model, el }: { model: HostModel; el: HTMLElement }): Promise<() => void> {
+  await loadTexts(String(model.get("texts")));
   const app = new App(model, el);
   void app.start();
   return () => app.destroy();
@@ -25,9 +27,10 @@ function render({ model, el }: { model: HostModel; el: HTMLElement }): () => voi
 
 export default { render };
 
-function begin(at: HTMLElement): void {
+async function begin(at: HTMLElement): Promise<void> {
   const given = (name: string) => document.getElementById(`gruebler-${name}`)!.textContent!;
-  const values = { ...(JSON.parse(given("model")) as object), kernel: given("kernel") };
+  const values = { ...(JSON.parse(given("model")) as object), motion: given("motion") };
+  await loadTexts(given("texts"));
   const host = at.dataset.gruebler ?? "file";
   const address = new URL("ws", location.href);
   address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
@@ -36,8 +39,9 @@ function begin(at: HTMLElement): void {
   const site = (window as { grueblerSite?: (values: object, texts: typeof t) => HostModel }).grueblerSite;
   const model = host === "server" ? new SocketModel(made, address.href) : (site?.(made, t) ?? new StillModel(made));
   const app = new App(model, at);
-  void app.start().then(() => Object.assign(window, { gruebler: app }));
+  await app.start();
+  Object.assign(window, { gruebler: app });
 }
 
 const place = typeof document === "undefined" ? null : document.querySelector<HTMLElement>("[data-gruebler]");
-if (place) begin(place);
+if (place) void begin(place);

@@ -1,13 +1,18 @@
-/** The texts of the page in the reader's language: English is the key, every other language a table. */
+/** The texts of the page in the reader's language; in the sources the English ones stand for them. */
 
-import german from "./de.json";
+import { textOf } from "./packed";
 
 export type Language = "en" | "de";
 
-const TABLES: Record<Language, Record<string, string>> = { en: {}, de: german };
-const TEXTS = Object.keys(german);
+/** All English texts, then the German ones in the same order. */
+let texts: string[] = [];
 
 let language: Language = "en";
+
+/** Take the texts, once, before anything is said: they stand packed beside the script, and build.mjs numbers them. */
+export async function loadTexts(packed: string): Promise<void> {
+  texts = (await textOf(packed)).split("\n");
+}
 
 export function setLanguage(chosen: Language): void {
   language = chosen;
@@ -24,9 +29,9 @@ export function currentLanguage(): Language {
 
 /** A text in the reader's language; gaps are written {name}. In the built page its number stands for it (build.mjs). */
 export function t(text: string | number, values: Record<string, string | number> = {}): string {
-  const english = typeof text === "number" ? TEXTS[text]! : text;
-  const found = TABLES[language][english] ?? english;
-  return found.replace(/\{(\w+)\}/g, (gap, name: string) => (name in values ? String(values[name]) : gap));
+  const at = typeof text === "number" ? text : texts.indexOf(text);
+  const said = texts[language === "de" && at >= 0 ? at + texts.length / 2 : at] ?? String(text);
+  return said.replace(/\{(\w+)\}/g, (gap, name: string) => (name in values ? String(values[name]) : gap));
 }
 
 /** An angle in degrees; what is below a millionth of a degree is rounding. */

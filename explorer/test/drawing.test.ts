@@ -34,6 +34,7 @@ import { setLanguage } from "../src/language";
 import { guidelines, snapped } from "../src/snapping";
 import { Viewport } from "../src/viewport";
 import { near } from "./near";
+import "./words";
 
 const place = (x: number, y: number): Spot => ({ at: [x, y], knot: null, link: null });
 const knot = (drawing: Drawing, number: number): Spot => ({ at: drawing.knots[number]!.at, knot: number, link: null });

@@ -17,6 +17,7 @@ import { Status } from "../src/status";
 import { quoted, tableOf } from "../src/table";
 import { stopText } from "../src/wording";
 import { CRANK_ROCKER, fourBar } from "./fourbar";
+import "./words";
 
 function inGerman(body: () => void): void {
   setLanguage("de");

@@ -48,7 +48,7 @@ def test_the_built_file_is_what_the_sources_give(tmp_path):
     assert (tmp_path / "explorer.js").read_text(encoding="utf-8") == BUILT.read_text(encoding="utf-8"), (
         "run `npm ci && npm run build` in explorer/ and commit src/gruebler/page/static/explorer.js"
     )
-    for name in ("explorer.css", "points.js", "site.js", "space.css", "space.js"):
+    for name in ("explorer.css", "motion.txt", "points.js", "site.js", "space.css", "space.js", "texts.txt"):
         assert (tmp_path / name).read_bytes() == (BUILT.parent / name).read_bytes(), name
 
 
@@ -85,6 +85,7 @@ def test_the_modules_of_the_kernels_are_made_of_these_sources():
 
 def test_the_page_stays_small():
     assert len(BUILT.read_bytes()) <= 220_000
+    assert len(BUILT.with_name("texts.txt").read_bytes()) <= 10_000  # both languages
     assert len(gzip.compress(BUILT.with_suffix(".css").read_bytes(), 9)) <= 7_000
 
 

@@ -8,7 +8,7 @@ import pytest
 import gruebler as gr
 from gruebler.base.errors import GrueblerError
 from gruebler.mechanics.fourbar import FourBar
-from gruebler.page.page import kernel_text, module_text, page_styles
+from gruebler.page.page import module_text, packed_text, page_styles
 
 BAR = FourBar(25, 70, 40, 70)
 
@@ -27,7 +27,7 @@ const model = {
 };
 window.tell = (event, content) => listeners[event].forEach((callback) => callback(content));
 window.values = values;
-window.end = widget.render({ model, el: document.getElementById("cell") });
+window.end = await widget.render({ model, el: document.getElementById("cell") });
 </script><script type="application/json" id="values">VALUES</script>"""
 
 
@@ -79,7 +79,8 @@ def test_only_linkages_are_explored():
 def test_the_front_end_in_a_cell(tab, tmp_path):
     from gruebler.page.model import model_of
 
-    values = {"host": "notebook", "lang": "de", "height": 600, "kernel": kernel_text(), "styles": page_styles()}
+    values = {"host": "notebook", "lang": "de", "height": 600, "styles": page_styles()}
+    values |= {name: packed_text(name) for name in ("motion", "texts")}
     values["machine"] = model_of(BAR.linkage({"K": (45, 40)}))
     text = json.dumps(values).replace("<", "\\u003c")
     page = tab()

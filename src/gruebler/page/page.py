@@ -32,9 +32,14 @@ def module_text(name: str = "explorer") -> str:
 
 
 @cache
-def kernel_text() -> str:
-    """The kernel that moves linkages, a packed module of WebAssembly in the signs of the script's packed texts."""
-    return (_STATIC / "motion.txt").read_text(encoding="ascii")
+def packed_text(name: str) -> str:
+    """What the script needs beside it, packed by build.mjs: ``"motion"``, the kernel of motion, or its ``"texts"``."""
+    return (_STATIC / f"{name}.txt").read_text(encoding="ascii")
+
+
+def packed_element(name: str) -> str:
+    """The element in which the script finds it."""
+    return f'<script type="text/plain" id="gruebler-{name}">{packed_text(name)}</script>'
 
 
 def picture_styles() -> str:
@@ -86,7 +91,7 @@ def single_file(model: Mapping[str, Any], lang: str = "") -> str:
     >>> from gruebler.mechanics.fourbar import FourBar
     >>> page = single_file(model_of(FourBar(25, 70, 40, 70).linkage()))
     >>> page.count("<script"), "fetch(" in page, " src=" in page
-    (3, False, False)
+    (4, False, False)
     """
     script = module_text()
     values = {"lang": lang, "machine": model}
@@ -127,8 +132,8 @@ def _page(lang: str, host: str, values: Mapping[str, Any], script: str, policy: 
     name = str(model["names"].get(lang or "en") or model["name"] or model["source"])
     title = f"{name} – gruebler" if name else "gruebler"
     tree = shadow_tree(page_styles(), _outline(name, lang, alone=host == "file"))
-    kernel = f'<script type="text/plain" id="gruebler-kernel">{kernel_text()}</script>'
-    return data_page(title, lang, values, kernel + script, policy, f'<div data-gruebler="{host}">{tree}</div>')
+    script = packed_element("motion") + packed_element("texts") + script
+    return data_page(title, lang, values, script, policy, f'<div data-gruebler="{host}">{tree}</div>')
 
 
 def shadow_tree(sheet: str, outline: str = "") -> str:

@@ -26,7 +26,7 @@ from gruebler.mechanics.screws.resizing import can_be_resized
 from gruebler.mechanics.screws.wheels import gear_rows
 from gruebler.mechanics.space.outputs import against_frame, valued_freedoms
 from gruebler.page.model import spaced
-from gruebler.page.page import WHOLE_WINDOW, data_page, module_text, page_styles, shadow_tree
+from gruebler.page.page import WHOLE_WINDOW, data_page, module_text, packed_element, page_styles, shadow_tree
 from gruebler.pictures.canvas.page_policy import policy_element, script_element
 from gruebler.pictures.structure.messages import title
 from gruebler.structure.chain.pairs import Alphabet
@@ -410,4 +410,5 @@ def space_file(model: dict[str, Any], lang: str = "en") -> str:
     script, sheet = module_text("space"), page_styles("space")
     policy = policy_element(script, sheets=(WHOLE_WINDOW, sheet), asks=model["asks"])
     name = str(model["texts"][lang]["title"])
-    return data_page(name, lang, model, script_element(script, "module"), policy, shadow_tree(sheet))
+    element = packed_element("texts") + script_element(script, "module")
+    return data_page(name, lang, model, element, policy, shadow_tree(sheet))

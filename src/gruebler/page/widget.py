@@ -12,7 +12,7 @@ from gruebler.base.text import LANGUAGES, Message, message, translate
 from gruebler.files import linkage_from_json
 from gruebler.mechanics.linkages import Linkage
 from gruebler.page.model import model_of
-from gruebler.page.page import LISTED_CHAINS, kernel_text, module_text, page_styles
+from gruebler.page.page import LISTED_CHAINS, module_text, packed_text, page_styles
 from gruebler.page.requests import answer, error_on_page
 from gruebler.pictures.linkage.picture import draw_linkage
 
@@ -32,7 +32,8 @@ class Explorer(anywidget.AnyWidget):
     host = traitlets.Unicode("notebook").tag(sync=True)
     lang = traitlets.Unicode("").tag(sync=True)
     height = traitlets.Int(640).tag(sync=True)
-    kernel = traitlets.Unicode(kernel_text()).tag(sync=True)
+    motion = traitlets.Unicode(packed_text("motion")).tag(sync=True)
+    texts = traitlets.Unicode(packed_text("texts")).tag(sync=True)
     styles = traitlets.Unicode("").tag(sync=True)
     limits = traitlets.Dict(LISTED_CHAINS).tag(sync=True)
     machine = traitlets.Dict().tag(sync=True)
