@@ -359,7 +359,7 @@ def test_a_load_that_is_nowhere_is_refused():
         answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), loads=[load]), "en", print)
 
 
-@pytest.mark.parametrize("locale", ["en-US", "de-DE"])
+@pytest.mark.parametrize("locale", [pytest.param("en-US", marks=pytest.mark.slow), "de-DE"])
 def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     page = tab(locale=locale).open(server.address)
     page.page.evaluate("gruebler.motion.transport.pick(1)")

@@ -41,7 +41,7 @@ def test_burmesters_curves_pass_through_the_poles():
     assert FOUR.origins[1] - turn * FOUR.origins[0] == pytest.approx(places["P₁₂"] * (1 - turn))
 
 
-@pytest.mark.parametrize("lang", ["en", "de"])
+@pytest.mark.parametrize("lang", [pytest.param("en", marks=pytest.mark.slow), "de"])
 def test_the_plot_of_burmesters_curves_names_poles_positions_and_pivots(lang):
     result = synthesise(FOUR, number=6, sort="size")  # a pivot far away lies outside of the plot
     design = next(design for design in result.designs if design.form == "RR-RR")

@@ -36,7 +36,7 @@ def off(linkage, direction=DIRECTION):
 
 
 @pytest.mark.parametrize("lengths", [(), (("frame", 4.0),)], ids=["free", "with a length"])
-@pytest.mark.parametrize("count", [2, 3, 4])
+@pytest.mark.parametrize("count", [2, 3, pytest.param(4, marks=pytest.mark.slow)])
 def test_designs_have_the_direction_and_pass_by_simulation(count, lengths):
     task = PositionTask(ROWS[:count])
     found = synthesise_positions(task, Demands(frame_direction=DIRECTION, lengths=lengths), number=6)

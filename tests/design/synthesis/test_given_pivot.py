@@ -173,9 +173,9 @@ def test_lengths_beside_a_pivot_are_those_of_a_bisection(kind, link, length):
     [
         (2, {"crank": 2.75, "rocker": 4}, {}),
         (2, {"frame": 4}, {"fixed_pivots": [PIVOT]}),
-        (3, {"crank": 2.75, "frame": 5.5}, {}),
+        pytest.param(3, {"crank": 2.75, "frame": 5.5}, {}, marks=pytest.mark.slow),
         (3, {"crank": 2.75, "coupler": 3, "rocker": 4, "frame": 5}, {}),
-        (4, {"frame": 5}, {}),
+        pytest.param(4, {"frame": 5}, {}, marks=pytest.mark.slow),
         (4, {"coupler": 4}, {"curve_parameters": [0.3]}),
     ],
 )

@@ -435,7 +435,7 @@ SIX_POINTS = ((-50, -5), (-30, 10), (-10, 18), (12, 19), (30, 12), (50, -8))
 @pytest.mark.parametrize(
     ("points", "angle", "ratio", "named"),
     [
-        (SIX_POINTS, 88, 20, "a transmission angle of 88°"),
+        pytest.param(SIX_POINTS, 88, 20, "a transmission angle of 88°", marks=pytest.mark.slow),
         (SIX_POINTS[::2], 89.9, 1.05, "a transmission angle of 89.9° and a size ratio of 1.05"),
     ],
     ids=["six", "three"],

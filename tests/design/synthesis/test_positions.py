@@ -376,7 +376,9 @@ def test_a_region_without_solutions():
     assert list(map(str, found.rejected[0].verdict.reasons)) == ["a fixed pivot lies outside the region"]
 
 
-@pytest.mark.parametrize(("count", "region"), [(2, (0, 0, 1, 1)), (3, (-3, 0, 3, 4)), (4, (1, 2, 3, 6))])
+@pytest.mark.parametrize(
+    ("count", "region"), [(2, (0, 0, 1, 1)), (3, (-3, 0, 3, 4)), pytest.param(4, (1, 2, 3, 6), marks=pytest.mark.slow)]
+)
 def test_dyads_of_an_infinite_family_are_taken_from_the_region(count, region):
     """Their pivots lie in it, and the body keeps its distance from them in all positions."""
     task = task_of([(0, 0, 0), (1, 0.5, 20), (2, 0.4, 45), (3, 0, 60)][:count])

@@ -29,11 +29,21 @@ THREE = PositionTask([(0, 0, 0), (0.8, 0.5, 0.4), (1.5, 0.4, 1.0)])
 FOUR = PositionTask([*THREE.positions, (2.2, 0.1, 1.3)])
 PAIRS = FunctionTask([0.2, 0.9, 1.4], outputs=[0.1, 0.5, 1.3], start_input=False, start_output=False)
 SURE = ("Proved", "Not decided", "right angle", "No bound")
+STEEP = Demands(crank=True, transmission=np.radians(80))
 WORDS = {"sensitivity": "sensitivity to wrong", "size": "the size", "size-ratio": "the size ratio"}
 
 
-@pytest.mark.parametrize("task", [TWO, THREE, FOUR], ids=["two", "three", "four"])
-@pytest.mark.parametrize("demands", [Demands(), Demands(crank=True, transmission=np.radians(80))], ids=["any", "80"])
+@pytest.mark.parametrize(
+    ("task", "demands"),
+    [
+        pytest.param(TWO, Demands(), id="any-two", marks=pytest.mark.slow),
+        pytest.param(THREE, Demands(), id="any-three"),
+        pytest.param(FOUR, Demands(), id="any-four", marks=pytest.mark.slow),
+        pytest.param(TWO, STEEP, id="80-two"),
+        pytest.param(THREE, STEEP, id="80-three", marks=pytest.mark.slow),
+        pytest.param(FOUR, STEEP, id="80-four"),
+    ],
+)
 def test_every_form_has_its_sentence_on_the_transmission_angle(task, demands):
     said = [str(note) for note in synthesise(task, demands=demands).notes]
     sure = [note for note in said if any(word in note for word in SURE)]
@@ -50,8 +60,18 @@ def test_designs_that_turn_fully_come_first_and_are_those_of_which_something_is_
     assert any(str(note).startswith("Of those whose crank turns fully: ") for note in found.notes)
 
 
-@pytest.mark.parametrize("task", [THREE, PAIRS, PathTask([(0, 0), (1, 0.4), (2, 0.2)])], ids=["three", "pairs", "path"])
-@pytest.mark.parametrize("sort", WORDS)
+TASKS = {"three": THREE, "pairs": PAIRS, "path": PathTask([(0, 0), (1, 0.4), (2, 0.2)])}
+LONG = [("three", "size"), ("three", "size-ratio"), ("path", "sensitivity"), ("path", "size-ratio")]
+
+
+@pytest.mark.parametrize(
+    ("task", "sort"),
+    [
+        pytest.param(TASKS[task], sort, id=f"{sort}-{task}", marks=pytest.mark.slow if (task, sort) in LONG else ())
+        for task in TASKS
+        for sort in WORDS
+    ],
+)
 def test_each_measure_that_is_asked_for_is_named_with_what_is_known_of_it(task, sort):
     said = [str(note) for note in synthesise(task, sort=sort).notes]
     assert any(WORDS[sort] in note and ("is not proved" in note or "sorted only" in note) for note in said), said
@@ -222,7 +242,8 @@ def test_derivatives_of_the_conditions_of_points_are_difference_quotients(kind):
 
 @pytest.mark.parametrize("count", [pytest.param(3, marks=pytest.mark.slow), 4])
 @pytest.mark.parametrize(
-    ("sort", "demands"), [("sensitivity", Demands()), ("near-pivots", Demands(near_pivots=[(0, -2)]))]
+    ("sort", "demands"),
+    [("sensitivity", Demands()), pytest.param("near-pivots", Demands(near_pivots=[(0, -2)]), marks=pytest.mark.slow)],
 )
 def test_points_are_sought_by_what_is_asked_for(count, sort, demands):
     """No four-bar of random crank turns is better, all judged by their motion."""

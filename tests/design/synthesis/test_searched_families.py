@@ -73,7 +73,7 @@ def best_of_evolution(positions, form, measure, least):
 @pytest.mark.parametrize(
     ("count", "seed", "measure", "degrees"),
     [
-        (3, 0, "range-transmission", 0),
+        pytest.param(3, 0, "range-transmission", 0, marks=pytest.mark.slow),
         (3, 0, "size", 40),
         pytest.param(3, 1, "near-pivots", 52, marks=pytest.mark.slow),
         (2, 0, "range-transmission", 0),
@@ -186,7 +186,9 @@ def test_sliders_of_timed_points_are_the_best_by_what_is_asked_for():
     assert min(-each.transmission_over_range for each in found.designs if each.form == "RR-PR") <= best + 0.002
 
 
-@pytest.mark.parametrize(("measure", "degrees"), [("range-transmission", 0), ("near-pivots", 40)])
+@pytest.mark.parametrize(
+    ("measure", "degrees"), [pytest.param("range-transmission", 0, marks=pytest.mark.slow), ("near-pivots", 40)]
+)
 def test_four_bars_through_three_points_are_the_best_by_what_is_asked_for(measure, degrees):
     """The crank turns as it likes; the six best of eight choices of its turns, improved, had pivots 1 size too far."""
     places, least = PLACES.get(measure, ()), np.radians(degrees)
@@ -216,7 +218,7 @@ def test_linkages_with_a_slide_through_points_are_improved_where_a_measure_is_as
     assert np.degrees(-best["RR-RP"]) > 70
 
 
-@pytest.mark.parametrize("count", [3, 4])
+@pytest.mark.parametrize("count", [pytest.param(3, marks=pytest.mark.slow), 4])
 def test_timed_points_without_a_design_name_the_tightest_demand(count):
     task = PathTask(POINTS[:count], crank_angles=TIMES[:count])
     found = synthesise(task, demands=Demands(crank=True, size_ratio=1.0001, transmission=np.radians(89.9)))

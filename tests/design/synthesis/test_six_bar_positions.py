@@ -112,7 +112,7 @@ def test_six_positions_of_a_six_bar_find_it_again(monkeypatch):
 
 @pytest.mark.parametrize(
     ("count", "angle", "pivots"), [(6, 0.0, [(-1.5, -1), (1, -0.5)]), (6, 1.1, [(-1.5, -1), (1, -0.5)]),
-                                   (7, 0.4, [(-1.5, -1)]), (8, 0.4, [])]
+                                   (7, 0.4, [(-1.5, -1)]), pytest.param(8, 0.4, [], marks=pytest.mark.slow)]
 )  # fmt: skip
 def test_positions_of_one_angle_are_passed_without_any_turn(count, angle, pivots):
     """Six took 77 s for one design, seven and eight found none. `move` carries the body; its angle stays."""

@@ -25,8 +25,15 @@ def said(task, **demands):
     ("task", "demands", "named"),
     [
         (PathTask(TEARDROP, closed=True), STEEP, "a transmission angle of 80°"),
-        (PathTask(TEARDROP, closed=True, fixed_pivots=[(0, -2)]), {}, "the given pivots"),
-        (DwellTask(dwell=radians(90), swing=radians(30)), STEEP, "a transmission angle of 80° and a size ratio of 2.5"),
+        pytest.param(
+            PathTask(TEARDROP, closed=True, fixed_pivots=[(0, -2)]), {}, "the given pivots", marks=pytest.mark.slow
+        ),
+        pytest.param(
+            DwellTask(dwell=radians(90), swing=radians(30)),
+            STEEP,
+            "a transmission angle of 80° and a size ratio of 2.5",
+            marks=pytest.mark.slow,
+        ),
         (
             PathTask(
                 [(0, 0), (12, 9), None, (38, 10), (50, 0)],
