@@ -7,6 +7,7 @@ link may run into another one of the same link, as a bar into its sleeve. docs/t
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from math import acos, cos, isfinite, pi, sin
 
 import numpy as np
@@ -120,18 +121,19 @@ def link_solids(
             holds[link].append(hold)
     for cross in crosses:
         solids[cross.body or list(cross.arms)[-1]] += _spider(cross, radius)
-    for number, (rod, gland, end, fits) in struts.items():
+    for number, strut in struts.items():
         barrel, piston = chain.joints[number].links
-        if not fits:  # it slides on a rod
+        if not strut.fits:  # it slides on a rod
             ends = (travels or {}).get(number, (0.0, 0.0))
             solids[barrel] += _symbol(linkage, number, bearings[number], radius, ends, np.zeros((2, 3)), outer=False)
-        axis = (end - gland) / np.linalg.norm(end - gland)
-        bottom = gland + (holds[barrel][0] - gland) @ axis * axis
+        axis = (strut.end - strut.gland) / np.linalg.norm(strut.end - strut.gland)
+        bottom = strut.gland + (holds[barrel][0] - strut.gland) @ axis * axis
+        inner, outside = strut.gland - 1.5 * radius * axis, strut.gland + 0.2 * radius * axis
         solids[barrel] += [
-            cylinder_solid(bottom, gland, _BARREL * radius),
-            cylinder_solid(gland - 1.5 * radius * axis, gland + 0.2 * radius * axis, 1.2 * _BARREL * radius),
+            cylinder_solid(bottom, strut.gland, _BARREL * radius),
+            cylinder_solid(inner, outside, 1.2 * _BARREL * radius),
         ]
-        solids[piston].append(cylinder_solid(rod, end, _ROD * radius))
+        solids[piston].append(cylinder_solid(strut.rod, strut.end, _ROD * radius))
     points = {link: [np.array(at) for of, at in linkage.points.values() if of == link] for link in chain.links}
     for link, held in holds.items():
         if link != frame and all(link != cross.body for cross in crosses):
@@ -145,13 +147,21 @@ def link_solids(
     return {link: _distinct(each) for link, each in solids.items()}
 
 
-def _struts(
-    linkage: SpatialLinkage, r: float, travels: Mapping[int, tuple[float, float]]
-) -> dict[int, tuple[Reals, Reals, Reals, bool]]:
-    """Sliding joints of a cylinder, their first link, and a piston rod, with one more joint each on both sides of it.
+@dataclass(frozen=True, eq=False, slots=True)
+class _Strut:
+    """A cylinder and its piston rod."""
 
-    Given are where the rod begins, where it comes out of the barrel, its end, and whether it stays within the barrel.
-    """
+    rod: Reals
+    """Where the rod begins, in the barrel."""
+    gland: Reals
+    """Where it comes out of the barrel."""
+    end: Reals
+    fits: bool
+    """Whether all of its travel lies within the barrel."""
+
+
+def _struts(linkage: SpatialLinkage, r: float, travels: Mapping[int, tuple[float, float]]) -> dict[int, _Strut]:
+    """Sliding joints of a cylinder, their first link, and a piston rod, with one more joint each on both sides of it."""
     chain = linkage.mechanism.chain
     struts = {}
     for number, joint in enumerate(chain.joints):
@@ -174,7 +184,7 @@ def _struts(
         if on_axis and bottom * end < 0:
             fits = rod + low > side * bottom + 2 * r
             rod, gland = (rod, gland) if fits else (-3 * r, 0.0)
-            struts[number] = (at + side * rod * axis, at + side * gland * axis, at + end * axis, fits)
+            struts[number] = _Strut(at + side * rod * axis, at + side * gland * axis, at + end * axis, fits)
     return struts
 
 
