@@ -161,7 +161,7 @@ class _Strut:
 
 
 def _struts(linkage: SpatialLinkage, r: float, travels: Mapping[int, tuple[float, float]]) -> dict[int, _Strut]:
-    """Sliding joints of a cylinder, their first link, and a piston rod, with one more joint each on both sides of it."""
+    """Sliding joints of a cylinder, their first link, and a piston rod, with one more joint on each of its sides."""
     chain = linkage.mechanism.chain
     struts = {}
     for number, joint in enumerate(chain.joints):
