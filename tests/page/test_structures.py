@@ -559,20 +559,21 @@ def test_names_of_links_are_read_without_underscores_and_quotation_marks(lang, n
 def test_links_that_have_numbers_have_them_on_the_cards_of_frames_too():
     """Numbers of a list below the large picture, without this list; and those of a drawing, whose frame has a name."""
 
-    def written(text: str, names: dict[str, str]) -> list[list[str]]:
-        record = answer("structure", {"text": text, "names": names}, "en", print)
+    def written(text: str, names: dict[str, str], document: dict[str, object]) -> list[list[str]]:
+        record = answer("structure", {"text": text, "names": names, "document": document}, "en", print)
         numbered.append(record["numbered"])
         pictures = [record["picture"], *(each["picture"] for each in record["inversions"])]
         assert {each["frame"] for each in record["inversions"]} <= {name.replace("_", " ") for name in names.values()}
         return [sorted(re.findall(r"<text[^>]*>([^<]*)</text>", picture)) for picture in pictures]
 
     numbered: list[dict[str, str]] = []
-    leg = entries()["klann"].linkage().mechanism
-    large, *cards = written(leg.text(), {link: link for link in leg.chain.links})
+    leg = entries()["klann"].linkage()
+    mechanism = leg.mechanism
+    large, *cards = written(mechanism.text(), {link: link for link in mechanism.chain.links}, linkage_to_json(leg))
     assert large == cards[0] == list("123456")
     assert numbered[0]["5"] == "upper rocker"
     watt = "R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-2)"
-    large, *cards = written(watt, {"0": "frame", **{str(k): str(k) for k in range(1, 6)}})
+    large, *cards = written(watt, {"0": "frame", **{str(k): str(k) for k in range(1, 6)}}, {})
     assert "frame" in large
     assert not numbered[1]
     assert cards == [list("12345")] * 2

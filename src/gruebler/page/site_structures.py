@@ -26,11 +26,13 @@ def structure_pack(
     *,
     contacts: Mapping[tuple[int, str], str] | None = None,
     called: Mapping[str, str] | None = None,
+    base: Mechanism | None = None,
 ) -> dict[str, Any]:
     """Mobility, frames and drives of a chain as plain data, with what is said in these languages.
 
     The frame and the drives of the mechanism itself are among them, beside one of each kind. ``contacts`` and
-    ``called`` are those of `gruebler.page.structures.structure_record`, which says the same of one mechanism.
+    ``called`` are those of `gruebler.page.structures.structure_record`, which says the same of one mechanism, ``base``
+    is the ``like`` of `gruebler.page.structures.drawn_frame`.
 
     >>> pack = structure_pack(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0)"), ["en", "de"])
     >>> len(pack["frames"]), [(text, frame) for text, frame, *_ in pack["driven"]]
@@ -54,7 +56,7 @@ def structure_pack(
 
     frames, rows = [], []
     for number, (frame, bare) in enumerate(fixed.items()):
-        drawn = drawn_frame(bare, [*listed, *own], contacts or {}, named)
+        drawn = drawn_frame(bare, [*listed, *own], contacts or {}, named, like=base)
         like = next(orbit[0] for orbit in orbits if frame in orbit)
         record: dict[str, Any] = {
             "text": bare.text(),

@@ -159,17 +159,17 @@ def _machine_packs(id: str) -> _Packs:
     record = entry(id)
     mechanism = entry_mechanism(record)
     content: dict[str, Any] = {"structure": {}}
-    contacts = {}
+    contacts, base = {}, None
     if record.dimensions is not None and record.space == "planar":
         content["model"] = answer("open", {"id": id}, LANGUAGES[0], _nothing)
         contacts = contact_shapes(record.linkage())
-        mechanism = record.linkage().mechanism
+        mechanism = base = record.linkage().mechanism
     if "model" in content or record.in_space:
         with suppress(GrueblerError):  # what has no single drive stands still
             content["moving"] = _bare(answer("moving", {"id": id}, LANGUAGES[0], _nothing)["picture"])
     for lang in LANGUAGES:
         called = dict(zip(mechanism.chain.links, record.in_language(lang).chain().links, strict=True))
-        content["structure"][lang] = structure_pack(mechanism, [lang], contacts=contacts, called=called)
+        content["structure"][lang] = structure_pack(mechanism, [lang], contacts=contacts, called=called, base=base)
     yield f"machine-{id}", content
 
 

@@ -34,6 +34,7 @@ from gruebler.structure.mobility import MobilityReport, generic, mobility_report
 
 _MOST_LINKS = 60  # more links are drawn and counted, but their inversions are not listed
 _LONGEST_LABEL = 3  # letters of a name beside its link in a small picture
+_LARGER = 1.6  # numbers on cards, as explorer/src/styles/catalog.css has them
 _AGAINST = message("{joint}: {link} against {other}")
 _APART = {
     "link": message("fractionated: it falls apart when one link is cut"),
@@ -161,14 +162,17 @@ def structure_record(
     driven = list(listed_drives(chain, [orbit[0]], at_frame)) if few else []
     bare_ones = sorted(inversions(chain), key=_frame_number) if few else []
     frames = {bare.frame: bare for bare in bare_ones}
-    cards = {frame: drawn_frame(bare, driven, contacts, called, lang) for frame, bare in frames.items()}
+    base = None if sized is None else Mechanism(chain, sized.mechanism.frame)
+    cards = {frame: drawn_frame(bare, driven, contacts, called, lang, like=base) for frame, bare in frames.items()}
     like = like_driven(mechanism, {each.code(): each for each in driven})
     moved = mechanism
     if not mechanism.drives and like is not None:  # as the list drives it, at another link with the same role too
         moved = like if like.frame == mechanism.frame else with_drives(mechanism)
-    drawn = drawn_frame(Mechanism(chain, mechanism.frame), [moved], contacts, called, lang)
+    drawn = drawn_frame(Mechanism(chain, mechanism.frame), [moved], contacts, called, lang, like=base)
+    read = mechanism if ";" in text else chain
     return {
-        "text": mechanism.text() if ";" in text else chain.text(),
+        "text": read.text(),
+        "read": read.text(Alphabet.of_language(lang)),
         "code": code(chain),
         "size": chain.n,
         "name": chain_name(chain, lang),
@@ -299,10 +303,13 @@ def drawn_frame(
     contacts: Mapping[tuple[int, str], str],
     called: Mapping[str, str],
     lang: str = "en",
+    *,
+    like: Mechanism | None = None,
 ) -> DrawnFrame:
     """The picture of a mechanism without drives, with those of other drives at the same frame.
 
-    So all of them stand the same way up: a layout that takes account of a drive may be the mirrored one.
+    So all of them stand the same way up: a layout that takes account of a drive may be the mirrored one. All frames
+    of a chain stand as the chain itself does, or as the mechanism ``like``.
 
     >>> bare = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
     >>> drawn = drawn_frame(bare, listed_drives(bare.chain, ["0"]), {}, {})
@@ -310,7 +317,7 @@ def drawn_frame(
     (4, 1, True)
     """
     chain = bare.chain
-    placed = place_joints(bare, contacts)
+    placed = place_joints(bare, contacts, like=like or chain)
     bodies = paint(placed, lang)
     places = _places(chain, placed.chain)
     heads = {
@@ -324,13 +331,15 @@ def drawn_frame(
     outlines = {link: held[link] for link in chain.links}
     around = {link: (*corners, *corners[: placed.closed[link]]) for link, corners in outlines.items()}
     names = {link: as_read(called.get(link, link)) for link in chain.links}
-    texts, numbered = labels_with_names(outlines, placed.closed, bodies, names)
+    over = [shape for head in heads.values() for shape in head]
+    texts, numbered = labels_with_names(outlines, placed.closed, bodies, names, larger=_LARGER, heads=over)
     labelled = [*bodies, *texts]
     corner, picture = _picture(labelled, heads.values())
     if not numbered:
         brief = {link: outline for link, outline in outlines.items() if len(names[link]) <= _LONGEST_LABEL}
+        numbers = labels_with_names(brief, placed.closed, [*bodies, *over], names, larger=_LARGER)
         most = len(brief) >= chain.n - 1  # of a drawing the frame alone has a name
-        labelled = [*bodies, *(labels_with_names(brief, placed.closed, bodies, names)[0] if most else ())]
+        labelled = [*bodies, *(numbers[0] if most else ())]
     small, card = _picture(labelled, heads.values())
     back = Point(-corner.x, -corner.y)
 

@@ -144,10 +144,10 @@ def test_explanations_are_complete(text, lang):
 def test_explanations_of_the_seeds_two_chains():
     vee = mobility_report(Chain.parse(VEE)).explain("de")
     assert "F = 3(n - 1) - 2 g1 = 3(6 - 1) - 2·7 = 1" in vee
-    assert "zählt 2-fach" in vee
+    assert "verbindet 3 Glieder und zählt als 2 Gelenke" in vee
     triangle = Chain.parse("R(1-2) R(2-3-4) R(2-5-6) R(4-5-3) R(6-1)")
     said = mobility_report(triangle).explain()
-    assert "carry 3 links each and count 2 times each." in said  # three joints, one sentence
+    assert "join 3 links each and count as 2 joints each." in said  # three joints, one sentence
     assert "zwangläufig" in vee
     differential = mobility_report(Chain.parse(KNOWN[1][0])).explain()
     assert "F = 3(n - 1) - 2 g1 - g2 = 3(5 - 1) - 2·4 - 2 = 2" in differential

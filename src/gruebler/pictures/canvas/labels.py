@@ -48,14 +48,21 @@ def labels_with_names(
     closed: Mapping[str, bool],
     shapes: Sequence[Shape],
     names: Mapping[str, str] | None = None,
+    *,
+    larger: float = 1.0,
+    heads: Sequence[Shape] = (),
 ) -> tuple[list[Shape], dict[str, str]]:
-    """The names alone, and the entries of the list: names with their numbers."""
+    """The names alone, and the entries of the list: names with their numbers, which may be set ``larger``.
+
+    Numbers are beside ``heads``, the arrows of drives, too.
+    """
     called = {link: (names or {}).get(link, link) for link in outlines}
-    texts = _placed(outlines, closed, shapes, called)
+    texts = _placed(outlines, closed, shapes, called, larger)
     if texts is not None:
         return texts, {}
     numbers = short_names(list(called.values()))
-    texts = _placed(outlines, closed, shapes, {link: numbers[name] for link, name in called.items()})
+    around = [*shapes, *heads]
+    texts = _placed(outlines, closed, around, {link: numbers[name] for link, name in called.items()}, larger)
     assert texts is not None  # numbers are short
     return texts, {name: number for name, number in numbers.items() if name != number}
 
@@ -113,13 +120,14 @@ def _placed(
     closed: Mapping[str, bool],
     shapes: Sequence[Shape],
     names: Mapping[str, str],
+    larger: float,
 ) -> list[Shape] | None:
     """A text for every link, the longest first; None if a long one would touch a shape."""
     room, inside = Obstacles(shapes), Obstacles(shapes, inside=True)
     points = [point for outline in outlines.values() for point in outline]
     texts: list[Shape] = []
     for link in sorted(outlines, key=lambda link: -len(names[link])):
-        wide = text_width(names[link], STYLES["name"].size)
+        wide = text_width(names[link], STYLES["name"].size) * (1.0 if len(names[link]) > _SHORT else larger)
         others = Obstacles([_edges(outlines[other], closed[other]) for other in outlines if other != link])
         own = (outlines[link], closed[link], others)
         free, place = _best(room, points, *own, wide, (0.0,))

@@ -10,17 +10,22 @@ from numpy.typing import NDArray
 from gruebler.pictures.structure.layout import Layout
 
 
-def upright(layout: Layout, frame: int | None) -> NDArray[np.float64]:
+def upright(layout: Layout, frame: int | None, held: int | None = None) -> NDArray[np.float64]:
     """The points of the layout turned, float64[points, 2], y upward.
 
     Candidates are the turns that make an axis of symmetry vertical or an edge of the outline level. The choice is the
-    one with the lowest frame; without a frame the one with the flattest and widest box, axes of symmetry first.
+    one with the lowest frame; without a frame the one with the flattest and widest box, axes of symmetry first. Of
+    what looks the same by a symmetry of the layout it is then the one in which the body ``held`` is lowest.
     """
     angles = dict.fromkeys(_upright(layout), True)
     angles |= {angle: False for angle in _level(layout, frame) if angle not in angles}
     pictures = [(upright, layout.points @ _turn(angle).T) for angle, upright in angles.items()]
     pictures = pictures or [(False, layout.points)]
-    return min(pictures, key=lambda picture: _badness(layout, picture[1], frame, picture[0]))[1]
+    chosen = min(pictures, key=lambda picture: _badness(layout, picture[1], frame, picture[0]))[1]
+    if held is None:
+        return chosen
+    alike = [chosen[list(image)] for image in layout.images]
+    return min(alike, key=lambda points: _badness(layout, points, held, True))
 
 
 def _turn(angle: float) -> NDArray[np.float64]:

@@ -116,13 +116,21 @@ def chain_of(structure: Chain | Mechanism) -> Chain:
     return structure if isinstance(structure, Chain) else structure.chain
 
 
-def place_joints(structure: Chain | Mechanism, contacts: Mapping[tuple[int, str], str] | None = None) -> PlacedChain:
+def place_joints(
+    structure: Chain | Mechanism,
+    contacts: Mapping[tuple[int, str], str] | None = None,
+    *,
+    like: Chain | Mechanism | None = None,
+) -> PlacedChain:
     """Places for the joints of a chain or a mechanism, links and joints in canonical order: one for each structure.
 
-    ``contacts`` are those of `draw`.
+    ``contacts`` are those of `draw`. With ``like``, the chain or another mechanism of it, each joint is where it is
+    in a picture of that one: so all frames of a chain are told apart by their hatching alone.
     """
     frame, drives = (None, ()) if isinstance(structure, Chain) else (structure.frame, structure.drives)
-    chain, number = _ordered(chain_of(structure), frame, {drive.joint for drive in drives})
+    low, held = (frame, None) if like is None else _base(like)
+    marked = {drive.joint for drive in drives} if like is None else ()
+    chain, number = _ordered(chain_of(structure), low if held is None else held, marked)
     plain, places = _ordered(chain)
     touching = _renumbered(chain_of(structure), plain, contacts or {})
     spots = wheel_points(plain, frame, touching)
@@ -135,7 +143,7 @@ def place_joints(structure: Chain | Mechanism, contacts: Mapping[tuple[int, str]
     layout = _layout_of(tuple(kinds[p] for p in range(len(kinds))), (*inner, *spots.sides(inner)))
     number_of = {link: k for k, link in enumerate(bodies)}
     scale = mean_scale(layout)
-    turned = upright(layout, None if frame is None else number_of.get(frame))
+    turned = upright(layout, *(None if link is None else number_of.get(link) for link in (low, held)))
     points = [Point(scale * x, -scale * y) for x, y in turned.tolist()]
     at, wheels = spots.touching(points)
     outlines = {link: tuple(points[p] for p in layout.outlines[number_of[link]]) for link in bodies}
@@ -158,6 +166,11 @@ def place_joints(structure: Chain | Mechanism, contacts: Mapping[tuple[int, str]
         closed={link: len(bodies[link]) > 2 if link in bodies else link != frame for link in chain.links},
         bare=frozenset({*chain.links} - {*bodies}),
     )
+
+
+def _base(like: Chain | Mechanism) -> tuple[str | None, str | None]:
+    """The link that lies low, and the one that is as low as it may be where the picture stands as that of a chain."""
+    return (None, like.links[0]) if isinstance(like, Chain) else (like.frame, None)
 
 
 def _renumbered(chain: Chain, placed: Chain, contacts: Mapping[tuple[int, str], str]) -> dict[tuple[int, str], str]:

@@ -80,7 +80,8 @@ class Mechanism(Immutable, Drawn):
     def parse(cls, text: str) -> Mechanism:
         """The mechanism of a text or of a code with a marked frame.
 
-        Without ``frame=`` the first link named is the frame. An ``output=`` is checked and left out.
+        Without ``frame=`` the first link named is the frame. An ``output=`` is checked and left out. A mark ends at a
+        semicolon or with its line.
 
         >>> Mechanism.parse("D(0-1) D(1-2) D(2-3) D(3-0); drive=D(0-1)").frame
         '0'
@@ -103,7 +104,7 @@ class Mechanism(Immutable, Drawn):
         body, *marks = _split_marks(text)
         chain = Chain.parse(body)
         frame, output, drives = chain.links[0], None, []
-        for mark in marks:
+        for mark in "\n".join(marks).splitlines():
             key, _, value = mark.partition("=")
             match key.strip():
                 case "frame":

@@ -51,6 +51,8 @@ _OVERCONSTRAINED = message(
     "play."
 )
 """Redundancy is the number of equations between the dimensions (docs/theory/mobility.md, "Assembling")."""
+_CRANKS, _CONTACT = message("equal and parallel cranks"), message("a contact on the line of centres")
+_AXIS = message("joints on one axis")
 _ASSEMBLED = {
     True: message("Once assembled, the chain moves at almost all sizes."),
     False: message(
@@ -61,8 +63,8 @@ _ASSEMBLED = {
 """What an overconstrained chain does, by whether its generic mobility is positive."""
 _MEANINGS = {
     Verdict.RIGID: message(
-        "Nothing moves for almost all dimensions; only special dimensions (equal and parallel cranks, a contact on "
-        "the line of centres) can set it free, and then constraints are redundant."
+        "Nothing moves for almost all dimensions; only special dimensions ({examples}) can set it free, and then "
+        "constraints are redundant."
     ),
     Verdict.PARTLY_RIGID: message("It moves, but some of its links stay rigid against each other and act as one link."),
     Verdict.CONSTRAINED: message("One drive moves every link in one definite way."),
@@ -253,9 +255,9 @@ def _structure(report: MobilityReport, names: Sequence[str], lang: str) -> Itera
         alike = [k for k, joint in enumerate(chain.joints) if len(joint.links) == links]
         gaps = {"joints": _list(names, alike), "links": links, "count": links - 1}
         if len(alike) > 1:
-            yield message("The joints {joints} carry {links} links each and count {count} times each.", **gaps)
+            yield message("The joints {joints} join {links} links each and count as {count} joints each.", **gaps)
         else:
-            yield message("The joint {joints} carries {links} links and counts {count} times.", **gaps)
+            yield message("The joint {joints} joins {links} links and counts as {count} joints.", **gaps)
 
 
 def _numbers(report: MobilityReport) -> Iterator[Message]:
@@ -284,7 +286,10 @@ def _numbers(report: MobilityReport) -> Iterator[Message]:
 def _meaning(report: MobilityReport) -> Message:
     if report.verdict is Verdict.OVERCONSTRAINED:
         return joined([_OVERCONSTRAINED, _ASSEMBLED[report.generic > 0]], " ")
-    return _MEANINGS[report.verdict].filled(mobility=report.generic)
+    planar = report.chain.space is Space.PLANAR
+    touching = planar and max(report.chain.joints_by_freedom, default=1) > 1
+    examples = [_CRANKS] * (planar and report.chain.loops > 1) + [_CONTACT] * touching
+    return _MEANINGS[report.verdict].filled(mobility=report.generic, examples=joined(examples or [_AXIS], ", "))
 
 
 def _count_and_rank(report: MobilityReport) -> Message:
