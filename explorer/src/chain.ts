@@ -14,6 +14,8 @@ export interface Choice {
 
 export interface Structure {
   text: string;
+  /** The text in the letters of the language, where they are others. */
+  read?: string;
   /** The same for all chains of one structure. */
   code: string;
   /** How many links it has. */

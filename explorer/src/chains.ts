@@ -21,6 +21,9 @@ interface Chains {
   }[];
 }
 
+/** Links and mobility. */
+type Size = [number, number];
+
 const FEW = 6;
 
 /** A list of cards, the first ones and the one that is chosen or all, and a key for more if there are. */
@@ -35,7 +38,7 @@ export function listOf(key: string, cards: HTMLElement[], all: boolean, more: ()
 }
 
 /** Links and mobility of the list in which a structure stands: of one in space that of the plane with as many links. */
-function placeOf(found: Structure): [number, number] {
+function placeOf(found: Structure): Size {
   return [found.size, inPlane(found) ? found.counted : 1 + (found.size % 2)];
 }
 
@@ -101,8 +104,8 @@ export class ChainList {
   }
 
   /** Turn to all chains of a size. */
-  #turn(size: number[]): void {
-    [this.#links, this.mobility] = size as [number, number];
+  #turn(size: Size): void {
+    [this.#links, this.mobility] = size;
     this.#assortment = "";
     renew(this.#assortments);
     this.#count.textContent = t("counting …"); // no longer as many as before
@@ -172,7 +175,7 @@ export class ChainList {
       this.#count.textContent = unlisted;
       return;
     }
-    this.#turn(size);
+    this.#turn(size as Size);
     void this.#ask(0, true);
   }
 
@@ -190,13 +193,13 @@ export class ChainList {
     this.#all = start > 0;
     this.#list.classList.toggle("asking", others); // those of the size before
     if (others) {
+      this.#list.querySelector(".note")?.remove(); // why there was none
       this.#count.textContent = t("counting …");
       this.waits(!stays);
     }
-    const place = this.#found || others ? this.#status : this.#list;
     const found = this.#unlisted()
       ? { total: 0, assortments: [], items: [] }
-      : await awaited(place, (progress) => this.page.ask<Chains>("chains", question, progress));
+      : await awaited(this.#status, (progress) => this.page.ask<Chains>("chains", question, progress));
     if (number !== this.#asked) return; // another list is wanted by now
     this.#list.classList.remove("asking");
     this.waits(false);
@@ -224,7 +227,7 @@ export class ChainList {
       other && !listed && cardOf(other, other.name || t("Chosen")),
     ];
     if (this.#inSpace) return this.#showAlone(mine);
-    if (!found) return renew(this.#list, moment());
+    if (!found) return renew(this.#list, this.#asked ? h("div.cards.few", {}, ...mine) : moment());
     const { assortments, items, total } = found;
     this.#count.textContent = ["", t("one chain")][total] ?? t("{total} chains", { total });
     const language = currentLanguage();
@@ -237,7 +240,14 @@ export class ChainList {
     const choose = (assortment: string) => this.#only(assortment);
     const filter = menu(t("Link assortment"), [["", every], ...options], this.#assortment, choose);
     renew(this.#assortments, options.length > 1 && filter);
-    if (!total) return renew(this.#list, h("p.note", {}, this.#whyNone()), h("div.cards.few", {}, ...mine));
+    if (!total) {
+      const beside = [this.mobility - 1, this.mobility + 1].map((freedom): Size => [this.#links, freedom]);
+      const keys = beside
+        .filter((size) => (size[0] - size[1]) % 2 && !this.#unlisted(size))
+        .map((size) => h("button.plain", { onclick: () => this.#begin(size) }, `F = ${size[1]}`));
+      const told = h("div.form", {}, h("p.note", {}, this.#whyNone()), ...keys);
+      return renew(this.#list, told, h("div.cards.few", {}, ...mine));
+    }
     const chains = items.map(
       ({ code, name, text, picture, kinds }, k) =>
         // the machine at hand takes the place of its chain
@@ -253,14 +263,17 @@ export class ChainList {
     renew(this.#list, ...listOf("chains", cards, this.#all, more, rest ? total + cards.length - items.length : 0));
   }
 
+  /** Begin another list. */
+  #begin(size: Size): void {
+    this.#chosen = null;
+    this.#turn(size);
+    this.arrange();
+    void this.#ask(0, true);
+  }
+
   /** A chain in space without the list, to whose beginning a key leads. */
   #showAlone(cards: Child[]): void {
-    const turn = () => {
-      this.#chosen = null;
-      this.#turn([4, 1]);
-      this.arrange();
-      void this.#ask(0, true);
-    };
+    const turn = () => this.#begin([4, 1]);
     const told = t("Only chains of the plane are listed; this one is in space.");
     const list = h("button.plain", { "data-act": "plane", onclick: turn }, t("Chains of the plane"));
     renew(this.#list, h("div.cards.few", {}, ...cards), h("p.note", {}, told), list);

@@ -112,6 +112,8 @@ export class StructureView implements View {
       const own = text === this.#own;
       if (own) this.chains.own = found;
       if (number !== this.#asked) return;
+      // with the letters of the language, unless it is being typed
+      if (this.#field.value === text && !elsewhere) this.#field.value = found.read ?? text;
       this.text = text;
       this.structure = found;
       this.#error.textContent = "";
@@ -125,6 +127,7 @@ export class StructureView implements View {
       const [, place] = /(?:character|Stelle) (\d+)/.exec(said) ?? [];
       const at = +place! - 1;
       renew(this.#error, said, at >= 0 && h("code.place", {}, `\n${text.slice(0, at)}▸${text.slice(at)}`));
+      this.#error.scrollIntoView({ block: "nearest" });
     }
     this.#field.setAttribute("aria-invalid", String(!!this.#error.textContent));
     this.#words.hidden = false;

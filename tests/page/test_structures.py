@@ -5,6 +5,7 @@ from itertools import islice
 
 import pytest
 
+from gruebler.base.errors import GrueblerError
 from gruebler.files import linkage_to_json
 from gruebler.files.screws import screws_to_json
 from gruebler.mechanics.screws import SpatialLinkage
@@ -52,6 +53,23 @@ def test_the_frame_and_drive_that_are_chosen_are_those_of_the_list_that_are_like
         assert (record["chosen"], record["driver"]) == ("0", f"{chain}; frame=0; drive=R(0-1)")
         assert record["drives"] == "Mobility 1 and one drive: the motion is determined."
     assert structure_record(f"{chain}; frame=0; drive=R(1-2)", "en")["driver"] == ""  # not at the frame
+
+
+def test_all_frames_of_a_chain_are_drawn_alike():
+    """Each joint is in one place whatever link is the frame."""
+    for chain in islice(listed_chains(8, 1), 3, 6):
+        places = set()
+        for frame in chain.links:
+            at = [joint["at"] for joint in structure_record(f"{chain.text()}; frame={frame}", "en")["joints"]]
+            places.add(tuple((round(x - at[0][0]), round(y - at[0][1])) for x, y in at))
+        assert len(places) == 1
+
+
+def test_a_text_has_the_letters_of_the_language_and_its_marks_end_with_their_lines():
+    text = "R(0-1) R(1-2) R(2-3) R(3-0); frame=0\ndrive=R(0-1)"
+    assert structure_record(text, "de")["read"] == "D(0-1) D(1-2) D(2-3) D(3-0); frame=0; drive=D(0-1)"
+    with pytest.raises(GrueblerError, match="'hello' is not a mark of a mechanism"):
+        structure_record(f"{text}\nhello", "en")
 
 
 def test_frames_with_numbers_are_in_their_order():
@@ -302,6 +320,8 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     page.until("gruebler.root.textContent.includes('one of n and F is even')")
     parts = '[data-list="driven"] .card, .described .facts, [data-act="realise"]'
     assert view.locator(parts).count() == 0  # nothing is shown of the chain before
+    keys = view.locator('[data-page="structure"] .chains .plain')
+    assert keys.all_inner_texts() == ["F = 0", "F = 2"]  # with which there are some
     links.fill("6")
     links.press("Enter")
     view.locator('[data-act="realise"]').wait_for()
