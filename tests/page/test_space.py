@@ -566,34 +566,38 @@ def test_the_drive_stands_where_it_can_with_other_sizes(server, chromium):
 
 
 def test_sizes_that_go_together_are_taken_together(server, chromium):
-    """Lengths of Bennett's linkage are as the sines of its twists: 100 to 50 mm with 90 and 30 degrees."""
+    """Lengths of Bennett's linkage are as the sines of its twists: one takes the others along, unlike an angle."""
     browser, page, errors = browsed_at(chromium, server.address + "space/bennett.html#en")
     page.get_by_role("button", name="Pause").click()
     alert = page.locator('[data-panel="sizes"] [role="alert"]')
-    for field, size, reason in (
-        ("0-0", "50", "unless other"),
-        ("1-1", "−5", "not −5° The marked sizes are tried together"),
-    ):
+    undo = page.locator('[data-icon="undo"]')
+
+    def typed(field, size, said):
         page.locator(f"#size-{field}").fill(size)
         page.locator(f"#size-{field}").press("Enter")
-        page.locator('[data-panel="sizes"] [role="alert"]', has_text=reason).wait_for()
-    page.locator('[data-icon="undo"]').click()
-    wanted = {
-        0: ("100", "unless other sizes change"),
-        2: ("100", "no drive moves it"),
-        1: ("50", "closed"),
-        3: ("50", ""),
-    }
-    for link, (size, reason) in wanted.items():
-        field = page.locator(f"#size-{link}-0")
-        field.fill(size)
-        with page.expect_response("**/space/resize"):
-            field.press("Enter")
-        if reason:
-            page.locator('[data-panel="sizes"] [role="alert"]', has_text=reason).wait_for()
+        page.locator('[data-panel="sizes"] [role="alert"]', has_text=said).wait_for()
+
+    fields = f"[...{TYPED}].map((field) => field.value)"
+    for field, size, said in (
+        ("0-1", "80", "unless other sizes change as well. Not used yet"),
+        ("1-1", "−5", "not −5°."),
+    ):
+        typed(field, size, said)
+        assert undo.is_disabled()  # nothing has changed
+    page.get_by_role("button", name="Put back").click()
+    assert page.evaluate(fields) == ["120", "90", "60", "30"] * 2
+    typed("0-0", "100", "all lengths have changed")
     page.locator("header small", has_text="changed").wait_for(state="attached")
-    assert alert.inner_text() == ""
-    assert page.evaluate(f"[...{TYPED}].map((field) => field.value)") == ["100", "90", "50", "30"] * 2
+    assert page.evaluate(fields) == ["100", "90", "50", "30"] * 2
+    undo.click()
+    assert (alert.inner_text(), page.evaluate(fields)) == ("", ["120", "90", "60", "30"] * 2)
+    # sines of 90 and 45 degrees
+    for field, size, said in (("1-1", "45", "Not used yet"), ("3-1", "45", "Not used yet"), ("1-0", "84.8528", "Not")):
+        typed(field, size, said)
+    page.locator("#size-3-0").fill("84.8528")
+    page.locator("#size-3-0").press("Enter")
+    page.locator("header small", has_text="changed").wait_for(state="attached")
+    assert page.evaluate(fields) == ["120", "90", "84.8528", "45"] * 2
     assert errors == []
     browser.close()
 

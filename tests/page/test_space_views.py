@@ -28,6 +28,26 @@ DRAWN = f"""boxes => {{
 """From where to where across something is drawn; nothing if it is in one of the boxes."""
 
 
+def test_a_machine_is_seen_from_the_same_side_while_one_reads(server, chromium):
+    """On a phone the picture is low then, much wider than high."""
+
+    def axes(page):
+        return [line.evaluate("line => line.outerHTML") for line in page.locator("line.axis").all()]
+
+    browser, page, errors = browsed_at(chromium, server.address + "space/bennett.html", touch=True)
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.locator("line.axis").first.wait_for(state="attached")
+    page.wait_for_timeout(100)
+    before, high = axes(page), page.locator(".stage").bounding_box()["height"]
+    page.evaluate("scrollTo(0, 600)")
+    while page.locator(".stage").bounding_box()["height"] > 0.6 * high:
+        page.wait_for_timeout(50)
+    page.wait_for_timeout(100)
+    assert axes(page) == before
+    assert errors == []
+    browser.close()
+
+
 @pytest.mark.parametrize(
     ("id", "touch"), [("bennett", False), ("bennett", True), ("cardan_shaft", True), ("gough", False)]
 )
@@ -299,7 +319,7 @@ def test_what_has_no_size_is_not_offered_and_glass_is_a_body_too(server, chromiu
     page.emulate_media(reduced_motion="reduce")
     page.goto(server.address + "space/schatz.html#en")
     for step in range(100):  # until the picture is fitted
-        page.mouse.move(200 + step % 2, 330)  # beside the bar in the vessel
+        page.mouse.move(430 + step % 2, 340)  # beside the bar in the vessel
         if page.locator(".stage").get_attribute("title") == "vessel":
             break
     else:

@@ -4,7 +4,7 @@ import { halfOf } from "../names";
 import type { Pair } from "../rows";
 import { minus, type Vector } from "./algebra";
 
-const LINE = 17; // pixels from name to name
+const LINE = 20; // pixels from name to name
 
 /** A name that is centred at a place of the picture. */
 export interface Name {
@@ -18,7 +18,7 @@ function isFree({ at: [x, y], text }: Name, others: Name[], [width, height]: Pai
   return (
     Math.abs(x - width / 2) < width / 2 - half &&
     Math.abs(y - height / 2) < height / 2 - 4 &&
-    others.every(({ at: [u, v], text: other }) => Math.abs(y - v) >= LINE || Math.abs(x - u) > half + halfOf(other) + 4)
+    others.every(({ at: [u, v], text: other }) => Math.abs(y - v) >= LINE || Math.abs(x - u) > half + halfOf(other) + 6)
   );
 }
 

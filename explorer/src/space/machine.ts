@@ -102,8 +102,10 @@ export class Machine implements Drivable {
     const { active, drives } = this;
     const [motion, solver] = [this.#motion, this.#solver];
     if (!motion) return false;
-    const turns = motion.round ? Math.round((drives[active]! - value) / TURN) : 0;
-    drives[active] = value + TURN * turns; // on from where it stands
+    const [low, high] = endsOf(motion);
+    drives[active] = motion.round
+      ? value + TURN * Math.round((drives[active]! - value) / TURN) // on from where it stands
+      : Math.min(Math.max(value, low), high);
     if (!solver) return true;
     this.ended = !solver.drive(withValue(solver.values, motion.drive, drives[active]!));
     this.#follow();

@@ -201,6 +201,11 @@ export class OutputPlots {
       .sort((a, b) => Math.abs(a - about) - Math.abs(b - about))[0]!;
   }
 
+  /** Whether an output has no axis, which would tell its sign. */
+  get total(): boolean {
+    return this.#readings.some(isTotal);
+  }
+
   /** Where outputs and joints are, how far outputs go to and fro, what the transfer functions are there. */
   get facts(): Fact[] {
     const { data } = this.machine;

@@ -14,8 +14,6 @@ interface Owner {
   shown(): Model;
   /** Show the machine with other sizes. */
   take(data: Model): void;
-  /** What can be undone has changed. */
-  told(): void;
 }
 
 const DIGITS = 6;
@@ -49,12 +47,9 @@ export class Resizing {
     store(KEPT, { of: location.pathname, past: this.#past.slice(-MOST), shown });
   }
 
+  /** Which can be undone. */
   get changed(): boolean {
     return this.#past.length > 0;
-  }
-
-  get undoable(): boolean {
-    return this.changed || this.#typed.size > 0;
   }
 
   get redoable(): boolean {
@@ -133,7 +128,8 @@ export class Resizing {
         const wanted = parsed(field.value);
         field.setAttribute("aria-invalid", String(Number.isNaN(wanted)));
         if (Number.isNaN(wanted)) {
-          return this.#say(t("Expected a number, such as {value}.", { value: number(value, DIGITS) }));
+          this.#said.textContent = t("Expected a number, such as {value}.", { value: number(value, DIGITS) });
+          return;
         }
         const size: Size = [...(this.#typed.get(link) ?? [null, null])];
         size[which] = wanted;
@@ -154,42 +150,42 @@ export class Resizing {
     try {
       const made = await asked<Model>("resize", data, { sizes });
       if (question !== this.#asked) return;
-      said.textContent = "";
+      const lengths = made.sizes.filter(({ distance }, k) => distance !== before.sizes[k]?.distance).length;
+      const scaled = this.#typed.size && lengths > this.#typed.size;
       this.#typed = new Map();
       this.#past.push(before);
       this.#future.length = 0;
       this.#take(made);
+      renew(said, scaled ? h("span.good", {}, made.texts[currentLanguage()].words.scaled) : "");
     } catch (error) {
       if (question !== this.#asked) return;
       said.textContent = withMinus((error as Error).message);
       if (said !== this.#said) return;
-      this.#refused();
+      this.arrange();
       this.#say(said.textContent);
+      said.scrollIntoView({ block: "nearest" });
     }
   }
 
-  /** What is wrong; of several fields that are marked that they go together. */
+  /** What is wrong; what was typed is kept, since other sizes may go with it, until it is put back. */
   #say(text: string): void {
     const { words } = this.owner.shown().texts[currentLanguage()];
-    const several = this.element.querySelectorAll("[aria-invalid=true]").length > 1;
-    this.#said.textContent = several ? `${text} ${words.together}` : text;
+    const back = h("button.plain", { onclick: () => this.#putBack() }, words.back!);
+    renew(this.#said, `${text.replace(/\.?$/, ".")} ${words.together} `, back);
   }
 
-  /** What was typed is kept, since other sizes may go with it. */
-  #refused(): void {
-    this.arrange();
-    this.#said.scrollIntoView({ block: "nearest" });
-    this.owner.told();
-  }
-
-  undo(): void {
+  #putBack(): void {
     this.#asked += 1; // what is under way is not wanted any more
+    this.#typed = new Map();
     this.#said.textContent = "";
-    if (this.#typed.size) {
-      this.#typed = new Map();
-      return this.#refused();
-    }
-    this.#step(this.#past, this.#future);
+    this.arrange();
+  }
+
+  /** First of all what was typed and is not used yet. */
+  undo(): void {
+    const { size } = this.#typed;
+    this.#putBack();
+    if (!size) this.#step(this.#past, this.#future);
   }
 
   redo(): void {
@@ -197,6 +193,7 @@ export class Resizing {
   }
 
   #step(from: Model[], to: Model[]): void {
+    this.#said.textContent = "";
     const data = from.pop();
     if (!data) return;
     to.push(this.owner.shown());

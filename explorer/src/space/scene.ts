@@ -28,6 +28,7 @@ import type { Spot } from "./model";
 import { type Drawn, Painter } from "./painter";
 
 const ARM = 26; // pixels of the axes in the corner
+const AXES: [Pair, Pair, Pair] = [24, 46, 68].map((down) => [44, down]) as [Pair, Pair, Pair]; // their origin, its room
 const ROOM = 16; // pixels around the machine
 const FEW = 6; // bodies have names that stand in the picture
 const ELSEWHERE = 8; // places of a body at which its name may stand instead
@@ -38,6 +39,7 @@ const DIRECTIONS = 160;
 const POSES = 6; // in which it is tried from where its links are seen best
 const OBLIQUE = 0.9; // radians
 const BETTER = 1.2; // so many times
+const LEAST_WIDE = 1.3; // of the picture, for which that is sought: on a phone it is low beside what is read
 const STEEP = 1.5; // radians: no farther up or down
 
 export interface SceneEvents {
@@ -66,9 +68,9 @@ export class Scene {
   /** What is kept in the picture, and whether below the buttons rather than beside them. */
   #places: Vector[] = [];
   #below = 0;
-  /** From where it is seen obliquely; in a wide picture from where it is seen best, once that is known. */
+  /** From where it is seen obliquely: from where it is seen best, once that is known. */
   oblique = OBLIQUE;
-  #best: number | null = null;
+  #isKnown = false;
   /** The lowest and the highest coordinates of what stands on the floor. */
   #extent: [Vector, Vector] = [
     [0, 0, 0],
@@ -186,12 +188,8 @@ export class Scene {
     if (!this.#wide) return; // it is not laid out yet
     const reached = this.machine.reached;
     this.#places = [...this.#corners(reached), ...reached.flatMap((poses) => arrowsOf(this.machine, poses).flat())];
-    if (this.few && this.#camera.turn === this.oblique) {
-      const isWide = this.#wide > 1;
-      if (isWide) this.#best ??= this.#sought;
-      this.oblique = isWide ? this.#best! : OBLIQUE;
-      this.#camera.turn = this.oblique;
-    }
+    if (this.few && !this.#isKnown) this.#camera.turn = this.oblique = this.#sought;
+    this.#isKnown = true;
     const cameras = this.#margins.map((room) => this.#fitted(room));
     this.#below = Number(cameras[0]!.distance >= cameras[1]!.distance);
     this.#camera = cameras[this.#below]!;
@@ -206,7 +204,8 @@ export class Scene {
     const moving = this.#spots.flatMap(([spot], link) => (this.machine.moves(link) ? { link, spot: spot! } : []));
     const isSeen = (turn: number) => {
       const camera = { ...this.#camera, turn };
-      const { distance, middle } = fitted(camera, this.#wide, this.#places, this.#margins[0]!);
+      const room = this.#margins[Number(this.#wide < 1)]!;
+      const { distance, middle } = fitted(camera, Math.max(this.#wide, LEAST_WIDE), this.#places, room);
       const { eye, near } = axes({ ...camera, distance, middle });
       const parts = moving.map(({ link, spot }) => {
         const { middle: from, places } = this.#reach[link]!;
@@ -313,7 +312,7 @@ export class Scene {
       if (drive !== this.machine.active) arrow.classList.add("resting");
       return arrow;
     });
-    const named: Name[] = [];
+    const named = AXES.map(([x, y]): Name => ({ text: "x y z", at: [x, y] })); // keeps clear of them
     for (const { link, at, name = this.#links[link] } of this.machine.spots) {
       const [px, py] = pixel(moved(poses[link]!, at));
       parts.push(svg("circle.spot", { cx: px, cy: py, r: 4.5 }));
@@ -331,10 +330,11 @@ export class Scene {
       }
     }
     parts.push(...this.#names(poses, pixel, named));
-    const [ox, oy] = [44, 46];
+    const [ox, oy] = AXES[1];
     ["x", "y", "z"].forEach((axis, k) => {
       const [dx, dy] = [ARM * right[k]!, -ARM * up[k]!];
       parts.push(svg("line", { class: `axis ${axis}`, x1: ox, y1: oy, x2: ox + dx, y2: oy + dy }));
+      if (Math.hypot(dx, dy) < ARM / 3) return; // it points at the reader: its letter would be on another one
       parts.push(svg("text.axis", { x: ox + 1.45 * dx - 4, y: oy + 1.45 * dy + 4 }, axis));
     });
     this.root.replaceChildren(...parts);

@@ -5,7 +5,7 @@ import { choice, h, renew, wantsStill } from "../dom";
 import { download, group } from "../export";
 import { FactList } from "../factlist";
 import type { Fact } from "../facts";
-import { centred, languageMenu, partsOf, saving, sayIn, viewNames } from "../header";
+import { centred, languageMenu, saving, sayIn, softened, viewNames } from "../header";
 import { drivenBy, showOver, showRows } from "../help";
 import { angle, currentLanguage, type Language, number, t } from "../language";
 import { fromBase64 } from "../packed";
@@ -30,7 +30,11 @@ const VIEWS: Record<string, [number, number]> = {
   top: [-Math.PI / 2, 1.5],
 };
 const DIGITS = 4;
-const CUT = 26; // letters of a name for which a narrow header has room
+
+/** The name of a machine without what explains it. */
+function shortOf(name: string): string {
+  return name.split(/,| \(| (?:with|between|mit|zwischen|on|auf) /, 1)[0]!;
+}
 
 export class SpaceView implements Driven {
   linkage: Machine;
@@ -56,7 +60,6 @@ export class SpaceView implements Driven {
   readonly #resizing = new Resizing({
     shown: () => this.data,
     take: (data) => this.#take(data),
-    told: () => this.#arrangeHeader(),
   });
 
   constructor(
@@ -116,12 +119,16 @@ export class SpaceView implements Driven {
 
   #arrangeHeader(): void {
     const { title: name } = this.#texts;
-    const title = this.#resizing.changed ? t("{name}, changed", { name }) : name;
+    const changed = (one: string) => (this.#resizing.changed ? t("{name}, changed", { name: one }) : one);
+    const title = changed(name);
     document.title = `${title} – gruebler`;
     this.#keep();
+    const first = shortOf(name);
+    // where the header is narrow it has the first part alone
+    const rest = h("span.letter", {}, softened(name.slice(first.length)));
     renew(
       this.#header,
-      h("h1", { title }, "gruebler ", h("small", {}, ...partsOf(title))),
+      h("h1", { title }, "gruebler ", h("small", {}, softened(first), rest, changed(""))),
       ...(this.data.home ? [this.#ways()] : []),
       h("span.spring", {}),
       ...this.#tools(),
@@ -185,9 +192,9 @@ export class SpaceView implements Driven {
   #tools(): HTMLElement[] {
     const save = saving(() => this.showExport());
     if (!this.data.home) return [save];
-    const { redoable, undoable } = this.#resizing;
+    const { changed, redoable } = this.#resizing;
     const steps = [
-      tool("undo", t("Undo"), () => this.#resizing.undo(), !undoable),
+      tool("undo", t("Undo"), () => this.#resizing.undo(), !changed),
       tool("redo", t("Redo"), () => this.#resizing.redo(), !redoable),
     ];
     const open = tool("open", t("Open a file"), () => location.assign(this.#above("motion")));
@@ -255,8 +262,10 @@ export class SpaceView implements Driven {
     const { data, linkage } = this;
     const [texts, words] = [this.#texts, this.#words];
     const measured = linkage.drive || linkage.spots.length;
-    const panels: HTMLElement[] = texts.title.length > CUT ? [h("h2.whole", {}, texts.title)] : [];
-    if (measured) panels.push(panelOf("measures", t("Measures"), true, this.#facts.element));
+    const { title } = texts;
+    const panels: HTMLElement[] = title === shortOf(title) ? [] : [h("h2.whole", {}, title)];
+    const sign = h("p.note", {}, words.sign);
+    if (measured) panels.push(panelOf("measures", t("Measures"), true, this.#facts.element, sign));
     const alone = words.alone ? [h("p.note", {}, words.alone)] : [];
     if (!linkage.drive) alone.push(h("p.note", {}, words.none), ...this.#driven());
     this.#sliders = data.motions.length > 1 ? data.motions.map((_, k) => this.#slider(k)) : [];
@@ -282,6 +291,7 @@ export class SpaceView implements Driven {
     this.#resizing.arrange();
     const pick = (value: number) => this.transport.pick(value);
     this.#plots = new OutputPlots(linkage, texts, pick, () => this.#facts.show(this.#measures()));
+    sign.hidden = !this.#plots.total;
     if (linkage.drive) panels.push(panelOf("plots", t("Plots"), true, this.#plots.element));
     this.#chips = texts.links.map((name, link) => {
       const chip = h("span.chip", {}, h("i", {}), name);

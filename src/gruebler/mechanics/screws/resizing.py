@@ -8,6 +8,7 @@ the new sizes is sought at once: sizes of overconstrained linkages fit together 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from math import isfinite, radians
 
@@ -35,8 +36,8 @@ _SAME = 1e-9  # of the size, and sines: axes that are less apart have no common 
 def resized(linkage: SpatialLinkage, sizes: Wanted) -> SpatialLinkage:
     """The linkage with other sizes of links, those of `link_sizes`, in a position where it is closed.
 
-    Raises `LinkageError` for a size that no link has, and where the joints cannot be closed; with one size it says how
-    far they can be.
+    Where one distance alone fits nowhere, all distances change in proportion. Raises `LinkageError` for a size that no
+    link has, and where the joints cannot be closed; with one size it says how far they can be.
 
     >>> from gruebler.teaching.catalog import entry
     >>> longer = resized(entry("wiper_rssr").placed(), {"crank": (50.0, None)})
@@ -61,6 +62,9 @@ def resized(linkage: SpatialLinkage, sizes: Wanted) -> SpatialLinkage:
             (settled for start in (pose, closing.reference) if (settled := _closed(wanted, start)) is not None), None
         )
         if there is None:
+            if not part and (all_sizes := _in_proportion(now, sizes)):
+                with suppress(LinkageError):
+                    return resized(linkage, all_sizes)
             raise _open(linkage, now, sizes, part)
         pose = there
     return _placed(linkage, wanted, pose)
@@ -86,6 +90,22 @@ def _check(
         raise LinkageError("{link}: the angle of two axes is 0° to 180°, not {angle:g}°", link=link, angle=angle)
 
 
+def _in_proportion(now: Mapping[str, LinkSize], sizes: Wanted) -> Wanted:
+    """All distances with the one that is wanted, if it is the only size; otherwise nothing.
+
+    >>> now = {"a": LinkSize("a", 120.0, 90.0), "b": LinkSize("b", 60.0, 30.0)}
+    >>> _in_proportion(now, {"a": (60.0, None)}), _in_proportion(now, {"a": (None, 60.0)})
+    ({'a': (60.0, None), 'b': (30.0, None)}, {})
+    """
+    if len(sizes) != 1:
+        return {}
+    ((link, (distance, angle)),) = sizes.items()
+    if angle is not None or not distance or not now[link].distance:
+        return {}
+    ratio = distance / now[link].distance
+    return {size.link: (ratio * size.distance, None) for size in now.values() if size.distance} if len(now) > 1 else {}
+
+
 def _closed(closing: Closing, start: Reals) -> Reals | None:
     """A closed pose by Newton's method, in which no joint is put together the other way round."""
     settled = closing.settled(start, most=_PATIENT)
@@ -108,7 +128,7 @@ def _open(linkage: SpatialLinkage, now: Mapping[str, LinkSize], sizes: Wanted, p
         for old, new, unit in zip((now[link].distance, now[link].angle), wanted, (f" {linkage.unit}", "°"), strict=True)
         if old is not None and new is not None and old != new
     ]
-    if len(changes) > 1:
+    if len(changes) != 1:
         return LinkageError("the joints cannot be closed with these sizes; go there in smaller steps, or change others")
     ((link, old, new, unit),) = changes
     if not part:
