@@ -157,15 +157,15 @@ def test_stops_are_of_driven_joints_and_about_the_drawing():
     arm = entry("excavator")
     places = arm.dimensions.places
     cylinders = [
-        ("R(carriage-boom_cylinder)", "R(boom_piston-boom)"),
+        ("R(upper_structure-boom_cylinder)", "R(boom_piston-boom)"),
         ("R(boom-stick_cylinder)", "R(stick_piston-stick)"),
         ("R(stick-bucket_cylinder)", "R(bucket_piston-rocker-push_link)"),
     ]
     for (one, other), (low, high) in zip(cylinders, arm.stops, strict=True):
         assert low < np.hypot(*np.subtract(places[one], places[other])) < high
         assert high < 2 * low  # a rod has room in its cylinder
-    wrong = msgspec.structs.replace(arm.dimensions, stops={"R(carriage-boom)": (0.0, 1.0)})
-    with pytest.raises(CatalogError, match=r"no joint .R.carriage-boom.. is driven"):
+    wrong = msgspec.structs.replace(arm.dimensions, stops={"R(upper_structure-boom)": (0.0, 1.0)})
+    with pytest.raises(CatalogError, match=r"no joint .R.upper_structure-boom.. is driven"):
         _ = msgspec.structs.replace(arm, dimensions=wrong).stops
 
 
