@@ -54,12 +54,7 @@ export function tabs(keys: string[], chosen: string, turnTo: (key: string) => vo
   };
   const tab = (key: string) => {
     const here = key === chosen;
-    const state = {
-      tabindex: here ? 0 : -1,
-      "data-view": key,
-      "data-text": names[key]!,
-      "aria-selected": String(here),
-    };
+    const state = { tabindex: here ? 0 : -1, "data-view": key, "aria-selected": String(here) };
     return h("button", { role: "tab", ...state, onclick: () => turnTo(key) }, names[key]!);
   };
   const list = h("nav", { role: "tablist", onkeydown: step }, ...keys.map(tab));

@@ -5,7 +5,7 @@ import type { Linkage } from "./linkage";
 import { halfOf } from "./names";
 import type { Viewport } from "./viewport";
 
-const LINE = 18; // pixels from a row to the next
+const [LINE, SMALL] = [18, 16]; // pixels from a row to the next, in a wide picture and a narrow one
 const LEFT = 49; // beside the numbers of the grid
 const GAP = 12; // between columns
 const ABOVE = 15; // from a row up to the edge of their ground
@@ -60,11 +60,13 @@ export class Legend {
   }
 
   /** Lay the rows out in columns; how high all is from there to the lower edge of the picture, 0 without a row. */
-  lay({ height, width }: Viewport): number {
+  lay({ height, narrow, width }: Viewport): number {
     const laid = [height, width].join();
     if (laid === this.#laid) return this.#high;
     this.#laid = laid;
     const all = height > LOW ? this.#entries : []; // beside what is read and typed the machine alone
+    const line = narrow ? SMALL : LINE;
+    for (const text of all) text.style.fontSize = narrow ? "12px" : "";
     this.element.replaceChildren(this.#ground, ...all);
     const lengthOf = (text: SVGTextContentElement) => text.getComputedTextLength() || 2 * halfOf(text.textContent!);
     const numbers = all.map((text) => lengthOf(text.firstChild as SVGTSpanElement));
@@ -76,11 +78,11 @@ export class Legend {
     const after = (columns = Math.ceil(all.length / rows)) =>
       all.slice(0, columns).reduce((x, _, k) => x + GAP + Math.max(...lengths.slice(rows * k, rows * (k + 1))), LEFT);
     while (rows < all.length && after() > width) rows++;
-    const top = height - FOOT - LINE * (rows - 1);
+    const top = height - FOOT - line * (rows - 1);
     for (const [k, text] of all.entries())
-      put(text, { x: after(Math.floor(k / rows)) + before[k]!, y: top + LINE * (k % rows) });
-    put(this.#ground, { x: LEFT - BESIDE, y: top - ABOVE, width: after() - LEFT, height: rows && LINE * rows + 2 });
-    this.#high = rows && FOOT + LINE * rows;
+      put(text, { x: after(Math.floor(k / rows)) + before[k]!, y: top + line * (k % rows) });
+    put(this.#ground, { x: LEFT - BESIDE, y: top - ABOVE, width: after() - LEFT, height: rows && line * rows + 2 });
+    this.#high = rows && FOOT + line * rows;
     return this.#high;
   }
 

@@ -256,10 +256,10 @@ export class Naming {
   }
 
   get #buttons(): Pair[] {
-    const { tools, width } = this.viewport;
+    const { beside, tools, width } = this.viewport;
     return convexHull(
       [0, tools - 12].flatMap((y): Pair[] => [
-        [width - 54, y],
+        [width - beside + 2, y],
         [width, y],
       ]),
     );

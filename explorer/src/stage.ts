@@ -24,7 +24,7 @@ const STYLES =
   "font-weight paint-order";
 
 const SAID = 16; // pixels more that a bearing needs over what can be done
-const NUMBERS = 18; // pixels that numbers of links need at the edges
+const NUMBERS = 23; // pixels that numbers of links need at the edges
 
 export class Stage implements Board {
   readonly element: HTMLElement;
@@ -33,6 +33,7 @@ export class Stage implements Board {
   linkage: Linkage | null = null;
   dragging: Dragging | null = null;
   adding = false;
+  readonly #tools = h("div.tools", {});
   readonly #hint = h("div.hint", {});
   readonly #grid = svg("svg.grid", { "aria-hidden": "true" });
   /** In which names stand. */
@@ -60,6 +61,8 @@ export class Stage implements Board {
     events: StageEvents,
     private shown: Shown,
   ) {
+    this.viewport.rows = true;
+    this.#tools.style.visibility = "hidden"; // until it is known where they stand
     this.element = h("div.stage", {}, this.#grid, this.#under, this.#canvas, this.root);
     this.#pointer = new Pointer(this, events);
     const legend = new Legend((link) => this.hover(link), events.choose);
@@ -86,8 +89,8 @@ export class Stage implements Board {
   arrange(): void {
     const adder = stageButton("point", t("Add a coupler point"), () => this.setAdding(!this.adding));
     adder.setAttribute("aria-pressed", String(this.adding));
-    this.element.querySelector(".tools")?.remove();
-    this.element.append(h("div.tools", {}, ...zoomButtons(this), adder), this.#hint);
+    renew(this.#tools, ...zoomButtons(this), adder);
+    this.element.append(this.#tools, this.#hint);
   }
 
   get joints(): number[] {
@@ -114,7 +117,7 @@ export class Stage implements Board {
   setAdding(on: boolean): boolean {
     const before = this.adding;
     this.adding = on;
-    this.element.querySelector(".tools [aria-pressed]")?.setAttribute("aria-pressed", String(on));
+    this.#tools.querySelector("[aria-pressed]")?.setAttribute("aria-pressed", String(on));
     this.element.classList.toggle("adding", on);
     this.hover(null);
     this.draw();
@@ -161,6 +164,7 @@ export class Stage implements Board {
     this.#scene.sized(linkage);
     const listed = this.#scene.choose(linkage, this.shown);
     if (listed) fit(listed, NUMBERS);
+    this.#tools.style.cssText = viewport.row ? "flex-flow: row" : "";
     this.sized();
   }
 

@@ -31,6 +31,9 @@ export class Extent implements Box {
 }
 
 const BESIDE = 56; // from the right edge of the picture to the left one of these
+const ROW = [62, 208] as const; // how low buttons in a row reach, and how far from the right edge
+const LOW = 300; // pixels of a picture with one button only
+const LARGER = 1.03; // a picture by so much is worth a row of them
 
 export class Viewport {
   /** In pixels. */
@@ -42,6 +45,9 @@ export class Viewport {
   fitted = true;
   /** Pixels down to where the buttons over it end. */
   lowest = 218;
+  /** Whether they stand in a row, and whether they may on a phone. */
+  row = false;
+  rows = false;
   #ox = 0;
   #oy = 0;
 
@@ -52,12 +58,18 @@ export class Viewport {
 
   /** Where the buttons over the picture end; a low one has one only. */
   get tools(): number {
+    if (this.row) return ROW[0];
     return this.height < 2 * this.lowest ? 72 : this.lowest;
+  }
+
+  /** From the left edge of these to the right one of the picture. */
+  get beside(): number {
+    return this.row && this.height > LOW ? ROW[1] : BESIDE;
   }
 
   /** The right edge of the picture, or the left one of these. */
   right(y: number): number {
-    return this.width - (y < this.tools ? BESIDE : 0);
+    return this.width - (y < this.tools ? this.beside : 0);
   }
 
   /** The pixel of a place. */
@@ -72,19 +84,36 @@ export class Viewport {
 
   /** Show a rectangle, or at least a square of that width; what lies below, so many pixels high, is left out. It
    * may reach below the buttons if none of the places there does. */
-  fit({ left, right, bottom, top }: Box, least: number, below?: number, places?: readonly Pair[], room = 34): void {
+  fit(
+    { left, right, bottom, top }: Box,
+    least: number,
+    below?: number,
+    places?: readonly Pair[],
+    room = this.height > LOW ? 34 : 22,
+  ): void {
     const { narrow } = this;
     const margin = narrow ? room : 60;
     const rule = narrow ? 22 : 0; // the numbers on the left
-    const foot = below ?? (narrow && this.height > 300 ? margin : 0); // what can be done
+    const foot = below ?? (narrow && this.height > LOW ? margin : 0); // what can be done
     const wide = Math.max(right - left, least);
     const high = Math.max(top - bottom, least);
-    for (const keys of narrow || places ? [0, BESIDE] : [0]) {
-      this.scale = Math.min((this.width - 2 * margin - keys - rule) / wide, (this.height - 2 * margin - foot) / high);
+    /** Whether all is clear of the buttons, in a row or not, with room beside them (1), below them (2) or not (0). */
+    const lies = (row: boolean, where: number): boolean => {
+      this.row = row;
+      const keys = where === 1 ? this.beside : 0;
+      const above = where === 2 ? this.tools : 0;
+      const across = (this.width - 2 * margin - keys - rule) / wide;
+      this.scale = Math.min(across, (this.height - 2 * margin - above - foot) / high);
       this.#ox = (this.width - keys + rule) / 2 - (this.scale * (left + right)) / 2;
-      this.#oy = (this.height - foot) / 2 + (this.scale * (bottom + top)) / 2;
-      if (places?.every(([x, y]) => !this.#under(...this.screen(x, y)))) break;
-    }
+      this.#oy = (this.height - foot + above) / 2 + (this.scale * (bottom + top)) / 2;
+      return !!places?.every(([x, y]) => !this.#under(...this.screen(x, y)));
+    };
+    let best = 0;
+    let chosen: [boolean, number] = [false, +(narrow || !!places)];
+    for (const row of narrow && this.rows ? [false, true] : [false])
+      for (const where of [0, 1, 2])
+        if (lies(row, where) && this.scale > LARGER * best) [best, chosen] = [this.scale, [row, where]];
+    lies(...chosen);
     this.fitted = true;
   }
 

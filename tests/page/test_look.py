@@ -401,6 +401,8 @@ def test_the_header_of_a_phone_is_not_cut(tab, server):
     assert page.page.locator("header small").evaluate(cut) is False
     assert page.page.locator("header small").inner_text() == "Heusinger-Steuerung"
     assert page.page.locator("header").bounding_box()["height"] < 110
+    wide = "(() => { const { right, left } = gruebler.root.querySelector('.stage .bodies').getBoundingClientRect();"
+    assert page.page.evaluate(f"{wide} return right - left; }})()") > 260  # the buttons stand in a row above it
 
 
 @pytest.mark.parametrize("id_", ["crankrocker", "slidercrank"])
@@ -573,9 +575,11 @@ def test_a_machine_that_moves_by_its_dimensions_says_so_beside_the_count(tab, se
     assert "11 links, F = 3, freely spinning parts: 6" in delta
 
 
-def test_tabs_of_a_phone_show_that_they_scroll_and_cards_have_one_height(tab, server):
+def test_a_phone_shows_all_tabs_or_that_they_scroll_and_cards_have_one_height(tab, server):
     page = tab(width=390, height=844, locale="de-DE", touch=True).open(server.address)
     nav = page.page.locator("header nav")
+    assert nav.evaluate("(e) => e.scrollWidth <= e.clientWidth")
+    page.page.set_viewport_size({"width": 320, "height": 700})
     assert nav.evaluate("(e) => e.scrollWidth > e.clientWidth")  # six tabs do not fit
     assert nav.evaluate("(e) => getComputedStyle(e).maskImage").startswith("linear-gradient")
     wide = tab(width=1440, height=900).open(server.address)
@@ -733,7 +737,7 @@ def test_the_distance_of_a_slide_from_the_pivot_is_called_eccentricity(tab, serv
     page.page.locator('[data-id="slidercrank"]').click()
     page.until("gruebler.view === 'motion' && gruebler.motion.linkage.model.source === 'slidercrank'")
     names = page.page.locator('.motion [data-panel="sizes"] label').all_inner_texts()
-    assert sorted(names) == ["Exzentrizität", "Koppel", "Kurbel"]
+    assert sorted(names) == ["Exzentrizität", "Kurbel", "Pleuel"]
 
 
 def test_the_value_of_each_plot_stands_beside_its_title_in_english(tab, server):
