@@ -20,6 +20,7 @@ import { awaited, moment } from "./waiting";
 import { lengthUnit } from "./wording";
 
 const ASKED_AFTER = 350; // milliseconds
+const REST = 1e-5; // of the largest speed of a free motion: what is slower stands still
 const LASTS: Pair = [0.01, 20]; // seconds of a free motion
 
 /** A unit in which amounts are shown, and how much it is in N, or in N·m. */
@@ -46,11 +47,9 @@ interface Answer extends Acting, Carried {
 /** What joints carry and loads do, over the range of the drive or the time of a free motion. */
 interface Carried {
   /** Of joints: what they are called, how large they are at most, and where. */
-  forces: { joint: number; parts: Numbers[]; most: number; name: string; note: string }[];
+  forces: { joint: number; parts: Numbers[]; most: number; unit: Unit; name: string; note: string }[];
   /** Where loads act, and both parts of a force, or the moment. */
-  acting: { at: End; parts: Numbers[] }[];
-  /** Of forces, of moments. */
-  units: [Unit, Unit];
+  acting: { at: End; parts: Numbers[]; unit: Unit }[];
 }
 
 /** Loads as a document has them, and the links whose masses lie along their bars. */
@@ -107,6 +106,8 @@ export class Forces {
   #model: Model | null = null;
   /** That of several drives, which no document has. */
   #speed: number | null = null;
+  /** Lets the drive go, or again. */
+  #release!: HTMLElement;
   /** Over the range of the drive; of the last free motion over time; which of both is shown. */
   #driven = NOTHING;
   #fallen = NOTHING;
@@ -229,7 +230,7 @@ export class Forces {
       this.#form.put({ bars: "steel" });
     };
     const button = masses.some(Boolean) ? null : action("assume", assume, t("Assume masses"));
-    const offer = h("div.form", {}, button, h("p", {}, origin));
+    const offer = h("div.form", {}, button, h("p", {}, unbroken(origin)));
     const notes = lines.map(noted);
     if (!drives) {
       renew(this.#result, ...notes, offer);
@@ -258,7 +259,7 @@ export class Forces {
       };
       const until = this.#form.row("until", t("Duration"), "s", this.#until, last, LASTS);
       const play = () => transport.playAt(speed!);
-      const release = t("Release the drive: free motion");
+      this.#release = action("fall", onclick, t("Release the drive: free motion"));
       const sizes = joints.map(({ most }) => most);
       this.#joint.selectedIndex = chosen < 0 ? sizes.indexOf(Math.max(...sizes)) : chosen;
       const loads = acting[0] ? signed("force.load", t("Loads")) : [];
@@ -273,13 +274,21 @@ export class Forces {
       renew(
         this.#result,
         this.#ofDrive,
-        h("p.note", {}, ...signed("force", t("Joint forces in this pose")), " ", ...loads),
+        h(
+          "p.note",
+          {},
+          ...signed("force", t("Joint forces in this pose")),
+          " ",
+          ...loads,
+          " ",
+          t("(length\u00a0∝\u00a0√F)"),
+        ),
         this.#joints.element,
         h("label.options", {}, t("Force vector"), this.#joint),
         this.#polar.element,
         ...notes,
         h("div.rows", {}, ...until),
-        h("div.form", {}, action("fall", onclick, release)),
+        h("div.form", {}, this.#release),
         this.#ofFall,
       );
       if (this.#brings) this.element.closest("details")!.scrollIntoView();
@@ -316,6 +325,7 @@ export class Forces {
       // of a free motion first
       this.#ofDrive.hidden = !!falling;
       this.#result[falling ? "prepend" : "append"](this.#ofFall);
+      this.#release.textContent = falling ? t("Release again") : t("Release the drive: free motion");
     }
     this.#joints.show(
       of.joints.map((force) => ({
@@ -339,7 +349,8 @@ export class Forces {
     const all = this.#opened() && this.#model === linkage.model ? [...joints, ...loads] : [];
     return all.map((force, k) => {
       const { at, unit } = force;
-      const most = Math.max(...all.map((other) => (other.unit === unit ? other.most : 0)));
+      const turns = ({ unit: [its] }: Force) => its.includes("N·m");
+      const most = Math.max(...all.map((other) => (turns(other) === turns(force) ? other.most : 0)));
       const [x, y] = vectorAt(force, where);
       const here = Math.hypot(x, y);
       const root = Math.sqrt(here * most) || 1; // small ones are seen, too
@@ -366,7 +377,8 @@ export class Forces {
         const made = new Plot("s", (seconds) => transport.seek(seconds, found));
         const values = Float64Array.from(rows, (row) => row[k]! / scale);
         const title = `${[called, ...its].join(", ")} [${of}]`;
-        made.show(times, { title, colour: "--motion", values, degrees }, [0, times[times.length - 1]!]);
+        const same = REST * Math.max(...values.map(Math.abs));
+        made.show(times, { title, colour: "--motion", values, degrees, same }, [0, times[times.length - 1]!]);
         return made;
       };
       return [
@@ -380,19 +392,19 @@ export class Forces {
   }
 }
 
-function shownOf(linkage: Linkage, { acting, forces, units }: Carried, places: Float64Array): Shown {
+function shownOf(linkage: Linkage, { acting, forces }: Carried, places: Float64Array): Shown {
   const vectors = (parts: Numbers[], unit: Unit, at: () => Pair): Force => {
     const [x, y = x.map(() => 0)] = parts.map(numbers) as [Float64Array, Float64Array?];
     const most = Math.max(...x.map((one, k) => Math.hypot(one, y[k]!) || 0));
     return { drives: places, x, y, most, unit, at };
   };
   return {
-    joints: forces.map(({ joint, parts, ...more }) => ({
-      ...vectors(parts, units[0], () => linkage.jointAt(joint)),
+    joints: forces.map(({ joint, parts, unit, ...more }) => ({
+      ...vectors(parts, unit, () => linkage.jointAt(joint)),
       ...more,
     })),
-    loads: acting.map(({ at: [link, ...own], parts }) =>
-      vectors(parts, units[parts[1] ? 0 : 1], () => place(linkage.pose, 0, link, ...own)),
+    loads: acting.map(({ at: [link, ...own], parts, unit }) =>
+      vectors(parts, unit, () => place(linkage.pose, 0, link, ...own)),
     ),
   };
 }
@@ -403,8 +415,8 @@ function noted(line: string): HTMLElement {
 
 /** What arrows of a class look like, and what they are. */
 function signed(name: "force" | "force.load", text: string): (Node | string)[] {
-  const sign = svg(`path.${name}`, { d: "M5 5H27M20 1L27 5L20 9" });
-  return [svg("svg", { viewBox: "4 0 28 9", width: 28, height: 9 }, sign), `\u00a0${text}`];
+  const sign = svg(`path.${name}`, { d: "M1 5H23M16 1L23 5L16 9" });
+  return [svg("svg", { viewBox: "0 -1 24 12", width: 24, height: 12 }, sign), `\u00a0${text}`];
 }
 
 function numbers(values: Numbers): Float64Array {

@@ -56,7 +56,7 @@ export class Backend {
     if (answer.progress !== undefined) return request.progress?.(answer.progress);
     this.#waiting.delete(answer.id);
     if (answer.cancelled) request.reject(new Cancelled());
-    else if (answer.error !== undefined) request.reject(new Error(answer.error));
+    else if (answer.error !== undefined) request.reject(new Error(sentence(answer.error)));
     else request.resolve(answer.result);
   }
 
@@ -80,6 +80,11 @@ export class Backend {
 }
 
 type Listener = (message: never) => void;
+
+/** A message as it stands alone: it begins with a capital letter, unless with a name. */
+function sentence(text: string): string {
+  return text.replace(/^\p{Ll}(?=\p{L}*[ ,])/u, (letter) => letter.toUpperCase());
+}
 
 /** A model without anything behind it. */
 export class StillModel implements HostModel {

@@ -12,7 +12,7 @@ import type { Viewport } from "./viewport";
 
 const EDGE = 4; // pixels of a picture in which texts would be cut
 const PAST = 999;
-const RULE = 22; // the numbers of the grid at the left
+const [RULE, FOOT] = [38, 24]; // the numbers of the grid at the left and below
 const INK = 8; // pixels from a name to an arrow
 const LETTER = 20; // from a joint to its letter
 const BLOCK = 29; // from the middle of a block to a letter
@@ -197,12 +197,12 @@ export function clearOf(one: readonly Pair[], half: number, [x, y]: Pair): boole
   return [-half, 0, half].every((d) => !(toHull(one, x + d, y - 4) < INK));
 }
 
-/** What lies past the edges of a picture, where texts would be cut. */
+/** What lies past the edges of a picture, where texts would be cut, or upon the numbers of the grid. */
 export function pastEdges(width: number, height: number): Pair[][] {
   const [right, low] = [width + PAST, height + PAST];
   const sides = [
     [-PAST, -PAST, right, EDGE],
-    [-PAST, height - EDGE, right, low],
+    [-PAST, height - FOOT, right, low],
     [-PAST, -PAST, RULE, low],
     [width, -PAST, right, low],
   ] as const;

@@ -17,6 +17,7 @@ interface DrivenInPlane extends Driven {
   readonly linkage: Linkage;
   readonly found: Marked;
   readonly stage: { refit(): void };
+  readonly side: { back(): void };
 }
 
 export class PlaneTransport extends Transport<DrivenInPlane> {
@@ -36,7 +37,11 @@ export class PlaneTransport extends Transport<DrivenInPlane> {
   }
 
   protected override get ending(): HTMLElement | null {
-    return this.falling && action("end", () => this.endFall(), t("End free motion"));
+    const end = () => {
+      this.endFall();
+      this.view.side.back();
+    };
+    return this.falling && action("end", end, t("End free motion"));
   }
 
   override showRange(found: Marked): void {

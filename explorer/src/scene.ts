@@ -27,6 +27,7 @@ const LEAST_ARROW = 24; // pixels
 const EDGE = 6; // from the end of an arrow to that of the picture
 const RING = 6; // the radius of a target
 const RAIL = 6; // half the width of a rail with its hatching, and some room
+const FEW = 100; // pixels of the height of a phone's picture for each number at an arrow
 const POSES = 24; // of a cycle, in which names must have places
 
 export class Scene {
@@ -366,14 +367,19 @@ export class Scene {
     return places.map(([x, y, dx, dy, ...more]): Arrow => [x, y, dx / most, dy / most, ...more]);
   }
 
-  /** Beside the longest arrow of each kind, and beside other forces where there is room, how much they are. */
+  /** Beside the longest arrow of each kind, and beside other forces where there is room, how much they are; on a phone
+   * a few of them. */
   #putValues(kinds: Arrow[][], drawn: (readonly Pair[])[]): void {
     const texts: Element[] = [];
+    const { height, narrow } = this.viewport;
+    const most = narrow ? height / FEW : Infinity;
     for (const [k, all] of kinds.entries()) {
-      const largest = all.filter((one) => arrow(...one)).sort((a, b) => b[4] - a[4]);
+      const largest = all
+        .filter((one) => arrow(...one))
+        .sort(([, , a, b], [, , c, d]) => Math.hypot(c, d) - Math.hypot(a, b));
       for (const [n, one] of largest.entries()) {
         const [x, y, dx, dy, amount, unit] = one;
-        if (n && k > 1) break;
+        if (n && (k > 1 || texts.length > most)) break;
         const said = `${numberText(amount, 3)} ${unit}`.trim();
         const half = halfOf(said);
         const less = n > 0 || k === 1; // only where it is near and clear

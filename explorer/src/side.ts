@@ -39,7 +39,7 @@ export class Side {
   /** What followed in the last step of a drag. */
   #turn = 0;
   #resting = 0;
-  /** Whether it moves freely, and how far the panels were scrolled before. */
+  /** Whether it moves freely, and how far the panels, or on a phone the page, were scrolled before. */
   #falls = false;
   #scrolled = 0;
 
@@ -188,11 +188,11 @@ export class Side {
   showPose(): void {
     const { linkage, transport } = this.view;
     const { element } = this;
-    if (this.#falls !== !!transport.falling) {
+    const turned = this.#falls !== !!transport.falling;
+    if (turned) {
       this.#falls = !this.#falls;
-      if (this.#falls) this.#scrolled = element.scrollTop;
+      if (this.#falls) this.#scrolled = element.scrollTop || scrollY;
       this.#fall();
-      element.scrollTop = this.#falls ? 0 : this.#scrolled;
       // on a phone the picture is seen that moves
       const view = element.parentElement;
       if (this.#falls && view?.querySelector(".low")) view.scrollIntoView();
@@ -202,8 +202,14 @@ export class Side {
       this.plots.at(drive);
       this.forces.at(drive);
     }
+    if (turned) element.scrollTop = this.#falls ? 0 : this.#scrolled; // all panels have their heights
     if (transport.falling) transport.showValue();
     else this.#showFacts();
+  }
+
+  /** Show again, also on a phone, from where it was let go. */
+  back(): void {
+    if (this.element.clientHeight === this.element.scrollHeight) scrollTo(0, this.#scrolled);
   }
 
   #showFacts(): void {

@@ -65,6 +65,7 @@ _NOISE = 1e-7  # of the largest power: what is left of a mean that is none
 _ENOUGH = 1e-6  # of each of its steps: for the eye
 _ENOUGH_BY_LAW = 1e-4  # where loads change by a law, which takes a hundred times as long
 _EXACT = 1e-5  # of an energy: what is less is not told in digits
+_USUAL_OF = 0.1  # of a unit: where most sizes are smaller, it is too large
 _SEEN = 0.01  # of the unit of the largest: smaller amounts have a unit of their own
 _NOTHING_OF = 1e-6  # of the largest joint force: what is left of one that is none
 _ALIKE = 1e-6  # of the largest of some values: those which differ by less are as large
@@ -126,7 +127,6 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         "facts": _facts(run, asked, effort, forces, lang),
         "forces": forces,
         "acting": acting,
-        "units": _units(forces, acting),
         "lines": lines,
     }
 
@@ -159,13 +159,14 @@ def _joint_forces(run: InverseDynamics, place: Callable[[int], Message], lang: s
         others = joined(message(spaced(other)) for other in joint.links if other != link)
         if k in driven and joint.pair.is_sliding and not force.any():
             continue  # of a cylinder, which carries nothing across; what pushes it is the effort of the drive
-        row = _largest(np.hypot(*force.T))
+        row = _largest(sizes := np.hypot(*force.T))
         said = {
             "name": _ON.filled(others=others, link=spaced(link)),
             "note": _AT.filled(place=place(row)),
         }
         words = {key: text.in_language(lang) for key, text in said.items()}
-        records.append({"joint": k, "parts": force.T.tolist(), "most": float(np.hypot(*force[row])), **words})
+        unit = _usual_unit(sizes, "N")
+        records.append({"joint": k, "parts": force.T.tolist(), "most": float(sizes[row]), "unit": unit, **words})
     return records
 
 
@@ -260,21 +261,25 @@ def _acting(run: InverseDynamics) -> list[dict[str, Any]]:
     forces, moments = acting.forces_at(moving), metres_of(linkage.unit) * acting.moments_on(moving)
     records: list[dict[str, Any]] = []
     for force, spot in zip(forces.T, acting.spots[: len(loads.forces)], strict=False):
-        parts = _short(np.stack([force.real, force.imag])).tolist()
-        records.append({"at": [chain.index(spot.link), spot.x, spot.y], "parts": parts})
+        parts, unit = _short(np.stack([force.real, force.imag])).tolist(), _usual_unit(np.abs(force), "N")
+        records.append({"at": [chain.index(spot.link), spot.x, spot.y], "parts": parts, "unit": unit})
     for link in loads.moments:
         middle, moment = middle_of(linkage, link), _short(moments[:, run.motion.links.index(link)])
-        records.append({"at": [chain.index(link), middle.real, middle.imag], "parts": [moment.tolist()]})
+        at, unit = [chain.index(link), middle.real, middle.imag], _usual_unit(np.abs(moment), "N·m")
+        records.append({"at": at, "parts": [moment.tolist()], "unit": unit})
     return records
 
 
-def _units(forces: list[dict[str, Any]], acting: list[dict[str, Any]]) -> tuple[tuple[str, float], tuple[str, float]]:
-    """The units in which all forces and all moments are shown, and how much they are in N and N·m."""
-    force = max((record["most"] for record in forces), default=0.0)
-    parts = [np.array(record["parts"], dtype=float) for record in acting]
-    force = max([force, *(float(np.nanmax(np.hypot(*each), initial=0.0)) for each in parts if len(each) > 1)])
-    moment = max([0.0, *(float(np.nanmax(np.abs(each), initial=0.0)) for each in parts if len(each) == 1)])
-    return unit_for(force, "N"), unit_for(moment, "N·m")
+def _usual_unit(sizes: Reals, unit: str) -> tuple[str, float]:
+    """The unit of the largest size, unless the usual ones are far smaller, and how much it is in the given one.
+
+    >>> _usual_unit(np.array([9000.0, 12000.0]), "N"), _usual_unit(np.array([20.0, 30.0, 12000.0]), "N")
+    (('kN', 1000.0), ('N', 1.0))
+    """
+    known = sizes[np.nan_to_num(sizes) > 0]
+    called, factor = unit_for(float(np.max(known, initial=0.0)), unit)
+    usual = float(np.median(known)) if len(known) else 0.0
+    return (called, factor) if usual >= _USUAL_OF * factor else unit_for(usual, unit)
 
 
 def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
@@ -290,7 +295,13 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     law = any(by_law(amount) for amount in amounts(free))  # friction by a law is far faster than the motion
     tolerance = _ENOUGH_BY_LAW if law else _ENOUGH
     run = simulate(linkage, free, at=start, until=asked.until, times=times, ends=ends, tolerance=tolerance, stiff=law)
-    spans = np.stack([run.drives[0], run.drives[-1], run.drives.min(axis=0), run.drives.max(axis=0)], axis=-1)
+    last = run.drives[-1].copy()
+    joint = run.reason.values.get("joint") if run.reason else None
+    if joint in ends:  # the last pose that is shown may be just before its stop
+        k = names.index(joint)
+        last[k] = min(ends[joint], key=lambda end: abs(end - last[k]))
+    went_to = np.vstack([run.drives, last])
+    spans = np.stack([run.drives[0], last, went_to.min(axis=0), went_to.max(axis=0)], axis=-1)
     went = [
         dict(zip(("start", "end", "least", "most"), _drive_texts(linkage, drive, values), strict=True))
         for drive, values in enumerate(spans.tolist())
@@ -304,11 +315,8 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
             text = _STRAIGHT_OF if straight else _FREE_OF
             said.append(text.filled(drive=name[:1].upper() + name[1:], **its))
     why = run.message(lang)
-    joint = run.reason.values.get("joint") if run.reason else None
     if joint in ends:
-        k = names.index(joint)
-        near = min(ends[joint], key=lambda end: abs(end - run.drives[-1, k]))
-        there = {"drive": called[k], "value": _drive_texts(linkage, k, [near])[0]}
+        there = {"drive": called[k], "value": _drive_texts(linkage, k, [last[k]])[0]}
         if len(run) < 2:
             raise GrueblerError(
                 "Nothing moves: {drive} is at the end of its range, {value}, and is pushed farther. Move it first.",
@@ -331,7 +339,6 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         "speeds": _short(run.speeds).tolist(),
         "forces": forces,
         "acting": acting,
-        "units": _units(forces, acting),
         "lines": [*(line.in_language(lang) for line in said), *filter(None, [why])],
     }
 
