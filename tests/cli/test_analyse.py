@@ -69,7 +69,7 @@ def test_lengths_without_a_unit_get_none(capsys):
 def test_german(capsys):
     status, out, _ = run(capsys, "slidercrank", "--lang", "de", "--at", "55", "--speed", "60")
     assert status == 0
-    assert "Funktion der Glieder: Gleitstein = Schieber." in out
+    assert "Funktion der Glieder: Pleuel = Koppel, Gleitstein = Schieber." in out
     assert "Übertragungswinkel [°]" in out
 
 
