@@ -416,7 +416,7 @@ function noted(line: string): HTMLElement {
 /** What arrows of a class look like, and what they are. */
 function signed(name: "force" | "force.load", text: string): (Node | string)[] {
   const sign = svg(`path.${name}`, { d: "M1 5H23M16 1L23 5L16 9" });
-  return [svg("svg", { viewBox: "0 -1 24 12", width: 24, height: 12 }, sign), `\u00a0${text}`];
+  return [svg("svg", { viewBox: "0 -1 28 12", width: 28, height: 12 }, sign), `\u00a0${text}`];
 }
 
 function numbers(values: Numbers): Float64Array {

@@ -382,7 +382,7 @@ export class Scene {
         if (n && (k > 1 || texts.length > most)) break;
         const said = `${numberText(amount, 3)} ${unit}`.trim();
         const half = halfOf(said);
-        const less = n > 0 || k === 1; // only where it is near and clear
+        const less = n > 0 || k === 1 || narrow; // only where it is near and clear
         const [left, top] = clearAbout([x + dx, y + dy], 18, drawn, half);
         const clear = (hull: readonly Pair[]) => [1, 2].every((part) => clearOf(hull, half / part, [left, top + 4]));
         const far = ([u, v, du, dv]: Arrow) => away([left, top], u + du, v + dv);

@@ -345,6 +345,17 @@ def test_the_loads_of_a_file_that_is_opened_are_saved_with_it(kind):
         assert loads == document["loads"]
 
 
+def test_assumed_wheels_are_discs_so_that_they_can_be_let_go():
+    """Gears, cams and rollers with one place were points on their own axes, which no free motion moves."""
+    pair = asked(entries()["geartrain"].linkage(), source="geartrain", bars="steel", until=0.5)
+    masses = answer("forces", {**pair, "active": 0, "full": True, "range": [0, 2 * math.pi]}, "en", print)["masses"]
+    assert masses[1] == pytest.approx(7850 * math.pi * 0.03**2 * 0.005, rel=1e-2)
+    still = answer("fall", pair, "en", print)["lines"][0]
+    assert still == "Free motion: in 0.5 s nothing moves; the drive stays at 0°."
+    with pytest.raises(GrueblerError, match="needs masses that each drive moves"):
+        answer("fall", asked(entries()["geneva"].linkage(), source="geneva", bars="steel", until=0.5), "en", print)
+
+
 def test_a_spring_on_one_link_is_refused():
     spring = {"ends": [[1, 0.0, 0.0], [1, 5.0, 0.0]], "stiffness": 1.0}
     with pytest.raises(GrueblerError, match=r"springs\[0\]"):

@@ -38,6 +38,7 @@ from gruebler.page.reader_loads import (
 _FREE = message(
     "Free motion: in {seconds:n} s the drive goes from {start} to {end} and stays between {least} and {most}."
 )
+_RESTS = message("Free motion: in {seconds:n} s nothing moves; the drive stays at {start}.")
 _FREE_OF = message("{drive}: from {start} to {end}, between {least} and {most}.")
 _STRAIGHT_OF = message("{drive}: from {start} to {end}.")
 _MOVED = message("Free motion: {seconds:n} s.")
@@ -67,6 +68,7 @@ _ENOUGH_BY_LAW = 1e-4  # where loads change by a law, which takes a hundred time
 _EXACT = 1e-5  # of an energy: what is less is not told in digits
 _USUAL_OF = 0.1  # of a unit: where most sizes are smaller, it is too large
 _SEEN = 0.01  # of the unit of the largest: smaller amounts have a unit of their own
+_ROUNDING = 1e-9  # of a drive: less of it, in rad or sizes of the linkage, is told as 0
 _NOTHING_OF = 1e-6  # of the largest joint force: what is left of one that is none
 _ALIKE = 1e-6  # of the largest of some values: those which differ by less are as large
 
@@ -307,7 +309,9 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         for drive, values in enumerate(spans.tolist())
     ]
     seconds = float(f"{run.times[-1]:.3g}")
-    said = [_MOVED.filled(seconds=seconds)] if went[1:] else [_FREE.filled(seconds=seconds, **went[0])]
+    rests = len({text.in_language(lang) for text in went[0].values()}) == 1
+    alone = (_RESTS if rests else _FREE).filled(seconds=seconds, **went[0])
+    said = [_MOVED.filled(seconds=seconds) if went[1:] else alone]
     called = asked.called or names
     if went[1:]:
         for name, its in zip(called, went, strict=False):
@@ -387,6 +391,8 @@ def _stops(source: str, lang: str) -> dict[str, tuple[float, float]]:
 def _drive_texts(linkage: Linkage, drive: int, values: list[float]) -> list[Message]:
     """Values of a drive with four digits, in degrees if it turns."""
     turning = linkage.mechanism.drives[drive].turning
+    least = _ROUNDING * (1.0 if turning else linkage.size)
+    values = [0.0 if abs(value) < least else value for value in values]
     shown = [float(f"{degrees(value) if turning else value:.4g}") for value in values]
     return [_value_text(value, turning, linkage.unit) for value in shown]
 

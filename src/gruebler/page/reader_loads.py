@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import log
+from math import log, pi
 from typing import Any, NamedTuple
 
 from gruebler.base.errors import GrueblerError
@@ -17,6 +17,7 @@ from gruebler.files.load_writing import loads_to_json
 from gruebler.mechanics.forces import Curve, LoadFormula, Loads, RigidBody, Spring, TorsionSpring
 from gruebler.mechanics.forces.springs import check_between_links
 from gruebler.mechanics.linkages import Linkage, LinkPoint
+from gruebler.mechanics.linkages.elements import CamDisc, Circle, Wheel
 from gruebler.page.known_loads import RATES, all_springs, loads_at_hand, spring_ends
 from gruebler.page.model import link_names
 from gruebler.page.params import LoadedLinkage, OuterLoad, OwnSpring
@@ -25,12 +26,12 @@ from gruebler.structure.chain.pairs import Alphabet
 _POINT_MASSES = message("There are further masses at {places}.")
 _FROM_CATALOG = message("Masses as in the catalog.")
 _STEEL = message(
-    "Steel, bars {wide:n} mm × {thick:n} mm to each joint, sliders {wide:n} mm long: "
+    "Steel, bars {wide:n} mm × {thick:n} mm to each joint, sliders {wide:n} mm long, wheels {thick:n} mm thick: "
     "sizes that go with the longest link."
 )
 _ASSUMED = message(
-    "Assumed masses: steel, bars {wide:n} mm × {thick:n} mm to each joint, sliders {wide:n} mm long: "
-    "sizes that go with the longest link."
+    "Assumed masses: steel, bars {wide:n} mm × {thick:n} mm to each joint, sliders {wide:n} mm long, "
+    "wheels {thick:n} mm thick: sizes that go with the longest link."
 )
 _BY_FORMULA = message("changes by a formula of {names}")
 _BY_CURVE = message("changes by a curve over {names}")
@@ -256,6 +257,15 @@ def _lengths(linkage: Linkage) -> dict[str, float]:
     return {link: metre * sum(abs(arm) for _, arm in _arms(linkage, link)) for link in moving}
 
 
+def _radius(linkage: Linkage, link: str) -> float:
+    """Of a link with one place the radius of its wheel, its roller or the base circle of its cam, else 0."""
+    if len(_places(linkage, link)) != 1:
+        return 0.0
+    own = [element for (_, owner), element in linkage.elements.items() if owner == link]
+    circles = [abs(each.radius) for each in own if isinstance(each, Wheel | Circle)]
+    return max([*circles, *(each.base for each in own if isinstance(each, CamDisc))], default=0.0)
+
+
 def _assumed_width(linkage: Linkage) -> float:
     """How wide assumed bars are, in millimetres.
 
@@ -268,16 +278,18 @@ def _assumed_width(linkage: Linkage) -> float:
 
 
 def _assumed(linkage: Linkage) -> list[float]:
-    """The masses of links that are bars of steel from the middle of their joints to each of them; short ones blocks.
+    """The masses of links of steel: bars from the middle of their joints to each, short ones blocks, wheels discs.
 
     >>> from gruebler.mechanics.fourbar import SliderCrank
     >>> _assumed(SliderCrank(40, 100).linkage())  # the slider: 7850 kg/m3, 20 mm by 20 mm by 5 mm
     [0.0, 0.0314, 0.0785, 0.0157]
     """
+    metre = metres_of(linkage.unit)
     width, lengths = _assumed_width(linkage) / 1000, _lengths(linkage)
     bar = _STEEL_DENSITY * width * width / _FLAT  # kg/m
+    discs = {link: pi * (metre * _radius(linkage, link)) ** 2 / width for link in lengths}  # bars with as much steel
     return [
-        float(f"{bar * max(lengths[link], width):.3g}") if link in lengths else 0.0
+        float(f"{bar * (discs[link] or max(lengths[link], width)):.3g}") if link in lengths else 0.0
         for link in linkage.mechanism.chain.links
     ]
 
@@ -295,7 +307,7 @@ def middle_of(linkage: Linkage, link: str) -> complex:
 
 
 def _spread(mass: float, linkage: Linkage, link: str) -> RigidBody:
-    """A mass on thin rods from the middle of a link's places to each, by their lengths; with one place a point.
+    """A mass on thin rods from the middle of a link's places to each, by their lengths; with one place a disc.
 
     >>> from gruebler.mechanics.fourbar import FourBar
     >>> _spread(1.2, FourBar(25, 70, 40, 70).linkage(), "coupler")  # a rod: m l²/12
@@ -305,7 +317,7 @@ def _spread(mass: float, linkage: Linkage, link: str) -> RigidBody:
     total = sum(abs(arm) for _, arm in arms)
     middle = (arms[0][0].real, arms[0][0].imag)
     if not total > 0:
-        return RigidBody(mass, middle)
+        return RigidBody.disc(mass, _radius(linkage, link), centre=middle)
     rods = [
         RigidBody.bar(mass * abs(arm) / total, middle, (middle[0] + arm.real, middle[1] + arm.imag)) for _, arm in arms
     ]

@@ -169,6 +169,8 @@ class FreeLinkage:
             return self.acceleration(now)[0], self.power(now)
         mass, force, power = reduced
         self.evaluations += 1
+        if not mass:
+            raise _without_mass()
         return np.array([force / mass]), power * float(v[0])
 
     @property
@@ -226,7 +228,7 @@ class FreeLinkage:
         """`LinkageError` unless every coordinate moves something that has mass."""
         mass = self.equations.inertia(instant.influences, instant.moving)[0][0]
         if not np.linalg.eigvalsh(mass)[0] > 1e-14 * np.abs(mass).max():
-            raise LinkageError("a free motion needs masses that each drive moves: give bodies or masses in the loads")
+            raise _without_mass()
 
 
 def _continued(
@@ -271,3 +273,7 @@ def _without_potential(loads: Loads) -> Loads:
             replace(s, stiffness=0.0, preload=0.0, law=None) for s in loads.torsion_springs if s.damping
         ),
     )
+
+
+def _without_mass() -> LinkageError:
+    return LinkageError("a free motion needs masses that each drive moves: give bodies or masses in the loads")
