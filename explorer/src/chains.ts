@@ -197,9 +197,10 @@ export class ChainList {
       this.#count.textContent = t("counting …");
       this.waits(!stays);
     }
+    const place = this.#found || others ? this.#status : this.#list;
     const found = this.#unlisted()
       ? { total: 0, assortments: [], items: [] }
-      : await awaited(this.#status, (progress) => this.page.ask<Chains>("chains", question, progress));
+      : await awaited(place, (progress) => this.page.ask<Chains>("chains", question, progress));
     if (number !== this.#asked) return; // another list is wanted by now
     this.#list.classList.remove("asking");
     this.waits(false);
@@ -227,7 +228,7 @@ export class ChainList {
       other && !listed && cardOf(other, other.name || t("Chosen")),
     ];
     if (this.#inSpace) return this.#showAlone(mine);
-    if (!found) return renew(this.#list, this.#asked ? h("div.cards.few", {}, ...mine) : moment());
+    if (!found) return renew(this.#list, this.#list.querySelector(".error") ?? moment());
     const { assortments, items, total } = found;
     this.#count.textContent = ["", t("one chain")][total] ?? t("{total} chains", { total });
     const language = currentLanguage();
