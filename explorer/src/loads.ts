@@ -2,6 +2,7 @@
 
 import { h, option, renew } from "./dom";
 import { bound } from "./factlist";
+import { softened } from "./header";
 import { namedLinks } from "./labels";
 import { number, parsed, t } from "./language";
 import type { Linkage } from "./linkage";
@@ -217,7 +218,7 @@ export class LoadForm {
     const old = this.element.querySelector<HTMLInputElement>(":focus");
     const field = old?.id === id ? old : made;
     const unitText = h("span.unit", {}, unit);
-    return [h("label", { for: id }, bound(label)), field, unitText];
+    return [h("label", { for: id }, bound(softened(label))), field, unitText];
   }
 }
 

@@ -29,7 +29,7 @@ const AWAY = 30; // the same on a wheel, where it is not to be read as that of a
 const INK = 8; // from a name to an arrow or a ground
 const BACK = 8; // more room, for a name that stood farther off
 const GAP = 5; // from the middle of a name to a ground beside which it still stands well
-const FOOT = 26; // below which are the numbers of the grid
+const FOOT = 22; // below which are the numbers of the grid
 const WAITS = 5; // pictures in which no place is sought after none was found
 const SHORT = 3; // letters of a name that stands everywhere
 
@@ -132,7 +132,8 @@ export class Naming {
       const places = spots(viewport);
       const clear = (of: Pair[][]) => (at: Pair) =>
         !this.#touching(half, at) && of.every((one) => clearOf(one, half, at));
-      const free = clear(hulls[k]!.length ? arrows : this.#drawn);
+      const apart = clear(hulls[k]!.length ? arrows : this.#drawn);
+      const free = (at: Pair) => this.#seen(half, at) && apart(at);
       if (hulls[k]!.length) {
         // of a plate upon which it lies only the edges are others
         const mine = middleOf(hulls[k]!);
@@ -147,7 +148,6 @@ export class Naming {
           const middle: Pair = [at[0], at[1] - 4];
           const own = hulls[k]!.length > 2 && !toHull(hulls[k]!, ...middle); // on its plate
           return (
-            this.#seen(half, at) &&
             clearBy(JOINT, pins, wide, middle) &&
             (own || clearBy(BODY, ink, wide, middle)) &&
             clearBy(GAP, stands, wide, middle) &&
@@ -252,7 +252,7 @@ export class Naming {
   }
 
   #seen(half: number, [x, y]: Pair): boolean {
-    return x > half + RULE && x + half < this.viewport.right(y);
+    return x > half + RULE && x + half < this.viewport.right(y) && y < this.viewport.height - FOOT;
   }
 
   get #buttons(): Pair[] {

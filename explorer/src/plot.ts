@@ -38,6 +38,7 @@ const ROW = 14; // pixels of one more row above
 const EVEN = 200; // places of the drive at which values are compared
 const PART = 0.05; // of the drive: where values may be without bound
 const ONE = 1e-5; // of values: those that differ by less are read as one
+const TINY = 2e-3; // values up to which are told in thousandths
 const FLAT = 0.1; // pixels: the second difference below which a line is nearly straight
 
 export class Plot {
@@ -68,6 +69,8 @@ export class Plot {
   private series: Series | null = null;
   #low = 0;
   #high = 1;
+  /** By how much values are told larger. */
+  #times = 1;
 
   constructor(
     /** Of the drive: "°", else one of length; "s" of time. */
@@ -161,7 +164,8 @@ export class Plot {
     const room = 0.06 * (high - low);
     [this.#low, this.#high] = [low - room, high + room];
     const upward = (series.degrees ? degreeValues : roundValues)(this.#low, this.#high, 3);
-    const letters = Math.max(...upward.map((value) => number(value, 7).length));
+    this.#times = Math.max(-low, high) < TINY ? 1000 : 1;
+    const letters = Math.max(...upward.map((value) => number(value * this.#times, 7).length));
     if (this.span.widen(TICK * letters + 6)) return; // all of them anew
     const { left } = this.span;
     const across = drives.map((drive) => this.#x(drive));
@@ -182,9 +186,10 @@ export class Plot {
     put(this.#frame, { d: `M${left} ${TOP}V${foot}H${WIDTH - RIGHT}${zero}` });
     put(this.#inner, { x: left, width: wide, height: HEIGHT, viewBox: `${left} 0 ${wide} ${HEIGHT}` });
     put(this.#band, { x: left, width: wide, height: (foot - top).toFixed(1), y: top.toFixed(1) });
-    if (this.element.getAttribute("aria-label") !== series.title) {
+    let { title } = series;
+    if (this.#times > 1) title = title.includes("[") ? title.replace("[", "[10⁻³\u00a0") : `${title} [10⁻³]`;
+    if (this.element.getAttribute("aria-label") !== title) {
       this.#along.textContent = `${this.unit === "s" ? t("Time") : t("Drive")} [${this.unit}]`;
-      const { title } = series;
       const [, one = title, other] = LINES.exec(title) ?? [];
       const row = title.length > LONG ? ROW : 0;
       renew(this.#title, one, svg("tspan", { x: 2, dy: ROW }, other));
@@ -201,7 +206,7 @@ export class Plot {
     put(this.#mesh, { d: lines.join("") });
     relabel(
       this.#upward,
-      upward.map((value) => [left - 4, this.#y(value) + 4, value]),
+      upward.map((value) => [left - 4, this.#y(value) + 4, value * this.#times]),
       "end",
     );
     relabel(
@@ -225,7 +230,7 @@ export class Plot {
     put(this.#here, { cx: x, cy: y.toFixed(1) });
     const exact = place === drive ? series.now?.() : NaN;
     const told = Number.isFinite(exact) ? exact! : value; // of a pose without rates that at the drive
-    const read = number(Math.abs(told) < series.same! ? 0 : told);
+    const read = number(Math.abs(told) < series.same! ? 0 : told * this.#times);
     const where = `${number(place / this.#scale)}${this.#scale === 1 ? "" : "°"}: ${read}`;
     this.#value.textContent = Object.is(place, drive) ? read : where;
   }
