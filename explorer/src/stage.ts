@@ -24,7 +24,7 @@ const STYLES =
   "font-weight paint-order";
 
 const SAID = 16; // pixels more that a bearing needs over what can be done
-const NUMBERS = 23; // pixels that numbers of links need at the edges
+const NUMBERS = 28; // pixels that numbers of links need at the edges
 
 export class Stage implements Board {
   readonly element: HTMLElement;

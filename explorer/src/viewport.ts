@@ -94,7 +94,8 @@ export class Viewport {
     const { narrow } = this;
     const margin = narrow ? room : 60;
     const rule = narrow ? 22 : 0; // the numbers on the left
-    const foot = below ?? (narrow && this.height > LOW ? margin : 0); // what can be done
+    const said = this.height > LOW ? margin : 12; // what can be done, or a bearing above the numbers
+    const foot = below ?? (narrow ? said : 0);
     const wide = Math.max(right - left, least);
     const high = Math.max(top - bottom, least);
     /** Whether all is clear of the buttons, in a row or not, with room beside them (1), below them (2) or not (0). */
