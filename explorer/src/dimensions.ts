@@ -25,6 +25,8 @@ export interface Dimension {
   readonly at: Pair;
 }
 
+type Segment = [Pair, Pair];
+
 interface Measured {
   readonly drawing: Drawing;
   readonly viewport: Viewport;
@@ -44,48 +46,63 @@ export function dimensionsOf({ chosen, drawing, viewport }: Measured): Dimension
   });
   const shown = [...new Set([...wanted.slice(0, MOST), ...(viewport.narrow ? [] : all.filter(held))])];
   const middle = middleOf(knots.map(({ at }) => viewport.screen(...at)));
+  const taken: Segment[] = [];
   return shown.flatMap((span) => {
     const [p, q] = span.ends.map((k) => viewport.screen(...knots[k]!.at)) as [Pair, Pair];
     const far = away(p, ...q);
     if (far < LEAST) return [];
     const [c, s] = [(q[0] - p[0]) / far, (q[1] - p[1]) / far];
     const [mx, my] = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
-    // away from the middle of what is drawn
-    const side = -s * (mx - middle[0]) + c * (my - middle[1]) < 0 ? -1 : 1;
-    const off = (by: number): Pair => [-s * by * side, c * by * side];
-    const [dx, dy] = off(OFF);
-    const beyond = (part: number) => [p, q].map(([x, y]): Pair => [x + part * dx, y + part * dy]) as [Pair, Pair];
-    const [a, b] = beyond(1);
-    const [from, to] = [beyond(1 / 3), beyond(1.2)];
-    const head = ([x, y]: Pair, way: number): Pair[] => [
-      [x + way * HEAD * c - 3 * s, y + way * HEAD * s + 3 * c],
-      [x, y],
-      [x + way * HEAD * c + 3 * s, y + way * HEAD * s - 3 * c],
-    ];
     const text = number(lengthOf(drawing, span.ends));
     const half = halfOf(text) + 4;
     // the line is open where its figure stands in it
     const gap = Math.min(Math.abs(half / c), Math.abs(9 / s));
     const open = far > 2 * gap + 4 * HEAD;
-    const [ax, ay] = open ? [0, 0] : off(9 + half * Math.abs(s));
-    const parts = open
-      ? [
-          [a, [mx + dx - gap * c, my + dy - gap * s] as Pair],
-          [[mx + dx + gap * c, my + dy + gap * s] as Pair, b],
-        ]
-      : [[a, b]];
-    const lines = [...parts, [from[0], to[0]], [from[1], to[1]], head(a, 1), head(b, -1)];
-    return [
-      {
-        name: spanName(drawing, span.ends),
-        text,
-        kept: held(span),
-        path: lines.map((line) => pathThrough(line)).join(""),
-        line: [a, b],
-        at: [mx + dx + ax, my + dy + ay],
-      },
+    const head = ([x, y]: Pair, way: number): Pair[] => [
+      [x + way * HEAD * c - 3 * s, y + way * HEAD * s + 3 * c],
+      [x, y],
+      [x + way * HEAD * c + 3 * s, y + way * HEAD * s - 3 * c],
     ];
+    const beside = (hand: number) => {
+      const off = (by: number): Pair => [-s * by * hand, c * by * hand];
+      const [dx, dy] = off(OFF);
+      const beyond = (part: number) => [p, q].map(([u, v]): Pair => [u + part * dx, v + part * dy]) as Segment;
+      const [a, b] = beyond(1);
+      const [from, to] = [beyond(1 / 3), beyond(1.2)];
+      const [ax, ay] = open ? [0, 0] : off(9 + half * Math.abs(s));
+      const [x, y] = [mx + dx + ax, my + dy + ay];
+      const parts: Segment[] = open
+        ? [
+            [a, [mx + dx - gap * c, my + dy - gap * s]],
+            [[mx + dx + gap * c, my + dy + gap * s], b],
+          ]
+        : [[a, b]];
+      parts.push([from[0], to[0]], [from[1], to[1]]);
+      const whole: Segment[] = [
+        ...parts,
+        [
+          [x - half, y],
+          [x + half, y],
+        ],
+      ];
+      const over = whole.filter((one) => taken.some((other) => cross(one, other))).length;
+      const cut = x < half || x > viewport.width - half ? 1 : 0;
+      const path = [...parts, head(a, 1), head(b, -1)].map(pathThrough).join("");
+      return { path, line: [a, b] as Segment, at: [x, y] as Pair, whole, bad: over + cut };
+    };
+    // away from the middle of what is drawn, where it crosses nothing there
+    const side = -s * (mx - middle[0]) + c * (my - middle[1]) < 0 ? -1 : 1;
+    const [first, second] = [beside(side), beside(-side)];
+    const { at, line, path, whole } = second.bad < first.bad ? second : first;
+    taken.push(...whole);
+    return [{ name: spanName(drawing, span.ends), text, kept: held(span), path, line, at }];
   });
+}
+
+/** Whether two lines cross. */
+function cross([a, b]: Segment, [c, d]: Segment): boolean {
+  const turn = (p: Pair, q: Pair, r: Pair) => (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+  return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
 }
 
 /** The lines with their figures, which are pressed to type them. */
