@@ -10,7 +10,7 @@ import type { Model, Target } from "./model";
 import { store, stored } from "./storing";
 import { ARM, armOf, evenly, rowsTable, tip } from "./targets";
 import { TaskPicture } from "./taskpicture";
-import { FEWEST, type Kind, wordsOf } from "./tasks";
+import { FEWEST, type Kind, PLACE, wordsOf } from "./tasks";
 import type { Page, View } from "./view";
 import { awaited } from "./waiting";
 
@@ -367,7 +367,7 @@ export class SynthesisView implements View {
       "div.points",
       {},
       table(this.points, row, heads),
-      this.kind === "positions" && !!this.#pivots.length && table(this.#pivots, t("Fixed pivot"), ["x", "y"]),
+      this.kind === "positions" && !!this.#pivots.length && table(this.#pivots, t("Fixed pivot"), PLACE),
     );
     const { open } = this.#list.querySelector("details") ?? {};
     if (this.kind === "function") tables.append(h("div.form", {}, action("pair", add, t("Another pair"))));

@@ -6,9 +6,8 @@ import type { Design } from "./designs";
 import { digits } from "./digits";
 import { h, svg } from "./dom";
 import { bodiesOf, pathOf, putBodies } from "./ghost";
-import { away, clearAbout, convexHull, spotsAbout } from "./hull";
+import { away, clearAbout, convexHull } from "./hull";
 import { angle, number, parsed, t } from "./language";
-import { between } from "./names";
 import { valueAt } from "./plot";
 import type { Pair } from "./rows";
 import { cross } from "./shell";
@@ -166,23 +165,19 @@ export function swingMark(
 /** What the dead centres of a design are called, beside the ends of its rocker, clear of all that links pass over, of
  * other words and of the edges of the picture. */
 function endNames(
-  [pivot, ...places]: readonly Pair[],
+  [, ...places]: readonly Pair[],
   design: Design,
   { bottom, left: west, right: east, top: north, unit }: Area,
   left: boolean,
   corner: readonly Pair[],
 ): SVGElement[] {
-  const [one, two, top] = places as [Pair, Pair, Pair];
+  const top = places[2]!;
   const ends = design.ends ?? [];
   const words = [0, 4, 8].map((up) =>
     [0, left ? -30 : 30].map((beside): Pair => [top[0] + beside * unit, top[1] + up * unit]),
   );
-  const links = ends.flatMap((at) => design.members.map((own) => own.map((joint) => at[joint]!)));
-  // the coupler stays between the circle of the crank and the arc of the rocker
-  const crank = links.find((own) => own.length === 2 && own.includes(ends[0]![design.drive!]!));
-  const circle = crank ? spotsAbout(ends[0]![design.drive!]!, away(crank[0]!, ...crank[1]!)).slice(0, 16) : [];
-  // and the arc bulges beyond its chords, a bar beyond its joint
-  const passed = convexHull([pivot!, ...[one, top, two].map((end) => between(pivot!, end, 1.07)), ...circle]);
+  const all = [...ends, ...design.frames.filter((_, k) => k % 3 === 0)];
+  const links = all.flatMap((at) => design.members.map((own) => own.map((joint) => at[joint]!)));
   const beyond = [-1, 1].map((side): Pair[] => {
     const edge = side < 0 ? west : east;
     return convexHull(
@@ -192,13 +187,13 @@ function endNames(
       ]),
     );
   });
-  const drawn = [...words, ...links, passed, ...beyond, corner];
+  const drawn = [...words, ...links, ...beyond, corner];
   // crank and coupler in one line: beyond each other where the rocker is the farther from the crank
   const spans = ends.map((at, k) => away(at[design.drive!]!, ...places[k]!));
   return spans.map((span, k) => {
     const name = span > spans[1 - k]! ? t("extended") : t("folded");
     const room = name.length * unit;
-    const [x, y] = clearAbout(places[k]!, 5 * unit, drawn, room);
+    const [x, y] = clearAbout(places[k]!, 7 * unit, drawn, room);
     drawn.push([-room, room].map((d): Pair => [x + d, y]));
     const transform = `translate(${x} ${-y}) scale(${unit})`;
     return svg("text.tick", { "text-anchor": "middle", transform, y: 1.3 }, name);

@@ -15,19 +15,22 @@ interface TaskWords {
   heads: string[];
 }
 
+/** The heads of a place. */
+export const PLACE = ["x [mm]", "y [mm]"];
+
 export function wordsOf(kind: Kind): TaskWords {
   const words: Record<Kind, TaskWords> = {
     points: {
       name: t("Points"),
       hint: t("Put points in the order in which a coupler point passes them: up to nine are met exactly if possible."),
       row: t("Point"),
-      heads: ["x", "y"],
+      heads: PLACE,
     },
     positions: {
       name: t("Positions"),
       hint: t("Put three to five positions of the coupler; drag the end of an arrow to turn one."),
       row: t("Position"),
-      heads: ["x", "y", "φ [°]"],
+      heads: [...PLACE, "φ [°]"],
     },
     function: {
       name: t("Angles"),

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import degrees, inf, isnan
 from typing import Any
 
+from gruebler.base.events import GOOD
 from gruebler.base.text import Message, joined, joined_by_and, message
 from gruebler.design.synthesis import (
     DeadCentreTask,
@@ -142,6 +143,8 @@ def words(
     angles = [(item["range"], item["transmission"]) for item in items]
     if not isinstance(task, DeadCentreTask) and any(None not in both and both[0] < both[1] for both in angles):
         yield message("μ: the least transmission angle; between targets: on the way from the first to the last.")
+    if len(items) > 1:
+        yield message("Bold: the best value. Orange: a transmission angle below {angle:g}°.", angle=degrees(GOOD))
     if longest is not None:
         yield message(
             "No link is longer than {length:.3g} mm, nor {ratio} times as long as another.",

@@ -62,6 +62,7 @@ _CURVES = 12
 """So many designs for a whole curve: a choice between near ones and small ones."""
 _LOW = message("Left out, as the transmission angle falls below {angle:g}° in other positions: {count}.")
 _LONG = message("Left out, as a link is longer than {length:g} mm: {count}.")
+_OWN_LIMIT = message("That limit is the page's own: type another one for longer links.")
 _LESS = (0.9, 0.7, 0.4, 0.0)  # of a transmission angle that no design has
 _NEAREST = 12  # designs that are shown of these
 _NEARLY = message("No linkage was found that meets all demands; these meet all but {demands}.")
@@ -174,6 +175,7 @@ def design_records(
             longest if longest is not None else (1 if space else _FAR) * hypot(near[2] - near[0], near[3] - near[1])
         )
         fitting, too_long = _short_enough(designs, longest)
+        too_long += [_OWN_LIMIT] * (bool(too_long) and not limited)
         if fitting or limited:  # giants where there is nothing else
             # where the nearest ones do not fit either it is told why none does what was asked for
             designs, left, result = (
