@@ -53,6 +53,8 @@ export class CatalogView implements View {
   #at: Left = { query: {}, kind: "", refining: false, byLinks: false, top: 0 };
   readonly #cards = h("div.cards", { "data-list": "catalog" });
   readonly #note = h("span.note", { role: "status" });
+  /** The same at the lower edge of a phone, below many filters: it leads to the cards. */
+  readonly #below = h("button.key", { onclick: () => this.#cards.scrollIntoView() });
   #typing = 0;
   #asked = 0;
   #filled = false;
@@ -142,6 +144,7 @@ export class CatalogView implements View {
           h("button.plain", { "data-act": "clear", onclick: () => this.#showAll() }, t("Clear")),
         ),
       ),
+      window.innerWidth > 820 ? "" : h("div.form.go", {}, this.#below),
     );
     const orders: [string, string][] = [
       ["", t("by name")],
@@ -199,7 +202,7 @@ export class CatalogView implements View {
   async #search(): Promise<void> {
     const number = ++this.#asked;
     const cards = this.#cards;
-    this.#note.textContent = t("Searching …");
+    this.#tell(t("Searching …"));
     cards.classList.add("asking"); // those of the search before
     cards.toggleAttribute("data-waiting", !this.#filled);
     if (!this.#filled) renew(cards, ...Array.from({ length: EMPTY }, emptyCard));
@@ -215,7 +218,7 @@ export class CatalogView implements View {
     if (number !== this.#asked) return this.#search();
     cards.classList.remove("asking");
     if (found instanceof Error) {
-      this.#note.textContent = found.message;
+      this.#tell(found.message);
       if (!this.#filled) renew(cards);
       return;
     }
@@ -223,7 +226,7 @@ export class CatalogView implements View {
     this.#filled = true;
     cards.removeAttribute("data-waiting");
     const few = [t("No machine has all of this."), t("One machine")];
-    this.#note.textContent = few[found.length] ?? t("{count} machines", { count: found.length });
+    this.#tell(few[found.length] ?? t("{count} machines", { count: found.length }));
     const byName = (a: Entry, b: Entry) => a.name.localeCompare(b.name, currentLanguage());
     // those whose name has what is looked for, not their description alone
     const named = ({ name }: Entry) => +name.toLowerCase().includes((this.#at.query.words ?? "").toLowerCase());
@@ -233,6 +236,11 @@ export class CatalogView implements View {
     if (!found.length) renew(cards, h("button.plain", { onclick: () => this.#showAll() }, t("Show all")));
     if (this.#at.top) for (const scrolled of [this.element, window]) scrolled.scrollTo(0, this.#at.top);
     this.#at.top = 0;
+  }
+
+  #tell(text: string): void {
+    this.#note.textContent = text;
+    this.#below.textContent = `↓ ${text}`;
   }
 
   #showAll(): void {

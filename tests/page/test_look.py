@@ -821,6 +821,13 @@ def test_features_to_search_for_are_in_line_on_a_phone(tab, server, locale):
     assert fields.count() == 14
     edges = "all => all.map((one) => one.getBoundingClientRect()).map(({ left, right }) => [left, right].join())"
     assert len(set(fields.evaluate_all(edges))) == 1
+    # how many there are stays in sight below them, and leads there
+    key = page.page.locator('[data-panel="features"] .go button')
+    page.page.locator('[data-list="catalog"] .card').nth(60).wait_for()
+    assert key.inner_text().split()[1] == page.page.locator('[data-page="catalog"] .note').inner_text().split()[0]
+    assert key.bounding_box()["y"] < 844
+    key.click()
+    assert page.page.locator('[data-list="catalog"] .card').first.bounding_box()["y"] < 844 / 2
 
 
 def test_a_print_has_name_picture_measures_sizes_and_plots(tab, server):
