@@ -53,6 +53,8 @@ interface Marked {
   solution: Part[];
 }
 
+const PHONE = 340; // pixels
+
 /** A formula whose quantities are slanted, with their indices: s1 and l_a; units behind numbers are upright. It breaks
  * before operators. */
 function formula(text: string): (string | Node)[] {
@@ -82,6 +84,12 @@ function partOf({ text, formula: line, heading, rows }: Part): HTMLElement {
   );
 }
 
+/** A figure that tells how wide it is, in screens of a phone: there its letters are larger by as much. */
+function legible(figure: SVGSVGElement): SVGSVGElement {
+  figure.style.setProperty("--own", `${13 * Math.max(1, figure.viewBox.baseVal.width / PHONE)}px`);
+  return figure;
+}
+
 interface Tried {
   model?: Model;
   text?: string;
@@ -96,6 +104,8 @@ export class ExercisesView implements View {
   private level = 1;
   private seed = 1 + Math.floor(Math.random() * 9999);
   private task: Task | null = null;
+  /** The id of the task that was asked for last. */
+  #wanted = "";
   #marked: Marked | null = null;
   readonly #place = h("div", {});
   readonly #kinds = h("div", {});
@@ -181,8 +191,11 @@ export class ExercisesView implements View {
   private async fresh(): Promise<void> {
     this.#showTasks();
     const id = this.#numbered().length ? this.#chosen : `${this.kind}-${this.level}-${this.seed}`;
+    this.#wanted = id;
+    this.#wait(true);
     try {
       const task = await this.#page.ask<Task>("exercise", { id });
+      if (id !== this.#wanted) return;
       if (task.id !== this.task?.id) this.#answers = {};
       this.task = task;
       this.#marked = null;
@@ -191,6 +204,13 @@ export class ExercisesView implements View {
     } catch (error) {
       renew(this.#place, h("p.error", {}, (error as Error).message));
     }
+    this.#wait(false);
+  }
+
+  /** Another task is on its way: the one before is faded. */
+  #wait(busy: boolean): void {
+    this.#place.setAttribute("aria-busy", String(busy));
+    this.#place.classList.toggle("faded", busy);
   }
 
   #show(): void {
@@ -214,12 +234,12 @@ export class ExercisesView implements View {
         ),
         h(
           "div",
-          {},
+          { class: task.figures.length === 2 && "pair" }, // one below the other
           ...task.figures.map(({ name, picture: figure }) =>
             h(
               "figure.chain-picture",
               {},
-              picture(figure, name || t("The figure of the task")),
+              legible(picture(figure, name || t("The figure of the task")) as SVGSVGElement),
               name && h("figcaption", {}, unbroken(name)),
             ),
           ),

@@ -420,6 +420,7 @@ EXERCISES = [
         degrees(acos(0.2)),
         misprint="arccos 0.2 is 78.46: 78.5, as section 3.4 prints it",
     ),
+    task("exercise-13", "longer", "the longer rod has the larger μ_min", value=acos(0.2) > acos(0.4)),
     task("exercise-14", "μ_min", "μ_min of 20, 85, e = 20", "62", degrees(acos(40 / 85))),
     task("exercise-14", "μ_max", "μ_max, reached because e = a", "90", 90.0),
     table("exercise-15", "s(φ) every 30° from the overlapping position", [0, 1, 2, 3], _exercise_15()),

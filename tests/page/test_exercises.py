@@ -101,7 +101,9 @@ def test_the_page_shows_kinds_figure_and_hints(exercises):
     assert rows[:2] == ["T", "L"]  # each says what is chosen in it: topic, level
     page.page.locator('[aria-label="Level"] button').nth(1).click()
     kinds.nth(5).click()
+    page.page.locator('[aria-busy="true"].faded').wait_for()  # the task before, at once
     page.until(f"{KIND}.task.id.startsWith({KIND}.kind + '-2-')")
+    page.page.locator('[aria-busy="false"]:not(.faded)').wait_for()
     box = page.page.locator('[aria-label="The figure of the task"]').bounding_box()
     assert min(box["width"], box["height"]) > 60
     for field in page.page.locator("input[data-answer]").all():
@@ -116,7 +118,9 @@ def test_the_page_shows_kinds_figure_and_hints(exercises):
     slanted = page.page.locator(".solution .formula i").all_text_contents()
     assert "ω" in slanted
     assert "s" not in slanted  # of mm/s
-    assert "by the general solver: both methods give" in page.page.locator(".solution").text_content()
+    assert page.page.locator(".solution td", has_text="by the general solver").all_text_contents() == [
+        f"{rate}B by the general solver" for rate in "va"
+    ]
     tops = [button.bounding_box()["y"] for button in kinds.all()]
     assert tops == [tops[0]] * 5 + [tops[5]] * 5  # two rows below each other
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from gruebler.base.errors import GrueblerError
@@ -11,6 +12,7 @@ from gruebler.base.text import Message, Readable, error_in_language, joined, joi
 from gruebler.files import Exercise
 from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES
 from gruebler.pictures.canvas.figure import Figure
+from gruebler.pictures.canvas.shapes import TextShape
 from gruebler.structure.chain import Chain
 from gruebler.teaching.exercises import (
     KINDS,
@@ -26,7 +28,7 @@ from gruebler.teaching.exercises import (
     solve,
 )
 from gruebler.teaching.exercises.dyads import CHANGES
-from gruebler.teaching.exercises.messages import cells_of_table, check_text, named_answer, step_lines, with_capital
+from gruebler.teaching.exercises.messages import cells_of_table, check_cells, named_answer, step_lines, with_capital
 from gruebler.teaching.exercises.solution import Part, TeachingTable
 from gruebler.teaching.worksheets.blocks import with_signs
 from gruebler.teaching.worksheets.exercise_figures import exercise_linkages
@@ -77,7 +79,7 @@ def task_record(id: str, lang: str) -> dict[str, Any]:
     return {
         "id": task.id,
         "name": task.name.in_language(lang),
-        "task": signed(task.task.in_language(lang)),
+        "task": _prose(task.task.in_language(lang)),
         "remark": signed(task.remark.in_language(lang)) if task.remark else "",
         "figures": _figures(task, lang),
         "trial": f"{_IN_MOTION.in_language(lang)}:" if len(tries := _tries(task, lang)) > 1 else "",
@@ -108,8 +110,25 @@ def signed(text: str) -> str:
     text = re.sub(r"(?<=[a-z]{3})_(?=[a-z]{3})", " ", with_signs(text).replace("₀", "0"))
     text = re.sub(r"(?:(?<=\b[A-D])|(?<=\b[A-D]0))(-?)(?=[A-D]0?\b)", "\\1\u2060", text)
     text = re.sub(r"(?<!= )(\b\w_\w|(?<= )\w) (?=[+−] (?:\w_\w =|\w/\d))", "\\1\u00a0", text)
+    text = re.sub(r"\b([A-Z]\()(?=[^()]*[a-zäöü])([^()]*-[^()]*)\)", _unbroken_joint, text)  # D(Gestell-Hohlrad)
+    text = re.sub(r"(?<=\bK\d) (?=\()", "\u00a0", text)  # K1 (45, 0)
+    text = re.sub(r"(\([^() ]+[,;]) (?=[^() ]+\))", "\\1\u00a0", text)  # (45, 0)
     text = re.sub(r"\b([AB](?=0)|s(?=[12]\b)|K(?=\d))(\d)_?(?!\d|[.,]\d)", r"\1_\2", text)
     return re.sub(r"\b(sin|cos|tan) (?=\w)", "\\1\u00a0", text)
+
+
+def _prose(text: str) -> str:
+    r"""The same in a sentence, which does not break within a short sum.
+
+    >>> _prose("so d + b ≤ a + c")
+    'so d\xa0+ b ≤ a\xa0+ c'
+    """
+    return re.sub(r"(?<=\b[a-z]) (?=[+−] [a-z]\b)", "\u00a0", signed(text))
+
+
+def _unbroken_joint(match: re.Match[str]) -> str:
+    kept = match[2].replace("-", "-\u2060").replace(" ", "\u00a0")
+    return f"{match[1]}{kept})"
 
 
 def _chain_of(task: Exercise) -> str:
@@ -139,10 +158,11 @@ def _figures(task: Exercise, lang: str) -> list[dict[str, str]]:
     widest = max(figure.width for figure in drawings)
     figures = []
     for drawn, figure in zip(linkages, drawings, strict=True):
-        picture = _picture(figure, widest)
+        shapes = figure.shapes
         if drawn.source:  # small, and no task speaks of the points of a machine
-            picture = re.sub(r"<text.*?</text>", "", picture, flags=re.DOTALL)
-        figures.append({"name": drawn.name.in_language(lang) if drawn.name else "", "picture": picture})
+            shapes = tuple(each for each in shapes if not isinstance(each, TextShape))
+        name = drawn.name.in_language(lang) if drawn.name else ""
+        figures.append({"name": name, "picture": _picture(replace(figure, shapes=shapes), widest)})
     return figures
 
 
@@ -201,7 +221,7 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
     def part(text: str, formula: str = "", *, heading: bool = False, rows: Sequence[list[str]] = ()) -> dict[str, Any]:
         line = re.sub(r"\b(sin|cos|tan) \(", r"\1(", signed(chosen(formula.strip()))).replace(")/(", ")\u200b/(")
         cells = [[signed(chosen(cell)).replace(" = ", "\u00a0=\u00a0") for cell in row] for row in rows]
-        return {"text": signed(text.strip()), "formula": line, "heading": heading, "rows": cells}
+        return {"text": _prose(text.strip()), "formula": line, "heading": heading, "rows": cells}
 
     def chosen(text: str) -> str:
         """A type as among the choices."""
@@ -210,8 +230,8 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
     names = [each.value.in_language(lang) for each in solution.results.values() if isinstance(each.value, Readable)]
     parts = []
     count = 0
-    shown, beyond = _asked_parts(task, solution)
-    for each in shown:
+    wanted = _as_asked(task, solution)
+    for each in wanted.parts:
         if isinstance(each, TeachingTable):
             head, *rows = cells_of_table(each, lang)
             columns = [k for k in range(len(head)) if any(row[k] for row in rows)]  # chains may all have no name
@@ -225,28 +245,33 @@ def solution_parts(task: Exercise, solution: Solution, lang: str) -> list[dict[s
     if task.asked:
         answers = [named_answer(solution.results[question.key], lang) for question in task.asked]
         parts += [part(translate("Results:", lang), heading=True), part("", rows=[[], *map(list, answers)])]
-    checks = dict.fromkeys(check_text(check, lang) for check in solution.checks if check.first not in beyond)
-    if checks:
-        parts += [part(translate("Check by a second method:", lang), heading=True), *map(part, checks)]
+    if wanted.checks:
+        rows = [[], *map(list, dict.fromkeys(check_cells(check, lang) for check in wanted.checks))]
+        parts += [part(translate("Check by a second method:", lang), heading=True), part("", rows=rows)]
     return parts
 
 
-def _asked_parts(task: Exercise, solution: Solution) -> tuple[list[Part], set[object]]:
-    """The parts of a solution without steps behind the last one that is asked for, and the values of those steps.
+def _as_asked(task: Exercise, solution: Solution) -> Solution:
+    """The solution without what is calculated behind the last step that is asked for, and without the checks of that.
 
-    Exercises of the text keep them: they stand there.
+    Exercises of the text keep it: it stands there.
 
     >>> task = exercise("velocity-1-5")  # without accelerations
-    >>> [step.formula.partition(" = ")[0] for step in _asked_parts(task, solve(task))[0]]
+    >>> [step.formula.partition(" = ")[0] for step in _as_asked(task, solve(task)).parts]
     ['β', 'v_A', 'ω_b', 'v_B']
     """
     asked = [solution.results[question.key].value for question in task.asked]
-    steps = {k: part for k, part in enumerate(solution.parts) if isinstance(part, SolutionStep)}
-    last = max((k for k, step in steps.items() if step.value in asked), default=len(solution.parts))
-    if task.id.startswith(_OF_THE_TEXT):
-        last = len(solution.parts)
-    beyond = {k: step.value for k, step in steps.items() if k > last and step.numbers}
-    return [part for k, part in enumerate(solution.parts) if k not in beyond], {*beyond.values()}
+    wanted = [k for k, part in enumerate(solution.parts) if isinstance(part, SolutionStep) and part.value in asked]
+    if not wanted or task.id.startswith(_OF_THE_TEXT):
+        return solution
+    more = {k: part for k, part in enumerate(solution.parts) if k > wanted[-1] and _is_calculated(part)}
+    values = [part.value for part in more.values() if isinstance(part, SolutionStep)]
+    parts = tuple(part for k, part in enumerate(solution.parts) if k not in more)
+    return replace(solution, parts=parts, checks=tuple(each for each in solution.checks if each.first not in values))
+
+
+def _is_calculated(part: Part) -> bool:
+    return isinstance(part, SolutionStep) and bool(part.numbers)
 
 
 def _mark(task: Exercise, solution: Solution, key: str, given: str, lang: str) -> dict[str, str]:

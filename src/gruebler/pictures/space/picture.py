@@ -99,11 +99,11 @@ def _with_names(
     scene: SpatialScene, shapes: list[Shape], poses: Reals | None, names: Mapping[str, str] | None
 ) -> list[Shape]:
     outlines = {
-        link: points_on_paper(scene.placed(corners, _pose(scene, poses, link)))
+        link: points_on_paper(scene.placed(scene.beside(link), _pose(scene, poses, link)))
         for link, corners in scene.outlines.items()
         if len(corners) > 1
     }
-    closed = {link: len(places) > 2 for link, places in outlines.items()}
+    closed = {link: len(scene.outlines[link]) > 2 for link in outlines}
     frame, arc = scene.linkage.mechanism.frame, scene.frame_arc
     if len(arc) and len((names or {}).get(frame, "")) == 1:  # the letter of a length stands beside it
         line = points_on_paper(scene.placed(arc, _pose(scene, poses, frame)))

@@ -55,6 +55,15 @@ class SpatialScene:
     joints: Reals
     """The places of the joints' symbols; of a cross those of an eye of each fork."""
 
+    def beside(self, link: str) -> Reals:
+        """The places of a link to which its name is put: its corners, of a moving arc those about its middle."""
+        corners, mechanism = self.outlines[link], self.linkage.mechanism
+        is_arc = mechanism.chain.space is Space.SPHERICAL and link != mechanism.frame and len(corners) == 2
+        if not (is_arc and corners.any()):  # both ends of a cross lie in the middle
+            return corners
+        arc = _arc(*corners)
+        return arc[len(arc) // 2 - 2 : len(arc) // 2 + 3]
+
     @property
     def frame_arc(self) -> Reals:
         """On the sphere the places from one of two joints of the frame to the other; elsewhere none."""

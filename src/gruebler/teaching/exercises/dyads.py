@@ -108,13 +108,13 @@ def _add_after(builder: SolutionBuilder, start: Chain, extensions: list[Extensio
         rows.append((name.split()[0] if name else "", in_alphabets(shown.text), len(extension.places)))
     agreeing = sum(counted(extension.chain) == mobility_report(extension.chain).generic for extension in extensions)
     builder.check(
-        "Chains, and those whose F agrees with the rank of the constraints at random sizes",
+        "Chains whose F agrees with the rank of the constraints at random sizes",
         float(len(extensions)),
         float(agreeing),
         "",
     )
     builder.check(
-        "Different chains by canonical codes, and by comparing graphs pair by pair",
+        "Different chains, by comparing graphs pair by pair",
         float(len(extensions)),
         float(_classes(extensions)),
         "",

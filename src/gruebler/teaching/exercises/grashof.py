@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import Message, in_every_language, joined, message
+from gruebler.base.text import Message, in_every_language, joined, joined_by_and, message
 from gruebler.mechanics.analysis import drive_range
 from gruebler.mechanics.fourbar import FourBar, Grashof, turning_ranges
 from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES
@@ -34,13 +36,15 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
     builder.keep("type", message("type"), kind, symbol="")
     builder.parts.append(
         SolutionStep(
-            text=message("The place of the shortest link ({shortest}; d is the frame) makes it a:", shortest=shortest),
+            text=message(
+                "The place of the shortest link ({shortest}; d is the frame) tells the type:", shortest=shortest
+            ),
             value=kind,
         )
     )
     if grashof.condition != "=":
         moved = drive_range(FourBar(a, b, c, d).linkage())
-        builder.check("Whether the crank turns fully, by following the motion", turns, bool(moved.full), "")
+        builder.check(turning_sentence(turns), True, bool(moved.full) == turns, "")
     builder.mistake(
         "turns", not turns, message("Compare l_min + l_max with the two others, and see where the shortest link is.")
     )
@@ -48,6 +52,13 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
     for (sign, _), other in FOUR_BAR_TYPES.items():
         builder.mistake("type", in_every_language(other.name), _WRONG_PLACE if sign == relation else _WRONG_SUMS)
     return builder.done()
+
+
+def turning_sentence(turns: bool) -> Message:
+    """What following the motion of a four-bar shows of its crank."""
+    if turns:
+        return message("By following the motion: the crank turns fully.")
+    return message("By following the motion: the crank does not turn fully.")
 
 
 _WRONG_SUMS = message("s1 < s2: the shortest link turns fully; s1 > s2: none does; s1 = s2: all can lie on one line.")
@@ -199,24 +210,30 @@ def _check_range(builder: SolutionBuilder, free: str, lengths: dict[str, float],
     builder.check("Lower end, by going through all types", low, crank_rocker.lower)
     builder.check("Upper end, by going through all types", high, crank_rocker.upper)
     near = 1e-3 * (high - low)
-    tried = [(low + near, True), (low - near, False), (high - near, True), (high + near, False)]
+    inside, outside = [low + near, high - near], [low - near, high + near]
     upper = builder.number("shortest_upper")
     cranks = [part.upper for part in turning_ranges("a", **lengths) if part.type.key == "double_crank"]
     if free == "d" and upper > 0:
         double = message("Double crank up to, by going through all types")
         builder.check(double, upper, max(cranks, default=0.0))
         close = 1e-3 * min(upper, low - upper)
-        tried += [(upper - close, True), (upper + close, False)]
-    for value, full in tried:
-        moved = drive_range(FourBar(**lengths, **{free: value}).linkage()).full
-        builder.check(
-            "{free} = {value}: whether the crank turns fully, by following the motion",
-            full,
-            bool(moved),
-            "",
-            free=free,
-            value=figure(value),
-        )
+        inside, outside = [*inside, upper - close], [*outside, upper + close]
+
+    def lengths_in_words(values: Iterable[float]) -> Message:
+        return joined_by_and([message("{value} {unit}", value=figure(v), unit=builder.unit) for v in sorted(values)])
+
+    def turns(value: float) -> bool:
+        return bool(drive_range(FourBar(**lengths, **{free: value}).linkage()).full)
+
+    builder.check(
+        "By following the motion: the crank turns fully with {free} = {inside}, but not with {outside}.",
+        True,
+        all(map(turns, inside)) and not any(map(turns, outside)),
+        "",
+        free=free,
+        inside=lengths_in_words(inside),
+        outside=lengths_in_words(outside),
+    )
 
 
 def _add_range_mistakes(builder: SolutionBuilder, free: str, crank: float, long: float, short: float) -> None:

@@ -11,7 +11,7 @@ from gruebler.mechanics.fourbar.four_bar_types import FOUR_BAR_TYPES
 from gruebler.mechanics.linkages.quantities import as_positive
 from gruebler.mechanics.space import SphericalFourBar, UniversalJoint, move
 from gruebler.mechanics.space.drive_ranges import spatial_range
-from gruebler.teaching.exercises.grashof import comparison_step
+from gruebler.teaching.exercises.grashof import comparison_step, turning_sentence
 from gruebler.teaching.exercises.solution import Solution, SolutionBuilder, SolutionStep, angle, formula_number
 
 _SPEED = "1/min"
@@ -171,7 +171,9 @@ def spherical_grashof(a: float, b: float, c: float, d: float) -> Solution:
     builder.keep("type", message("type"), kind, symbol="")
     builder.parts.append(
         SolutionStep(
-            text=message("The place of the shortest arc ({shortest}; d is the frame) makes it a:", shortest=shortest),
+            text=message(
+                "The place of the shortest arc ({shortest}; d is the frame) tells the type:", shortest=shortest
+            ),
             value=kind,
         )
     )
@@ -181,7 +183,7 @@ def spherical_grashof(a: float, b: float, c: float, d: float) -> Solution:
         full = spatial_range(
             size.linkage(size.limits[0].start + 0.5 * (size.limits[0].end - size.limits[0].start))
         ).full
-        builder.check("Whether the crank turns fully, by following the motion", turns, bool(full), "")
+        builder.check(turning_sentence(turns), True, bool(full) == turns, "")
     builder.mistake("turns", not turns, message("Compare both sums, and see where the shortest arc is."))
     if total > 360 + _CLOSE:
         builder.mistake("sum_ends", plain[0] + plain[3], _TOO_LONG)

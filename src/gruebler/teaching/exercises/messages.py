@@ -178,19 +178,25 @@ def printed_text(comparison: Comparison, lang: str) -> str:
 
 
 def check_text(check: Check, lang: str) -> str:
-    """The quantity by both methods, and whether they agree."""
+    """The quantity by both methods, and whether they agree; or the sentence that the second one confirms."""
     first, second = (value_text(value, check.unit, lang) for value in (check.first, check.second))
     if not check.holds:
         sentence = message("{what}: {first} and {second} DIFFER")
-    elif first == second and isinstance(check.first, bool):
-        sentence = message("{what}: both methods say {first}")
+    elif isinstance(check.first, bool):
+        return check.text.in_language(lang)
     elif first == second and not check.first:  # of a difference
         sentence = message("{what}: {first}")
     elif first == second:
         sentence = message("{what}: both methods give {first}")
     else:
         sentence = message("{what}: {first} and {second} agree")
-    return sentence.filled(what=check.text, first=first, second=second).in_language(lang)
+    return with_capital(sentence.filled(what=check.text, first=first, second=second).in_language(lang))
+
+
+def check_cells(check: Check, lang: str) -> tuple[str, str]:
+    """A check as a row: what the second method tells, and its value; of a sentence none."""
+    value = "" if isinstance(check.first, bool) else value_text(check.second, check.unit, lang)
+    return with_capital(check.text.in_language(lang)), value
 
 
 def cells_of_table(table: TeachingTable, lang: str) -> list[list[str]]:

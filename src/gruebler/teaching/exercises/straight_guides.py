@@ -274,7 +274,7 @@ def _check_limits(builder: SolutionBuilder, size: FourBar) -> None:
             move_quietly(linkage, [radians(limit + off)], branch="+").complete for off in (-side * 1e-6, side * 1e-6)
         )
         builder.check(
-            "Whether {limit}° is the limit, by the general solver",
+            "By the general solver: {limit}° is the limit, it has no position beyond.",
             True,
             inside and not beyond,
             "",

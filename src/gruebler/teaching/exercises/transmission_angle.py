@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import acos, asin, degrees, isclose, pi
 
 from gruebler.base.errors import LinkageError
-from gruebler.base.text import message
+from gruebler.base.text import Readable, message
 from gruebler.mechanics.analysis import measures
 from gruebler.mechanics.fourbar import SliderCrank
 from gruebler.mechanics.kinematics.solve import move_quietly
@@ -98,10 +98,10 @@ def _add_rule(builder: SolutionBuilder, mu: float) -> None:
     )
 
 
-def _check_smallest(builder: SolutionBuilder, linkage: Linkage, mu: float) -> None:
+def _check_smallest(builder: SolutionBuilder, linkage: Linkage, mu: float, name: Readable = _SMALLEST) -> None:
     extremes = measures(linkage).transmission
     builder.check(
-        "Smallest transmission angle, from the solved motion",
+        message("{quantity}, from the solved motion", quantity=name),
         mu,
         degrees(extremes.smallest.mu) if extremes else 0.0,
         "°",
@@ -141,7 +141,7 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
     mu = builder.find(
         f"μ_min{mark}", name, f"90° - α_max{mark}", 90 - worst, unit="°", values={f"α_max{mark}": angle(worst)}
     )
-    _check_smallest(builder, size.linkage(), mu)
+    _check_smallest(builder, size.linkage(), mu, name)
     builder.mistake(f"μ_min{mark}", worst, _IS_DEVIATION)
     if off:
         _add_other_extreme(builder, a, b, off)
@@ -161,13 +161,10 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
     for value in (0.0, 180.0, 90 - degrees(asin(abs(a - off) / b))):
         if value < 90 or not off or a >= off:
             builder.mistake(f"μ_max{mark}", value, along)
-    extremes = measures(size.linkage()).transmission
-    builder.check(
-        "Largest transmission angle, from the solved motion",
-        builder.number(f"μ_max{mark}"),
-        degrees(extremes.largest.mu) if extremes else 0.0,
-        "°",
-    )
+    if not mark:  # of those that are compared nobody asks for it
+        extremes = measures(size.linkage()).transmission
+        largest = message("Largest transmission angle, from the solved motion")
+        builder.check(largest, builder.number("μ_max"), degrees(extremes.largest.mu) if extremes else 0.0, "°")
     return mu
 
 
@@ -205,4 +202,7 @@ def compare_rods(a: float, b1: float, b2: float, unit: str = "mm") -> Solution:
         "larger μ_min.",
         better=better,
     )
+    longer = (angles[0] > angles[1]) == (b1 > b2)
+    builder.keep("longer", message("the longer rod has the better transmission angle"), longer)
+    builder.mistake("longer", not longer, message("The larger μ_min is the better one."))
     return builder.done()
