@@ -2,8 +2,11 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { dimensionsOf } from "../src/dimensions";
 import { called, type Drawing, documentOfDrawing, turned, withPoint } from "../src/drawing";
 import { keeping, lengthOf, movedKept, type Span, spansOf, withLength } from "../src/lengths";
+import type { Pair } from "../src/rows";
+import { Viewport } from "../src/viewport";
 import { close, near } from "./near";
 
 // a slider-crank: A on the ground, B the crank pin, C the block with its slide D
@@ -67,4 +70,31 @@ test("a lock goes along where a joint is called otherwise, and into the document
     ["joint", "R(f-1)"],
   ]);
   close(turned(CRANK, 3, 405).knots[3]!.slide!, 45);
+});
+
+test("dimension lines of a joint do not cross each other", () => {
+  const viewport = Object.assign(new Viewport(), { width: 900 });
+  const turn = (p: Pair, q: Pair, r: Pair) => (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+  const cross = ([a, b]: readonly Pair[], [c, d]: readonly Pair[]) =>
+    turn(a!, b!, c!) * turn(a!, b!, d!) < 0 && turn(c!, d!, a!) * turn(c!, d!, b!) < 0;
+  // two links at an acute angle, and a third one that takes the middle of all to another place
+  for (const [x, y] of [
+    [60, 400],
+    [300, -300],
+    [800, 200],
+    [800, 600],
+  ] as const) {
+    const drawing: Drawing = {
+      frame: null,
+      drives: [],
+      knots: [
+        { at: [100, 100], links: ["1", "3"] },
+        { at: [300, 180], links: ["1", "2"] },
+        { at: [240, 270], links: ["2"] },
+        { at: [x, y], links: ["3"] },
+      ],
+    };
+    const [one, two] = dimensionsOf({ drawing, viewport, chosen: { knot: 1, link: null } });
+    assert.ok(!cross(one!.line, two!.line), `${x} ${y}`);
+  }
 });
