@@ -169,7 +169,7 @@ function groupsOf(page: Page, shown: Exported, say: Say): (Node | null)[] {
 function programs(page: Page, ask: (kind: string) => void): HTMLElement[] {
   const onchange = () => (choice.kind = kind.value);
   const kind = h("select", { "aria-label": t("File of another program"), "data-field": "kind", onchange });
-  kind.style.flex = "1 1 18em"; // before they are known, too
+  kind.style.cssText = "flex: 1; width: 18em"; // before they are known, too
   const lang = currentLanguage();
   if (!kinds.has(lang)) kinds.set(lang, page.ask("saved_kinds", {}));
   kinds.get(lang)!.then(
