@@ -379,7 +379,7 @@ export class Scene {
         .sort(([, , a, b], [, , c, d]) => Math.hypot(c, d) - Math.hypot(a, b));
       for (const [n, one] of largest.entries()) {
         const [x, y, dx, dy, amount, unit] = one;
-        if (n && (k > 1 || texts.length > most)) break;
+        if (n && (k > 1 || texts.length > most || n > 2 * most)) break; // no small ones in place of large ones
         const said = `${numberText(amount, 3)} ${unit}`.trim();
         const half = halfOf(said);
         const less = n > 0 || k === 1 || narrow; // only where it is near and clear
