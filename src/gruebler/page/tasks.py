@@ -110,7 +110,7 @@ def signed(text: str) -> str:
     text = re.sub(r"(?<=[a-z]{3})_(?=[a-z]{3})", " ", with_signs(text).replace("₀", "0"))
     text = re.sub(r"(?:(?<=\b[A-D])|(?<=\b[A-D]0))(-?)(?=[A-D]0?\b)", "\\1\u2060", text)
     text = re.sub(r"(?<!= )(\b\w_\w|(?<= )\w) (?=[+−] (?:\w_\w =|\w/\d))", "\\1\u00a0", text)
-    text = re.sub(r"\b([A-Z]\()(?=[^()]*[a-zäöü])([^()]*-[^()]*)\)", _unbroken_joint, text)  # D(Gestell-Hohlrad)
+    text = re.sub(r"\b([A-Z]\()(?=[^()]*[^\W\d_])([^()]*-[^()]*)\)", _unbroken_joint, text)  # D(Gestell-Hohlrad)
     text = re.sub(r"(?<=\bK\d) (?=\()", "\u00a0", text)  # K1 (45, 0)
     text = re.sub(r"(\([^() ]+[,;]) (?=[^() ]+\))", "\\1\u00a0", text)  # (45, 0)
     text = re.sub(r"\b([AB](?=0)|s(?=[12]\b)|K(?=\d))(\d)_?(?!\d|[.,]\d)", r"\1_\2", text)
