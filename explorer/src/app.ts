@@ -229,7 +229,11 @@ export class App implements Page {
 
   /** Back, or forth: the view, and the linkage if it was another one. */
   async #goneBack(event: PopStateEvent): Promise<void> {
-    if (location.hash !== this.hash) await this.#read();
+    if (location.hash !== this.hash) {
+      clearTimeout(this.#writing);
+      this.#unread = location.hash.length > 1;
+      await this.#read();
+    }
     this.#returnTo(event.state as Place | null);
   }
 
@@ -354,7 +358,9 @@ export class App implements Page {
     this.model.set("document", shared.document);
     this.model.save_changes();
     if (!this.#linkable) return;
-    this.hash = `#${await packed(shared)}`;
+    const hash = `#${await packed(shared)}`;
+    if (this.#unread) return; // the reader went back meanwhile
+    this.hash = hash;
     this.motion.keep(this.hash);
     history.replaceState(this.#placed(this.view), "", this.hash);
     this.#written = true;
