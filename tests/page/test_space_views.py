@@ -6,6 +6,7 @@ import pytest
 import gruebler as gr
 from gruebler.mechanics.screws.link_sizes import link_sizes
 from gruebler.mechanics.screws.resizing import resized
+from gruebler.structure.chain.pairs import Alphabet
 from gruebler.teaching.catalog import entry
 from tests.page.test_space import PIXELS, browsed_at, drive_to
 
@@ -139,7 +140,7 @@ def test_header_structure_and_save_are_of_the_machine_in_space(server, chromium)
     page.get_by_role("link", name="Struktur").click()
     page.locator(".described").get_by_text("Gelenke:").wait_for()
     assert page.locator("header small").text_content() == name
-    text = entry("universal_joint").placed().mechanism.text()
+    text = entry("universal_joint").placed().mechanism.text(Alphabet.GERMAN)
     assert page.locator('[data-field="chain"]').input_value() == text
     assert "Antriebsgabel" in page.locator(".chain-picture").text_content()
     card = page.locator('[data-list="chains"] .card, .chains .card')
