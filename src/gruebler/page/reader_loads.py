@@ -17,7 +17,6 @@ from gruebler.files.load_writing import loads_to_json
 from gruebler.mechanics.forces import Curve, LoadFormula, Loads, RigidBody, Spring, TorsionSpring
 from gruebler.mechanics.forces.springs import check_between_links
 from gruebler.mechanics.linkages import Linkage, LinkPoint
-from gruebler.mechanics.linkages.elements import CamDisc, Circle, Wheel
 from gruebler.page.known_loads import RATES, all_springs, loads_at_hand, spring_ends
 from gruebler.page.model import link_names
 from gruebler.page.params import LoadedLinkage, OuterLoad, OwnSpring
@@ -258,12 +257,16 @@ def _lengths(linkage: Linkage) -> dict[str, float]:
 
 
 def _radius(linkage: Linkage, link: str) -> float:
-    """Of a link with one place the radius of its wheel, its roller or the base circle of its cam, else 0."""
+    """Of a link with one place the radius of its wheel, its roller or the base circle of its cam, else 0.
+
+    >>> from gruebler.teaching.catalog import entry
+    >>> valve = entry("cam").linkage()  # base circle 40 mm
+    >>> [_radius(each, "cam") for each in (valve, valve.scaled(2))]
+    [40.0, 80.0]
+    """
     if len(_places(linkage, link)) != 1:
         return 0.0
-    own = [element for (_, owner), element in linkage.elements.items() if owner == link]
-    circles = [abs(each.radius) for each in own if isinstance(each, Wheel | Circle)]
-    return max([*circles, *(each.base for each in own if isinstance(each, CamDisc))], default=0.0)
+    return max((each.disc_radius for (_, owner), each in linkage.elements.items() if owner == link), default=0.0)
 
 
 def _assumed_width(linkage: Linkage) -> float:

@@ -73,6 +73,11 @@ class Element(ABC):
         return 0.0
 
     @property
+    def disc_radius(self) -> float:
+        """Of the disc that it is about its centre, of a cam the base circle; 0 if it is none."""
+        return self.rim
+
+    @property
     def closed(self) -> bool:
         """Whether what it touches cannot lift off although it only pushes it: a cam with a groove."""
         return False
@@ -245,6 +250,11 @@ class CamDisc(Element):
     angles = ("angle",)
     leads = True
     own_sizes = {"base": "base", "lift": "lift"}  # noqa: RUF012
+
+    @property
+    def disc_radius(self) -> float:
+        """See `Element.disc_radius`."""
+        return abs(self.base * self.scale)
 
     def check_mirrored(self) -> None:
         """See `Element.check_mirrored`."""
