@@ -365,7 +365,7 @@ export class Forces {
     const found = await awaited(told, () =>
       page.ask<Fall & Carried>("fall", { ...this.#question, until: this.#until }),
     );
-    if (!found || !told.isConnected) return;
+    if (!found || !told.isConnected || this.#view.linkage !== linkage) return;
     const { transport } = this.#view;
     const { model } = linkage;
     const times = Float64Array.from(found.drives, (_, row) => row / found.rate);

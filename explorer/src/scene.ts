@@ -276,6 +276,8 @@ export class Scene {
       if (record) move(element, viewport.screen(...place(pose, 0, record.link, ...record.at)));
     }
     for (const [element, at] of this.#pushed) put(element, { transform: at(viewport).transform });
+    const visibility = linkage.cycle.whole ? "hidden" : "inherit"; // nothing drives a free motion
+    for (const one of this.root.querySelectorAll(".driven")) put(one, { visibility });
     if (!this.#longest) this.#measure(linkage, shown);
     const kinds = this.#vectors(linkage, shown).map((all) => all.map((one) => this.#scaled(...one)));
     const springs = shown.springs(linkage).map((spring) => springLines(linkage, viewport, spring));

@@ -226,7 +226,7 @@ def test_cylinders_stop_at_their_ends_and_forces_are_told_up_to_these():
     assert bucket.max() < 255
     assert told["lines"][-2] == "The motion ends at the stop: boom cylinder, 240 cm."
     assert told["lines"][1] == "Boom cylinder: from 282 cm to 240 cm."
-    assert {one["unit"][0] for one in told["forces"]} == {"N"}  # each has its own, that of its usual size
+    assert {one["unit"][0] for one in told["forces"]} == {"N"}  # all have that of the middle one
     assert told["forces"][3]["most"] == pytest.approx(15.7 * 9.80665)
     assert told["forces"][3]["note"] == "at 0 s"
     german = answer("fall", question, "de", print)
@@ -415,6 +415,8 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     )
     assert re.fullmatch(r"[\d.,]+ N\s+max.\s[\d.,]+\sN (at|bei)\s[\d.,]+\ss", joint.inner_text())
     assert page.page.evaluate(ARROWS).count("L") == 12
+    drives = page.page.locator(".motion .driven")
+    assert not drives.first.is_visible()  # nothing drives it
     page.page.locator("button.play").click()  # it stands still, until it is ended
     paused = page.page.evaluate(POSE)
     page.page.wait_for_timeout(100)
@@ -425,6 +427,7 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     angle = float(told.replace("\N{MINUS SIGN}", "-"))
     assert (page.page.evaluate(turned) - angle + 180) % 360 - 180 == pytest.approx(0, abs=0.06)
     page.page.locator('[data-act="end"]').click()
+    assert drives.first.is_visible()
     assert page.page.evaluate(POSE) == before
     assert (joint.inner_text(), page.page.evaluate(marked)) == driven
     assert panels.first.get_attribute("data-panel") == "measures"

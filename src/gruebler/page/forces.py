@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from math import degrees, inf, pi
+from statistics import median
 from typing import Any
 
 import msgspec
@@ -66,7 +67,6 @@ _NOISE = 1e-7  # of the largest power: what is left of a mean that is none
 _ENOUGH = 1e-6  # of each of its steps: for the eye
 _ENOUGH_BY_LAW = 1e-4  # where loads change by a law, which takes a hundred times as long
 _EXACT = 1e-5  # of an energy: what is less is not told in digits
-_USUAL_OF = 0.1  # of a unit: where most sizes are smaller, it is too large
 _SEEN = 0.01  # of the unit of the largest: smaller amounts have a unit of their own
 _ROUNDING = 1e-9  # of a drive: less of it, in rad or sizes of the linkage, is told as 0
 _NOTHING_OF = 1e-6  # of the largest joint force: what is left of one that is none
@@ -120,6 +120,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     lines += filter(None, [motion.message(lang), run.statics.message(lang)])
     effort = _effort(run, active)
     forces, acting = _joint_forces(run, lambda row: _drive_text(motion, active, row), lang), _acting(run)
+    _give_units([*forces, *acting])
     return record | {
         "speed": speed,
         "drives": motion.drives[:, active].tolist(),
@@ -167,8 +168,7 @@ def _joint_forces(run: InverseDynamics, place: Callable[[int], Message], lang: s
             "note": _AT.filled(place=place(row)),
         }
         words = {key: text.in_language(lang) for key, text in said.items()}
-        unit = _usual_unit(sizes, "N")
-        records.append({"joint": k, "parts": force.T.tolist(), "most": float(sizes[row]), "unit": unit, **words})
+        records.append({"joint": k, "parts": force.T.tolist(), "most": float(sizes[row]), **words})
     return records
 
 
@@ -215,19 +215,24 @@ def _facts(
         ),
         *(held(drive) for drive in range(len(asked.called)) if drive != active),
     ]
+
+    def most_in(unit: str) -> tuple[str, float]:
+        """The unit of the largest amount of a kind."""
+        return unit_for(max(abs(value) for _, value, its, _ in rows if its == unit), unit)
+
     return [
         {
             "name": name,
-            "text": _amount(value, its, max((abs(v) for _, v, u, _ in rows if u == its)), lang),
+            "text": _amount(value, its, strongest["unit"] if its == "N" else most_in(its), lang),
             "note": note,
         }
         for name, value, its, note in rows
     ]
 
 
-def _amount(value: float, unit: str, largest: float, lang: str) -> str:
-    """So much in three digits, in the unit of the largest unless it is far smaller."""
-    called, factor = unit_for(largest, unit)
+def _amount(value: float, unit: str, shown: tuple[str, float], lang: str) -> str:
+    """So much in three digits, in the unit that is shown unless it is far smaller."""
+    called, factor = shown
     if abs(value) < _SEEN * factor:
         called, factor = unit_for(value, unit)
     return f"{_figure(value / factor, 3, lang)} {called}"
@@ -263,25 +268,30 @@ def _acting(run: InverseDynamics) -> list[dict[str, Any]]:
     forces, moments = acting.forces_at(moving), metres_of(linkage.unit) * acting.moments_on(moving)
     records: list[dict[str, Any]] = []
     for force, spot in zip(forces.T, acting.spots[: len(loads.forces)], strict=False):
-        parts, unit = _short(np.stack([force.real, force.imag])).tolist(), _usual_unit(np.abs(force), "N")
-        records.append({"at": [chain.index(spot.link), spot.x, spot.y], "parts": parts, "unit": unit})
+        parts = _short(np.stack([force.real, force.imag])).tolist()
+        records.append({"at": [chain.index(spot.link), spot.x, spot.y], "parts": parts})
     for link in loads.moments:
         middle, moment = middle_of(linkage, link), _short(moments[:, run.motion.links.index(link)])
-        at, unit = [chain.index(link), middle.real, middle.imag], _usual_unit(np.abs(moment), "N·m")
-        records.append({"at": at, "parts": [moment.tolist()], "unit": unit})
+        records.append({"at": [chain.index(link), middle.real, middle.imag], "parts": [moment.tolist()]})
     return records
 
 
-def _usual_unit(sizes: Reals, unit: str) -> tuple[str, float]:
-    """The unit of the largest size, unless the usual ones are far smaller, and how much it is in the given one.
+def _give_units(records: list[dict[str, Any]]) -> None:
+    """Say in which unit forces are shown, all in one, and moments, and how much it is in N, or in N·m."""
+    for dimensions, unit in ((2, "N"), (1, "N·m")):
+        alike = [record for record in records if len(record["parts"]) == dimensions]
+        most = [float(np.nanmax(np.hypot.reduce(np.array(each["parts"], float)), initial=0.0)) for each in alike]
+        for record in alike:
+            record["unit"] = _usual_unit(most, unit)
 
-    >>> _usual_unit(np.array([9000.0, 12000.0]), "N"), _usual_unit(np.array([20.0, 30.0, 12000.0]), "N")
-    (('kN', 1000.0), ('N', 1.0))
+
+def _usual_unit(sizes: list[float], unit: str) -> tuple[str, float]:
+    """The unit of the size in the middle, and how much it is in the given one.
+
+    >>> _usual_unit([300.0, 12000.0, 15000.0], "N"), _usual_unit([20.0, 30.0, 12000.0], "N"), _usual_unit([0.0], "N")
+    (('kN', 1000.0), ('N', 1.0), ('N', 1.0))
     """
-    known = sizes[np.nan_to_num(sizes) > 0]
-    called, factor = unit_for(float(np.max(known, initial=0.0)), unit)
-    usual = float(np.median(known)) if len(known) else 0.0
-    return (called, factor) if usual >= _USUAL_OF * factor else unit_for(usual, unit)
+    return unit_for(median([size for size in sizes if size] or [0.0]), unit)
 
 
 def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
@@ -335,6 +345,7 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
     carried = inverse_dynamics(run.motion, free, times=run.times)
     forces = _joint_forces(carried, lambda row: _WHEN.filled(seconds=float(f"{run.times[row]:.3g}")), lang)
     acting = _acting(carried)
+    _give_units([*forces, *acting])
     return {
         "rate": _A_SECOND,
         "places": _short(places).reshape(len(run), -1).tolist(),
