@@ -15,7 +15,7 @@ def run(capsys, *arguments):
 def test_list(capsys):
     status, out, _ = run(capsys, "sheet", "list", "--lang", "de")
     assert status == 0
-    assert "Kurbelschwinge als Ersatzgetriebe eines Meyer zur Capellen-Lenkers" in out
+    assert "Kurbelschwinge als Ersatzgetriebe eines Meyer-zur-Capellen-Lenkers" in out
     assert [one["id"] for one in json.loads(run(capsys, "sheet", "list", "--json")[1])] == ["lambda", "mzc"]
 
 

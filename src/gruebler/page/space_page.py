@@ -64,7 +64,7 @@ _WORDS = {
     "together": message("Not used yet: type the sizes that go with it as well, they are tried together."),
     "back": message("Put back"),
     "scaled": message("It does not fit alone: all lengths have changed in the same ratio."),
-    "sign": message("Without a fixed axis the direction in which it goes farther counts as positive."),
+    "sign": message("Positive: the direction in which it goes farther."),
     "angle": message("Twist angle"),
     "crossed": message("angle"),
     "lost": message("The connection to gruebler is lost."),
