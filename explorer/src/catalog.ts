@@ -53,8 +53,10 @@ export class CatalogView implements View {
   #at: Left = { query: {}, kind: "", refining: false, byLinks: false, top: 0 };
   readonly #cards = h("div.cards", { "data-list": "catalog" });
   readonly #note = h("span.note", { role: "status" });
-  /** The same at the lower edge of a phone, below many filters: it leads to the cards. */
-  readonly #below = h("button.key", { onclick: () => this.#cards.scrollIntoView() });
+  /** The same at the lower edge of a phone, below many filters: it leads to the cards, or clears filters that leave none. */
+  readonly #below = h("button.key", {
+    onclick: () => (this.#cards.querySelector(".card") ? this.#cards.scrollIntoView() : this.#showAll()),
+  });
   #typing = 0;
   #asked = 0;
   #filled = false;
@@ -233,7 +235,10 @@ export class CatalogView implements View {
     found.sort((a, b) => (this.#at.byLinks && a.links - b.links) || named(b) - named(a) || byName(a, b));
     renew(cards, ...found.map((entry) => this.#card(entry)));
     for (const card of cards.children) this.#watcher.observe(card);
-    if (!found.length) renew(cards, h("button.plain", { onclick: () => this.#showAll() }, t("Show all")));
+    if (!found.length) {
+      this.#below.textContent = t("Show all");
+      renew(cards, h("button.plain", { onclick: () => this.#showAll() }, t("Show all")));
+    }
     if (this.#at.top) for (const scrolled of [this.element, window]) scrolled.scrollTo(0, this.#at.top);
     this.#at.top = 0;
   }
@@ -255,7 +260,7 @@ export class CatalogView implements View {
     const sizes = [
       t("{links} links, F = {mobility}", { links, mobility: special - idle }),
       idle && t("freely spinning parts: {idle}", { idle }),
-      special !== counted && t("by the count {counted}", { counted }),
+      special !== counted && t("Grübler: {counted}", { counted: written(counted) }),
     ];
     const kind = space ? t("in space").replace(" ", "\u00a0") : !moves && t("structure only");
     const joined = (parts: unknown[], by: string) => parts.filter(Boolean).join(by);
@@ -266,7 +271,7 @@ export class CatalogView implements View {
       { "data-id": id, onclick: () => void this.#choose(entry) },
       h("div", { "data-place": "" }),
       h("b", {}, softened(entry.name)),
-      h("span", {}, joined([facts, kind], " ·\u00a0")),
+      h("span", {}, joined([facts, kind], "\u00a0· ")),
     );
     if (moves || space) movesOnHover(card, id, () => this.#picture("moving", id));
     return card;

@@ -569,7 +569,7 @@ def test_a_machine_that_moves_by_its_dimensions_says_so_beside_the_count(tab, se
         page.page.locator(f'.card[data-id="{name}"]').inner_text().replace("\xa0", " ")
         for name in ("sarrus", "crankrocker", "delta")
     )
-    assert "6 links, F = 1, by the count 0" in sarrus
+    assert "6 links, F = 1, Grübler: 0" in sarrus
     assert rocker.endswith("4 links, F = 1")
     # 6(11 - 1) - 3·5 - 12·3 = 9, of which each of the six rods has its spin: a platform that shifts in space
     assert "11 links, F = 3, freely spinning parts: 6" in delta
@@ -828,6 +828,11 @@ def test_features_to_search_for_are_in_line_on_a_phone(tab, server, locale):
     assert key.bounding_box()["y"] < 844
     key.click()
     assert page.page.locator('[data-list="catalog"] .card').first.bounding_box()["y"] < 844 / 2
+    for name, value in (("mobility", "-7"), ("links", "3")):  # no machine has both
+        page.page.select_option(f'[data-panel="features"] [data-field="{name}"]', value)
+    page.until("!gruebler.root.querySelector('[data-panel=features] .go button').textContent.startsWith('↓')")
+    key.click()
+    page.page.locator('[data-list="catalog"] .card').nth(60).wait_for()
 
 
 def test_a_print_has_name_picture_measures_sizes_and_plots(tab, server):

@@ -220,7 +220,7 @@ def test_a_platform_that_only_shifts_is_said_to_shift(tmp_path, chromium):
     browser, page, errors = browsed(chromium, path)
     named = len(entry("delta").placed().points)
     assert page.locator("text.mark").count() == named
-    assert page.get_by_label("Names").count() == min(named, 1)
+    assert page.get_by_label("Names of points").count() == min(named, 1)
     page.get_by_role("button", name="Pause").click()
     for slider in page.locator('[data-panel="drives"] input').all():
         slider.fill("0.2")

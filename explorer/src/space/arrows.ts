@@ -5,24 +5,25 @@ import type { Pair } from "../rows";
 import { cross, moved, type Vector } from "./algebra";
 import type { Machine } from "./machine";
 
-const RADIUS = 0.16; // of the size of the machine
+const LONG = 0.16; // of the size of the machine, half the length of an arrow along an axis
+const RADIUS = 0.1; // of one about it
 const TURNED = 4.7; // radians
 const CORNERS = 40;
 const HEAD = 9; // pixels
 
 /** The places of each arrow, from its tail to its tip, which goes the way that the drive grows. */
 export function arrowsOf({ data }: Machine, poses: ArrayLike<number>[]): Vector[][] {
-  const radius = RADIUS * data.size;
   return data.motions.map(({ arrow: { along, at, link }, unit }) => {
     const least = along.map(Math.abs).indexOf(Math.min(...along.map(Math.abs)));
     const aside = cross(along, [0, 1, 2].map((k) => Number(k === least)) as Vector);
     const far = Math.hypot(...aside);
+    const turned = unit === "°";
+    const radius = (turned ? RADIUS : LONG) * data.size;
     const one = aside.map((v) => (v * radius) / far) as Vector;
     const two = cross(along, one);
     const places = Array.from({ length: CORNERS + 1 }, (_, k): Vector => {
       const part = k / CORNERS;
       const [c, s] = [Math.cos(TURNED * part), Math.sin(TURNED * part)];
-      const turned = unit === "°";
       return at.map((v, n) =>
         turned ? v + c * one[n]! + s * two[n]! : v + one[n]! + (2 * part - 1) * radius * along[n]!,
       ) as Vector;

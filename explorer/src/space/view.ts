@@ -345,7 +345,7 @@ export class SpaceView implements Driven {
       this.#options,
       ...option("floor", t("Grid")),
       ...option("paths", this.#words.paths!, linkage.spots.length > 0),
-      ...option("names", t("Names"), scene.few || linkage.spots.length > 0),
+      ...option("names", scene.few ? t("Names") : this.#words.spotted!, scene.few || linkage.spots.length > 0),
     );
   }
 

@@ -52,6 +52,7 @@ _WORDS = {
     "travel": message("{link}: travel"),
     "traced": message("{link}: dragged point"),
     "paths": message("Paths of points"),
+    "spotted": message("Names of points"),
     "grid": message("Grid"),
     "view": message("View"),
     "oblique": message("Oblique"),
