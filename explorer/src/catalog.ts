@@ -53,7 +53,7 @@ export class CatalogView implements View {
   #at: Left = { query: {}, kind: "", refining: false, byLinks: false, top: 0 };
   readonly #cards = h("div.cards", { "data-list": "catalog" });
   readonly #note = h("span.note", { role: "status" });
-  /** The same at the lower edge of a phone, below many filters: it leads to the cards, or clears filters that leave none. */
+  /** The same at the lower edge of a phone, below many filters: it leads to the cards, or clears what leaves none. */
   readonly #below = h("button.key", {
     onclick: () => (this.#cards.querySelector(".card") ? this.#cards.scrollIntoView() : this.#showAll()),
   });

@@ -43,7 +43,7 @@ export function wordsOf(kind: Kind): TaskWords {
     },
     "dead-centres": {
       name: t("Dead centres"),
-      hint: t("A crank drives a rocker; time ratio: slow stroke time / quick one."),
+      hint: t("A crank drives a rocker; time ratio: slow stroke / quick stroke."),
       row: t("Dead centres"),
       heads: [t("Swing [°]"), t("Time ratio")],
     },

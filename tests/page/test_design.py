@@ -424,7 +424,7 @@ def test_cards_tell_the_same_in_the_same_places_and_mark_the_best(tab, server):
     view.locator('[data-act="synthesise"]').click()
     cards = view.locator('[data-list="designs"] .card')
     cards.first.wait_for(timeout=60_000)
-    assert view.locator(".lengths", has_text="getriebene Kurbel").count() > 0
+    assert view.locator(".lengths", has_text="Abtriebskurbel").count() > 0
     rows = cards.evaluate_all(
         """all => all.map((card) => [...card.querySelectorAll(".lengths i")].map((one) => {
             const { top, bottom } = one.getBoundingClientRect();
@@ -492,7 +492,7 @@ def test_what_turns_fully_is_no_rocker_and_goes_from_0_to_360(tab, server):
     shortest, second, third, longest = sorted(float(one.replace(",", ".")) for one in lengths)
     assert float(lengths[0].replace(",", ".")) == shortest
     assert shortest + longest < second + third
-    assert names == ("Gestell", "Kurbel", "Koppel", "getriebene Kurbel")
+    assert names == ("Gestell", "Kurbel", "Koppel", "Abtriebskurbel")
     card.click()
     page.until("gruebler.view === 'motion'")
     plot = "gruebler.motion.side.plots.parts[0].plot.series"

@@ -191,7 +191,7 @@ def link_names(linkage: Linkage, source: str, lang: str) -> dict[str, str]:
     >>> link_names(FourBar(25, 70, 40, 70).linkage(), "", "de")["rocker"]
     'Schwinge'
     >>> link_names(FourBar(86, 100, 90.6, 55.8).linkage(), "", "de")["rocker"]  # a double crank
-    'getriebene Kurbel'
+    'Abtriebskurbel'
     >>> link_names(FourBar(70.56, 62.98, 55.91, 80).linkage(), "", "en")["crank"]  # nothing turns fully
     'driving rocker'
     """
