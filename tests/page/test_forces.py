@@ -371,6 +371,11 @@ def test_a_load_that_is_nowhere_is_refused():
         answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), loads=[load]), "en", print)
 
 
+def read_number(text: str) -> float:
+    """A number as it is written on the page, in either language."""
+    return float(text.replace(",", ".").replace("\N{MINUS SIGN}", "-"))
+
+
 @pytest.mark.parametrize("locale", [pytest.param("en-US", marks=pytest.mark.slow), "de-DE"])
 def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     page = tab(locale=locale).open(server.address)
@@ -403,7 +408,7 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     seconds = "Number.parseFloat(gruebler.root.querySelector('.transport .value').value.replace(',', '.'))"
     for part in ("> 1.7", "< 0.5", "> 1.7"):  # again and again, until it is paused
         page.until(f"{seconds} {part}", 90)
-    slider = page.page.locator(".track")
+    slider, drives = (page.page.locator(one) for one in (".track", ".motion .driven"))
     assert [slider.get_attribute(f"aria-value{end}") for end in ("min", "max")] == ["2e-7", "1.9999998"]
     # what is known of the drive only is not said of these poses; their forces are those of the fall
     panels = page.page.locator(".side > details:visible")
@@ -415,7 +420,6 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     )
     assert re.fullmatch(r"[\d.,]+ N\s+max.\s[\d.,]+\sN (at|bei)\s[\d.,]+\ss", joint.inner_text())
     assert page.page.evaluate(ARROWS).count("L") == 12
-    drives = page.page.locator(".motion .driven")
     assert not drives.first.is_visible()  # nothing drives it
     page.page.locator("button.play").click()  # it stands still, until it is ended
     paused = page.page.evaluate(POSE)
@@ -423,12 +427,10 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     assert before != page.page.evaluate(POSE) == paused
     slider.press("PageDown")
     turned = "((turns) => Math.atan2(turns[3], turns[2]) * 180 / Math.PI)(gruebler.motion.linkage.pose.turns)"
-    told = page.page.locator(f"{PANEL} .plot .read").first.text_content().replace(",", ".")
-    angle = float(told.replace("\N{MINUS SIGN}", "-"))
-    assert (page.page.evaluate(turned) - angle + 180) % 360 - 180 == pytest.approx(0, abs=0.06)
+    told = page.page.locator(f"{PANEL} .plot .read").first.text_content()
+    assert (page.page.evaluate(turned) - read_number(told) + 180) % 360 - 180 == pytest.approx(0, abs=0.06)
     page.page.locator('[data-act="end"]').click()
-    assert drives.first.is_visible()
-    assert page.page.evaluate(POSE) == before
+    assert (drives.first.is_visible(), page.page.evaluate(POSE)) == (True, before)
     assert (joint.inner_text(), page.page.evaluate(marked)) == driven
     assert panels.first.get_attribute("data-panel") == "measures"
     assert "12/min" in page.page.locator(".transport .speed").inner_text()
