@@ -8,6 +8,8 @@ export interface Choice {
   text: string;
   frame: string;
   drives: string[];
+  /** The same with the numbers of the links in the picture, where it has these instead of names. */
+  brief: string[];
   family: string;
   picture: string;
 }
@@ -50,6 +52,8 @@ export interface Structure {
   verdict: string;
   lines: string[];
   drives: string;
+  /** Whether drives that are not at the frame are listed since those at it fix nothing; unsaid if it is no choice. */
+  anywhere?: boolean;
   inversions: Choice[];
   driven: Choice[];
 }

@@ -128,7 +128,7 @@ export class ChainList {
     const none = { min: 1, max: 0 };
     const { links = none, mobility = none } = this.page.limits;
     const within = (value: number, { min, max }: typeof none) => !(value % 1) && min <= value && value <= max;
-    const all = ({ min, max }: typeof none) => `${min} … ${max}`;
+    const all = ({ min, max }: typeof none) => `${min}\u00a0…\u00a0${max}`;
     if (within(size!, links) && within(freedom!, mobility)) return "";
     const listed = { links: all(links), mobility: all(mobility) };
     return t("Chains are listed with {links} links and mobility {mobility}.", listed);

@@ -196,7 +196,9 @@ export class StructureView implements View {
       this.#atFrame = !on;
       void this.describe(this.text);
     };
-    const elsewhere = option(t("also drives that are not at the frame"), !this.#atFrame, all, "elsewhere");
+    const elsewhere = found.anywhere
+      ? h("p.note", {}, t("Drives at the frame alone do not fix the motion."))
+      : option(t("also drives that are not at the frame"), !this.#atFrame, all, "elsewhere");
     renew(
       this.#detail,
       step(
@@ -204,18 +206,21 @@ export class StructureView implements View {
         t("Frame"),
         h("p.note.form", {}, t("Equivalent links are shown once.")),
         ...this.#cards("inversions", found.inversions, ({ frame }) => [
-          /^\d/.test(frame) ? `${t("Frame")} ${frame}` : frame,
+          [h("b", {}, /^\d/.test(frame) ? `${t("Frame")} ${frame}` : frame)],
           frame === found.chosen,
         ]),
       ),
       step(
         3,
         t("Drive"),
-        h("div.form", {}, elsewhere),
+        found.anywhere != null && h("div.form", {}, elsewhere),
         generic > 1 &&
           inPlane(found) &&
           h("p.note", {}, t("F = {mobility} takes {mobility} drives, chosen together.", { mobility: generic })),
-        ...this.#cards("driven", found.driven, ({ drives, text }) => [drives.join(", "), text === found.driver]),
+        ...this.#cards("driven", found.driven, ({ drives, brief, text }) => [
+          (brief.length ? brief : drives).map((drive) => h("div", {}, drive)),
+          text === found.driver,
+        ]),
       ),
     );
     renew(
@@ -231,16 +236,17 @@ export class StructureView implements View {
     if (before !== false) for (const scrolled of [this.element, window]) scrolled.scrollBy(0, top() - before);
   }
 
-  /** Mechanisms of which one is chosen, each with its name and whether it is. */
-  #cards(key: string, list: Choice[], about: (choice: Choice) => [string, boolean]): Node[] {
+  /** Mechanisms of which one is chosen, each with its names and whether it is. */
+  #cards(key: string, list: Choice[], about: (choice: Choice) => [Child[], boolean]): Node[] {
     const card = (choice: Choice) => {
-      const { family, picture, text } = choice;
-      const [name, pressed] = about(choice);
+      const { brief, drives, family, picture, text } = choice;
+      const title = brief.length > 0 && drives.join("\n");
+      const [names, pressed] = about(choice);
       return h(
         "button.card",
-        { "data-text": text, "aria-pressed": String(pressed), onclick: () => void this.describe(text) },
+        { "data-text": text, title, "aria-pressed": String(pressed), onclick: () => void this.describe(text) },
         thumbnail(picture, text),
-        h("b", {}, name),
+        ...names,
         // Viergelenk-getriebe, for a browser without a German dictionary
         family && h("span", {}, family.replace("kg", "k\u00adg")),
       );

@@ -13,6 +13,7 @@ from gruebler.mechanics.screws.mobility_report import freedoms
 from gruebler.page.requests import answer
 from gruebler.page.site_structures import structure_pack
 from gruebler.page.structures import listed_chains, structure_record
+from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entries
 
 MACHINES = ("geartrain", "belt", "cam", "geneva")
@@ -53,6 +54,23 @@ def test_the_frame_and_drive_that_are_chosen_are_those_of_the_list_that_are_like
         assert (record["chosen"], record["driver"]) == ("0", f"{chain}; frame=0; drive=R(0-1)")
         assert record["drives"] == "Mobility 1 and one drive: the motion is determined."
     assert structure_record(f"{chain}; frame=0; drive=R(1-2)", "en")["driver"] == ""  # not at the frame
+
+
+@pytest.mark.parametrize("id", ["excavator", "crane_cyl", "e3_watt"])
+def test_the_drives_of_a_machine_stand_first(id):
+    """Those of an excavator are the 70th of its list or so, those of a crane are not at the frame."""
+    linkage = entries()[id].placed()
+    text = linkage.mechanism.text()
+    names = {link: link for link in linkage.mechanism.chain.links}
+    record = answer("structure", {"text": text, "document": linkage_to_json(linkage), "names": names}, "en", print)
+    first = record["driven"][0]
+    assert first["text"] == record["driver"]
+    assert Mechanism.parse(first["text"]).code() == linkage.mechanism.code()
+    assert record["anywhere"] == (id == "excavator")
+    (_, _, _, said, listed), *_ = structure_pack(linkage.mechanism, ["en"], called=names)["driven"]
+    assert (listed, said["en"][0]) == (first["text"], first["drives"])
+    if id == "excavator":
+        assert first["brief"] == ["P(5-6)", "P(7-8)", "P(9-10)"]
 
 
 def test_all_frames_of_a_chain_are_drawn_alike():
@@ -348,7 +366,7 @@ def test_a_machine_beside_the_lists_has_its_size_and_its_card(tab, server):
     links, mobility = first.locator("input").all()
     assert (links.input_value(), mobility.input_value()) == ("13", "2")
     assert links.evaluate("field => field.scrollWidth <= field.clientWidth")
-    said = first.inner_text()
+    said = first.inner_text().replace("\N{NO-BREAK SPACE}", " ")
     assert "There is none" not in said
     assert "Chains are listed with 3 … 12 links and mobility 0 … 6." in said
     assert "0 chains" not in said
@@ -597,6 +615,21 @@ def test_links_that_have_numbers_have_them_on_the_cards_of_frames_too():
     assert "frame" in large
     assert not numbered[1]
     assert cards == [list("12345")] * 2
+
+
+def test_the_drives_of_an_excavator_are_marked_and_short(tab, server):
+    page = tab().open(server.address)
+    view = page.page
+    view.click('[data-view="catalog"]')
+    view.click('.card[data-id="excavator"]')
+    page.until("gruebler.view === 'motion' && gruebler.shown.drives.length === 3")
+    view.click('[data-view="structure"]')
+    own = view.locator('[data-list="driven"] .card[aria-pressed="true"]:first-child')
+    own.wait_for()
+    assert own.locator("div").all_inner_texts() == ["P(5-6)", "P(7-8)", "P(9-10)"]
+    assert own.get_attribute("title").startswith("P(boom cylinder-boom piston)")
+    assert view.locator('[data-field="elsewhere"]').count() == 0
+    assert "at the frame alone do not fix" in view.locator(".step", has=own).inner_text()
 
 
 def test_mobility_is_no_good_news_where_nothing_moves(tab, server):

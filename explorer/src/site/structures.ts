@@ -23,8 +23,9 @@ interface Frame {
   outlines: Record<string, [number, number][]>;
 }
 
-/** Text, number of the frame, arrow, names of the drives with family and what they fix, the one of the list like it. */
-type Driven = [string, number, string, Record<Language, [string, string, string]>, string];
+/** Text, number of the frame, arrow, names of the drives with family, what they fix and the names in numbers, the one
+ * of the list like it. */
+type Driven = [string, number, string, Record<Language, [string[], string, string, string[]]>, string];
 
 export interface StructurePack {
   text: string;
@@ -114,6 +115,7 @@ export function structureOf(pack: StructurePack, text: string, lang: Language, p
         text: one.text,
         frame: one.frame,
         drives: [],
+        brief: [],
         family: one.family[lang],
         picture: card(one),
       })),
@@ -122,7 +124,8 @@ export function structureOf(pack: StructurePack, text: string, lang: Language, p
       .map(([own, number, arrow, said]) => ({
         text: own,
         frame: pack.frames[number]!.frame,
-        drives: [said[lang][0]],
+        drives: said[lang][0],
+        brief: said[lang][3],
         family: said[lang][1],
         picture: card(pack.frames[number]!, arrow),
       })),

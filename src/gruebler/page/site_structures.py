@@ -8,7 +8,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from gruebler.page.structures import as_read, drawn_frame, drives_as_read, kinds_as_read, like_driven, listed_drives
+from gruebler.page.structures import (
+    as_read,
+    drawn_frame,
+    drives_as_read,
+    drives_in_numbers,
+    kinds_as_read,
+    like_driven,
+    listed_drives,
+    own_first,
+)
 from gruebler.pictures.structure.messages import chain_name
 from gruebler.structure.chain.pairs import Alphabet
 from gruebler.structure.isomorphism import code, symmetry
@@ -30,9 +39,9 @@ def structure_pack(
 ) -> dict[str, Any]:
     """Mobility, frames and drives of a chain as plain data, with what is said in these languages.
 
-    The frame and the drives of the mechanism itself are among them, beside one of each kind. ``contacts`` and
-    ``called`` are those of `gruebler.page.structures.structure_record`, which says the same of one mechanism, ``base``
-    is the ``like`` of `gruebler.page.structures.drawn_frame`.
+    The frame and the drives of the mechanism itself are among them, these first, beside one of each kind. ``contacts``
+    and ``called`` are those of `gruebler.page.structures.structure_record`, which says the same of one mechanism,
+    ``base`` is the ``like`` of `gruebler.page.structures.drawn_frame`.
 
     >>> pack = structure_pack(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0)"), ["en", "de"])
     >>> len(pack["frames"]), [(text, frame) for text, frame, *_ in pack["driven"]]
@@ -42,7 +51,7 @@ def structure_pack(
     fixed = {inversion.frame: inversion for inversion in inversions(chain)}
     if mechanism.drives:
         fixed.setdefault(mechanism.frame, Mechanism(chain, mechanism.frame))
-    listed = list(listed_drives(chain, fixed, most=_MOST_DRIVEN))
+    listed = own_first(list(listed_drives(chain, fixed, most=_MOST_DRIVEN)), mechanism)
     codes = {each.code(): each for each in listed}
     own = [mechanism] if mechanism.drives and mechanism not in listed else []
     orbits = symmetry(chain).link_orbits
@@ -76,7 +85,7 @@ def structure_pack(
                 each.text(),
                 number,
                 arrow,
-                _facts_of_drives(each.renamed(named), langs),
+                _facts_of_drives(each, named, drawn.numbered, langs),
                 driver(each) if each in own else each.text(),
             ]
             for each, arrow in drawn.arrows.items()
@@ -103,14 +112,18 @@ def structure_pack(
     }
 
 
-def _facts_of_drives(mechanism: Mechanism, langs: Sequence[str]) -> dict[str, Any]:
-    """Names of the drives, family, and whether they fix the motion, in each language."""
-    check = check_drives(mechanism)
+def _facts_of_drives(
+    mechanism: Mechanism, called: Mapping[str, str], numbered: Mapping[str, str], langs: Sequence[str]
+) -> dict[str, Any]:
+    """Names of the drives, family, whether they fix the motion, and the names in numbers, in each language."""
+    shown = mechanism.renamed(called)
+    check = check_drives(shown)
     return {
         lang: [
-            ", ".join(drives_as_read(mechanism, lang)),
-            family(mechanism, lang) or "",
+            drives_as_read(shown, lang),
+            family(shown, lang) or "",
             as_read(check.explain(lang)),
+            drives_in_numbers(mechanism, numbered, lang, called),
         ]
         for lang in langs
     }

@@ -34,6 +34,7 @@ from gruebler.structure.mobility import MobilityReport, generic, mobility_report
 
 _MOST_LINKS = 60  # more links are drawn and counted, but their inversions are not listed
 _LONGEST_LABEL = 3  # letters of a name beside its link in a small picture
+_MOST_NAMES = 8  # long ones in a picture; more are numbers in each language
 _LARGER = 1.6  # numbers on cards, as explorer/src/styles/catalog.css has them
 _AGAINST = message("{joint}: {link} against {other}")
 _APART = {
@@ -160,6 +161,9 @@ def structure_record(
     special = None if sized is None else _special(sized, called, shown_report)
     orbit = next(orbit for orbit in symmetry(chain).link_orbits if mechanism.frame in orbit)
     driven = list(listed_drives(chain, [orbit[0]], at_frame)) if few else []
+    anywhere = at_frame and not all(at_frame_alone(each) for each in driven)
+    if sized is not None and sized.mechanism.frame in orbit and few:
+        driven = own_first(driven, sized.mechanism)
     bare_ones = sorted(inversions(chain), key=_frame_number) if few else []
     frames = {bare.frame: bare for bare in bare_ones}
     base = None if sized is None else Mechanism(chain, sized.mechanism.frame)
@@ -191,6 +195,7 @@ def structure_record(
         "lines": as_read(shown_report.explain(lang)).splitlines(),
         "drives": as_read("\n".join(_said_of_drives(moved.renamed(called), special, lang))),
         "inversions": [_choice(bare, cards[frame], lang, called) for frame, bare in frames.items()],
+        "anywhere": anywhere,
         "driven": [_choice(each, cards[each.frame], lang, called) for each in driven],
     }
 
@@ -250,6 +255,40 @@ def listed_drives(chain: Chain, frames: Iterable[str], at_frame: bool = True, mo
 
     for frame in frames:
         yield from those(frame, at_frame) or (those(frame, False) if number > 1 else ())
+
+
+def at_frame_alone(mechanism: Mechanism) -> bool:
+    """Whether all its drives are at the frame.
+
+    >>> at_frame_alone(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(1-2)"))
+    False
+    """
+    return all(mechanism.frame in drive.between for drive in mechanism.drives)
+
+
+def own_first(listed: Sequence[Mechanism], own: Mechanism) -> list[Mechanism]:
+    """Mechanisms of a list, before them the one that is like a machine's own, be it of the list or not.
+
+    >>> own = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(1-2)")
+    >>> [each.drive_names() for each in own_first(list(listed_drives(own.chain, ["0"])), own)]
+    [('R(1-2)',), ('R(0-1)',)]
+    """
+    if not own.drives:
+        return list(listed)
+    known = own.code()
+    first = next((each for each in listed if each.code() == known), None) or _standing_for(own)
+    return [first, *(each for each in listed if each != first)]
+
+
+def _standing_for(mechanism: Mechanism) -> Mechanism:
+    """The one of all like it whose frame is the first of its orbit, as the lists have it."""
+    chain, known = mechanism.chain, mechanism.code()
+    (frame,) = (orbit[0] for orbit in symmetry(chain).link_orbits if mechanism.frame in orbit)
+    if frame == mechanism.frame:
+        return mechanism
+    choices = driven_mechanisms(chain, drives=len(mechanism.drives), at_frame=False)
+    of_frame = (each.mechanism for each in choices if each.mechanism.frame == frame)
+    return next(each for each in of_frame if each.code() == known)
 
 
 def like_driven(mechanism: Mechanism, listed: Mapping[str, Mechanism]) -> Mechanism | None:
@@ -332,7 +371,9 @@ def drawn_frame(
     around = {link: (*corners, *corners[: placed.closed[link]]) for link, corners in outlines.items()}
     names = {link: as_read(called.get(link, link)) for link in chain.links}
     over = [shape for head in heads.values() for shape in head]
-    texts, numbered = labels_with_names(outlines, placed.closed, bodies, names, larger=_LARGER, heads=over)
+    texts, numbered = labels_with_names(
+        outlines, placed.closed, bodies, names, larger=_LARGER, heads=over, most=_MOST_NAMES
+    )
     labelled = [*bodies, *texts]
     corner, picture = _picture(labelled, heads.values())
     if not numbered:
@@ -374,12 +415,28 @@ def _places(chain: Chain, placed: Chain) -> list[int]:
     return places
 
 
+def drives_in_numbers(
+    mechanism: Mechanism, numbered: Mapping[str, str], lang: str, called: Mapping[str, str]
+) -> list[str]:
+    """The names of the drives with the numbers that a picture has instead of names of links; none if it has names.
+
+    >>> mechanism = Mechanism.parse("R(arm-rod) R(rod-lever) R(lever-arm); drive=R(arm-rod)")
+    >>> drives_in_numbers(mechanism, {"1": "arm", "2": "the rod", "3": "lever"}, "en", {"rod": "the_rod"})
+    ['R(1-2)']
+    """
+    numbers = {name: number for number, name in numbered.items()}
+    read = {link: as_read(called.get(link, link)) for link in mechanism.chain.links}
+    brief = mechanism.renamed({link: numbers.get(name, name) for link, name in read.items()}) if numbers else mechanism
+    return drives_as_read(brief, lang) if numbers else []
+
+
 def _choice(mechanism: Mechanism, drawn: DrawnFrame, lang: str, called: Mapping[str, str]) -> dict[str, Any]:
     shown = mechanism.renamed(called)
     return {
         "text": mechanism.text(),
         "frame": as_read(shown.frame),
         "drives": drives_as_read(shown, lang),
+        "brief": drives_in_numbers(mechanism, drawn.numbered, lang, called),
         "family": family(mechanism, lang) or "",
         "picture": drawn.card_with_drives(mechanism),
     }

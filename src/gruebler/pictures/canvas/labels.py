@@ -51,13 +51,15 @@ def labels_with_names(
     *,
     larger: float = 1.0,
     heads: Sequence[Shape] = (),
+    most: int = 99,
 ) -> tuple[list[Shape], dict[str, str]]:
     """The names alone, and the entries of the list: names with their numbers, which may be set ``larger``.
 
-    Numbers are beside ``heads``, the arrows of drives, too.
+    Numbers are beside ``heads``, the arrows of drives, too. More than ``most`` long names are numbers in any case.
     """
     called = {link: (names or {}).get(link, link) for link in outlines}
-    texts = _placed(outlines, closed, shapes, called, larger)
+    few = sum(len(name) > _SHORT for name in called.values()) <= most
+    texts = _placed(outlines, closed, shapes, called, larger) if few else None
     if texts is not None:
         return texts, {}
     numbers = short_names(list(called.values()))
