@@ -62,7 +62,8 @@ class SpatialScene:
         if not (is_arc and corners.any()):  # both ends of a cross lie in the middle
             return corners
         arc = _arc(*corners)
-        return arc[len(arc) // 2 - 2 : len(arc) // 2 + 3]
+        middle = len(arc) // 2
+        return arc[middle - 2 : middle + 3] if middle > 1 else corners
 
     @property
     def frame_arc(self) -> Reals:
