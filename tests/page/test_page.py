@@ -510,7 +510,7 @@ def test_a_four_bar_through_points_that_are_clicked(tab, server):
         page.page.mouse.click(*page.target(x, y))
     assert page.page.locator("[data-point]").count() == 12
     page.page.locator(".points summary, summary:has-text('Points · 12')").first.click()  # many are folded
-    field = page.page.locator('[aria-label="Point 1 x"]')
+    field = page.page.locator('[aria-label="Point 1 x [mm]"]')
     assert float(field.input_value().replace("\N{MINUS SIGN}", "-")) == pytest.approx(traced[0, 0], abs=0.5)
     field.fill(f"{traced[0, 0]:.3f}")
     field.press("Enter")
