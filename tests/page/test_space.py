@@ -187,7 +187,7 @@ def browsed_at(chromium, address, wanted="canvas", *, touch=False):
     return browser, page, errors
 
 
-@pytest.mark.parametrize("id", ["gough", "diff_bevel2p"])
+@pytest.mark.parametrize("id", [pytest.param("gough", marks=pytest.mark.slow), "diff_bevel2p"])
 def test_several_drives_move_together(tmp_path, chromium, id):
     """The page's own solver against that of the library, along the same ways; rods may spin as they like."""
     path = tmp_path / "machine.html"
@@ -405,7 +405,7 @@ def test_a_phone_sees_all_of_a_machine_and_two_fingers_come_nearer(tmp_path, chr
     browser.close()
 
 
-@pytest.mark.parametrize(("id", "width"), [("gough", 1280), ("schatz", 390)])
+@pytest.mark.parametrize(("id", "width"), [pytest.param("gough", 1280, marks=pytest.mark.slow), ("schatz", 390)])
 def test_a_machine_in_space_is_accessible(tmp_path, chromium, id, width):
     """Nothing serious by axe-core, light and dark; whatever a finger meets is 44 pixels high."""
     if not AXE.exists():

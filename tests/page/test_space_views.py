@@ -50,7 +50,13 @@ def test_a_machine_is_seen_from_the_same_side_while_one_reads(server, chromium):
 
 
 @pytest.mark.parametrize(
-    ("id", "touch"), [("bennett", False), ("bennett", True), ("cardan_shaft", True), ("gough", False)]
+    ("id", "touch"),
+    [
+        ("bennett", False),
+        ("bennett", True),
+        pytest.param("cardan_shaft", True, marks=pytest.mark.slow),
+        pytest.param("gough", False, marks=pytest.mark.slow),
+    ],
 )
 def test_a_machine_keeps_clear_of_buttons_and_words_all_the_way(server, chromium, id, touch):
     """On a phone, over the whole range of its drive; buttons that are touched are larger."""

@@ -130,8 +130,8 @@ POINTS, TIMES = [(0, 0), (1, 0.4), (2, 0.2), (2.5, -0.5)], np.radians([0, 40, 90
     ("count", "measure", "degrees"),
     [
         (3, "transmission", 0),
-        (3, "near-pivots", 40),
-        (4, "range-transmission", 0),
+        pytest.param(3, "near-pivots", 40, marks=pytest.mark.slow),
+        pytest.param(4, "range-transmission", 0, marks=pytest.mark.slow),
         (4, "near-pivots", 40),
         (4, "size", 40),
     ],
