@@ -76,8 +76,8 @@ def best_of_evolution(positions, form, measure, least):
         pytest.param(3, 0, "range-transmission", 0, marks=pytest.mark.slow),
         (3, 0, "size", 40),
         pytest.param(3, 1, "near-pivots", 52, marks=pytest.mark.slow),
-        (2, 0, "range-transmission", 0),
-        pytest.param(2, 0, "size-ratio", 55, marks=pytest.mark.slow),
+        pytest.param(2, 0, "range-transmission", 0, marks=pytest.mark.slow),
+        (2, 0, "size-ratio", 55),
     ],
 )
 def test_linkages_of_positions_are_the_best_by_what_is_asked_for(count, seed, measure, degrees):
