@@ -175,7 +175,7 @@ def _resized(asked: ResizeLinks, lang: str, _: Progress) -> dict[str, Any]:
     linkage = spatial_from_json(asked.document)
     called = dict(zip(linkage.mechanism.chain.links, asked.links.get(lang, ()), strict=False))
     try:
-        changed = resized(linkage, asked.sizes)
+        changed = resized(linkage, asked.sizes, in_proportion=True)
     except LinkageError as error:
         link = error.values.get("link")
         raise LinkageError(error, **({} if link is None else {"link": called.get(link, link)})) from None

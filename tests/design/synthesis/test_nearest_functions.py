@@ -85,10 +85,9 @@ def least_largest_error(law, seed):
 
 
 LAWS = [
-    pytest.param(
-        "x**1.5", (0, 1), 64, -105, marks=pytest.mark.slow
-    ),  # its one four-bar through five pairs meets them in another order
-    ("x**1.5", (0, 1), 81, -118),  # the same
+    # of both, the one four-bar through five pairs meets them in another order
+    pytest.param("x**1.5", (0, 1), 64, -105, marks=pytest.mark.slow),
+    ("x**1.5", (0, 1), 81, -118),
     pytest.param("exp(x)", (0, 1), 105, -81, marks=pytest.mark.slow),
 ]
 

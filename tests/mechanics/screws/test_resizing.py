@@ -105,10 +105,12 @@ def test_a_rod_that_is_too_short_says_how_short_it_can_be():
 
 def test_what_cannot_be_is_said():
     bennett = entry("bennett").placed()
+    with pytest.raises(LinkageError, match=r"frame: with 100 mm the joints cannot be closed unless other sizes"):
+        resized(bennett, {"frame": (100.0, None)})
     with pytest.raises(LinkageError, match=r"frame: with 80° the joints cannot be closed unless other sizes"):
         resized(bennett, {"frame": (None, 80.0)})
     with pytest.raises(LinkageError, match=r"shaft: with 324 mm the joints cannot be closed unless other sizes"):
-        resized(entry("cardan_shaft").placed(), {"shaft": (324.0, None)})  # not in proportion either: see its bearings
+        resized(entry("cardan_shaft").placed(), {"shaft": (324.0, None)}, in_proportion=True)  # see its bearings
     for size, reason in (((-1.0, None), "from 0 on"), ((None, 190.0), "0° to 180°"), ((float("nan"), None), "from 0")):
         with pytest.raises(LinkageError, match=reason):
             resized(bennett, {"frame": size})
@@ -120,9 +122,9 @@ def test_what_cannot_be_is_said():
         resized(entry("diff_bevel").placed(), {"carrier": (None, 80.0)})
 
 
-def test_a_length_that_fits_nowhere_alone_takes_the_others_along():
+def test_a_length_that_fits_nowhere_alone_takes_the_others_along_if_wanted():
     """Lengths of Bennett's linkage are as the sines of its twists, which stay."""
-    changed = resized(entry("bennett").placed(), {"frame": (100.0, None)})
+    changed = resized(entry("bennett").placed(), {"frame": (100.0, None)}, in_proportion=True)
     assert [value for size in link_sizes(changed) for value in size[1:]] == pytest.approx([100, 90, 50, 30] * 2)
     assert move(changed, [[0.0], [0.1]]).complete
 

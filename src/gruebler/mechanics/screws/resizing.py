@@ -33,11 +33,12 @@ _PATIENT = 60  # steps of Newton's method
 _SAME = 1e-9  # of the size, and sines: axes that are less apart have no common normal of their own
 
 
-def resized(linkage: SpatialLinkage, sizes: Wanted) -> SpatialLinkage:
+def resized(linkage: SpatialLinkage, sizes: Wanted, *, in_proportion: bool = False) -> SpatialLinkage:
     """The linkage with other sizes of links, those of `link_sizes`, in a position where it is closed.
 
-    Where one distance alone fits nowhere, all distances change in proportion. Raises `LinkageError` for a size that no
-    link has, and where the joints cannot be closed; with one size it says how far they can be.
+    ``in_proportion``: where one distance alone fits nowhere, all distances change in the same ratio. Raises
+    `LinkageError` for a size that no link has, and where the joints cannot be closed; with one size it says how far
+    they can be.
 
     >>> from gruebler.teaching.catalog import entry
     >>> longer = resized(entry("wiper_rssr").placed(), {"crank": (50.0, None)})
@@ -62,7 +63,7 @@ def resized(linkage: SpatialLinkage, sizes: Wanted) -> SpatialLinkage:
             (settled for start in (pose, closing.reference) if (settled := _closed(wanted, start)) is not None), None
         )
         if there is None:
-            if not part and (all_sizes := _in_proportion(now, sizes)):
+            if in_proportion and not part and (all_sizes := _in_proportion(now, sizes)):
                 with suppress(LinkageError):
                     return resized(linkage, all_sizes)
             raise _open(linkage, now, sizes, part)
