@@ -226,7 +226,7 @@ def test_cylinders_stop_at_their_ends_and_forces_are_told_up_to_these():
     assert bucket.max() < 255
     assert told["lines"][-2] == "The motion ends at the stop: boom cylinder, 240 cm."
     assert told["lines"][1] == "Boom cylinder: from 282 cm to 240 cm."
-    assert {one["unit"][0] for one in told["forces"]} == {"N"}  # all have that of the middle one
+    assert {one["unit"][0] for one in told["forces"]} == {"N"}  # all have the same
     assert told["forces"][3]["most"] == pytest.approx(15.7 * 9.80665)
     assert told["forces"][3]["note"] == "at 0 s"
     german = answer("fall", question, "de", print)

@@ -126,7 +126,7 @@ def forces_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
         "drives": motion.drives[:, active].tolist(),
         "title": _named(asked, active, (_TORQUE if turning else _FORCE)[0], lang),
         "effort": effort.tolist(),
-        "unit": unit_for(effort[_largest(effort)], "N·m" if turning else "N"),
+        "unit": unit_for(effort[_largest(effort)], "N·m") if turning else forces[0]["unit"],
         "facts": _facts(run, asked, effort, forces, lang),
         "forces": forces,
         "acting": acting,
@@ -286,12 +286,15 @@ def _give_units(records: list[dict[str, Any]]) -> None:
 
 
 def _usual_unit(sizes: list[float], unit: str) -> tuple[str, float]:
-    """The unit of the size in the middle, and how much it is in the given one.
+    """The unit of the size in the middle, or of a tenth of the largest, and how much it is in the given one.
 
     >>> _usual_unit([300.0, 12000.0, 15000.0], "N"), _usual_unit([20.0, 30.0, 12000.0], "N"), _usual_unit([0.0], "N")
     (('kN', 1000.0), ('N', 1.0), ('N', 1.0))
+    >>> _usual_unit([300.0, 1600.0, 144000.0], "N")
+    ('kN', 1000.0)
     """
-    return unit_for(median([size for size in sizes if size] or [0.0]), unit)
+    known = [size for size in sizes if size] or [0.0]
+    return unit_for(max(median(known), max(known) / 10), unit)
 
 
 def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
