@@ -56,6 +56,8 @@ export class App implements Page {
   /** Whether the address holds what is shown. */
   #written = true;
   private hash = "";
+  /** How often the reader went to another view, or chose what is to be opened. */
+  #turns = 0;
 
   constructor(
     readonly model: HostModel,
@@ -114,8 +116,8 @@ export class App implements Page {
     }
     if (this.shown.plays && !addressed) this.motion.run();
     if (this.#linkable) {
-      await Promise.race([this.#read(), new Promise((go) => setTimeout(go, PATIENCE))]);
-      this.#returnTo(place);
+      const read = this.#read().then(() => this.#returnTo(place)); // its view, however late
+      await Promise.race([read, new Promise((go) => setTimeout(go, PATIENCE))]);
       this.motion.forget();
       if (addressed) this.motion.recall();
       const typed = stored<{ of: string; change: Change }>(TYPED);
@@ -126,9 +128,9 @@ export class App implements Page {
       addEventListener("popstate", (event) => void this.#goneBack(event));
       addEventListener("pagehide", () => {
         this.#leaveField();
-        store(TYPED, { of: this.hash, change: this.motion.side.forces.typed });
-        store(LEFT, this.#written ? null : { of: this.hash, shared: this.#shared() });
-        if (!this.#written) this.motion.keep(this.hash);
+        store(TYPED, { of: location.hash, change: this.motion.side.forces.typed });
+        store(LEFT, this.#written ? null : { of: location.hash, shared: this.#shared() });
+        if (!this.#written) this.motion.keep(location.hash);
       });
     }
   }
@@ -168,6 +170,7 @@ export class App implements Page {
   show(name: string): void {
     const turned = this.view !== name;
     if (turned) {
+      this.#turns++;
       this.say("");
       this.#scrolled[this.view] = scrollY;
     }
@@ -316,6 +319,7 @@ export class App implements Page {
   open(model: Model, drive?: number): void {
     this.say("");
     if (this.motion.linkage) this.#remember("motion");
+    this.hash = ""; // not that of this machine: who goes back at once is shown the one before
     const drawnIn = this.views[this.view]?.title && this.view;
     this.show("motion");
     this.motion.open(model, drawnIn);
@@ -323,6 +327,20 @@ export class App implements Page {
     else this.motion.transport.pick(drive);
     // what had the focus is out of sight
     if (this.#shadow.activeElement) this.root.querySelector<HTMLElement>(".play")?.focus({ preventScroll: true });
+  }
+
+  async choose<Answer>(request: Promise<Answer>, open: (answer: Answer) => void): Promise<boolean> {
+    const turn = ++this.#turns;
+    const wanted = () => turn === this.#turns;
+    try {
+      const answer = await request;
+      if (!wanted()) return false;
+      open(answer);
+      return true;
+    } catch (error) {
+      if (wanted()) this.say((error as Error).message);
+      return false;
+    }
   }
 
   /** Show the structure of a text. */

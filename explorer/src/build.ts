@@ -503,12 +503,10 @@ export class BuildView implements View, Plane, Drawn {
   }
 
   async move(): Promise<void> {
+    const known = this.#known;
     this.#known = this.drawing;
-    try {
-      await openDrawn(this.page, this.drawing, this.#before);
-      this.#made = this.#before = this.page.linkage;
-    } catch (error) {
-      this.page.say((error as Error).message);
-    }
+    const opened = await openDrawn(this.page, this.drawing, this.#before);
+    if (opened) this.#made = this.#before = this.page.linkage;
+    else this.#known = known;
   }
 }

@@ -300,10 +300,6 @@ export class CatalogView implements View {
       return;
     }
     if (!entry.moves) return this.#page.describe(entry.text);
-    try {
-      this.#page.open(await this.#page.ask<Model>("open", { id: entry.id }));
-    } catch (error) {
-      this.#page.say((error as Error).message);
-    }
+    await this.#page.choose(this.#page.ask<Model>("open", { id: entry.id }), (model) => this.#page.open(model));
   }
 }

@@ -349,12 +349,9 @@ export class ExercisesView implements View {
   }
 
   async #tryIt(part: number): Promise<void> {
-    try {
-      const { model, text, drive } = await this.#page.ask<Tried>("try", { id: this.task!.id, part });
+    await this.#page.choose(this.#page.ask<Tried>("try", { id: this.task!.id, part }), ({ model, text, drive }) => {
       if (model) this.#page.open(model, drive ?? undefined);
       else this.#page.describe(text!);
-    } catch (error) {
-      this.#page.say((error as Error).message);
-    }
+    });
   }
 }

@@ -268,10 +268,10 @@ export class StructureView implements View {
     const text = this.#field.value; // as it stands, described or not yet
     const place = h("span.form", {});
     this.#go.append(place);
-    const found = await awaited(place, (progress) => this.#page.ask<Model>("realise", { text }, progress));
-    if (!found) return;
-    place.remove();
+    const asked = awaited(place, (progress) => this.#page.ask<Model>("realise", { text }, progress));
     const driven = this.structure?.driven.find((choice) => choice.text === this.structure!.driver);
-    this.#page.open({ ...found, name: driven?.family || t("A mechanism with found dimensions") });
+    const name = driven?.family || t("A mechanism with found dimensions");
+    void this.#page.choose(asked, (model) => model && this.#page.open({ ...model, name }));
+    if (await asked) place.remove();
   }
 }

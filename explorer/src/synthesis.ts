@@ -437,15 +437,12 @@ export class SynthesisView implements View {
 
   async #open(design: Design, title: string): Promise<void> {
     const name = `${wordsOf(this.kind).name}: ${title}`;
-    try {
-      const document = {
-        ...design.document,
-        page: { targets: this.targets, pairs: design.pairs, backward: design.backward },
-      };
-      const model = await this.#page.ask<Model>("open_document", { document, name });
-      this.#page.open(model);
-    } catch (error) {
-      this.#page.say((error as Error).message);
-    }
+    const document = {
+      ...design.document,
+      page: { targets: this.targets, pairs: design.pairs, backward: design.backward },
+    };
+    await this.#page.choose(this.#page.ask<Model>("open_document", { document, name }), (model) =>
+      this.#page.open(model),
+    );
   }
 }

@@ -130,11 +130,11 @@ export function isOf({ beside, model }: Linkage, drawing: Drawing): boolean {
 }
 
 /** Let Motion show the linkage of a drawing, with the loads of what it was before, and with the curve of a point if it
- * is a new one. */
-export async function openDrawn(page: Page, drawing: Drawing, before: Linkage | null): Promise<void> {
+ * is a new one; whether it does. */
+export function openDrawn(page: Page, drawing: Drawing, before: Linkage | null): Promise<boolean> {
   const { title } = drawing;
   const document = documentOfDrawing(title === undefined ? traced(drawing) : drawing);
   const name = title ?? t("New drawing");
-  const model = await page.ask<Model>("open_document", { document, name, before: loadedBefore(before) });
-  page.open({ ...model, changed: title !== undefined });
+  const asked = page.ask<Model>("open_document", { document, name, before: loadedBefore(before) });
+  return page.choose(asked, (model) => page.open({ ...model, changed: title !== undefined }));
 }

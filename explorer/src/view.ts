@@ -46,6 +46,9 @@ export interface Page {
   show(view: string): void;
   /** Show another linkage, in motion, at a value of its drive; undoing leads back to the view that drew it. */
   open(model: Model, drive?: number): void;
+  /** What is answered is opened, or the error said, unless the reader left or chose something else meanwhile; whether
+   * it was opened. */
+  choose<Answer>(request: Promise<Answer>, open: (answer: Answer) => void): Promise<boolean>;
   /** Show the structure of a text. */
   describe(text: string): void;
   /** A sentence for the reader, an error unless something is done; without a text the last one goes. */

@@ -225,3 +225,49 @@ def test_the_header_leaves_room(tab, server, width):
     if width < 500:
         for button in page.page.locator("header button:visible").all():
             assert button.bounding_box()["height"] >= 43.5
+
+
+RELEASE = "held.splice(0).forEach((one) => Object.getPrototypeOf(gruebler.model).send.call(gruebler.model, one))"
+SOURCE = "gruebler.motion.linkage.model.source"
+
+
+def test_what_is_answered_after_the_reader_left_opens_nothing(tab, server):
+    page = tab().open(server.address)
+    view = page.page
+    view.click('[data-view="catalog"]')
+    crank = view.locator('.card[data-id="slidercrank"]')
+    crank.wait_for()
+    page.hold()
+    crank.click()
+    page.until("held.some((one) => one.method === 'open')")
+    view.click('[data-view="motion"]')
+    view.evaluate(RELEASE)
+    view.click('[data-view="catalog"]')
+    page.until("held.every((one) => one.method !== 'open')")
+    # of two that are chosen the later one counts
+    crank.click()
+    view.locator('.card[data-id="lamp"]').click()
+    page.until("held.filter((one) => one.method === 'open').length === 2")
+    assert view.evaluate(SOURCE) == "crankrocker"
+    view.evaluate(RELEASE)
+    page.until("gruebler.view === 'motion'")
+    assert view.evaluate(SOURCE) == "lamp"
+    view.evaluate("delete gruebler.model.send")
+    view.go_back()
+    page.until("gruebler.view === 'catalog'")
+    assert view.evaluate("gruebler.message.hidden") is True
+
+
+def test_an_address_that_is_read_late_leads_to_the_view_that_was_left(tab, server):
+    page = tab().open(server.address)
+    view = page.page
+    page.machine("slidercrank")
+    page.until("location.hash.length > 1")
+    view.click('[data-view="exercises"]')
+    # the page does not wait for its address
+    view.add_init_script("{ const later = setTimeout; window.setTimeout = (f, ms) => later(f, ms === 10000 ? 0 : ms); }")
+    view.reload()
+    page.until(f"window.gruebler?.motion?.linkage && {SOURCE} === 'slidercrank'")
+    page.until("gruebler.view === 'exercises'")
+    view.wait_for_timeout(300)
+    assert view.evaluate("gruebler.view") == "exercises"
