@@ -265,7 +265,8 @@ def test_an_address_that_is_read_late_leads_to_the_view_that_was_left(tab, serve
     page.until("location.hash.length > 1")
     view.click('[data-view="exercises"]')
     # the page does not wait for its address
-    view.add_init_script("{ const later = setTimeout; window.setTimeout = (f, ms) => later(f, ms === 10000 ? 0 : ms); }")
+    at_once = "window.setTimeout = (f, ms) => later(f, ms === 10000 ? 0 : ms)"
+    view.add_init_script("{ const later = setTimeout; " + at_once + " }")
     view.reload()
     page.until(f"window.gruebler?.motion?.linkage && {SOURCE} === 'slidercrank'")
     page.until("gruebler.view === 'exercises'")
