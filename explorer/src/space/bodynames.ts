@@ -41,11 +41,11 @@ export function middleOf(places: Vector[]): Vector {
 }
 
 /** Where a body of triangles has its name: in its middle, or where it comes next to that if it keeps away from it. */
-export function nameOf(corners: Vector[], middle: Vector, away: number): Vector {
+export function nameOf(corners: Float64Array, middle: Vector, away: number): Vector {
   let [best, least] = [middle, Infinity];
-  for (const [k, corner] of corners.entries()) {
-    const other = corners[k % 3 < 2 ? k + 1 : k - 2]!;
-    const at = corner.map((part, n) => (part + other[n]!) / 2) as Vector;
+  for (let k = 0; k < corners.length; k += 3) {
+    const other = k % 9 < 6 ? k + 3 : k - 6;
+    const at = [0, 1, 2].map((n) => (corners[k + n]! + corners[other + n]!) / 2) as Vector;
     const far = Math.hypot(...minus(at, middle));
     if (far < least) [best, least] = [at, far];
   }

@@ -78,7 +78,8 @@ export class Scene {
   ];
   #step = 1;
   /** Of each body, what is seen through last, its link, its farthest places and the corners of its triangles. */
-  #reach: { link: number; places: Vector[]; corners: Vector[]; middle: Vector; radius: number; glass: boolean }[] = [];
+  #reach: { link: number; places: Vector[]; corners: Float64Array; middle: Vector; radius: number; glass: boolean }[] =
+    [];
   /** Of each body where its name stands, and where else it may if that is hidden. */
   #spots: Vector[][] = [];
   /** Those of them where it is on or next to that body alone. */
@@ -143,7 +144,7 @@ export class Scene {
       const places = farthest(vertices);
       const middle = middleOf(places);
       const radius = 1.05 * Math.max(0, ...places.map((place) => Math.hypot(...minus(place, middle))));
-      const corners = triangles.map((corner) => vertices.slice(3 * corner, 3 * corner + 3) as Vector);
+      const corners = new Float64Array(triangles.flatMap((corner) => vertices.slice(3 * corner, 3 * corner + 3)));
       return { link, places, corners, middle, radius, glass: k >= bodies.length };
     });
     // of the frame its last foot, since it has no middle that one sees
@@ -453,8 +454,8 @@ export class Scene {
       const way = end.map((v, k) => v - start[k]!) as Vector;
       const off = Math.hypot(...cross(minus(middle, start), way));
       if ((through && glass) || off > radius * Math.hypot(...way)) continue;
-      for (let k = 0; k < corners.length; k += 3) {
-        const far = meeting(start, way, corners[k]!, corners[k + 1]!, corners[k + 2]!);
+      for (let k = 0; k < corners.length; k += 9) {
+        const far = meeting(start, way, corners, k);
         if (far < nearest) [nearest, best] = [far, { far, link, at: start.map((v, n) => v + far * way[n]!) as Vector }];
       }
     }
