@@ -3,6 +3,7 @@
 import json
 import math
 import re
+from functools import cache
 from urllib.error import HTTPError
 from urllib.request import Request, urlopen
 
@@ -170,15 +171,21 @@ def browsed(chromium, path, wanted="canvas"):
     return browsed_at(chromium, path.as_uri(), wanted)
 
 
-def browsed_at(chromium, address, wanted="canvas", *, touch=False):
-    """The same at an address, for fingers if it is touched."""
+@cache
+def space_browser(chromium):
+    """One browser that draws in space, for all tests of a process; Playwright's session ends it."""
     from tests.page.conftest import find_browser
 
     if not (found := find_browser(chromium)):
         pytest.skip("no browser")
     options = ["--disable-gpu", "--enable-unsafe-swiftshader"]  # else the whole page is drawn by it, four times as long
-    browser = chromium.launch(executable_path=found, args=options)
-    page = browser.new_page(viewport={"width": 900, "height": 700}, has_touch=touch)
+    return chromium.launch(executable_path=found, args=options)
+
+
+def browsed_at(chromium, address, wanted="canvas", *, touch=False):
+    """The same at an address, for fingers if it is touched; a browser of its own in all but its process."""
+    browser = space_browser(chromium).new_context(viewport={"width": 900, "height": 700}, has_touch=touch)
+    page = browser.new_page()
     errors = []
     page.on("pageerror", lambda error: errors.append(str(error)))
     page.on("console", lambda line: errors.append(line.text) if line.type == "error" else None)
@@ -412,12 +419,13 @@ def test_a_machine_in_space_is_accessible(tmp_path, chromium, id, width):
         pytest.skip("axe-core is not installed: npm ci in explorer/")
     path = tmp_path / "machine.html"
     assert main(["explore", id, "-o", str(path)]) == 0
-    browser, _, errors = browsed(chromium, path)
+    errors = []
     for scheme in ("light", "dark"):
-        context = browser.new_context(
+        context = space_browser(chromium).new_context(
             viewport={"width": width, "height": 844}, color_scheme=scheme, has_touch=True, reduced_motion="reduce"
         )
         page = context.new_page()
+        page.on("pageerror", lambda error: errors.append(str(error)))
         page.goto(path.as_uri())
         page.get_by_role("button", name="Play").wait_for()  # it does not begin by itself
         for button in page.locator("button:visible, header select, summary").all():
@@ -427,15 +435,16 @@ def test_a_machine_in_space_is_accessible(tmp_path, chromium, id, width):
         assert [each["id"] for each in found if each["impact"] in ("serious", "critical")] == []
         context.close()
     assert errors == []
-    browser.close()
 
 
 def test_several_drives_have_short_names_and_the_bar_one_row(tmp_path, chromium):
     """Six legs: each is driven between its cylinder and its rod, and the rod names it."""
     path = tmp_path / "machine.html"
     assert main(["explore", "gough", "-o", str(path)]) == 0
-    browser, _, errors = browsed(chromium, path)
-    page = browser.new_page(viewport={"width": 1024, "height": 800}, reduced_motion="reduce")
+    browser = space_browser(chromium).new_context(viewport={"width": 1024, "height": 800}, reduced_motion="reduce")
+    page = browser.new_page()
+    errors = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
     page.goto(path.as_uri() + "#de")
     page.locator('[data-panel="drives"] input').first.wait_for()
     labels = page.locator('[data-panel="drives"] label')
