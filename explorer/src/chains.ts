@@ -60,6 +60,8 @@ export class ChainList {
   readonly #list = h("div.chains", {});
   readonly #count = h("span.note", { role: "status" }, "\u00a0");
   readonly #status = h("div.form", {});
+  /** How far the first count is, beside the machine at hand. */
+  readonly #counts = h("div", {});
   #asked = 0;
 
   constructor(
@@ -197,7 +199,7 @@ export class ChainList {
       this.#count.textContent = t("counting …");
       this.waits(!stays);
     }
-    const place = this.#found || others ? this.#status : this.#list;
+    const place = this.#found || others ? this.#status : this.#counts;
     const found = this.#unlisted()
       ? { total: 0, assortments: [], items: [] }
       : await awaited(place, (progress) => this.page.ask<Chains>("chains", question, progress));
@@ -213,22 +215,24 @@ export class ChainList {
   #show(): void {
     const { own } = this;
     const [found, other] = [this.#found, this.#other];
-    const cardOf = (drawn: Structure, name: string) => {
+    const cardOf = (drawn: Structure, name: string, kinds = drawn.kinds) => {
       // without a list of names, if there is one
       const { picture } = drawn.inversions.find(({ frame }) => frame === drawn.chosen) ?? drawn;
       // of a chain no link is the frame yet
       const plain = picture.replace(/<path class=.gr-hatch.*?>/g, "").replaceAll("gr-frame", "gr-body");
-      return (
-        this.#is(placeOf(drawn)) && this.#fits(drawn) && this.#card(drawn.code, drawn.text, plain, name, drawn.kinds)
-      );
+      return this.#is(placeOf(drawn)) && this.#fits(drawn) && this.#card(drawn.code, drawn.text, plain, name, kinds);
     };
+    const yours = t("Your machine");
     const listed = [own, ...(found?.items ?? [])].some((each) => each?.code === other?.code);
     const mine = [
-      own && cardOf(own, own.name ? t("Yours: {name}", { name: own.name }) : t("Your machine")),
+      own && (own.name ? cardOf(own, own.name, `${yours}: ${own.kinds}`) : cardOf(own, yours)),
       other && !listed && cardOf(other, other.name || t("Chosen")),
-    ];
+    ].filter((card) => card instanceof Node);
     if (this.#inSpace) return this.#showAlone(mine);
-    if (!found) return renew(this.#list, this.#list.querySelector(".error") ?? moment());
+    if (!found) {
+      if (!this.#asked) renew(this.#counts, moment());
+      return renew(this.#list, h("div.cards.few", {}, ...mine, this.#counts));
+    }
     const { assortments, items, total } = found;
     this.#count.textContent = ["", t("one chain")][total] ?? t("{total} chains", { total });
     const language = currentLanguage();
@@ -254,7 +258,7 @@ export class ChainList {
         // the machine at hand takes the place of its chain
         code !== own?.code && this.#card(code, text, picture, name[language] || `${k + 1}`, kinds[language]),
     );
-    const cards = [...mine, ...chains].filter((card) => card instanceof HTMLElement);
+    const cards = [...mine, ...chains.filter((card) => card !== false)];
     const rest = items.length < total;
     const more = () => {
       if (this.#all && rest) return void this.#ask(items.length);
@@ -291,7 +295,7 @@ export class ChainList {
       },
       thumbnail(picture, text),
       h("b", {}, name),
-      h("span", {}, kinds),
+      h("span", { title: kinds }, kinds.replace(/(;.*?):.*/, "$1")), // what it is to be fractionated
     );
   }
 }

@@ -44,10 +44,10 @@ export function unbroken(text: string, gaps = GAPS): string {
   return text.replace(gaps, "\u00a0");
 }
 
-/** A text in which what follows an underscore is an index, l_a, and the class of a joint, g1; a joint R(1-2) is one. */
+/** A text in which what follows an underscore is an index, l_a, and the class of a joint, g1; a joint R(a-b) is one. */
 export function indexed(text: string): (string | Node)[] {
   return unbroken(text)
-    .split(/(?:(?<=[\p{L}\p{N}])_|(?<=\bg)(?=\d))([\p{L}\d]+)|(\w\(\d[\d-]*\))/u)
+    .split(/(?:(?<=[\p{L}\p{N}])_|(?<=\bg)(?=\d))([\p{L}\d]+)|(\p{Lu}\w*\(\S[^()]*\S-[^()]*\))/u)
     .map((part, k) => (part ? [part, h("sub", {}, part), h("nobr" as "b", {}, part)][k % 3]! : ""));
 }
 

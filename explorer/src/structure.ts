@@ -15,9 +15,10 @@ function namesOf({ links, linkNames }: Model): Record<string, string> {
   return Object.fromEntries(names.map((name, link) => [links[link]!, name]));
 }
 
-/** A step with its heading. */
-function step(number: number, title: string, ...content: Child[]): HTMLElement {
-  return h("div.step", {}, h("h2", {}, h("i", {}, String(number)), title), ...content);
+/** A step with its heading and what stands beside that. */
+function step(number: number, title: string, beside: Child[], ...content: Child[]): HTMLElement {
+  const heading = h("h2", {}, h("i", {}, String(number)), title);
+  return h("div.step", {}, h("div.form", {}, heading, ...beside), ...content);
 }
 
 export class StructureView implements View {
@@ -72,13 +73,10 @@ export class StructureView implements View {
         h(
           "div.steps",
           {},
-          step(1, t("Chain"), this.chains.element),
+          step(1, t("Chain"), [], this.chains.element),
           this.#detail,
-          this.#shown,
-          this.#words,
-          this.#error,
+          h("div.made.contents", {}, this.#shown, this.#words, this.#error, this.#go),
         ),
-        this.#go,
       ),
     );
     this.chains.arrange();
@@ -155,56 +153,44 @@ export class StructureView implements View {
     renew(
       this.#shown,
       h(
-        "div.two",
+        "div.chain-picture",
         {},
+        drawn,
         h(
-          "div",
+          "div.form.note",
           {},
-          h(
-            "div.chain-picture",
-            {},
-            drawn,
-            h(
-              "div.form.note",
-              {},
-              ...Object.entries(found.numbered).map(([number, name]) => h("span", {}, `${number}\u00a0${name}`)),
-            ),
-          ),
-          typesOf(found.joints[this.#joint], (text) => void this.describe(text)),
-        ),
-        h(
-          "div",
-          {},
-          h(
-            "dl.facts",
-            {},
-            fact("counted", t("Counted")),
-            fact("generic", t("Generic"), generic === found.counted ? moves(generic) : "bad"),
-            own != null && fact("own", t("These sizes"), moves(own)),
-          ),
-          ...lines.map((line) => {
-            const [, label, text] = /^([^.:]*:)?(.*)/s.exec(line)!;
-            return h("p.said", {}, label && h("span.note", {}, label), ...countOf(text!));
-          }),
-          links.some(({ overconstrained }) => overconstrained) && h("p.note", {}, t("Orange: overconstrained links.")),
-          links.some(({ overconstrained, rigid }) => rigid && !overconstrained) &&
-            h("p.note", {}, t("Purple: links rigid against each other.")),
+          ...Object.entries(found.numbered).map(([number, name]) => h("span", {}, h("b", {}, number), `\u00a0${name}`)),
         ),
       ),
+      typesOf(found.joints[this.#joint], (text) => void this.describe(text)),
+      h(
+        "dl.facts",
+        {},
+        fact("counted", t("Counted")),
+        fact("generic", t("Generic"), generic === found.counted ? moves(generic) : "bad"),
+        own != null && fact("own", t("These sizes"), moves(own)),
+      ),
+      ...lines.map((line) => {
+        const [, label, text] = /^([^.:]*:)?(.*)/s.exec(line)!;
+        return h("p.said", {}, label && h("span.note", {}, label), ...countOf(text!));
+      }),
+      links.some(({ overconstrained }) => overconstrained) && h("p.note", {}, t("Orange: overconstrained links.")),
+      links.some(({ overconstrained, rigid }) => rigid && !overconstrained) &&
+        h("p.note", {}, t("Purple: links rigid against each other.")),
     );
     const all = (on: boolean) => {
       this.#atFrame = !on;
       void this.describe(this.text);
     };
     const elsewhere = found.anywhere
-      ? h("p.note", {}, t("Drives at the frame alone do not fix the motion."))
+      ? h("span.note", {}, t("Drives at the frame alone do not fix the motion."))
       : option(t("also drives that are not at the frame"), !this.#atFrame, all, "elsewhere");
     renew(
       this.#detail,
       step(
         2,
         t("Frame"),
-        h("p.note.form", {}, t("Equivalent links are shown once.")),
+        [h("span.note", {}, t("Equivalent links are shown once."))],
         ...this.#cards("inversions", found.inversions, ({ frame }) => [
           [h("b", {}, /^\d/.test(frame) ? `${t("Frame")} ${frame}` : frame)],
           frame === found.chosen,
@@ -213,10 +199,12 @@ export class StructureView implements View {
       step(
         3,
         t("Drive"),
-        found.anywhere != null && h("div.form", {}, elsewhere),
-        generic > 1 &&
-          inPlane(found) &&
-          h("p.note", {}, t("F = {mobility} takes {mobility} drives, chosen together.", { mobility: generic })),
+        [
+          found.anywhere != null && elsewhere,
+          generic > 1 &&
+            inPlane(found) &&
+            h("span.note", {}, t("F = {mobility} takes {mobility} drives, chosen together.", { mobility: generic })),
+        ],
         ...this.#cards("driven", found.driven, ({ drives, brief, text }) => [
           (brief.length ? brief : drives).map((drive) => h("div", {}, drive)),
           text === found.driver,

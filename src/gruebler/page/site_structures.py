@@ -15,6 +15,7 @@ from gruebler.page.structures import (
     drives_in_numbers,
     kinds_as_read,
     like_driven,
+    lines_as_read,
     listed_drives,
     own_first,
 )
@@ -104,7 +105,7 @@ def structure_pack(
         "counted": report.counted,
         "generic": report.generic,
         "verdict": str(report.verdict),
-        "lines": {lang: as_read(shown.explain(lang)).splitlines() for lang in langs},
+        "lines": {lang: lines_as_read(shown, lang) for lang in langs},
         "overconstrained": strained,
         "rigid": rigid,
         "frames": frames,

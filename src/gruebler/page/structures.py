@@ -31,6 +31,7 @@ from gruebler.structure.mechanism import Drive, Mechanism
 from gruebler.structure.mechanism.drives import check_drives
 from gruebler.structure.mechanism.inversion import driven_mechanisms, family, inversions
 from gruebler.structure.mobility import MobilityReport, generic, mobility_report
+from gruebler.structure.mobility.report import verdict_word
 
 _MOST_LINKS = 60  # more links are drawn and counted, but their inversions are not listed
 _LONGEST_LABEL = 3  # letters of a name beside its link in a small picture
@@ -192,12 +193,23 @@ def structure_record(
         "generic": report.generic,
         "own": None if special is None else special.mobility,
         "verdict": str(report.verdict),
-        "lines": as_read(shown_report.explain(lang)).splitlines(),
+        "lines": lines_as_read(shown_report, lang),
         "drives": as_read("\n".join(_said_of_drives(moved.renamed(called), special, lang))),
         "inversions": [_choice(bare, cards[frame], lang, called) for frame, bare in frames.items()],
         "anywhere": anywhere,
         "driven": [_choice(each, cards[each.frame], lang, called) for each in driven],
     }
+
+
+def lines_as_read(report: MobilityReport, lang: str) -> list[str]:
+    """What a report tells, the chain and the verdict first.
+
+    >>> lines_as_read(mobility_report(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")), "en")[1]
+    'Verdict: constrained. One drive moves every link in one definite way.'
+    """
+    text, *lines = as_read(report.explain(lang)).splitlines()
+    verdict = f": {verdict_word(report.verdict, lang)}. "
+    return [text, *sorted(lines, key=lambda line: verdict not in line)]
 
 
 def _frame_number(bare: Mechanism) -> tuple[bool, int]:
