@@ -22,8 +22,8 @@ interface Band {
 /** An element of the picture: its tag and its attributes, the same ones for all of a tag. */
 type Drawn = [tag: "circle" | "path" | "rect", attributes: Record<string, string | number>];
 
-const SLOT = ["slot-outline", "slot"];
-const ROD = ["rod-outline", "rod"];
+export const SLOT = ["slot-outline", "slot"];
+export const ROD = ["rod-outline", "rod"];
 const SLOT_SIDE = 9; // pixels from the middle of a pin to the rail beside it
 const BARREL = 0.86; // of a cylinder that is drawn in as far as it goes
 const SEEN = 0.4; // of a rod beyond the round end of its barrel

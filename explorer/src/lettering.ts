@@ -16,6 +16,7 @@ const LETTER = 20; // pixels from a joint to its letter
 const WELL = 4; // pixels of room with which a text stands well
 const RULE = 40; // from the left edge of the plane to where the numbers of the grid end
 const FOOT = 24; // and from its lower one
+const GROUND: Pair[] = [[0, 0], ...STANDING.slice(1)];
 
 export interface Written {
   /** The middle of its foot. */
@@ -51,18 +52,19 @@ function inkOf({ drawing, viewport }: Seen, dimensions: readonly Dimension[]): I
       shift(ends, -lying(knot.slide!), room);
     };
     const way = wayOf(knot);
-    if (drives.includes(k)) shift(way === null ? [...DRIVING, [-13, -5]] : PUSHING, -lying(way ?? 0));
+    if (drives.includes(k) && !isCylinder(knot))
+      shift(way === null ? [...DRIVING, [-13, -5]] : PUSHING, -lying(way ?? 0));
     if (isCylinder(knot))
       draw(
         knot.between!.map((end) => viewport.screen(...end)),
-        8,
+        12,
       );
     for (const rim of rimsOf(knot, viewport)) draw(rim, 2);
     const grounded = knot.links.includes(frame!);
     if (knot.slide !== undefined) {
       along(6, 0, 9);
       if (grounded) along(GUIDE, RAIL + HATCH, HATCH);
-    } else if (grounded && isPin(knot)) shift([[0, 0], ...STANDING.slice(1)]);
+    } else if (grounded && isPin(knot)) shift(GROUND);
   }
   for (const {
     at: [x, y],
@@ -191,6 +193,8 @@ export function lettering(plane: Shown, dimensions: readonly Dimension[]): Writt
     return convexHull([...outlineOf(plane, link), ...mouths]);
   });
   writeLetters(sheet, plane, hulls);
+  const bearings = drawing.knots.filter((knot) => isPin(knot) && knot.links.includes(drawing.frame!));
+  const grounds = bearings.map(({ at }) => placed(GROUND, viewport.screen(...at)));
   const far: (() => void)[] = [];
   const letters = written.length;
   for (const [k, link] of bodies.entries()) {
@@ -208,7 +212,8 @@ export function lettering(plane: Shown, dimensions: readonly Dimension[]): Writt
     else if (own[0] && (!viewport.narrow || chosen?.link === link))
       far.push(() => {
         const home = own[2] ? own : [];
-        const found = leaderOf(boxed(own), home, others.map(boxed), half, free, linesOf(written), written)();
+        const crossed = [...others, ...grounds].map(boxed);
+        const found = leaderOf(boxed(own), home, crossed, half, free, linesOf(written), written)();
         if (found) write(name, found.at, found.line);
       });
   }

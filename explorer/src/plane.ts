@@ -1,6 +1,7 @@
 /** The plane on which a mechanism is drawn: its picture, with a grid. */
 
 import { type Backdrop, backdropElement, cornersOf, gripsOf, putBackdrop } from "./backdrop";
+import { ROD, SLOT } from "./bodies";
 import { DEGREE } from "./cycle";
 import { dimensionElements, dimensionsOf } from "./dimensions";
 import { svg } from "./dom";
@@ -12,7 +13,8 @@ import { angle, number, spaced } from "./language";
 import { isKept } from "./lengths";
 import { lettering, linesOf } from "./lettering";
 import { LEADERS, leadersThrough } from "./naming";
-import { BARREL, bodiesOf, outlineOf, RING, ringOf, wayOf } from "./outlines";
+import { BARREL, bodiesOf, isCylinder, outlineOf, RING, ringOf, wayOf } from "./outlines";
+import { ARROW, BESIDE } from "./pushed";
 import type { Pair } from "./rows";
 import { guidelines, snapped } from "./snapping";
 import type { Viewport } from "./viewport";
@@ -149,15 +151,20 @@ function grips({ viewport }: Plane, picture: Backdrop): SVGElement[] {
   ];
 }
 
-/** A cylinder with its rod, or two wheels, from end to end along x; in pixels about where they meet. */
-function alongEnds(knot: Knot, scale: number): SVGElement {
+/** A cylinder as in Motion, perhaps with the arrow of its drive, or two wheels, from end to end along x; in pixels
+ * about where they meet. */
+function alongEnds(knot: Knot, scale: number, driven: boolean): SVGElement {
   const { between, part } = knot;
   const [[x, y], [u, v]] = between!;
   const [dx, dy] = [u - x, v - y];
   const long = Math.hypot(dx, dy) * scale;
+  const reach = BARREL * long;
+  const stroke = (kind: string, to: number) => svg(`path.${kind}`, { d: `M${-long / 2} 0h${to}` });
+  const within = `translate(${(reach - long) / 2} 0)scale(${Math.min(1, reach / ARROW)})translate(0 ${BESIDE})`;
   const cylinder = () => [
-    ...["outline", "bar"].map((kind) => svg(`path.${kind}`, { d: `M0 0H${long / 2}` })),
-    svg("rect.block", { x: -long / 2, y: -7, width: BARREL * long, height: 14, rx: 3 }),
+    ...ROD.map((kind) => stroke(kind, long)),
+    ...SLOT.map((kind) => stroke(kind, reach)),
+    ...(driven ? [svg("path.driven", { d: PUSHED, transform: within })] : []),
   ];
   const wheel = (cx: number, k: number) => {
     const circles = [0, RING].slice(0, k === ringOf(knot) ? 2 : 1).map((more) => circle(cx, Math.abs(cx) + more));
@@ -189,7 +196,8 @@ function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair):
   });
   const ground = links.includes(drawing.frame!);
   const way = wayOf(knot);
-  if (between) element.append(alongEnds(knot, viewport.scale));
+  const driven = drawing.drives.includes(k);
+  if (between) element.append(alongEnds(knot, viewport.scale, driven));
   else if (slide !== undefined) {
     // on a link that moves there is none
     const rails = ground ? ["rail", "rail-hatch"] : [];
@@ -200,7 +208,7 @@ function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair):
     if (ground) element.append(svg("path.support", { d: SUPPORT }));
     element.append(svg("circle.joint", { r: links[1] || ground ? 5 : 3.2 }));
   }
-  if (drawing.drives.includes(k))
+  if (driven && !isCylinder(knot))
     element.append(svg("path.driven", way === null ? { d: DRIVEN } : { d: PUSHED, transform: alongWay(way) }));
   return element;
 }

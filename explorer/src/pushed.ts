@@ -9,8 +9,8 @@ import { slideOf } from "./measures";
 import { direction, type Pair } from "./rows";
 import type { Viewport } from "./viewport";
 
-const BESIDE = 15; // pixels from the line of a slide to the arrow
-const LENGTH = 46; // of a barrel in which it has room
+export const BESIDE = 15; // pixels from the line of a slide to the arrow
+export const ARROW = 46; // of a barrel in which it has room
 
 /** What it is in the pose that is shown: how it lies, and what it covers beside bodies. */
 export interface Push {
@@ -32,7 +32,7 @@ export function pushOf(linkage: Linkage, joint: number): [path: string, at: (vie
         const from = pixels(linkage.elementAt(cylinder.ends[0]!));
         const to = pixels(mouthOf(linkage, cylinder, false));
         const [x, y] = middleOf([from, to]);
-        const part = Math.min(1, away(from, ...to) / LENGTH);
+        const part = Math.min(1, away(from, ...to) / ARROW);
         const turn = Math.atan2(to[1] - from[1], to[0] - from[0]) / DEGREE;
         const within = `scale(${part * way} ${part}) translate(0 ${BESIDE})`;
         return { transform: `translate(${x} ${y}) rotate(${turn}) ${within}`, covers: [] };

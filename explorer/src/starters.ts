@@ -67,7 +67,7 @@ export function starters(view: Beginning, linkage: Linkage, empty: boolean): HTM
     ["hand", t("Edit {name}", { name }), found],
     ["four-bar", t("Four-bar linkage"), drawn(FOUR_BAR)],
     ["slider-crank", t("Slider-crank"), drawn(SLIDER_CRANK)],
-    ["six-bar", t("Six-bar (Watt II)"), drawn(SIX_BAR)],
+    ["six-bar", t("Six-bar (Watt\u00a0II)"), drawn(SIX_BAR)],
   ];
   const buttons = cards.slice(0, empty ? 4 : 1).flatMap(([key, text, drawing]) => {
     if (!drawing) return [];

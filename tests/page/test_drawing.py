@@ -643,10 +643,11 @@ def test_a_cylinder_is_drawn_over_a_picture_and_driven(plane, tmp_path):
     view.keyboard.press("v")
     click(plane, (35, 20))  # the middle of the cylinder
     view.click('[data-act="drive"]')
-    end = view.locator('[aria-label="Point C y [mm]"]')
-    end.fill("44")  # the end of the lever
-    end.press("Enter")
-    assert view.evaluate("gruebler.views.build.drawing.knots.at(-1).at") == [35, 22]  # the cylinder goes along
+    view.locator('[aria-label="Point C y [mm]"]').fill("44")  # the end of the lever
+    view.keyboard.press("Enter")
+    arrows = view.locator(".drawing g:has(> .rod):has(> .slot) > .driven").count()
+    # the cylinder goes along, and so does the arrow in its barrel
+    assert (view.evaluate("gruebler.views.build.drawing.knots.at(-1).at"), arrows) == ([35, 22], 1)
     view.locator(".drawing").screenshot(path=tmp_path / "sketch.png")
     view.locator("input[accept]").set_input_files(tmp_path / "sketch.png")
     view.locator('[data-field="keeps"]').check()
@@ -983,6 +984,7 @@ def test_a_phone_shows_all_beginnings_all_tools_and_all_that_is_done_with_a_join
         return len(boxes)
 
     assert in_sight("[data-begin]") == 4
+    assert in_sight(".starters h2") == 1
     assert in_sight("[data-tool]") == 8
     assert not in_sight(".stage:has(.drawing) .tools button")  # nothing is to be enlarged yet
     view.tap('[data-begin="six-bar"]')
