@@ -842,6 +842,7 @@ def test_what_goes_on_is_told_while_designs_are_looked_for():
     assert phases == tuple(sorted(phases, key=stages.index))
     counted = [int(part.removesuffix(" %")) for part in parts]
     assert counted == sorted(counted)  # it never falls back
+    assert counted[-1] < 100  # as long as it is under way
 
 
 def test_of_five_positions_without_a_design_it_is_said_what_is_wanting():

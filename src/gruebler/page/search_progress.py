@@ -20,7 +20,7 @@ class SearchProgress:
     Looking: 15 %
     Looking: 30 %
     >>> told.count(1, 4)  # another count: half of what is left
-    Looking: 34 %
+    Looking: 33 %
     >>> told.stage(message("Drawing"), 100, start=60)
     Drawing: 60 %
     """
@@ -55,4 +55,5 @@ class SearchProgress:
             self._say()
 
     def _say(self) -> None:
-        self._progress(_STAGE.filled(stage=self._text, part=round(self._part)).in_language(self._lang))
+        """Rounded down: all of it is done only when it is no longer told."""
+        self._progress(_STAGE.filled(stage=self._text, part=int(self._part)).in_language(self._lang))
