@@ -336,9 +336,9 @@ export class ExercisesView implements View {
     await drawn(); // what comes with its place is not read out
     if (task !== this.task) return;
     this.#verdict.className = right === count ? "good" : "bad";
-    // what is wrong in sight, first of all the first of it
+    // what is wrong in sight with what can be chosen there, first of all the first of it
     const hints = this.#place.querySelectorAll(".answer > [id]");
-    for (const hint of [...hints].reverse()) hint.scrollIntoView({ block: "nearest" });
+    for (const hint of [...hints].reverse()) hint.parentElement!.scrollIntoView({ block: "nearest" });
     this.#verdict.textContent = t("{right} of {count} right", { right, count });
   }
 

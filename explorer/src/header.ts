@@ -9,10 +9,12 @@ const PARTS =
   "antrieb|differential|führung|gelenk|getriebe|greifer|haube|hebe|kette|kinematik|kompressor|lampe|lenk|maschine|" +
   "presse|räder|scheibe|schneider|schwinge|stange|verdichter|vorrichtung|wischer|zylinder";
 
-/** A name that can be broken within long words, also where the browser has no dictionary, but not before a dash. */
+/** A name that can be broken within long words, also where the browser has no dictionary, but not before a dash, nor
+ * after a letter alone between two hyphens. */
 export function softened(name: string): string {
   const between = new RegExp(`(?<=\\p{L}{4})(?<!ge)(?=${PARTS})`, "gu");
-  return name.replace(" –", "\u00a0–").replace(/\p{L}{15,}/gu, (word) => word.replace(between, "\u00ad"));
+  const held = name.replace(" –", "\u00a0–").replace(/-\p{Lu}-/gu, "$&\u2060");
+  return held.replace(/\p{L}{15,}/gu, (word) => word.replace(between, "\u00ad"));
 }
 
 /** A name in parts: what stands in brackets is left out where the header is narrow. */
