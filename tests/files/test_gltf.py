@@ -55,6 +55,19 @@ def test_teeth_of_bevel_gears_meet_gaps(sun, planet):
     assert sorted(aside) == pytest.approx([0.14 * pitch, 0.36 * pitch], rel=0.1)
 
 
+@pytest.mark.parametrize("id", ["diff_bevel", "diff_bevel2p"])
+def test_a_differential_stands_on_ground_beside_its_wheels(id):
+    """The frame has plates across the axle, farther out than all that turns."""
+    solids = link_solids(entry(id).placed())
+    plates = [body for body in solids["frame"] if len(body.vertices) == 8]
+    assert plates
+    turning = np.concatenate([body.vertices for link, each in solids.items() if link != "frame" for body in each])
+    for plate in plates:
+        out = plate.vertices.mean(axis=0)
+        out = out / np.linalg.norm(out)
+        assert min(plate.vertices @ out) > max(turning @ out)
+
+
 def test_volumes_by_their_formulas():
     """A prism of 16 sides, a box, and a ball that is a little smaller than the round one."""
     share = 8 * np.sin(pi / 8) / pi  # of the regular polygon in its circle

@@ -832,6 +832,7 @@ def test_outputs_are_told_with_sign_and_full_turns(server, chromium):
 
     page.goto(server.address + "space/diff_bevel.html#en")
     page.get_by_role("button", name="Pause").click()
+    assert page.locator(".stage path.driven").count() == 1  # that of the other drive lies behind bodies, on the canvas
     carrier, sun = page.locator('[data-panel="drives"] input').all()
     name = "sun\xa02: turned from the reference pose"
     links = page.locator('[data-panel="links"]')

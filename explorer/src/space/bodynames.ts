@@ -4,6 +4,7 @@ import { halfOf } from "../names";
 import type { Pair } from "../rows";
 import { minus, type Vector } from "./algebra";
 
+const EDGE = 8; // pixels
 const LINE = 20; // pixels from name to name
 
 /** A name that is centred at a place of the picture. */
@@ -16,7 +17,7 @@ export interface Name {
 function isFree({ at: [x, y], text }: Name, others: Name[], [width, height]: Pair): boolean {
   const half = halfOf(text);
   return (
-    Math.abs(x - width / 2) < width / 2 - half &&
+    Math.abs(x - width / 2) < width / 2 - half - EDGE &&
     Math.abs(y - height / 2) < height / 2 - 4 &&
     others.every(({ at: [u, v], text: other }) => Math.abs(y - v) >= LINE || Math.abs(x - u) > half + halfOf(other) + 6)
   );

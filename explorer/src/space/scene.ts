@@ -11,6 +11,7 @@ import {
   before,
   type Camera,
   cross,
+  dot,
   fitted,
   type Margins,
   meeting,
@@ -21,7 +22,7 @@ import {
   seen,
   type Vector,
 } from "./algebra";
-import { arrowsOf, headed } from "./arrows";
+import { arrowsOf, headed, tipped } from "./arrows";
 import { apart, middleOf, type Name, nameOf } from "./bodynames";
 import type { Machine } from "./machine";
 import type { Spot } from "./model";
@@ -38,8 +39,11 @@ const MOST_ROOM = 0.3; // of the picture
 const DIRECTIONS = 160;
 const POSES = 6; // in which it is tried from where its links are seen best
 const OBLIQUE = 0.9; // radians
+const LIFTS = [0.5, 0.25, 0.85]; // radians
+const BROAD = 6; // a machine as broad as long in the picture is worth so many links seen half
 const BETTER = 1.2; // so many times
 const LEAST_WIDE = 1.3; // of the picture, for which that is sought: on a phone it is low beside what is read
+const PALE = 0.3; // of the colour of the page
 const STEEP = 1.5; // radians: no farther up or down
 
 export interface SceneEvents {
@@ -69,7 +73,7 @@ export class Scene {
   #places: Vector[] = [];
   #below = 0;
   /** From where it is seen obliquely: from where it is seen best, once that is known. */
-  oblique = OBLIQUE;
+  oblique: Pair = [OBLIQUE, LIFTS[0]!];
   #isKnown = false;
   /** The lowest and the highest coordinates of what stands on the floor. */
   #extent: [Vector, Vector] = [
@@ -96,7 +100,8 @@ export class Scene {
     private readonly events: SceneEvents,
   ) {
     const { bodies, glass, middle, size } = machine.data;
-    this.#camera = { turn: this.oblique, lift: 0.5, middle, distance: 5 * size };
+    const [turn, lift] = this.oblique;
+    this.#camera = { turn, lift, middle, distance: 5 * size };
     try {
       this.#painter = new Painter(this.canvas, bodies, glass);
     } catch {
@@ -188,8 +193,13 @@ export class Scene {
     this.#whole = true;
     if (!this.#wide) return; // it is not laid out yet
     const reached = this.machine.reached;
-    this.#places = [...this.#corners(reached), ...reached.flatMap((poses) => arrowsOf(this.machine, poses).flat())];
-    if (this.few && !this.#isKnown) this.#camera.turn = this.oblique = this.#sought;
+    const { near } = axes(this.#camera);
+    this.#places = [
+      ...this.#corners(reached),
+      ...reached.flatMap((poses) => arrowsOf(this.machine, poses, near).flat()),
+    ];
+    if (this.few && !this.#isKnown) this.oblique = this.#sought;
+    if (!this.#isKnown) [this.#camera.turn, this.#camera.lift] = this.oblique;
     this.#isKnown = true;
     const cameras = this.#margins.map((room) => this.#fitted(room));
     this.#below = Number(cameras[0]!.distance >= cameras[1]!.distance);
@@ -197,34 +207,52 @@ export class Scene {
     this.draw();
   }
 
-  /** From where its links are large, long and not hidden, on the whole and at worst: as at first, unless that is much
-   * better elsewhere. */
-  get #sought(): number {
-    const { reached } = this.machine;
+  /** From where its links are large, long, apart and not hidden, on the whole and at worst: as at first, unless that is
+   * much better elsewhere. */
+  get #sought(): Pair {
+    const { data, reached } = this.machine;
     const some = reached.filter((_, k) => k % Math.ceil(reached.length / POSES) === 0);
-    const moving = this.#spots.flatMap(([spot], link) => (this.machine.moves(link) ? { link, spot: spot! } : []));
-    const isSeen = (turn: number) => {
-      const camera = { ...this.#camera, turn };
-      const room = this.#margins[Number(this.#wide < 1)]!;
+    const moving = this.#spots.flatMap((spots, link) => {
+      if (!this.machine.moves(link)) return [];
+      const { middle, places } = this.#reach[link]!;
+      const far = (at: Vector) => Math.hypot(...minus(at, middle));
+      const end = places.reduce((a, b) => (far(b) > far(a) ? b : a));
+      // where its name may stand: in the middle and on the way to the ends
+      return { link, spots: spots.slice(0, ELSEWHERE + 1).filter((_, k) => k % 4 === 0), middle, end, long: far(end) };
+    });
+    const room = this.#margins[Number(this.#wide < 1)]!;
+    const worthOf = ([turn, lift]: Pair): number => {
+      const camera = { ...this.#camera, turn, lift };
       const { distance, middle } = fitted(camera, Math.max(this.#wide, LEAST_WIDE), this.#places, room);
-      const { eye, near } = axes({ ...camera, distance, middle });
-      const parts = moving.map(({ link, spot }) => {
-        const { middle: from, places } = this.#reach[link]!;
-        const far = (at: Vector) => Math.hypot(...minus(at, from));
-        const end = places.reduce((a, b) => (far(b) > far(a) ? b : a));
+      const { eye, near, right, up } = axes({ ...camera, distance, middle });
+      const parts = moving.map(({ link, spots, middle: from, end, long }) => {
         const lengths = some.map((poses) => {
           const pose = poses[link]!;
-          if (this.#isBehind(link, eye, moved(pose, spot), poses)) return 0;
-          return Math.hypot(...cross(minus(moved(pose, end), moved(pose, from)), near)) / far(end);
+          const open = spots.filter((spot) => !this.#isBehind(link, eye, moved(pose, spot), poses)).length;
+          const seenLong = Math.hypot(...cross(minus(moved(pose, end), moved(pose, from)), near)) / long;
+          return (open / spots.length) * seenLong;
         });
-        return lengths.reduce((a, b) => a + b) / POSES + Math.min(...lengths);
+        return lengths.reduce((a, b) => a + b) / some.length + Math.min(...lengths);
       });
-      return parts.reduce((sum, part) => sum + part, 0) / distance;
+      const broad = some.map((poses) =>
+        breadth(
+          moving.flatMap(({ link, middle: from, end }) =>
+            [from, end].map((at): Pair => {
+              const place = moved(poses[link]!, at);
+              return [dot(right, place), dot(up, place)];
+            }),
+          ),
+        ),
+      );
+      const opened = (BROAD * broad.reduce((a, b) => a + b)) / (some.length * data.size);
+      return parts.reduce((a, b) => a + b, opened) / distance;
     };
-    const turns = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => OBLIQUE + (k * Math.PI) / 4);
-    const values = turns.map(isSeen);
+    const sides = LIFTS.flatMap((lift) =>
+      [0, 1, 2, 3, 4, 5, 6, 7].map((k): Pair => [OBLIQUE + (k * Math.PI) / 4, lift]),
+    );
+    const values = sides.map(worthOf);
     const most = Math.max(...values);
-    return most > BETTER * values[0]! ? turns[values.indexOf(most)]! : turns[0]!;
+    return most > BETTER * values[0]! ? sides[values.indexOf(most)]! : sides[0]!;
   }
 
   #fitted(room: Margins): Camera {
@@ -289,18 +317,23 @@ export class Scene {
     const lamp = near.map((n, k) => 0.62 * n + 0.66 * up[k]! - 0.42 * right[k]!) as Vector;
     const { poses } = machine;
     if (machine.data.live) this.#sink(poses);
+    const [accent, paper] = [this.#colour("--accent"), this.#colour("--paper")];
     const lines: Drawn[] = this.shown.floor
       ? [{ colour: this.#colour("--grid"), pairs: true, places: this.#floor() }]
       : [];
-    if (this.shown.paths)
-      lines.push(...machine.paths.map((places) => ({ colour: this.#colour("--accent"), pairs: false, places })));
-    const colours = { paper: this.#colour("--paper"), ink: this.#colour("--ink"), marked: this.marked };
+    if (this.shown.paths) lines.push(...machine.paths.map((places) => ({ colour: accent, pairs: false, places })));
+    // those of the other drives lie between the bodies, pale: seen over all they would be of none
+    const pale = accent.map((v, k) => v + PALE * (paper[k]! - v)) as Vector;
+    for (const [drive, places] of arrowsOf(machine, poses, near).entries())
+      if (drive !== machine.active)
+        lines.push({ colour: pale, pairs: false, places: tipped(places, near, machine.data.size) });
+    const colours = { paper, ink: this.#colour("--ink"), marked: this.marked };
     painter.paint({ view, eye, lamp }, poses, lines, colours);
-    this.#over(view, poses, [right, up]);
+    this.#over(view, poses, [right, up, near]);
   }
 
   /** Arrows of the drives, names of points, and the axes in the corner. */
-  #over(view: Float32Array, poses: ArrayLike<number>[], [right, up]: [Vector, Vector]): void {
+  #over(view: Float32Array, poses: ArrayLike<number>[], [right, up, near]: [Vector, Vector, Vector]): void {
     const { clientWidth, clientHeight } = this.element;
     const size: Pair = [clientWidth, clientHeight];
     this.root.setAttribute("viewBox", `0 0 ${clientWidth} ${clientHeight}`);
@@ -308,11 +341,9 @@ export class Scene {
       const [x, y] = seen(view, at);
       return [((x + 1) * clientWidth) / 2, ((1 - y) * clientHeight) / 2];
     };
-    const parts: SVGElement[] = arrowsOf(this.machine, poses).map((places, drive) => {
-      const arrow = headed(places.map(pixel));
-      if (drive !== this.machine.active) arrow.classList.add("resting");
-      return arrow;
-    });
+    const parts: SVGElement[] = arrowsOf(this.machine, poses, near)
+      .filter((_, drive) => drive === this.machine.active)
+      .map((places) => headed(places.map(pixel)));
     const named = AXES.map(([x, y]): Name => ({ text: "x y z", at: [x, y] })); // keeps clear of them
     for (const { link, at, name = this.#links[link] } of this.machine.spots) {
       const [px, py] = pixel(moved(poses[link]!, at));
@@ -530,6 +561,15 @@ function farthest(vertices: number[]): Vector[] {
     found.add(best);
   }
   return [...found].map((k) => vertices.slice(k, k + 3) as Vector);
+}
+
+/** How broad places of the picture lie about the line that they are nearest to: the lesser of their two spreads. */
+function breadth(places: Pair[]): number {
+  const mean = (value: (at: Pair) => number) => places.reduce((sum, at) => sum + value(at), 0) / places.length;
+  const [x, y] = [mean(([u]) => u), mean(([, v]) => v)];
+  const [xx, yy] = [mean(([u]) => (u - x) ** 2), mean(([, v]) => (v - y) ** 2)];
+  const xy = mean(([u, v]) => (u - x) * (v - y));
+  return Math.sqrt(Math.max((xx + yy) / 2 - Math.hypot((xx - yy) / 2, xy), 0));
 }
 
 /** How far apart two fingers are. */

@@ -22,9 +22,8 @@ import { Resizing } from "./resizing";
 import { Scene } from "./scene";
 import { stlOf } from "./solids";
 
-/** Angles of the views that have names, in radians: from where, from how high. */
+/** Angles of the views along axes, in radians: from where, from how high. */
 const VIEWS: Record<string, [number, number]> = {
-  oblique: [0, 0.5], // from where it is seen best
   front: [-Math.PI / 2, 0],
   side: [0, 0],
   top: [-Math.PI / 2, 1.5],
@@ -307,12 +306,11 @@ export class SpaceView implements Driven {
     const { scene } = this;
     const look = (name: string) => {
       this.#view = name;
-      const [turn, lift] = VIEWS[name]!;
-      scene.look(name === "oblique" ? scene.oblique : turn, lift);
+      scene.look(...(VIEWS[name] ?? scene.oblique));
     };
     this.#views = choice(
       words.view!,
-      Object.keys(VIEWS).map((key) => [key, words[key]!]),
+      ["oblique", ...Object.keys(VIEWS)].map((key) => [key, words[key]!]),
       this.#view,
       look,
     );

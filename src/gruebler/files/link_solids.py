@@ -104,8 +104,12 @@ def link_solids(
         for link in joint.links if number not in struts else ():
             hold = at
             cross = next((each for each in crosses if each.holds(number, link)), None)
-            if link == frame and not joint.pair.has_contours and not wheeled:
-                away = _away(linkage, number, radius, () if spherical else (ground, at - middle))
+            if link == frame and not joint.pair.has_contours and (not wheeled or _is_outermost(at, at_frame)):
+                away = (
+                    at / np.linalg.norm(at)  # beyond all that goes round the axis
+                    if wheeled
+                    else _away(linkage, number, radius, () if spherical else (ground, at - middle))
+                )
                 solids[link] += _foot(at + (_reach(cross, radius) * away if cross else 0.0), away, radius)
             if joint.pair.has_contours:
                 index = joint.links.index(link)
@@ -376,6 +380,17 @@ def _away(linkage: SpatialLinkage, number: int, r: float, headings: Sequence[Rea
     across = [heading if free else heading - (heading @ axis) * axis for heading in tried]
     away = next(each for each in across if np.linalg.norm(each) > r / 2)
     return np.asarray(away / np.linalg.norm(away))
+
+
+def _is_outermost(at: Reals, others: Sequence[Reals]) -> bool:
+    """Whether no other bearing lies farther out on the ray from the middle of the sphere.
+
+    >>> _is_outermost(np.array([1.0, 0.0, 0.0]), [np.array([-2.0, 0.0, 0.0]), np.array([1.2, 0.0, 0.0])])
+    False
+    """
+    far = float(np.linalg.norm(at))
+    on_ray = [other for other in others if other @ at > 0 and np.linalg.norm(np.cross(at, other)) < _SAME]
+    return all(float(np.linalg.norm(other)) <= far + _SAME for other in on_ray)
 
 
 def _foot(at: Reals, away: Reals, r: float) -> Iterator[Solid]:
