@@ -50,7 +50,7 @@ def answered(method: str, params: dict[str, Any], lang: str, progress: Callable[
 
 
 def load() -> None:
-    """Load the modules that the catalog, its pictures, the structure of a machine and designs need. Cost: 1 s.
+    """Load the modules that the catalog, its pictures, structures, designs and forces need. Cost: 1 s.
 
     Then draw the pictures with which the catalog begins: 0.6 s for each language.
     """
@@ -58,6 +58,9 @@ def load() -> None:
         _ahead(method, params)
     with _ALONE:
         import_module("gruebler.page.designs")  # 0.3 s
+    _IDLE.wait()
+    with _ALONE:
+        import_module("gruebler.page.forces")  # 0.3 s
     for lang in LANGUAGES:
         machines = _ahead("catalog", {}, lang) or ()
         for machine in sorted(machines, key=lambda each: str(each["name"]).casefold())[:_SCREEN]:
