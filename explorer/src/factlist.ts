@@ -2,6 +2,7 @@
 
 import { h, renew, unbroken, withMinus } from "./dom";
 import type { Fact } from "./facts";
+import { softened } from "./header";
 import { t } from "./language";
 import type { Linkage } from "./linkage";
 import type { LinkageDocument } from "./model";
@@ -37,7 +38,7 @@ export class FactList {
       this.#told[k] = told;
       const value = h("dd", { class: style }, new Text(text), note && " ", note && h("small", {}, bound(note)));
       const on = { onpointerenter: () => this.point(true), onpointerleave: () => this.point(false) };
-      const made = h("div", hint ? { title: hint, ...on } : {}, h("dt", {}, bound(name)), value);
+      const made = h("div", hint ? { title: hint, ...on } : {}, h("dt", {}, bound(softened(name))), value);
       if (old) old.replaceWith(made);
       else this.element.append(made);
     });

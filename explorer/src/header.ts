@@ -6,8 +6,8 @@ import { tool } from "./shell";
 
 /** What long words of German names end with, or go on with. */
 const PARTS =
-  "antrieb|differential|führung|gelenk|getriebe|greifer|haube|hebe|kette|kinematik|kompressor|lampe|lenk|maschine|" +
-  "presse|räder|scheibe|schneider|schwinge|stange|verdichter|vorrichtung|wischer|zylinder";
+  "antrieb|differential|führung|funktion|gelenk|getriebe|greifer|haube|hebe|kette|kinematik|kompressor|lampe|lenk|" +
+  "maschine|presse|räder|scheibe|schneider|schwinge|stange|verdichter|vorrichtung|wischer|zylinder";
 
 /** A name that can be broken within long words, also where the browser has no dictionary, but not before a dash, nor
  * after a letter alone between two hyphens. */

@@ -99,11 +99,7 @@ export class Track {
         t("Smallest transmission angle at {value}", { value: shown(least) }),
       );
     const label = (value: number, anchor: string, told = value) => {
-      const text = svg(
-        "text",
-        { x: x(value), y: 43, "text-anchor": anchor },
-        turning || timed ? this.#textOf(told) : number(told),
-      );
+      const text = svg("text", { x: x(value), y: 43, "text-anchor": anchor }, this.#textOf(told));
       parts.push(text);
     };
     const end = (value: number) => (Math.abs(value) < 1e-6 * (high - low) ? 0 : value); // but for rounding

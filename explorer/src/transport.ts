@@ -85,7 +85,7 @@ export class Transport<View extends Driven = Driven> {
     );
     const called = t("Drive");
     const drives = choices.length > 1 && h("select", { "aria-label": called, title: called, onchange }, ...choices);
-    const speedLabel = h("label.speed", {}, t("Speed"), speed, rate);
+    const speedLabel = h("label.speed", {}, h("span", {}, t("Speed")), speed, rate);
     this.#value.setAttribute("aria-label", this.ending ? t("Time") : called);
     const { button } = this.player;
     const track = this.track.element;
