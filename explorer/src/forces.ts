@@ -59,8 +59,8 @@ export interface Kept {
 }
 
 /** A force or a moment on the stage: its place, its direction, as long as the root of its part of the largest, how much
- * it is, its unit, and whether it is a load. */
-export type Arrow = [x: number, y: number, dx: number, dy: number, amount: number, unit: string, load?: boolean];
+ * it is, its unit, and, of a joint, its sign. */
+export type Arrow = [x: number, y: number, dx: number, dy: number, amount: number, unit: string, sign?: string | null];
 
 interface Force extends Vectors {
   at: () => Pair;
@@ -69,7 +69,7 @@ interface Force extends Vectors {
 
 /** The forces of joints, and loads. */
 interface Shown {
-  joints: (Force & { name: string; note: string })[];
+  joints: (Force & { name: string; note: string; sign: string })[];
   loads: Force[];
 }
 
@@ -125,6 +125,7 @@ export class Forces {
   constructor(view: Loaded, opened: () => boolean) {
     this.#view = view;
     this.#opened = opened;
+    this.#joints.element.classList.add("listed");
   }
 
   /** The linkage, its sizes, its loads or the language are others. */
@@ -251,7 +252,7 @@ export class Forces {
         ]),
       ];
       const chosen = this.#joint.selectedIndex;
-      renew(this.#joint, ...joints.map(({ name }, value) => h("option", { value }, name)));
+      renew(this.#joint, ...joints.map(({ name, sign }, value) => h("option", { value }, `${sign} ${name}`)));
       this.#ofFall = h("div", {});
       const onclick = () => void this.#fall();
       const last = (seconds: number) => {
@@ -329,7 +330,7 @@ export class Forces {
     }
     this.#joints.show(
       of.joints.map((force) => ({
-        name: force.name,
+        name: `${force.sign} ${force.name}`,
         text: amount(Math.hypot(...vectorAt(force, where)), force.unit),
         note: !force.most ? "" : `max. ${amount(force.most, force.unit)} ${force.note}`,
       })),
@@ -354,7 +355,7 @@ export class Forces {
       const [x, y] = vectorAt(force, where);
       const here = Math.hypot(x, y);
       const root = Math.sqrt(here * most) || 1; // small ones are seen, too
-      return [...at(), x / root, y / root, here / unit[1], unit[0], k >= joints.length];
+      return [...at(), x / root, y / root, here / unit[1], unit[0], joints[k]?.sign ?? null];
     });
   }
 
@@ -370,6 +371,11 @@ export class Forces {
     const { model } = linkage;
     const times = Float64Array.from(found.drives, (_, row) => row / found.rate);
     this.#fallen = shownOf(linkage, found, times);
+    // in one unit wherever it was let go
+    for (const kind of ["joints", "loads"] as const)
+      this.#fallen[kind].forEach((force, k) => {
+        force.unit = (this.#driven[kind][k] ?? this.#driven[kind][0]!).unit;
+      });
     this.#plots = model.drives.flatMap(({ turning }, k) => {
       const [unit, scale] = turning ? ["°", DEGREE] : [lengthUnit(model), 1];
       const its = this.#called.slice(k, k + 1);
@@ -399,7 +405,8 @@ function shownOf(linkage: Linkage, { acting, forces }: Carried, places: Float64A
     return { drives: places, x, y, most, unit, at };
   };
   return {
-    joints: forces.map(({ joint, parts, unit, ...more }) => ({
+    joints: forces.map(({ joint, parts, unit, ...more }, k) => ({
+      sign: `F${[...`${k + 1}`].map((digit) => String.fromCharCode(0x2080 + Number(digit))).join("")}`,
       ...vectors(parts, unit, () => linkage.jointAt(joint)),
       ...more,
     })),

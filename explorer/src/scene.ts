@@ -25,6 +25,7 @@ import { rateUnit } from "./wording";
 const LONGEST_ARROW = 90; // pixels
 const LEAST_ARROW = 24; // pixels
 const EDGE = 6; // from the end of an arrow to that of the picture
+const BESIDE = 14; // pixels from the end of an arrow to its number
 const RING = 6; // the radius of a target
 const RAIL = 6; // half the width of a rail with its hatching, and some room
 const FEW = 100; // pixels of the height of a phone's picture for each number at an arrow
@@ -337,15 +338,15 @@ export class Scene {
   }
 
   /** An arrow in pixels; of a moment its circle reaches so far to the right, if it is positive, or to the left. */
-  #scaled(...[x, y, dx, dy, amount, unit]: Arrow): Arrow {
+  #scaled(...[x, y, dx, dy, amount, unit, sign = null]: Arrow): Arrow {
     const long = unit.includes("N·m") ? this.#longest / 3 : this.#longest;
-    return [...this.viewport.screen(x, y), long * dx, -long * dy, amount, unit];
+    return [...this.viewport.screen(x, y), long * dx, -long * dy, amount, unit, sign];
   }
 
   /** Forces of joints, loads, velocities, accelerations; forces where the drive is, or at another value of it. */
   #vectors(linkage: Linkage, { accelerations, forces, velocities }: Shown, drive?: number): Arrow[][] {
     const all = forces(drive);
-    const [joints, loads] = [all.filter((one) => !one[6]), all.filter((one) => one[6])];
+    const [joints, loads] = [all.filter((one) => one[6]), all.filter((one) => !one[6])];
     return [joints, loads, this.#rates(linkage, 1, velocities), this.#rates(linkage, 2, accelerations)];
   }
 
@@ -369,29 +370,37 @@ export class Scene {
     return places.map(([x, y, dx, dy, ...more]): Arrow => [x, y, dx / most, dy / most, ...more]);
   }
 
-  /** Beside the longest arrow of each kind, and beside other forces where there is room, how much they are; on a phone
-   * a few of them. */
+  /** Beside the longest arrow of each kind, and beside other forces where there is room, how much they are, on a phone a
+   * few of them; else where there is room the signs of forces, with which they are listed. */
   #putValues(kinds: Arrow[][], drawn: (readonly Pair[])[]): void {
     const texts: Element[] = [];
     const { height, narrow } = this.viewport;
     const most = narrow ? height / FEW : Infinity;
+    let told = 0;
     for (const [k, all] of kinds.entries()) {
       const largest = all
         .filter((one) => arrow(...one))
         .sort(([, , a, b], [, , c, d]) => Math.hypot(c, d) - Math.hypot(a, b));
       for (const [n, one] of largest.entries()) {
-        const [x, y, dx, dy, amount, unit] = one;
-        if (n && (k > 1 || texts.length > most || n > 2 * most)) break; // no small ones in place of large ones
-        const said = `${numberText(amount, 3)} ${unit}`.trim();
-        const half = halfOf(said);
-        const less = n > 0 || k === 1 || narrow; // only where it is near and clear
-        const [left, top] = clearAbout([x + dx, y + dy], 18, drawn, half);
-        const clear = (hull: readonly Pair[]) => [1, 2].every((part) => clearOf(hull, half / part, [left, top + 4]));
-        const far = ([u, v, du, dv]: Arrow) => away([left, top], u + du, v + dv);
-        const nearer = (other: Arrow) => far(other) < far(one) - 8; // it would seem to be of that one
-        if (less && (!drawn.every(clear) || kinds.flat().some(nearer))) continue;
-        texts.push(svg("text", { "data-arrow": "", "text-anchor": "middle", x: left, y: top + 4 }, said));
-        drawn.push(lettersAt(left, top + 4, half));
+        const [x, y, dx, dy, amount, unit, sign] = one;
+        const [tip, up] = [x + dx, y + dy];
+        const few = n && (k > 1 || told > most || n > 2 * most); // no small ones in place of large ones
+        for (const said of [few ? "" : `${numberText(amount, 3)} ${unit}`.trim(), sign]) {
+          if (!said) continue;
+          const half = halfOf(said);
+          const less = n > 0 || k === 1 || narrow; // only where it is near and clear
+          const [left, top] = clearAbout([tip, up], BESIDE, drawn, half, Math.atan2(dy, dx));
+          const clear = (hull: readonly Pair[]) => [1, 2].every((part) => clearOf(hull, half / part, [left, top + 4]));
+          const off = away([tip, up], tip + Math.max(0, Math.abs(left - tip) - half), top);
+          const far = ([u, v, du, dv]: Arrow) => away([left, top], u + du, v + dv);
+          const nearer = (other: Arrow) => far(other) < far(one) - 8; // it would seem to be of that one
+          const astray = said !== sign && off > 1.5 * BESIDE;
+          if (less && (astray || !drawn.every(clear) || kinds.flat().some(nearer))) continue;
+          texts.push(svg("text", { "data-arrow": "", "text-anchor": "middle", x: left, y: top + 4 }, said));
+          drawn.push(lettersAt(left, top + 4, half));
+          told += Number(said !== sign);
+          break;
+        }
       }
     }
     this.#values.replaceChildren(...texts);

@@ -383,8 +383,9 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     page.page.locator(f"{PANEL} summary").first.click()
     page.page.locator(f"{PANEL} .words summary").first.click()
     page.page.locator("#force-load-0").select_option("link 3")
-    assert page.page.evaluate(ARROWS) == ""
-    assert not page.page.locator('[data-act="play"]').count()  # nothing has a speed yet
+    # nothing has a speed yet
+    assert (page.page.evaluate(ARROWS), page.page.locator('[data-act="play"]').count()) == ("", 0)
+    page.until(f"!{ROOT}.querySelector('{PANEL} .waiting')")  # an answer lays the rows out anew
     for typed, wrong in (("1e99", 1), ("1", 0)):
         page.page.locator("#force-x-0").fill(typed)
         page.page.locator("#force-x-0").press("Tab")
@@ -573,7 +574,7 @@ def test_each_joint_has_its_force_where_the_drive_is_and_masses_their_source(tab
         ).groups()
         assert float(value) == pytest.approx(sizes[row], rel=6e-3)
         assert float(most) == pytest.approx(max(sizes), rel=6e-3)
-    assert read.locator("dt").all_inner_texts()[0] == "frame on crank"
+    assert read.locator("dt").all_inner_texts()[0] == "F₁ frame on crank"
     plot = panel.locator(".plot:not(.polar)")
     assert plot.locator(".title").text_content() == "Drive torque [N·mm]"
     assert plot.get_by_text("Drive [°]").count() == 1
@@ -707,6 +708,8 @@ def test_the_picture_shows_the_whole_of_a_free_motion(tab, server, width):
     release.click()
     page.page.locator('[data-act="end"]').wait_for()
     assert release.inner_text() == "Release again"
+    # in the unit that they have over the range of the drive, though they are some hundred newtons
+    assert all(re.match(r"\S+ kN", text) for text in panel.locator(".listed dd").all_inner_texts())
     page.page.locator("button.play").click()
     for key in ("Home", "End"):
         page.page.locator(".track").press(key)
@@ -736,6 +739,17 @@ def test_guides_stay_as_long_in_a_free_motion(tab, server):
     panel.locator('[data-act="fall"]').click()
     page.page.locator('[data-act="end"]').wait_for()
     assert page.page.evaluate(longest) == pytest.approx(before, rel=1e-3)
+    page.page.locator('[data-act="end"]').click()
+    # an answer that comes after another machine was opened is given up
+    page.hold()
+    page.page.locator(f'{PANEL} [data-act="fall"]').click()
+    page.until("held.some((one) => one.method === 'fall')")
+    page.page.evaluate("() => { delete gruebler.model.send; gruebler.model.on('msg:custom', (one) => said = one); }")
+    page.page.evaluate("window.said = null")
+    page.machine("crankrocker")
+    page.page.evaluate("gruebler.model.send(window.asked = held.find((one) => one.method === 'fall'))")
+    page.until("said?.id === asked.id && said.result")
+    assert not page.page.locator('[data-act="end"]').count()
 
 
 def test_without_the_library_it_says_so(tab, tmp_path):
