@@ -126,6 +126,7 @@ export class Forces {
     this.#view = view;
     this.#opened = opened;
     this.#joints.element.classList.add("listed");
+    this.#joints.element.style.cssText = "grid-template-columns: none; gap: 7px";
   }
 
   /** The linkage, its sizes, its loads or the language are others. */
