@@ -68,6 +68,16 @@ def test_a_link_whose_axes_meet_at_a_right_angle_is_a_cross_in_two_forks(id, cro
     assert middles[0] @ middles[1] < 0  # the shafts lie on both sides
 
 
+def test_a_fork_of_the_frame_stands_on_its_post():
+    """Also where the arm that it holds does not lie level: the post goes up to the middle of its ring."""
+    base = link_solids(LINKAGES["gough"])["base"]
+    rings = [solid.vertices for solid in base if len(solid.vertices) > 100]
+    posts = [base[k - 1].vertices for k, solid in enumerate(base) if len(solid.vertices) == 8]  # before its plate
+    gaps = [min(np.linalg.norm(ring[:, None] - post, axis=2).min() for ring in rings) for post in posts]
+    assert (len(rings), len(posts)) == (6, 6)
+    assert max(gaps) < LINKAGES["gough"].size / 45  # the radius of a bar
+
+
 @pytest.mark.parametrize(("id", "cross"), [("universal_joint", "cross"), ("own", "c")])
 def test_pictures_show_two_forks_on_a_cross(id, cross):
     """Two bars of the cross at right angles through its middle; each holder has an eye at either side of one."""
