@@ -52,6 +52,8 @@ export class CatalogView implements View {
   readonly element = h("div.view", { "data-page": "catalog" });
   #at: Left = { query: {}, kind: "", refining: false, byLinks: false, top: 0 };
   readonly #cards = h("div.cards", { "data-list": "catalog" });
+  /** Those drawn before stand at once on the cards of another search. */
+  readonly #pictures = new Map<string, Element>();
   readonly #note = h("span.note", { role: "status" });
   /** The same at the lower edge of a phone, below many filters: it leads to the cards, or clears what leaves none. */
   readonly #below = h("button.key", {
@@ -261,17 +263,19 @@ export class CatalogView implements View {
       t("{links} links, F = {mobility}", { links, mobility: special - idle }),
       idle && t("freely spinning parts: {idle}", { idle }),
       special !== counted && t("Grübler: {counted}", { counted: written(counted) }),
+      space ? t("in space").replace(" ", "\u00a0") : !moves && t("structure only"),
     ];
-    const kind = space ? t("in space").replace(" ", "\u00a0") : !moves && t("structure only");
-    const joined = (parts: unknown[], by: string) => parts.filter(Boolean).join(by);
     // a number stays with its word
-    const facts = joined(sizes, ", ").replace(/ (?==|−?\d+(,|$))|(?<==) /g, "\u00a0");
+    const facts = sizes
+      .filter(Boolean)
+      .join(", ")
+      .replace(/ (?==|−?\d+(,|$))|(?<==) /g, "\u00a0");
     const card = h(
       "button.card",
       { "data-id": id, onclick: () => void this.#choose(entry) },
-      h("div", { "data-place": "" }),
+      this.#pictures.get(id) ?? h("div", { "data-place": "" }),
       h("b", {}, softened(entry.name)),
-      h("span", {}, joined([facts, kind], "\u00a0· ")),
+      h("span", {}, facts),
     );
     if (moves || space) movesOnHover(card, id, () => this.#picture("moving", id));
     return card;
@@ -285,9 +289,12 @@ export class CatalogView implements View {
 
   async #draw(card: HTMLElement): Promise<void> {
     const id = card.dataset.id!;
+    if (this.#pictures.has(id)) return;
     try {
-      const { picture } = await this.#picture("picture", id);
-      card.querySelector("[data-place]")?.replaceWith(thumbnail(picture, id));
+      const made = thumbnail((await this.#picture("picture", id)).picture, id);
+      this.#pictures.set(id, made);
+      // of a search after the one that asked for it, too
+      this.#cards.querySelector(`[data-id="${id}"] [data-place]`)?.replaceWith(made);
     } catch {
       // it keeps its name
     }

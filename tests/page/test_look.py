@@ -572,7 +572,13 @@ def test_a_machine_that_moves_by_its_dimensions_says_so_beside_the_count(tab, se
     assert "6 links, F = 1, Grübler: 0" in sarrus
     assert rocker.endswith("4 links, F = 1")
     # 6(11 - 1) - 3·5 - 12·3 = 9, of which each of the six rods has its spin: a platform that shifts in space
-    assert "11 links, F = 3, freely spinning parts: 6" in delta
+    assert delta.endswith("11 links, F = 3, freely spinning parts: 6, in space")  # a dot would begin or end a line
+    page.page.locator(".card svg").first.evaluate("one => one.setAttribute('data-drawn', '')")
+    page.page.click('.palette [data-value="space"]')
+    page.page.locator('.card[data-id="crankrocker"]').wait_for(state="detached")
+    page.page.click('.palette [data-value=""]')
+    page.page.locator('.card[data-id="crankrocker"]').wait_for()
+    assert page.page.locator(".card svg[data-drawn]").count() == 1  # it is not drawn anew
 
 
 def test_a_phone_shows_all_tabs_or_that_they_scroll_and_cards_have_one_height(tab, server):
