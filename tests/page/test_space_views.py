@@ -27,6 +27,7 @@ DRAWN = f"""boxes => {{
     return [left / ratio, right / ratio];
 }}"""
 """From where to where across something is drawn; nothing if it is in one of the boxes."""
+ENDS = "all => all.map((one) => ['x1', 'x2', 'y1', 'y2'].map((key) => Number(one.getAttribute(key))))"
 
 
 def test_a_machine_is_seen_from_the_same_side_while_one_reads(server, chromium):
@@ -317,9 +318,24 @@ def test_what_has_no_size_is_not_offered_and_glass_is_a_body_too(server, chromiu
     browser, page, errors = browsed_at(chromium, server.address + "space/wobble_plate.html#en")
     labels = page.locator('[data-panel="sizes"] label').all_inner_texts()
     assert labels == ["shaft, angle", "rod 1", "rod 2", "rod 3"]  # not how far axes that meet are apart
+    page.set_viewport_size({"width": 1440, "height": 900})
     page.goto(server.address + "space/cardan_shaft.html#en")
     labels = page.locator('[data-panel="sizes"] label').all_inner_texts()
     assert labels == ["frame", "Twist angle", "shaft"]  # the axes of the two ends go through the crosses
+    said = page.locator('[data-panel="sizes"] .note')
+    assert said.inner_text() == "Between two axes their distance and twist angle, otherwise the distance alone."
+    page.evaluate("gruebler.scene.shown.floor = false")
+    picture = page.locator(".stage").bounding_box()
+    ends = np.array(page.locator("line.axis").evaluate_all(ENDS))
+    corner = {  # from the lower left corner of the picture: its shaft ends in the upper left one
+        "x": float(ends[:, :2].min()),
+        "y": picture["height"] - float(ends[:, 2:].max()),
+        "width": float(np.ptp(ends[:, :2])),
+        "height": float(np.ptp(ends[:, 2:])),
+    }
+    assert page.evaluate(DRAWN, [corner])
+    page.goto(server.address + "space/bennett.html#en")
+    assert said.inner_text() == "Distance and twist angle between the two axes of a link."
     page.goto(server.address + "space/winch_screw.html#en")
     assert page.locator('[data-panel="sizes"]').count() == 0
     page.set_viewport_size({"width": 1024, "height": 768})

@@ -29,7 +29,8 @@ import type { Spot } from "./model";
 import { type Drawn, Painter } from "./painter";
 
 const ARM = 26; // pixels of the axes in the corner
-const AXES: [Pair, Pair, Pair] = [24, 46, 68].map((down) => [44, down]) as [Pair, Pair, Pair]; // their origin, its room
+const CORNER: Pair = [44, 46]; // from a corner of the picture to their origin
+const CLEAR = 70; // pixels from there, across and down together
 const ROOM = 16; // pixels around the machine
 const FEW = 6; // bodies have names that stand in the picture
 const ELSEWHERE = 8; // places of a body at which its name may stand instead
@@ -72,6 +73,8 @@ export class Scene {
   /** What is kept in the picture, and whether below the buttons rather than beside them. */
   #places: Vector[] = [];
   #below = 0;
+  /** Where the axes stand. */
+  #corner = CORNER;
   /** From where it is seen obliquely: from where it is seen best, once that is known. */
   oblique: Pair = [OBLIQUE, LIFTS[0]!];
   #isKnown = false;
@@ -204,7 +207,28 @@ export class Scene {
     const cameras = this.#margins.map((room) => this.#fitted(room));
     this.#below = Number(cameras[0]!.distance >= cameras[1]!.distance);
     this.#camera = cameras[this.#below]!;
+    this.#corner = this.#free;
     this.draw();
+  }
+
+  /** The corner of the picture that the machine leaves to the axes, first the upper left one. */
+  get #free(): Pair {
+    const { clientHeight: high, clientWidth: wide } = this.element;
+    const view = projection(this.#camera, this.#wide);
+    const places = this.#places.map((at) => this.#pixel(view, at));
+    const [x, y] = CORNER;
+    const low = high - this.#hint.offsetHeight - y;
+    // what lies between places is as far along the diagonal as they are
+    const corners = [CORNER, [x, low] as Pair, [wide - x, low] as Pair].map((at) => ({
+      at,
+      room: places.reduce(
+        (least, [u, v]) =>
+          Math.min(least, (u - at[0]) * Math.sign(wide / 2 - at[0]) + (v - at[1]) * Math.sign(high / 2 - at[1])),
+        Infinity,
+      ),
+    }));
+    const [most] = [...corners].sort((one, other) => other.room - one.room);
+    return (corners.find(({ room }) => room > CLEAR) ?? most!).at;
   }
 
   /** From where its links are large, long, apart and not hidden, on the whole and at worst: as at first, unless that is
@@ -332,19 +356,24 @@ export class Scene {
     this.#over(view, poses, [right, up, near]);
   }
 
+  /** Where a place is on the picture, in pixels. */
+  #pixel(view: Float32Array, at: Vector): Pair {
+    const { clientHeight, clientWidth } = this.element;
+    const [x, y] = seen(view, at);
+    return [((x + 1) * clientWidth) / 2, ((1 - y) * clientHeight) / 2];
+  }
+
   /** Arrows of the drives, names of points, and the axes in the corner. */
   #over(view: Float32Array, poses: ArrayLike<number>[], [right, up, near]: [Vector, Vector, Vector]): void {
     const { clientWidth, clientHeight } = this.element;
     const size: Pair = [clientWidth, clientHeight];
     this.root.setAttribute("viewBox", `0 0 ${clientWidth} ${clientHeight}`);
-    const pixel = (at: Vector): Pair => {
-      const [x, y] = seen(view, at);
-      return [((x + 1) * clientWidth) / 2, ((1 - y) * clientHeight) / 2];
-    };
+    const pixel = (at: Vector) => this.#pixel(view, at);
     const parts: SVGElement[] = arrowsOf(this.machine, poses, near)
       .filter((_, drive) => drive === this.machine.active)
       .map((places) => headed(places.map(pixel)));
-    const named = AXES.map(([x, y]): Name => ({ text: "x y z", at: [x, y] })); // keeps clear of them
+    const [ox, oy] = this.#corner;
+    const named = [-22, 0, 22].map((down): Name => ({ text: "x y z", at: [ox, oy + down] })); // keeps clear of them
     for (const { link, at, name = this.#links[link] } of this.machine.spots) {
       const [px, py] = pixel(moved(poses[link]!, at));
       parts.push(svg("circle.spot", { cx: px, cy: py, r: 4.5 }));
@@ -362,7 +391,6 @@ export class Scene {
       }
     }
     parts.push(...this.#names(poses, pixel, named));
-    const [ox, oy] = AXES[1];
     ["x", "y", "z"].forEach((axis, k) => {
       const [dx, dy] = [ARM * right[k]!, -ARM * up[k]!];
       parts.push(svg("line", { class: `axis ${axis}`, x1: ox, y1: oy, x2: ox + dx, y2: oy + dy }));

@@ -283,8 +283,10 @@ export class SpaceView implements Driven {
       }));
       this.#sizes.show(sizes);
       const shown = data.resizable ? this.#resizing.element : this.#sizes.element;
-      const only = (key: "angle" | "distance") => data.sizes.every((each) => each[key] === null);
-      const said = (only("distance") && words.tilted) || (only("angle") && words.apart) || words.axes;
+      const without = (key: "angle" | "distance") => data.sizes.filter((each) => each[key] === null).length;
+      const all = data.sizes.length;
+      const some = without("angle") ? words.mixed : words.axes;
+      const said = (without("distance") === all && words.tilted) || (without("angle") === all && words.apart) || some;
       panels.push(panelOf("sizes", t("Sizes"), true, shown, h("p.note", {}, said)));
     }
     this.#resizing.arrange();
