@@ -207,7 +207,7 @@ export class Scene {
     const cameras = this.#margins.map((room) => this.#fitted(room));
     this.#below = Number(cameras[0]!.distance >= cameras[1]!.distance);
     this.#camera = cameras[this.#below]!;
-    this.#corner = this.#free;
+    if (!this.element.classList.contains("low")) this.#corner = this.#free; // where they are not shown
     this.draw();
   }
 

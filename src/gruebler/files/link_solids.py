@@ -104,13 +104,13 @@ def link_solids(
         for link in joint.links if number not in struts else ():
             hold = at
             cross = next((each for each in crosses if each.holds(number, link)), None)
-            away = None
-            if link == frame and not joint.pair.has_contours and (not wheeled or _is_outermost(at, at_frame)):
-                away = (
-                    at / np.linalg.norm(at)  # beyond all that goes round the axis
-                    if wheeled
-                    else _away(linkage, number, radius, () if spherical else (ground, at - middle))
-                )
+            away = (
+                None
+                if link != frame or joint.pair.has_contours or (wheeled and not _is_outermost(at, at_frame))
+                else at / np.linalg.norm(at)  # beyond all that goes round the axis
+                if wheeled
+                else _away(linkage, number, radius, () if spherical else (ground, at - middle))
+            )
             if joint.pair.has_contours:
                 index = joint.links.index(link)
                 wheel, hold = _wheel(linkage, number, index, radius, gears.get((number, index)))
@@ -123,9 +123,8 @@ def link_solids(
                 plane = (planes or {}).get(number, np.zeros((2, 3)))
                 solids[link] += _symbol(linkage, number, at, radius, ends, plane, outer=link == outer)
             holds[link].append(hold)
-            if away is not None:  # its foot stands as far below as if the fork were turned there
-                below = at + ((_reach(cross, radius) if cross else 0.0) + _POST * radius) * away
-                solids[link] += _foot(hold, (below - hold) @ away * away, radius)
+            if away is not None:
+                solids[link] += _foot(hold, at + (_reach(cross, radius) * away if cross else 0.0), away, radius)
     for cross in crosses:
         solids[cross.body or list(cross.arms)[-1]] += _spider(cross, radius)
     for number, strut in struts.items():
@@ -396,12 +395,11 @@ def _is_outermost(at: Reals, others: Sequence[Reals]) -> bool:
     return all(float(np.linalg.norm(other)) <= far + _SAME for other in on_ray)
 
 
-def _foot(at: Reals, post: Reals, r: float) -> Iterator[Solid]:
-    """What a bearing of the frame stands on: a post from where it is held, and a plate."""
-    away = post / np.linalg.norm(post)
+def _foot(at: Reals, level: Reals, away: Reals, r: float) -> Iterator[Solid]:
+    """What a bearing of the frame stands on: a post from where it is held, and a plate so far from a level."""
     u = np.cross(away, np.eye(3)[int(np.argmin(np.round(abs(away), 6)))])
     u /= np.linalg.norm(u)
-    foot = at + post
+    foot = at + ((level - at) @ away + _POST * r) * away
     yield cylinder_solid(at, foot, 0.8 * r, phase=0.02)
     yield box_solid(foot, np.stack([away, u, np.cross(away, u)], axis=1), (0.35 * r, 3.2 * r, 3.2 * r))
 
