@@ -31,6 +31,9 @@ const TYPED = "gruebler-typed"; // for the page that is loaded again
 const LEFT = "gruebler-left"; // what the address did not hold yet when the page was left, with this address
 const PATIENCE = 10_000; // ms, until a page appears without what its address names
 
+/** With the linkage, where the address does not hold it yet. */
+type Kept = Place & { shared?: Shared };
+
 export class App implements Page {
   readonly backend: Backend;
   readonly motion: MotionView;
@@ -102,7 +105,7 @@ export class App implements Page {
     }
     const addressed = this.#linkable && location.hash.length > 1;
     this.#unread = addressed; // until it is read
-    const place = history.state as Place | null; // that of a page which is loaded again, before it is written anew
+    const place = history.state as Kept | null; // that of a page which is loaded again, before it is written anew
     await drawn();
     this.motion.take(this.model.get("machine") as Model);
     await drawn();
@@ -116,7 +119,7 @@ export class App implements Page {
     }
     if (this.shown.plays && !addressed) this.motion.run();
     if (this.#linkable) {
-      const read = this.#read().then(() => this.#returnTo(place)); // its view, however late
+      const read = this.#read(place?.shared).then(() => this.#returnTo(place)); // its view, however late
       await Promise.race([read, new Promise((go) => setTimeout(go, PATIENCE))]);
       this.motion.forget();
       if (addressed) this.motion.recall();
@@ -185,8 +188,8 @@ export class App implements Page {
     }
     this.#arrangeHeader();
     if (fresh) view.arrange();
-    view.appeared?.();
     if (turned && this.#linkable) scrollTo(0, name === "motion" ? 0 : (this.#scrolled[name] ?? 0));
+    view.appeared?.();
   }
 
   /** A view, which is made when it is first wanted. */
@@ -222,8 +225,10 @@ export class App implements Page {
   #remember(view: string): void {
     if (!this.#linkable) return;
     clearTimeout(this.#writing);
-    history.replaceState(this.#placed(this.view), "", this.hash || null);
+    const shared = this.#written ? undefined : this.#shared(); // which its address does not hold yet
+    history.replaceState({ ...this.#placed(this.view), shared }, "", this.hash || null);
     history.pushState(this.#placed(view), "", this.hash || null);
+    if (shared) this.#write();
   }
 
   #placed(view: string): Place {
@@ -232,12 +237,13 @@ export class App implements Page {
 
   /** Back, or forth: the view, and the linkage if it was another one. */
   async #goneBack(event: PopStateEvent): Promise<void> {
-    if (location.hash !== this.hash) {
+    const place = event.state as Kept | null;
+    if (place?.shared || location.hash !== this.hash) {
       clearTimeout(this.#writing);
       this.#unread = location.hash.length > 1;
-      await this.#read();
+      await this.#read(place?.shared);
     }
-    this.#returnTo(event.state as Place | null);
+    this.#returnTo(place);
   }
 
   #returnTo(place: Place | null): void {
@@ -343,6 +349,11 @@ export class App implements Page {
     }
   }
 
+  move(): void {
+    this.#turnTo("motion");
+    this.motion.run();
+  }
+
   /** Show the structure of a text. */
   describe(text: string): void {
     this.#turnTo("structure");
@@ -355,6 +366,11 @@ export class App implements Page {
     if (this.#unread && !this.motion.undoable[0]) return;
     this.#unread = false;
     this.#written = false;
+    this.#write();
+  }
+
+  /** Let the address follow, a moment later. */
+  #write(): void {
     clearTimeout(this.#writing);
     this.#writing = setTimeout(() => void this.write(), 150);
   }
@@ -384,10 +400,10 @@ export class App implements Page {
     this.#written = true;
   }
 
-  async #read(): Promise<void> {
+  async #read(kept?: Shared): Promise<void> {
     let text = location.hash.slice(1);
     const left = stored<{ of: string; shared: Shared }>(LEFT);
-    const shared = left?.of === location.hash && left.shared;
+    const shared = kept ?? (left?.of === location.hash && left.shared);
     store(LEFT, null);
     if (!text && !shared) return;
     this.hash = location.hash;

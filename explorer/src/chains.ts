@@ -73,6 +73,12 @@ export class ChainList {
     [this.#links, this.mobility] = [links.length, drives.length || 1];
   }
 
+  /** The machine at hand; what was chosen beside another one is no longer shown. */
+  begin(own: Structure): void {
+    if (own.text !== this.own?.text) this.#other = null;
+    this.own = own;
+  }
+
   /** A structure is described, or there is none; the list turns to its size if it is the machine at hand or comes
    * from another view. */
   follow(found: Structure | null, leads: boolean): void {
@@ -141,7 +147,9 @@ export class ChainList {
       this.#unlisted() ||
       ((this.#links + this.mobility) % 2
         ? t("There is none with so few links.")
-        : t("There is none: by F = 3(n − 1) − 2g one of n and F is even, the other odd."))
+        : t(
+            "There is none of revolutes and sliders alone: by F = 3(n − 1) − 2g one of n and F is even, the other odd.",
+          ))
     );
   }
 

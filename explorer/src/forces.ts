@@ -393,7 +393,7 @@ export class Forces {
         plot(t("Drive speed"), found.speeds, `${unit}/s`),
       ];
     });
-    renew(told, ...this.#plots.map((plot) => plot.element), ...found.lines.map(noted));
+    renew(told, ...found.lines.map(noted), ...this.#plots.map((plot) => plot.element));
     transport.seek(0, found);
     transport.toggle();
   }

@@ -4,6 +4,7 @@ import { type Choice, chainPicture, inPlane, type Structure, typesOf } from "./c
 import { ChainList, listOf } from "./chains";
 import { savedDocument } from "./document";
 import { type Child, countOf, h, option, renew, thumbnail } from "./dom";
+import { softened } from "./header";
 import { currentLanguage, t } from "./language";
 import { chainText, type Model } from "./model";
 import type { Page, View } from "./view";
@@ -40,6 +41,8 @@ export class StructureView implements View {
   readonly #field = h("textarea", { spellcheck: false, "data-field": "chain" });
   #typing = 0;
   #asked = 0;
+  /** Whether another structure is on its way. */
+  #pending = false;
   readonly #page: Page;
 
   constructor(page: Page) {
@@ -58,7 +61,10 @@ export class StructureView implements View {
   appeared(): void {
     const { inSpace, shown } = this.#page;
     const own = inSpace?.text ?? chainText(shown);
-    if (own !== this.#own) void this.describe(own);
+    if (own !== this.#own) {
+      for (const scrolled of [this.element, window]) scrolled.scrollTo(0, 0);
+      void this.describe(own);
+    }
     this.#own = own;
   }
 
@@ -86,12 +92,13 @@ export class StructureView implements View {
   /** What is said of the chain before, while another one is asked for or what is typed is none. */
   #fade(on: boolean): void {
     for (const part of [...this.#detail.children, this.#shown, ...this.#go.children])
-      part.classList.toggle("asking", on || !!this.#error.textContent);
+      part.classList.toggle("asking", on || this.#pending || !!this.#error.textContent);
   }
 
   /** Show the structure of a text, which may come from another view. */
   async describe(text: string, elsewhere = false): Promise<void> {
     const number = ++this.#asked;
+    this.#pending = !!text;
     if (this.#field.value !== text) this.#field.value = text;
     if (!text) {
       this.text = text;
@@ -108,7 +115,7 @@ export class StructureView implements View {
         document: this.#sized(text),
       });
       const own = text === this.#own;
-      if (own) this.chains.own = found;
+      if (own) this.chains.begin(found);
       if (number !== this.#asked) return;
       // with the letters of the language, unless it is being typed
       if (this.#field.value === text && !elsewhere) this.#field.value = found.read ?? text;
@@ -129,6 +136,7 @@ export class StructureView implements View {
     }
     this.#field.setAttribute("aria-invalid", String(!!this.#error.textContent));
     this.#words.hidden = false;
+    this.#pending = false;
     this.#fade(this.chains.waiting);
   }
 
@@ -146,6 +154,7 @@ export class StructureView implements View {
     const before = this.#detail.matches(":focus-within") && top();
     const drawn = chainPicture(found, this.#joint, (joint) => this.#pick(joint));
     const { links, own, generic } = found;
+    const numbers = Object.entries(found.numbered);
     const lines = [...found.drives.split("\n"), ...found.lines.slice(1)].filter(Boolean);
     const moves = (mobility: number) => mobility > 0 && "good";
     const fact = (key: "counted" | "generic" | "own", name: string, mark?: string | false) =>
@@ -156,11 +165,7 @@ export class StructureView implements View {
         "div.chain-picture",
         {},
         drawn,
-        h(
-          "div.form.note",
-          {},
-          ...Object.entries(found.numbered).map(([number, name]) => h("span", {}, h("b", {}, number), `\u00a0${name}`)),
-        ),
+        h("div.form.note", {}, ...numbers.map(([number, name]) => h("span", {}, h("b", {}, number), `\u00a0${name}`))),
       ),
       typesOf(found.joints[this.#joint], (text) => void this.describe(text)),
       h(
@@ -182,6 +187,8 @@ export class StructureView implements View {
       this.#atFrame = !on;
       void this.describe(this.text);
     };
+    const numberOf = (frame: string) =>
+      numbers.flatMap(([number, name]) => (name === frame ? `${number}\u00a0` : [])).join();
     const elsewhere = found.anywhere
       ? h("span.note", {}, t("Drives at the frame alone do not fix the motion."))
       : option(t("also drives that are not at the frame"), !this.#atFrame, all, "elsewhere");
@@ -192,7 +199,7 @@ export class StructureView implements View {
         t("Frame"),
         [h("span.note", {}, t("Equivalent links are shown once."))],
         ...this.#cards("inversions", found.inversions, ({ frame }) => [
-          [h("b", {}, /^\d/.test(frame) ? `${t("Frame")} ${frame}` : frame)],
+          [h("b", {}, /^\d/.test(frame) ? `${t("Frame")} ${frame}` : softened(numberOf(frame) + frame))],
           frame === found.chosen,
         ]),
       ),
@@ -211,14 +218,18 @@ export class StructureView implements View {
         ]),
       ),
     );
+    // the machine at hand has sizes of its own
+    const isOwn = found.driver && this.chains.own?.driver === found.driver;
+    const finding = isOwn ? t("Find other dimensions") : t("Find dimensions and move it");
     renew(
       this.#go,
+      isOwn && h("button.key", { "data-act": "move", onclick: () => this.#page.move() }, t("Move it")),
       inPlane(found) && // of others no dimensions are found
         generic > 0 &&
         h(
-          "button.key",
+          isOwn ? "button.plain" : "button.key",
           { "data-act": "realise", onclick: () => void this.#realise() },
-          t("Find dimensions and move it"),
+          finding,
         ),
     );
     if (before !== false) for (const scrolled of [this.element, window]) scrolled.scrollBy(0, top() - before);

@@ -49,6 +49,8 @@ export interface Page {
   /** What is answered is opened, or the error said, unless the reader left or chose something else meanwhile; whether
    * it was opened. */
   choose<Answer>(request: Promise<Answer>, open: (answer: Answer) => void): Promise<boolean>;
+  /** Let the machine at hand move. */
+  move(): void;
   /** Show the structure of a text. */
   describe(text: string): void;
   /** A sentence for the reader, an error unless something is done; without a text the last one goes. */

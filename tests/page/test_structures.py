@@ -558,6 +558,34 @@ def test_the_button_that_finds_dimensions_is_in_sight_on_a_phone(tab, server):
     assert view.evaluate("document.documentElement.scrollWidth") == 390
 
 
+def test_the_machine_at_hand_moves_with_its_own_sizes_and_other_structures_need_some(tab, server):
+    page = tab().open(server.address)
+    view = page.page
+    page.machine("slidercrank")
+    sizes = "gruebler.motion.dragging.lengths().map((one) => one.value)"
+    before = view.evaluate(sizes)
+    view.click('[data-view="structure"]')
+    view.locator('[data-act="move"]').click()
+    assert view.evaluate("[gruebler.view, gruebler.motion.transport.player.playing]") == ["motion", True]
+    assert view.evaluate(sizes) == before
+    view.go_back()
+    page.until("gruebler.view === 'structure'")
+    # another drive is another mechanism, whose sizes are to be found
+    view.locator('[data-list="driven"] [aria-pressed="false"]').first.click()
+    view.locator('.key[data-act="realise"]').wait_for()
+    assert view.locator('[data-act="move"]').count() == 0
+    # what was chosen beside a machine goes with it, and the next one is read from its beginning
+    view.evaluate("gruebler.describe('R(1-2) R(2-3) R(3-4) R(4-5) R(5-6) R(6-1) R(1-4)')")
+    view.locator('[aria-pressed="true"][data-chain]').wait_for()
+    page.until("gruebler.views.structure.structure?.text.startsWith('R(1-2)')")
+    view.evaluate("gruebler.root.querySelector('[data-page=structure]').scrollTop = 200")
+    page.machine("e3_steph")
+    view.click('[data-view="structure"]')
+    view.locator('[data-act="move"]').wait_for()
+    assert view.evaluate("gruebler.root.querySelector('[data-page=structure]').scrollTop") == 0
+    assert view.locator("[data-chain] b", has_text="Chosen").count() == 0
+
+
 def test_links_are_called_by_the_names_of_the_machine():
     """What is read has the German names; the texts, which the page sends back, keep those of the catalog."""
     text = "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); frame=frame; drive=R(frame-crank)"
