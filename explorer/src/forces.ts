@@ -372,11 +372,6 @@ export class Forces {
     const { model } = linkage;
     const times = Float64Array.from(found.drives, (_, row) => row / found.rate);
     this.#fallen = shownOf(linkage, found, times);
-    // in one unit wherever it was let go
-    for (const kind of ["joints", "loads"] as const)
-      this.#fallen[kind].forEach((force, k) => {
-        force.unit = (this.#driven[kind][k] ?? this.#driven[kind][0]!).unit;
-      });
     this.#plots = model.drives.flatMap(({ turning }, k) => {
       const [unit, scale] = turning ? ["°", DEGREE] : [lengthUnit(model), 1];
       const its = this.#called.slice(k, k + 1);

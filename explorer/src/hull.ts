@@ -51,16 +51,10 @@ export function toHull(hull: readonly Pair[], x: number, y: number): number {
 }
 
 /** Of places so far from another, or twice as far, the one that is clearest of hulls, with some room at its sides. The
- * first of equals lies to the right and, where y grows upward, above, or in a given direction; with a negative distance
- * on the other side. The first half of these places is near. */
-export function clearAbout(
-  [x, y]: Pair,
-  far: number,
-  hulls: readonly (readonly Pair[])[],
-  room = 0,
-  toward?: number,
-): Pair {
-  const around = spotsAbout([x, y], far, room, toward);
+ * first of equals lies to the right and, where y grows upward, above; with a negative distance on the other side. The
+ * first half of these places is near. */
+export function clearAbout([x, y]: Pair, far: number, hulls: readonly (readonly Pair[])[], room = 0): Pair {
+  const around = spotsAbout([x, y], far, room);
   const near = hulls.filter((hull) => toHull(hull, x, y) < 3 * Math.abs(far) + 2 * room); // others are no matter
   const clear = around.map(([u, v], k) => {
     const gaps = [-room, 0, room].flatMap((d) => near.map((hull) => toHull(hull, u + d, v)));
@@ -69,7 +63,7 @@ export function clearAbout(
   return around[clear.indexOf(Math.max(...clear))]!;
 }
 
-/** These places. */
+/** These places, the first of them there, or in a given direction. */
 export function spotsAbout([x, y]: Pair, far: number, room = 0, toward?: number): Pair[] {
   return Array.from({ length: 32 }, (_, k): Pair => {
     const aside = ((k & 1) - 0.5) * ((k + 1) & 14); // to both sides in turn

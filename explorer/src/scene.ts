@@ -6,8 +6,8 @@ import { put, renew, svg } from "./dom";
 import type { Dragging } from "./dragging";
 import type { Arrow } from "./forces";
 import { DRIVEN, DRIVING, placed, STANDING, SUPPORT } from "./ground";
-import { away, clearAbout, convexHull, pathThrough } from "./hull";
-import { clearOf, pastEdges } from "./labels";
+import { away, convexHull, pathThrough, spotsAbout, toHull } from "./hull";
+import { pastEdges } from "./labels";
 import { number as numberText } from "./language";
 import type { Legend } from "./legend";
 import type { Linkage } from "./linkage";
@@ -28,7 +28,8 @@ const EDGE = 6; // from the end of an arrow to that of the picture
 const BESIDE = 14; // pixels from the end of an arrow to its number
 const RING = 6; // the radius of a target
 const RAIL = 6; // half the width of a rail with its hatching, and some room
-const FEW = 100; // pixels of the height of a phone's picture for each number at an arrow
+const FEW = 5; // joint forces that have room for their numbers
+const CLEAR = 10; // pixels about a text in which nothing else is
 const POSES = 24; // of a cycle, in which names must have places
 
 export class Scene {
@@ -54,8 +55,9 @@ export class Scene {
   readonly #arrows = (["force", "force.load", "velocity", "acceleration"] as const).map((kind) =>
     svg(`path.${kind}`, {}),
   );
-  /** Beside arrows, how much they are. */
+  /** Beside arrows, how much they are, or their signs; which places they took. */
   readonly #values = svg("g", {});
+  readonly #beside: number[] = [];
   readonly #springs = svg("path.spring-path", {});
   readonly #rulers = svg("path.ruler", { fill: "var(--accent)" });
   readonly #circle = svg("circle.inflection", { r: 0 });
@@ -340,7 +342,10 @@ export class Scene {
   /** An arrow in pixels; of a moment its circle reaches so far to the right, if it is positive, or to the left. */
   #scaled(...[x, y, dx, dy, amount, unit, sign = null]: Arrow): Arrow {
     const long = unit.includes("N·m") ? this.#longest / 3 : this.#longest;
-    return [...this.viewport.screen(x, y), long * dx, -long * dy, amount, unit, sign];
+    const [left, top] = this.viewport.screen(x, y);
+    const [right, down] = [long * dx, -long * dy];
+    const off = sign ? RING / (Math.hypot(right, down) || 1) : 0; // that of a joint begins at the rim of its ring
+    return [left + off * right, top + off * down, right, down, amount, unit, sign];
   }
 
   /** Forces of joints, loads, velocities, accelerations; forces where the drive is, or at another value of it. */
@@ -370,38 +375,42 @@ export class Scene {
     return places.map(([x, y, dx, dy, ...more]): Arrow => [x, y, dx / most, dy / most, ...more]);
   }
 
-  /** Beside the longest arrow of each kind, and beside other forces where there is room, how much they are, on a phone a
-   * few of them; else where there is room the signs of forces, with which they are listed. */
+  /** Beside the tips of arrows: of a few joint forces, of loads, and of the longest of each other kind how much they are;
+   * of many joint forces their signs, with which they are listed. The longest texts choose first. */
   #putValues(kinds: Arrow[][], drawn: (readonly Pair[])[]): void {
     const texts: Element[] = [];
-    const { height, narrow } = this.viewport;
-    const most = narrow ? height / FEW : Infinity;
-    let told = 0;
-    for (const [k, all] of kinds.entries()) {
-      const largest = all
-        .filter((one) => arrow(...one))
-        .sort(([, , a, b], [, , c, d]) => Math.hypot(c, d) - Math.hypot(a, b));
-      for (const [n, one] of largest.entries()) {
-        const [x, y, dx, dy, amount, unit, sign] = one;
-        const [tip, up] = [x + dx, y + dy];
-        const few = n && (k > 1 || told > most || n > 2 * most); // no small ones in place of large ones
-        for (const said of [few ? "" : `${numberText(amount, 3)} ${unit}`.trim(), sign]) {
-          if (!said) continue;
-          const half = halfOf(said);
-          const less = n > 0 || k === 1 || narrow; // only where it is near and clear
-          const [left, top] = clearAbout([tip, up], BESIDE, drawn, half, Math.atan2(dy, dx));
-          const clear = (hull: readonly Pair[]) => [1, 2].every((part) => clearOf(hull, half / part, [left, top + 4]));
-          const off = away([tip, up], tip + Math.max(0, Math.abs(left - tip) - half), top);
-          const far = ([u, v, du, dv]: Arrow) => away([left, top], u + du, v + dv);
-          const nearer = (other: Arrow) => far(other) < far(one) - 8; // it would seem to be of that one
-          const astray = said !== sign && off > 1.5 * BESIDE;
-          if (less && (astray || !drawn.every(clear) || kinds.flat().some(nearer))) continue;
-          texts.push(svg("text", { "data-arrow": "", "text-anchor": "middle", x: left, y: top + 4 }, said));
-          drawn.push(lettersAt(left, top + 4, half));
-          told += Number(said !== sign);
-          break;
-        }
-      }
+    const tips = kinds.flat().filter((one) => arrow(...one));
+    const many = kinds[0]!.length > FEW;
+    const long = ([, , dx, dy]: Arrow) => Math.hypot(dx, dy);
+    const longest = kinds.slice(2).flatMap((all) => [...all].sort((one, other) => long(other) - long(one)).slice(0, 1));
+    for (const [n, one] of [...kinds[1]!, ...longest, ...kinds[0]!].entries()) {
+      const [x, y, dx, dy, amount, unit, sign] = one;
+      if (!tips.includes(one)) continue;
+      const said = (many && sign) || `${numberText(amount, 3)} ${unit}`.trim();
+      const half = halfOf(said);
+      const parts = Math.ceil(half / CLEAR);
+      const tip: Pair = [x + dx, y + dy];
+      const near = drawn.filter((hull) => toHull(hull, ...tip) < 3 * BESIDE + 2 * half);
+      const apart = (at: Pair, [u, v, du, dv]: Arrow) => away(at, u + du, v + dv);
+      const spots = spotsAbout(tip, BESIDE, half, Math.atan2(dy, dx));
+      const clear = spots.map((at, k) => {
+        const [left, top] = at;
+        let [lines, solid] = [CLEAR, CLEAR];
+        for (const hull of near)
+          for (let d = -half; d <= half; d += half / parts) {
+            const gap = toHull(hull, left + d, top);
+            if (hull[2]) solid = Math.min(solid, gap);
+            else lines = Math.min(lines, gap); // may lie below it if need be
+          }
+        const astray = tips.some((other) => apart(at, other) < apart(at, one) - CLEAR);
+        const same = k === this.#beside[n] ? 2 : 0; // it jumps less
+        return 4 * solid + lines + same - (k >> 4) * 4 - (astray ? 2 * CLEAR : 0);
+      });
+      const taken = clear.indexOf(Math.max(...clear));
+      this.#beside[n] = taken;
+      const [left, top] = spots[taken]!;
+      texts.push(svg("text", { "data-arrow": "", "text-anchor": "middle", x: left, y: top + 4 }, said));
+      drawn.push(lettersAt(left, top + 4, half));
     }
     this.#values.replaceChildren(...texts);
   }
@@ -438,7 +447,8 @@ function arrow(...[x, y, dx, dy, , unit]: Arrow): string {
   const [ux, uy] = [dx / length, dy / length];
   const [ex, ey] = [x + dx, y + dy];
   const at = (u: number, v: number) => `${u.toFixed(1)} ${v.toFixed(1)}`;
-  const left = at(ex - 8 * ux - 4 * uy, ey - 8 * uy + 4 * ux);
-  const right = at(ex - 8 * ux + 4 * uy, ey - 8 * uy - 4 * ux);
+  const [back, wide] = [Math.min(8, length), Math.min(4, length / 2)];
+  const left = at(ex - back * ux - wide * uy, ey - back * uy + wide * ux);
+  const right = at(ex - back * ux + wide * uy, ey - back * uy - wide * ux);
   return `M${at(x, y)}L${at(ex, ey)}M${left}L${at(ex, ey)}L${right}`;
 }

@@ -205,7 +205,7 @@ def _facts(
         (_named(asked, active, largest, lang), abs(effort[row]), unit, f"{at(row)} {braking(power[row])}".strip()),
         (effective.in_language(lang), root_mean_square, unit, ""),
         (translate("Largest drive power", lang), abs(most), "W", braking(most)),
-        (translate("Mean drive power", lang), mean, "W", ""),
+        (translate("Mean drive power", lang), mean, "W", ends),
         (translate("Drive work", lang), mean * seconds, "J", ends),
         (
             translate("Largest joint force", lang),
@@ -277,12 +277,16 @@ def _acting(run: InverseDynamics) -> list[dict[str, Any]]:
 
 
 def _give_units(records: list[dict[str, Any]]) -> None:
-    """Say in which unit forces are shown, all in one, and moments, and how much it is in N, or in N·m."""
+    """Say in which unit forces are shown, and moments, and how much it is in N, or in N·m.
+
+    All in one, but for those that stay below a tenth of it.
+    """
     for dimensions, unit in ((2, "N"), (1, "N·m")):
         alike = [record for record in records if len(record["parts"]) == dimensions]
         most = [float(np.nanmax(np.hypot.reduce(np.array(each["parts"], float)), initial=0.0)) for each in alike]
-        for record in alike:
-            record["unit"] = _usual_unit(most, unit)
+        usual = _usual_unit(most, unit)
+        for record, size in zip(alike, most, strict=True):
+            record["unit"] = unit_for(size, unit) if 0 < size < usual[1] / 10 else usual
 
 
 def _usual_unit(sizes: list[float], unit: str) -> tuple[str, float]:
