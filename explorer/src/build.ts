@@ -89,6 +89,7 @@ export class BuildView implements View, Plane, Drawn {
   readonly #hint = h("div.hint", {});
   readonly #buttons = h("div.tools", {});
   readonly #starters = h("div.starters", {});
+  readonly #instead = h("div.form", { "data-place": "instead" });
   readonly #side = h("div.side", {});
   private readonly mobility = new MobilityPanel(this);
   readonly #choice = h("div.form.choosing", {});
@@ -156,7 +157,7 @@ export class BuildView implements View, Plane, Drawn {
     const snap = option(t("Snap to joints, grid, angles and lengths"), this.#snapping, (on) => (this.#snapping = on));
     renew(
       this.#side,
-      h("section.panel", {}, h("h2", {}, t("Mobility")), this.mobility.element),
+      h("section.panel", {}, this.#instead, h("h2", {}, t("Mobility")), this.mobility.element),
       h("section.panel.options", {}, snap),
       this.#places,
     );
@@ -171,12 +172,14 @@ export class BuildView implements View, Plane, Drawn {
     this.#resize();
   }
 
-  /** What can be begun with, while the plane is empty; else what was opened after the last change. */
+  /** What can be begun with, over the empty plane; else beside it what was opened after the last change. */
   #offer(): void {
     const { drawing, page } = this;
     const empty = !drawing.knots.length;
     const none = !empty && (page.linkage === this.#seen || isOf(page.linkage, drawing));
-    renew(this.#starters, ...(none ? [] : starters(this, page.linkage, empty)));
+    const offered = none ? [] : starters(this, page.linkage, empty);
+    renew(this.#starters, ...(empty ? offered : []));
+    renew(this.#instead, ...(empty ? [] : offered));
   }
 
   begin(drawing: Drawing, known = false, tool: Tool = "move"): void {

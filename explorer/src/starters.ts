@@ -58,13 +58,13 @@ function sketch(drawing: Drawing): SVGElement {
   return svg("svg", { viewBox: `0 0 ${wide} ${high}`, width: WIDE, height: HIGH, "aria-hidden": "true" }, ...picture);
 }
 
-/** Along the upper edge: what Motion shows, or why it cannot be edited; on an empty plane other cards, too. */
+/** What Motion shows, or why it cannot be edited; on an empty plane other cards, too. */
 export function starters(view: Beginning, linkage: Linkage, empty: boolean): HTMLElement[] {
   const { drawing: found, other } = drawingOf(linkage);
   const { title } = linkage;
-  const name = title.replace(/^(?=.{29})(.{1,26}) .*/, "$1 …");
+  const name = empty ? title.replace(/^(?=.{29})(.{1,26}) .*/, "$1 …") : title;
   const cards: [string, string, Drawing | undefined][] = [
-    ["hand", t("Edit {name}", { name }), found],
+    ["hand", empty ? t("Edit {name}", { name }) : t("Edit {name} instead", { name }), found],
     ["four-bar", t("Four-bar linkage"), drawn(FOUR_BAR)],
     ["slider-crank", t("Slider-crank"), drawn(SLIDER_CRANK)],
     ["six-bar", t("Six-bar (Watt\u00a0II)"), drawn(SIX_BAR)],

@@ -1064,11 +1064,13 @@ def test_what_is_opened_beside_a_drawing_is_offered_and_guides_are_as_in_motion(
     view = plane.page
     opened = "async (id) => { gruebler.open(await gruebler.ask('open', { id })); gruebler.show('build'); }"
     view.click('[data-begin="four-bar"]')
-    assert not view.locator(".starters > *").count()
+    instead = view.locator('[data-place="instead"] > *')
+    assert not instead.count()
     view.evaluate(opened, "walschaerts_gear")
-    assert view.locator(".starters > *").all_inner_texts() == ["Edit Walschaerts valve gear"]
+    assert instead.all_inner_texts() == ["Edit Walschaerts valve gear instead"]
+    assert not view.locator(".starters > *").count()  # it covers nothing of what is drawn
     view.click('[data-begin="hand"]')
-    assert not view.locator(".starters > *").count()
+    assert not instead.count()
     assert not view.get_by_text("Last step").count()  # to another machine leads no step
     marks = ("rail", "rail-hatch", "block")
     assert [view.locator(f".drawing path.{one}").count() for one in marks] == [2, 2, 3]
@@ -1081,7 +1083,7 @@ def test_what_is_opened_beside_a_drawing_is_offered_and_guides_are_as_in_motion(
     view.keyboard.press("Enter")
     assert view.evaluate("gruebler.views.build.drawing.knots.find((knot) => 'slide' in knot).slide") == 10
     view.evaluate(opened, "cam_roller")
-    assert "cannot be edited here: no tool for joints like cam – roller yet" in view.locator(".starters").inner_text()
+    assert "cannot be edited here: no tool for joints like cam – roller yet" in instead.inner_text()
     view.evaluate("localStorage.clear()")
 
 
