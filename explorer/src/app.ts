@@ -403,7 +403,7 @@ export class App implements Page {
   async #read(kept?: Shared): Promise<void> {
     let text = location.hash.slice(1);
     const left = stored<{ of: string; shared: Shared }>(LEFT);
-    const shared = kept ?? (left?.of === location.hash && left.shared);
+    const shared = (left?.of === location.hash && left.shared) || kept; // the later one
     store(LEFT, null);
     if (!text && !shared) return;
     this.hash = location.hash;
