@@ -242,7 +242,7 @@ def test_a_link_made_there_opens_there_for_everyone(tab, address):
     links = page.page.locator('[data-page="structure"]').get_by_label("Links", exact=True)
     links.fill("4")
     links.press("Enter")
-    page.page.locator("[data-chain]", has_text="Yours: four-bar chain").wait_for()
+    page.page.locator("[data-chain]", has_text="Your machine: 4").wait_for()
     page.page.evaluate("gruebler.describe('R(1-2) R(2-3) R(3-4) R(4-1)')")
     page.until("gruebler.views.structure.structure?.text.startsWith('R(1-2)')")
     page.page.click('[data-list="driven"] .card')

@@ -23,11 +23,18 @@ function isFree({ at: [x, y], text }: Name, others: Name[], [width, height]: Pai
   );
 }
 
+/** Beside an edge of the picture, next to its place rather than about it. */
+function within<Each extends Name>(name: Each, wide: number): Each {
+  const [half, [x, y]] = [halfOf(name.text), name.at];
+  const inside = Math.min(Math.max(x, half + EDGE + 1), wide - half - EDGE - 1);
+  return { ...name, at: [Math.abs(inside - x) < half ? inside : x, y] };
+}
+
 /** The names at the first of their places that is free; one that has none is left out. */
 export function apart<Each extends Name>(names: Each[][], others: Name[], size: Pair): Each[] {
   const taken = [...others];
   return names.flatMap((places) => {
-    const free = places.find((name) => isFree(name, taken, size));
+    const free = places.map((name) => within(name, size[0])).find((name) => isFree(name, taken, size));
     if (free) taken.push(free);
     return free ?? [];
   });
