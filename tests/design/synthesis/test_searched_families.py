@@ -74,7 +74,7 @@ def best_of_evolution(positions, form, measure, least):
     ("count", "seed", "measure", "degrees"),
     [
         pytest.param(3, 0, "range-transmission", 0, marks=pytest.mark.slow),
-        (3, 0, "size", 40),
+        pytest.param(3, 0, "size", 40, marks=pytest.mark.slow),
         pytest.param(3, 1, "near-pivots", 52, marks=pytest.mark.slow),
         pytest.param(2, 0, "range-transmission", 0, marks=pytest.mark.slow),
         (2, 0, "size-ratio", 55),
@@ -133,7 +133,7 @@ POINTS, TIMES = [(0, 0), (1, 0.4), (2, 0.2), (2.5, -0.5)], np.radians([0, 40, 90
         pytest.param(3, "near-pivots", 40, marks=pytest.mark.slow),
         pytest.param(4, "range-transmission", 0, marks=pytest.mark.slow),
         (4, "near-pivots", 40),
-        (4, "size", 40),
+        pytest.param(4, "size", 40, marks=pytest.mark.slow),
     ],
 )
 def test_linkages_of_timed_points_are_the_best_by_what_is_asked_for(count, measure, degrees):

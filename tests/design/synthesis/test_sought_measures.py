@@ -200,7 +200,7 @@ def test_the_table_names_the_distance(tmp_path, capsys):
     assert first["pivot_distance"] < 1e-6
 
 
-@pytest.mark.parametrize("pairs", [5, 8])
+@pytest.mark.parametrize("pairs", [pytest.param(5, marks=pytest.mark.slow), 8])
 def test_what_a_slider_travels_counts_as_a_length_of_linkages_that_follow_a_function(pairs):
     """Of optima and of least squares, too: one ten times as long as its way is not said to have a ratio of 1.2."""
     law = FunctionLaw("log10(x)", interval=(1, 2), input_swing=np.radians(60), output_swing=10.0)
