@@ -233,7 +233,7 @@ def test_a_platform_that_only_shifts_is_said_to_shift(tmp_path, chromium):
         slider.fill("0.2")
     linkage = entry("delta").placed()
     pose = move(linkage, [np.zeros(3), np.full(3, 0.2)]).poses[0, -1, linkage.mechanism.chain.index("platform")]
-    value = known(page, "platform: shifted from the reference pose")
+    value = known(page, "platform: shift from the reference pose")
     assert abs(number_in(value)) == pytest.approx(np.linalg.norm(pose[:3, 3]), rel=1e-3)
     assert errors == []
     browser.close()
@@ -812,7 +812,7 @@ def test_outputs_are_told_with_sign_and_full_turns(server, chromium):
         drive_to(page, str(degrees))
         bent = math.degrees(math.atan(math.tan(math.radians(degrees)) / math.cos(math.radians(30))))
         wanted = bent + 180 * round((degrees - bent) / 180)
-        assert number_in(read_off(page)["output: turned from the reference pose"]) == pytest.approx(wanted, rel=6e-4)
+        assert number_in(read_off(page)["output: turn from the reference pose"]) == pytest.approx(wanted, rel=6e-4)
 
     page.goto(server.address + "space/winch_screw.html#en")
     page.get_by_role("button", name="Pause").click()
@@ -822,7 +822,7 @@ def test_outputs_are_told_with_sign_and_full_turns(server, chromium):
     assert read_off(page)["nut: travel"] == "12 mm"
     drive_to(page, "100")
     facts = read_off(page)
-    assert number_in(facts["nut: shifted from the reference pose"]) == pytest.approx(-12 * 100 / 360, abs=1e-3)
+    assert number_in(facts["nut: shift from the reference pose"]) == pytest.approx(-12 * 100 / 360, abs=1e-3)
     assert number_in(facts["Transfer function s′"]) == pytest.approx(-12 / (2 * math.pi), abs=1e-3)
     slope = page.locator(".plot").nth(1)
     heights = heights_of(slope)
@@ -834,7 +834,7 @@ def test_outputs_are_told_with_sign_and_full_turns(server, chromium):
     page.get_by_role("button", name="Pause").click()
     assert page.locator(".stage path.driven").count() == 1  # that of the other drive lies behind bodies, on the canvas
     carrier, sun = page.locator('[data-panel="drives"] input').all()
-    name = "sun\xa02: turned from the reference pose"
+    name = "sun\xa02: turn from the reference pose"
     links = page.locator('[data-panel="links"]')
     before = links.bounding_box()["y"]
     assert "Transfer function ψ′" in read_off(page)  # its row is there while the plots are made
@@ -880,9 +880,9 @@ def test_a_link_that_turns_about_no_axis_has_a_total_turn_without_a_kink(server,
     ends = []
     for degrees in (-20, 40):
         drive_to(page, str(degrees))
-        ends.append(number_in(known(page, "platform: shifted from the reference pose")))
+        ends.append(number_in(known(page, "platform: shift from the reference pose")))
     drive_to(page, "-0.3")  # nearer to the reference pose than the rows of the plot
-    assert number_in(read_off(page)["platform: shifted from the reference pose"]) < 0
+    assert number_in(read_off(page)["platform: shift from the reference pose"]) < 0
     delta = entry("delta").placed()
     platform = delta.mechanism.chain.index("platform")
     reached = [move(delta, [np.zeros(3), [math.radians(v), 0, 0]]).poses[0, -1, platform, :3, 3] for v in (-20, 40)]
@@ -892,7 +892,7 @@ def test_a_link_that_turns_about_no_axis_has_a_total_turn_without_a_kink(server,
     page.goto(server.address + "space/schatz.html#de")
     page.get_by_role("button", name="Anhalten").click()
     drive_to(page, "359,9")
-    assert float(read_off(page)["Behälter: Gesamtdrehung gegen die Bezugslage"].replace(",", ".").rstrip("°")) > 350
+    assert float(read_off(page)["Behälter: Gesamtdrehung aus der Bezugslage"].replace(",", ".").rstrip("°")) > 350
     assert errors == []
     browser.close()
 

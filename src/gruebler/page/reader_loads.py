@@ -24,13 +24,9 @@ from gruebler.structure.chain.pairs import Alphabet
 
 _POINT_MASSES = message("There are further masses at {places}.")
 _FROM_CATALOG = message("Masses as in the catalog.")
-_STEEL = message(
-    "Steel, bars {wide:n} mm × {thick:n} mm to each joint, sliders {wide:n} mm long, wheels {thick:n} mm thick: "
-    "sizes that go with the longest link."
-)
 _ASSUMED = message(
     "Assumed masses: steel, bars {wide:n} mm × {thick:n} mm to each joint, sliders {wide:n} mm long, "
-    "wheels {thick:n} mm thick: sizes that go with the longest link."
+    "wheels {thick:n} mm thick, in proportion to the longest link."
 )
 _BY_FORMULA = message("changes by a formula of {names}")
 _BY_CURVE = message("changes by a curve over {names}")
@@ -217,7 +213,7 @@ def origin_of_masses(linkage: Linkage, asked: LoadedLinkage, masses: list[float]
     assumed = asked.bars == "steel" and not asked.masses
     if assumed or not any(masses):
         wide = _assumed_width(linkage)
-        return (_ASSUMED if any(masses) else _STEEL).filled(wide=wide, thick=wide / _FLAT)
+        return _ASSUMED.filled(wide=wide, thick=wide / _FLAT)
     return message("") if asked.masses or asked.document.get("loads") else _FROM_CATALOG
 
 
