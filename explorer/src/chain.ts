@@ -110,8 +110,13 @@ export function chainPicture(found: Structure, joint: number, pick: (joint: numb
   return drawn;
 }
 
-/** The types of a joint, of which one is chosen. */
-export function typesOf(joint: Structure["joints"][number] | undefined, choose: (text: string) => void): HTMLElement {
+/** The types of a joint, of which one is chosen; without one, what those of the chain are called. */
+export function typesOf({ joints }: Structure, number: number, choose: (text: string) => void): HTMLElement {
+  const joint = joints[number];
+  const own = new Map(
+    joints.flatMap(({ types }) => types.filter(({ chosen }) => chosen).map(({ name, symbol }) => [symbol, name])),
+  );
+  const told = [...own].map((type) => type.join("\u00a0"));
   return joint
     ? h(
         "div",
@@ -133,5 +138,5 @@ export function typesOf(joint: Structure["joints"][number] | undefined, choose: 
           ),
         ),
       )
-    : h("p.note", {}, t("Choose a joint to change its type."));
+    : h("p.note", {}, `${told.join(", ")}. `, t("Choose a joint to change its type."));
 }

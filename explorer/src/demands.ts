@@ -25,7 +25,7 @@ export class Demands {
       [0, 1].map((axis) => far(...points.map((row) => row[axis]!)) + (k ? 1 : -1) * reach),
     ) as [Pair, Pair];
     const across = (this.#typed.reach || curve ? 1 : FAR) * Math.hypot(high[0] - low[0], high[1] - low[1]);
-    this.#length?.setAttribute("placeholder", points[1] ? String(+across.toPrecision(3)) : "∞");
+    this.#length?.setAttribute("placeholder", points[1] ? String(+across.toPrecision(3)) : t("any"));
     return this.#typed.reach && points.length ? [low, [high[0], low[1]], high, [low[0], high[1]]] : [];
   }
 
@@ -50,9 +50,9 @@ export class Demands {
       });
       return [h("label", { for: key }, text), input, unit] as const;
     };
-    const longest = field(LONGEST, t("longest link at most"), "mm", 1e9);
+    const longest = field(LONGEST, t("maximum link length"), "mm", 1e9);
     this.#length = longest[1];
-    const least = way ? t("least transmission angle between targets") : t("transmission angle at least");
+    const least = way ? t("minimum transmission angle between targets") : t("minimum transmission angle");
     const order = h("input", {
       value: this.order,
       "aria-label": t("Order of the targets"),
@@ -76,7 +76,16 @@ export class Demands {
         {},
         ...field("least", least, "°", 90),
         ...(places
-          ? [...field("reach", t("fixed pivots outside targets at most"), "mm", 1e9, String(curve || "∞")), ...longest]
+          ? [
+              ...field(
+                "reach",
+                t("margin around targets for fixed pivots"),
+                "mm",
+                1e9,
+                curve ? String(curve) : t("any"),
+              ),
+              ...longest,
+            ]
           : []),
       ),
       places &&

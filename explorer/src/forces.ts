@@ -14,6 +14,7 @@ import type { PlaneTransport } from "./planetransport";
 import { Plot } from "./plot";
 import { Polar, type Vectors, vectorAt } from "./polar";
 import { type Pair, place } from "./rows";
+import { tool } from "./shell";
 import type { Column } from "./table";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
@@ -117,7 +118,6 @@ export class Forces {
   #timer = 0;
   /** How long it moves freely, in seconds. */
   #until = 2;
-  /** Whether the next forces are brought to sight. */
   #brings = false;
   readonly #view: Loaded;
   readonly #opened: () => boolean;
@@ -181,6 +181,11 @@ export class Forces {
     return drives[1] ? drives.map((_, k) => linkage.driveName(k)) : [];
   }
 
+  /** Bring what is answered next to sight. */
+  bring(): void {
+    this.#brings = true;
+  }
+
   /** What was typed and is not in the document yet. */
   get typed(): Change {
     return this.#form.change;
@@ -228,11 +233,16 @@ export class Forces {
     this.#plots = [];
     this.#driven = this.#fallen = NOTHING;
     const assume = () => {
-      this.#brings = true;
+      this.bring();
       this.#form.put({ bars: "steel" });
     };
-    const button = masses.some(Boolean) ? null : action("assume", assume, t("Assume masses"));
-    const offer = h("div.form", {}, button, h("p", {}, unbroken(origin)));
+    const given = masses.some(Boolean);
+    const offer = h(
+      "div",
+      {},
+      noted(origin),
+      !given && h("div.form", {}, action("assume", assume, t("Assume masses"))),
+    );
     const notes = lines.map(noted);
     if (!drives) {
       renew(this.#result, ...notes, offer);
@@ -260,42 +270,32 @@ export class Forces {
         this.#until = seconds;
       };
       const until = this.#form.row("until", t("Duration"), "s", this.#until, last, LASTS);
-      const play = () => transport.playAt(speed!);
+      const play = tool("play", t("Play at this speed"), () => transport.playAt(speed!));
+      const beside = this.#form.rate.lastElementChild as HTMLElement;
+      beside.style.cssText = "display: flex; align-items: center";
+      beside.append(play);
       this.#release = action("fall", onclick, t("Release the drive: free motion"));
       const sizes = joints.map(({ most }) => most);
       this.#joint.selectedIndex = chosen < 0 ? sizes.indexOf(Math.max(...sizes)) : chosen;
       const loads = acting[0] ? signed("force.load", t("Loads")) : [];
       this.#facts.show(facts);
-      renew(
-        this.#ofDrive,
-        this.#form.rate,
-        this.#facts.element,
-        this.#plot.element,
-        h("div.form", {}, action("play", play, t("Play at this speed"))),
-      );
+      renew(this.#ofDrive, this.#form.rate, this.#facts.element, this.#plot.element, h("h3", {}, t("Free motion")));
       renew(
         this.#result,
         this.#ofDrive,
-        h(
-          "p.note",
-          {},
-          ...signed("force", t("Joint forces in this pose")),
-          " ",
-          ...loads,
-          " ",
-          t("(length\u00a0∝\u00a0√F)"),
-        ),
+        h("div.rows", {}, ...until),
+        h("div.form", {}, this.#release),
+        this.#ofFall,
+        h("h3", {}, t("Joint forces in this pose")),
+        h("p.note", {}, ...signed("force", t("twice as long: four times the force")), " ", ...loads),
         this.#joints.element,
         h("label.options", {}, t("Force vector"), this.#joint),
         this.#polar.element,
         ...notes,
-        h("div.rows", {}, ...until),
-        h("div.form", {}, this.#release),
-        this.#ofFall,
       );
-      if (this.#brings) this.element.closest("details")!.scrollIntoView();
-      this.#brings = false;
     }
+    if (this.#brings) this.element.closest("details")!.scrollIntoView();
+    this.#brings = false;
     this.at(transport.drive);
     this.#view.redraw();
   }
@@ -324,9 +324,8 @@ export class Forces {
     if (of !== this.#of) {
       this.#of = of;
       this.#showJoint();
-      // of a free motion first
       this.#ofDrive.hidden = !!falling;
-      this.#result[falling ? "prepend" : "append"](this.#ofFall);
+      for (const course of this.#ofFall.querySelectorAll("details")) course.open = !!falling;
       this.#release.textContent = falling ? t("Release again") : t("Release the drive: free motion");
     }
     this.#joints.show(
@@ -388,7 +387,9 @@ export class Forces {
         plot(t("Drive speed"), found.speeds, `${unit}/s`),
       ];
     });
-    renew(told, ...found.lines.map(noted), ...this.#plots.map((plot) => plot.element));
+    const course = h("summary", {}, t("Course of the free motion"));
+    const plots = this.#plots.map((plot) => plot.element);
+    renew(told, h("details.words", { open: true }, course, ...found.lines.map(noted), ...plots));
     transport.seek(0, found);
     transport.toggle();
   }

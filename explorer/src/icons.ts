@@ -22,6 +22,7 @@ const PATHS = {
   dyad: "M3 16L9 6.5M11 6.5L17 16M8.5 5a1 1 0 103 0 1 1 0 10-3 0",
   cylinder: "M2 7h9v6H2zM11 10h7",
   gears: "M2 11a1 1 0 108 0 1 1 0 10-8 0M10 11a1 1 0 107 0 1 1 0 10-7 0",
+  play: "M6 4l9 6-9 6z",
   angle: "M17 16H3L13 4M11 16a8 8 0 0 0-2.8-6",
 } as const;
 

@@ -27,6 +27,11 @@ export function keeper(view: Measured, kind: Keep[0], knots: readonly number[], 
   return button;
 }
 
+/** A number alone is no name. */
+function linkNamed(link: string): string {
+  return /^\d/.test(link) ? t("link {link}", { link }) : spaced(link);
+}
+
 /** Lengths and directions of slides. */
 export function lengthList(view: Measured): HTMLElement[] {
   const { drawing } = view;
@@ -67,13 +72,13 @@ export function lengthList(view: Measured): HTMLElement[] {
     const locks = (["length", "direction"] as const).map((kind) => keeper(view, kind, span.ends, name));
     const set = (typed: number) => withLength(drawing, span, typed);
     const value = lengthOf(drawing, span.ends);
-    return row(name, spaced(span.link), [value, unitOf(drawing)], set, locks);
+    return row(name, linkNamed(span.link), [value, unitOf(drawing)], set, locks);
   });
   const directions = drawing.knots.flatMap(({ links, slide }, k) => {
     if (slide === undefined) return [];
     const set = (typed: number) => (Number.isFinite(typed) ? turned(drawing, k, typed) : null);
     const name = `φ\u00a0${knotName(drawing, k)}`;
-    return row(name, spaced(links.find((link) => link !== drawing.frame)!), [slide, "°"], set, []);
+    return row(name, linkNamed(links.find((link) => link !== drawing.frame)!), [slide, "°"], set, []);
   });
   const rows = [...lengths, ...directions];
   return rows[0] ? [h("h2", {}, t("Sizes")), h("div.rows.sizes", {}, ...rows)] : [];

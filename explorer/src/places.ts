@@ -42,6 +42,13 @@ export function placesPanel(
   };
   const file = h("input", { type: "file", accept: "image/*", hidden: true, onchange: read });
   return [
+    file,
+    h(
+      "div.form",
+      {},
+      action("picture", () => file.click(), picture ? t("Replace picture") : t("Background picture")),
+      knots[0] ? action("empty", () => view.empty(), t("Clear drawing")) : "",
+    ),
     ...(rows.length
       ? [
           rowsTable(
@@ -74,12 +81,5 @@ export function placesPanel(
           option(t("Keep it in the document"), !!keeps, (on) => view.change({ ...drawing, keeps: on }), "keeps"),
         ]
       : []),
-    file,
-    h(
-      "div.form",
-      {},
-      action("picture", () => file.click(), picture ? t("Replace picture") : t("Background picture")),
-      knots[0] ? action("empty", () => view.empty(), t("Clear drawing")) : "",
-    ),
   ];
 }

@@ -184,6 +184,13 @@ function alongWay(way: number): string {
   return `rotate(${-lies})scale(${lies === way ? 1 : -1} 1)`;
 }
 
+/** The radius of a joint in pixels, smaller where another one is near. */
+function ringOfPin({ knots }: Drawing, viewport: Viewport, k: number): number {
+  const [x, y] = viewport.screen(...knots[k]!.at);
+  const gaps = knots.map(({ at }) => away(viewport.screen(...at), x, y)).filter((gap) => gap > 1);
+  return Math.max(2.5, Math.min(5, ...gaps.map((gap) => gap / 3)));
+}
+
 function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair): SVGElement {
   const knot = drawing.knots[k]!;
   const { between, links, slide } = knot;
@@ -206,7 +213,7 @@ function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair):
     element.append(svg("g", { transform: alongWay(slide) }, ...lines, svg("path.block", { d: BOX })));
   } else {
     if (ground) element.append(svg("path.support", { d: SUPPORT }));
-    element.append(svg("circle.joint", { r: links[1] || ground ? 5 : 3.2 }));
+    element.append(svg("circle.joint", { r: links[1] || ground ? ringOfPin(drawing, viewport, k) : 3.2 }));
   }
   if (driven && !isCylinder(knot))
     element.append(svg("path.driven", way === null ? { d: DRIVEN } : { d: PUSHED, transform: alongWay(way) }));

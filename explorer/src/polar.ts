@@ -39,6 +39,8 @@ export class Polar {
     put(this.element, { "aria-label": t("Largest {value}", { value: `${number(most)} ${unit}` }) });
     this.element.replaceChildren(
       svg("path.mesh", { d: "M-140 0H140M0 -96V96" }),
+      svg("text", { "data-axis": "", x: 122, y: -5 }, "Fx"),
+      svg("text", { "data-axis": "", x: 5, y: -88 }, "Fy"),
       ...rings.map((k) => svg("circle.mesh", { fill: "none", r: apart * k })),
       svg("path.curve.force", {
         d: lineThrough(

@@ -393,20 +393,27 @@ export class Scene {
       const near = drawn.filter((hull) => toHull(hull, ...tip) < 3 * BESIDE + 2 * half);
       const apart = (at: Pair, [u, v, du, dv]: Arrow) => away(at, u + du, v + dv);
       const spots = spotsAbout(tip, BESIDE, half, Math.atan2(dy, dx));
-      const clear = spots.map((at, k) => {
+      const before = this.#beside[n] ?? 0;
+      let [taken, most] = [before, -Infinity];
+      for (const k of [before, ...spots.keys()]) {
+        const at = spots[k]!;
         const [left, top] = at;
+        const astray = tips.some((other) => apart(at, other) < apart(at, one) - CLEAR);
+        const same = k === before ? 2 : 0; // it jumps less
+        const more = same - (k >> 4) * 4 - (astray ? 2 * CLEAR : 0);
         let [lines, solid] = [CLEAR, CLEAR];
-        for (const hull of near)
+        for (const hull of near) {
           for (let d = -half; d <= half; d += half / parts) {
             const gap = toHull(hull, left + d, top);
             if (hull[2]) solid = Math.min(solid, gap);
             else lines = Math.min(lines, gap); // may lie below it if need be
           }
-        const astray = tips.some((other) => apart(at, other) < apart(at, one) - CLEAR);
-        const same = k === this.#beside[n] ? 2 : 0; // it jumps less
-        return 4 * solid + lines + same - (k >> 4) * 4 - (astray ? 2 * CLEAR : 0);
-      });
-      const taken = clear.indexOf(Math.max(...clear));
+          if (4 * solid + lines + more <= most) break;
+        }
+        const value = 4 * solid + lines + more;
+        if (value > most) [taken, most] = [k, value];
+        if (most >= 5 * CLEAR) break; // none is better
+      }
       this.#beside[n] = taken;
       const [left, top] = spots[taken]!;
       texts.push(svg("text", { "data-arrow": "", "text-anchor": "middle", x: left, y: top + 4 }, said));

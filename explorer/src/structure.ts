@@ -33,7 +33,7 @@ export class StructureView implements View {
   readonly #whole = new Set<string>();
   #atFrame = true;
   private readonly chains: ChainList;
-  readonly #shown = h("div.described", {});
+  readonly #shown = h("div.described.said", {});
   readonly #detail = h("div.contents", {});
   readonly #go = h("div.form.go", {});
   readonly #error = h("p.error", { role: "alert" });
@@ -41,8 +41,9 @@ export class StructureView implements View {
   readonly #field = h("textarea", { spellcheck: false, "data-field": "chain" });
   #typing = 0;
   #asked = 0;
-  /** Whether another structure is on its way. */
+  /** Whether another structure is on its way, and whether it is that of another machine at hand. */
   #pending = false;
+  #turns = false;
   readonly #page: Page;
 
   constructor(page: Page) {
@@ -62,6 +63,7 @@ export class StructureView implements View {
     const { inSpace, shown } = this.#page;
     const own = inSpace?.text ?? chainText(shown);
     if (own !== this.#own) {
+      this.#turns = true;
       for (const scrolled of [this.element, window]) scrolled.scrollTo(0, 0);
       void this.describe(own);
     }
@@ -71,6 +73,7 @@ export class StructureView implements View {
   arrange(): void {
     this.#field.setAttribute("aria-label", t("The chain as text"));
     renew(this.#words, h("summary", {}, t("The chain as text")), this.#field);
+    const made = [this.#shown, this.#words, this.#error];
     renew(
       this.element,
       h(
@@ -80,8 +83,10 @@ export class StructureView implements View {
           "div.steps",
           {},
           step(1, t("Chain"), [], this.chains.element),
-          this.#detail,
-          h("div.made.contents", {}, this.#shown, this.#words, this.#error, this.#go),
+          // on a phone the chain is seen before its frames
+          ...(window.innerWidth > 820
+            ? [this.#detail, h("div.made.contents", {}, ...made, this.#go)]
+            : [...made, this.#detail, this.#go]),
         ),
       ),
     );
@@ -93,6 +98,7 @@ export class StructureView implements View {
   #fade(on: boolean): void {
     for (const part of [...this.#detail.children, this.#shown, ...this.#go.children])
       part.classList.toggle("asking", on || this.#pending || !!this.#error.textContent);
+    this.chains.element.classList.toggle("asking", this.#turns);
   }
 
   /** Show the structure of a text, which may come from another view. */
@@ -116,6 +122,7 @@ export class StructureView implements View {
       });
       const own = text === this.#own;
       if (own) this.chains.begin(found);
+      this.#turns &&= !own;
       if (number !== this.#asked) return;
       // with the letters of the language, unless it is being typed
       if (this.#field.value === text && !elsewhere) this.#field.value = found.read ?? text;
@@ -126,6 +133,7 @@ export class StructureView implements View {
       this.chains.follow(found, own || elsewhere);
     } catch (error) {
       if (number !== this.#asked) return;
+      this.#turns = false;
       this.chains.follow(null, false);
       const said = (error as Error).message;
       this.#words.open = true;
@@ -155,7 +163,9 @@ export class StructureView implements View {
     const drawn = chainPicture(found, this.#joint, (joint) => this.#pick(joint));
     const { links, own, generic } = found;
     const numbers = Object.entries(found.numbered);
-    const lines = [...found.drives.split("\n"), ...found.lines.slice(1)].filter(Boolean);
+    // that one drive fixes one freedom says the verdict
+    const isSaid = found.verdict === "constrained" && own == null && found.driver;
+    const lines = [...(isSaid ? [] : found.drives.split("\n")), ...found.lines.slice(1)].filter(Boolean);
     const moves = (mobility: number) => mobility > 0 && "good";
     const fact = (key: "counted" | "generic" | "own", name: string, mark?: string | false) =>
       h("div", {}, h("dt", {}, name), h("dd", { "data-fact": key, class: mark }, `F = ${found[key]}`));
@@ -167,12 +177,12 @@ export class StructureView implements View {
         drawn,
         h("div.form.note", {}, ...numbers.map(([number, name]) => h("span", {}, h("b", {}, number), `\u00a0${name}`))),
       ),
-      typesOf(found.joints[this.#joint], (text) => void this.describe(text)),
+      typesOf(found, this.#joint, (text) => void this.describe(text)),
       h(
         "dl.facts",
         {},
-        fact("counted", t("Counted")),
-        fact("generic", t("Generic"), generic === found.counted ? moves(generic) : "bad"),
+        fact("counted", t("By the count")),
+        fact("generic", t("Almost all sizes"), generic === found.counted ? moves(generic) : "bad"),
         own != null && fact("own", t("These sizes"), moves(own)),
       ),
       ...lines.map((line) => {

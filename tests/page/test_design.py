@@ -371,7 +371,7 @@ def test_the_transmission_angle_asked_for_says_where_it_holds(design):
     least = view.locator('label[for="least"]')
     for kind in ("points", "positions", "function"):
         view.click(f'[data-value="{kind}"]')
-        assert least.inner_text().startswith("least transmission angle between targets")
+        assert least.inner_text().startswith("minimum transmission angle between targets")
     view.click('[data-act="synthesise"]')
     view.locator('[data-list="designs"] .card:has-text("μ between targets")').first.wait_for(timeout=60_000)
     view.click(".designs summary")
@@ -449,7 +449,7 @@ def test_cards_tell_the_same_in_the_same_places_and_mark_the_best(tab, server):
         "all => all.map((one) => Math.round(one.getBoundingClientRect().right))"
     )
     assert len({*right}) == 1
-    for name, best in (("μ zwischen Vorgaben", max), ("Empfindlichkeit", min)):
+    for name, best in (("μ zwischen den Vorgaben", max), ("Empfindlichkeit", min)):
         numbers = [float(text.strip("≥ °").replace(",", ".")) for text in values_of(view, name)]
         marked = view.locator(".designs .card > span", has_text=name).locator("strong").all_text_contents()
         assert [float(text.strip("≥ °").replace(",", ".")) for text in marked] == [best(numbers)] * len(marked)

@@ -265,6 +265,19 @@ export class SpaceView implements Driven {
     const panels: HTMLElement[] = title === shortOf(title) ? [] : [h("h2.whole", {}, title)];
     const sign = h("p.note", {}, words.sign);
     if (measured) panels.push(panelOf("measures", t("Measures"), true, this.#facts.element, sign));
+    const { scene } = this;
+    const look = (name: string) => {
+      this.#view = name;
+      scene.look(...(VIEWS[name] ?? scene.oblique));
+    };
+    this.#views = choice(
+      words.view!,
+      ["oblique", ...Object.keys(VIEWS)].map((key) => [key, words[key]!]),
+      this.#view,
+      look,
+    );
+    this.#arrangeOptions();
+    panels.push(panelOf("show", t("Show"), true, this.#views, this.#options));
     const alone = words.alone ? [h("p.note", {}, words.alone)] : [];
     if (!linkage.drive) alone.push(h("p.note", {}, words.none), ...this.#driven());
     this.#sliders = data.motions.length > 1 ? data.motions.map((_, k) => this.#slider(k)) : [];
@@ -305,19 +318,6 @@ export class SpaceView implements Driven {
     panels.push(panelOf("links", t("Links"), true, h("div.chips", {}, ...this.#chips)));
     const open = this.#side.querySelector<HTMLDetailsElement>('[data-panel="joints"]')?.open ?? false;
     panels.push(panelOf("joints", words.joints!, open, h("p.note", {}, words.placed), this.#resizing.joints));
-    const { scene } = this;
-    const look = (name: string) => {
-      this.#view = name;
-      scene.look(...(VIEWS[name] ?? scene.oblique));
-    };
-    this.#views = choice(
-      words.view!,
-      ["oblique", ...Object.keys(VIEWS)].map((key) => [key, words[key]!]),
-      this.#view,
-      look,
-    );
-    this.#arrangeOptions();
-    panels.push(panelOf("show", t("Show"), true, this.#views, this.#options));
     return panels;
   }
 
