@@ -5,6 +5,7 @@ import { test } from "node:test";
 import { convexHull, toHull } from "../src/hull";
 import { clearSpot, halfOf, namePlace, nameSpots } from "../src/names";
 import type { Pair } from "../src/rows";
+import { apart } from "../src/space/bodynames";
 import { Viewport } from "../src/viewport";
 
 test("the name of a thin body stands beside its longest side, away from it", () => {
@@ -97,4 +98,14 @@ test("the name of a bar is nearer to it than to another, however sharp the angle
       assert.ok(toHull(bar, ...at) < toHull(other, ...at), `${degrees} degrees`);
     }
   }
+});
+
+test("a name beside an edge of a picture in space stands within it, one that is far out nowhere", () => {
+  const [text, size]: [string, Pair] = ["coupler", [400, 300]];
+  const half = halfOf(text);
+  const placed = (x: number) => apart([[{ text, at: [x, 100] }]], [], size).map(({ at }) => at);
+  const [[left, top]] = placed(10) as [Pair];
+  assert.ok(left > half && left < half + 20 && top === 100);
+  assert.deepEqual(placed(200), [[200, 100]]);
+  assert.deepEqual(placed(-2 * half), []);
 });

@@ -428,10 +428,13 @@ def test_torque_arrows_and_the_way_it_falls(tab, server, locale):
     assert before != page.page.evaluate(POSE) == paused
     slider.press("PageDown")
     turned = "((turns) => Math.atan2(turns[3], turns[2]) * 180 / Math.PI)(gruebler.motion.linkage.pose.turns)"
-    told = page.page.locator(f"{PANEL} .words .plot .read").first.text_content()
-    assert (page.page.evaluate(turned) - read_number(told) + 180) % 360 - 180 == pytest.approx(0, abs=0.06)
+    told = page.page.locator(f"{PANEL} .words[open] .plot .read").first
+    assert (page.page.evaluate(turned) - read_number(told.text_content()) + 180) % 360 - 180 == pytest.approx(
+        0, abs=0.06
+    )
     page.page.locator('[data-act="end"]').click()
-    assert (drives.first.is_visible(), page.page.evaluate(POSE)) == (True, before)
+    # the plots of the way have no cursor any more
+    assert (drives.first.is_visible(), page.page.evaluate(POSE), told.is_visible()) == (True, before, False)
     assert (joint.inner_text(), page.page.evaluate(marked)) == driven
     assert panels.first.get_attribute("data-panel") == "measures"
     assert "12/min" in page.page.locator(".transport .speed").inner_text()

@@ -556,6 +556,13 @@ def test_the_button_that_finds_dimensions_is_in_sight_on_a_phone(tab, server):
     box = view.locator('[data-act="realise"]').bounding_box()
     assert 422 < box["y"] < box["y"] + box["height"] <= 844
     assert view.evaluate("document.documentElement.scrollWidth") == 390
+    # chain, what is said of it, then its frames and drives
+    parts = (".chains", ".chain-picture", '[data-fact="generic"]', '[data-list="inversions"]', '[data-list="driven"]')
+    tops = [view.locator(part).first.bounding_box()["y"] for part in parts]
+    assert tops == sorted(tops)
+    assert (
+        view.locator(".described > p.note").first.inner_text() == "R\u00a0revolute. Choose a joint to change its type."
+    )
 
 
 def test_the_machine_at_hand_moves_with_its_own_sizes_and_other_structures_need_some(tab, server):
