@@ -119,7 +119,7 @@ export function typesOf({ joints }: Structure, number: number, choose: (text: st
   const told = [...own].map((type) => type.join("\u00a0"));
   return joint
     ? h(
-        "div",
+        "div.said",
         {},
         h("p.note", {}, t("Type of {joint}", { joint: joint.name })),
         h(

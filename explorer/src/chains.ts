@@ -86,7 +86,10 @@ export class ChainList {
     const wrong = this.element.querySelector('[aria-invalid="true"]');
     const typed = this.waiting || (!wrong && !this.#is(this.#given()));
     const turned = !typed && found && (leads || !this.#asked) && !(this.#is(placeOf(found)) && this.#fits(found));
-    if (turned) this.#turn(placeOf(found));
+    if (turned) {
+      this.#turn(placeOf(found));
+      this.#found = null; // those of another size are no choice here
+    }
     this.#chosen = found;
     const cards = [...this.#list.querySelectorAll<HTMLElement>("[data-of]")];
     for (const card of cards) card.setAttribute("aria-pressed", String(card.dataset.of === found?.code));
@@ -257,7 +260,10 @@ export class ChainList {
       const beside = [this.mobility - 1, this.mobility + 1].map((freedom): Size => [this.#links, freedom]);
       const keys = beside
         .filter((size) => (size[0] - size[1]) % 2 && !this.#unlisted(size))
-        .map((size) => h("button.plain", { onclick: () => this.#begin(size) }, `F = ${size[1]}`));
+        .map((size) => this.#way(size, `F = ${size[1]}`));
+      const links = this.mobility + 3; // of one loop
+      if (this.#links < links && !this.#unlisted([links, this.mobility]))
+        keys.push(this.#way([links, this.mobility], `${links} ${t("Links")}`));
       const told = h("div.form", {}, h("p.note", {}, this.#whyNone()), ...keys);
       return renew(this.#list, told, h("div.cards.few", {}, ...mine));
     }
@@ -273,7 +279,11 @@ export class ChainList {
       this.#all = true;
       this.#show();
     };
-    renew(this.#list, ...listOf("chains", cards, this.#all, more, rest ? total + cards.length - items.length : 0));
+    renew(this.#list, ...listOf("chains", cards, this.#all, more, rest ? total : 0));
+  }
+
+  #way(size: Size, text: string): HTMLElement {
+    return h("button.plain", { onclick: () => this.#begin(size) }, text);
   }
 
   /** Begin another list. */

@@ -13,6 +13,7 @@ const OFF = 30; // pixels from a bar to its line
 const HEAD = 8; // the length of an arrow
 const LEAST = 24; // pixels: what is shorter has no room for a line
 const MOST = 6; // of what is chosen
+const FEW = 2; // of a joint on a phone
 
 /** A length with its line, in pixels. */
 export interface Dimension {
@@ -41,11 +42,16 @@ export function dimensionsOf({ chosen, drawing, viewport }: Measured): Dimension
   const alone = (span: Span) => all.every((one) => one === span || one.link !== span.link);
   const jointed = (span: Span) => alone(span) || span.ends.every((k) => knots[k]!.links[1]);
   const wanted = all.filter((span) => {
-    if (link !== null) return span.link === link && jointed(span); // those of points only with these
+    if (link !== null) return span.link === link && (jointed(span) || !viewport.narrow);
+    // those of points only with these
     return span.link !== frame && span.ends.includes(knot ?? -1) && (jointed(span) || !knots[knot!]!.links[1]);
   });
-  const shown = [...new Set([...wanted.slice(0, MOST), ...(viewport.narrow ? [] : all.filter(held))])];
-  const middle = middleOf(knots.map(({ at }) => viewport.screen(...at)));
+  const shown = [
+    ...new Set([
+      ...wanted.slice(0, viewport.narrow && knot !== null ? FEW : MOST),
+      ...(viewport.narrow ? [] : all.filter(held)),
+    ]),
+  ];
   const taken: Segment[] = [];
   return shown.flatMap((span) => {
     const [p, q] = span.ends.map((k) => viewport.screen(...knots[k]!.at)) as [Pair, Pair];
@@ -90,10 +96,13 @@ export function dimensionsOf({ chosen, drawing, viewport }: Measured): Dimension
       const path = [...parts, head(a, 1), head(b, -1)].map(pathThrough).join("");
       return { path, line: [a, b] as Segment, at: [x, y] as Pair, whole, bad: over + cut };
     };
-    // away from the middle of what is drawn, where it crosses nothing there
+    // away from the middle of its link, or of what is drawn, where it crosses nothing there
+    const its = knots.filter(({ links }) => links.includes(span.link));
+    const middle = middleOf((its[2] ? its : knots).map((one) => viewport.screen(...one.at)));
     const side = -s * (mx - middle[0]) + c * (my - middle[1]) < 0 ? -1 : 1;
     const [first, second] = [beside(side), beside(-side)];
-    const { at, line, path, whole } = second.bad < first.bad ? second : first;
+    const { at, bad, line, path, whole } = second.bad < first.bad ? second : first;
+    if (bad && viewport.narrow) return []; // it is in the table
     taken.push(...whole);
     return [{ name: spanName(drawing, span.ends), text, kept: held(span), path, line, at }];
   });

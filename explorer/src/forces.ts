@@ -268,6 +268,7 @@ export class Forces {
       const onclick = () => void this.#fall();
       const last = (seconds: number) => {
         this.#until = seconds;
+        if (this.#ofFall.firstChild) onclick(); // what was found is of the duration before
       };
       const until = this.#form.row("until", t("Duration"), "s", this.#until, last, LASTS);
       const play = tool("play", t("Play at this speed"), () => transport.playAt(speed!));
@@ -277,7 +278,7 @@ export class Forces {
       this.#release = action("fall", onclick, t("Release the drive: free motion"));
       const sizes = joints.map(({ most }) => most);
       this.#joint.selectedIndex = chosen < 0 ? sizes.indexOf(Math.max(...sizes)) : chosen;
-      const loads = acting[0] ? signed("force.load", t("Loads")) : [];
+      const loads = acting[0] ? signed("force.load", t("Loads")) : "";
       this.#facts.show(facts);
       renew(this.#ofDrive, this.#form.rate, this.#facts.element, this.#plot.element, h("h3", {}, t("Free motion")));
       renew(
@@ -287,7 +288,7 @@ export class Forces {
         h("div.form", {}, this.#release),
         this.#ofFall,
         h("h3", {}, t("Joint forces in this pose")),
-        h("p.note", {}, ...signed("force", t("twice as long: four times the force")), " ", ...loads),
+        h("p.note", {}, signed("force", t("twice as long: four times the force")), " ", loads),
         this.#joints.element,
         h("label.options", {}, t("Force vector"), this.#joint),
         this.#polar.element,
@@ -418,9 +419,10 @@ function noted(line: string): HTMLElement {
 }
 
 /** What arrows of a class look like, and what they are. */
-function signed(name: "force" | "force.load", text: string): (Node | string)[] {
+function signed(name: "force" | "force.load", text: string): HTMLElement {
   const sign = svg(`path.${name}`, { d: "M1 5H23M16 1L23 5L16 9" });
-  return [svg("svg", { viewBox: "0 -1 28 12", width: 28, height: 12 }, sign), `\u00a0${text}`];
+  const arrow = svg("svg", { viewBox: "0 -1 28 12", width: 28, height: 12 }, sign);
+  return h("nobr" as "b", {}, arrow, `\u00a0${text}\u2003`);
 }
 
 function numbers(values: Numbers): Float64Array {

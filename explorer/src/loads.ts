@@ -76,12 +76,12 @@ export class LoadForm {
       this.rate,
       ...this.row("speed", called, its, speed! / factor, (v) => this.put({ speed: v * factor || null }), AMOUNT),
     );
-    const rows: HTMLElement[] = [];
+    const rows: HTMLElement[] = [h("p.note", {}, t("Masses"))];
     for (const link of links)
       rows.push(
         ...this.row(
           `mass-${link}`,
-          t("Mass {link}", { link: linkage.linkName(link) }),
+          linkage.linkName(link),
           "kg",
           masses[link]!,
           (v) => this.put({ masses: replaced(this.#acting.masses, link, v) }),

@@ -98,7 +98,7 @@ export class StructureView implements View {
   #fade(on: boolean): void {
     for (const part of [...this.#detail.children, this.#shown, ...this.#go.children])
       part.classList.toggle("asking", on || this.#pending || !!this.#error.textContent);
-    this.chains.element.classList.toggle("asking", this.#turns);
+    this.chains.element.classList.toggle("asking", this.#turns && !!this.chains.own);
   }
 
   /** Show the structure of a text, which may come from another view. */
@@ -163,8 +163,8 @@ export class StructureView implements View {
     const drawn = chainPicture(found, this.#joint, (joint) => this.#pick(joint));
     const { links, own, generic } = found;
     const numbers = Object.entries(found.numbered);
-    // that one drive fixes one freedom says the verdict
-    const isSaid = found.verdict === "constrained" && own == null && found.driver;
+    // that its drives fix the motion says the verdict
+    const isSaid = /^(constrained|movable)$/.test(found.verdict) && own == null && found.driver;
     const lines = [...(isSaid ? [] : found.drives.split("\n")), ...found.lines.slice(1)].filter(Boolean);
     const moves = (mobility: number) => mobility > 0 && "good";
     const fact = (key: "counted" | "generic" | "own", name: string, mark?: string | false) =>

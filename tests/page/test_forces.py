@@ -74,7 +74,7 @@ def test_what_a_motor_has_to_give():
     most = max(told["effort"], key=abs)
     assert most < 0  # the drive brakes there, and an amount has no sign
     row = told["effort"].index(most)
-    assert figures(told)[0] == (f"{-1000 * most:.3g} N·mm", f"at {math.degrees(told['drives'][row]):.4g}° braking")
+    assert figures(told)[0] == (f"{-1000 * most:.3g} N·mm", f"at {math.degrees(told['drives'][row]):.4g}°, braking")
     assert figures(told)[2:5] == [(f"{-10 * most:.3g} W", "braking"), ("0 W", "0° … 360°"), ("0 J", "0° … 360°")]
     assert not told["lines"]  # what is certain is not said
 
@@ -586,7 +586,7 @@ def test_each_joint_has_its_force_where_the_drive_is_and_masses_their_source(tab
     assert plot.get_by_text("Drive [°]").count() == 1
 
     panel.locator(".words summary").click()
-    mass = panel.get_by_label("Mass crank")
+    mass = panel.get_by_label("crank", exact=True)
     length = page.page.get_by_role("textbox", name="crank", exact=True)
     length.fill("26")
     length.press("Enter")
@@ -596,7 +596,7 @@ def test_each_joint_has_its_force_where_the_drive_is_and_masses_their_source(tab
     mass.press("Tab")
     page.until(f"!{ROOT}.querySelector('{PANEL}').textContent.includes('Assumed')")
     assert mass.input_value() == "0.5"
-    assert panel.get_by_label("Mass coupler").input_value() == "0.055"
+    assert panel.get_by_label("coupler", exact=True).input_value() == "0.055"
 
 
 def test_arrows_of_a_low_picture_are_shorter_and_their_value_is_not_under_a_button(tab, server):

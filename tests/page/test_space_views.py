@@ -101,8 +101,8 @@ def test_what_is_said_of_a_machine_in_space_is_so(server, chromium):
     assert page.locator('[data-panel="sizes"] label').all_inner_texts() == [f"{link}, angle" for link in links]
     page.goto(server.address + "space/diff_bevel.html?de#de")
     measures = page.locator('[data-panel="measures"]')
-    measures.get_by_text("gedreht").first.wait_for()
-    assert "verschoben" not in measures.inner_text()
+    measures.get_by_text("Drehung").first.wait_for()
+    assert "Verschiebung" not in measures.inner_text()
     measures.get_by_text("Ausgleichskegelrad gegen Steg", exact=True).wait_for()  # the carrier has two names
     for id, low in (("winch_screw", "0°"), ("sarrus", "−30°")):
         page.goto(f"{server.address}space/{id}.html")

@@ -43,6 +43,7 @@ _RESTS = message("Free motion: in {seconds:n} s nothing moves; the drive stays a
 _FREE_OF = message("{drive}: from {start} to {end}, between {least} and {most}.")
 _STRAIGHT_OF = message("{drive}: from {start} to {end}.")
 _MOVED = message("Free motion: {seconds:n} s.")
+_AT_REST = message("It has come to rest there.")
 _AT_STOP = message("The motion ends at the stop: {drive}, {value}.")
 _BALANCE = message("Checked by the energy balance, which holds to within {part:n}\u00a0%.")
 _BALANCED = message("Checked by the energy balance, which holds to within 0.001\u00a0%.")
@@ -68,6 +69,7 @@ _ENOUGH = 1e-6  # of each of its steps: for the eye
 _ENOUGH_BY_LAW = 1e-4  # where loads change by a law, which takes a hundred times as long
 _EXACT = 1e-5  # of an energy: what is less is not told in digits
 _SEEN = 0.01  # of the unit of the largest: smaller amounts have a unit of their own
+_SLOW = 1e-3  # of the largest speed: what is slower in the last tenth of a free motion has come to rest
 _ROUNDING = 1e-9  # of a drive: less of it, in rad or sizes of the linkage, is told as 0
 _NOTHING_OF = 1e-6  # of the largest joint force: what is left of one that is none
 _ALIKE = 1e-6  # of the largest of some values: those which differ by less are as large
@@ -202,7 +204,7 @@ def _facts(
 
     root_mean_square = (metre if turning else 1.0) * run.root_mean_square[active]
     rows: list[tuple[str, float, str, str]] = [
-        (_named(asked, active, largest, lang), abs(effort[row]), unit, f"{at(row)} {braking(power[row])}".strip()),
+        (_named(asked, active, largest, lang), abs(effort[row]), unit, ", ".join(filter(None, [at(row), braking(power[row])]))),
         (effective.in_language(lang), root_mean_square, unit, ""),
         (translate("Largest drive power", lang), abs(most), "W", braking(most)),
         (translate("Mean drive power", lang), mean, "W", ends),
@@ -336,6 +338,9 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
             text = _STRAIGHT_OF if straight else _FREE_OF
             said.append(text.filled(drive=name[:1].upper() + name[1:], **its))
     why = run.message(lang)
+    late = run.speeds[len(run) * 9 // 10 :]
+    if not rests and joint not in ends and np.abs(late).max() < _SLOW * np.abs(run.speeds).max():
+        said.append(_AT_REST)
     if joint in ends:
         there = {"drive": called[k], "value": _drive_texts(linkage, k, [last[k]])[0]}
         if len(run) < 2:
