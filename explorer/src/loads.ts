@@ -77,17 +77,13 @@ export class LoadForm {
       ...this.row("speed", called, its, speed! / factor, (v) => this.put({ speed: v * factor || null }), AMOUNT),
     );
     const rows: HTMLElement[] = [h("p.note", {}, t("Masses"))];
-    for (const link of links)
-      rows.push(
-        ...this.row(
-          `mass-${link}`,
-          linkage.linkName(link),
-          "kg",
-          masses[link]!,
-          (v) => this.put({ masses: replaced(this.#acting.masses, link, v) }),
-          AMOUNT,
-        ),
-      );
+    for (const link of links) {
+      const name = linkage.linkName(link);
+      const put = (mass: number) => this.put({ masses: replaced(this.#acting.masses, link, mass) });
+      const row = this.row(`mass-${link}`, name, "kg", masses[link]!, put, AMOUNT);
+      row[1]!.ariaLabel = t("Mass {link}", { link: name }); // read without the heading
+      rows.push(...row);
+    }
     const all: [string, string][] = [
       ["", t("none")],
       ...sizes.points.map(({ name }, k): [string, string] => [`point ${k}`, linkage.pointName(name)]),

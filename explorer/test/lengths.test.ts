@@ -98,3 +98,14 @@ test("dimension lines of a joint do not cross each other", () => {
     assert.ok(!cross(one!.line, two!.line), `${x} ${y}`);
   }
 });
+
+test("a chosen link has all its lengths, outside of it", () => {
+  const drawing = withPoint(CRANK, "2", [30, 60]);
+  const viewport = Object.assign(new Viewport(), { width: 900, height: 700, scale: 5 });
+  const all = dimensionsOf({ drawing, viewport, chosen: { knot: null, link: "2" } });
+  assert.equal(all.length, 3);
+  const [[ax, ay], [bx, by]] = [viewport.screen(0, 20), viewport.screen(80, 0)];
+  // that of the base is below it, on the other side of the point
+  const below = ([x, y]: Pair) => (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0;
+  assert.ok(below(all[0]!.at) && !below(viewport.screen(30, 60)));
+});
