@@ -203,8 +203,9 @@ def _facts(
         return _named(asked, drive, text, lang), abs(still[row]), "N·m" if turns else "N", at(row)
 
     root_mean_square = (metre if turning else 1.0) * run.root_mean_square[active]
+    where = ", ".join(filter(None, [at(row), braking(power[row])]))
     rows: list[tuple[str, float, str, str]] = [
-        (_named(asked, active, largest, lang), abs(effort[row]), unit, ", ".join(filter(None, [at(row), braking(power[row])]))),
+        (_named(asked, active, largest, lang), abs(effort[row]), unit, where),
         (effective.in_language(lang), root_mean_square, unit, ""),
         (translate("Largest drive power", lang), abs(most), "W", braking(most)),
         (translate("Mean drive power", lang), mean, "W", ends),
