@@ -113,10 +113,8 @@ export function chainPicture(found: Structure, joint: number, pick: (joint: numb
 /** The types of a joint, of which one is chosen; without one, what those of the chain are called. */
 export function typesOf({ joints }: Structure, number: number, choose: (text: string) => void): HTMLElement {
   const joint = joints[number];
-  const own = new Map(
-    joints.flatMap(({ types }) => types.filter(({ chosen }) => chosen).map(({ name, symbol }) => [symbol, name])),
-  );
-  const told = [...own].map((type) => type.join("\u00a0"));
+  const own = joints.flatMap(({ types }) => types.filter(({ chosen }) => chosen));
+  const told = new Set(own.map(({ name, symbol }) => `${symbol}\u00a0${name}`.trim()));
   return joint
     ? h(
         "div.said",
@@ -138,5 +136,5 @@ export function typesOf({ joints }: Structure, number: number, choose: (text: st
           ),
         ),
       )
-    : h("p.note", {}, `${told.join(", ")}. `, t("Choose a joint to change its type."));
+    : h("p.note", {}, `${[...told].join(", ")}. `, t("Choose a joint to change its type."));
 }

@@ -295,7 +295,7 @@ export class Forces {
         ...notes,
       );
     }
-    if (this.#brings) this.element.closest("details")!.scrollIntoView();
+    if (this.#brings && this.#opened()) this.element.closest("details")!.scrollIntoView();
     this.#brings = false;
     this.at(transport.drive);
     this.#view.redraw();
