@@ -13,7 +13,6 @@ const OFF = 30; // pixels from a bar to its line
 const HEAD = 8; // the length of an arrow
 const LEAST = 24; // pixels: what is shorter has no room for a line
 const MOST = 6; // of what is chosen
-const FEW = 2; // of a joint on a phone
 
 /** A length with its line, in pixels. */
 export interface Dimension {
@@ -46,12 +45,7 @@ export function dimensionsOf({ chosen, drawing, viewport }: Measured): Dimension
     // those of points only with these
     return span.link !== frame && span.ends.includes(knot ?? -1) && (jointed(span) || !knots[knot!]!.links[1]);
   });
-  const shown = [
-    ...new Set([
-      ...wanted.slice(0, viewport.narrow && knot !== null ? FEW : MOST),
-      ...(viewport.narrow ? [] : all.filter(held)),
-    ]),
-  ];
+  const shown = [...new Set([...wanted.slice(0, MOST), ...(viewport.narrow ? [] : all.filter(held))])];
   const taken: Segment[] = [];
   return shown.flatMap((span) => {
     const [p, q] = span.ends.map((k) => viewport.screen(...knots[k]!.at)) as [Pair, Pair];

@@ -118,7 +118,8 @@ export class Forces {
   #timer = 0;
   /** How long it moves freely, in seconds. */
   #until = 2;
-  #brings = false;
+  /** Whether the next forces are brought to sight. */
+  brings = false;
   readonly #view: Loaded;
   readonly #opened: () => boolean;
 
@@ -181,11 +182,6 @@ export class Forces {
     return drives[1] ? drives.map((_, k) => linkage.driveName(k)) : [];
   }
 
-  /** Bring what is answered next to sight. */
-  bring(): void {
-    this.#brings = true;
-  }
-
   /** What was typed and is not in the document yet. */
   get typed(): Change {
     return this.#form.change;
@@ -233,7 +229,7 @@ export class Forces {
     this.#plots = [];
     this.#driven = this.#fallen = NOTHING;
     const assume = () => {
-      this.bring();
+      this.brings = true;
       this.#form.put({ bars: "steel" });
     };
     const given = masses.some(Boolean);
@@ -272,10 +268,8 @@ export class Forces {
       };
       const until = this.#form.row("until", t("Duration"), "s", this.#until, last, LASTS);
       const play = tool("play", t("Play at this speed"), () => transport.playAt(speed!));
-      const beside = this.#form.rate.lastElementChild as HTMLElement;
-      beside.style.cssText = "display: flex; align-items: center";
-      beside.append(play);
-      this.#release = action("fall", onclick, t("Release the drive: free motion"));
+      this.#form.rate.lastElementChild!.append(play);
+      this.#release = action("fall", onclick, t("Release the drive"));
       const sizes = joints.map(({ most }) => most);
       this.#joint.selectedIndex = chosen < 0 ? sizes.indexOf(Math.max(...sizes)) : chosen;
       const loads = acting[0] ? signed("force.load", t("Loads")) : "";
@@ -295,8 +289,8 @@ export class Forces {
         ...notes,
       );
     }
-    if (this.#brings && this.#opened()) this.element.closest("details")!.scrollIntoView();
-    this.#brings = false;
+    if (this.brings && this.#opened()) this.element.closest("details")!.scrollIntoView();
+    this.brings = false;
     this.at(transport.drive);
     this.#view.redraw();
   }
@@ -327,7 +321,7 @@ export class Forces {
       this.#showJoint();
       this.#ofDrive.hidden = !!falling;
       for (const course of this.#ofFall.querySelectorAll("details")) course.open = !!falling;
-      this.#release.textContent = falling ? t("Release again") : t("Release the drive: free motion");
+      this.#release.textContent = falling ? t("Release again") : t("Release the drive");
     }
     this.#joints.show(
       of.joints.map((force) => ({
@@ -388,7 +382,7 @@ export class Forces {
         plot(t("Drive speed"), found.speeds, `${unit}/s`),
       ];
     });
-    const course = h("summary", {}, t("Course of the free motion"));
+    const course = h("summary", {}, t("Course"));
     const plots = this.#plots.map((plot) => plot.element);
     renew(told, h("details.words", { open: true }, course, ...found.lines.map(noted), ...plots));
     transport.seek(0, found);

@@ -408,7 +408,6 @@ export class Scene {
             if (hull[2]) solid = Math.min(solid, gap);
             else lines = Math.min(lines, gap); // may lie below it if need be
           }
-          if (4 * solid + lines + more <= most) break;
         }
         const value = 4 * solid + lines + more;
         if (value > most) [taken, most] = [k, value];

@@ -88,7 +88,7 @@ export class Side {
       else this.#opened.delete(key);
       if (key === "plots" && element.open) whole(this.plots.drawing(this.view.linkage));
       if (key !== "forces") return;
-      if (element.open) this.forces.bring();
+      this.forces.brings = element.open;
       this.forces.changed();
       this.view.redraw();
     });

@@ -41,9 +41,8 @@ export class StructureView implements View {
   readonly #field = h("textarea", { spellcheck: false, "data-field": "chain" });
   #typing = 0;
   #asked = 0;
-  /** Whether another structure is on its way, and whether it is that of another machine at hand. */
+  /** Whether another structure is on its way. */
   #pending = false;
-  #turns = false;
   readonly #page: Page;
 
   constructor(page: Page) {
@@ -63,7 +62,6 @@ export class StructureView implements View {
     const { inSpace, shown } = this.#page;
     const own = inSpace?.text ?? chainText(shown);
     if (own !== this.#own) {
-      this.#turns = true;
       for (const scrolled of [this.element, window]) scrolled.scrollTo(0, 0);
       void this.describe(own);
     }
@@ -98,7 +96,6 @@ export class StructureView implements View {
   #fade(on: boolean): void {
     for (const part of [...this.#detail.children, this.#shown, ...this.#go.children])
       part.classList.toggle("asking", on || this.#pending || !!this.#error.textContent);
-    this.chains.element.classList.toggle("asking", this.#turns && !!this.chains.own);
   }
 
   /** Show the structure of a text, which may come from another view. */
@@ -122,7 +119,6 @@ export class StructureView implements View {
       });
       const own = text === this.#own;
       if (own) this.chains.begin(found);
-      this.#turns &&= !own;
       if (number !== this.#asked) return;
       // with the letters of the language, unless it is being typed
       if (this.#field.value === text && !elsewhere) this.#field.value = found.read ?? text;
@@ -133,7 +129,6 @@ export class StructureView implements View {
       this.chains.follow(found, own || elsewhere);
     } catch (error) {
       if (number !== this.#asked) return;
-      this.#turns = false;
       this.chains.follow(null, false);
       const said = (error as Error).message;
       this.#words.open = true;
@@ -164,7 +159,7 @@ export class StructureView implements View {
     const { links, own, generic } = found;
     const numbers = Object.entries(found.numbered);
     // that its drives fix the motion says the verdict
-    const isSaid = /^(constrained|movable)$/.test(found.verdict) && own == null && found.driver;
+    const isSaid = /^cons|^mov/.test(found.verdict) && own == null && found.driver;
     const lines = [...(isSaid ? [] : found.drives.split("\n")), ...found.lines.slice(1)].filter(Boolean);
     const moves = (mobility: number) => mobility > 0 && "good";
     const fact = (key: "counted" | "generic" | "own", name: string, mark?: string | false) =>

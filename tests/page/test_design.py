@@ -379,7 +379,7 @@ def test_the_transmission_angle_asked_for_says_where_it_holds(design):
     assert "between targets: on the way from the first to the last." in told
     assert "Sensitivity: how far a target is off" in told
     view.click('[data-value="dead-centres"]')
-    assert least.inner_text().startswith("transmission angle at least")
+    assert least.inner_text().startswith("minimum transmission angle")
 
 
 def order_of(view, key: str) -> list[str]:

@@ -378,8 +378,8 @@ def test_a_phone_sees_all_of_a_machine_and_two_fingers_come_nearer(tmp_path, chr
         assert page.locator("header select").evaluate("e => getComputedStyle(e).colorScheme") == scheme
     page.get_by_role("button", name="Light or dark").click()
     page.reload()  # what is chosen is kept, whatever the system asks for
-    assert page.evaluate("document.querySelector('.gruebler-explorer').dataset.theme") == "dark"
     page.get_by_role("button", name="Pause").click()
+    assert page.evaluate("document.querySelector('.gruebler-explorer').dataset.theme") == "dark"
     page.get_by_label("Grid").uncheck()
     extent = (
         "() => {"
