@@ -44,9 +44,11 @@ export class StructureView implements View {
   /** Whether another structure is on its way. */
   #pending = false;
   readonly #page: Page;
+  readonly #narrow = matchMedia("(max-width: 820px)");
 
   constructor(page: Page) {
     this.#page = page;
+    this.#narrow.onchange = () => this.arrange();
     this.chains = new ChainList(
       page,
       (text) => void this.describe(text),
@@ -82,9 +84,9 @@ export class StructureView implements View {
           {},
           step(1, t("Chain"), [], this.chains.element),
           // on a phone the chain is seen before its frames
-          ...(window.innerWidth > 820
-            ? [this.#detail, h("div.made.contents", {}, ...made, this.#go)]
-            : [...made, this.#detail, this.#go]),
+          ...(this.#narrow.matches
+            ? [...made, this.#detail, this.#go]
+            : [this.#detail, h("div.made.contents", {}, ...made, this.#go)]),
         ),
       ),
     );
@@ -159,7 +161,7 @@ export class StructureView implements View {
     const { links, own, generic } = found;
     const numbers = Object.entries(found.numbered);
     // that its drives fix the motion says the verdict
-    const isSaid = /^cons|^mov/.test(found.verdict) && own == null && found.driver;
+    const isSaid = ["constrained", "movable"].includes(found.verdict) && own == null && found.driver;
     const lines = [...(isSaid ? [] : found.drives.split("\n")), ...found.lines.slice(1)].filter(Boolean);
     const moves = (mobility: number) => mobility > 0 && "good";
     const fact = (key: "counted" | "generic" | "own", name: string, mark?: string | false) =>

@@ -565,6 +565,20 @@ def test_the_button_that_finds_dimensions_is_in_sight_on_a_phone(tab, server):
     )
 
 
+def test_a_window_that_becomes_wide_has_the_picture_beside_the_steps(tab, server):
+    page = tab(width=800, height=900).open(server.address)
+    view = page.page
+    view.click('[data-view="structure"]')
+    view.locator('[data-act="realise"]').wait_for()
+    for width in (1440, 800):
+        view.set_viewport_size({"width": width, "height": 900})
+        steps = "gruebler.root.querySelector('.steps')"
+        page.until(f"!!{steps}.querySelector('.made') === {str(width > 820).lower()}")
+        picture, frames = (view.locator(part).bounding_box() for part in (".chain-picture", '[data-list="inversions"]'))
+        assert (picture["x"] > frames["x"] + frames["width"]) == (width > 820)
+        assert width > 820 or picture["y"] + picture["height"] < frames["y"]
+
+
 def test_the_machine_at_hand_moves_with_its_own_sizes_and_other_structures_need_some(tab, server):
     page = tab().open(server.address)
     view = page.page
