@@ -24,6 +24,7 @@ import { History } from "./history";
 import { away } from "./hull";
 import { keepDrawing, keepDrawn, keptDrawing, keptDrawn, saveDrawing } from "./kept";
 import { spaced, t } from "./language";
+import { markLengths } from "./lengthlist";
 import { movedKept } from "./lengths";
 import type { Linkage } from "./linkage";
 import { type Drawn, MobilityPanel } from "./mobility";
@@ -487,6 +488,7 @@ export class BuildView implements View, Plane, Drawn {
     const [from, to] = this.#tool === "scale" ? this.spots : [];
     renew(this.#choice, ...(from && to ? [this.#distance(from.at, to.at)] : choiceOf(this)));
     this.#hint.hidden = !!(this.chosen || to);
+    markLengths(this.#places, this.drawing, this.chosen);
   }
 
   get title(): string {

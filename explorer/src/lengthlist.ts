@@ -6,6 +6,7 @@ import { type Drawing, type Keep, knotName, turned, unitOf } from "./drawing";
 import { softened } from "./header";
 import { parsed, spaced, t } from "./language";
 import { isKept, keeping, lengthOf, spanName, spansOf, withLength } from "./lengths";
+import type { Chosen } from "./plane";
 import { lockButton } from "./shell";
 
 /** The view of a drawing, as far as its lengths are changed. */
@@ -30,6 +31,15 @@ export function keeper(view: Measured, kind: Keep[0], knots: readonly number[], 
 /** A number alone is no name. */
 function linkNamed(link: string): string {
   return /^\d/.test(link) ? t("link {link}", { link }) : spaced(link);
+}
+
+/** Mark the lengths of what is chosen. */
+export function markLengths(list: HTMLElement, drawing: Drawing, chosen: Chosen | null): void {
+  const { knot = null, link = null } = chosen ?? {};
+  const spans = spansOf(drawing).filter((span) => span.link === link || span.ends.includes(knot ?? -1));
+  const names = spans.map(({ ends }) => spanName(drawing, ends));
+  for (const field of list.querySelectorAll<HTMLElement>("[data-span]"))
+    field.previousElementSibling!.classList.toggle("chosen", names.includes(field.dataset.span!));
 }
 
 /** Lengths and directions of slides. */

@@ -12,6 +12,7 @@ import { away, nearest, onLine, pathThrough, toHull } from "./hull";
 import { angle, number, spaced } from "./language";
 import { isKept } from "./lengths";
 import { lettering, linesOf } from "./lettering";
+import { halfOf } from "./names";
 import { LEADERS, leadersThrough } from "./naming";
 import { BARREL, bodiesOf, isCylinder, outlineOf, RING, ringOf, wayOf } from "./outlines";
 import { ARROW, BESIDE } from "./pushed";
@@ -121,6 +122,7 @@ export function planePicture(plane: Plane, covered: number): SVGElement[] {
   const [dx, dy] = last && aim === "aiming" ? [cursor[0] - last.at[0], cursor[1] - last.at[1]] : [0, 0];
   const read = dx || dy ? `${number(Math.hypot(dx, dy))} ${unitOf(drawing)}, ${angle(Math.atan2(dy, dx), 3)}` : "";
   const told = [read, plane.ahead].filter(Boolean).join(" → ");
+  const beyond = cx + 24 + 2 * halfOf(told) > viewport.width;
   const { picture } = drawing;
   const behind = picture ? [backdropElement(picture)] : [];
   if (picture) putBackdrop(behind[0]!, picture, viewport);
@@ -133,7 +135,8 @@ export function planePicture(plane: Plane, covered: number): SVGElement[] {
     ...texts.map(({ x, y, name }) => svg("text.name", { x, y, "text-anchor": "middle" }, name)),
     ...dimensionElements(dimensions),
     ...(waiting.length > 1 ? [svg("path.pending", { d: pathThrough(waiting) })] : []),
-    svg("text.tick", { x: cx + 12, y: cy + 18 }, told),
+    // beside the right edge it stands on the other side
+    svg("text.tick", { x: beyond ? cx - 12 : cx + 12, y: cy + 18, "text-anchor": beyond ? "end" : "start" }, told),
     ...(picture && isPicture(chosen) ? grips(plane, picture) : []),
     svg("path.crosshair", { d: waiting.map(([x, y]) => `M${x - 7} ${y}h14M${x} ${y - 7}v14`).join("") }),
   ];
@@ -184,6 +187,13 @@ function alongWay(way: number): string {
   return `rotate(${-lies})scale(${lies === way ? 1 : -1} 1)`;
 }
 
+/** The radius of a joint in pixels, smaller where another one is near. */
+function ringOfPin({ knots }: Drawing, viewport: Viewport, k: number): number {
+  const [x, y] = viewport.screen(...knots[k]!.at);
+  const gaps = knots.map(({ at }) => away(viewport.screen(...at), x, y)).filter((gap) => gap > 1);
+  return Math.max(2.5, Math.min(5, ...gaps.map((gap) => gap / 3)));
+}
+
 function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair): SVGElement {
   const knot = drawing.knots[k]!;
   const { between, links, slide } = knot;
@@ -206,7 +216,7 @@ function knotElement({ chosen, drawing, viewport }: Drawn, k: number, at: Pair):
     element.append(svg("g", { transform: alongWay(slide) }, ...lines, svg("path.block", { d: BOX })));
   } else {
     if (ground) element.append(svg("path.support", { d: SUPPORT }));
-    element.append(svg("circle.joint", { r: links[1] || ground ? 5 : 3.2 }));
+    element.append(svg("circle.joint", { r: links[1] || ground ? ringOfPin(drawing, viewport, k) : 3.2 }));
   }
   if (driven && !isCylinder(knot))
     element.append(svg("path.driven", way === null ? { d: DRIVEN } : { d: PUSHED, transform: alongWay(way) }));
