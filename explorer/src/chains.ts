@@ -260,7 +260,10 @@ export class ChainList {
       const beside = [this.mobility - 1, this.mobility + 1].map((freedom): Size => [this.#links, freedom]);
       const keys = beside
         .filter((size) => (size[0] - size[1]) % 2 && !this.#unlisted(size))
-        .map((size) => h("button.plain", { onclick: () => this.#begin(size) }, `F = ${size[1]}`));
+        .map((size) => this.#way(size, `F = ${size[1]}`));
+      const links = this.mobility + 3; // of one loop
+      if (this.#links < links && !this.#unlisted([links, this.mobility]))
+        keys.push(this.#way([links, this.mobility], `${links} ${t("Links")}`));
       const told = h("div.form", {}, h("p.note", {}, this.#whyNone()), ...keys);
       return renew(this.#list, told, h("div.cards.few", {}, ...mine));
     }
@@ -277,6 +280,10 @@ export class ChainList {
       this.#show();
     };
     renew(this.#list, ...listOf("chains", cards, this.#all, more, rest ? total : 0));
+  }
+
+  #way(size: Size, text: string): HTMLElement {
+    return h("button.plain", { onclick: () => this.#begin(size) }, text);
   }
 
   /** Begin another list. */

@@ -178,6 +178,7 @@ export function thumbnail(drawn: string, label: string): Element {
   const made = picture(drawn, label);
   made.setAttribute("height", "120");
   made.removeAttribute("width");
+  made.classList.toggle("many", !!made.querySelectorAll("text")[9]); // numbers too small to be read
   return made;
 }
 
