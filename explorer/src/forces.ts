@@ -60,8 +60,17 @@ export interface Kept {
 }
 
 /** A force or a moment on the stage: its place, its direction, as long as the root of its part of the largest, how much
- * it is, its unit, and, of a joint, its sign. */
-export type Arrow = [x: number, y: number, dx: number, dy: number, amount: number, unit: string, sign?: string | null];
+ * it is, its unit, and, of a joint, its sign and whether it is the chosen one. */
+export type Arrow = [
+  x: number,
+  y: number,
+  dx: number,
+  dy: number,
+  amount: number,
+  unit: string,
+  sign?: string | null,
+  chosen?: boolean,
+];
 
 interface Force extends Vectors {
   at: () => Pair;
@@ -100,7 +109,7 @@ export class Forces {
   /** The force of each joint where the drive is, and its largest. */
   readonly #joints = new FactList();
   readonly #polar = new Polar();
-  readonly #joint = h("select", { "data-field": "force-joint", onchange: () => this.#showJoint() });
+  readonly #joint = h("select", { "data-field": "force-joint", onchange: () => this.#chosen() });
   #plot: Plot | null = null;
   /** For a table. */
   columns: Column[] = [];
@@ -127,7 +136,12 @@ export class Forces {
     this.#view = view;
     this.#opened = opened;
     this.#joints.element.classList.add("listed");
-    this.#joints.element.style.cssText = "grid-template-columns: none; gap: 7px";
+    this.#joints.element.style.cssText = "grid-template-columns: none; gap: 7px; cursor: pointer";
+    this.#joints.element.onclick = ({ target }) => {
+      const row = [...this.#joints.element.children].findIndex((one) => one.contains(target as Node));
+      if (row >= 0) this.#joint.selectedIndex = row;
+      this.#chosen();
+    };
   }
 
   /** The linkage, its sizes, its loads or the language are others. */
@@ -295,6 +309,13 @@ export class Forces {
     this.#view.redraw();
   }
 
+  /** Another joint is chosen: its force is the thick one on the stage, its row is marked. */
+  #chosen(): void {
+    this.#showJoint();
+    this.at(this.#view.transport.drive);
+    this.#view.redraw();
+  }
+
   #showJoint(): void {
     const force = this.#of.joints[this.#joint.selectedIndex];
     if (!force) return;
@@ -330,6 +351,10 @@ export class Forces {
         note: !force.most ? "" : `max. ${amount(force.most, force.unit)} ${force.note}`,
       })),
     );
+    [...this.#joints.element.children].forEach((row, k) => {
+      const mark = k === this.#joint.selectedIndex ? "-5px 0 var(--panel), -8px 0 var(--purple)" : "";
+      (row as HTMLElement).style.boxShadow = mark;
+    });
     this.#polar.at(where);
   }
 
@@ -350,7 +375,15 @@ export class Forces {
       const [x, y] = vectorAt(force, where);
       const here = Math.hypot(x, y);
       const root = Math.sqrt(here * most) || 1; // small ones are seen, too
-      return [...at(), x / root, y / root, here / unit[1], unit[0], joints[k]?.sign ?? null];
+      return [
+        ...at(),
+        x / root,
+        y / root,
+        here / unit[1],
+        unit[0],
+        joints[k]?.sign ?? null,
+        k === this.#joint.selectedIndex,
+      ];
     });
   }
 

@@ -40,7 +40,7 @@ export class Polar {
     this.element.replaceChildren(
       svg("path.mesh", { d: "M-140 0H140M0 -96V96" }),
       svg("text", { "data-axis": "", x: 122, y: -5 }, "Fx"),
-      svg("text", { "data-axis": "", x: 5, y: -88 }, "Fy"),
+      svg("text", { "data-axis": "", x: below < 0 ? 28 : 5, y: -88 }, "Fy"),
       ...rings.map((k) => svg("circle.mesh", { fill: "none", r: apart * k })),
       svg("path.curve.force", {
         d: lineThrough(

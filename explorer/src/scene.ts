@@ -55,6 +55,8 @@ export class Scene {
   readonly #arrows = (["force", "force.load", "velocity", "acceleration"] as const).map((kind) =>
     svg(`path.${kind}`, {}),
   );
+  /** Over them the chosen one. */
+  readonly #thick = svg("path.force", {});
   /** Beside arrows, how much they are, or their signs; which places they took. */
   readonly #values = svg("g", {});
   readonly #beside: number[] = [];
@@ -72,6 +74,7 @@ export class Scene {
     legend: Legend,
   ) {
     this.#names = new Naming(viewport, legend);
+    this.#thick.style.strokeWidth = "4.5";
   }
 
   /** Whether names of links stand in a list. */
@@ -177,6 +180,7 @@ export class Scene {
       this.#pushes,
       this.#names.element,
       ...this.#arrows,
+      this.#thick,
       this.#values,
       this.#springs,
       this.#rulers,
@@ -289,6 +293,8 @@ export class Scene {
     kinds.forEach((all, k) => {
       put(this.#arrows[k]!, { d: all.map((one) => arrow(...one)).join("") });
     });
+    const chosen = kinds[0]!.find((one) => one[7]);
+    put(this.#thick, { d: chosen ? arrow(...chosen) : "" });
     // a number may stand upon a plate, but not across its edges or on a pin
     const pins = this.#pins.map(({ joint }) => {
       const [x, y] = pixels(joint);
@@ -340,12 +346,12 @@ export class Scene {
   }
 
   /** An arrow in pixels; of a moment its circle reaches so far to the right, if it is positive, or to the left. */
-  #scaled(...[x, y, dx, dy, amount, unit, sign = null]: Arrow): Arrow {
+  #scaled(...[x, y, dx, dy, amount, unit, sign = null, chosen]: Arrow): Arrow {
     const long = unit.includes("N·m") ? this.#longest / 3 : this.#longest;
     const [left, top] = this.viewport.screen(x, y);
     const [right, down] = [long * dx, -long * dy];
     const off = sign ? RING / (Math.hypot(right, down) || 1) : 0; // that of a joint begins at the rim of its ring
-    return [left + off * right, top + off * down, right, down, amount, unit, sign];
+    return [left + off * right, top + off * down, right, down, amount, unit, sign, !!chosen];
   }
 
   /** Forces of joints, loads, velocities, accelerations; forces where the drive is, or at another value of it. */
@@ -384,9 +390,10 @@ export class Scene {
     const long = ([, , dx, dy]: Arrow) => Math.hypot(dx, dy);
     const longest = kinds.slice(2).flatMap((all) => [...all].sort((one, other) => long(other) - long(one)).slice(0, 1));
     for (const [n, one] of [...kinds[1]!, ...longest, ...kinds[0]!].entries()) {
-      const [x, y, dx, dy, amount, unit, sign] = one;
+      const [x, y, dx, dy, amount, unit, sign, chosen] = one;
       if (!tips.includes(one)) continue;
-      const said = (many && sign) || `${numberText(amount, 3)} ${unit}`.trim();
+      const told = `${numberText(amount, 3)} ${unit}`.trim();
+      const said = chosen ? `${sign} ${told}` : (many && sign) || told;
       const half = halfOf(said);
       const parts = Math.ceil(half / CLEAR);
       const tip: Pair = [x + dx, y + dy];
@@ -414,6 +421,7 @@ export class Scene {
         if (most >= 5 * CLEAR) break; // none is better
       }
       this.#beside[n] = taken;
+      if (many && !chosen && most < 0) continue; // the list tells which it is once its row is chosen
       const [left, top] = spots[taken]!;
       texts.push(svg("text", { "data-arrow": "", "text-anchor": "middle", x: left, y: top + 4 }, said));
       drawn.push(lettersAt(left, top + 4, half));

@@ -547,7 +547,7 @@ def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_field
         if not gone:
             assert side["y"] == pytest.approx(bar["y"] + bar["height"], abs=1)
     assert stage["y"] == pytest.approx(0, abs=1)
-    assert stage["height"] == pytest.approx(0.25 * 844, abs=1)
+    assert stage["height"] == pytest.approx(0.28 * 844, abs=1)
 
 
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768), (390, 844)])
