@@ -80,10 +80,12 @@ export function dimensionsOf({ chosen, drawing, viewport }: Measured): Dimension
       parts.push([from[0], to[0]], [from[1], to[1]]);
       const whole: Segment[] = [
         ...parts,
-        [
-          [x - half, y],
-          [x + half, y],
-        ],
+        ...[-8, 8].map(
+          (high): Segment => [
+            [x - half, y - high],
+            [x + half, y + high],
+          ],
+        ), // across the figure
       ];
       const over = whole.filter((one) => taken.some((other) => cross(one, other))).length;
       const cut = x < half || x > viewport.width - half ? 1 : 0;

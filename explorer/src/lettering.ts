@@ -77,7 +77,7 @@ function inkOf({ drawing, viewport }: Seen, dimensions: readonly Dimension[]): I
         [x - halfOf(text), y],
         [x + halfOf(text), y],
       ],
-      HIGH,
+      HIGH + 6, // two numbers are not read as one
     );
   }
   return ink;
