@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fitted, projection, seen, type Vector } from "../src/space/algebra";
+import { FLAT, fitted, NATURAL, projection, seen, type Vector } from "../src/space/algebra";
 import { Machine, turnOf } from "../src/space/machine";
 import type { Model } from "../src/space/model";
 
@@ -45,8 +45,11 @@ test("what is fitted into a picture in space fills its free room, from edge to e
     [slender, Math.PI, 0],
     [slender, Math.PI / 2, 0],
   ] as const;
-  for (const [wide, [places, turn, lift]] of [0.8, 1.5].flatMap((one) => looks.map((look) => [one, look] as const))) {
-    const camera = { turn, lift, middle: [0, 0, 0] as Vector, distance: 1 };
+  const shapes = [0.8, 1.5].flatMap((wide) => [NATURAL, FLAT].map((opening) => [wide, opening] as const));
+  for (const [wide, opening, [places, turn, lift]] of shapes.flatMap((one) =>
+    looks.map((look) => [...one, look] as const),
+  )) {
+    const camera = { turn, lift, middle: [0, 0, 0] as Vector, distance: 1, opening };
     const view = projection(fitted(camera, wide, places, free), wide);
     const all = places.map((place) => seen(view, place));
     const ends = [0, 1].map((axis) => all.map((at) => at[axis]!)).map((at) => [Math.min(...at), Math.max(...at)]);
@@ -57,6 +60,18 @@ test("what is fitted into a picture in space fills its free room, from edge to e
     }
     if (places === broad) assert.ok(Math.min(...left.flat()) < 0.01, `it fills it: ${left}`);
   }
+});
+
+test("along an axis what is alike is seen alike, however far it is", () => {
+  const camera = { turn: -Math.PI / 2, lift: 0, middle: [0, 0, 0] as Vector, distance: 1 };
+  const places: Vector[] = [-100, 100].flatMap((y) => [-50, 50].map((x): Vector => [x, y, 0]));
+  const free = { left: 0, right: 0, top: 0, bottom: 0 };
+  const ratios = [FLAT, NATURAL].map((opening) => {
+    const view = projection(fitted({ ...camera, opening }, 1, places, free), 1);
+    const [a, b, c, d] = places.map((place) => seen(view, place)[0]) as [number, number, number, number];
+    return (b - a) / (d - c);
+  });
+  assert.ok(ratios[0]! < 1.1 && ratios[1]! > 1.3, String(ratios));
 });
 
 test("poses between rows are those of the motion, at its ends, too", () => {

@@ -61,9 +61,12 @@ export interface Camera {
   lift: number;
   distance: number;
   middle: Vector;
+  /** The cotangent of half the angle of view. */
+  opening: number;
 }
 
-const OPENING = 3; // the cotangent of half the angle of view
+export const NATURAL = 3; // the opening of a view in perspective
+export const FLAT = 60; // from so far that what is parallel is seen so
 const STEPS = 12; // to a camera that fits: each leaves a tenth of what is missing, along a slender machine two thirds
 
 /** The eye, and unit vectors to the right, up and towards the eye. */
@@ -77,12 +80,14 @@ export function axes(camera: Camera): { eye: Vector; right: Vector; up: Vector; 
 
 /** The projection as a matrix by columns, for a picture so many times as wide as high. */
 export function projection(camera: Camera, wide: number): Float32Array {
+  const { opening } = camera;
   const { eye, right, up, near } = axes(camera);
-  const [close, far] = [camera.distance / 50, camera.distance * 50];
+  const depth = opening > NATURAL ? 4 : 50; // from afar the machine is thin
+  const [close, far] = [camera.distance / depth, camera.distance * depth];
   const [a, b] = [(far + close) / (close - far), (2 * far * close) / (close - far)];
   const rows = [
-    [...right.map((v) => (v * OPENING) / Math.max(wide, 1)), (-dot(right, eye) * OPENING) / Math.max(wide, 1)],
-    [...up.map((v) => v * OPENING * Math.min(wide, 1)), -dot(up, eye) * OPENING * Math.min(wide, 1)],
+    [...right.map((v) => (v * opening) / Math.max(wide, 1)), (-dot(right, eye) * opening) / Math.max(wide, 1)],
+    [...up.map((v) => v * opening * Math.min(wide, 1)), -dot(up, eye) * opening * Math.min(wide, 1)],
     [...near.map((v) => v * a), -dot(near, eye) * a + b],
     [...near.map((v) => -v), dot(near, eye)],
   ];
@@ -107,13 +112,14 @@ export interface Margins {
 /** A camera from the same side that has all places in the middle of the free room of a picture so many times as wide as
  * high. */
 export function fitted(camera: Camera, wide: number, places: Vector[], margins: Margins): Camera {
+  const { opening } = camera;
   const { right, up, near } = axes(camera);
   const all = places.map((place) => [right, up, near].map((axis) => dot(axis, place)) as Vector);
   const ends = (value: (place: Vector) => number): [number, number] =>
     all.map(value).reduce(([least, most], one) => [Math.min(least, one), Math.max(most, one)], [Infinity, -Infinity]);
   let [h, v, n] = [0, 1, 2].map((k) => sum(ends((at) => at[k]!)) / 2) as Vector;
   const nearest = ends(([, , z]) => z)[1] - n; // the eye stays twice as far, or this would be seen much larger
-  const scales = [OPENING / Math.max(wide, 1), OPENING * Math.min(wide, 1)];
+  const scales = [opening / Math.max(wide, 1), opening * Math.min(wide, 1)];
   const room = [2 - 2 * (margins.left + margins.right), 2 - 2 * (margins.top + margins.bottom)];
   const wanted = [margins.left - margins.right, margins.bottom - margins.top];
   let distance = Math.max(20 * ends(([x, y, z]) => Math.hypot(x - h, y - v, z - n))[1], 1e-9);
@@ -136,7 +142,8 @@ const sum = ([low, high]: [number, number]): number => low + high;
 
 /** The ray through a place of the picture. */
 export function ray(camera: Camera, wide: number, x: number, y: number): { from: Vector; along: Vector } {
+  const { opening } = camera;
   const { eye, right, up, near } = axes(camera);
-  const [h, v] = [(x * Math.max(wide, 1)) / OPENING, y / (OPENING * Math.min(wide, 1))];
+  const [h, v] = [(x * Math.max(wide, 1)) / opening, y / (opening * Math.min(wide, 1))];
   return { from: eye, along: near.map((n, k) => h * right[k]! + v * up[k]! - n) as Vector };
 }

@@ -17,6 +17,7 @@ import {
   meeting,
   minus,
   moved,
+  NATURAL,
   projection,
   ray,
   seen,
@@ -35,6 +36,7 @@ const ROOM = 16; // pixels around the machine
 const FEW = 6; // bodies have names that stand in the picture
 const ELSEWHERE = 8; // places of a body at which its name may stand instead
 const AROUND: readonly Pair[] = [18, -18, 9, -9].map((far, k) => (k < 2 ? [far, 0] : [0, far])); // pixels
+const ASIDE = [18, 28, 38]; // pixels from a place of a body to its name beside it
 const SEEN = 150; // milliseconds for which these are taken to be hidden or not
 const MOST_ROOM = 0.3; // of the picture
 const DIRECTIONS = 160;
@@ -91,6 +93,8 @@ export class Scene {
   #spots: Vector[][] = [];
   /** Those of them where it is on or next to that body alone. */
   #open: Vector[][] = [];
+  /** So many pixels beside the first of these a name stands clear of all bodies. */
+  #aside: Pair[] = [];
   #due = 0;
   #later = 0;
   readonly #colours = new Map<string, Vector>();
@@ -104,7 +108,7 @@ export class Scene {
   ) {
     const { bodies, glass, middle, size } = machine.data;
     const [turn, lift] = this.oblique;
-    this.#camera = { turn, lift, middle, distance: 5 * size };
+    this.#camera = { turn, lift, middle, distance: 5 * size, opening: NATURAL };
     try {
       this.#painter = new Painter(this.canvas, bodies, glass);
     } catch {
@@ -309,13 +313,15 @@ export class Scene {
     this.draw();
   }
 
-  /** Look from another side: angles in radians. */
-  look(turn: number, lift: number): void {
-    Object.assign(this.#camera, { turn, lift });
+  /** Look from another side: angles in radians; along an axis without perspective. */
+  look(turn: number, lift: number, opening = NATURAL): void {
+    Object.assign(this.#camera, { turn, lift, opening });
     this.fit();
   }
 
   #round(turn: number, lift: number): void {
+    this.#camera.distance *= NATURAL / this.#camera.opening;
+    this.#camera.opening = NATURAL;
     this.#camera.turn += turn;
     this.#camera.lift = Math.min(Math.max(this.#camera.lift + lift, -STEEP), STEEP);
     this.events.turned();
@@ -408,8 +414,12 @@ export class Scene {
     if (this.few && shown.names) this.#uncover(poses, pixel);
     const names = this.#links.map((name, link) => {
       const spots = [...(this.#open[link] ?? []), ...(link === marked ? this.#spots[link]! : [])];
-      const text = name.replace(/ \(.*/, "");
-      return (isNamed(link) ? spots : []).map((spot) => ({ link, text, at: pixel(moved(poses[link]!, spot)) }));
+      const text = shortened(name);
+      return (isNamed(link) ? spots : []).map((spot, k) => {
+        const [x, y] = pixel(moved(poses[link]!, spot));
+        const [right, down] = (!k && this.#aside[link]) || [0, 0];
+        return { link, text, at: [x + right, y + down] as Pair };
+      });
     });
     const { clientHeight, clientWidth } = this.element;
     return apart(names, others, [clientWidth, clientHeight]).map(({ link, text, at: [x, y] }) =>
@@ -426,18 +436,32 @@ export class Scene {
     }
     const { eye } = axes(this.#camera);
     const { clientHeight, clientWidth } = this.element;
+    const under = (x: number, y: number) => this.#hit((2 * x) / clientWidth - 1, 1 - (2 * (y - 4)) / clientHeight);
     this.#open = this.#spots.map((spots, link) =>
       spots.filter((spot) => {
         const at = moved(poses[link]!, spot);
         if (this.#isBehind(link, eye, at)) return false;
         const [x, y] = pixel(at);
-        const around = AROUND.map(([right, down]) =>
-          this.#hit((2 * (x + right)) / clientWidth - 1, 1 - (2 * (y - 4 + down)) / clientHeight),
-        );
+        const around = AROUND.map(([right, down]) => under(x + right, y + down));
         const own = around.filter((hit) => hit?.link === link).length;
         return around.filter((hit) => hit && hit.link !== link).length <= own;
       }),
     );
+    this.#aside = this.#open.map(([spot], link) => {
+      if (!spot) return [0, 0];
+      const [x, y] = pixel(moved(poses[link]!, spot));
+      const half = halfOf(shortened(this.#links[link]!));
+      const corners = [-half - 2, 0, half + 2].flatMap((right) => [-8, 9].map((down): Pair => [right, down]));
+      const places = ASIDE.flatMap((far): Pair[] => [
+        [0, -far],
+        [0, far],
+        [far + half - 8, 0],
+        [8 - far - half, 0],
+      ]);
+      const last = this.#aside[link] ?? [0, 0]; // it jumps less
+      const isClear = ([right, down]: Pair) => corners.every(([u, v]) => !under(x + right + u, y + down + v));
+      return [last, ...places].find(isClear) ?? [0, 0];
+    });
     this.#due = performance.now() + SEEN;
   }
 
@@ -604,4 +628,9 @@ function breadth(places: Pair[]): number {
 function between(fingers: Map<number, PointerEvent>): number {
   const [one, two] = [...fingers.values()];
   return one && two ? Math.hypot(one.clientX - two.clientX, one.clientY - two.clientY) : 0;
+}
+
+/** The name of a body without what explains it. */
+function shortened(name: string): string {
+  return name.replace(/ \(.*/, "");
 }

@@ -13,7 +13,7 @@ import { firstTheme, panelOf, setTheme, shell, themeTool, tool } from "../shell"
 import { IN_SPACE, type InSpace, store } from "../storing";
 import { driveText } from "../track";
 import { type Driven, Transport } from "../transport";
-import { moved } from "./algebra";
+import { FLAT, moved } from "./algebra";
 import { asked } from "./asking";
 import { endsOf, Machine } from "./machine";
 import type { Model } from "./model";
@@ -26,7 +26,7 @@ import { stlOf } from "./solids";
 const VIEWS: Record<string, [number, number]> = {
   front: [-Math.PI / 2, 0],
   side: [0, 0],
-  top: [-Math.PI / 2, 1.5],
+  top: [-Math.PI / 2, Math.PI / 2],
 };
 const DIGITS = 4;
 
@@ -268,7 +268,8 @@ export class SpaceView implements Driven {
     const { scene } = this;
     const look = (name: string) => {
       this.#view = name;
-      scene.look(...(VIEWS[name] ?? scene.oblique));
+      const along = VIEWS[name];
+      scene.look(...(along ?? scene.oblique), along && FLAT);
     };
     this.#views = choice(
       words.view!,

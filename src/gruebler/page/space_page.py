@@ -35,7 +35,7 @@ from gruebler.structure.mechanism import Mechanism
 from gruebler.teaching.catalog import entries, entry
 
 _WORDS = {
-    "hint": message("Drag a body to move the machine, drag the background to turn the view."),
+    "hint": message("Drag a body to move the machine or the background to turn the view."),
     "turn": message("Drag the background to turn the view."),
     "pull": message("Drag a body"),
     "pulled": message("move the machine; the point that you drag draws its path"),
