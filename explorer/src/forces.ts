@@ -161,8 +161,7 @@ export class Forces {
       this.#speed = null;
       this.#form.change = {};
       this.#acting.open = false;
-      renew(this.#form.element);
-      renew(this.#result);
+      for (const part of [this.#form.element, this.#result, this.#joint]) renew(part);
     }
     this.#summary.textContent = t("Masses, loads");
     if (!this.#acting.isConnected) renew(this.element, this.#acting, this.#result);
@@ -244,6 +243,7 @@ export class Forces {
     this.#driven = this.#fallen = NOTHING;
     const assume = () => {
       this.brings = true;
+      this.#acting.open = false;
       this.#form.put({ bars: "steel" });
     };
     const given = masses.some(Boolean);
@@ -417,7 +417,7 @@ export class Forces {
     });
     const course = h("summary", {}, t("Course"));
     const plots = this.#plots.map((plot) => plot.element);
-    renew(told, h("details.words", { open: true }, course, ...found.lines.map(noted), ...plots));
+    renew(told, h("details.words", { open: true }, course, ...found.lines.map(noted), h("p", {}), ...plots));
     transport.seek(0, found);
     transport.toggle();
   }

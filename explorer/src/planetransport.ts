@@ -133,7 +133,7 @@ export class PlaneTransport extends Transport<DrivenInPlane> {
 
   protected override advance(seconds: number): void {
     if (!this.falling) return super.advance(seconds);
-    this.view.linkage.pose = this.falling.later(seconds);
+    this.view.linkage.pose = this.falling.later(seconds * this.pace);
     this.view.posed();
   }
 

@@ -28,7 +28,6 @@ const EDGE = 6; // from the end of an arrow to that of the picture
 const BESIDE = 14; // pixels from the end of an arrow to its number
 const RING = 6; // the radius of a target
 const RAIL = 6; // half the width of a rail with its hatching, and some room
-const FEW = 5; // joint forces that have room for their numbers
 const CLEAR = 10; // pixels about a text in which nothing else is
 const POSES = 24; // of a cycle, in which names must have places
 
@@ -74,7 +73,7 @@ export class Scene {
     legend: Legend,
   ) {
     this.#names = new Naming(viewport, legend);
-    this.#thick.style.strokeWidth = "4.5";
+    this.#thick.style.strokeWidth = "3.8";
   }
 
   /** Whether names of links stand in a list. */
@@ -294,7 +293,7 @@ export class Scene {
       put(this.#arrows[k]!, { d: all.map((one) => arrow(...one)).join("") });
     });
     const chosen = kinds[0]!.find((one) => one[7]);
-    put(this.#thick, { d: chosen ? arrow(...chosen) : "" });
+    put(this.#thick, { d: chosen ? arrow(...chosen) + dotAt(rootOf(chosen), 2 * RING) : "" }); // however short it is
     // a number may stand upon a plate, but not across its edges or on a pin
     const pins = this.#pins.map(({ joint }) => {
       const [x, y] = pixels(joint);
@@ -381,19 +380,19 @@ export class Scene {
     return places.map(([x, y, dx, dy, ...more]): Arrow => [x, y, dx / most, dy / most, ...more]);
   }
 
-  /** Beside the tips of arrows: of a few joint forces, of loads, and of the longest of each other kind how much they are;
-   * of many joint forces their signs, with which they are listed. The longest texts choose first. */
+  /** Beside the tips of arrows: of loads, and of the longest of each other kind how much they are; of joint forces their
+   * signs, with which they are listed, of the chosen one both. The longest texts choose first. */
   #putValues(kinds: Arrow[][], drawn: (readonly Pair[])[]): void {
     const texts: Element[] = [];
-    const tips = kinds.flat().filter((one) => arrow(...one));
-    const many = kinds[0]!.length > FEW;
+    const tips = kinds.flat().filter((one) => one[7] || arrow(...one));
     const long = ([, , dx, dy]: Arrow) => Math.hypot(dx, dy);
     const longest = kinds.slice(2).flatMap((all) => [...all].sort((one, other) => long(other) - long(one)).slice(0, 1));
-    for (const [n, one] of [...kinds[1]!, ...longest, ...kinds[0]!].entries()) {
+    const joints = [...kinds[0]!].sort((one, other) => +!!other[7] - +!!one[7]);
+    for (const [n, one] of [...kinds[1]!, ...longest, ...joints].entries()) {
       const [x, y, dx, dy, amount, unit, sign, chosen] = one;
       if (!tips.includes(one)) continue;
-      const told = `${numberText(amount, 3)} ${unit}`.trim();
-      const said = chosen ? `${sign} ${told}` : (many && sign) || told;
+      const told = sign && !chosen ? "" : `${numberText(amount, 3)} ${unit}`;
+      const said = `${sign ?? ""} ${told}`.trim();
       const half = halfOf(said);
       const parts = Math.ceil(half / CLEAR);
       const tip: Pair = [x + dx, y + dy];
@@ -421,7 +420,7 @@ export class Scene {
         if (most >= 5 * CLEAR) break; // none is better
       }
       this.#beside[n] = taken;
-      if (many && !chosen && most < 0) continue; // the list tells which it is once its row is chosen
+      if (sign && !chosen && most < CLEAR) continue; // the list tells which it is once its row is chosen
       const [left, top] = spots[taken]!;
       texts.push(svg("text", { "data-arrow": "", "text-anchor": "middle", x: left, y: top + 4 }, said));
       drawn.push(lettersAt(left, top + 4, half));
@@ -448,6 +447,12 @@ export class Scene {
 
 function move(element: SVGElement, [x, y]: Pair): void {
   put(element, { transform: `translate(${x.toFixed(2)} ${y.toFixed(2)})` });
+}
+
+/** The place of a joint from which a force begins, at the rim of its ring. */
+function rootOf([x, y, dx, dy]: Arrow): Pair {
+  const off = RING / (Math.hypot(dx, dy) || 1);
+  return [x - off * dx, y - off * dy];
 }
 
 /** An arrow with its head, in pixels; nothing if it is too short for one. Of a moment three quarters of a circle. */

@@ -54,6 +54,8 @@ export class Transport<View extends Driven = Driven> {
     () => this.paused(),
   );
   speed = SPEED; // turns a minute; of a slide, strokes
+  /** Of another motion than that of the drive: so many times as fast as it is. */
+  protected pace = 1;
   #way = 1;
   protected readonly track = new Track((value, beyond) => this.slid(value, beyond));
   readonly #value = h("input.value", { size: 8, onchange: () => this.#typed() });
@@ -64,18 +66,16 @@ export class Transport<View extends Driven = Driven> {
   arrange(): void {
     this.player.arrange();
     const { active, model } = this.view.linkage;
-    const speed = h("input", {
-      type: "range",
-      min: 1,
-      max: 60,
-      value: this.speed,
-      "aria-label": t("Speed"),
-      oninput: () => {
-        this.speed = Number(speed.value);
-        rate.textContent = `${this.speed}/min`;
-      },
-    });
-    const rate = h("span", {}, `${number(this.speed, 3)}/min`);
+    const { ending } = this;
+    const told = () => (ending ? `×\u2009${number(this.pace)}` : `${number(this.speed, 3)}/min`);
+    const [step, max, value] = ending ? [0.1, 1, this.pace] : [1, 60, this.speed];
+    const oninput = () => {
+      if (ending) this.pace = Number(speed.value);
+      else this.speed = Number(speed.value);
+      rate.textContent = told();
+    };
+    const speed = h("input", { type: "range", min: step, max, step, value, "aria-label": t("Speed"), oninput });
+    const rate = h("span", {}, told());
     const onchange = (event: Event) => {
       this.view.linkage.choose(Number((event.target as HTMLSelectElement).value));
       this.view.chosen();
@@ -85,12 +85,12 @@ export class Transport<View extends Driven = Driven> {
     );
     const called = t("Drive");
     const drives = choices.length > 1 && h("select", { "aria-label": called, title: called, onchange }, ...choices);
-    const speedLabel = h("label.speed", {}, h("span", {}, t("Speed")), speed, rate);
-    this.#value.setAttribute("aria-label", this.ending ? t("Time") : called);
+    const speedLabel = h("label.speed", {}, !ending && h("span", {}, t("Speed")), speed, rate);
+    this.#value.setAttribute("aria-label", ending ? t("Time") : called);
     const { button } = this.player;
     const track = this.track.element;
-    const row = this.ending
-      ? [button, track, this.#value, this.ending]
+    const row = ending
+      ? [button, track, this.#value, speedLabel, ending]
       : [button, drives, track, this.#value, speedLabel];
     renew(this.element, ...(this.view.linkage.drive ? row : []));
   }

@@ -547,7 +547,7 @@ def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_field
         if not gone:
             assert side["y"] == pytest.approx(bar["y"] + bar["height"], abs=1)
     assert stage["y"] == pytest.approx(0, abs=1)
-    assert stage["height"] == pytest.approx(0.28 * 844, abs=1)
+    assert stage["height"] == pytest.approx(0.26 * 844, abs=1)
 
 
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768), (390, 844)])
@@ -588,9 +588,16 @@ def test_each_joint_has_its_force_where_the_drive_is_and_masses_their_source(tab
         assert float(value) == pytest.approx(sizes[row], rel=6e-3)
         assert float(most) == pytest.approx(max(sizes), rel=6e-3)
     assert read.locator("dt").all_inner_texts()[0] == "F₁ frame on crank"
-    # four arrows have their numbers
-    values = [text.split("max.")[0].strip() for text in read.locator("dd").all_inner_texts()]
-    assert page.page.locator(".stage text[data-arrow]").all_text_contents() == values
+    # the arrows have the signs of the rows, that of the chosen one how much it is
+    signs = [text.split()[0] for text in read.locator("dt").all_inner_texts()]
+    for row in (None, 2, 0):
+        if row is not None:
+            read.nth(row).click()
+            assert panel.get_by_label("Force vector").input_value() == str(row)
+        chosen = int(panel.get_by_label("Force vector").input_value())
+        value = read.nth(chosen).locator("dd").inner_text().split("max.")[0].strip()
+        expected = [f"{sign} {value}" if k == chosen else sign for k, sign in enumerate(signs)]
+        assert sorted(page.page.locator(".stage text[data-arrow]").all_text_contents()) == sorted(expected)
     plot = panel.locator(".plot:not(.polar)")
     assert plot.locator(".title").text_content() == "Drive torque [N·mm]"
     assert plot.get_by_text("Drive [°]").count() == 1
@@ -607,6 +614,31 @@ def test_each_joint_has_its_force_where_the_drive_is_and_masses_their_source(tab
     page.until(f"!{ROOT}.querySelector('{PANEL}').textContent.includes('Assumed')")
     assert mass.input_value() == "0.5"
     assert panel.get_by_label("Mass coupler").input_value() == "0.055"
+
+
+def test_another_machine_has_its_own_force_vector(tab, server):
+    """The seventh joint of the excavator was kept for a four-bar, which has four: no name, and the plot of before."""
+    page = tab().open(server.address)
+    panel = page.page.locator(PANEL)
+    for machine, joints in (("excavator", 13), ("crankrocker", 4)):
+        page.machine(machine)
+        if machine == "excavator":
+            panel.locator("summary").first.click()
+        panel.locator('[data-act="assume"]').click()
+        rows = panel.locator(".listed > div")
+        rows.nth(joints - 1).wait_for()
+        sizes = panel.get_by_label("Force vector")
+        largest = max(range(joints), key=lambda k: largest_of(rows.nth(k).inner_text()))
+        assert sizes.input_value() == str(largest)
+        assert page.page.evaluate(f"{ROOT}.querySelector('.plot.polar .curve').getAttribute('d')")
+        rows.nth(joints - 1).click()
+        assert sizes.input_value() == str(joints - 1)
+
+
+def largest_of(row):
+    """The largest force of a row of the list, in newtons."""
+    value, unit = re.search(r"max\.\s(\S+)\s(k?N)", row).groups()
+    return float(value) * (1000 if unit == "kN" else 1)
 
 
 def test_arrows_of_a_low_picture_are_shorter_and_their_value_is_not_under_a_button(tab, server):
@@ -720,8 +752,8 @@ def test_the_picture_shows_the_whole_of_a_free_motion(tab, server, width):
     for drive in (250, 276, 321, 300):  # each arrow has the sign with which it is listed
         page.page.evaluate(f"gruebler.motion.transport.pick({drive})")
         told = page.page.locator(".stage text[data-arrow]").all_text_contents()
-        assert len(told) == len(set(told)) == page.page.evaluate(ARROWS).count("L") / 3 >= 8, drive
-        assert all(re.fullmatch("F[₀-₉]+", one) for one in told), drive
+        assert page.page.evaluate(ARROWS).count("L") / 3 >= len(told) == len(set(told)) >= 8, drive
+        assert sorted(re.sub("F[₀-₉]+", "", one) for one in told)[:-1] == [""] * (len(told) - 1), drive
     release = panel.locator('[data-act="fall"]')
     release.scroll_into_view_if_needed()
     page.page.wait_for_timeout(200)
