@@ -488,7 +488,7 @@ export class BuildView implements View, Plane, Drawn {
     const [from, to] = this.#tool === "scale" ? this.spots : [];
     renew(this.#choice, ...(from && to ? [this.#distance(from.at, to.at)] : choiceOf(this)));
     this.#hint.hidden = !!(this.chosen || to);
-    markLengths(this.#places, this.drawing, this.chosen);
+    markLengths(this.#places, this);
   }
 
   get title(): string {

@@ -33,10 +33,10 @@ interface Measured {
   readonly chosen: { readonly knot: number | null; readonly link: string | null } | null;
 }
 
-export function dimensionsOf({ chosen, drawing, viewport }: Measured): Dimension[] {
+/** The lengths of what is chosen: of a link, or of a joint beside the frame. */
+export function wantedOf({ chosen, drawing, viewport }: Measured): Span[] {
   const { frame, knots } = drawing;
   const all = spansOf(drawing);
-  const held = ({ ends }: Span) => isKept(drawing, "length", ends);
   const { knot = null, link = null } = chosen ?? {};
   const alone = (span: Span) => all.every((one) => one === span || one.link !== span.link);
   const jointed = (span: Span) => alone(span) || span.ends.every((k) => knots[k]!.links[1]);
@@ -45,7 +45,14 @@ export function dimensionsOf({ chosen, drawing, viewport }: Measured): Dimension
     // those of points only with these
     return span.link !== frame && span.ends.includes(knot ?? -1) && (jointed(span) || !knots[knot!]!.links[1]);
   });
-  const shown = [...new Set([...wanted.slice(0, MOST), ...(viewport.narrow ? [] : all.filter(held))])];
+  return wanted.slice(0, MOST);
+}
+
+export function dimensionsOf(plane: Measured): Dimension[] {
+  const { drawing, viewport } = plane;
+  const { knots } = drawing;
+  const held = ({ ends }: Span) => isKept(drawing, "length", ends);
+  const shown = [...new Set([...wantedOf(plane), ...(viewport.narrow ? [] : spansOf(drawing).filter(held))])];
   const taken: Segment[] = [];
   return shown.flatMap((span) => {
     const [p, q] = span.ends.map((k) => viewport.screen(...knots[k]!.at)) as [Pair, Pair];
@@ -88,7 +95,8 @@ export function dimensionsOf({ chosen, drawing, viewport }: Measured): Dimension
         ), // across the figure
       ];
       const over = whole.filter((one) => taken.some((other) => cross(one, other))).length;
-      const cut = x < half || x > viewport.width - half ? 1 : 0;
+      const hidden = [a, b].some(([u, v]) => u > viewport.right(v)); // by the buttons
+      const cut = hidden || x < half || x > viewport.right(y) - half ? 1 : 0;
       const path = [...parts, head(a, 1), head(b, -1)].map(pathThrough).join("");
       return { path, line: [a, b] as Segment, at: [x, y] as Pair, whole, bad: over + cut };
     };

@@ -1,12 +1,12 @@
 /** The list of lengths of a drawing, in which they are typed and kept. */
 
 import { digits } from "./digits";
+import { wantedOf } from "./dimensions";
 import { h } from "./dom";
 import { type Drawing, type Keep, knotName, turned, unitOf } from "./drawing";
 import { softened } from "./header";
 import { parsed, spaced, t } from "./language";
 import { isKept, keeping, lengthOf, spanName, spansOf, withLength } from "./lengths";
-import type { Chosen } from "./plane";
 import { lockButton } from "./shell";
 
 /** The view of a drawing, as far as its lengths are changed. */
@@ -34,10 +34,8 @@ function linkNamed(link: string): string {
 }
 
 /** Mark the lengths of what is chosen. */
-export function markLengths(list: HTMLElement, drawing: Drawing, chosen: Chosen | null): void {
-  const { knot = null, link = null } = chosen ?? {};
-  const spans = spansOf(drawing).filter((span) => span.link === link || span.ends.includes(knot ?? -1));
-  const names = spans.map(({ ends }) => spanName(drawing, ends));
+export function markLengths(list: HTMLElement, plane: Parameters<typeof wantedOf>[0]): void {
+  const names = wantedOf(plane).map(({ ends }) => spanName(plane.drawing, ends));
   for (const field of list.querySelectorAll<HTMLElement>("[data-span]"))
     field.previousElementSibling!.classList.toggle("chosen", names.includes(field.dataset.span!));
 }

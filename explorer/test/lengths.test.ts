@@ -5,6 +5,7 @@ import { test } from "node:test";
 import { dimensionsOf } from "../src/dimensions";
 import { called, type Drawing, documentOfDrawing, turned, withPoint } from "../src/drawing";
 import { keeping, lengthOf, movedKept, type Span, spansOf, withLength } from "../src/lengths";
+import { halfOf } from "../src/names";
 import type { Pair } from "../src/rows";
 import { Viewport } from "../src/viewport";
 import { close, near } from "./near";
@@ -97,6 +98,32 @@ test("dimension lines of a joint do not cross each other", () => {
     const [one, two] = dimensionsOf({ drawing, viewport, chosen: { knot: 1, link: null } });
     assert.ok(!cross(one!.line, two!.line), `${x} ${y}`);
   }
+});
+
+test("figures of lengths keep apart, also where both are level", () => {
+  // a coupler and a ternary link of a six-bar on a phone
+  const drawing: Drawing = {
+    frame: "f",
+    drives: [],
+    knots: [
+      { at: [0, 20], links: ["1", "2"] },
+      { at: [60, 40], links: ["2", "3"] },
+      { at: [70, 0], links: ["f", "3"] },
+      { at: [92, 32], links: ["3", "4"] },
+      { at: [30, 60], links: ["2"] },
+    ],
+  };
+  const viewport = Object.assign(new Viewport(), { width: 390, height: 440, scale: 2 });
+  const all = dimensionsOf({ drawing, viewport, chosen: { knot: 1, link: null } });
+  assert.equal(all.length, 3);
+  for (const one of all)
+    for (const other of all)
+      assert.ok(
+        one === other ||
+          Math.abs(one.at[0] - other.at[0]) > halfOf(one.text) + halfOf(other.text) ||
+          Math.abs(one.at[1] - other.at[1]) > 13,
+        `${one.text} ${other.text}`,
+      );
 });
 
 test("a chosen link has all its lengths, outside of it", () => {
