@@ -56,7 +56,7 @@ export class ChainList {
   #all = false;
   /** The link assortment of those that are shown, as 4,6; any if empty. */
   #assortment = "";
-  readonly #assortments = h("span", {});
+  readonly #assortments = h("span", { hidden: true });
   readonly #list = h("div.chains", {});
   readonly #count = h("span.note", { role: "status" }, "\u00a0");
   readonly #status = h("div.form", {});
@@ -71,12 +71,24 @@ export class ChainList {
   ) {
     const { links, drives } = page.shown; // as the machine at hand, whose structure is said a moment later
     [this.#links, this.mobility] = [links.length, drives.length || 1];
+    // below the only card of a row, where it moves nothing
+    if (this.few) this.#counts.style.cssText = "position: absolute; margin-top: 195px";
+  }
+
+  /** Whether the machine at hand has so few links that each step has one card. */
+  get few(): boolean {
+    return this.page.shown.links.length < 5;
   }
 
   /** The machine at hand; what was chosen beside another one is no longer shown. */
   begin(own: Structure): void {
     if (own.text !== this.own?.text) this.#other = null;
     this.own = own;
+  }
+
+  /** Another machine is at hand, whose list is not known yet, or known now. */
+  leave(on: boolean): void {
+    this.element.classList.toggle("asking", on);
   }
 
   /** A structure is described, or there is none; the list turns to its size if it is the machine at hand or comes
@@ -208,6 +220,7 @@ export class ChainList {
     if (others) {
       this.#list.querySelector(".note")?.remove(); // why there was none
       this.#count.textContent = t("counting …");
+      renew(this.#counts); // one bar is enough
       this.waits(!stays);
     }
     const place = this.#found || others ? this.#status : this.#counts;
@@ -256,6 +269,7 @@ export class ChainList {
     const choose = (assortment: string) => this.#only(assortment);
     const filter = menu(t("Link assortment"), [["", every], ...options], this.#assortment, choose);
     renew(this.#assortments, options.length > 1 && filter);
+    this.#assortments.hidden = !options[1];
     if (!total) {
       const beside = [this.mobility - 1, this.mobility + 1].map((freedom): Size => [this.#links, freedom]);
       const keys = beside

@@ -65,7 +65,8 @@ export class StructureView implements View {
     const own = inSpace?.text ?? chainText(shown);
     if (own !== this.#own) {
       for (const scrolled of [this.element, window]) scrolled.scrollTo(0, 0);
-      void this.describe(own);
+      this.chains.leave(true);
+      void this.describe(own).then(() => this.chains.leave(false));
     }
     this.#own = own;
   }
@@ -80,8 +81,8 @@ export class StructureView implements View {
         "div.page",
         {},
         h(
-          "div.steps",
-          {},
+          "div",
+          { class: this.chains.few ? "steps row" : "steps" },
           step(1, t("Chain"), [], this.chains.element),
           // on a phone the chain is seen before its frames
           ...(this.#narrow.matches
@@ -190,6 +191,7 @@ export class StructureView implements View {
       links.some(({ overconstrained, rigid }) => rigid && !overconstrained) &&
         h("p.note", {}, t("Purple: links rigid against each other.")),
     );
+    this.element.querySelector(".steps")!.classList.add("row"); // where each step has one card
     const all = (on: boolean) => {
       this.#atFrame = !on;
       void this.describe(this.text);
@@ -237,6 +239,13 @@ export class StructureView implements View {
           isOwn ? "button.plain" : "button.key",
           { "data-act": "realise", onclick: () => void this.#realise() },
           finding,
+        ),
+      // of a long list its picture is far
+      this.#narrow.matches &&
+        h(
+          "button.plain",
+          { "data-act": "down", title: t("To the picture"), onclick: () => this.#shown.scrollIntoView() },
+          "↓",
         ),
     );
     if (before !== false) for (const scrolled of [this.element, window]) scrolled.scrollBy(0, top() - before);

@@ -1,6 +1,6 @@
 /** What takes time. */
 
-import { action, h, renew } from "./dom";
+import { action, h, renew, unbroken } from "./dom";
 import { Cancelled, type Request } from "./host";
 import { t } from "./language";
 
@@ -10,7 +10,7 @@ export function moment(): HTMLElement {
     "p.note",
     { role: "status", "data-waiting": "" },
     h("progress", { "aria-hidden": "true" }),
-    t("One moment …"),
+    unbroken(t("One moment …"), / /g),
   );
 }
 

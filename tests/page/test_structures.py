@@ -565,6 +565,47 @@ def test_the_button_that_finds_dimensions_is_in_sight_on_a_phone(tab, server):
     )
 
 
+def test_from_a_long_list_a_key_leads_to_the_picture_on_a_phone(tab, server):
+    page = tab(width=390, height=844, touch=True).open(server.address)
+    view = page.page
+    view.click('[data-view="structure"]')
+    links = view.locator('[data-page="structure"]').get_by_label("Links", exact=True)
+    links.fill("8")
+    links.press("Enter")
+    page.until("gruebler.root.querySelectorAll('[data-list=chains] .card').length === 6")
+    view.locator(".chain-picture svg .gr-name", has_text="8").wait_for()
+    picture = view.locator(".chain-picture")
+    assert picture.bounding_box()["y"] > 844
+    view.click('[data-act="down"]')
+    page.until("gruebler.root.querySelector('.chain-picture').getBoundingClientRect().top < 60")
+    assert picture.bounding_box()["y"] >= 0
+
+
+@pytest.mark.parametrize(("width", "height", "locale"), [(1440, 900, "en"), (1024, 768, "de")])
+def test_steps_of_one_card_each_stand_in_a_row_and_what_is_said_fits(tab, server, width, height, locale):
+    page = tab(width=width, height=height, locale=locale).open(server.address)
+    view = page.page
+    view.click('[data-view="structure"]')
+    view.locator('[data-list="driven"] .card').wait_for()
+    page.until("!gruebler.root.querySelector('.chains progress')")
+    heads, cards = (
+        [one.bounding_box() for one in view.locator(f".steps {part}").all()] for part in ("h2", "button.card")
+    )
+    assert [len(heads), len(cards)] == [3, 3]
+    for boxes, edge in ((heads, "top"), (cards, "bottom")):
+        ends = [box["y"] + (box["height"] if edge == "bottom" else 0) for box in boxes]
+        assert max(ends) - min(ends) < 1
+        assert boxes[0]["x"] < boxes[1]["x"] < boxes[2]["x"]
+    made = "gruebler.root.querySelector('.made')"
+    assert view.evaluate(f"{made}.scrollHeight - {made}.clientHeight") <= 1
+    links = view.locator('[data-page="structure"] input[type="number"]').first
+    links.fill("6")
+    links.press("Enter")
+    page.until("gruebler.root.querySelectorAll('[data-list=chains] .card').length === 2")
+    tops = [one.bounding_box()["y"] for one in view.locator(".steps h2").all()]
+    assert tops[0] + 100 < tops[1] < tops[2] - 100
+
+
 def test_a_window_that_becomes_wide_has_the_picture_beside_the_steps(tab, server):
     page = tab(width=800, height=900).open(server.address)
     view = page.page

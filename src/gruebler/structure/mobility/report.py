@@ -269,7 +269,7 @@ def _numbers(report: MobilityReport) -> Iterator[Message]:
     if report.counted == 1:
         yield message("Criterion of constrained motion: {criterion}. It holds.", criterion=criterion)
     else:
-        yield message("Criterion of constrained motion: {criterion}. It does not hold.", criterion=criterion)
+        yield message("Criterion of constrained motion: {criterion}, not 0.", criterion=criterion)
     if report.exact:
         line = message("Generic mobility (almost all sizes): {generic}, proved.", generic=report.generic)
     else:
