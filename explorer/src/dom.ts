@@ -47,7 +47,7 @@ export function unbroken(text: string, gaps = GAPS): string {
 /** A text in which what follows an underscore is an index, l_a, and the class of a joint, g1; a joint R(a-b) is one. */
 export function indexed(text: string): (string | Node)[] {
   return unbroken(text)
-    .split(/(?:(?<=[\p{L}\p{N}])_|(?<=\bg)(?=\d))([\p{L}\d]+)|(\p{Lu}\w*\(\S[^()]*\S-[^()]*\))/u)
+    .split(/(?:(?<=[\p{L}\p{N}])_|(?<=\bg)(?=\d))([\p{L}\d]+)|(\p{Lu}\w*\((?:\S[^()]*)?\S-[^()]*\))/u)
     .map((part, k) => (part ? [part, h("sub", {}, part), h("nobr" as "b", {}, part)][k % 3]! : ""));
 }
 

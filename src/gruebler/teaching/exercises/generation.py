@@ -129,9 +129,9 @@ def _typed(random: Random, level: int) -> Chain:
 
 
 _LETTERS = {
-    "revolute": message("R: turning pair"),
-    "prismatic": message("P: sliding pair"),
-    "roll_slide": message("G: rolling and sliding pair"),
+    "revolute": message("R: revolute joint"),
+    "prismatic": message("P: prismatic joint"),
+    "roll_slide": message("G: rolling and sliding joint"),
 }
 
 
@@ -171,7 +171,7 @@ def _dyad(random: Random, level: int) -> _Draft:
     else:
         method = "dyads.coupler"
         task = message(
-            "Connect two links of the chain {chain} by a coupler with two turning pairs, so that no rigid "
+            "Connect two links of the chain {chain} by a coupler with two revolute joints, so that no rigid "
             "triangle results.",
             chain=chain,
         )
@@ -179,9 +179,9 @@ def _dyad(random: Random, level: int) -> _Draft:
 
 
 _DYADS = (
-    ("RRR", message("three turning pairs")),
-    ("RPR", message("two turning pairs and a sliding pair between them")),
-    ("RRP", message("two turning pairs and a sliding pair at one end")),
+    ("RRR", message("three revolute joints")),
+    ("RPR", message("two revolute joints and a prismatic one between them")),
+    ("RRP", message("two revolute joints and a prismatic one at one end")),
 )
 """Forms of dyads and their descriptions."""
 
