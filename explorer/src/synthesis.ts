@@ -141,16 +141,16 @@ export class SynthesisView implements View {
     const clicks: [string, string][] =
       this.kind === "points"
         ? [
-            ["", t("Put points")],
+            ["", t("Place points")],
             ["curve", t("Draw a curve")],
           ]
         : [
-            ["", t("Put positions")],
-            ["pivot", t("Put fixed pivots")],
+            ["", t("Place positions")],
+            ["pivot", t("Place fixed pivots")],
           ];
     const hints: Record<Puts, string> = {
       "": wordsOf(this.kind).hint,
-      pivot: t("Put one or two pivots that the linkage shall have on the frame."),
+      pivot: t("Place one or two pivots that the linkage shall have on the frame."),
       curve: t("Draw the curve in one stroke, a closed one to its start; the nearest coupler curves are found."),
     };
     this.#picture.plane.setAttribute("aria-label", t("What is to be met"));

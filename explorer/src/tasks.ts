@@ -22,13 +22,15 @@ export function wordsOf(kind: Kind): TaskWords {
   const words: Record<Kind, TaskWords> = {
     points: {
       name: t("Points"),
-      hint: t("Put points in the order in which a coupler point passes them: up to nine are met exactly if possible."),
+      hint: t(
+        "Place points in the order in which a coupler point passes them: up to nine are met exactly if possible.",
+      ),
       row: t("Point"),
       heads: PLACE,
     },
     positions: {
       name: t("Positions"),
-      hint: t("Put three to five positions of the coupler; drag the end of an arrow to turn one."),
+      hint: t("Place three to five positions of the coupler; drag the end of an arrow to turn one."),
       row: t("Position"),
       heads: [...PLACE, "φ [°]"],
     },

@@ -913,7 +913,7 @@ def test_cards_tell_where_the_point_lies_and_the_drive_turns_the_way_of_the_targ
     """By the places of joints in the frames of the motion, and by Grashof's sums."""
     items = found_for_three["items"]
     assert max(item["size"] for item in items) < 10 * np.hypot(75, 25)
-    assert "Left out, as a link is longer than 791 mm: 2." in found_for_three["note"]
+    assert "Left out with a link longer than 791 mm: 2." in found_for_three["note"]
     for item in items:
         if item["form"] == "Four-bar":
             frame, *others = item["lengths"]

@@ -61,8 +61,8 @@ _ROUNDING = 1e-9
 _CURVES = 12
 """So many designs for a whole curve: a choice between near ones and small ones."""
 _LOW = message("Left out, as the transmission angle falls below {angle:g}° in other positions: {count}.")
-_LONG = message("Left out, as a link is longer than {length:g} mm: {count}.")
-_OWN_LIMIT = message("That limit is the page's own: type another one for longer links.")
+_LONG = message("Left out with a link longer than {length:g} mm: {count}.")
+_OWN_LIMIT = message("Another limit can be typed.")
 _LESS = (0.9, 0.7, 0.4, 0.0)  # of a transmission angle that no design has
 _NEAREST = 12  # designs that are shown of these
 _NEARLY = message("No linkage was found that meets all demands; these meet all but {demands}.")
@@ -294,7 +294,7 @@ def _short_enough(designs: list[Design], longest: float) -> tuple[list[Design], 
     >>> made = FourBar(25, 70, 40, 70).linkage({"K": (200.0, 0.0)})
     >>> design = Design(linkage=made, verdict=DesignVerdict(), form="four-bar")
     >>> [str(text) for length in (201.0, 199.0) for text in _short_enough([design], length)[1]]
-    ['Left out, as a link is longer than 199 mm: 1.']
+    ['Left out with a link longer than 199 mm: 1.']
     """
     fitting = [each for each in designs if _longest(posed_linkage(each.linkage)) <= longest]
     more = len(designs) - len(fitting)
