@@ -133,6 +133,7 @@ def test_the_site_answers_as_the_library_does(tab, folder, address):
             {},
             {"words": "Kurbel four-BAR"},
             {"words": "viergelenk Lámbda"},
+            {"words": "crank"},
             {"pairs": "G"},
             {"links": 4},
             {"joints": "R:4,P:0"},

@@ -39,7 +39,7 @@ function plainWord(word: string): string {
     .replace(/[-‐‑–'’\p{M}]/gu, "");
 }
 
-/** The machines that fit what is asked (`gruebler.page.params.ListCatalog`). */
+/** The machines that fit what is asked (`gruebler.page.params.ListCatalog`), first those that are called so. */
 export function fitting({ machines, symbols }: Catalog, asked: Record<string, unknown>): Machine[] {
   const parts = (key: string, by: RegExp) =>
     String(asked[key] ?? "")
@@ -56,7 +56,7 @@ export function fitting({ machines, symbols }: Catalog, asked: Record<string, un
   const words = parts("words", /\s+/).map(plainWord);
   const wanted = parts("pairs", /\s+/).map(meanings);
   const same = (found: unknown, key: string) => asked[key] === undefined || asked[key] === (found ?? 0);
-  return machines.filter(
+  const fit = machines.filter(
     ({ text, pairs, features }) =>
       words.every((word) => text.includes(word)) &&
       wanted.every((names) => names.some((name) => pairs.includes(name))) &&
@@ -65,4 +65,14 @@ export function fitting({ machines, symbols }: Catalog, asked: Record<string, un
       same(features.links_by_joints[2], "binary") &&
       same(features.links_by_joints[3], "ternary"),
   );
+  // by id and names (`gruebler.teaching.catalog.loader.search`)
+  const isCalled = ({ text }: Machine) => {
+    const called = text
+      .split("\n")
+      .slice(0, 3)
+      .join("\n")
+      .split(/[\s_]+/);
+    return words.every((word) => called.some((one) => one.startsWith(word)));
+  };
+  return [...fit.filter(isCalled), ...fit.filter((one) => !isCalled(one))];
 }

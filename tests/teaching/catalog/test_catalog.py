@@ -1,6 +1,7 @@
 """Every claim of the catalog is derived again, and wrong files are refused in a sentence that names file and key."""
 
 import json
+import re
 from pathlib import Path
 
 import msgspec
@@ -123,6 +124,16 @@ def test_search_by_purpose():
     guides = {e.id for e in search(Query(words=("Führungsgetriebe",)))}
     assert {"mzc", "conchoid", "crane", "toolbox"} <= guides
     assert not {"crankrocker", "geneva", "geartrain", "vcomp"} & guides
+
+
+def test_those_that_are_called_so_come_first():
+    """A press was third, after a compressor."""
+    ids = [each.id for each in search(Query(words=("press",)))]
+    names = {id: entries()[id].name.en for id in ids}
+    called = [id for id in ids if re.search(r"\bpress", names[id], re.IGNORECASE)]
+    assert "toggle_press" in called
+    assert {"compressor", "vcomp"} <= set(ids) - set(called)
+    assert ids[: len(called)] == called == sorted(called)
 
 
 @pytest.mark.parametrize(

@@ -212,9 +212,20 @@ def searched_text(candidate: Entry) -> str:
 
 
 def search(query: Query) -> list[Entry]:
-    """The machines that satisfy a query, by id.
+    """The machines that satisfy a query: first those in whose name or id a word begins with each of its words, by id.
 
     >>> [e.id for e in search(Query(words=("Kompressor",), pairs=("P",)))]
     ['compressor', 'vcomp', 'wobble_plate']
     """
-    return [e for e in entries().values() if query.finds(e)]
+    fitting = (e for e in entries().values() if query.finds(e))
+    return sorted(fitting, key=lambda each: not _is_called(each, query.words))
+
+
+def _is_called(candidate: Entry, words: tuple[str, ...]) -> bool:
+    """Whether words of its id and names begin with these.
+
+    >>> _is_called(entries()["vcomp"], ("Two", "V-compr")), _is_called(entries()["vcomp"], ("press",))
+    (True, False)
+    """
+    called = re.split(r"[\s_]+", "\n".join(searched_text(candidate).split("\n", 3)[:3]))
+    return all(any(name.startswith(plain_word(word)) for name in called) for word in words)
