@@ -229,7 +229,7 @@ export class CatalogView implements View {
     found = found.filter(({ kinds }) => !this.#at.kind || kinds.includes(this.#at.kind));
     this.#filled = true;
     cards.removeAttribute("data-waiting");
-    const few = [t("No machine has all of this."), t("One machine")];
+    const few = [t("No machine matches."), t("One machine")];
     this.#tell(few[found.length] ?? t("{count} machines", { count: found.length }));
     const byName = (a: Entry, b: Entry) => a.name.localeCompare(b.name, currentLanguage());
     // those whose name has what is looked for, not their description alone

@@ -296,7 +296,7 @@ export class Forces {
         h("div.form", {}, this.#release),
         this.#ofFall,
         h("h3", {}, t("Joint forces in this pose")),
-        h("p.note", {}, signed("force", t("twice as long: four times the force")), " ", loads),
+        h("p.note", {}, signed("force", t("square-root scale: twice as long, four times the force")), " ", loads),
         this.#joints.element,
         h("label.options", {}, t("Force vector"), this.#joint),
         this.#polar.element,

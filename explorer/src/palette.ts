@@ -97,6 +97,6 @@ export function palette(chosen: Tool, take: (tool: Tool) => void): HTMLElement[]
 /** What is to be done with a tool that has so many places already. */
 export function hintOf(tool: Tool, placed: number): (Node | string)[] {
   const [name, ...asks] = wordsOf(tool);
-  const hint = asks[placed] ?? asks[0] ?? t("Drag joints; press one, or a link, to edit it.");
+  const hint = asks[placed] ?? asks[0] ?? t("Drag joints; select a joint or link to edit it.");
   return [h("b", {}, name), ": ", hint];
 }

@@ -66,7 +66,7 @@ export class StructureView implements View {
     if (own !== this.#own) {
       for (const scrolled of [this.element, window]) scrolled.scrollTo(0, 0);
       this.chains.leave(true);
-      void this.describe(own).then(() => this.chains.leave(false));
+      void this.describe(own).then(() => own === this.#own && this.chains.leave(false));
     }
     this.#own = own;
   }

@@ -761,6 +761,11 @@ def test_the_picture_shows_the_whole_of_a_free_motion(tab, server, width):
     release.click()
     page.page.locator('[data-act="end"]').wait_for()
     assert release.inner_text() == "Release again"
+    # it is played slower, the drive later as fast as before
+    speed = page.page.evaluate("gruebler.motion.transport.speed")
+    page.page.get_by_label("Speed", exact=True).fill("0.5")
+    assert page.page.locator(".speed").inner_text() == "×\u20090.5"
+    assert page.page.evaluate("gruebler.motion.transport.speed") == speed
     # a force that stays below a tenth of the usual unit has a smaller one
     most = [
         re.search(r"max\. (\S+) k?N", " ".join(one.split())) for one in panel.locator(".listed dd").all_inner_texts()
