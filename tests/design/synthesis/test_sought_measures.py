@@ -186,6 +186,7 @@ def test_preferred_pivots_need_a_place_in_the_plane():
     found = synthesise(PathTask([(0, 0), (1, 0.4), (2, 0.2)]), demands=demands)
     away = [design.verdict.pivot_distance for design in found.designs]
     assert away == sorted(away)
+    assert synthesise(THREE, demands=demands).designs[0].verdict.pivot_distance < 1e-9
 
 
 def test_the_table_names_the_distance(tmp_path, capsys):
