@@ -66,7 +66,7 @@ export interface Camera {
 }
 
 export const NATURAL = 3; // the opening of a view in perspective
-export const FLAT = 60; // from so far that what is parallel is seen so
+export const FLAT = 60; // from so far that what is parallel is nearly seen so
 const STEPS = 12; // to a camera that fits: each leaves a tenth of what is missing, along a slender machine two thirds
 
 /** The eye, and unit vectors to the right, up and towards the eye. */

@@ -313,7 +313,7 @@ export class Scene {
     this.draw();
   }
 
-  /** Look from another side: angles in radians; along an axis without perspective. */
+  /** Look from another side: angles in radians; along an axis from afar. */
   look(turn: number, lift: number, opening = NATURAL): void {
     Object.assign(this.#camera, { turn, lift, opening });
     this.fit();
