@@ -615,6 +615,7 @@ def test_a_window_that_becomes_wide_has_the_picture_beside_the_steps(tab, server
         view.set_viewport_size({"width": width, "height": 900})
         steps = "gruebler.root.querySelector('.steps')"
         page.until(f"!!{steps}.querySelector('.made') === {str(width > 820).lower()}")
+        page.until(f"!{steps}.querySelector('.asking')")  # the structure is asked for again, and shown anew
         picture, frames = (view.locator(part).bounding_box() for part in (".chain-picture", '[data-list="inversions"]'))
         assert (picture["x"] > frames["x"] + frames["width"]) == (width > 820)
         assert width > 820 or picture["y"] + picture["height"] < frames["y"]
