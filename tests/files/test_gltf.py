@@ -68,6 +68,25 @@ def test_a_differential_stands_on_ground_beside_its_wheels(id):
         assert min(plate.vertices @ out) > max(turning @ out)
 
 
+def test_the_frame_of_bennetts_linkage_is_one_body():
+    """Its feet stand on no common ground: a bar as long as the frame, 120 mm (its catalog), joins its bearings."""
+    linkage = entry("bennett").placed()
+    first, second = (
+        frame[:3, 3]
+        for frame, joint in zip(linkage.frames, linkage.mechanism.chain.joints, strict=True)
+        if "frame" in joint.links
+    )
+    assert np.linalg.norm(second - first) == pytest.approx(120)
+    along = (second - first) / 120
+    bars = [
+        body
+        for body in link_solids(linkage)["frame"]
+        if max((body.vertices - first) @ along) - min((body.vertices - first) @ along) == pytest.approx(120)
+    ]
+    assert len(bars) == 1
+    assert np.linalg.norm(np.cross(bars[0].vertices - first, along), axis=1).max() < 0.1 * 120
+
+
 def test_volumes_by_their_formulas():
     """A prism of 16 sides, a box, and a ball that is a little smaller than the round one."""
     share = 8 * np.sin(pi / 8) / pi  # of the regular polygon in its circle

@@ -44,6 +44,7 @@ _FORK, _SMALL_FORK = 5.0, 3.6  # radii of a bar from the middle of a cross to it
 _STOUT = 2.0  # a universal joint on the sphere against other linkages
 _FINEST = 1.0  # lead of a thread that is seen, in radii of a bar
 _PIECES = 24  # of a half circle
+_PAIR, _ALIKE = 2, 0.5  # feet; of their ways to the ground, which is one if their scalar product is larger
 _SAME = 1e-9
 
 
@@ -90,6 +91,7 @@ def link_solids(
     radius = (_STOUT if crosses and spherical else 1.0 if spherical else linkage.size) / _SLENDER
     solids: dict[str, list[Solid]] = {link: [] for link in chain.links}
     holds: dict[str, list[Reals]] = {link: [] for link in chain.links}
+    ways: list[Reals] = []  # to the ground
     bearings = _joint_places(linkage, radius, crosses)
     middle = np.mean(bearings, axis=0)
     wheeled = spherical and any(joint.pair.has_contours for joint in chain.joints)
@@ -125,6 +127,7 @@ def link_solids(
             holds[link].append(hold)
             if away is not None:
                 solids[link] += _foot(hold, at + (_reach(cross, radius) * away if cross else 0.0), away, radius)
+                ways.append(away)
     for cross in crosses:
         solids[cross.body or list(cross.arms)[-1]] += _spider(cross, radius)
     for number, strut in struts.items():
@@ -132,22 +135,12 @@ def link_solids(
         if not strut.fits:  # it slides on a rod
             ends = (travels or {}).get(number, (0.0, 0.0))
             solids[barrel] += _symbol(linkage, number, bearings[number], radius, ends, np.zeros((2, 3)), outer=False)
-        axis = (strut.end - strut.gland) / np.linalg.norm(strut.end - strut.gland)
-        bottom = strut.gland + (holds[barrel][0] - strut.gland) @ axis * axis
-        inner, outside = strut.gland - 1.5 * radius * axis, strut.gland + 0.2 * radius * axis
-        solids[barrel] += [
-            cylinder_solid(bottom, strut.gland, _BARREL * radius),
-            cylinder_solid(inner, outside, 1.2 * _BARREL * radius),
-        ]
+        solids[barrel] += _barrel(strut, holds[barrel][0], radius)
         solids[piston].append(cylinder_solid(strut.rod, strut.end, _ROD * radius))
-    points = {link: [np.array(at) for of, at in linkage.points.values() if of == link] for link in chain.links}
     for link, held in holds.items():
         if link != frame and all(link != cross.body for cross in crosses):
-            rims = [body for body in linkage.round_bodies.values() if body.link == link]
-            joints, named = (
-                [at for at in each if not any(_on_rim(at, rim) for rim in rims)] for each in (held, points[link])
-            )
-            solids[link] += _bars(joints, named, radius, spherical)
+            solids[link] += _between(linkage, link, held, radius)
+    solids[frame][:0] = _between_feet(holds[frame], ways, radius)
     for body in linkage.round_bodies.values():
         solids[body.link].append(round_solid(body))
     return {link: _distinct(each) for link, each in solids.items()}
@@ -192,6 +185,36 @@ def _struts(linkage: SpatialLinkage, r: float, travels: Mapping[int, tuple[float
             rod, gland = (rod, gland) if fits else (-3 * r, 0.0)
             struts[number] = _Strut(at + side * rod * axis, at + side * gland * axis, at + end * axis, fits)
     return struts
+
+
+def _barrel(strut: _Strut, hold: Reals, r: float) -> list[Solid]:
+    """A cylinder from where it is held to its gland, and the ring there."""
+    axis = (strut.end - strut.gland) / np.linalg.norm(strut.end - strut.gland)
+    bottom = strut.gland + (hold - strut.gland) @ axis * axis
+    inner, outside = strut.gland - 1.5 * r * axis, strut.gland + 0.2 * r * axis
+    return [
+        cylinder_solid(bottom, strut.gland, _BARREL * r),
+        cylinder_solid(inner, outside, 1.2 * _BARREL * r),
+    ]
+
+
+def _between_feet(held: Sequence[Reals], ways: Sequence[Reals], r: float) -> list[Solid]:
+    """A bar that joins two bearings of the frame which stand on no common ground: neither on a plane nor face to face.
+
+    >>> sideways, down = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
+    >>> places = [np.zeros(3), np.array([0.0, 9.0, 0.0])]
+    >>> [len(_between_feet(places, ways, 1.0)) for ways in ((sideways, down), (down, down), (sideways, -sideways))]
+    [1, 0, 0]
+    """
+    return _bars(held, [], r, False) if len(ways) == _PAIR and abs(ways[0] @ ways[1]) < _ALIKE else []
+
+
+def _between(linkage: SpatialLinkage, link: str, held: Sequence[Reals], r: float) -> list[Solid]:
+    """What joins the joints and points of a link, but for those on a rim, to which its body leads."""
+    rims = [body for body in linkage.round_bodies.values() if body.link == link]
+    points = [np.array(at) for of, at in linkage.points.values() if of == link]
+    joints, named = ([at for at in each if not any(_on_rim(at, rim) for rim in rims)] for each in (held, points))
+    return _bars(joints, named, r, linkage.mechanism.chain.space is Space.SPHERICAL)
 
 
 def _bars(joints: Sequence[Reals], points: Sequence[Reals], r: float, spherical: bool) -> list[Solid]:
