@@ -24,12 +24,14 @@ interface Chains {
 /** Links and mobility. */
 type Size = [number, number];
 
-const FEW = 6;
+/** How many cards are shown at first: as many as stand in one row, on a phone in several. */
+const fewOf = () => (innerWidth > 1250 || innerWidth < 500 ? 6 : 4);
 
 /** A list of cards, the first ones and the one that is chosen or all, and a key for more if there are. */
 export function listOf(key: string, cards: HTMLElement[], all: boolean, more: () => void, total = 0): Node[] {
   const count = Math.max(total, cards.length);
-  const most = count === FEW + 1 ? count : FEW; // one more takes no more room than a key for it
+  const few = fewOf();
+  const most = count === few + 1 ? count : few; // one more takes no more room than a key for it
   const shown = cards.filter((card, k) => all || k < most || card.ariaPressed === "true");
   const list = h(all ? "div.cards.few.whole" : "div.cards.few", { "data-list": key }, ...shown);
   if (shown.length === count) return [list];

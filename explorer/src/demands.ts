@@ -50,9 +50,9 @@ export class Demands {
       });
       return [h("label", { for: key }, text), input, unit] as const;
     };
-    const longest = field(LONGEST, t("maximum link length"), "mm", 1e9);
+    const longest = field(LONGEST, t("Maximum link length"), "mm", 1e9);
     this.#length = longest[1];
-    const least = way ? t("minimum transmission angle between targets") : t("minimum transmission angle");
+    const least = way ? t("Minimum transmission angle between targets") : t("Minimum transmission angle");
     const order = h("input", {
       value: this.order,
       "aria-label": t("Order of the targets"),
@@ -70,7 +70,7 @@ export class Demands {
     return h(
       "div",
       {},
-      h("div.form", {}, closed, way && option(t("the crank turns fully"), this.#crank, turns, "crank")),
+      h("div.form", {}, closed, way && option(t("Crank turns fully"), this.#crank, turns, "crank")),
       h(
         "div.rows",
         {},
@@ -79,7 +79,7 @@ export class Demands {
           ? [
               ...field(
                 "reach",
-                t("margin around targets for fixed pivots"),
+                t("Maximum distance of fixed pivots from targets"),
                 "mm",
                 1e9,
                 curve ? String(curve) : t("any"),

@@ -197,7 +197,7 @@ export class DesignCards {
       this.element,
       h("h2", {}, items.length === 1 ? t("1 design") : t("{count} designs", { count: items.length })),
       this.#outdated,
-      ...lines(found.note),
+      ...lines(items[0] ? found.note.replaceAll("\n", " ") : found.note),
       found.words && h("details.words", {}, h("summary", {}, t("What the values mean")), ...lines(found.words)),
       items[0]?.stems ? this.#missed.element : "",
       h(
@@ -324,7 +324,7 @@ export class DesignCards {
         const poor = (by === "range" || by === "transmission") && design[by]! * DEGREE < GOOD;
         return h("span", {}, this.#names[by], h(best ? "strong" : "i", { class: poor ? "bad" : "" }, text));
       }),
-      h("u", {}, t("Open in Motion")),
+      h("u.chip", {}, t("Open in Motion")),
     );
     return card;
   }

@@ -51,9 +51,12 @@ export function indexed(text: string): (string | Node)[] {
     .map((part, k) => (part ? [part, h("sub", {}, part), h("nobr" as "b", {}, part)][k % 3]! : ""));
 }
 
-/** The same of the count of freedoms: its formula breaks before an equals sign alone, but not behind F. */
+/** The same of the count of freedoms: its formula breaks before an equals sign alone, but not behind F, nor before the
+ * number to which it comes. */
 export function countOf(text: string): (string | Node)[] {
-  return indexed(/ [−-] /.test(text) ? unbroken(text, / (?=[+−-] )/g).replace(/(?<!F) = /g, " \u200b= ") : text);
+  return indexed(
+    / [−-] /.test(text) ? unbroken(text, / (?=[+−-] )/g).replace(/(?<!F) = (?!−?\d+(?:[.,]|$))/g, " \u200b= ") : text,
+  );
 }
 
 export function h<K extends keyof HTMLElementTagNameMap>(

@@ -39,6 +39,8 @@ export function factsOf(
   const facts: Fact[] = [];
   const record = model.outputs[0];
   const turning = isAngle(linkage);
+  const by = (drive: number) => (model.drives[1] ? `: ${linkage.driveName(drive)}` : "");
+  const of = by(linkage.active);
   const size = (value: number) => (turning ? angle(value) : `${number(linkage.sizes.clean(value))} ${model.unit}`);
   if (record) {
     const value = output(linkage, pose, 0);
@@ -47,13 +49,13 @@ export function factsOf(
     facts.push({ name: t("Output {name}", { name: linkage.linkName(record.link) }), text, hint });
     const rate = output(linkage, pose, 0, 1);
     facts.push({
-      name: transferName(linkage, 1),
+      name: transferName(linkage, 1) + of,
       text: number(travel === 0 || Math.abs(rate) < stillRate(linkage) ? 0 : rate),
       note: rateUnit(linkage, 1),
     });
     const [one, two] = dead;
     if (shift) facts.push({ name: t("Travel of its points"), text: `${number(shift)} ${model.unit}` });
-    else if (travel !== null) facts.push({ name: turning ? t("Swing") : t("Stroke"), text: size(travel) });
+    else if (travel !== null) facts.push({ name: (turning ? t("Swing") : t("Stroke")) + of, text: size(travel) });
     if (one && two && !dead[2] && cycle.full) {
       const part = Math.abs(wrapped(cycle, one.value) - wrapped(cycle, two.value));
       const rest = cycle.turns * TURN - part;
@@ -89,8 +91,7 @@ export function factsOf(
     // that of a slide is rounded, which may leave 4e-14
     const from = drive.turning ? angle(low) : number(linkage.sizes.clean(low));
     const part = `${from} … ${driveText({ drive, model }, high!).replace(" ", "\u00a0")}`;
-    const name = t("Range of the drive") + (model.drives[1] ? `: ${linkage.driveName(k)}` : "");
-    facts.push({ name, text: whole ? t("full turns") : part, note });
+    facts.push({ name: t("Range of the drive") + by(k), text: whole ? t("full turns") : part, note });
   }
   return [...facts, ...readingsOf(linkage)];
 }

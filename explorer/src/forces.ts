@@ -6,6 +6,7 @@ import { action, h, renew, svg, unbroken } from "./dom";
 import { FactList } from "./factlist";
 import type { Fact } from "./facts";
 import type { Fall } from "./falling";
+import { icon } from "./icons";
 import { number, t } from "./language";
 import type { Linkage } from "./linkage";
 import { type Acting, type Change, LoadForm } from "./loads";
@@ -14,7 +15,6 @@ import type { PlaneTransport } from "./planetransport";
 import { Plot } from "./plot";
 import { Polar, type Vectors, vectorAt } from "./polar";
 import { type Pair, place } from "./rows";
-import { tool } from "./shell";
 import type { Column } from "./table";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
@@ -102,8 +102,9 @@ export class Forces {
   /** What acts, above its results. */
   readonly #acting = h("details.words", {}, this.#summary, this.#form.element);
   readonly #result = h("div", {});
-  /** What holds while the drive turns; what is known of the last free motion. */
+  /** What holds while the drive turns; how it is let go, and what is known of the last free motion. */
   readonly #ofDrive = h("div", {});
+  #free = h("div", {});
   #ofFall = h("div", {});
   readonly #facts = new FactList();
   /** The force of each joint where the drive is, and its largest. */
@@ -136,7 +137,7 @@ export class Forces {
     this.#view = view;
     this.#opened = opened;
     this.#joints.element.classList.add("listed");
-    this.#joints.element.style.cssText = "grid-template-columns: none; gap: 7px; cursor: pointer";
+    this.#joints.element.style.cssText = "grid-template-columns: none; gap: 7px";
     this.#joints.element.onclick = ({ target }) => {
       const row = [...this.#joints.element.children].findIndex((one) => one.contains(target as Node));
       if (row >= 0) this.#joint.selectedIndex = row;
@@ -281,25 +282,36 @@ export class Forces {
         if (this.#ofFall.firstChild) onclick(); // what was found is of the duration before
       };
       const until = this.#form.row("until", t("Duration"), "s", this.#until, last, LASTS);
-      const play = tool("play", t("Play at this speed"), () => transport.playAt(speed!));
-      this.#form.rate.lastElementChild!.append(play);
+      const play = () => transport.playAt(speed!);
+      const beside = this.#form.rate.lastElementChild as HTMLElement;
+      beside.style.cssText = "display: flex; align-items: center; white-space: nowrap";
+      const told = { title: t("Play at this speed"), "data-icon": "play", onclick: play };
+      const key = h("button.quiet", told, icon("play"), t("Play"));
+      key.style.cssText = "display: flex; gap: 4px";
+      beside.append(key);
       this.#release = action("fall", onclick, t("Release the drive"));
       const sizes = joints.map(({ most }) => most);
       this.#joint.selectedIndex = chosen < 0 ? sizes.indexOf(Math.max(...sizes)) : chosen;
       const loads = acting[0] ? signed("force.load", t("Loads")) : "";
       this.#facts.show(facts);
-      renew(this.#ofDrive, this.#form.rate, this.#facts.element, this.#plot.element, h("h3", {}, t("Free motion")));
-      renew(
-        this.#result,
-        this.#ofDrive,
+      renew(this.#ofDrive, this.#form.rate, this.#facts.element, this.#plot.element);
+      this.#free = h(
+        "div",
+        {},
+        h("h3", {}, t("Free motion")),
         h("div.rows", {}, ...until),
         h("div.form", {}, this.#release),
         this.#ofFall,
+      );
+      renew(
+        this.#result,
+        this.#ofDrive,
         h("h3", {}, t("Joint forces in this pose")),
-        h("p.note", {}, signed("force", t("square-root scale: twice as long, four times the force")), " ", loads),
+        h("p.note", {}, signed("force", t("Square-root scale: twice the length, four times the force")), " ", loads),
         this.#joints.element,
         h("label.options", {}, t("Force vector"), this.#joint),
         this.#polar.element,
+        this.#free,
         ...notes,
       );
     }
@@ -341,6 +353,10 @@ export class Forces {
       this.#of = of;
       this.#showJoint();
       this.#ofDrive.hidden = !!falling;
+      // a free motion is seen above what it does
+      this.#free.firstElementChild?.toggleAttribute("hidden", !!falling);
+      if (falling) this.#ofDrive.after(this.#free);
+      else this.#polar.element.after(this.#free);
       for (const course of this.#ofFall.querySelectorAll("details")) course.open = !!falling;
       this.#release.textContent = falling ? t("Release again") : t("Release the drive");
     }
@@ -352,8 +368,9 @@ export class Forces {
       })),
     );
     [...this.#joints.element.children].forEach((row, k) => {
-      const mark = k === this.#joint.selectedIndex ? "-5px 0 var(--panel), -8px 0 var(--purple)" : "";
-      (row as HTMLElement).style.boxShadow = mark;
+      row.className = "card";
+      const mark = k === this.#joint.selectedIndex ? "0 0 0 2px var(--purple)" : "";
+      (row as HTMLElement).style.cssText = `gap: 0; padding: 4px 8px; box-shadow: ${mark}`;
     });
     this.#polar.at(where);
   }
@@ -420,6 +437,7 @@ export class Forces {
     renew(told, h("details.words", { open: true }, course, ...found.lines.map(noted), h("p", {}), ...plots));
     transport.seek(0, found);
     transport.toggle();
+    this.element.closest("details")!.scrollIntoView();
   }
 }
 

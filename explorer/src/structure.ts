@@ -200,7 +200,7 @@ export class StructureView implements View {
       numbers.flatMap(([number, name]) => (name === frame ? `${number}\u00a0` : [])).join();
     const elsewhere = found.anywhere
       ? h("span.note", {}, t("Drives at the frame alone do not fix the motion."))
-      : option(t("also drives that are not at the frame"), !this.#atFrame, all, "elsewhere");
+      : option(t("Also drives away from the frame"), !this.#atFrame, all, "elsewhere");
     renew(
       this.#detail,
       step(

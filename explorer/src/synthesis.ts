@@ -180,7 +180,7 @@ export class SynthesisView implements View {
     );
     this.#picture.element.prepend(this.#told);
     const demands = this.#demands.form(
-      this.kind === "points" && option(t("closed curve"), this.#closed, close, "closed"),
+      this.kind === "points" && option(t("Closed curve"), this.#closed, close, "closed"),
       this.kind !== "dead-centres",
       this.#planar && this.#page.served,
       this.#curve,

@@ -515,7 +515,7 @@ def test_on_a_phone_results_stand_next_to_the_stage_and_a_finger_meets_all_field
     read = [" ".join(text.split()) for text in result.first.locator("dd").all_text_contents()]
     assert read == [f"{text} {note}".strip() for text, note in figures(told)]
     force = read[-1]
-    assert panel.get_by_label("Rotational speed of the drive").input_value() == "60"
+    assert panel.get_by_label("Drive speed", exact=True).input_value() == "60"
     assert panel.get_by_text("Assumed masses: steel, bars 20 mm × 5 mm").count() == 1
 
     forces = [
@@ -594,6 +594,8 @@ def test_each_joint_has_its_force_where_the_drive_is_and_masses_their_source(tab
         if row is not None:
             read.nth(row).click()
             assert panel.get_by_label("Force vector").input_value() == str(row)
+            marks = read.evaluate_all("rows => rows.map((row) => getComputedStyle(row).boxShadow !== 'none')")
+            assert marks == [k == row for k in range(len(signs))]
         chosen = int(panel.get_by_label("Force vector").input_value())
         value = read.nth(chosen).locator("dd").inner_text().split("max.")[0].strip()
         expected = [f"{sign} {value}" if k == chosen else sign for k, sign in enumerate(signs)]
@@ -757,10 +759,12 @@ def test_the_picture_shows_the_whole_of_a_free_motion(tab, server, width):
     release = panel.locator('[data-act="fall"]')
     release.scroll_into_view_if_needed()
     page.page.wait_for_timeout(200)
-    before = release.bounding_box()["y"]
+    before, listed = release.bounding_box()["y"], panel.locator(".listed")
+    assert before > listed.bounding_box()["y"]  # what the drive does comes first
     release.click()
     page.page.locator('[data-act="end"]').wait_for()
     assert release.inner_text() == "Release again"
+    assert release.bounding_box()["y"] < listed.bounding_box()["y"]  # while it falls, how it does
     # it is played slower, the drive later as fast as before
     speed = page.page.evaluate("gruebler.motion.transport.speed")
     page.page.get_by_label("Speed", exact=True).fill("0.5")

@@ -60,8 +60,8 @@ _ROUNDING = 1e-9
 """Of the size: a target that is missed by less is met."""
 _CURVES = 12
 """So many designs for a whole curve: a choice between near ones and small ones."""
-_LOW = message("Left out, as the transmission angle falls below {angle:g}° in other positions: {count}.")
-_LONG = message("Left out with a link longer than {length:g} mm: {count}.")
+_LOW = message("Not shown: {count} with a transmission angle below {angle:g}° in other positions.")
+_LONG = message("Not shown: {count} with a link longer than {length:g} mm.")
 _OWN_LIMIT = message("Another limit can be typed.")
 _LESS = (0.9, 0.7, 0.4, 0.0)  # of a transmission angle that no design has
 _NEAREST = 12  # designs that are shown of these
@@ -154,19 +154,20 @@ def design_records(
         number=_CURVES if is_curve(task) else None,
         progress=counted if in_places else None,
     )
-    left: list[Message] = []
+    remarks: list[Message] = []
+    hidden: list[Message] = []
     first, nearest = result, None
     if not result.designs:
         counts = stages if in_places else None
         nearest = _nearest_designs(task, demands, stages=counts, finite=bool(result.count.theorem))
     if nearest is not None:
         result, text = nearest
-        left.append(text)
+        remarks.append(text)
     designs = list(result.designs)
     if crank and nearest is None:  # those that have the angle in all positions, if there are any
         whole = [each for each in designs if degrees(each.transmission_over_range) >= transmission]
         if whole and whole != designs:
-            left.append(_LOW.filled(angle=transmission, count=len(designs) - len(whole)))
+            hidden.append(_LOW.filled(angle=transmission, count=len(designs) - len(whole)))
             designs = whole
     near = space or _region(task, 0.0)
     if near is not None:
@@ -178,8 +179,8 @@ def design_records(
         too_long += [_OWN_LIMIT] * (bool(too_long) and not limited)
         if fitting or limited:  # giants where there is nothing else
             # where the nearest ones do not fit either it is told why none does what was asked for
-            designs, left, result = (
-                (fitting, left + too_long, result) if fitting or nearest is None else ([], [], first)
+            designs, remarks, hidden, result = (
+                (fitting, remarks, hidden + too_long, result) if fitting or nearest is None else ([], [], [], first)
             )
     relative = not gives_lengths(task)
     if relative:
@@ -190,9 +191,8 @@ def design_records(
         stages.stage(_DRAWING, 100, start=_NEARED + (100 - _NEARED) * number / len(shown))
         items.append(_record(design, task, lang))
     _mark_variants(items)
-    others = any(each.text in (_LOW.text, _LONG.text) for each in left)
     texts = {
-        "note": [*left, *notes(result, items, len(designs), others=others)],
+        "note": [*remarks, *notes(result, items, len(designs), others=bool(hidden)), *hidden],
         "words": words(result, items, relative, longest if space else None),
     }
     said = {key: "\n".join(text.in_language(lang) for text in some) for key, some in texts.items()}
@@ -294,7 +294,7 @@ def _short_enough(designs: list[Design], longest: float) -> tuple[list[Design], 
     >>> made = FourBar(25, 70, 40, 70).linkage({"K": (200.0, 0.0)})
     >>> design = Design(linkage=made, verdict=DesignVerdict(), form="four-bar")
     >>> [str(text) for length in (201.0, 199.0) for text in _short_enough([design], length)[1]]
-    ['Left out with a link longer than 199 mm: 1.']
+    ['Not shown: 1 with a link longer than 199 mm.']
     """
     fitting = [each for each in designs if _longest(posed_linkage(each.linkage)) <= longest]
     more = len(designs) - len(fitting)
