@@ -324,7 +324,7 @@ export class DesignCards {
         const poor = (by === "range" || by === "transmission") && design[by]! * DEGREE < GOOD;
         return h("span", {}, this.#names[by], h(best ? "strong" : "i", { class: poor ? "bad" : "" }, text));
       }),
-      h("u.chip", {}, t("Open in Motion")),
+      h("i.chip", {}, t("Open in Motion")),
     );
     return card;
   }
