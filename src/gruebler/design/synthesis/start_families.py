@@ -12,7 +12,7 @@ from itertools import product
 
 import numpy as np
 
-from gruebler.base.arrays import Reals
+from gruebler.base.arrays import Complexes, Reals
 from gruebler.design.synthesis.coordination import (
     coordinations_with_one_free_start,
     pair_arrays,
@@ -28,6 +28,7 @@ _STARTS = {2: 24, 3: 96, 4: 360}
 _STEPS = 40
 _LONGEST = 0.3  # of a step to given ratios, by the frame
 _REACHED = 1e-12
+_RESTS = 1e-13  # of a step, by the frame: one that is shorter only moves the last digits
 _SAME = 1e-7  # by the frame: pivots of two linkages that are one differ by less
 _FACTORS = 24
 _LARGEST_FACTOR = 32.0  # first factors are tried between its inverse and this, by the size of the output
@@ -87,38 +88,52 @@ def with_ratios(
     """
     phi, output = pair_arrays(task)
     crank, rocker = (np.exp(1j * (angles - angles[0])) for angles in (phi, output))
-    wanted = np.log([length for _, length in lengths])
     z = np.array([(dyad.fixed, dyad.moving) for dyad in dyads])
+    moving, met = np.arange(len(z)), np.zeros(len(z), bool)
     for _ in range(_STEPS):
-        with np.errstate(all="ignore"):
-            pins, far = z[:, :1] * crank, (z[:, 1:] - 1) * rocker
-            gap = 1 + far - pins
-            square = np.abs(gap) ** 2
-            # Rows by x, y of both pivots: the gradient of |w|^2 for w = w0 + t z is 2 conj(t) w.
-            by_fixed, by_moving = -2 * np.conj(crank) * gap, 2 * np.conj(rocker) * gap
-            lines = {"crank": (z[:, 0], 1, 0), "coupler": (z[:, 1] - z[:, 0], -1, 1), "rocker": (z[:, 1] - 1, 0, 1)}
-            logs, changes = [], []
-            for link, _ in lengths:
-                w, first, second = lines.get(link, (np.ones(len(z)), 0, 0))
-                logs.append(np.log(np.abs(w)))
-                changes.append(np.stack([first / np.conj(w), second / np.conj(w)], axis=1))
-            ratios = np.stack(logs, axis=1) - wanted
-            values = np.concatenate([square[:, 1:] - square[:, :1], ratios[:, 1:] - ratios[:, :1]], axis=1)
-            pairs = np.stack([by_fixed, by_moving], axis=2)
-            own = np.stack(changes, axis=1)
-            slopes = np.concatenate([pairs[:, 1:] - pairs[:, :1], own[:, 1:] - own[:, :1]], axis=1)
+        values, slopes = _ratio_equations(z[moving], crank, rocker, lengths)
         good = np.isfinite(values).all(axis=1) & np.isfinite(slopes).all(axis=(1, 2))
-        z, values, slopes = z[good], values[good], slopes[good]
+        met[moving[~good]] = False
+        moving, values, slopes = moving[good], values[good], slopes[good]
         matrix = np.stack([slopes.real, slopes.imag], axis=3).reshape(*values.shape, 4)
         step = -np.einsum("nij,nj->ni", np.linalg.pinv(matrix), values)
-        step *= np.minimum(1, _LONGEST / np.maximum(np.linalg.norm(step, axis=1), 1e-300))[:, None]
-        z = z + step.view(np.complex128)
-    met = np.abs(values).max(axis=1, initial=0.0) < _REACHED
+        far = np.linalg.norm(step, axis=1)
+        step *= np.minimum(1, _LONGEST / np.maximum(far, 1e-300))[:, None]
+        z[moving] += step.view(np.complex128)
+        met[moving] = np.abs(values).max(axis=1, initial=0.0) < _REACHED
+        moving = moving[~met[moving] | (far > _RESTS)]
+        if not len(moving):
+            break
     each = np.empty((0, 2), np.complex128)
     for pivots in z[met]:  # rounded places would part two that are one, where they lie on an edge
         if (np.abs(each - pivots).max(axis=1) > _SAME).all():
             each = np.vstack([each, pivots])
     return [GuidingDyad(CRANK, complex(moving), complex(fixed)) for fixed, moving in each]
+
+
+def _ratio_equations(
+    z: Complexes, crank: Complexes, rocker: Complexes, lengths: Sequence[tuple[str, float]]
+) -> tuple[Reals, Complexes]:
+    """(dyads, equations) what is to be zero in `with_ratios`, and (dyads, equations, 2) its gradients as x + y i."""
+    wanted = np.log([length for _, length in lengths])
+    with np.errstate(all="ignore"):
+        pins, far = z[:, :1] * crank, (z[:, 1:] - 1) * rocker
+        gap = 1 + far - pins
+        square = np.abs(gap) ** 2
+        # Rows by x, y of both pivots: the gradient of |w|^2 for w = w0 + t z is 2 conj(t) w.
+        by_fixed, by_moving = -2 * np.conj(crank) * gap, 2 * np.conj(rocker) * gap
+        lines = {"crank": (z[:, 0], 1, 0), "coupler": (z[:, 1] - z[:, 0], -1, 1), "rocker": (z[:, 1] - 1, 0, 1)}
+        logs, changes = [], []
+        for link, _ in lengths:
+            w, first, second = lines.get(link, (np.ones(len(z)), 0, 0))
+            logs.append(np.log(np.abs(w)))
+            changes.append(np.stack([first / np.conj(w), second / np.conj(w)], axis=1))
+        ratios = np.stack(logs, axis=1) - wanted
+        values = np.concatenate([square[:, 1:] - square[:, :1], ratios[:, 1:] - ratios[:, :1]], axis=1)
+        pairs = np.stack([by_fixed, by_moving], axis=2)
+        own = np.stack(changes, axis=1)
+        slopes = np.concatenate([pairs[:, 1:] - pairs[:, :1], own[:, 1:] - own[:, :1]], axis=1)
+    return values, slopes
 
 
 def _output_size(task: FunctionTask) -> float:
