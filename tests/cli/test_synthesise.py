@@ -19,6 +19,7 @@ from gruebler.files.tasks import task_from_json
 from gruebler.mechanics.kinematics import move
 from gruebler.mechanics.linkages import Linkage
 from gruebler.structure.mechanism import Mechanism
+from tests.design.synthesis.searches import made_once
 
 FIVE = """x,y,angle
 1.167361074190,1.604268422500,49.038042711511
@@ -443,7 +444,8 @@ def test_options_that_would_do_nothing_are_refused(kind, content, options, sente
     assert sentence in capsys.readouterr().err
 
 
-def test_any_design_of_the_list_is_written(tmp_path, capsys):
+def test_any_design_of_the_list_is_written(tmp_path, capsys, monkeypatch):
+    searches = made_once(monkeypatch, "synthesise_positions")
     task, path = tmp_path / "four.csv", tmp_path / "third.toml"
     task.write_text(FOUR, encoding="utf-8")
     words = ["synthesise", "positions", str(task)]
@@ -451,6 +453,7 @@ def test_any_design_of_the_list_is_written(tmp_path, capsys):
     third = json.loads(capsys.readouterr().out)["designs"][2]["linkage"]
     assert main([*words, "--design", "3", "-o", str(path)]) == 0
     assert read_linkage(path) == linkage_from_json(third)
+    assert len(searches) == 1
     assert main(["analyse", str(path)]) == 0
 
 

@@ -23,6 +23,7 @@ from gruebler.design.synthesis.pair_starts import PairStarts
 from gruebler.design.synthesis.point_families import PointFamily
 from gruebler.design.synthesis.random_starts import random_search
 from gruebler.structure.mechanism import Mechanism
+from tests.design.synthesis.searches import made_once
 
 TWO = PositionTask([(0, 0, 0), (2.1, 0.9, np.radians(20))])
 THREE = PositionTask([(0, 0, 0), (0.8, 0.5, 0.4), (1.5, 0.4, 1.0)])
@@ -208,7 +209,8 @@ def test_places_out_of_reach_are_refused_in_words(places):
     assert "((" not in str(told.value)
 
 
-def test_the_command_line_tells_the_same(tmp_path, capsys):
+def test_the_command_line_tells_the_same(tmp_path, capsys, monkeypatch):
+    searches = made_once(monkeypatch, "synthesise_positions")
     (tmp_path / "two.csv").write_text("x,y,angle\n0,0,0\n2.1,0.9,20\n")
     command = ["synthesise", "positions", str(tmp_path / "two.csv"), "--transmission", "80", "--crank"]
     assert main(command) == 0
@@ -219,6 +221,7 @@ def test_the_command_line_tells_the_same(tmp_path, capsys):
     assert main([*command, "--json"]) == 0
     notes = " ".join(json.loads(capsys.readouterr().out)["notes"])
     assert "is a right angle to 0.5°" in notes
+    assert len(searches) == 1
 
 
 def test_demands_with_numbers_of_numpy_reach_the_core():

@@ -27,6 +27,7 @@ from gruebler.design.synthesis.start_families import sampled_by_starts
 from gruebler.design.synthesis.targets import body_targets
 from gruebler.files.specifications import specification_from_json
 from gruebler.mechanics.fourbar import FourBar
+from tests.design.synthesis.searches import made_once
 
 THREE = PositionTask([(0, 0, 0), (0.8, 0.5, 0.4), (1.5, 0.4, 1.0)])
 ANY = Demands(size_ratio=1e9)
@@ -189,7 +190,8 @@ def test_preferred_pivots_need_a_place_in_the_plane():
     assert synthesise(THREE, demands=demands).designs[0].verdict.pivot_distance < 1e-9
 
 
-def test_the_table_names_the_distance(tmp_path, capsys):
+def test_the_table_names_the_distance(tmp_path, capsys, monkeypatch):
+    searches = made_once(monkeypatch, "synthesise_positions")
     rows = "\n".join(",".join(map(str, (x, y, np.degrees(a)))) for x, y, a in THREE.positions)
     (tmp_path / "three.csv").write_text(f"x,y,angle\n{rows}\n")
     command = ["synthesise", "positions", str(tmp_path / "three.csv"), "--near-pivot", "0.3", "-0.7", "--number", "4"]
@@ -198,6 +200,7 @@ def test_the_table_names_the_distance(tmp_path, capsys):
     assert main([*command, "--json"]) == 0
     first = json.loads(capsys.readouterr().out)["designs"][0]
     assert first["pivot_distance"] < 1e-6
+    assert len(searches) == 1
 
 
 @pytest.mark.parametrize("pairs", [pytest.param(5, marks=pytest.mark.slow), 8])
