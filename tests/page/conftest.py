@@ -15,7 +15,9 @@ import pytest
 if TYPE_CHECKING:
     from playwright.sync_api import BrowserType
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome")
+# Those without windows first: others draw one that nobody sees around each page, which takes longer than most pages.
+SHELLS = ("chromium-headless-shell", "chrome-headless-shell")
+BROWSERS = (*SHELLS, "chromium", "chromium-browser", "google-chrome", "chrome")
 
 
 def find_browser(chromium: "BrowserType") -> str | None:
