@@ -3,6 +3,7 @@
 import math
 import re
 from dataclasses import replace
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -17,8 +18,9 @@ from gruebler.design.synthesis import (
     PathTask,
     PositionTask,
     pareto,
+    proposals,
+    synthesise,
     synthesise_path,
-    synthesise_positions,
 )
 from gruebler.design.synthesis.clearances import guided_link, stays_clear
 from gruebler.design.synthesis.dyad_structures import dyad_structure, link_motions
@@ -38,9 +40,14 @@ HOOD = PositionTask([(0, 0, 0), (-1, 2, math.radians(25)), (-1, 3, math.radians(
 DEMANDS = Demands(transmission=math.radians(30), region=(-20, -25, 40, -2), size_ratio=5)
 
 
+@cache
+def hood_search():
+    return synthesise(HOOD, demands=DEMANDS)
+
+
 @pytest.fixture(scope="module")
 def hinges():
-    return synthesise_positions(HOOD, DEMANDS).designs[:8]
+    return hood_search().designs[:8]
 
 
 def test_the_swing_of_alt_has_its_best_transmission_angle():
@@ -212,10 +219,15 @@ def test_a_body_on_a_closed_path_keeps_clear_between_the_last_target_and_the_fir
         assert stays_clear(exact, post) == clear
 
 
-def test_an_obstacle_on_the_way_rejects_what_it_touches():
+def test_an_obstacle_on_the_way_rejects_what_it_touches(monkeypatch):
+    asked = []
+    monkeypatch.setattr(
+        proposals, "synthesise", lambda task, *, demands: asked.append((task, demands)) or hood_search()
+    )
     post = Clearance([(0, 0), (30, 0)], obstacle=[(15, 3), (15, 30)])
     free = propose(Specification(HOOD, demands=DEMANDS, links=4))
     blocked = propose(Specification(HOOD, demands=DEMANDS, links=4, clear=(post,)))
+    assert asked == [(HOOD, DEMANDS)] * 2  # what they ask for is one search
     assert free.best
     assert not blocked.best
     reason = blocked.tried[0].reason
