@@ -256,10 +256,15 @@ export class BuildView implements View, Plane, Drawn {
     keepDrawing(this.drawing);
     keepDrawn(this.drawing, this.#history.all, this.#tool);
     this.#offer();
-    renew(this.#places, ...placesPanel(this));
-    this.#showChoice();
+    this.#showPlaces();
     this.#draw();
     void this.mobility.tell();
+  }
+
+  /** Places and lengths as they are drawn, beside the plane and over it. */
+  #showPlaces(): void {
+    renew(this.#places, ...placesPanel(this));
+    this.#showChoice();
   }
 
   /** What a click, a tap or Enter does at a place. */
@@ -412,6 +417,7 @@ export class BuildView implements View, Plane, Drawn {
         this.cursor = this.#spot(now, false, spot.knot).at;
         this.aim = "aiming";
         this.drawing = movedKept(before, spot.knot, this.cursor) ?? before;
+        this.#showPlaces();
       }
       last = now;
       this.#draw();

@@ -73,8 +73,6 @@ export class ChainList {
   ) {
     const { links, drives } = page.shown; // as the machine at hand, whose structure is said a moment later
     [this.#links, this.mobility] = [links.length, drives.length || 1];
-    // below the only card of a row, where it moves nothing
-    if (this.few) this.#counts.style.cssText = "position: absolute; margin-top: 195px";
   }
 
   /** Whether the machine at hand has so few links that each step has one card. */
@@ -163,9 +161,9 @@ export class ChainList {
     return (
       this.#unlisted() ||
       ((this.#links + this.mobility) % 2
-        ? t("There is none with so few links.")
+        ? t("No chain with so few links has this mobility.")
         : t(
-            "There is none of revolutes and sliders alone: by F = 3(n − 1) − 2g one of n and F is even, the other odd.",
+            "No chain of revolute and prismatic joints alone: F = 3(n − 1) − 2g is odd where n is even, and even where n is odd.",
           ))
     );
   }
@@ -198,12 +196,24 @@ export class ChainList {
     const unlisted = this.#unlisted(size);
     for (const field of this.element.querySelectorAll("input"))
       field.setAttribute("aria-invalid", String(!field.value || !field.checkValidity()));
+    this.#list.querySelector(".why")?.remove(); // why there was none
     if (unlisted) {
+      if (this.waiting) this.#giveUp();
       this.#count.textContent = unlisted;
       return;
     }
     this.#turn(size as Size);
     void this.#ask(0, true);
+  }
+
+  /** What is being counted is no longer wanted, and what is listed is of another size. */
+  #giveUp(): void {
+    this.#asked++;
+    this.#status.querySelector<HTMLElement>('[data-act="cancel"]')?.click();
+    this.#found = null;
+    this.#list.classList.remove("asking");
+    for (const part of [this.#list, this.#status]) renew(part);
+    this.waits(false);
   }
 
   /** Show those of a link assortment, or all. */
@@ -220,7 +230,7 @@ export class ChainList {
     this.#all = start > 0;
     this.#list.classList.toggle("asking", others); // those of the size before
     if (others) {
-      this.#list.querySelector(".note")?.remove(); // why there was none
+      this.#list.querySelector(".why")?.remove();
       this.#count.textContent = t("counting …");
       renew(this.#counts); // one bar is enough
       this.waits(!stays);
@@ -256,6 +266,8 @@ export class ChainList {
     ].filter((card) => card instanceof Node);
     if (this.#inSpace) return this.#showAlone(mine);
     if (!found) {
+      // below the only card of a row, where it moves nothing
+      this.#counts.style.cssText = this.few ? "position: absolute; margin-top: 195px" : "";
       if (!this.#asked) renew(this.#counts, moment());
       return renew(this.#list, h("div.cards.few", {}, ...mine, this.#counts));
     }
@@ -273,14 +285,14 @@ export class ChainList {
     renew(this.#assortments, options.length > 1 && filter);
     this.#assortments.hidden = !options[1];
     if (!total) {
-      const beside = [this.mobility - 1, this.mobility + 1].map((freedom): Size => [this.#links, freedom]);
-      const keys = beside
-        .filter((size) => (size[0] - size[1]) % 2 && !this.#unlisted(size))
-        .map((size) => this.#way(size, `F = ${size[1]}`));
-      const links = this.mobility + 3; // of one loop
-      if (this.#links < links && !this.#unlisted([links, this.mobility]))
-        keys.push(this.#way([links, this.mobility], `${links} ${t("Links")}`));
-      const told = h("div.form", {}, h("p.note", {}, this.#whyNone()), ...keys);
+      const [n, F] = [this.#links, this.mobility];
+      const sizes: [Size, string][] = [F - 1, F + 1].map((freedom) => [[n, freedom], `F = ${freedom}`]);
+      const least = F + 3; // of one loop
+      for (const links of n < least ? [least] : [n - 1, n + 1]) sizes.push([[links, F], `n = ${links}`]);
+      const keys = sizes
+        .filter(([size]) => (size[0] - size[1]) % 2 && size[0] >= Math.min(n, size[1] + 3) && !this.#unlisted(size))
+        .map(([size, text]) => this.#way(size, text));
+      const told = h("div.form.why", {}, h("p.note", {}, this.#whyNone()), ...keys);
       return renew(this.#list, told, h("div.cards.few", {}, ...mine));
     }
     const chains = items.map(

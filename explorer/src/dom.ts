@@ -55,7 +55,11 @@ export function indexed(text: string): (string | Node)[] {
  * number to which it comes. */
 export function countOf(text: string): (string | Node)[] {
   return indexed(
-    / [−-] /.test(text) ? unbroken(text, / (?=[+−-] )/g).replace(/(?<!F) = (?!−?\d+(?:[.,]|$))/g, " \u200b= ") : text,
+    / [−-] /.test(text)
+      ? unbroken(text, / (?=[+−-] )/g)
+          .replace(/(?<!F) = (?!−?\d+(?:[.,]|$))/g, " \u200b= ")
+          .replace(/(?<=[.,] )[^=]*$/, (end) => unbroken(end, / /g))
+      : text,
   );
 }
 

@@ -10,9 +10,9 @@ import type { Page } from "./view";
 
 const ASKED_AFTER = 350; // milliseconds
 
-/** With numbers and letters of angles beside what they belong to: a unit, or the word before them. */
+/** With numbers beside what they belong to: a unit, or the word before them. */
 export function bound(text: string): string {
-  return unbroken(unbroken(text), / (?=[\dψμ])/g);
+  return unbroken(unbroken(text), / (?=\d)/g);
 }
 
 export class FactList {

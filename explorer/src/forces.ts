@@ -196,6 +196,10 @@ export class Forces {
     return drives[1] ? drives.map((_, k) => linkage.driveName(k)) : [];
   }
 
+  get #letGo(): string {
+    return this.#called[0] ? t("Release the drives") : t("Release the drive");
+  }
+
   /** What was typed and is not in the document yet. */
   get typed(): Change {
     return this.#form.change;
@@ -285,11 +289,12 @@ export class Forces {
       const play = () => transport.playAt(speed!);
       const beside = this.#form.rate.lastElementChild as HTMLElement;
       beside.style.cssText = "display: flex; align-items: center; white-space: nowrap";
+      this.#form.rate.style.gridTemplateColumns = "minmax(0, 1fr) 64px auto";
       const told = { title: t("Play at this speed"), "data-icon": "play", onclick: play };
-      const key = h("button.quiet", told, icon("play"), t("Play"));
-      key.style.cssText = "display: flex; gap: 4px";
+      const key = h("button.quiet", told, icon("play"), t("Run"));
+      key.style.cssText = "display: flex; align-items: center; gap: 4px";
       beside.append(key);
-      this.#release = action("fall", onclick, t("Release the drive"));
+      this.#release = action("fall", onclick, this.#letGo);
       const sizes = joints.map(({ most }) => most);
       this.#joint.selectedIndex = chosen < 0 ? sizes.indexOf(Math.max(...sizes)) : chosen;
       const loads = acting[0] ? signed("force.load", t("Loads")) : "";
@@ -358,7 +363,7 @@ export class Forces {
       if (falling) this.#ofDrive.after(this.#free);
       else this.#polar.element.after(this.#free);
       for (const course of this.#ofFall.querySelectorAll("details")) course.open = !!falling;
-      this.#release.textContent = falling ? t("Release again") : t("Release the drive");
+      this.#release.textContent = falling ? t("Release again") : this.#letGo;
     }
     this.#joints.show(
       of.joints.map((force) => ({
@@ -432,7 +437,7 @@ export class Forces {
         plot(t("Drive speed"), found.speeds, `${unit}/s`),
       ];
     });
-    const course = h("summary", {}, t("Course"));
+    const course = h("summary", {}, t("Time history"));
     const plots = this.#plots.map((plot) => plot.element);
     renew(told, h("details.words", { open: true }, course, ...found.lines.map(noted), h("p", {}), ...plots));
     transport.seek(0, found);

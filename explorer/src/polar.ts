@@ -62,7 +62,8 @@ export class Polar {
   at(drive: number): void {
     if (!this.#vectors) return;
     const [x, y] = vectorAt(this.#vectors, drive);
-    put(this.#here, { d: Number.isFinite(x + y) ? `M0 0L${this.#to(x)} ${this.#to(-y)}` : "" });
+    const [u, v] = [this.#to(x), this.#to(-y)];
+    put(this.#here, { d: Number.isFinite(u + v) ? `M0 0L${u} ${v}m-2 0a2 2 0 1 0 4 0a2 2 0 1 0 -4 0` : "" });
   }
 }
 

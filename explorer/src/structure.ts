@@ -8,7 +8,7 @@ import { softened } from "./header";
 import { currentLanguage, t } from "./language";
 import { chainText, type Model } from "./model";
 import type { Page, View } from "./view";
-import { awaited } from "./waiting";
+import { awaited, moment } from "./waiting";
 
 /** The names of the links of a linkage in the language of the page. */
 function namesOf({ links, linkNames }: Model): Record<string, string> {
@@ -65,6 +65,11 @@ export class StructureView implements View {
     const own = inSpace?.text ?? chainText(shown);
     if (own !== this.#own) {
       for (const scrolled of [this.element, window]) scrolled.scrollTo(0, 0);
+      // what is said of the machine before would be taken for this one's
+      if (this.#own) {
+        for (const part of [this.#detail, this.#go]) renew(part);
+        renew(this.#shown, moment());
+      }
       this.chains.leave(true);
       void this.describe(own).then(() => own === this.#own && this.chains.leave(false));
     }
@@ -110,6 +115,7 @@ export class StructureView implements View {
       this.text = text;
       this.#words.hidden = !elsewhere;
       for (const part of [this.#shown, this.#detail, this.#go, this.#error]) renew(part);
+      this.element.querySelector(".steps")?.classList.remove("row");
       return this.#fade(false);
     }
     this.#fade(true); // a click would choose among frames of the chain before

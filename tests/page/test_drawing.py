@@ -298,6 +298,26 @@ def test_what_is_offered_stands_clear_and_moves(plane):
     view.evaluate("localStorage.clear()")
 
 
+def test_fields_follow_a_joint_that_is_dragged(plane):
+    view = plane.page
+    view.click('[data-begin="four-bar"]')
+    knot = 2
+    start = plane.middle(f'.drawing [data-knot="{knot}"]')
+    view.mouse.move(*start)
+    view.mouse.down()
+    view.mouse.move(start[0] + 40, start[1] - 30, steps=8)
+    x, y = view.evaluate(f"gruebler.views.build.drawing.knots[{knot}].at")
+    for fields in (".choosing", '[data-page="build"] .side'):
+        shown = view.locator(fields).locator("input").evaluate_all("all => all.map(({ value }) => value)")
+        assert {f"{x:.6g}", f"{y:.6g}"} <= set(shown), fields
+    before = view.evaluate("gruebler.views.build.undoable[0]")
+    view.mouse.up()
+    assert view.evaluate(f"gruebler.views.build.drawing.knots[{knot}].at") == [x, y]
+    assert (before, view.evaluate("gruebler.views.build.undoable[0]")) == (True, True)
+    view.keyboard.press("Control+z")
+    assert view.evaluate(f"gruebler.views.build.drawing.knots[{knot}].at") != [x, y]
+
+
 WATT = {
     "frame": "frame",
     "drives": [0],
@@ -1016,7 +1036,7 @@ def test_classes_of_joints_are_indices_and_a_count_breaks_before_an_equals_sign_
     view.locator('[data-act="move"]').wait_for()
     view.locator('[data-place="mobility"] summary').click()
     count = view.locator('[data-place="mobility"] details').inner_html()
-    formula = "F\xa0=\xa03(n\xa0−\xa01)\xa0−\xa02\xa0g<sub>1</sub> \u200b=\xa03(4\xa0−\xa01)\xa0−\xa02·4 \u200b=\xa01"
+    formula = "F\xa0=\xa03(n\xa0−\xa01)\xa0−\xa02\xa0g<sub>1</sub> \u200b=\xa03(4\xa0−\xa01)\xa0−\xa02·4\xa0=\xa01"
     assert formula.replace("\xa0", "&nbsp;") in count
     click(plane, (40, 30))  # beside bars
     view.evaluate("""() => {

@@ -103,7 +103,7 @@ INERT = {"ends": [[0, -20.0, 5.0], [1, 25.0, 0.0]], "stiffness": 0.0}
 def test_a_load_that_is_not_typed_yet_does_not_act(more):
     """A moment of nothing, two forces that cancel each other, a spring without stiffness."""
     told = answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), **more), "en", print)
-    assert ("forces" in told, told["lines"]) == (False, ["Nothing acts yet: type masses or loads."])
+    assert ("forces" in told, told["lines"]) == (False, ["Nothing acts yet: enter masses or loads."])
     acting = {"springs": [{**INERT, "damping": 0.1}]}
     assert answer("forces", asked(FourBar(25, 70, 40, 70).linkage(), **acting), "en", print)["forces"]
 
@@ -158,7 +158,7 @@ def test_a_pendulum_swings_in_its_own_time():
     question["drives"] = [-math.pi / 2 + 0.02]
     told = answer("fall", question, "en", print)
     # -90 + 1.1459 cos(15.66) degrees after 1 s
-    assert told["lines"][0].startswith("Free motion: in 1 s the drive goes from ")
+    assert told["lines"][0].startswith("From rest the drive moves from ")
     # and nothing of rows or coordinates, which nobody sees here
     assert told["lines"][1:] == ["The energy balance holds to within 0.001\u00a0%."]
     start, end, least, most = (float(one) for one in re.findall(r"(\S+)°", told["lines"][0]))
@@ -234,8 +234,8 @@ def test_cylinders_stop_at_their_ends_and_forces_are_told_up_to_these():
     assert 240 <= boom[-1] == boom.min() < 240.5
     assert stick.min() > 160
     assert bucket.max() < 255
-    assert told["lines"][-2] == "The motion ends at the stop: boom cylinder, 240 cm."
-    assert told["lines"][1] == "Boom cylinder: from 282 cm to 240 cm."
+    assert re.fullmatch(r"After 0\.\d+ s the motion ends at a stop: boom cylinder, 240 cm\.", told["lines"][0])
+    assert told["lines"][2] == "Boom cylinder: from 282 cm to 240 cm."
     assert {one["unit"][0] for one in told["forces"]} == {"N"}  # all have the same
     assert told["forces"][3]["most"] == pytest.approx(15.7 * 9.80665)
     assert told["forces"][3]["note"] == "at 0 s"
@@ -361,7 +361,7 @@ def test_assumed_wheels_are_discs_so_that_they_can_be_let_go():
     masses = answer("forces", {**pair, "active": 0, "full": True, "range": [0, 2 * math.pi]}, "en", print)["masses"]
     assert masses[1] == pytest.approx(7850 * math.pi * 0.03**2 * 0.005, rel=1e-2)
     still = answer("fall", pair, "en", print)["lines"][0]
-    assert still == "Free motion: in 0.5 s nothing moves; the drive stays at 0°."
+    assert still == "Nothing moves in 0.5 s; the drive stays at 0°."
     with pytest.raises(GrueblerError, match="needs masses that each drive moves"):
         answer("fall", asked(entries()["geneva"].linkage(), source="geneva", bars="steel", until=0.5), "en", print)
 
@@ -761,6 +761,7 @@ def test_the_picture_shows_the_whole_of_a_free_motion(tab, server, width):
     page.page.wait_for_timeout(200)
     before, listed = release.bounding_box()["y"], panel.locator(".listed")
     assert before > listed.bounding_box()["y"]  # what the drive does comes first
+    assert release.inner_text() == "Release the drives"  # all three
     release.click()
     page.page.locator('[data-act="end"]').wait_for()
     assert release.inner_text() == "Release again"

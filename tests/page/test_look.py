@@ -59,7 +59,10 @@ def test_machines_with_two_drives_show_what_both_of_them_move(tab, server):
     page = tab().open(server.address).machine("pent")
     facts = """Object.fromEntries([...gruebler.root.querySelectorAll(".facts > div")].map((one) =>
         ["dt", "dd"].map((part) => one.querySelector(part).firstChild.textContent)))"""
-    assert {"Output\xa04", "Swing"} <= set(page.page.evaluate(facts))
+    told = set(page.page.evaluate(facts))
+    assert "Output\xa04" in told
+    for name in ("Swing", "Transfer function ψ′", "Range of the drive"):
+        assert f"{name}:\xa01\xa0–\xa02" in told  # of the drive that is shown
     assert page.page.locator(".plot:visible").count() == 3
     # the frame, of which there is a size, has its number as the others
     assert sorted(page.page.locator(".stage text.name").all_text_contents()) == ["1", "2", "3", "4", "5"]

@@ -283,7 +283,14 @@ def test_the_list_of_the_size_before_is_faded_while_another_one_is_counted(tab, 
     assert view.locator('[data-page="structure"] .go').evaluate("bar => getComputedStyle(bar).opacity") == "1"
     for faded in (".chains", ".described", '[data-page="structure"] .go .key'):  # all of it is of the four-bar
         assert view.locator(faded).evaluate("(part) => Number(getComputedStyle(part).opacity)") < 0.9, faded
-    assert view.locator('[data-page="structure"]').get_by_text("Cancel").is_visible()
+    cancel = view.locator('[data-page="structure"]').get_by_text("Cancel")
+    assert cancel.is_visible()
+    links.fill("99")  # of which there is no list: nothing is left of the one that was asked for
+    links.press("Enter")
+    view.get_by_text("Chains are listed with").wait_for()
+    cancel.wait_for(state="hidden")
+    assert view.locator('[data-list="chains"] .card').count() == 0
+    assert float(view.locator(".described").evaluate("(part) => getComputedStyle(part).opacity")) == 1
 
 
 def test_the_types_of_a_joint_are_in_sight(tab, server):
@@ -336,11 +343,11 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     links.press("Enter")
     assert links.get_attribute("aria-invalid") == "false"
     refused.wait_for(state="hidden")
-    page.until("gruebler.root.textContent.includes('one of n and F is even')")
+    page.until("gruebler.root.textContent.includes('is odd where n is even, and even where n is odd')")
     parts = '[data-list="driven"] .card, .described .facts, [data-act="realise"]'
     assert view.locator(parts).count() == 0  # nothing is shown of the chain before
     keys = view.locator('[data-page="structure"] .chains .plain')
-    assert keys.all_inner_texts() == ["F = 0", "F = 2"]  # with which there are some
+    assert keys.all_inner_texts() == ["F = 0", "F = 2", "n = 6", "n = 8"]  # with which there are some
     links.fill("6")
     links.press("Enter")
     view.locator('[data-act="realise"]').wait_for()

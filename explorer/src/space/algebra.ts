@@ -66,7 +66,7 @@ export interface Camera {
 }
 
 export const NATURAL = 3; // the opening of a view in perspective
-export const FLAT = 60; // from so far that what is parallel is nearly seen so
+export const FLAT = 600; // from so far that what is parallel is seen so
 const STEPS = 12; // to a camera that fits: each leaves a tenth of what is missing, along a slender machine two thirds
 
 /** The eye, and unit vectors to the right, up and towards the eye. */
@@ -82,7 +82,7 @@ export function axes(camera: Camera): { eye: Vector; right: Vector; up: Vector; 
 export function projection(camera: Camera, wide: number): Float32Array {
   const { opening } = camera;
   const { eye, right, up, near } = axes(camera);
-  const depth = opening > NATURAL ? 4 : 50; // from afar the machine is thin
+  const depth = opening > NATURAL ? 1.2 : 50; // from afar the machine is thin
   const [close, far] = [camera.distance / depth, camera.distance * depth];
   const [a, b] = [(far + close) / (close - far), (2 * far * close) / (close - far)];
   const rows = [

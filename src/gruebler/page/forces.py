@@ -37,17 +37,17 @@ from gruebler.page.reader_loads import (
 )
 
 _FREE = message(
-    "Free motion: in {seconds:n} s the drive goes from {start} to {end} and stays between {least} and {most}."
+    "From rest the drive moves from {start} to {end} in {seconds:n} s and stays between {least} and {most}."
 )
-_RESTS = message("Free motion: in {seconds:n} s nothing moves; the drive stays at {start}.")
+_RESTS = message("Nothing moves in {seconds:n} s; the drive stays at {start}.")
 _FREE_OF = message("{drive}: from {start} to {end}, between {least} and {most}.")
 _STRAIGHT_OF = message("{drive}: from {start} to {end}.")
-_MOVED = message("Free motion: {seconds:n} s.")
+_MOVED = message("Motion from rest in {seconds:n} s:")
 _AT_REST = message("The motion has come to rest.")
-_AT_STOP = message("The motion ends at the stop: {drive}, {value}.")
+_AT_STOP = message("After {seconds:n} s the motion ends at a stop: {drive}, {value}.")
 _BALANCE = message("The energy balance holds to within {part:n}\u00a0%.")
 _BALANCED = message("The energy balance holds to within 0.001\u00a0%.")
-_NOTHING = message("Nothing acts yet: type masses or loads.")
+_NOTHING = message("Nothing acts yet: enter masses or loads.")
 _APART = message("Two ways to compute them differ by {part:.1e} of the largest load: these forces are not certain.")
 _TORQUE = (message("Drive torque"), message("Largest drive torque"), message("Drive torque, RMS"))
 _FORCE = (message("Drive force"), message("Largest drive force"), message("Drive force, RMS"))
@@ -349,7 +349,7 @@ def fall_record(asked: LoadedLinkage, lang: str) -> dict[str, Any]:
                 "Nothing moves: {drive} is at the end of its range, {value}, and is pushed farther. Move it first.",
                 **there,
             )
-        said.append(_AT_STOP.filled(**there))
+        said.insert(0, _AT_STOP.filled(seconds=seconds, **there))
         why = ""
     part = float(f"{100 * run.defect:.2g}")
     said.append(_BALANCED if run.defect < _EXACT else _BALANCE.filled(part=part))
