@@ -61,7 +61,7 @@ export class ChainList {
   readonly #assortments = h("span", { hidden: true });
   readonly #list = h("div.chains", {});
   readonly #count = h("span.note", { role: "status" }, "\u00a0");
-  readonly #status = h("div.form", {});
+  #status = h("div.form", {});
   /** How far the first count is, beside the machine at hand. */
   readonly #counts = h("div", {});
   #asked = 0;
@@ -162,9 +162,7 @@ export class ChainList {
       this.#unlisted() ||
       ((this.#links + this.mobility) % 2
         ? t("No chain with so few links has this mobility.")
-        : t(
-            "No chain of revolute and prismatic joints alone: F = 3(n − 1) − 2g is odd where n is even, and even where n is odd.",
-          ))
+        : t("No chain of revolute and prismatic joints alone: F = 3(n − 1) − 2g is odd for even n and even for odd n."))
     );
   }
 
@@ -210,9 +208,12 @@ export class ChainList {
   #giveUp(): void {
     this.#asked++;
     this.#status.querySelector<HTMLElement>('[data-act="cancel"]')?.click();
+    const status = h("div.form", {}); // what is said of the one given up stays in the other
+    this.#status.replaceWith(status);
+    this.#status = status;
     this.#found = null;
     this.#list.classList.remove("asking");
-    for (const part of [this.#list, this.#status]) renew(part);
+    renew(this.#list);
     this.waits(false);
   }
 

@@ -289,10 +289,10 @@ export class Forces {
       const play = () => transport.playAt(speed!);
       const beside = this.#form.rate.lastElementChild as HTMLElement;
       beside.style.cssText = "display: flex; align-items: center; white-space: nowrap";
-      this.#form.rate.style.gridTemplateColumns = "minmax(0, 1fr) 64px auto";
+      this.#form.rate.style.gridTemplateColumns = "minmax(0, 1fr) 60px auto";
       const told = { title: t("Play at this speed"), "data-icon": "play", onclick: play };
       const key = h("button.quiet", told, icon("play"), t("Run"));
-      key.style.cssText = "display: flex; align-items: center; gap: 4px";
+      key.style.cssText = "display: flex; align-items: center; gap: 4px; padding: 5px";
       beside.append(key);
       this.#release = action("fall", onclick, this.#letGo);
       const sizes = joints.map(({ most }) => most);

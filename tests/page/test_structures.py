@@ -343,7 +343,7 @@ def test_numbers_without_chains_and_colours_are_explained(tab, server):
     links.press("Enter")
     assert links.get_attribute("aria-invalid") == "false"
     refused.wait_for(state="hidden")
-    page.until("gruebler.root.textContent.includes('is odd where n is even, and even where n is odd')")
+    page.until("gruebler.root.textContent.includes('is odd for even n and even for odd n')")
     parts = '[data-list="driven"] .card, .described .facts, [data-act="realise"]'
     assert view.locator(parts).count() == 0  # nothing is shown of the chain before
     keys = view.locator('[data-page="structure"] .chains .plain')
@@ -406,7 +406,7 @@ def test_a_machine_has_no_card_among_chains_of_another_mobility(tab, server):
     field = first.locator("input").nth(1)
     field.fill("2")
     field.press("Enter")
-    first.get_by_text("There is none").wait_for()
+    first.get_by_text("No chain of revolute and prismatic joints").wait_for()
     assert first.locator(".card").count() == 0
 
 
