@@ -576,10 +576,11 @@ def test_from_a_long_list_a_key_leads_to_the_picture_on_a_phone(tab, server):
     page = tab(width=390, height=844, touch=True).open(server.address)
     view = page.page
     view.click('[data-view="structure"]')
+    view.locator('[data-list="driven"] .card').first.wait_for()
     links = view.locator('[data-page="structure"]').get_by_label("Links", exact=True)
     links.fill("8")
     links.press("Enter")
-    page.until("gruebler.root.querySelectorAll('[data-list=chains] .card').length === 6")
+    page.until("gruebler.root.querySelectorAll('[data-list=chains] .card').length === 6", 90)
     view.locator(".chain-picture svg .gr-name", has_text="8").wait_for()
     picture = view.locator(".chain-picture")
     assert picture.bounding_box()["y"] > 844
