@@ -2,6 +2,7 @@
 
 import { inPlane, type Structure } from "./chain";
 import { type Child, h, menu, renew, thumbnail } from "./dom";
+import type { Request } from "./host";
 import { currentLanguage, type Language, t } from "./language";
 import type { Page } from "./view";
 import { awaited, moment } from "./waiting";
@@ -61,10 +62,11 @@ export class ChainList {
   readonly #assortments = h("span", { hidden: true });
   readonly #list = h("div.chains", {});
   readonly #count = h("span.note", { role: "status" }, "\u00a0");
-  #status = h("div.form", {});
+  readonly #status = h("div.form", {});
   /** How far the first count is, beside the machine at hand. */
   readonly #counts = h("div", {});
   #asked = 0;
+  #request: Request<Chains> | null = null;
 
   constructor(
     private readonly page: Page,
@@ -207,13 +209,10 @@ export class ChainList {
   /** What is being counted is no longer wanted, and what is listed is of another size. */
   #giveUp(): void {
     this.#asked++;
-    this.#status.querySelector<HTMLElement>('[data-act="cancel"]')?.click();
-    const status = h("div.form", {}); // what is said of the one given up stays in the other
-    this.#status.replaceWith(status);
-    this.#status = status;
+    this.#request?.cancel();
     this.#found = null;
     this.#list.classList.remove("asking");
-    renew(this.#list);
+    for (const part of [this.#list, this.#status]) renew(part);
     this.waits(false);
   }
 
@@ -236,10 +235,16 @@ export class ChainList {
       renew(this.#counts); // one bar is enough
       this.waits(!stays);
     }
-    const place = this.#found || others ? this.#status : this.#counts;
+    this.#request?.cancel(); // it would be counted to its end first
+    const place = h("div", {}); // what is said of one given up stays in its own
+    place.style.display = "contents";
+    renew(this.#found || others ? this.#status : this.#counts, place);
     const found = this.#unlisted()
       ? { total: 0, assortments: [], items: [] }
-      : await awaited(place, (progress) => this.page.ask<Chains>("chains", question, progress));
+      : await awaited(place, (progress) => {
+          this.#request = this.page.ask<Chains>("chains", question, progress);
+          return this.#request;
+        });
     if (number !== this.#asked) return; // another list is wanted by now
     this.#list.classList.remove("asking");
     this.waits(false);

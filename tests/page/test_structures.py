@@ -285,6 +285,12 @@ def test_the_list_of_the_size_before_is_faded_while_another_one_is_counted(tab, 
         assert view.locator(faded).evaluate("(part) => Number(getComputedStyle(part).opacity)") < 0.9, faded
     cancel = view.locator('[data-page="structure"]').get_by_text("Cancel")
     assert cancel.is_visible()
+    links.fill("10")  # the one before is given up, or it would be counted to its end first
+    links.press("Enter")
+    page.until("held.filter(({ method }) => method === 'chains').length === 2")
+    first = view.evaluate("held.find(({ method }) => method === 'chains').id")
+    assert view.evaluate(f"held.some(({{ id, cancel }}) => cancel && id === {first})")
+    assert view.get_by_text("Cancelled.").count() == 0
     links.fill("99")  # of which there is no list: nothing is left of the one that was asked for
     links.press("Enter")
     view.get_by_text("Chains are listed with").wait_for()
