@@ -139,6 +139,7 @@ export class StructureView implements View {
     } catch (error) {
       if (number !== this.#asked) return;
       this.chains.follow(null, false);
+      this.#shown.querySelector("[data-waiting]")?.remove();
       const said = (error as Error).message;
       this.#words.open = true;
       const [, place] = /(?:character|Stelle) (\d+)/.exec(said) ?? [];

@@ -299,6 +299,28 @@ def test_the_list_of_the_size_before_is_faded_while_another_one_is_counted(tab, 
     assert float(view.locator(".described").evaluate("(part) => getComputedStyle(part).opacity")) == 1
 
 
+def test_of_another_machine_nothing_is_said_before_its_structure_is_known(tab, server):
+    page = tab().open(server.address)
+    view = page.page
+    view.click('[data-view="structure"]')
+    view.locator('[data-act="move"]').wait_for()
+    page.machine("slidercrank")
+    page.hold()
+    view.click('[data-view="structure"]')
+    page.until("held.some(({ method }) => method === 'structure')")
+    said = view.locator('[data-page="structure"] .facts')
+    waiting = view.locator('[data-page="structure"] .described [data-waiting]')
+    assert (said.count(), waiting.count()) == (0, 1)
+    assert view.locator('[data-act="move"], [data-list="driven"] .card').count() == 0
+    view.evaluate("""() => {
+        const asked = held.find(({ method }) => method === "structure");
+        const wrong = { ...asked, params: { ...asked.params, text: "R(" } };
+        Object.getPrototypeOf(gruebler.model).send.call(gruebler.model, wrong);
+    }""")
+    page.until("gruebler.root.querySelector('[data-page=structure] .error').textContent")
+    assert (said.count(), waiting.count()) == (0, 0)
+
+
 def test_the_types_of_a_joint_are_in_sight(tab, server):
     """With eight links the picture ends under the bar at the lower edge, and the keys would be below it."""
     page = tab(width=1440, height=900).open(server.address)
