@@ -196,8 +196,8 @@ export class ChainList {
     const unlisted = this.#unlisted(size);
     for (const field of this.element.querySelectorAll("input"))
       field.setAttribute("aria-invalid", String(!field.value || !field.checkValidity()));
-    this.#list.querySelector(".why")?.remove(); // why there was none
     if (unlisted) {
+      this.#list.querySelector(".why")?.remove(); // why there was none
       if (this.waiting) this.#giveUp();
       this.#count.textContent = unlisted;
       return;

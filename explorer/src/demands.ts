@@ -79,7 +79,7 @@ export class Demands {
           ? [
               ...field(
                 "reach",
-                t("Maximum distance of fixed pivots from targets"),
+                t("Margin around targets for fixed pivots"),
                 "mm",
                 1e9,
                 curve ? String(curve) : t("any"),

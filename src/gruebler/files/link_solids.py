@@ -44,7 +44,8 @@ _FORK, _SMALL_FORK = 5.0, 3.6  # radii of a bar from the middle of a cross to it
 _STOUT = 2.0  # a universal joint on the sphere against other linkages
 _FINEST = 1.0  # lead of a thread that is seen, in radii of a bar
 _PIECES = 24  # of a half circle
-_PAIR, _ALIKE = 2, 0.5  # feet; of their ways to the ground, which is one if their scalar product is larger
+_PAIR = 2  # feet between which a bar may lie
+_ALIKE = 0.5  # of a cosine: ways to the ground that are as near to one line lead to one ground, or to two face to face
 _SAME = 1e-9
 
 
